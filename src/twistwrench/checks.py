@@ -1,0 +1,117 @@
+"""The checks at the door, so that the algorithms behind it need none.
+
+Every public function of the algebra takes its arrays through `as_array`; every algorithm takes
+its state through `Model.state`, which calls `as_arrays`. What comes out is finite, of a known
+last shape, and of one floating-point type.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import ShapeError
+
+__all__ = ["Array", "as_array", "as_arrays", "resolution"]
+
+Array = NDArray[Any]
+
+
+def resolution(dtype: np.dtype[Any] | type) -> float:
+    """Spacing of the numbers next to 1, for a real or complex floating-point type.
+
+    Examples
+    --------
+    >>> resolution(np.complex128) == resolution(np.float64) == 2.0**-52
+    True
+    """
+    return float(np.finfo(dtype).eps)
+
+
+def as_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
+    """Convert several arguments to arrays of one floating-point type and check each.
+
+    float32, float64, longdouble and their complex twins are kept, the widest of those that came
+    wins; integers do not count (alone, they become float64).
+
+    Parameters
+    ----------
+    **named : (array_like, tuple of int)
+        For each argument, by its name, the value and the last axes of its shape.
+
+    Returns
+    -------
+    tuple of ndarray
+        In the order of the arguments, of one dtype. The leading axes are untouched.
+
+    Raises
+    ------
+    ShapeError
+        If the last axes of an argument are not the ones asked for.
+    ValueError
+        If an argument is not numeric or holds an infinity or a NaN.
+
+    Examples
+    --------
+    >>> w, v = as_arrays(w=([0, 0, 1], (3,)), v=(np.ones(3, np.float32), (3,)))
+    >>> w.dtype, v.dtype
+    (dtype('float32'), dtype('float32'))
+    """
+    arrays = {name: _numeric(value, name) for name, (value, _) in named.items()}
+    dtypes = [x.dtype for x in arrays.values() if x.dtype.kind in "fc"]
+    dtype = np.result_type(*dtypes, np.float32) if dtypes else np.dtype(np.float64)
+    for name, (_, tail) in named.items():
+        x = arrays[name] = arrays[name].astype(dtype, copy=False)
+        if x.shape[x.ndim - len(tail) :] != tail or x.ndim < len(tail):
+            raise ShapeError(f"{name}: expected {_shape(tail)}, got {x.shape}")
+        if not np.isfinite(x).all():
+            where = tuple(int(k) for k in np.argwhere(~np.isfinite(x))[0])
+            raise ValueError(f"{name}: expected finite numbers, got {x[where]} at index {where}")
+    return tuple(arrays.values())
+
+
+def as_array(value: ArrayLike, name: str, *tail: int) -> Array:
+    """Convert one argument to a floating-point array and check it: see `as_arrays`.
+
+    Parameters
+    ----------
+    value : array_like, shape (..., *tail)
+    name : str
+        The argument's name, for the error.
+    *tail : int
+        The last axes that are asked for.
+
+    Returns
+    -------
+    ndarray, shape (..., *tail)
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `as_arrays`.
+
+    Examples
+    --------
+    >>> as_array([1, 2], "omega", 3)
+    Traceback (most recent call last):
+    twistwrench.errors.ShapeError: omega: expected shape (..., 3), got (2,)
+    """
+    return as_arrays(**{name: (value, tail)})[0]
+
+
+def _numeric(value: ArrayLike, name: str) -> Array:
+    """Turn `value` into an array of numbers, or say why it is none."""
+    try:
+        x = np.asarray(value)
+    except ValueError:
+        raise ShapeError(f"{name}: expected a rectangular array, got rows of different lengths") from None
+    if x.dtype.kind in "iub" and x.dtype != bool or x.dtype.kind in "fc":
+        return x
+    hint = " (for mpmath numbers use twistwrench.newton_euler_3d)" if x.dtype == object else ""
+    raise ValueError(f"{name}: expected numbers, got an array of {x.dtype}{hint}")
+
+
+def _shape(tail: tuple[int, ...]) -> str:
+    return f"shape (..., {', '.join(map(str, tail))})" if tail else "any shape"

@@ -1,0 +1,68 @@
+"""What can be wrong, and how it is said.
+
+Every error of the package is a `ValueError`, so that code which catches those keeps working.
+Each message names the argument, joint, link or frame, what was expected and what came.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+__all__ = ["FrameError", "ModelError", "ShapeError", "SingularError", "unknown_name"]
+
+
+class ModelError(ValueError):
+    """A model that cannot be right: a broken file, a mass below zero, an inertia no body can have."""
+
+
+class ShapeError(ValueError):
+    """An array of the wrong shape. The message says what was expected, what came, and which argument."""
+
+
+class SingularError(ValueError):
+    """A quantity that does not exist here. The message says what is singular, and where."""
+
+
+class FrameError(ValueError):
+    """Two quantities expressed in different frames were combined. The message prints both frames."""
+
+
+def unknown_name(kind: str, name: str, known: Iterable[str]) -> KeyError:
+    """Make the error for a name that is not known, with the nearest known ones.
+
+    Parameters
+    ----------
+    kind : str
+        What the name should have named, for example ``"frame"``.
+    name : str
+        The name that came.
+    known : iterable of str
+        The names that exist.
+
+    Returns
+    -------
+    NameNotFound
+        A `KeyError` (and `ValueError`) ready to be raised.
+
+    Examples
+    --------
+    >>> raise unknown_name("frame", "FR_fot", ["FL_foot", "FR_foot", "base"])
+    Traceback (most recent call last):
+    twistwrench.errors.NameNotFound: unknown frame 'FR_fot'; did you mean 'FR_foot', 'FL_foot'?
+    """
+    names = list(dict.fromkeys(known))
+    near = difflib.get_close_matches(name, names, n=4, cutoff=0.5)
+    if near:
+        hint = "did you mean " + ", ".join(map(repr, near)) + "?"
+    else:
+        shown = ", ".join(map(repr, names[:12]))
+        hint = f"known: {shown}" + (f" and {len(names) - 12} more" if len(names) > 12 else "")
+    return NameNotFound(f"unknown {kind} {name!r}; {hint}")
+
+
+class NameNotFound(KeyError, ValueError):
+    """A name that is not known. The message lists the nearest known ones."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
