@@ -1,0 +1,101 @@
+"""Exponential and logarithm of SE(3): from a constant twist to a placement and back (section 49.3)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .checks import Array, as_array
+from .plucker import SE3
+from .rotation import exp3, length, log3, sinc
+
+__all__ = ["exp6", "log6"]
+
+
+def exp6(V: ArrayLike) -> SE3:
+    """Placement reached in unit time at the constant body twist V (sections 49.2 and 49.3).
+
+    R = exp3(ω) and p = v + B ω×v + C ω×(ω×v), where B = (1 − cos θ)/θ² and C = (θ − sin θ)/θ³.
+
+    Parameters
+    ----------
+    V : array_like, shape (..., 6)
+        (ω, v): rad and m, that is a twist times a time.
+
+    Returns
+    -------
+    SE3
+        T_AB: where frame B is, in the frame A it started from.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+
+    Examples
+    --------
+    >>> exp6([0, 0, 0, 1, 2, 3]).translation
+    array([1., 2., 3.])
+    """
+    V = as_array(V, "V", 6)
+    w, v = V[..., :3], V[..., 3:]
+    theta = length(w)[..., None]
+    B, C = sinc(theta / 2) ** 2 / 2, _sine_defect(theta)
+    wv = np.cross(w, v)
+    return SE3._trusted(exp3(w), v + B * wv + C * np.cross(w, wv))
+
+
+def log6(T: SE3 | ArrayLike) -> Array:
+    """Twist that leads to a placement in unit time: the inverse of `exp6` for angles up to π (section 49.3).
+
+    ω = log3(R) and v = p − ½ ω×p + D ω×(ω×p), where D = (1 − ½θ cot ½θ)/θ².
+
+    Parameters
+    ----------
+    T : SE3 or array_like of shape (..., 4, 4)
+        Placement T_AB.
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        (ω, v): rad and m, in frame B as in frame A.
+
+    Raises
+    ------
+    ShapeError
+        If the shape is wrong or the matrix is not in SE(3).
+
+    Examples
+    --------
+    >>> log6(exp6([0, 0, 3, 1, 0, 0])).round(15) + 0.0
+    array([0., 0., 3., 1., 0., 0.])
+    """
+    T = T if isinstance(T, SE3) else SE3.from_matrix(T)
+    w, p = log3(T.rotation), T.translation
+    half = length(w)[..., None] / 2
+    D = _cosine_defect(half) / (4 * sinc(half))
+    wp = np.cross(w, p)
+    return np.concatenate([w, p - wp / 2 + D * np.cross(w, wp)], axis=-1)
+
+
+def _sine_defect(x: Array) -> Array:
+    """Return (x − sin x)/x³ without cancellation, 1/6 at 0."""
+    small = np.abs(x.real) < 1
+    safe = np.where(small, 1, x)
+    return np.where(small, _series(x, 6, 4, 5), (safe - np.sin(safe)) / safe**3)
+
+
+def _cosine_defect(x: Array) -> Array:
+    """Return (sin x − x cos x)/x³ without cancellation, 1/3 at 0."""
+    small = np.abs(x.real) < 1
+    safe = np.where(small, 1, x)
+    return np.where(small, _series(x, 3, 2, 5), (np.sin(safe) - safe * np.cos(safe)) / safe**3)
+
+
+def _series(x: Array, first: int, a: int, b: int) -> Array:
+    """Sum 1/first · (1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...))) for |x| < 1, to every float's last bit."""
+    square = np.where(np.abs(x.real) < 1, x, 0) ** 2
+    total = np.ones_like(x)
+    for k in reversed(range(0, 30, 2)):
+        total = 1 - square / ((a + k) * (b + k)) * total
+    return total / first

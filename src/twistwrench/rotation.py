@@ -1,0 +1,312 @@
+"""Rotations: the cross product as a matrix, exponential and logarithm, quaternions (section 49.2).
+
+Nothing here has a small-angle threshold. Every coefficient is written so that nothing cancels,
+and only an angle that is exactly zero is a case of its own. Complex arguments pass through
+analytically, so that a complex step differentiates every function of this file.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .checks import Array, as_array, resolution
+from .errors import ShapeError, SingularError
+
+__all__ = [
+    "exp3",
+    "log3",
+    "quaternion_to_rotation",
+    "rotation_to_quaternion",
+    "rpy_to_rotation",
+    "skew",
+    "unskew",
+]
+
+
+def skew(w: ArrayLike) -> Array:
+    """Matrix of the cross product: ``skew(w) @ x`` is w × x, written [w]× (section 49.2).
+
+    Parameters
+    ----------
+    w : array_like, shape (..., 3)
+        A vector, in any unit.
+
+    Returns
+    -------
+    ndarray, shape (..., 3, 3)
+        Skew-symmetric, in the frame and the unit of `w`.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis of `w` is not 3 long.
+
+    Examples
+    --------
+    >>> skew([1, 2, 3])
+    array([[ 0., -3.,  2.],
+           [ 3.,  0., -1.],
+           [-2.,  1.,  0.]])
+    """
+    w = as_array(w, "w", 3)
+    M = np.zeros((*w.shape, 3), w.dtype)
+    M[..., 2, 1], M[..., 0, 2], M[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
+    return M - M.mT
+
+
+def unskew(M: ArrayLike) -> Array:
+    """Vector of a skew-symmetric matrix: the inverse of `skew` (section 49.2).
+
+    Parameters
+    ----------
+    M : array_like, shape (..., 3, 3)
+        Skew-symmetric to within the square root of the resolution of its dtype, relative to its
+        largest entry. What rounding has left of a symmetric part is dropped.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+
+    Raises
+    ------
+    ShapeError
+        If the last two axes of `M` are not 3 by 3, or `M` is not skew-symmetric.
+
+    Examples
+    --------
+    >>> unskew([[0, -3, 2], [3, 0, -1], [-2, 1, 0]])
+    array([1., 2., 3.])
+    """
+    M = as_array(M, "M", 3, 3)
+    off = largest((M + M.mT).real, 2)
+    wrong = off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)
+    if wrong.any():
+        raise ShapeError(f"M: expected a skew-symmetric matrix, got one with |M + Mᵀ| up to {off[wrong].max():.3g}")
+    half = (M - M.mT) / 2
+    return np.stack([half[..., 2, 1], half[..., 0, 2], half[..., 1, 0]], axis=-1)
+
+
+def exp3(w: ArrayLike) -> Array:
+    """Rotation by the angle θ = |w| about w: R = 1 + A[w]× + B[w]×² (section 49.2, Rodrigues' formula).
+
+    A = sin θ / θ and B = (1 − cos θ) / θ², the latter as ½ (sin ½θ / ½θ)², where nothing cancels.
+
+    Parameters
+    ----------
+    w : array_like, shape (..., 3)
+        Rotation vector, rad.
+
+    Returns
+    -------
+    ndarray, shape (..., 3, 3)
+        R, which takes coordinates in the turned frame to the frame it was turned from.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis of `w` is not 3 long.
+
+    Examples
+    --------
+    >>> exp3([0, 0, np.pi / 2]).round(15) + 0.0
+    array([[ 0., -1.,  0.],
+           [ 1.,  0.,  0.],
+           [ 0.,  0.,  1.]])
+    """
+    w = as_array(w, "w", 3)
+    theta, W = length(w)[..., None, None], skew(w)
+    A, B = sinc(theta), sinc(theta / 2) ** 2 / 2
+    return np.asarray(np.eye(3, dtype=w.dtype) + A * W + (B * W) @ W)
+
+
+def log3(R: ArrayLike) -> Array:
+    """Rotation vector of a rotation matrix: the inverse of `exp3` for angles up to π (section 49.2).
+
+    The angle is 2 atan2(|xyz|, w) of the quaternion: as good next to 0 and next to π as between.
+    At π exactly, both signs of the axis are right; the largest component is then positive.
+
+    Parameters
+    ----------
+    R : array_like, shape (..., 3, 3)
+        Rotation matrix.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        w, rad, with |w| ≤ π.
+
+    Raises
+    ------
+    ShapeError
+        If the last two axes of `R` are not 3 by 3, or `R` is not a rotation.
+
+    Examples
+    --------
+    >>> log3(exp3([0.0, 3.0, 0.0]))
+    array([0., 3., 0.])
+    """
+    q = rotation_to_quaternion(R)
+    xyz, w = q[..., :3], q[..., 3:]
+    n = length(xyz)[..., None]
+    ratio = np.where(n == 0, 2, 2 * _atan2(n, w) / np.where(n == 0, 1, n))
+    return np.asarray(xyz * ratio)
+
+
+def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
+    """Rotation matrix of a quaternion, scalar last (section 49.2).
+
+    Parameters
+    ----------
+    xyzw : array_like, shape (..., 4)
+        (x, y, z, w), of any length but zero: the length is divided out.
+
+    Returns
+    -------
+    ndarray, shape (..., 3, 3)
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 4 long.
+    SingularError
+        If a quaternion is zero.
+
+    Examples
+    --------
+    >>> quaternion_to_rotation([0, 0, 1, 1])
+    array([[ 0., -1.,  0.],
+           [ 1.,  0.,  0.],
+           [ 0.,  0.,  1.]])
+    """
+    q = as_array(xyzw, "xyzw", 4)
+    size = largest(q.real, 1)
+    if (size == 0).any():
+        raise SingularError("xyzw: the zero quaternion is no rotation" + _where(size == 0))
+    q = q / size[..., None]
+    U, w = skew(q[..., :3]), q[..., 3, None, None]
+    R = np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / (q * q).sum(-1)[..., None, None]
+    return np.asarray(R)
+
+
+def rotation_to_quaternion(R: ArrayLike) -> Array:
+    """Quaternion of a rotation matrix, of unit length, scalar last, w ≥ 0 (section 49.2).
+
+    Parameters
+    ----------
+    R : array_like, shape (..., 3, 3)
+        Rotation matrix.
+
+    Returns
+    -------
+    ndarray, shape (..., 4)
+        (x, y, z, w).
+
+    Raises
+    ------
+    ShapeError
+        If the last two axes of `R` are not 3 by 3, or `R` is not a rotation.
+
+    Examples
+    --------
+    >>> rotation_to_quaternion(np.diag([1, -1, -1]))
+    array([1., 0., 0., 0.])
+    """
+    R = as_array(R, "R", 3, 3)
+    check_rotation(R, "R")
+    Q = np.empty((*R.shape[:-2], 4, 4), R.dtype)  # 4 q qᵀ is linear in R
+    trace = np.trace(R, axis1=-2, axis2=-1)[..., None, None]
+    Q[..., :3, :3] = R + R.mT + np.eye(3, dtype=R.dtype) * (1 - trace)
+    Q[..., :3, 3] = Q[..., 3, :3] = np.stack(
+        [R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]], axis=-1
+    )
+    Q[..., 3, 3] = 1 + trace[..., 0, 0]
+    squares = np.diagonal(Q, axis1=-2, axis2=-1)
+    k = squares.real.argmax(-1)[..., None]  # at least 1: dividing by it loses nothing
+    row = np.take_along_axis(Q, k[..., None], axis=-2)[..., 0, :]
+    q = row / (2 * np.sqrt(np.take_along_axis(squares, k, axis=-1)))
+    return np.asarray(np.where(q[..., 3:].real < 0, -q, q))
+
+
+def rpy_to_rotation(rpy: ArrayLike) -> Array:
+    """Rotation matrix of URDF's roll, pitch, yaw: Rz(yaw) Ry(pitch) Rx(roll).
+
+    Parameters
+    ----------
+    rpy : array_like, shape (..., 3)
+        Roll, pitch and yaw, rad: turns about the fixed x, y and z axes, in this order.
+
+    Returns
+    -------
+    ndarray, shape (..., 3, 3)
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 3 long.
+
+    Examples
+    --------
+    >>> rpy_to_rotation([np.pi / 2, 0, 0]).round(15) + 0.0
+    array([[ 1.,  0.,  0.],
+           [ 0.,  0., -1.],
+           [ 0.,  1.,  0.]])
+    """
+    rpy = as_array(rpy, "rpy", 3)
+    (cr, cp, cy), (sr, sp, sy) = np.moveaxis(np.cos(rpy), -1, 0), np.moveaxis(np.sin(rpy), -1, 0)
+    rows = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def check_rotation(R: Array, name: str) -> None:
+    """Raise ShapeError unless RᵀR = 1 and det R = 1, to the square root of the resolution."""
+    real = R.real
+    off = largest(real.mT @ real - np.eye(3, dtype=real.dtype), 2)
+    tolerance = resolution(R.dtype) ** 0.5
+    if (off > tolerance).any():
+        raise ShapeError(
+            f"{name}: expected a rotation matrix, got |RᵀR − 1| up to {off.max():.3g}" + _where(off > tolerance)
+        )
+    x, y, z = np.moveaxis(real, -1, 0)
+    det = (np.cross(x, y) * z).sum(-1)
+    if (det < 0).any():
+        raise ShapeError(
+            f"{name}: expected a rotation matrix, got a reflection: det R = {det.min():.3g}" + _where(det < 0)
+        )
+
+
+def length(w: Array) -> Array:
+    """Euclidean length of the last axis, without under- or overflow, analytic in complex `w`."""
+    size = np.maximum(largest(w.real, 1), largest(w.imag, 1))
+    exponent = np.frexp(np.maximum(size, np.finfo(w.dtype).tiny))[1] - 1
+    unit = np.ldexp(np.ones((), size.dtype), exponent)  # a power of two: dividing by it is exact
+    scaled = w / unit[..., None]
+    return np.asarray(unit * np.sqrt((scaled * scaled).sum(-1)))
+
+
+def sinc(x: Array) -> Array:
+    """Return sin x / x, and 1 at 0."""
+    safe = np.where(x == 0, 1, x)
+    return np.where(x == 0, 1, np.sin(safe) / safe)
+
+
+def largest(x: Array, axes: int) -> Array:
+    """Return the largest magnitude over the last `axes` axes of a real array."""
+    return np.asarray(np.abs(x).max(axis=tuple(range(-axes, 0))))
+
+
+def _atan2(s: Array, c: Array) -> Array:
+    """Angle of (c, s). NumPy has no complex version: this one is exact to first order in the imaginary part."""
+    if s.dtype.kind != "c":
+        return np.asarray(np.arctan2(s, c))
+    slope = (c.real * s.imag - s.real * c.imag) / (c.real**2 + s.real**2)
+    return np.asarray(np.arctan2(s.real, c.real) + 1j * slope)
+
+
+def _where(wrong: Array) -> str:
+    """Say which item of a batch is wrong; nothing where there is only one."""
+    return f" at index {tuple(int(k) for k in np.argwhere(wrong)[0])}" if wrong.ndim else ""
