@@ -107,7 +107,7 @@ def _numeric(value: ArrayLike, name: str) -> Array:
         x = np.asarray(value)
     except ValueError:
         raise ShapeError(f"{name}: expected a rectangular array, got rows of different lengths") from None
-    if x.dtype.kind in "iub" and x.dtype != bool or x.dtype.kind in "fc":
+    if x.dtype.kind in "iufc":
         return x
     hint = " (for mpmath numbers use twistwrench.newton_euler_3d)" if x.dtype == object else ""
     raise ValueError(f"{name}: expected numbers, got an array of {x.dtype}{hint}")

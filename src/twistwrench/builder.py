@@ -1,0 +1,276 @@
+"""Make a model in a few lines of Python. The URDF loader goes through here as well.
+
+Links are added one by one; each is carried by a parent through a joint, or welded to it. `Builder.build`
+merges welded links into the body that carries them and numbers the bodies as Pinocchio does: depth
+first, siblings in the order of their joints' names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .checks import Array, as_array
+from .errors import ModelError, ShapeError, unknown_name
+from .inertia import SpatialInertia
+from .joint import FreeFlyer, Joint
+from .model import Frame, Model
+from .plucker import SE3
+
+__all__ = ["Builder"]
+
+Base = Literal["fixed", "floating"]
+
+
+@dataclass(frozen=True)
+class _Link:
+    """What `Builder.link` was told."""
+
+    name: str
+    parent: str
+    joint: Joint | None
+    joint_name: str
+    placement: SE3
+    inertia: SpatialInertia
+    lower: Array
+    upper: Array
+    velocity_limit: Array
+    effort_limit: Array
+    armature: Array
+
+
+class Builder:
+    """Collects links; `build` makes the model.
+
+    Parameters
+    ----------
+    name : str
+        Of the model.
+    base : {"fixed", "floating"}
+        Whether the root link is welded to the world or flies freely.
+    root : str
+        Name of the root link.
+    root_inertia : SpatialInertia, optional
+        Of the root link, in its frame. Of no effect on a fixed base: it never moves.
+    gravity : array_like, shape (3,)
+        In the world, m/s².
+
+    Raises
+    ------
+    ModelError
+        If `base` is neither.
+
+    Examples
+    --------
+    >>> from twistwrench import Revolute
+    >>> rod = SpatialInertia(1.0, [0, 0, -0.5], np.diag([1 / 12, 1 / 12, 0.001]))
+    >>> double = Builder("double pendulum")
+    >>> double.link("upper", parent="base_link", joint=Revolute("y"), inertia=rod)
+    >>> double.link("lower", parent="upper", joint=Revolute("y"), inertia=rod, placement=SE3(np.eye(3), [0, 0, -1]))
+    >>> double.build()
+    Model 'double pendulum': fixed base, 2 moving bodies, nq = 2, nv = 2, 2 kg
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        base: Base = "fixed",
+        root: str = "base_link",
+        root_inertia: SpatialInertia | None = None,
+        gravity: ArrayLike = (0.0, 0.0, -9.81),
+    ) -> None:
+        if base not in ("fixed", "floating"):
+            raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
+        self._name = name
+        self._base = base
+        self._gravity = as_array(gravity, "gravity", 3).astype(np.float64)
+        self._links: dict[str, _Link] = {}
+        flyer = FreeFlyer() if base == "floating" else None
+        self._add(
+            root, "universe", flyer, "root_joint", SE3.identity(), root_inertia or SpatialInertia.zero(), {}, 0.0
+        )
+
+    def link(
+        self,
+        name: str,
+        *,
+        parent: str,
+        joint: Joint | None = None,
+        joint_name: str | None = None,
+        placement: SE3 | None = None,
+        inertia: SpatialInertia | None = None,
+        lower: ArrayLike = -np.inf,
+        upper: ArrayLike = np.inf,
+        velocity_limit: ArrayLike = np.inf,
+        effort_limit: ArrayLike = np.inf,
+        armature: ArrayLike = 0.0,
+    ) -> None:
+        """Add a link.
+
+        Parameters
+        ----------
+        name : str
+        parent : str
+            The link that carries this one; it must have been added before.
+        joint : Joint, optional
+            What moves the link; without one it is welded to its parent.
+        joint_name : str, optional
+            The link's own name unless given.
+        placement : SE3, optional
+            Of the joint's frame in the parent link's frame; the identity unless given.
+        inertia : SpatialInertia, optional
+            In the link's frame; zero unless given.
+        lower, upper : array_like, shape () or (joint.nq,)
+            Limits of the joint's entries of q.
+        velocity_limit, effort_limit : array_like, shape () or (joint.nv,)
+        armature : array_like, shape () or (joint.nv,)
+            Inertia of the rotor as seen at the joint, kg m² or kg.
+
+        Raises
+        ------
+        ModelError
+            A name that is taken, limits that cross, an armature below zero or on a weld.
+        NameNotFound
+            If the parent is not known.
+        """
+        limits = {"lower": lower, "upper": upper, "velocity_limit": velocity_limit, "effort_limit": effort_limit}
+        if parent not in self._links:
+            raise unknown_name("parent link", parent, self._links)
+        self._add(
+            name,
+            parent,
+            joint,
+            joint_name or name,
+            placement or SE3.identity(),
+            inertia or SpatialInertia.zero(),
+            limits,
+            armature,
+        )
+
+    def _add(
+        self,
+        name: str,
+        parent: str,
+        joint: Joint | None,
+        joint_name: str,
+        placement: SE3,
+        inertia: SpatialInertia,
+        limits: Mapping[str, ArrayLike],
+        armature: ArrayLike,
+    ) -> None:
+        if name in self._links:
+            raise ModelError(f"link {name!r}: the name is taken")
+        if joint_name in (other.joint_name for other in self._links.values()):
+            raise ModelError(f"link {name!r}: the joint name {joint_name!r} is taken")
+        nq, nv = (joint.nq, joint.nv) if joint else (0, 0)
+        wide = {"lower": -np.inf, "upper": np.inf, "velocity_limit": np.inf, "effort_limit": np.inf} | dict(limits)
+        sizes = {"lower": nq, "upper": nq, "velocity_limit": nv, "effort_limit": nv}
+        vectors = {key: _vector(wide[key], size, f"joint {joint_name!r}: {key}") for key, size in sizes.items()}
+        if (vectors["lower"] > vectors["upper"]).any():
+            raise ModelError(
+                f"joint {joint_name!r}: lower limit {vectors['lower']} is above upper limit {vectors['upper']}"
+            )
+        rotor = _vector(armature, nv, f"joint {joint_name!r}: armature")
+        if (rotor < 0).any() or (joint is None and np.any(armature)):
+            raise ModelError(f"joint {joint_name!r}: armature {armature} is below zero, or on a weld")
+        self._links[name] = _Link(
+            name, parent, joint, joint_name, placement, inertia, **vectors, armature=rotor
+        )
+
+    def build(self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = ()) -> Model:
+        """Make the model.
+
+        Parameters
+        ----------
+        postures : mapping of str to array_like, shape (nq,), optional
+            Named configurations.
+        feet : sequence of str
+            The frames on which a legged robot stands.
+
+        Returns
+        -------
+        Model
+
+        Raises
+        ------
+        ModelError
+            If a joint and a link of the same name lie at different places.
+        NameNotFound, ShapeError, ValueError
+            If a foot is no frame, or a posture is no configuration.
+        """
+        children: dict[str, list[_Link]] = {name: [] for name in ("universe", *self._links)}
+        for link in self._links.values():
+            children[link.parent].append(link)
+        bodies: list[_Link | None] = [None]
+        parent, placement, inertia = [-1], [SE3.identity()], [SpatialInertia.zero()]
+        frames: dict[str, Frame] = {}
+        stack = [(link, 0, SE3.identity()) for link in children["universe"]]
+        while stack:  # depth first; the stack is popped from its end, hence the reversed order
+            link, carrier, in_carrier = stack.pop()
+            at = in_carrier @ link.placement
+            if link.joint is None:
+                if carrier > 0:  # what is welded to the world never moves
+                    inertia[carrier] = inertia[carrier] + link.inertia.transform(at)
+            else:
+                parent.append(carrier)
+                placement.append(at)
+                inertia.append(link.inertia)
+                bodies.append(link)
+                carrier, at = len(parent) - 1, SE3.identity()
+            if link.joint_name != "root_joint" or link.joint is not None:
+                _add_frame(frames, link.joint_name, Frame(carrier, at))
+            _add_frame(frames, link.name, Frame(carrier, at))
+            siblings = sorted(children[link.name], key=lambda child: child.joint_name, reverse=True)
+            stack += [(child, carrier, at) for child in siblings]
+        moved = [link for link in bodies if link is not None]
+        model = Model(
+            name=self._name,
+            base=self._base,
+            joint_names=("universe", *(link.joint_name for link in moved)),
+            joints=(None, *(link.joint for link in moved)),
+            parent=tuple(parent),
+            placement=tuple(placement),
+            inertia=tuple(inertia),
+            frames=frames,
+            gravity=self._gravity,
+            armature=_join([link.armature for link in moved]),
+            lower=_join([link.lower for link in moved]),
+            upper=_join([link.upper for link in moved]),
+            velocity_limit=_join([link.velocity_limit for link in moved]),
+            effort_limit=_join([link.effort_limit for link in moved]),
+            postures={},
+            feet=tuple(feet),
+        )
+        for foot in feet:
+            model.frame(foot)
+        for name, q in (postures or {}).items():
+            model.postures[name] = model.state(q)[0].copy()
+        return model
+
+
+def _add_frame(frames: dict[str, Frame], name: str, frame: Frame) -> None:
+    """Name a frame; a link and its joint may share a name, since they share the place."""
+    old = frames.setdefault(name, frame)
+    if old.body != frame.body or (old.placement.matrix() != frame.placement.matrix()).any():
+        raise ModelError(f"frame {name!r}: a link and a joint of this name lie at different places")
+
+
+def _vector(value: ArrayLike, size: int, what: str) -> Array:
+    """Return a float64 vector of `size` entries; a scalar is repeated."""
+    x = np.asarray(value, dtype=np.float64)
+    if x.shape not in ((), (size,)):
+        raise ShapeError(f"{what}: expected shape () or ({size},), got {x.shape}")
+    if np.isnan(x).any():
+        raise ModelError(f"{what}: is not a number")
+    return np.broadcast_to(x, size).copy()
+
+
+def _join(pieces: list[Array]) -> Array:
+    joined = np.concatenate([np.zeros(0), *pieces])
+    joined.flags.writeable = False
+    return joined

@@ -1,0 +1,184 @@
+"""Centre of mass, centroidal momentum and its matrix (49.10).
+
+Everything that the whole robot does to the outside passes through six numbers: its momentum
+h_G = (k_G, l_G) at the centre of mass G, in the axes of the world.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .checks import Array
+from .errors import SingularError
+from .inertia import cross_force
+from .kinematics import _motion, _placements
+from .model import Model
+from .plucker import SE3, force_transform
+from .tree import composite_inertias, walk
+
+__all__ = ["center_of_mass", "centroidal_map", "centroidal_momentum", "centroidal_momentum_rate"]
+
+
+def center_of_mass(model: Model, q: ArrayLike) -> Array:
+    """Return the centre of mass p_G of everything that moves, in the world.
+
+    The base link of a fixed base never moves and does not count (nor does it in Pinocchio).
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        m.
+
+    Raises
+    ------
+    SingularError
+        If nothing that moves has mass.
+    ShapeError, ValueError
+        As `Model.state`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> tw.center_of_mass(tw.load("pendulum"), [0.0])
+    array([ 0.,  0., -1.])
+    """
+    (q,) = model.state(q)
+    return _center_of_mass(model, _placements(model, q), q)
+
+
+def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
+    if model.mass == 0:
+        raise SingularError(f"centre of mass of {model.name!r}: nothing that moves has mass")
+    moment = np.zeros((*q.shape[:-1], 3), q.dtype)
+    for T, inertia in zip(placement, model.inertia):
+        moment = moment + inertia.mass.astype(q.dtype) * T.act(inertia.com.astype(q.dtype))
+    return moment / np.sum([inertia.mass.astype(q.dtype) for inertia in model.inertia])
+
+
+def centroidal_map(model: Model, q: ArrayLike) -> Array:
+    """Return the centroidal momentum matrix A_G(q): h_G = A_G v, by the CCRBA.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+
+    Returns
+    -------
+    ndarray, shape (..., 6, nv)
+        Rows (angular, linear), at the centre of mass, in the axes of the world (Pinocchio's
+        ``data.Ag`` has the linear rows first).
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `center_of_mass`.
+
+    Notes
+    -----
+    Section 49.10; D. E. Orin, A. Goswami and S.-H. Lee, Centroidal dynamics of a humanoid robot,
+    2013. A unit velocity of joint i moves its subtree as one rigid body, whose momentum I^C S is
+    then seen from the centre of mass. No walk to the base as in `crba`: O(N).
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> tw.centroidal_map(model, model.standing())[3:, 3:6].round(12) + 0.0  # linear momentum of the base's motion
+    array([[16.085,  0.   ,  0.   ],
+           [ 0.   , 16.085,  0.   ],
+           [ 0.   ,  0.   , 16.085]])
+    """
+    (q,) = model.state(q)
+    tree, to_G = walk(model, q), _to_center_of_mass(model, q)
+    IC = composite_inertias(tree)
+    columns = [to_G[i] @ IC[i] @ tree.S[i] for i in tree.outward]
+    return np.concatenate([np.zeros((*q.shape[:-1], 6, 0), q.dtype), *columns], axis=-1)
+
+
+def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
+    """Return the momentum h_G = (k_G, l_G) at the centre of mass, in the axes of the world.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        Angular momentum, kg m²/s, and linear momentum, kg m/s. Pinocchio's ``data.hg.vector`` has
+        the linear part first.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `center_of_mass`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> tw.centroidal_momentum(tw.load("pendulum"), [0.0], [2.0]).round(12) + 0.0  # 1 kg at 2 m/s
+    array([ 0.,  0.,  0., -2.,  0.,  0.])
+    """
+    q, v = model.state(q, v=v)
+    to_G, I = _to_center_of_mass(model, q), model.constants(q.dtype).I
+    V, _ = _motion(model, q, v, np.zeros_like(v))
+    momenta = [np.matvec(to_G[i] @ I[i], V[i]) for i in range(model.nbodies)]
+    return np.sum(momenta, axis=0)
+
+
+def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
+    """Return ḣ_G = A_G a + Ȧ_G v, the rate of the centroidal momentum in a given motion.
+
+    A matter of motion alone: at rest with a = 0 it is zero, whatever gravity and contacts do (the
+    chapter expects the weight there). That it equals the wrench of all forces at G is Newton's and
+    Euler's law.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v, a : array_like, shape (..., nv)
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        N m and N.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `center_of_mass`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> rest = np.zeros(model.nv)
+    >>> free_fall = tw.aba(model, model.standing(), rest, rest)
+    >>> tw.centroidal_momentum_rate(model, model.standing(), rest, free_fall)[5].round(4)  # −m g
+    np.float64(-157.7939)
+    """
+    q, v, a = model.state(q, v=v, a=a)
+    to_G, I = _to_center_of_mass(model, q), model.constants(q.dtype).I
+    V, A = _motion(model, q, v, a)
+    rates = [
+        np.matvec(to_G[i], np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]) @ I[i], V[i]))
+        for i in range(model.nbodies)
+    ]
+    return np.sum(rates, axis=0)
+
+
+def _to_center_of_mass(model: Model, q: Array) -> list[Array]:
+    """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
+    placement = _placements(model, q)
+    p_G = _center_of_mass(model, placement, q)
+    return [force_transform(T.rotation, T.translation - p_G) for T in placement]

@@ -1,0 +1,230 @@
+"""The equation of a floating base: M q̈ + h = Sᵀ τ + J_cᵀ λ (49.9), and all of it at once."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .checks import Array
+from .centroidal import centroidal_map
+from .errors import SingularError, unknown_name
+from .inverse_dynamics import gravity, nonlinear_effects
+from .kinematics import frame_jacobian
+from .mass_matrix import crba
+from .model import Model
+
+__all__ = ["Dynamics", "Equilibrium", "contact_jacobian", "dynamics", "selection_matrix", "static_equilibrium"]
+
+
+def selection_matrix(model: Model) -> Array:
+    """Return S, which picks the actuated entries of v: Sᵀ τ is what the motors do.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    ndarray, shape (n, nv)
+        n = nv − 6 with a floating base, whose six entries have no motor; n = nv with a fixed base.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> S = tw.selection_matrix(tw.load("go2"))
+    >>> S.shape, bool((S.T @ np.ones(12))[:6].any())
+    ((12, 18), False)
+    """
+    return np.eye(model.nv)[_unactuated(model) :]
+
+
+def _unactuated(model: Model) -> int:
+    return 6 if model.base == "floating" else 0
+
+
+def contact_jacobian(model: Model, q: ArrayLike, contacts: Sequence[str]) -> Array:
+    """Return J_c of point contacts: the velocities of the contact points are J_c v.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    contacts : sequence of str
+        The frames at whose origins the robot touches its surroundings.
+
+    Returns
+    -------
+    ndarray, shape (..., 3 k, nv)
+        For each of the k contacts the three linear rows, in the axes of the world.
+
+    Raises
+    ------
+    NameNotFound
+        If the model has no such frame.
+    ShapeError, ValueError
+        As `Model.state`; or if `contacts` is a single string.
+
+    Notes
+    -----
+    Section 49.9. The linear rows are the last three of our 6 × nv Jacobians and the first three of
+    Pinocchio's; the chapter's listing in 49.11 takes the wrong ones, and a J_c of rank 9.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> J_c = tw.contact_jacobian(model, model.standing(), model.feet)
+    >>> J_c.shape, int(np.linalg.matrix_rank(J_c))
+    ((12, 18), 12)
+    """
+    if isinstance(contacts, str):
+        raise ValueError(f"contacts: expected a sequence of frame names, got the string {contacts!r}")
+    (q,) = model.state(q)
+    rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
+    return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """What `static_equilibrium` returns.
+
+    Attributes
+    ----------
+    tau : ndarray, shape (n,)
+        Torques of the actuated joints, N m or N.
+    forces : ndarray, shape (k, 3)
+        Of the ground on each contact, in the axes of the world, N.
+    """
+
+    tau: Array
+    forces: Array
+
+
+def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | None = None) -> Equilibrium:
+    """Return the torques and the contact forces that hold a robot with a floating base at rest.
+
+    g(q) = Sᵀ τ + J_cᵀ λ. The six base rows have no τ: they give the contact forces, of all that would
+    do the ones of least norm. The other rows then give the torques. Forces may pull; friction is
+    not looked at.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (nq,)
+        One configuration.
+    contacts : sequence of str, optional
+        Frames at which the robot touches the ground; `model.feet` unless given.
+
+    Returns
+    -------
+    Equilibrium
+        tau and forces.
+
+    Raises
+    ------
+    SingularError
+        If no forces at these contacts balance the weight; the message says what is left over.
+    NameNotFound, ShapeError, ValueError
+        As `contact_jacobian`; or if the base is fixed, or there are no contacts.
+
+    Notes
+    -----
+    Sections 49.9 and 49.11.3, where the chapter leaves out Sᵀ τ: least squares over all 18 rows then
+    cannot balance anything.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> held = tw.static_equilibrium(model, model.standing())
+    >>> held.forces[:, 2].sum().round(4)  # the feet carry the whole weight
+    np.float64(157.7939)
+    """
+    contacts = model.feet if contacts is None else contacts
+    if model.base != "floating" or not len(contacts):
+        raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(contacts)}")
+    g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
+    b = _unactuated(model)
+    forces = np.linalg.lstsq(J_c[:, :b].T, g[:b])[0]
+    left = g[:b] - J_c[:, :b].T @ forces
+    if np.abs(left).max() > 1e-8 * np.abs(g[:b]).max():
+        raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
+    return Equilibrium(tau=(g - J_c.T @ forces)[b:], forces=forces.reshape(-1, 3))
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """What `dynamics` returns; what was not asked for is None.
+
+    Attributes
+    ----------
+    M : ndarray, shape (..., nv, nv)
+        Mass matrix.
+    h : ndarray, shape (..., nv)
+        Coriolis, centrifugal and gravity forces.
+    J_c : ndarray, shape (..., 3 k, nv)
+        Contact Jacobian, linear rows in the axes of the world.
+    A_G : ndarray, shape (..., 6, nv)
+        Centroidal momentum matrix, rows (angular, linear).
+    """
+
+    M: Array | None = None
+    h: Array | None = None
+    J_c: Array | None = None
+    A_G: Array | None = None
+
+
+def dynamics(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    *,
+    contacts: Sequence[str] | None = None,
+    want: Collection[str] = ("M", "h", "J_c", "A_G"),
+) -> Dynamics:
+    """Return what a whole-body controller needs: M, h, J_c and A_G (the chapter's getDynamics).
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+    contacts : sequence of str, optional
+        Frames of the point contacts; `model.feet` unless given.
+    want : collection of {"M", "h", "J_c", "A_G"}
+        Only these are computed.
+
+    Returns
+    -------
+    Dynamics
+
+    Raises
+    ------
+    NameNotFound
+        If `want` names something else, or the model has no such contact frame.
+    ShapeError, ValueError
+        As `Model.state`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> d = tw.dynamics(model, model.standing(), np.zeros(model.nv), want={"M", "J_c"})
+    >>> d.M.shape, d.J_c.shape, d.h
+    ((18, 18), (12, 18), None)
+    """
+    contacts = model.feet if contacts is None else contacts
+    compute = {
+        "M": lambda: crba(model, q),
+        "h": lambda: nonlinear_effects(model, q, v),
+        "J_c": lambda: contact_jacobian(model, q, contacts),
+        "A_G": lambda: centroidal_map(model, q),
+    }
+    for name in want:
+        if name not in compute:
+            raise unknown_name("quantity", name, compute)
+    model.state(q, v=v)  # also where no wanted quantity depends on v
+    return Dynamics(**{name: compute[name]() for name in want})

@@ -1,0 +1,252 @@
+"""Kinematics: where the bodies and frames are, how they move, and the Jacobians (49.2, 49.6, 49.9)."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .checks import Array
+from .errors import unknown_name
+from .inertia import cross_motion
+from .model import Model, cast
+from .plucker import SE3, motion_transform
+from .tree import joint_placements, split, walk
+
+__all__ = [
+    "Kinematics",
+    "Reference",
+    "forward_kinematics",
+    "frame_bias_acceleration",
+    "frame_jacobian",
+    "frame_placement",
+]
+
+Reference = Literal["local", "world", "local_world_aligned"]
+
+
+class Kinematics(NamedTuple):
+    """What `forward_kinematics` returns; entry 0 is the world's.
+
+    Attributes
+    ----------
+    placement : list of SE3
+        Of each body's frame in the world (Pinocchio's ``data.oMi``).
+    twist : ndarray, shape (..., nbodies, 6), or None
+        Body twist (ω, v), in the body's frame, rad/s and m/s (``data.v``).
+    acceleration : ndarray, shape (..., nbodies, 6), or None
+        Spatial acceleration, in the body's frame, without gravity (``data.a`` of Pinocchio's
+        ``forwardKinematics``, not of its ``rnea``). Its linear part is not the acceleration of the
+        frame's origin, which is a + ω × v.
+    """
+
+    placement: list[SE3]
+    twist: Array | None
+    acceleration: Array | None
+
+
+def forward_kinematics(
+    model: Model, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
+) -> Kinematics:
+    """Return placements, and where v and a are given, twists and spatial accelerations of all bodies.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v, a : array_like, shape (..., nv), optional
+        An acceleration needs the velocity as well.
+
+    Returns
+    -------
+    Kinematics
+        placement, twist (None without v), acceleration (None without a).
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `Model.state`; or if `a` comes without `v`.
+
+    Notes
+    -----
+    The forward pass of 49.6, with the world at rest.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> foot_less = tw.forward_kinematics(model, model.standing())
+    >>> foot_less.placement[1].translation.round(3), foot_less.twist  # the base
+    (array([0.   , 0.   , 0.287]), None)
+    """
+    if v is None:
+        if a is not None:
+            raise ValueError("a: an acceleration needs the velocity as well, got v = None")
+        (q,) = model.state(q)
+        return Kinematics(_placements(model, q), None, None)
+    q, v, *rest = model.state(q, v=v) if a is None else model.state(q, v=v, a=a)
+    V, A = _motion(model, q, v, rest[0] if rest else np.zeros_like(v))
+    return Kinematics(_placements(model, q), np.stack(V, axis=-2), np.stack(A, axis=-2) if rest else None)
+
+
+def _placements(model: Model, q: Array) -> list[SE3]:
+    T = joint_placements(model, q)
+    for i in range(1, model.nbodies):
+        T[i] = T[model.parent[i]] @ T[i]
+    return T
+
+
+def _motion(model: Model, q: Array, v: Array, a: Array) -> tuple[list[Array], list[Array]]:
+    """Return twist and spatial acceleration of each body, each in its own frame."""
+    tree, qd, qdd = walk(model, q), split(model, v), split(model, a)
+    rest = np.zeros((*q.shape[:-1], 6), q.dtype)
+    V, A = [rest] * model.nbodies, [rest] * model.nbodies
+    for i in tree.outward:
+        p = tree.parent[i]
+        vJ = np.matvec(tree.S[i], qd[i])
+        V[i] = np.matvec(tree.X[i], V[p]) + vJ
+        A[i] = np.matvec(tree.X[i], A[p]) + np.matvec(tree.S[i], qdd[i]) + np.matvec(cross_motion(V[i]), vJ)
+    return V, A
+
+
+def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
+    """Return the placement of a named frame in the world.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    frame : str
+        A link or a joint, also one that is welded.
+
+    Returns
+    -------
+    SE3
+
+    Raises
+    ------
+    NameNotFound
+        If the model has no such frame; the message lists the nearest names.
+    ShapeError, ValueError
+        As `Model.state`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> tw.frame_placement(model, model.standing(), "FR_foot").translation.round(3) + 0.0
+    array([ 0.193, -0.142,  0.   ])
+    """
+    at = model.frame(frame)
+    (q,) = model.state(q)
+    return _frame_placement(model, q, at.body, cast(at.placement, q.dtype))
+
+
+def _frame_placement(model: Model, q: Array, body: int, T: SE3) -> SE3:
+    relative = joint_placements(model, q)
+    for i in model.support(body):
+        T = relative[i] @ T
+    return T
+
+
+def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference = "local") -> Array:
+    """Return the Jacobian of a named frame: its twist is J(q) v.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    frame : str
+        A link or a joint, also one that is welded.
+    reference : {"local", "world", "local_world_aligned"}
+        Where the twist J v is taken and in which axes: at the frame's origin in the frame's axes
+        (body twist); at the world's origin in its axes (spatial twist); at the frame's origin in
+        the world's axes.
+
+    Returns
+    -------
+    ndarray, shape (..., 6, nv)
+        Rows (ω, v): the linear rows are the last three (in Pinocchio the first three).
+
+    Raises
+    ------
+    NameNotFound
+        If the model has no such frame, or there is no such reference.
+    ShapeError, ValueError
+        As `Model.state`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> arm = tw.load("planar_arm")
+    >>> tw.frame_jacobian(arm, arm.neutral(), "tool", "world").shape
+    (6, 3)
+    """
+    at = model.frame(frame)
+    (q,) = model.state(q)
+    tree, T = walk(model, q), cast(at.placement, q.dtype)
+    J = np.zeros((*q.shape[:-1], 6, model.nv), q.dtype)
+    X = T.inverse().motion_transform()
+    for i in model.support(at.body):  # from the frame to the base
+        J[..., model.v_slice[i]] = X @ tree.S[i]
+        X = X @ tree.X[i]
+    return _to_reference(reference, _frame_placement(model, q, at.body, T)) @ J
+
+
+def frame_bias_acceleration(
+    model: Model, q: ArrayLike, v: ArrayLike, frame: str, reference: Reference = "local"
+) -> Array:
+    """Return J̇ v: the part of the frame's acceleration that is there without q̈.
+
+    The rate of J v is J q̈ + J̇ v, with J as `frame_jacobian` returns it. In "local" and "world" that
+    is the spatial acceleration; in "local_world_aligned" its linear part is the acceleration of the
+    frame's origin (the classical one), since J v there is that point's velocity.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+    frame : str
+    reference : {"local", "world", "local_world_aligned"}
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        rad/s² and m/s², without gravity.
+
+    Raises
+    ------
+    NameNotFound, ShapeError, ValueError
+        As `frame_jacobian`.
+
+    Examples
+    --------
+    The tip of a pendulum of 1 m at 2 rad/s is pulled to the pivot with ω² r:
+
+    >>> import twistwrench as tw
+    >>> tw.frame_bias_acceleration(tw.load("pendulum"), [0.0], [2.0], "tip", "local_world_aligned")[3:].round(12)
+    array([0., 0., 4.])
+    """
+    at = model.frame(frame)
+    q, v = model.state(q, v=v)
+    V, A = (motion[at.body] for motion in _motion(model, q, v, np.zeros_like(v)))
+    T = cast(at.placement, q.dtype)
+    X = T.inverse().motion_transform()
+    V, A = np.matvec(X, V), np.matvec(X, A)
+    if reference == "local_world_aligned":
+        A = A + np.concatenate([np.zeros_like(A[..., :3]), np.cross(V[..., :3], V[..., 3:])], axis=-1)
+    return np.matvec(_to_reference(reference, _frame_placement(model, q, at.body, T)), A)
+
+
+def _to_reference(reference: str, T: SE3) -> Array:
+    """Return the X that takes a twist from a frame placed at T to the reference, shape (..., 6, 6)."""
+    zero = np.zeros(3, T.translation.dtype)
+    if reference == "local":
+        return np.eye(6, dtype=zero.dtype)
+    if reference == "world":
+        return T.motion_transform()
+    if reference == "local_world_aligned":
+        return motion_transform(T.rotation, zero)
+    raise unknown_name("reference", reference, ["local", "world", "local_world_aligned"])

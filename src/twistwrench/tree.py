@@ -1,0 +1,87 @@
+"""The walk along the tree that all recursions of the chapter share.
+
+Inside a recursion the index is the frame: V[i] is the twist of body i in frame i. X[i] is the chapter's
+ⁱX_λ(i): it takes a twist from the parent's frame to frame i. A wrench comes back from frame i to the
+parent's by X[i]ᵀ, since power is the same in both (49.3; not by X[i]*, which leads outward like X[i]).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .checks import Array
+from .model import Model
+from .plucker import SE3
+
+__all__ = ["Tree", "composite_inertias", "joint_placements", "walk"]
+
+
+@dataclass(frozen=True)
+class Tree:
+    """What a recursion reads of the model at a configuration. Entry 0 of each list is the world's.
+
+    Attributes
+    ----------
+    parent : tuple of int
+        λ(i).
+    S : list of ndarray, shape (6, nv of joint i)
+        Motion subspace, in frame i.
+    I : list of ndarray, shape (6, 6)
+        Spatial inertia, in frame i.
+    X : list of ndarray, shape (..., 6, 6)
+        ⁱX_λ(i), from the parent's frame to frame i.
+    """
+
+    parent: tuple[int, ...]
+    S: list[Array]
+    I: list[Array]
+    X: list[Array]
+
+    @property
+    def outward(self) -> range:
+        """The bodies from the root to the tips, without the world."""
+        return range(1, len(self.parent))
+
+    @property
+    def inward(self) -> range:
+        """The bodies from the tips to the root, without the world."""
+        return range(len(self.parent) - 1, 0, -1)
+
+
+def walk(model: Model, q: Array) -> Tree:
+    """Return what the recursions need of `model` at a checked `q`, in q's number type."""
+    constants = model.constants(q.dtype)
+    X = [T.inverse().motion_transform() for T in joint_placements(model, q)]
+    return Tree(model.parent, constants.S, constants.I, X)
+
+
+def joint_placements(model: Model, q: Array) -> list[SE3]:
+    """Return for each body its placement in its parent's frame: tree constant, then joint (49.3)."""
+    placement = model.constants(q.dtype).placement
+    return [
+        T @ joint.transform(q[..., s]) if joint else T for T, joint, s in zip(placement, model.joints, model.q_slice)
+    ]
+
+
+def composite_inertias(tree: Tree) -> list[Array]:
+    """Return for each body the inertia of its whole subtree with the joints locked, in frame i.
+
+    Congruences and sums from the tips inward (49.5): I^C[λ] += X[i]ᵀ I^C[i] X[i].
+    """
+    IC = [*tree.I]
+    for i in tree.inward:
+        p = tree.parent[i]
+        IC[p] = IC[p] + tree.X[i].mT @ IC[i] @ tree.X[i]
+    return IC
+
+
+def split(model: Model, v: Array) -> list[Array]:
+    """Cut a (..., nv) array into one piece per joint; the world's is empty."""
+    return [v[..., s] for s in model.v_slice]
+
+
+def join(pieces: list[Array]) -> Array:
+    """Put the pieces of `split` together again."""
+    return np.concatenate(pieces, axis=-1)
