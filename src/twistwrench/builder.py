@@ -8,7 +8,7 @@ first, siblings in the order of their joints' names.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -91,9 +91,7 @@ class Builder:
         self._gravity = as_array(gravity, "gravity", 3).astype(np.float64)
         self._links: dict[str, _Link] = {}
         flyer = FreeFlyer() if base == "floating" else None
-        self._add(
-            root, "universe", flyer, "root_joint", SE3.identity(), root_inertia or SpatialInertia.zero(), {}, 0.0
-        )
+        self._add(root, "universe", flyer, "root_joint", SE3.identity(), root_inertia or SpatialInertia.zero(), {}, 0.0)
 
     def link(
         self,
@@ -178,9 +176,7 @@ class Builder:
         rotor = _vector(armature, nv, f"joint {joint_name!r}: armature")
         if (rotor < 0).any() or (joint is None and np.any(armature)):
             raise ModelError(f"joint {joint_name!r}: armature {armature} is below zero, or on a weld")
-        self._links[name] = _Link(
-            name, parent, joint, joint_name, placement, inertia, **vectors, armature=rotor
-        )
+        self._links[name] = _Link(name, parent, joint, joint_name, placement, inertia, **vectors, armature=rotor)
 
     def build(self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = ()) -> Model:
         """Make the model.
@@ -203,40 +199,17 @@ class Builder:
         NameNotFound, ShapeError, ValueError
             If a foot is no frame, or a posture is no configuration.
         """
-        children: dict[str, list[_Link]] = {name: [] for name in ("universe", *self._links)}
-        for link in self._links.values():
-            children[link.parent].append(link)
-        bodies: list[_Link | None] = [None]
-        parent, placement, inertia = [-1], [SE3.identity()], [SpatialInertia.zero()]
-        frames: dict[str, Frame] = {}
-        stack = [(link, 0, SE3.identity()) for link in children["universe"]]
-        while stack:  # depth first; the stack is popped from its end, hence the reversed order
-            link, carrier, in_carrier = stack.pop()
-            at = in_carrier @ link.placement
-            if link.joint is None:
-                if carrier > 0:  # what is welded to the world never moves
-                    inertia[carrier] = inertia[carrier] + link.inertia.transform(at)
-            else:
-                parent.append(carrier)
-                placement.append(at)
-                inertia.append(link.inertia)
-                bodies.append(link)
-                carrier, at = len(parent) - 1, SE3.identity()
-            if link.joint_name != "root_joint" or link.joint is not None:
-                _add_frame(frames, link.joint_name, Frame(carrier, at))
-            _add_frame(frames, link.name, Frame(carrier, at))
-            siblings = sorted(children[link.name], key=lambda child: child.joint_name, reverse=True)
-            stack += [(child, carrier, at) for child in siblings]
-        moved = [link for link in bodies if link is not None]
+        tree = _Numbered(self._links)
+        moved = tree.moved
         model = Model(
             name=self._name,
             base=self._base,
             joint_names=("universe", *(link.joint_name for link in moved)),
             joints=(None, *(link.joint for link in moved)),
-            parent=tuple(parent),
-            placement=tuple(placement),
-            inertia=tuple(inertia),
-            frames=frames,
+            parent=tuple(tree.parent),
+            placement=tuple(tree.placement),
+            inertia=tuple(tree.inertia),
+            frames=tree.frames,
             gravity=self._gravity,
             armature=_join([link.armature for link in moved]),
             lower=_join([link.lower for link in moved]),
@@ -248,9 +221,40 @@ class Builder:
         )
         for foot in feet:
             model.frame(foot)
-        for name, q in (postures or {}).items():
-            model.postures[name] = model.state(q)[0].copy()
-        return model
+        checked = {name: _join([model.state(q)[0]]) for name, q in (postures or {}).items()}
+        return replace(model, postures=checked)
+
+
+class _Numbered:
+    """The links in their final order, depth first: bodies numbered, welded links merged."""
+
+    def __init__(self, links: Mapping[str, _Link]) -> None:
+        self.moved: list[_Link] = []
+        self.parent, self.placement, self.inertia = [-1], [SE3.identity()], [SpatialInertia.zero()]
+        self.frames: dict[str, Frame] = {}
+        children: dict[str, list[_Link]] = {name: [] for name in ("universe", *links)}
+        for link in sorted(links.values(), key=lambda link: link.joint_name, reverse=True):
+            children[link.parent].append(link)
+        waiting = [(link, 0, SE3.identity()) for link in children["universe"]]
+        while waiting:  # the last one in is the first one out, hence the reversed order above
+            link, carrier, in_carrier = waiting.pop()
+            carrier, at = self._place(link, carrier, in_carrier @ link.placement)
+            waiting += [(child, carrier, at) for child in children[link.name]]
+
+    def _place(self, link: _Link, carrier: int, at: SE3) -> tuple[int, SE3]:
+        """Number a moved link, or merge a welded one; return the body and where the link is in it."""
+        if link.joint is not None:
+            self.moved.append(link)
+            self.parent.append(carrier)
+            self.placement.append(at)
+            self.inertia.append(link.inertia)
+            carrier, at = len(self.parent) - 1, SE3.identity()
+        elif carrier > 0:  # what is welded to the world never moves
+            self.inertia[carrier] = self.inertia[carrier] + link.inertia.transform(at)
+        names = [link.name] if link.joint is None and link.parent == "universe" else [link.joint_name, link.name]
+        for name in names:  # a fixed root link hangs on no joint
+            _add_frame(self.frames, name, Frame(carrier, at))
+        return carrier, at
 
 
 def _add_frame(frames: dict[str, Frame], name: str, frame: Frame) -> None:

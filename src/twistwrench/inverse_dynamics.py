@@ -144,7 +144,7 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> bool((tw.nonlinear_effects(model, q, v) == tw.rnea(model, q, v, [0, 0])).all())
     True
     """
-    return rnea(model, q, v, np.zeros(model.nv))
+    return rnea(model, q, v, np.zeros(model.nv, int))
 
 
 def gravity(model: Model, q: ArrayLike) -> Array:
@@ -171,13 +171,14 @@ def gravity(model: Model, q: ArrayLike) -> Array:
     >>> tw.gravity(tw.load("pendulum"), [0.0])  # hanging
     array([0.])
     """
-    return rnea(model, q, np.zeros(model.nv), np.zeros(model.nv))
+    rest = np.zeros(model.nv, int)  # integers have no say in the number type
+    return rnea(model, q, rest, rest)
 
 
 def external(model: Model, f_ext: ArrayLike | None) -> ArrayLike:
     """Return the wrenches on the bodies, zero where none came; refuse one on the world."""
     if f_ext is None:
-        return np.zeros((model.nbodies, 6), np.float32)  # of no weight in the choice of the number type
+        return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
     f_ext = np.asarray(f_ext)
     if f_ext.shape[-2:] == (model.nbodies, 6) and f_ext[..., 0, :].any():
         raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")

@@ -255,9 +255,7 @@ class Model:
 
     def _by_joint(self, function: Callable[[Joint, slice, slice], Array], like: Array) -> Array:
         """Apply `function` to every joint with its slices and join the results."""
-        pieces = [
-            function(joint, qs, vs) for joint, qs, vs in zip(self.joints, self.q_slice, self.v_slice) if joint
-        ]
+        pieces = [function(joint, qs, vs) for joint, qs, vs in zip(self.joints, self.q_slice, self.v_slice) if joint]
         return np.concatenate([like[..., :0], *pieces], axis=-1)
 
     # ---------------------------------------------------------------- the check at the door
