@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._scalars import cosine_defect, length, sinc, sine_defect
 from .checks import Array, as_array
 from .plucker import SE3
-from .rotation import exp3, length, log3, sinc
+from .rotation import exp3, log3
 
 __all__ = ["exp6", "log6"]
 
@@ -40,7 +41,7 @@ def exp6(V: ArrayLike) -> SE3:
     V = as_array(V, "V", 6)
     w, v = V[..., :3], V[..., 3:]
     theta = length(w)[..., None]
-    B, C = sinc(theta / 2) ** 2 / 2, _sine_defect(theta)
+    B, C = sinc(theta / 2) ** 2 / 2, sine_defect(theta)
     wv = np.cross(w, v)
     return SE3._trusted(exp3(w), v + B * wv + C * np.cross(w, wv))
 
@@ -73,29 +74,6 @@ def log6(T: SE3 | ArrayLike) -> Array:
     T = T if isinstance(T, SE3) else SE3.from_matrix(T)
     w, p = log3(T.rotation), T.translation
     half = length(w)[..., None] / 2
-    D = _cosine_defect(half) / (4 * sinc(half))
+    D = cosine_defect(half) / (4 * sinc(half))
     wp = np.cross(w, p)
     return np.concatenate([w, p - wp / 2 + D * np.cross(w, wp)], axis=-1)
-
-
-def _sine_defect(x: Array) -> Array:
-    """Return (x − sin x)/x³ without cancellation, 1/6 at 0."""
-    small = np.abs(x.real) < 1
-    safe = np.where(small, 1, x)
-    return np.where(small, _series(x, 6, 4, 5), (safe - np.sin(safe)) / safe**3)
-
-
-def _cosine_defect(x: Array) -> Array:
-    """Return (sin x − x cos x)/x³ without cancellation, 1/3 at 0."""
-    small = np.abs(x.real) < 1
-    safe = np.where(small, 1, x)
-    return np.where(small, _series(x, 3, 2, 5), (np.sin(safe) - safe * np.cos(safe)) / safe**3)
-
-
-def _series(x: Array, first: int, a: int, b: int) -> Array:
-    """Sum 1/first · (1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...))) for |x| < 1, to every float's last bit."""
-    square = np.where(np.abs(x.real) < 1, x, 0) ** 2
-    total = np.ones_like(x)
-    for k in reversed(range(0, 30, 2)):
-        total = 1 - square / ((a + k) * (b + k)) * total
-    return total / first

@@ -1,4 +1,4 @@
-"""Spatial inertia, the spatial cross products, momentum and kinetic energy of one body (section 49.5)."""
+"""Spatial inertia, momentum and kinetic energy of one body; with the cross products of `cross` (section 49.5)."""
 
 from __future__ import annotations
 
@@ -7,64 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._physical import check_physical
+from ._scalars import largest, which
 from .checks import Array, as_array, as_arrays, resolution
+from .cross import cross_force, cross_motion
 from .errors import ModelError, ShapeError
 from .plucker import SE3, blocks
-from .rotation import largest, skew
+from .rotation import cross_matrix, skew_part
 
 __all__ = ["SpatialInertia", "cross_force", "cross_motion"]
-
-
-def cross_motion(V: ArrayLike) -> Array:
-    """Matrix V× = [[ω]×, 0; [v]×, [ω]×]: the rate of a twist carried along by V (section 49.5).
-
-    Parameters
-    ----------
-    V : array_like, shape (..., 6)
-        Twist (ω, v), rad/s and m/s.
-
-    Returns
-    -------
-    ndarray, shape (..., 6, 6)
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 6 long.
-
-    Examples
-    --------
-    >>> cross_motion([0, 0, 1, 0, 0, 0]) @ [1, 0, 0, 0, 0, 0]
-    array([0., 1., 0., 0., 0., 0.])
-    """
-    V = as_array(V, "V", 6)
-    W = skew(V[..., :3])
-    return blocks(W, np.zeros_like(W), skew(V[..., 3:]), W)
-
-
-def cross_force(V: ArrayLike) -> Array:
-    """Matrix V×* = −(V×)ᵀ = [[ω]×, [v]×; 0, [ω]×]: the rate of a wrench carried along by V (section 49.5).
-
-    Parameters
-    ----------
-    V : array_like, shape (..., 6)
-        Twist (ω, v), rad/s and m/s.
-
-    Returns
-    -------
-    ndarray, shape (..., 6, 6)
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 6 long.
-
-    Examples
-    --------
-    >>> cross_force([0, 0, 0, 1, 0, 0]) @ [0, 0, 0, 0, 1, 0]
-    array([0., 0., 1., 0., 0., 0.])
-    """
-    return -cross_motion(V).mT
 
 
 @dataclass(frozen=True, slots=True, eq=False, init=False)
@@ -85,7 +36,8 @@ class SpatialInertia:
     ShapeError
         If a shape is wrong or the batch axes do not broadcast.
     ModelError
-        If the mass is negative or the inertia not symmetric.
+        If the mass is negative, or the inertia is not symmetric to within the square root of the resolution of its
+        dtype, relative to its largest entry.
 
     Examples
     --------
@@ -109,10 +61,13 @@ class SpatialInertia:
             shapes = f"{m.shape}, {c.shape[:-1]} and {I_c.shape[:-2]}"
             raise ShapeError(f"mass, com and inertia_at_com: batch axes {shapes} do not broadcast") from None
         if (m.real < 0).any():
-            raise ModelError(f"mass: expected no negative mass, got {m.real.min():.6g} kg")
+            raise ModelError(f"mass: expected no negative mass, got {m.real.min():.6g} kg" + which(m.real < 0))
         off = largest((I_c - I_c.mT).real, 2)
-        if (off > resolution(I_c.dtype) ** 0.5 * largest(I_c.real, 2)).any():
-            raise ModelError(f"inertia_at_com: expected a symmetric matrix, got |I − Iᵀ| up to {off.max():.3g} kg m²")
+        wrong = off > resolution(I_c.dtype) ** 0.5 * largest(I_c.real, 2)
+        if wrong.any():
+            raise ModelError(
+                f"inertia_at_com: expected a symmetric matrix, got |I − Iᵀ| = {off[wrong][0]:.3g} kg m²" + which(wrong)
+            )
         self._set(
             np.array(np.broadcast_to(m, batch)),
             np.array(np.broadcast_to(c, (*batch, 3))),
@@ -133,7 +88,7 @@ class SpatialInertia:
 
     @classmethod
     def zero(cls) -> SpatialInertia:
-        """Return the inertia of nothing.
+        """Return the inertia of nothing, which changes no sum.
 
         Examples
         --------
@@ -146,10 +101,16 @@ class SpatialInertia:
     def from_matrix(cls, I6: ArrayLike) -> SpatialInertia:
         """Recover the ten numbers from the 6 × 6 matrix: the inverse of `matrix`.
 
+        Far from the origin the matrix hides I_c behind m[c]×², and what rounding took there is lost.
+
         Parameters
         ----------
         I6 : array_like, shape (..., 6, 6)
             In the order (ω, v).
+
+        Returns
+        -------
+        SpatialInertia
 
         Raises
         ------
@@ -166,15 +127,16 @@ class SpatialInertia:
         """
         M = as_array(I6, "I6", 6, 6)
         mass = M[..., 5, 5]
-        H = (M[..., :3, 3:] - M[..., :3, 3:].mT) / 2
-        first = np.stack([H[..., 2, 1], H[..., 0, 2], H[..., 1, 0]], axis=-1)
-        massless = mass.real == 0
-        com = np.where(massless[..., None], 0, first / np.where(massless, 1, mass)[..., None])
-        body = cls(mass, com, M[..., :3, :3] + mass[..., None, None] * skew(com) @ skew(com))
+        com = skew_part(M[..., :3, 3:]) / np.where(mass == 0, 1, mass)[..., None]
+        C = cross_matrix(com)
+        about_origin = (M[..., :3, :3] + M[..., :3, :3].mT) / 2
+        body = cls(mass, com, about_origin + mass[..., None, None] * (C @ C))
         off = largest((body.matrix() - M).real, 2)
-        if (off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)).any():
+        wrong = off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)
+        if wrong.any():
             raise ModelError(
-                f"I6: expected a spatial inertia in the order (ω, v), got one that is off by {off.max():.3g}"
+                f"I6: expected [[I_c − m[c]×², m[c]×], [−m[c]×, m 1]], got a matrix {off[wrong][0]:.3g} away from it"
+                + which(wrong)
             )
         return body
 
@@ -186,38 +148,46 @@ class SpatialInertia:
         >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).matrix().diagonal()
         array([1., 1., 1., 2., 2., 2.])
         """
-        m, C = self.mass[..., None, None], skew(self.com)
-        return blocks(self.inertia_at_com - m * C @ C, m * C, -m * C, m * np.eye(3, dtype=C.dtype))
+        m, C = self.mass[..., None, None], cross_matrix(self.com)
+        return blocks(self.inertia_at_com - m * (C @ C), m * C, -m * C, m * np.eye(3, dtype=C.dtype))
 
     def transform(self, T: SE3) -> SpatialInertia:
-        """Return the inertia in frame A, where T = T_AB places the present frame B in A: X* I X⁻¹.
+        """Return the same body's inertia in another frame: I_A = X* I_B X⁻¹.
 
-        Done on the ten numbers: c' = R c + p, I_c' = R I_c Rᵀ. Nothing is lost far from the origin.
+        Done on the ten numbers, c' = R c + p and I_c' = R I_c Rᵀ, so that nothing is lost far from the origin.
+
+        Parameters
+        ----------
+        T : SE3
+            T_AB: the present frame B, placed in A.
+
+        Returns
+        -------
+        SpatialInertia
 
         Examples
         --------
         >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).transform(SE3(np.eye(3), [1, 0, 0])).com
         array([1., 0., 0.])
         """
-        R = T.rotation
-        turned = R @ self.inertia_at_com @ R.mT
+        turned = T.rotation @ self.inertia_at_com @ T.rotation.mT
         com = T.act(self.com)
         mass = np.broadcast_to(self.mass.astype(com.dtype, copy=False), com.shape[:-1])
         return SpatialInertia._trusted(mass, com, (turned + turned.mT) / 2)
 
     def __add__(self, other: SpatialInertia) -> SpatialInertia:
         if not isinstance(other, SpatialInertia):
-            raise TypeError(f"SpatialInertia + {type(other).__name__}: only inertias in one frame add")
+            raise TypeError(f"SpatialInertia + {type(other).__name__}: only inertias add, once they are in one frame")
         m1, m2 = self.mass, other.mass
         m = m1 + m2
-        safe = np.where(m == 0, 1, m)
-        com = (m1 / safe)[..., None] * self.com + (m2 / safe)[..., None] * other.com
-        D = skew(other.com - self.com)
-        reduced = (m1 * m2 / safe)[..., None, None]
+        nonzero = np.where(m == 0, 1, m)
+        com = (m1 / nonzero)[..., None] * self.com + (m2 / nonzero)[..., None] * other.com
+        # Parallel axes from each centre of mass to the common one come to m₁m₂/m times the square of their distance.
+        D, reduced = cross_matrix(other.com - self.com), (m1 * m2 / nonzero)[..., None, None]
         return SpatialInertia._trusted(m, com, self.inertia_at_com + other.inertia_at_com - reduced * (D @ D))
 
     def momentum(self, V: ArrayLike) -> Array:
-        """Return the momentum I V about the origin of the frame: (L, p), kg m²/s and kg m/s.
+        """Return the momentum I V: angular, about the origin of the frame, and linear.
 
         Parameters
         ----------
@@ -227,6 +197,7 @@ class SpatialInertia:
         Returns
         -------
         ndarray, shape (..., 6)
+            kg m²/s and kg m/s. It changes frame as a wrench does.
 
         Raises
         ------
@@ -238,14 +209,12 @@ class SpatialInertia:
         >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).momentum([0, 0, 1, 3, 0, 0])
         array([0., 0., 1., 6., 0., 0.])
         """
-        V = as_array(V, "V", 6)
-        w, v = V[..., :3], V[..., 3:]
-        p = self.mass[..., None] * (v + np.cross(w, self.com))
-        L = np.matvec(self.inertia_at_com, w) + np.cross(self.com, p)
-        return np.concatenate([L, p], axis=-1)
+        w, v_c = self._velocity_of_com(V)
+        p = self.mass[..., None] * v_c
+        return np.concatenate([np.matvec(self.inertia_at_com, w) + np.cross(self.com, p), p], axis=-1)
 
     def kinetic_energy(self, V: ArrayLike) -> Array:
-        """Return the kinetic energy ½ VᵀI V, J.
+        """Return the kinetic energy ½ VᵀI V, as ½ m v_c² + ½ ωᵀI_c ω.
 
         Parameters
         ----------
@@ -255,6 +224,7 @@ class SpatialInertia:
         Returns
         -------
         ndarray, shape (...)
+            J.
 
         Raises
         ------
@@ -266,17 +236,21 @@ class SpatialInertia:
         >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).kinetic_energy([0, 0, 1, 3, 0, 0])
         array(9.5)
         """
-        V = as_array(V, "V", 6)
-        w, v = V[..., :3], V[..., 3:]
-        v_c = v + np.cross(w, self.com)
+        w, v_c = self._velocity_of_com(V)
         spin = (w * np.matvec(self.inertia_at_com, w)).sum(-1)
         return np.asarray((self.mass * (v_c * v_c).sum(-1) + spin) / 2)
+
+    def _velocity_of_com(self, V: ArrayLike) -> tuple[Array, Array]:
+        """Return ω and the velocity v + ω×c of the centre of mass, over the batch axes of both."""
+        V = as_array(V, "V", 6)
+        v_c = V[..., 3:] + np.cross(V[..., :3], self.com)
+        return np.broadcast_to(V[..., :3], v_c.shape), v_c
 
     def check_physical(self, link: str) -> None:
         """Raise ModelError unless a body with this inertia can exist.
 
-        The mass is positive, no principal moment is negative, not all are zero, and the largest is not above the sum
-        of the other two (each to a relative 1e-9: a thin rod and a thin plate lie on the edge, and pass).
+        The mass is positive; no principal moment is negative, and not all are zero; the largest is at most the sum of
+        the other two. Each to a relative 1e-9: thin rods and plates lie on the edge, and pass.
 
         Parameters
         ----------
@@ -292,33 +266,12 @@ class SpatialInertia:
         --------
         >>> SpatialInertia(1.0, [0, 0, 0], np.diag([1, 1, 10])).check_physical("calf")
         Traceback (most recent call last):
-        twistwrench.errors.ModelError: link 'calf': ...
+        twistwrench.errors.ModelError: link 'calf': the largest principal moment must not exceed ...
         """
-        mass = self.mass.real
-        if (mass <= 0).any():
-            raise ModelError(f"link {link!r}: the mass must be positive, got {mass.min():.6g} kg")
-        # NumPy has eigenvalues in double precision only: enough to judge by.
-        moments = np.linalg.eigvalsh(self.inertia_at_com.real.astype(np.float64)).reshape(-1, 3)
-        a, b, c = moments.T
-        not_positive = (a < -1e-9 * c) | (c <= 0)
-        if not_positive.any():
-            raise ModelError(
-                f"link {link!r}: the inertia must be positive definite, got principal moments "
-                f"{_numbers(moments[not_positive][0])} kg m²"
-            )
-        broken = c > (a + b) * (1 + 1e-9)
-        if broken.any():
-            a, b, c = moments[broken][0]
-            raise ModelError(
-                f"link {link!r}: the principal moments break the triangle inequality, {c:.6g} > {a:.6g} + {b:.6g} kg m²"
-            )
+        check_physical(link, self.mass, self.inertia_at_com)
 
     def __repr__(self) -> str:
-        return (
-            f"SpatialInertia(mass={self.mass.tolist()}, com={self.com.tolist()}, "
-            f"inertia_at_com={self.inertia_at_com.tolist()})"
-        )
-
-
-def _numbers(x: Array) -> str:
-    return ", ".join(f"{value:.6g}" for value in x)
+        if self.mass.ndim:
+            return f"<SpatialInertia: a batch, shape {self.mass.shape}>"
+        numbers = f"mass={self.mass}, com={self.com.tolist()}, inertia_at_com={self.inertia_at_com.tolist()}"
+        return f"SpatialInertia({numbers})"

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array, as_array, as_arrays
+from ._scalars import largest, which
+from ._spatial_vector import latex_matrix
+from .checks import Array, as_array, as_arrays, resolution
 from .errors import ShapeError
-from .rotation import check_rotation, skew
+from .rotation import check_rotation, cross_matrix
 
 __all__ = ["SE3", "force_transform", "motion_transform"]
 
@@ -148,7 +150,11 @@ class SE3:
         Parameters
         ----------
         T : array_like, shape (..., 4, 4)
-            [[R, p], [0, 1]].
+            [[R, p], [0, 1]], p in m.
+
+        Returns
+        -------
+        SE3
 
         Raises
         ------
@@ -161,9 +167,9 @@ class SE3:
         array([0., 0., 0.])
         """
         M = as_array(T, "T", 4, 4)
-        wrong = (M[..., 3, :] != np.array([0, 0, 0, 1])).any(-1)
+        wrong = largest((M[..., 3, :] - [0, 0, 0, 1]).real, 1) > resolution(M.dtype) ** 0.5
         if wrong.any():
-            raise ShapeError(f"T: expected (0, 0, 0, 1) as the last row, got {M[wrong][0, 3].tolist()}")
+            raise ShapeError(f"T: expected (0, 0, 0, 1) as the last row, got {M[wrong][0, 3].tolist()}" + which(wrong))
         return cls(M[..., :3, :3], M[..., :3, 3])
 
     def matrix(self) -> Array:
@@ -236,7 +242,7 @@ class SE3:
         True
         """
         R = self.rotation
-        return blocks(R, np.zeros_like(R), skew(self.translation) @ R, R)
+        return blocks(R, np.zeros_like(R), cross_matrix(self.translation) @ R, R)
 
     def force_transform(self) -> Array:
         """Return X* = X⁻ᵀ, which takes wrenches from B to A, shape (..., 6, 6): see `force_transform`.
@@ -248,10 +254,15 @@ class SE3:
         True
         """
         R = self.rotation
-        return blocks(R, skew(self.translation) @ R, np.zeros_like(R), R)
+        return blocks(R, cross_matrix(self.translation) @ R, np.zeros_like(R), R)
 
     def __repr__(self) -> str:
+        if self.translation.ndim > 1:
+            return f"<SE3: a batch of placements, shape {self.translation.shape[:-1]}>"
         return f"SE3(rotation={self.rotation.tolist()}, translation={self.translation.tolist()})"
+
+    def _repr_latex_(self) -> str | None:
+        return None if self.translation.ndim > 1 else f"$T = {latex_matrix(self.matrix())}$"
 
 
 def blocks(a: Array, b: Array, c: Array, d: Array) -> Array:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._scalars import atan2, largest, length, sinc, which
 from .checks import Array, as_array, resolution
 from .errors import ShapeError, SingularError
 
@@ -49,10 +50,7 @@ def skew(w: ArrayLike) -> Array:
            [ 3.,  0., -1.],
            [-2.,  1.,  0.]])
     """
-    w = as_array(w, "w", 3)
-    M = np.zeros((*w.shape, 3), w.dtype)
-    M[..., 2, 1], M[..., 0, 2], M[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
-    return M - M.mT
+    return cross_matrix(as_array(w, "w", 3))
 
 
 def unskew(M: ArrayLike) -> Array:
@@ -82,9 +80,8 @@ def unskew(M: ArrayLike) -> Array:
     off = largest((M + M.mT).real, 2)
     wrong = off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)
     if wrong.any():
-        raise ShapeError(f"M: expected a skew-symmetric matrix, got one with |M + Mᵀ| up to {off[wrong].max():.3g}")
-    half = (M - M.mT) / 2
-    return np.stack([half[..., 2, 1], half[..., 0, 2], half[..., 1, 0]], axis=-1)
+        raise ShapeError(f"M: expected a skew-symmetric matrix, got |M + Mᵀ| = {off[wrong][0]:.3g}" + which(wrong))
+    return skew_part(M)
 
 
 def exp3(w: ArrayLike) -> Array:
@@ -115,7 +112,7 @@ def exp3(w: ArrayLike) -> Array:
            [ 0.,  0.,  1.]])
     """
     w = as_array(w, "w", 3)
-    theta, W = length(w)[..., None, None], skew(w)
+    theta, W = length(w)[..., None, None], cross_matrix(w)
     A, B = sinc(theta), sinc(theta / 2) ** 2 / 2
     return np.asarray(np.eye(3, dtype=w.dtype) + A * W + (B * W) @ W)
 
@@ -149,7 +146,7 @@ def log3(R: ArrayLike) -> Array:
     q = rotation_to_quaternion(R)
     xyz, w = q[..., :3], q[..., 3:]
     n = length(xyz)[..., None]
-    ratio = np.where(n == 0, 2, 2 * _atan2(n, w) / np.where(n == 0, 1, n))
+    ratio = np.where(n == 0, 2, 2 * atan2(n, w) / np.where(n == 0, 1, n))
     return np.asarray(xyz * ratio)
 
 
@@ -182,9 +179,9 @@ def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
     q = as_array(xyzw, "xyzw", 4)
     size = largest(q.real, 1)
     if (size == 0).any():
-        raise SingularError("xyzw: the zero quaternion is no rotation" + _where(size == 0))
+        raise SingularError("xyzw: the zero quaternion is no rotation" + which(size == 0))
     q = q / size[..., None]
-    U, w = skew(q[..., :3]), q[..., 3, None, None]
+    U, w = cross_matrix(q[..., :3]), q[..., 3, None, None]
     R = np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / (q * q).sum(-1)[..., None, None]
     return np.asarray(R)
 
@@ -214,15 +211,13 @@ def rotation_to_quaternion(R: ArrayLike) -> Array:
     """
     R = as_array(R, "R", 3, 3)
     check_rotation(R, "R")
-    Q = np.empty((*R.shape[:-2], 4, 4), R.dtype)  # 4 q qᵀ is linear in R
+    Q = np.empty((*R.shape[:-2], 4, 4), R.dtype)  # 4 q qᵀ, whose entries are sums of those of R
     trace = np.trace(R, axis1=-2, axis2=-1)[..., None, None]
     Q[..., :3, :3] = R + R.mT + np.eye(3, dtype=R.dtype) * (1 - trace)
-    Q[..., :3, 3] = Q[..., 3, :3] = np.stack(
-        [R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]], axis=-1
-    )
+    Q[..., :3, 3] = Q[..., 3, :3] = 2 * skew_part(R)
     Q[..., 3, 3] = 1 + trace[..., 0, 0]
     squares = np.diagonal(Q, axis1=-2, axis2=-1)
-    k = squares.real.argmax(-1)[..., None]  # at least 1: dividing by it loses nothing
+    k = squares.real.argmax(-1)[..., None]  # the largest is at least 1: dividing by its root loses nothing
     row = np.take_along_axis(Q, k[..., None], axis=-2)[..., 0, :]
     q = row / (2 * np.sqrt(np.take_along_axis(squares, k, axis=-1)))
     return np.asarray(np.where(q[..., 3:].real < 0, -q, q))
@@ -265,48 +260,25 @@ def rpy_to_rotation(rpy: ArrayLike) -> Array:
 def check_rotation(R: Array, name: str) -> None:
     """Raise ShapeError unless RᵀR = 1 and det R = 1, to the square root of the resolution."""
     real = R.real
-    off = largest(real.mT @ real - np.eye(3, dtype=real.dtype), 2)
-    tolerance = resolution(R.dtype) ** 0.5
-    if (off > tolerance).any():
-        raise ShapeError(
-            f"{name}: expected a rotation matrix, got |RᵀR − 1| up to {off.max():.3g}" + _where(off > tolerance)
-        )
+    with np.errstate(over="ignore", invalid="ignore"):
+        off = largest(real.mT @ real - np.eye(3, dtype=real.dtype), 2)
+    wrong = ~(off <= resolution(R.dtype) ** 0.5)
+    if wrong.any():
+        raise ShapeError(f"{name}: expected a rotation matrix, got |RᵀR − 1| = {off[wrong][0]:.3g}" + which(wrong))
     x, y, z = np.moveaxis(real, -1, 0)
     det = (np.cross(x, y) * z).sum(-1)
     if (det < 0).any():
-        raise ShapeError(
-            f"{name}: expected a rotation matrix, got a reflection: det R = {det.min():.3g}" + _where(det < 0)
-        )
+        raise ShapeError(f"{name}: expected a rotation matrix, got a reflection, det R = −1" + which(det < 0))
 
 
-def length(w: Array) -> Array:
-    """Euclidean length of the last axis, without under- or overflow, analytic in complex `w`."""
-    size = np.maximum(largest(w.real, 1), largest(w.imag, 1))
-    exponent = np.frexp(np.maximum(size, np.finfo(w.dtype).tiny))[1] - 1
-    unit = np.ldexp(np.ones((), size.dtype), exponent)  # a power of two: dividing by it is exact
-    scaled = w / unit[..., None]
-    return np.asarray(unit * np.sqrt((scaled * scaled).sum(-1)))
+def cross_matrix(w: Array) -> Array:
+    """Return [w]× without checks."""
+    M = np.zeros((*w.shape, 3), w.dtype)
+    M[..., 2, 1], M[..., 0, 2], M[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
+    return M - M.mT
 
 
-def sinc(x: Array) -> Array:
-    """Return sin x / x, and 1 at 0."""
-    safe = np.where(x == 0, 1, x)
-    return np.where(x == 0, 1, np.sin(safe) / safe)
-
-
-def largest(x: Array, axes: int) -> Array:
-    """Return the largest magnitude over the last `axes` axes of a real array."""
-    return np.asarray(np.abs(x).max(axis=tuple(range(-axes, 0))))
-
-
-def _atan2(s: Array, c: Array) -> Array:
-    """Angle of (c, s). NumPy has no complex version: this one is exact to first order in the imaginary part."""
-    if s.dtype.kind != "c":
-        return np.asarray(np.arctan2(s, c))
-    slope = (c.real * s.imag - s.real * c.imag) / (c.real**2 + s.real**2)
-    return np.asarray(np.arctan2(s.real, c.real) + 1j * slope)
-
-
-def _where(wrong: Array) -> str:
-    """Say which item of a batch is wrong; nothing where there is only one."""
-    return f" at index {tuple(int(k) for k in np.argwhere(wrong)[0])}" if wrong.ndim else ""
+def skew_part(M: Array) -> Array:
+    """Return the vector of ½(M − Mᵀ)."""
+    half = (M - M.mT) / 2
+    return np.stack([half[..., 2, 1], half[..., 0, 2], half[..., 1, 0]], axis=-1)

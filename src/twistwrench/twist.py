@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, NamedTuple, Protocol, Self
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike
+from numpy.typing import ArrayLike
 
+from ._scalars import largest, length, which
+from ._spatial_vector import SpatialVector
 from .checks import Array, as_array, resolution
-from .errors import FrameError, ShapeError, SingularError
-from .rotation import largest, length, skew, unskew
+from .errors import ShapeError, SingularError
+from .rotation import cross_matrix, unskew
 
 __all__ = ["Screw", "Twist", "hat", "screw", "vee"]
 
@@ -23,7 +25,19 @@ class Placement(Protocol):
 
 
 class Screw(NamedTuple):
-    """The screw of a twist or of a wrench: axis direction, a point on it, pitch, magnitude (49.2, 49.4)."""
+    """The screw of a twist or of a wrench (sections 49.2 and 49.4): what `screw` returns.
+
+    Attributes
+    ----------
+    axis : ndarray, shape (..., 3)
+        Unit vector along ω, or along f.
+    point : ndarray, shape (..., 3)
+        The point of the axis that is nearest to the origin, m.
+    pitch : ndarray, shape (...)
+        Advance along the axis per radian, m; of a wrench, moment per force, m. Infinite for a translation or a couple.
+    magnitude : ndarray, shape (...)
+        rad/s, or N; of a translation m/s, of a couple N m.
+    """
 
     axis: Array
     point: Array
@@ -58,7 +72,7 @@ def hat(V: ArrayLike) -> Array:
     """
     V = as_array(V, "V", 6)
     M = np.zeros((*V.shape[:-1], 4, 4), V.dtype)
-    M[..., :3, :3], M[..., :3, 3] = skew(V[..., :3]), V[..., 3:]
+    M[..., :3, :3], M[..., :3, 3] = cross_matrix(V[..., :3]), V[..., 3:]
     return M
 
 
@@ -89,168 +103,87 @@ def vee(M: ArrayLike) -> Array:
     off = largest(M[..., 3, :].real, 1)
     wrong = off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)
     if wrong.any():
-        raise ShapeError(f"M: expected zeros in the last row of a matrix in se(3), got up to {off[wrong].max():.3g}")
+        raise ShapeError(f"M: expected a last row of zeros, got up to {off[wrong][0]:.3g}" + which(wrong))
     return np.concatenate([unskew(M[..., :3, :3]), M[..., :3, 3]], axis=-1)
 
 
-def screw(x: _SpatialVector | ArrayLike, *, of: str = "twist") -> Screw:
+def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None = None) -> Screw:
     """Axis, point, pitch and magnitude of a twist or a wrench (sections 49.2 and 49.4).
+
+    Of a twist: axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|², magnitude |ω|. Without rotation the axis is v/|v|, the
+    pitch infinite and the magnitude |v|; every parallel line would do, and the point is the origin.
+    Of a wrench the same, with f for ω and τ for v. The point is only as sure as v divided by |ω|: an error of
+    1e-16 m/s in v moves the axis of a twist with 1e-8 rad/s by 1e-8 m.
 
     Parameters
     ----------
     x : Twist, Wrench or array_like of shape (..., 6)
-    of : {"twist", "wrench"}
-        What a plain array is. A Twist or a Wrench knows.
+        (ω, v), rad/s and m/s, or (τ, f), N m and N.
+    of : {"twist", "wrench"}, optional
+        What a plain array is; a twist where it is not said. A Twist or a Wrench knows.
 
     Returns
     -------
     Screw
+        In the frame of `x`.
 
     Raises
     ------
+    ShapeError
+        If the last axis is not 6 long.
     SingularError
-        If a twist or a wrench is zero.
+        If the twist or wrench is zero, or its axis is too far away for a floating-point number.
+    TypeError
+        If `of` contradicts the type of `x`.
 
     Examples
     --------
     >>> screw([0, 0, 2, 0, -2, 1])
     Screw(axis=array([0., 0., 1.]), point=array([ 1.,  0., -0.]), pitch=array(0.5), magnitude=array(2.))
     """
-    if isinstance(x, _SpatialVector):
-        return x.screw()
-    V = as_array(x, "x", 6)
-    if of not in ("twist", "wrench"):
+    if isinstance(x, SpatialVector):
+        kind, (line, free) = type(x).__name__.lower(), x._line_and_free()
+        if of not in (None, kind):
+            raise TypeError(f"screw: of={of!r}, but x is a {type(x).__name__}")
+        return _screw(line, free, kind)
+    if of not in (None, "twist", "wrench"):
         raise ValueError(f"of: expected 'twist' or 'wrench', got {of!r}")
-    return screw_of(V[..., :3], V[..., 3:], of) if of == "twist" else screw_of(V[..., 3:], V[..., :3], of)
+    V = as_array(x, "x", 6)
+    return _screw(V[..., 3:], V[..., :3], "wrench") if of == "wrench" else _screw(V[..., :3], V[..., 3:], "twist")
 
 
-def screw_of(main: Array, other: Array, kind: str) -> Screw:
-    """Screw of (ω, v), or of (f, τ): the line vector first, then what depends on the point."""
-    free = (main.real == 0).all(-1)[..., None]
-    along = np.where(free, other, main)
+def _screw(line: Array, free: Array, kind: str) -> Screw:
+    """Screw of (ω, v) or of (f, τ): first the part that acts along a line, then the part that depends on the point."""
+    without = (line.real == 0).all(-1)[..., None]
+    along = np.where(without, free, line)
     magnitude = length(along)[..., None]
-    if (magnitude.real == 0).any():
-        raise SingularError(f"screw: a zero {kind} has no axis")
+    nothing = np.asarray(magnitude.real == 0)[..., 0]
+    if nothing.any():
+        raise SingularError(f"screw: a zero {kind} has no axis" + which(nothing))
     axis = along / magnitude
     with np.errstate(over="ignore", invalid="ignore"):
-        lever = np.where(free, 0, other / magnitude)
-        point = np.cross(axis, lever)
-        pitch = np.where(free, np.inf, (axis * lever).sum(-1, keepdims=True))
-    if not np.isfinite(point).all():
-        raise SingularError(f"screw: the axis of the {kind} is further away than floating-point numbers reach")
-    return Screw(axis, point, pitch[..., 0], magnitude[..., 0])
+        lever = np.where(without, 0, free / magnitude)
+        point, pitch = np.cross(axis, lever), (axis * lever).sum(-1)
+    lost = np.asarray(~np.isfinite(lever).all(-1))
+    if lost.any():
+        raise SingularError(f"screw: the axis of the {kind} is further away than numbers reach" + which(lost))
+    return Screw(axis, point, np.where(without[..., 0], np.inf, pitch), magnitude[..., 0])
 
 
-class _SpatialVector:
-    """What twists and wrenches share: six numbers, a frame, and a sum that checks both."""
-
-    __slots__ = ("_frame", "_vector")
-    # NumPy arrays leave the operators to this class.
-    __array_ufunc__ = None
-    _symbol: ClassVar[str]
-    _dual: ClassVar[str]
-
-    def __init__(self, vector: ArrayLike, *, frame: str | None = None) -> None:
-        if isinstance(vector, _SpatialVector):
-            raise TypeError(f"{type(self).__name__}({type(vector).__name__}): give the six numbers, x.vector")
-        self._vector = as_array(vector, "vector", 6).copy()
-        self._vector.flags.writeable = False
-        self._frame = frame
-
-    @property
-    def vector(self) -> Array:
-        """The six numbers, angular part first, shape (..., 6); read-only."""
-        return self._vector
-
-    @property
-    def angular(self) -> Array:
-        """The first three numbers, shape (..., 3)."""
-        return self._vector[..., :3]
-
-    @property
-    def linear(self) -> Array:
-        """The last three numbers, shape (..., 3)."""
-        return self._vector[..., 3:]
-
-    @property
-    def frame(self) -> str | None:
-        """The frame the numbers are expressed in, or None where it was not given."""
-        return self._frame
-
-    def screw(self) -> Screw:
-        """Return the screw: see `twistwrench.screw`."""
-        raise NotImplementedError
-
-    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> Array:
-        return np.array(self._vector, dtype=dtype, copy=copy)
-
-    def __add__(self, other: object) -> Self:
-        vector, frame = self._partner(other, "+")
-        return type(self)(self._vector + vector, frame=frame)
-
-    def __radd__(self, other: object) -> Self:
-        return self.__add__(other)
-
-    def __sub__(self, other: object) -> Self:
-        vector, frame = self._partner(other, "-")
-        return type(self)(self._vector - vector, frame=frame)
-
-    def __rsub__(self, other: object) -> Self:
-        return (-self).__add__(other)
-
-    def __neg__(self) -> Self:
-        return type(self)(-self._vector, frame=self._frame)
-
-    def __mul__(self, scalar: ArrayLike) -> Self:
-        if isinstance(scalar, _SpatialVector):
-            return NotImplemented
-        return type(self)(as_array(scalar, "scalar")[..., None] * self._vector, frame=self._frame)
-
-    __rmul__ = __mul__
-
-    def _partner(self, other: object, sign: str) -> tuple[Array, str | None]:
-        """Return the other operand and the common frame of a sum, or say why there is none."""
-        mine, theirs = type(self), type(other)
-        if not isinstance(other, _SpatialVector):
-            raise TypeError(f"{mine.__name__} {sign} {theirs.__name__}: wrap the array first: {mine.__name__}(array)")
-        if mine is not theirs:
-            raise TypeError(
-                f"{mine.__name__} {sign} {theirs.__name__}: they live in dual spaces and do not add; "
-                "did you mean their power, wrench @ twist, or the momentum of a body, inertia.momentum(twist)?"
-            )
-        return other._vector, common_frame(self, other, sign)
-
-    def __repr__(self) -> str:
-        frame = "" if self._frame is None else f", frame={self._frame!r}"
-        return f"{type(self).__name__}({self._vector.tolist()}{frame})"
-
-    def _repr_latex_(self) -> str | None:
-        if self._vector.ndim > 1:
-            return None
-        frame = "" if self._frame is None else rf"{{}}^{{\mathrm{{{self._frame}}}}}".replace("_", r"\_")
-        rows = r" \\ ".join(f"{x:.6g}" for x in self._vector)
-        return rf"${frame}\mathbf{{{self._symbol}}} = \begin{{bmatrix}} {rows} \end{{bmatrix}}$"
-
-
-def common_frame(a: _SpatialVector, b: _SpatialVector, sign: str) -> str | None:
-    """Return the frame of both, or raise FrameError with the expression and both frames."""
-    if a.frame is not None and b.frame is not None and a.frame != b.frame:
-        raise FrameError(
-            f"{a._symbol}[{a.frame}] {sign} {b._symbol}[{b.frame}]: the frames differ; "
-            f"bring one into the other's frame first, with .transform(T)"
-        )
-    return a.frame if a.frame is not None else b.frame
-
-
-class Twist(_SpatialVector):
-    """Velocity of a rigid body, (ω, v): its angular velocity and the velocity of the point at the origin (49.2).
+class Twist(SpatialVector):
+    """Velocity of a rigid body, (ω, v): how fast it turns, and the velocity of its point at the origin (49.2).
 
     Parameters
     ----------
     vector : array_like, shape (..., 6)
         (ω, v), rad/s and m/s.
     frame : str, optional
-        The frame it is expressed in. Where two frames are given, they are checked.
+        The frame that the numbers are expressed in. A sum checks it where both sides have one.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
 
     Examples
     --------
@@ -261,10 +194,31 @@ class Twist(_SpatialVector):
     __slots__ = ()
     _symbol = "V"
 
-    def transform(self, T: Placement, frame: str | None = None) -> Twist:
-        """Return the twist in frame A, X V, where T = T_AB places the present frame B in A (section 49.3)."""
+    def transform(self, T: Placement, *, frame: str | None = None) -> Twist:
+        """Return the twist in another frame, V_A = X V_B (section 49.3).
+
+        Parameters
+        ----------
+        T : SE3
+            T_AB: the present frame B, placed in A.
+        frame : str, optional
+            The name of A.
+
+        Returns
+        -------
+        Twist
+
+        Examples
+        --------
+        >>> from twistwrench.plucker import SE3
+        >>> Twist([0, 0, 1, 0, 0, 0]).transform(SE3(np.eye(3), [1, 0, 0]), frame="world")
+        Twist([0.0, 0.0, 1.0, 0.0, -1.0, 0.0], frame='world')
+        """
         return Twist(np.matvec(T.motion_transform(), self._vector), frame=frame)
 
     def screw(self) -> Screw:
         """Return axis, point, pitch and magnitude: see `twistwrench.screw`."""
-        return screw_of(self.angular, self.linear, "twist")
+        return screw(self)
+
+    def _line_and_free(self) -> tuple[Array, Array]:
+        return self.angular, self.linear

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._spatial_vector import SpatialVector, common_frame
 from .checks import Array, as_arrays
-from .twist import Placement, Screw, Twist, _SpatialVector, common_frame, screw_of
+from .twist import Placement, Screw, Twist, screw
 
 __all__ = ["Wrench", "power"]
 
@@ -42,13 +43,13 @@ def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
     """
     if isinstance(F, Twist) or isinstance(V, Wrench):
         raise TypeError(f"power({type(F).__name__}, {type(V).__name__}): expected a wrench, then a twist")
-    if isinstance(F, _SpatialVector) and isinstance(V, _SpatialVector):
-        common_frame(F, V, "·")
-    f, v = as_arrays(F=(np.asarray(F), (6,)), V=(np.asarray(V), (6,)))
+    if isinstance(F, SpatialVector) and isinstance(V, SpatialVector):
+        common_frame(F, "·", V)
+    f, v = as_arrays(F=(F, (6,)), V=(V, (6,)))
     return np.asarray((f * v).sum(-1))
 
 
-class Wrench(_SpatialVector):
+class Wrench(SpatialVector):
     """Force on a rigid body, (τ, f): its moment about the origin and the force (section 49.4).
 
     Parameters
@@ -56,7 +57,12 @@ class Wrench(_SpatialVector):
     vector : array_like, shape (..., 6)
         (τ, f), N m and N.
     frame : str, optional
-        The frame it is expressed in. Where two frames are given, they are checked.
+        The frame that the numbers are expressed in. A sum or a power checks it where both sides have one.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
 
     Examples
     --------
@@ -67,20 +73,53 @@ class Wrench(_SpatialVector):
     __slots__ = ()
     _symbol = "F"
 
-    def transform(self, T: Placement, frame: str | None = None) -> Wrench:
-        """Return the wrench in frame A, X* F, where T = T_AB places the present frame B in A (section 49.4)."""
+    @property
+    def moment(self) -> Array:
+        """The moment τ about the origin, shape (..., 3), N m: another name for `angular`."""
+        return self.angular
+
+    @property
+    def force(self) -> Array:
+        """The force f, shape (..., 3), N: another name for `linear`."""
+        return self.linear
+
+    def transform(self, T: Placement, *, frame: str | None = None) -> Wrench:
+        """Return the wrench in another frame, F_A = X* F_B (section 49.4).
+
+        Parameters
+        ----------
+        T : SE3
+            T_AB: the present frame B, placed in A.
+        frame : str, optional
+            The name of A.
+
+        Returns
+        -------
+        Wrench
+
+        Examples
+        --------
+        >>> from twistwrench.plucker import SE3
+        >>> Wrench([0, 0, 0, 0, 0, 10]).transform(SE3(np.eye(3), [0.5, 0, 0]), frame="world")
+        Wrench([0.0, -5.0, 0.0, 0.0, 0.0, 10.0], frame='world')
+        """
         return Wrench(np.matvec(T.force_transform(), self._vector), frame=frame)
 
     def screw(self) -> Screw:
         """Return axis, point, pitch and magnitude: see `twistwrench.screw`."""
-        return screw_of(self.linear, self.angular, "wrench")
+        return screw(self)
+
+    def _line_and_free(self) -> tuple[Array, Array]:
+        return self.linear, self.angular
 
     def power(self, twist: Twist | ArrayLike) -> Array:
-        """Return the power spent on a twist, W: see `power`."""
+        """Return the power spent on a twist, W: see `twistwrench.wrench.power`."""
         return power(self, twist)
 
-    def __matmul__(self, twist: Twist | ArrayLike) -> Array:
+    def __matmul__(self, twist: Twist) -> Array:
+        if not isinstance(twist, Twist):
+            raise TypeError(f"Wrench @ {type(twist).__name__}: expected a Twist; .power() also takes an array")
         return power(self, twist)
 
-    def __rmatmul__(self, twist: Twist | ArrayLike) -> Array:
-        return power(self, twist)
+    def __rmatmul__(self, other: object) -> Array:
+        return power(self, other) if isinstance(other, Twist) else super().__rmatmul__(other)

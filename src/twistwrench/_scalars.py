@@ -1,0 +1,72 @@
+"""Functions of one number that the rotations need, each good to the last few bits everywhere.
+
+All are analytic: a complex argument gives the complex value, so that a complex step differentiates
+what is built on them. Only the real part decides which formula is used.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .checks import Array
+
+__all__ = ["atan2", "cosine_defect", "largest", "length", "sinc", "sine_defect", "which"]
+
+
+def length(x: Array) -> Array:
+    """Return the Euclidean length over the last axis: no under- or overflow, no conjugate."""
+    size = np.maximum(largest(x.real, 1), largest(x.imag, 1))
+    exponent = np.frexp(np.maximum(size, np.finfo(x.dtype).tiny))[1] - 1
+    unit = np.ldexp(np.ones((), size.dtype), exponent)  # a power of two: dividing by it is exact
+    scaled = x / unit[..., None]
+    return np.asarray(unit * np.sqrt((scaled * scaled).sum(-1)))
+
+
+def sinc(x: Array) -> Array:
+    """Return sin x / x, and 1 at 0."""
+    safe = np.where(x == 0, 1, x)
+    return np.where(x == 0, 1, np.sin(safe) / safe)
+
+
+def sine_defect(x: Array) -> Array:
+    """Return (x − sin x)/x³, which is 1/6 at 0: its series below 1, where the difference would cancel."""
+    small = np.abs(x.real) < 1
+    near, far = np.where(small, x, 0), np.where(small, 1, x)
+    return np.where(small, _series(near, 4, 5) / 6, (far - np.sin(far)) / far**3)
+
+
+def cosine_defect(x: Array) -> Array:
+    """Return (sin x − x cos x)/x³, which is 1/3 at 0: its series below 1, where the difference would cancel."""
+    small = np.abs(x.real) < 1
+    near, far = np.where(small, x, 0), np.where(small, 1, x)
+    return np.where(small, _series(near, 2, 5) / 3, (np.sin(far) - far * np.cos(far)) / far**3)
+
+
+def _series(x: Array, a: int, b: int) -> Array:
+    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)): 15 terms, enough below 1 for every floating-point type."""
+    total = np.ones_like(x)
+    for k in range(28, -1, -2):
+        total = 1 - x * x / ((a + k) * (b + k)) * total
+    return total
+
+
+def atan2(s: Array, c: Array) -> Array:
+    """Return the angle of the point (c, s).
+
+    NumPy has no complex arctan2. Here the value comes from the real parts, and the imaginary part is the
+    first-order change (c ds − s dc)/(c² + s²), which is all that a complex step asks for.
+    """
+    if s.dtype.kind != "c":
+        return np.asarray(np.arctan2(s, c))
+    change = (c.real * s.imag - s.real * c.imag) / (c.real**2 + s.real**2)
+    return np.asarray(np.arctan2(s.real, c.real) + 1j * change)
+
+
+def largest(x: Array, axes: int) -> Array:
+    """Return the largest magnitude over that many last axes of a real array."""
+    return np.asarray(np.abs(x).max(axis=tuple(range(-axes, 0))))
+
+
+def which(wrong: Array) -> str:
+    """Say which item of a batch is wrong, and nothing where there is only one."""
+    return f" at index {tuple(int(k) for k in np.argwhere(wrong)[0])}" if wrong.ndim else ""

@@ -1,0 +1,130 @@
+"""What the thin types Twist and Wrench have in common, so that each says only where it differs."""
+
+from __future__ import annotations
+
+from typing import ClassVar, NoReturn, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
+
+from .checks import Array, as_array
+from .errors import FrameError
+
+__all__ = ["SpatialVector", "common_frame", "latex_matrix"]
+
+
+class SpatialVector:
+    """What twists and wrenches share: six numbers, a frame, and a sum that checks both."""
+
+    __slots__ = ("_frame", "_vector")
+    # NumPy arrays leave the operators to this class.
+    __array_ufunc__ = None
+    _symbol: ClassVar[str]
+
+    def __init__(self, vector: ArrayLike, *, frame: str | None = None) -> None:
+        if isinstance(vector, SpatialVector):
+            mine, theirs = type(self).__name__, type(vector).__name__
+            raise TypeError(f"{mine}({theirs}): expected six numbers; those of the {theirs} are its .vector")
+        self._vector = as_array(vector, "vector", 6).copy()
+        self._vector.flags.writeable = False
+        self._frame = frame
+
+    @property
+    def vector(self) -> Array:
+        """The six numbers, angular part first, shape (..., 6), read-only."""
+        return self._vector
+
+    @property
+    def angular(self) -> Array:
+        """The first three numbers, ω or τ, shape (..., 3)."""
+        return self._vector[..., :3]
+
+    @property
+    def linear(self) -> Array:
+        """The last three numbers, v or f, shape (..., 3)."""
+        return self._vector[..., 3:]
+
+    @property
+    def frame(self) -> str | None:
+        """The frame that the numbers are expressed in, or None where it was not given."""
+        return self._frame
+
+    def _line_and_free(self) -> tuple[Array, Array]:
+        """Return first the part that acts along a line, then the part that depends on the point."""
+        raise NotImplementedError
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> Array:
+        return np.array(self._vector, dtype=dtype, copy=copy)
+
+    def __add__(self, other: object) -> Self:
+        if not isinstance(other, SpatialVector):
+            self._refuse(self, "+", other)
+        frame = common_frame(self, "+", other)
+        return type(self)(self._vector + other._vector, frame=frame)
+
+    def __sub__(self, other: object) -> Self:
+        if not isinstance(other, SpatialVector):
+            self._refuse(self, "-", other)
+        frame = common_frame(self, "-", other)
+        return type(self)(self._vector - other._vector, frame=frame)
+
+    def __radd__(self, other: object) -> NoReturn:
+        self._refuse(other, "+", self)
+
+    def __rsub__(self, other: object) -> NoReturn:
+        self._refuse(other, "-", self)
+
+    def __neg__(self) -> Self:
+        return type(self)(-self._vector, frame=self._frame)
+
+    def __mul__(self, scalar: ArrayLike) -> Self:
+        if isinstance(scalar, SpatialVector):
+            return NotImplemented
+        return type(self)(as_array(scalar, "scalar")[..., None] * self._vector, frame=self._frame)
+
+    __rmul__ = __mul__
+
+    def __rmatmul__(self, other: object) -> Array:
+        mine = type(self).__name__
+        raise TypeError(f"{type(other).__name__} @ {mine}: use .transform(T), or @ with the .vector of the {mine}")
+
+    def _refuse(self, left: object, sign: str, right: object) -> NoReturn:
+        mine, expression = type(self).__name__, f"{type(left).__name__} {sign} {type(right).__name__}"
+        raise TypeError(f"{expression}: both sides must be of type {mine}; make one of an array with {mine}(array)")
+
+    def __repr__(self) -> str:
+        frame = "" if self._frame is None else f", frame={self._frame!r}"
+        return f"{type(self).__name__}({self._vector.tolist()}{frame})"
+
+    def _repr_latex_(self) -> str | None:
+        if self._vector.ndim > 1:
+            return None
+        name = "" if self._frame is None else self._frame.replace("_", r"\_")
+        frame = rf"{{}}^{{\mathrm{{{name}}}}}" if name else ""
+        return rf"${frame}\mathbf{{{self._symbol}}} = {latex_matrix(self._vector[:, None])}$"
+
+
+def common_frame(a: SpatialVector, sign: str, b: SpatialVector) -> str | None:
+    """Return the frame of both sides of an expression, or say why they do not go together."""
+    if type(a) is not type(b) and sign in "+-":
+        raise TypeError(
+            f"{type(a).__name__} {sign} {type(b).__name__}: twists and wrenches live in dual spaces and do not add; "
+            "did you mean the power, wrench @ twist, or the momentum, inertia.momentum(twist)?"
+        )
+    if None not in (a.frame, b.frame) and a.frame != b.frame:
+        raise FrameError(
+            f"{a._symbol}[{a.frame}] {sign} {b._symbol}[{b.frame}]: the frames differ; "
+            "bring one into the frame of the other first, with .transform(T, frame=...)"
+        )
+    return b.frame if a.frame is None else a.frame
+
+
+def latex_matrix(rows: Array) -> str:
+    """Return a matrix in LaTeX, six digits to a number."""
+    body = r" \\ ".join(" & ".join(_latex_number(x) for x in row) for row in rows)
+    return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
+
+
+def _latex_number(x: complex) -> str:
+    digits, e, power = f"{x:.6g}".partition("e")
+    return rf"{digits} \cdot 10^{{{int(power)}}}" if e and power.lstrip("+-").isdigit() else digits + e + power
