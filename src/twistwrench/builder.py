@@ -194,8 +194,6 @@ class Builder:
 
         Raises
         ------
-        ModelError
-            If a joint and a link of the same name lie at different places.
         NameNotFound, ShapeError, ValueError
             If a foot is no frame, or a posture is no configuration.
         """
@@ -231,7 +229,7 @@ class _Numbered:
     def __init__(self, links: Mapping[str, _Link]) -> None:
         self.moved: list[_Link] = []
         self.parent, self.placement, self.inertia = [-1], [SE3.identity()], [SpatialInertia.zero()]
-        self.frames: dict[str, Frame] = {}
+        found: dict[tuple[str, str], Frame] = {}
         children: dict[str, list[_Link]] = {name: [] for name in ("universe", *links)}
         for link in sorted(links.values(), key=lambda link: link.joint_name, reverse=True):
             children[link.parent].append(link)
@@ -239,10 +237,14 @@ class _Numbered:
         while waiting:  # the last one in is the first one out, hence the reversed order above
             link, carrier, in_carrier = waiting.pop()
             carrier, at = self._place(link, carrier, in_carrier @ link.placement)
+            if link.joint is not None or link.parent != "universe":  # a fixed root link hangs on no joint
+                found["joint", link.joint_name] = Frame(carrier, at)
+            found["link", link.name] = Frame(carrier, at)
             waiting += [(child, carrier, at) for child in children[link.name]]
+        self.frames = _named(found)
 
     def _place(self, link: _Link, carrier: int, at: SE3) -> tuple[int, SE3]:
-        """Number a moved link, or merge a welded one; return the body and where the link is in it."""
+        """Give a moved link its number, or merge a welded one; return the body and where the link is in it."""
         if link.joint is not None:
             self.moved.append(link)
             self.parent.append(carrier)
@@ -251,17 +253,21 @@ class _Numbered:
             carrier, at = len(self.parent) - 1, SE3.identity()
         elif carrier > 0:  # what is welded to the world never moves
             self.inertia[carrier] = self.inertia[carrier] + link.inertia.transform(at)
-        names = [link.name] if link.joint is None and link.parent == "universe" else [link.joint_name, link.name]
-        for name in names:  # a fixed root link hangs on no joint
-            _add_frame(self.frames, name, Frame(carrier, at))
         return carrier, at
 
 
-def _add_frame(frames: dict[str, Frame], name: str, frame: Frame) -> None:
-    """Name a frame; a link and its joint may share a name, since they share the place."""
-    old = frames.setdefault(name, frame)
-    if old.body != frame.body or (old.placement.matrix() != frame.placement.matrix()).any():
-        raise ModelError(f"frame {name!r}: a link and a joint of this name lie at different places")
+def _named(found: Mapping[tuple[str, str], Frame]) -> dict[str, Frame]:
+    """Name the frames of links and joints.
+
+    A link and a joint of one name are one frame where they share the place. Where they do not, neither
+    gets the bare name, so that nobody takes one for the other: ``link:name`` and ``joint:name``.
+    """
+    frames = {}
+    for (kind, name), frame in found.items():
+        other = found.get(("link" if kind == "joint" else "joint", name), frame)
+        same = other.body == frame.body and bool((other.placement.matrix() == frame.placement.matrix()).all())
+        frames[name if same else f"{kind}:{name}"] = frame
+    return frames
 
 
 def _vector(value: ArrayLike, size: int, what: str) -> Array:
