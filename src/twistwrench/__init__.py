@@ -27,5 +27,6 @@ from .mass_matrix import crba
 from .model import Model
 from .plucker import SE3, force_transform, motion_transform
 from .rotation import exp3, log3, skew, unskew
+from .trees import chain, random_tree
 from .twist import Twist, hat, screw, vee
 from .wrench import Wrench, power

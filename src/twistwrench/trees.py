@@ -1,0 +1,210 @@
+"""Trees to try things on: a chain of equal rods, and random trees with joints of every kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .builder import Base, Builder
+from .checks import Array
+from .errors import ModelError, unknown_name
+from .inertia import SpatialInertia
+from .joint import Continuous, FreeFlyer, Joint, Planar, Prismatic, Revolute, Spherical
+from .model import Model
+from .plucker import SE3
+from .rotation import quaternion_to_rotation
+
+__all__ = ["KINDS", "chain", "random_tree"]
+
+KINDS = ("revolute", "prismatic", "continuous", "planar", "spherical", "free_flyer")
+"""The kinds of joint that `random_tree` knows."""
+
+AXIAL: dict[str, Callable[[str | ArrayLike], Joint]] = {
+    "revolute": Revolute,
+    "prismatic": Prismatic,
+    "continuous": Continuous,
+}
+OTHER: dict[str, Callable[[], Joint]] = {"planar": Planar, "spherical": Spherical, "free_flyer": FreeFlyer}
+
+
+def chain(
+    n: int,
+    *,
+    mass: float = 1.0,
+    length: float = 1.0,
+    axis: str | ArrayLike = "y",
+    joint: Literal["revolute", "prismatic", "continuous"] = "revolute",
+    base: Base = "fixed",
+    mass_ratio: float = 1.0,
+) -> Model:
+    """Return a chain of n round rods that hangs straight down in its neutral configuration.
+
+    Parameters
+    ----------
+    n : int
+        Number of rods, at least 1. A floating base carries the first one, so that n − 1 have a joint of their own.
+    mass : float
+        Of the first rod, kg.
+    length : float
+        Of each rod, m; its radius is a twentieth of that.
+    axis : {"x", "y", "z"} or array_like, shape (3,)
+        Of all joints.
+    joint : {"revolute", "prismatic", "continuous"}
+        Kind of all joints.
+    base : {"fixed", "floating"}
+    mass_ratio : float
+        Mass of the last rod over that of the first; between them it grows by a constant factor. A heavy
+        tip is what forward dynamics finds hard.
+
+    Returns
+    -------
+    Model
+        Links and joints ``"rod_01"``, ``"rod_02"``, …, and a frame ``"tip"`` at the end of the last rod.
+
+    Raises
+    ------
+    ModelError
+        If `n` is below 1, a number is not positive, or `joint`, `axis` or `base` is not one of the above.
+
+    Examples
+    --------
+    >>> chain(3)
+    Model 'chain of 3': fixed base, 3 moving bodies, nq = 3, nv = 3, 3 kg
+    >>> chain(3, mass_ratio=4.0).mass
+    7.0
+    """
+    if n < 1:
+        raise ModelError(f"n: expected at least 1 rod, got {n}")
+    for name, value in (("mass", mass), ("length", length), ("mass_ratio", mass_ratio)):
+        if not 0 < value < np.inf:
+            raise ModelError(f"{name}: expected a positive number, got {value}")
+    if joint not in AXIAL:
+        raise ModelError(f"joint: expected one of {list(AXIAL)}, got {joint!r}")
+    names = [f"rod_{k:0{max(2, len(str(n)))}d}" for k in range(1, n + 1)]
+    rods = [_rod(mass * mass_ratio ** (k / max(n - 1, 1)), length) for k in range(n)]
+    floats = base == "floating"
+    builder = Builder(
+        f"chain of {n}", base=base, root=names[0] if floats else "base_link", root_inertia=rods[0] if floats else None
+    )
+    below = SE3(np.eye(3), [0.0, 0.0, -length])
+    for k in range(1 if floats else 0, n):
+        builder.link(
+            names[k],
+            parent=names[k - 1] if k else "base_link",
+            joint=AXIAL[joint](axis),
+            placement=below if k else None,
+            inertia=rods[k],
+        )
+    builder.link("tip", parent=names[-1], placement=below)
+    return builder.build()
+
+
+def _rod(mass: float, length: float) -> SpatialInertia:
+    """Return the inertia of a uniform cylinder that hangs from its frame along −z."""
+    radius = length / 20
+    across = mass * (3 * radius**2 + length**2) / 12
+    return SpatialInertia(mass, [0.0, 0.0, -length / 2], np.diag([across, across, mass * radius**2 / 2]))
+
+
+def random_tree(
+    n: int,
+    *,
+    rng: np.random.Generator | int | None = None,
+    base: Base = "fixed",
+    kinds: Sequence[str] = KINDS,
+    branching: float = 0.5,
+) -> Model:
+    """Return a random tree with n joints, to try an algorithm on whatever can occur.
+
+    The axes are oblique and the placements arbitrary; the inertias are those of a few point masses, so that
+    a body could have them. About half of the joints have rotors. Some links are welded on, with and without
+    mass. The names are shuffled: neither links nor joints come in alphabetical order.
+
+    Parameters
+    ----------
+    n : int
+        Number of joints; with a floating base one of them is its own.
+    rng : numpy Generator or int, optional
+        Where the randomness comes from.
+    base : {"fixed", "floating"}
+    kinds : sequence of str
+        Kinds of joint to draw from, of `KINDS`.
+    branching : float
+        Chance that a link is carried by any of the links before it, and not by the last one:
+        0 makes a chain.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    ModelError
+        If `n` is below 1, `branching` no chance, or `kinds` is empty.
+    NameNotFound
+        If a kind is not known.
+
+    Examples
+    --------
+    >>> model = random_tree(5, rng=1, kinds=["revolute", "prismatic"])
+    >>> model.nv, [joint.kind for joint in model.joints[1:]]
+    (5, ['prismatic', 'prismatic', 'revolute', 'revolute', 'prismatic'])
+    >>> chain = random_tree(5, rng=1, branching=0.0)
+    >>> chain.parent
+    (-1, 0, 1, 2, 3, 4)
+    """
+    rng = np.random.default_rng(rng)
+    if n < 1 or not 0 <= branching <= 1 or not len(kinds):
+        raise ModelError(f"expected n ≥ 1, branching from 0 to 1 and some kinds, got {n}, {branching} and {kinds!r}")
+    for kind in kinds:
+        if kind not in KINDS:
+            raise unknown_name("kind of joint", kind, KINDS)
+    links, joints = ([f"{what}_{k}" for k in rng.permutation(n)] for what in ("link", "joint"))
+    floats = base == "floating"
+    root = links[0] if floats else "base_link"
+    builder = Builder("random tree", base=base, root=root, root_inertia=_random_inertia(rng) if floats else None)
+    added = [root]
+    for k in range(1 if floats else 0, n):
+        if rng.random() < 0.3:  # weld one on; later links may hang on it
+            inertia = _random_inertia(rng) if rng.random() < 0.5 else None
+            builder.link(
+                f"welded_{k}", parent=_carrier(rng, added, branching), placement=_random_placement(rng), inertia=inertia
+            )
+            added.append(f"welded_{k}")
+        joint = _random_joint(rng, kinds[int(rng.integers(len(kinds)))])
+        builder.link(
+            links[k],
+            parent=_carrier(rng, added, branching),
+            joint=joint,
+            joint_name=joints[k],
+            placement=_random_placement(rng),
+            inertia=_random_inertia(rng),
+            armature=rng.random(joint.nv) * 0.2 if rng.random() < 0.5 else 0.0,
+        )
+        added.append(links[k])
+    return builder.build()
+
+
+def _carrier(rng: np.random.Generator, added: list[str], branching: float) -> str:
+    return added[rng.integers(len(added))] if rng.random() < branching else added[-1]
+
+
+def _random_joint(rng: np.random.Generator, kind: str) -> Joint:
+    return AXIAL[kind](rng.standard_normal(3)) if kind in AXIAL else OTHER[kind]()
+
+
+def _random_placement(rng: np.random.Generator) -> SE3:
+    return SE3(quaternion_to_rotation(rng.standard_normal(4)), rng.uniform(-0.5, 0.5, 3))
+
+
+def _random_inertia(rng: np.random.Generator) -> SpatialInertia:
+    """Return the inertia of six random point masses: whatever they are, a body can have it."""
+    masses: Array = rng.uniform(0.1, 0.5, 6)
+    points: Array = rng.uniform(-0.3, 0.3, (6, 3))
+    com = masses @ points / masses.sum()
+    r = points - com
+    squares = (masses[:, None] * r).mT @ r
+    return SpatialInertia(masses.sum(), com, np.eye(3) * squares.trace() - squares)
