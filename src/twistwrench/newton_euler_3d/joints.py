@@ -1,0 +1,134 @@
+"""The joints in 3-D: how far each has moved, and which motions it leaves free (49.1).
+
+The layouts of q and v are the package's. A quaternion or (cos, sin) in q is divided by its length.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..checks import Array
+from ..errors import ModelError
+from .arithmetic import Arithmetic
+
+__all__ = ["joint_columns", "joint_pose"]
+
+
+def joint_pose(number: Arithmetic, joint: Any, q: Array, name: str) -> tuple[Array, Array]:
+    """Return rotation (3, 3) and position (3,) of the moved frame in the joint's frame.
+
+    Parameters
+    ----------
+    number : Arithmetic
+    joint : Joint
+        With `kind`, and `axis` where the kind has one.
+    q : ndarray, shape (nq of the joint,)
+        rad and m.
+    name : str
+        The joint's, for the error.
+
+    Raises
+    ------
+    ModelError
+        If the kind is unknown.
+    ValueError
+        If a quaternion or a (cos, sin) is zero.
+
+    Examples
+    --------
+    A quarter turn about z takes x to y:
+
+    >>> from types import SimpleNamespace
+    >>> joint = SimpleNamespace(kind="continuous", axis=(0, 0, 1))
+    >>> R, p = joint_pose(Arithmetic(np.dtype(float)), joint, np.array([0.0, 1.0]), "elbow")
+    >>> R @ [1.0, 0.0, 0.0]
+    array([0., 1., 0.])
+    """
+    one, none = number.identity(), number.zeros(3)
+    match joint.kind:
+        case "revolute":
+            return _about(number, number.unit(joint.axis), number.cos(q[0]), number.sin(q[0])), none
+        case "continuous":
+            return _about(number, number.unit(joint.axis), *_direction(number, q, name)), none
+        case "prismatic":
+            return one, number.unit(joint.axis) * q[0]
+        case "planar":
+            return _about(number, one[2], *_direction(number, q[2:], name)), one[0] * q[0] + one[1] * q[1]
+        case "spherical":
+            return _quaternion(_direction(number, q, name)), none
+        case "free_flyer":
+            return _quaternion(_direction(number, q[3:], name)), q[:3]
+    raise ModelError(f"joint {name!r}: unknown kind {joint.kind!r}")
+
+
+def joint_columns(number: Arithmetic, joint: Any, name: str) -> tuple[Array, Array]:
+    """Return the angular velocity and the velocity that unit rates give.
+
+    Parameters
+    ----------
+    number, joint, name
+        As `joint_pose`.
+
+    Returns
+    -------
+    turn, slide : ndarray, shape (3, nv of the joint)
+        In the axes of the moved frame, in which they are constant.
+
+    Raises
+    ------
+    ModelError
+        If the kind is unknown.
+
+    Examples
+    --------
+    A planar joint's v is (vx, vy, ωz):
+
+    >>> from types import SimpleNamespace
+    >>> turn, slide = joint_columns(Arithmetic(np.dtype(float)), SimpleNamespace(kind="planar"), "skate")
+    >>> turn @ [1, 2, 3], slide @ [1, 2, 3]
+    (array([0., 0., 3.]), array([1., 2., 0.]))
+    """
+    one, none = number.identity(), number.zeros(3, 3)
+    match joint.kind:
+        case "revolute" | "continuous":
+            return number.unit(joint.axis)[:, None], none[:, :1]
+        case "prismatic":
+            return none[:, :1], number.unit(joint.axis)[:, None]
+        case "planar":  # (vx, vy, ωz)
+            return np.stack([none[0], none[0], one[2]], axis=1), np.stack([one[0], one[1], none[0]], axis=1)
+        case "spherical":  # ω
+            return one, none
+        case "free_flyer":  # (ω, v)
+            return np.hstack([one, none]), np.hstack([none, one])
+    raise ModelError(f"joint {name!r}: unknown kind {joint.kind!r}")
+
+
+def _about(number: Arithmetic, axis: Array, c: Any, s: Any) -> Array:
+    """Turn about a unit axis by the angle of cosine c and sine s: what lies along it stays."""
+    x, y, z = axis
+    along = axis[:, None] * axis
+    across = np.array([[x * 0, -z, y], [z, x * 0, -x], [-y, x, x * 0]])
+    rotation: Array = along + (number.identity() - along) * c + across * s
+    return rotation
+
+
+def _quaternion(xyzw: Array) -> Array:
+    """Turn by a quaternion of length 1."""
+    x, y, z, w = xyzw
+    return np.array(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    )
+
+
+def _direction(number: Arithmetic, q: Array, name: str) -> Array:
+    """Return a quaternion or a (cos, sin) at length 1, of which rounding has left it a little short."""
+    if not (q != 0).any():
+        what = "quaternion" if len(q) == 4 else "(cos, sin)"
+        raise ValueError(f"q: joint {name!r}: the {what} is zero and has no direction")
+    return number.unit(q)
