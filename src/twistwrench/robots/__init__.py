@@ -1,0 +1,98 @@
+"""Robots from files: the URDF loader and the catalogue.
+
+>>> load("go2")
+Model 'go2': floating base, 13 moving bodies, nq = 19, nv = 18, 16.085 kg
+"""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import Literal
+
+from numpy.typing import ArrayLike
+
+from ..errors import ModelError
+from ..model import Model
+from .catalogue import PREFIX, Catalogue, Robot, find, robots
+from .srdf import read_states, with_stance, with_states
+from .urdf import load_urdf
+
+__all__ = ["Catalogue", "Robot", "load", "robots"]
+
+
+def load(
+    source: str | PathLike[str],
+    *,
+    base: Literal["fixed", "floating"] | None = None,
+    gravity: ArrayLike = (0.0, 0.0, -9.81),
+    physical: bool = True,
+    mimic: Literal["independent"] | None = None,
+) -> Model:
+    """Load a robot of the catalogue, or a URDF.
+
+    Masses, centres of mass, inertias, joints and limits are read; meshes are not, and need not exist. Links
+    welded by fixed joints are merged and stay as frames: every link and every joint of the file is one. A link
+    without ``<inertial>`` has no mass. ``<dynamics>`` (friction and damping) is not modelled, and a joint with
+    ``<mimic>`` moves on its own, both as in Pinocchio.
+
+    Parameters
+    ----------
+    source : str or path
+        A name of `twistwrench.robots`, or a path to a ``.urdf``. Where both packages have a robot of one name,
+        the plain name is the one of this package; ``"example-robot-data/go2"`` is the other.
+    base : {"fixed", "floating"}, optional
+        Whether the root link is welded to the world or flies freely (joint 1, ``"root_joint"``). A robot of the
+        catalogue knows; a file is loaded as it stands, with a fixed base.
+    gravity : array_like, shape (3,)
+        In the world, m/s².
+    physical : bool
+        Refuse a moving body, welded links merged, that cannot exist: its inertia about the centre of mass must be
+        positive definite and obey the triangle inequality. False drops these two conditions and no other.
+    mimic : {"independent"}, optional
+        A file with mimic joints is loaded with a warning that names them; "independent" says that you know.
+        (The catalogue notes them in its table and does not warn.)
+
+    Returns
+    -------
+    Model
+        With ``postures`` and ``feet`` for the legged robots of the catalogue.
+
+    Raises
+    ------
+    NameNotFound
+        If the name is not known; the message lists the nearest ones.
+    ModelError
+        If the file is missing or broken: the message names file, line, link or joint, and what was expected.
+    ValueError
+        If `mimic` asks for joints that follow others.
+
+    Examples
+    --------
+    >>> load("pendulum").inertia[1].com
+    array([ 0.,  0., -1.])
+    >>> load("go2", base="fixed").nv
+    12
+    >>> load("go3")
+    Traceback (most recent call last):
+    twistwrench.errors.NameNotFound: unknown robot 'go3'; did you mean 'go2', 'go1', ...
+    """
+    if base not in (None, "fixed", "floating"):
+        raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
+    if mimic not in (None, "independent"):
+        raise ValueError(f"mimic: expected 'independent' (joints that follow others are not modelled), got {mimic!r}")
+    if not isinstance(source, str) or _is_path(source):
+        quiet = mimic == "independent"
+        return load_urdf(Path(source), base=base or "fixed", gravity=gravity, physical=physical, quiet=quiet)
+    robot = find(source)
+    model = load_urdf(robot.path, base=base or robot.base, gravity=gravity, physical=physical, quiet=True)
+    if robot.srdf is not None:
+        model = with_states(model, read_states(robot.srdf))
+    return with_stance(model, robot.stance) if robot.stance is not None else model
+
+
+def _is_path(source: str) -> bool:
+    """Whether a string means a file: it has the look of one. A name of the catalogue has not."""
+    if source.startswith(PREFIX):
+        return False
+    return "/" in source or "\\" in source or source.lower().endswith((".urdf", ".xml", ".xacro", ".srdf", ".sdf"))

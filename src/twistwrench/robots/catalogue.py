@@ -1,0 +1,172 @@
+"""The catalogue: robots by name, without opening their files."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from html import escape
+from pathlib import Path
+from typing import Literal
+
+from ..errors import ModelError, unknown_name
+from .stances import STANCES, Stance
+from .table import EXAMPLE_ROBOT_DATA, MODELS, Row
+
+__all__ = ["Catalogue", "Robot", "find", "robots"]
+
+Source = Literal["models", "example-robot-data"]
+
+PREFIX = "example-robot-data/"
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A row of the catalogue.
+
+    Attributes
+    ----------
+    name : str
+        What `twistwrench.load` takes.
+    dof : int
+        Degrees of freedom (nv) on the base below.
+    base : {"fixed", "floating"}
+        What it is loaded with unless told otherwise.
+    source : {"models", "example-robot-data"}
+        ``models`` comes with this package.
+    licence : str
+        Of the robot's description.
+    note : str
+        What one should know before loading it.
+    file : str
+        Path of the URDF below the source's folder.
+    """
+
+    name: str
+    dof: int
+    base: Literal["fixed", "floating"]
+    source: Source
+    licence: str
+    note: str
+    file: str
+
+    @property
+    def path(self) -> Path:
+        """The URDF. Raises ModelError where example-robot-data is not installed."""
+        folder = models_folder() if self.source == "models" else example_robot_data_folder()
+        if folder is None:
+            raise ModelError(
+                f"robot {self.name!r} comes with example-robot-data, which is not installed: "
+                "pip install example-robot-data (Linux and macOS)"
+            )
+        return folder / self.file
+
+    @property
+    def stance(self) -> Stance | None:
+        """How it stands; None for what has no legs."""
+        name = self.name.removeprefix(PREFIX)
+        return STANCES.get(f"models/{name}" if self.source == "models" else name)
+
+    @property
+    def srdf(self) -> Path | None:
+        """The file of its named postures, where there is one."""
+        if self.source == "models":
+            return None
+        stem = self.stance.srdf if self.stance else self.path.stem
+        path = self.path.parent.parent / "srdf" / f"{stem}.srdf"
+        return path if path.is_file() else None
+
+
+class Catalogue(tuple[Robot, ...]):
+    """The rows of the catalogue; prints as a table."""
+
+    __slots__ = ()
+
+    columns = ("name", "dof", "base", "source", "licence", "note")
+
+    def _cells(self) -> list[list[str]]:
+        return [[str(getattr(robot, column)) for column in self.columns] for robot in self]
+
+    def __repr__(self) -> str:
+        lines = [list(self.columns), *self._cells()]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in lines)
+
+    def _repr_html_(self) -> str:
+        def row(cells: Iterable[str], tag: str) -> str:
+            return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+        return f"<table>{row(self.columns, 'th')}{''.join(row(cells, 'td') for cells in self._cells())}</table>"
+
+
+@cache
+def robots() -> Catalogue:
+    """List the robots that `twistwrench.load` knows by name.
+
+    Those of ``models`` come with this package; the others need ``pip install example-robot-data``.
+
+    Returns
+    -------
+    Catalogue
+        A tuple of `Robot`, which prints as a table: name, degrees of freedom, base, source, licence, note.
+
+    Examples
+    --------
+    >>> catalogue = robots()
+    >>> [robot.name for robot in catalogue if robot.source == "models"]
+    ['cart_pole', 'double_pendulum', 'go2', 'humanoid', 'pendulum', 'planar_arm']
+    >>> len(catalogue)
+    74
+    """
+    own = [_robot(row, "models", "") for row in MODELS]
+    taken = {robot.name for robot in own}
+    others = [_robot(row, "example-robot-data", PREFIX if row[0] in taken else "") for row in EXAMPLE_ROBOT_DATA]
+    return Catalogue([*own, *others])
+
+
+def _robot(row: Row, source: Source, prefix: str) -> Robot:
+    name, file, base, dof, licence, note = row
+    return Robot(prefix + name, dof, base, source, licence, note, file)
+
+
+def find(name: str) -> Robot:
+    """Return the robot of this name; those of example-robot-data answer to their prefixed name as well.
+
+    Raises
+    ------
+    NameNotFound
+        Lists the nearest names.
+
+    Examples
+    --------
+    >>> find("talos")
+    Traceback (most recent call last):
+    twistwrench.errors.NameNotFound: unknown robot 'talos'; did you mean 'talos_left_arm', 'talos_full_v2', ...
+    """
+    if name not in _by_name():
+        raise unknown_name("robot", name, (robot.name for robot in robots()))
+    return _by_name()[name]
+
+
+@cache
+def _by_name() -> dict[str, Robot]:
+    """Every name; each robot of example-robot-data answers to its prefixed name as well."""
+    rows = {PREFIX + r.name.removeprefix(PREFIX): r for r in robots() if r.source == "example-robot-data"}
+    return rows | {robot.name: robot for robot in robots()}
+
+
+def models_folder() -> Path:
+    """Where the URDFs of this package are: inside it when installed, beside ``src`` in a checkout."""
+    package = Path(__file__).resolve().parents[1]
+    inside = package / "models"
+    return inside if inside.is_dir() else package.parents[1] / "models"
+
+
+def example_robot_data_folder() -> Path | None:
+    """Where example-robot-data keeps its robots (pip's place, then conda's), or None without it."""
+    tail = Path("share", "example-robot-data", "robots")
+    for folder in (*(Path(entry, "cmeel.prefix", tail) for entry in sys.path), Path(sys.prefix, tail)):
+        if folder.is_dir():
+            return folder
+    return None

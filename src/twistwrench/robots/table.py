@@ -1,0 +1,136 @@
+"""The catalogue's table: what is known of each robot without opening its file.
+
+The licences of example-robot-data are those that its README of each robot names ("BSD" where it says no
+more). A test holds every row against what is installed.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+__all__ = ["EXAMPLE_ROBOT_DATA", "MODELS"]
+
+Row = tuple[str, str, Literal["fixed", "floating"], int, str, str]
+"""Name, file, base, degrees of freedom on that base, licence, what one should know."""
+
+MODELS: tuple[Row, ...] = (
+    ("cart_pole", "cart_pole.urdf", "fixed", 2, "BSD-3-Clause", ""),
+    ("double_pendulum", "double_pendulum.urdf", "fixed", 2, "BSD-3-Clause", ""),
+    ("go2", "go2.urdf", "floating", 18, "BSD-3-Clause", "Unitree's figures"),
+    ("humanoid", "humanoid.urdf", "floating", 27, "BSD-3-Clause", ""),
+    ("pendulum", "pendulum.urdf", "fixed", 1, "BSD-3-Clause", ""),
+    ("planar_arm", "planar_arm.urdf", "fixed", 3, "BSD-3-Clause", ""),
+)
+
+EXAMPLE_ROBOT_DATA: tuple[Row, ...] = (
+    ("a1", "a1_description/urdf/a1.urdf", "floating", 18, "MPL-2.0", ""),
+    ("alex_nub_hands", "alex_description/urdf/alex_nub_hands.urdf", "fixed", 19, "CC-BY-NC-ND-4.0", ""),
+    (
+        "alex_psyonic_hands",
+        "alex_description/urdf/alex_psyonic_hands.urdf",
+        "fixed",
+        39,
+        "CC-BY-NC-ND-4.0",
+        "8 mimic joints",
+    ),
+    ("alex_sake_hands", "alex_description/urdf/alex_sake_hands.urdf", "fixed", 23, "CC-BY-NC-ND-4.0", ""),
+    (
+        "alexander_lower_body",
+        "alexander_description/urdf/alexander_v1.lowerBodyOnly.urdf",
+        "floating",
+        19,
+        "Apache-2.0",
+        "",
+    ),
+    ("allegro_left_hand", "allegro_hand_description/urdf/allegro_left_hand.urdf", "fixed", 16, "BSD", ""),
+    ("allegro_right_hand", "allegro_hand_description/urdf/allegro_right_hand.urdf", "fixed", 16, "BSD", ""),
+    ("anymal_b", "anymal_b_simple_description/robots/anymal.urdf", "floating", 18, "BSD-3-Clause", ""),
+    ("anymal_b_kinova", "anymal_b_simple_description/robots/anymal-kinova.urdf", "floating", 24, "BSD-3-Clause", ""),
+    ("anymal_c", "anymal_c_simple_description/urdf/anymal.urdf", "floating", 18, "BSD-3-Clause", ""),
+    ("asr_twodof", "asr_twodof_description/urdf/TwoDofs.urdf", "fixed", 2, "BSD", ""),
+    ("b1", "b1_description/urdf/b1.urdf", "floating", 18, "MPL-2.0", ""),
+    ("b1_z1", "b1_description/urdf/b1-z1.urdf", "floating", 25, "MPL-2.0", ""),
+    ("baxter", "baxter_description/urdf/baxter.urdf", "fixed", 19, "BSD", "2 mimic joints"),
+    ("bolt", "bolt_description/robots/bolt.urdf", "floating", 12, "BSD-3-Clause", ""),
+    ("borinot", "borinot_description/urdf/borinot_flying_arm_2.urdf", "floating", 8, "BSD-2-Clause", ""),
+    ("centauro", "centauro_description/urdf/centauro.urdf", "floating", 45, "Apache-2.0", ""),
+    ("double_pendulum", "double_pendulum_description/urdf/double_pendulum.urdf", "fixed", 2, "BSD", ""),
+    (
+        "double_pendulum_continuous",
+        "double_pendulum_description/urdf/double_pendulum_continuous.urdf",
+        "fixed",
+        2,
+        "BSD",
+        "",
+    ),
+    ("double_pendulum_simple", "double_pendulum_description/urdf/double_pendulum_simple.urdf", "fixed", 2, "BSD", ""),
+    ("finger_edu", "finger_edu_description/robots/finger_edu.urdf", "fixed", 3, "BSD-3-Clause", ""),
+    ("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf", "floating", 35, "BSD-3-Clause", ""),
+    ("g1_with_hands", "g1_description/urdf/g1_29dof_with_hand_rev_1_0.urdf", "floating", 49, "BSD-3-Clause", ""),
+    ("go1", "go1_description/urdf/go1.urdf", "floating", 18, "MPL-2.0", ""),
+    ("go2", "go2_description/urdf/go2.urdf", "floating", 18, "MPL-2.0", ""),
+    ("hector", "hector_description/robots/quadrotor_base.urdf", "floating", 6, "BSD", ""),
+    ("hextilt", "hextilt_description/urdf/hextilt_flying_arm_5.urdf", "floating", 11, "BSD-2-Clause", ""),
+    ("human", "human_description/robots/human.urdf", "floating", 42, "BSD-2-Clause", "19 massless bodies"),
+    ("hyq", "hyq_description/robots/hyq_no_sensors.urdf", "floating", 18, "Apache-2.0", ""),
+    ("icub", "icub_description/robots/icub.urdf", "floating", 38, "CC-BY-SA-4.0", "not physical: physical=False"),
+    (
+        "icub_reduced",
+        "icub_description/robots/icub_reduced.urdf",
+        "floating",
+        35,
+        "CC-BY-SA-4.0",
+        "not physical: physical=False",
+    ),
+    ("iris", "iris_description/robots/iris.urdf", "floating", 10, "Apache-2.0", ""),
+    ("iris_simple", "iris_description/robots/iris_simple.urdf", "floating", 6, "Apache-2.0", ""),
+    ("kinova", "kinova_description/robots/kinova.urdf", "fixed", 6, "BSD", ""),
+    ("laikago", "laikago_description/urdf/laikago.urdf", "floating", 18, "MPL-2.0", ""),
+    ("panda", "panda_description/urdf/panda.urdf", "fixed", 9, "Apache-2.0", "1 mimic joint"),
+    ("panda_collision", "panda_description/urdf/panda_collision.urdf", "fixed", 9, "Apache-2.0", "1 mimic joint"),
+    ("pr2", "pr2_description/urdf/pr2.urdf", "fixed", 30, "BSD", "10 mimic joints"),
+    ("quadruped", "quadruped_description/urdf/quadruped.urdf", "floating", 14, "BSD-2-Clause", ""),
+    ("romeo", "romeo_description/urdf/romeo.urdf", "floating", 61, "BSD", "24 massless bodies; 22 mimic joints"),
+    (
+        "romeo_laas_small",
+        "romeo_description/urdf/romeo_laas_small.urdf",
+        "floating",
+        39,
+        "BSD",
+        "not physical: physical=False; 2 massless bodies",
+    ),
+    ("romeo_small", "romeo_description/urdf/romeo_small.urdf", "floating", 37, "BSD", "not physical: physical=False"),
+    ("simple_humanoid", "simple_humanoid_description/urdf/simple_humanoid.urdf", "floating", 35, "BSD-2-Clause", ""),
+    (
+        "simple_humanoid_classical",
+        "simple_humanoid_description/urdf/simple_humanoid_classical.urdf",
+        "floating",
+        35,
+        "BSD-2-Clause",
+        "",
+    ),
+    ("so100", "so_arm_description/urdf/so100.urdf", "fixed", 6, "Apache-2.0", ""),
+    ("so101", "so_arm_description/urdf/so101.urdf", "fixed", 6, "Apache-2.0", ""),
+    ("solo8", "solo_description/robots/solo.urdf", "floating", 14, "BSD-3-Clause", ""),
+    ("solo12", "solo_description/robots/solo12.urdf", "floating", 18, "BSD-3-Clause", ""),
+    ("talos_full_v2", "talos_data/robots/talos_full_v2.urdf", "floating", 50, "Apache-2.0", "12 mimic joints"),
+    ("talos_full_v2_box", "talos_data/robots/talos_full_v2_box.urdf", "floating", 50, "Apache-2.0", "12 mimic joints"),
+    ("talos_left_arm", "talos_data/robots/talos_left_arm.urdf", "fixed", 7, "Apache-2.0", ""),
+    ("talos_reduced", "talos_data/robots/talos_reduced.urdf", "floating", 38, "Apache-2.0", ""),
+    ("talos_reduced_box", "talos_data/robots/talos_reduced_box.urdf", "floating", 38, "Apache-2.0", ""),
+    ("talos_reduced_corrected", "talos_data/robots/talos_reduced_corrected.urdf", "floating", 38, "Apache-2.0", ""),
+    ("tiago", "tiago_description/robots/tiago.urdf", "fixed", 48, "Apache-2.0", ""),
+    ("tiago_dual", "tiago_description/robots/tiago_dual.urdf", "fixed", 101, "Apache-2.0", ""),
+    ("tiago_no_hand", "tiago_description/robots/tiago_no_hand.urdf", "fixed", 12, "Apache-2.0", ""),
+    ("tiago_pro", "tiago_pro_description/robots/tiago_pro.urdf", "fixed", 33, "Apache-2.0", "10 mimic joints"),
+    ("ur10", "ur_description/urdf/ur10_robot.urdf", "fixed", 6, "BSD", ""),
+    ("ur10_limited", "ur_description/urdf/ur10_joint_limited_robot.urdf", "fixed", 6, "BSD", ""),
+    ("ur3", "ur_description/urdf/ur3_robot.urdf", "fixed", 6, "BSD", ""),
+    ("ur3_gripper", "ur_description/urdf/ur3_gripper.urdf", "fixed", 6, "BSD", ""),
+    ("ur3_limited", "ur_description/urdf/ur3_joint_limited_robot.urdf", "fixed", 6, "BSD", ""),
+    ("ur5", "ur_description/urdf/ur5_robot.urdf", "fixed", 6, "BSD", ""),
+    ("ur5_gripper", "ur_description/urdf/ur5_gripper.urdf", "fixed", 6, "BSD", ""),
+    ("ur5_limited", "ur_description/urdf/ur5_joint_limited_robot.urdf", "fixed", 6, "BSD", ""),
+    ("xarm7", "xarm_description/urdf/xarm7.urdf", "fixed", 7, "BSD-3-Clause", ""),
+    ("z1", "z1_description/urdf/z1.urdf", "fixed", 7, "MPL-2.0", ""),
+)
