@@ -175,7 +175,7 @@ class Builder:
             )
         rotor = _vector(armature, nv, f"joint {joint_name!r}: armature")
         if (rotor < 0).any() or (joint is None and np.any(armature)):
-            raise ModelError(f"joint {joint_name!r}: armature {armature} is below zero, or on a weld")
+            raise ModelError(f"joint {joint_name!r}: armature {armature!r} is below zero, or on a weld")
         self._links[name] = _Link(name, parent, joint, joint_name, placement, inertia, **vectors, armature=rotor)
 
     def build(self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = ()) -> Model:

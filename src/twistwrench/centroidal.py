@@ -58,7 +58,8 @@ def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
     moment = np.zeros((*q.shape[:-1], 3), q.dtype)
     for T, inertia in zip(placement, model.inertia):
         moment = moment + inertia.mass.astype(q.dtype) * T.act(inertia.com.astype(q.dtype))
-    return moment / np.sum([inertia.mass.astype(q.dtype) for inertia in model.inertia])
+    p_G: Array = moment / np.sum([inertia.mass.astype(q.dtype) for inertia in model.inertia])
+    return p_G
 
 
 def centroidal_map(model: Model, q: ArrayLike) -> Array:
@@ -132,7 +133,8 @@ def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     to_G, I = _to_center_of_mass(model, q), model.constants(q.dtype).I
     V, _ = _motion(model, q, v, np.zeros_like(v))
     momenta = [np.matvec(to_G[i] @ I[i], V[i]) for i in range(model.nbodies)]
-    return np.sum(momenta, axis=0)
+    h_G: Array = np.sum(momenta, axis=0)
+    return h_G
 
 
 def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
@@ -174,7 +176,8 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
         np.matvec(to_G[i], np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]) @ I[i], V[i]))
         for i in range(model.nbodies)
     ]
-    return np.sum(rates, axis=0)
+    rate: Array = np.sum(rates, axis=0)
+    return rate
 
 
 def _to_center_of_mass(model: Model, q: Array) -> list[Array]:

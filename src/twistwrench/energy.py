@@ -42,7 +42,7 @@ def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     q, v = model.state(q, v=v)
     constants = model.constants(q.dtype)
     V, _ = _motion(model, q, v, np.zeros_like(v))
-    twice = (constants.armature * v * v).sum(axis=-1)
+    twice: Array = (constants.armature * v * v).sum(axis=-1)
     for I, Vi in zip(constants.I, V):
         twice = twice + (Vi * np.matvec(I, Vi)).sum(axis=-1)
     return twice / 2

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array
 from .centroidal import centroidal_map
+from .checks import Array
 from .errors import SingularError, unknown_name
 from .inverse_dynamics import gravity, nonlinear_effects
 from .kinematics import frame_jacobian
@@ -148,11 +148,11 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | Non
         raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(contacts)}")
     g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
     b = _unactuated(model)
-    forces = np.linalg.lstsq(J_c[:, :b].T, g[:b])[0]
-    left = g[:b] - J_c[:, :b].T @ forces
+    forces = np.linalg.lstsq(J_c[:, :b].mT, g[:b])[0]
+    left = g[:b] - J_c[:, :b].mT @ forces
     if np.abs(left).max() > 1e-8 * np.abs(g[:b]).max():
         raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
-    return Equilibrium(tau=(g - J_c.T @ forces)[b:], forces=forces.reshape(-1, 3))
+    return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3))
 
 
 @dataclass(frozen=True)

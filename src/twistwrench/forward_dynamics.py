@@ -128,4 +128,5 @@ def invert(D: Array, felt: Array, name: str) -> Array:
 
 
 def _diagonal(x: Array) -> Array:
-    return x[..., None] * np.eye(x.shape[-1], dtype=x.dtype)
+    diagonal: Array = x[..., None] * np.eye(x.shape[-1], dtype=x.dtype)
+    return diagonal

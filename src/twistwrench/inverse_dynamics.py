@@ -64,9 +64,7 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     return _rnea(model, q, v, a, f_ext)[0]
 
 
-def _rnea(
-    model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None
-) -> tuple[Array, list[Array]]:
+def _rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None) -> tuple[Array, list[Array]]:
     """Return the joint forces, and the wrench that each joint passes on to its body."""
     q, v, a, f_ext = model.state(q, v=v, a=a, f_ext=external(model, f_ext))
     tree, n = walk(model, q), model.nbodies

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
@@ -110,7 +110,8 @@ class _GroupJoint(Joint):
     def difference(self, q0: Array, q1: Array) -> Array:
         """Return the dv that leads from q0 to q1: Sᵀ log(T(q0)⁻¹ T(q1)), a turn of at most π."""
         S = self.subspace(q1.dtype)
-        return np.matvec(S.mT, log6(self.transform(q0).inverse() @ self.transform(q1)))
+        dv: Array = np.matvec(S.mT, log6(self.transform(q0).inverse() @ self.transform(q1)))
+        return dv
 
 
 @dataclass(frozen=True)
@@ -327,7 +328,8 @@ class FreeFlyer(_GroupJoint):
 
 def _unit(x: Array) -> Array:
     """Divide by the norm over the last axis, differentiably in complex numbers."""
-    return x / np.sqrt((x * x).sum(axis=-1, keepdims=True))
+    unit: Array = x / np.sqrt((x * x).sum(axis=-1, keepdims=True))
+    return unit
 
 
 def _turn(axis: Array, cos: Array, sin: Array) -> SE3:

@@ -237,7 +237,8 @@ def frame_bias_acceleration(
     V, A = np.matvec(X, V), np.matvec(X, A)
     if reference == "local_world_aligned":
         A = A + np.concatenate([np.zeros_like(A[..., :3]), np.cross(V[..., :3], V[..., 3:])], axis=-1)
-    return np.matvec(_to_reference(reference, _frame_placement(model, q, at.body, T)), A)
+    bias: Array = np.matvec(_to_reference(reference, _frame_placement(model, q, at.body, T)), A)
+    return bias
 
 
 def _to_reference(reference: str, T: SE3) -> Array:
