@@ -1,0 +1,472 @@
+"""Arrays between (ω, v) and Pinocchio's (v, ω): pure reordering, without Pinocchio and without rounding.
+
+Every function takes any leading batch axes, keeps the number type and returns a new array. The swap
+of two halves is its own inverse; both directions have a name so that a line of code says which way it goes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array, as_array
+from ..errors import ShapeError
+from ..joint import FreeFlyer, Joint
+from ..model import Model
+
+__all__ = [
+    "from_pinocchio_contact_jacobian",
+    "from_pinocchio_force",
+    "from_pinocchio_jacobian",
+    "from_pinocchio_matrix",
+    "from_pinocchio_motion",
+    "from_pinocchio_tangent",
+    "from_pinocchio_transform",
+    "to_pinocchio_contact_jacobian",
+    "to_pinocchio_force",
+    "to_pinocchio_jacobian",
+    "to_pinocchio_matrix",
+    "to_pinocchio_motion",
+    "to_pinocchio_tangent",
+    "to_pinocchio_transform",
+]
+
+HALVES = np.array([3, 4, 5, 0, 1, 2])
+"""Where each of six entries comes from when the halves change places."""
+
+
+def tangent_order(joints: Sequence[Joint | None]) -> Array:
+    """Return where each of the nv entries comes from: swapped in every free-flyer, also inside the tree."""
+    order = np.zeros(0, int)
+    for joint in joints:
+        if joint is not None:
+            order = np.append(order, order.size + (HALVES if isinstance(joint, FreeFlyer) else np.arange(joint.nv)))
+    return order
+
+
+# -------------------------------------------------------------------- twists and wrenches
+
+
+def to_pinocchio_motion(V: ArrayLike) -> Array:
+    """Turn a twist or spatial acceleration (ω, v) into Pinocchio's (v, ω).
+
+    Parameters
+    ----------
+    V : Twist or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s (or per s²), in any frame.
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        (v, ω), in the same frame.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+
+    Examples
+    --------
+    >>> to_pinocchio_motion([1, 2, 3, 4, 5, 6])
+    array([4., 5., 6., 1., 2., 3.])
+    """
+    return as_array(V, "V", 6)[..., HALVES]
+
+
+def from_pinocchio_motion(V: Any) -> Array:
+    """Turn Pinocchio's twist or spatial acceleration (v, ω) into (ω, v).
+
+    Parameters
+    ----------
+    V : pin.Motion, sequence of them (``data.v``), or array_like of shape (..., 6)
+        (v, ω), m/s and rad/s (or per s²), in any frame.
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        (ω, v), in the same frame; (n, 6) from a sequence of n.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    TypeError
+        If a ``pin.Force`` came.
+
+    Examples
+    --------
+    >>> from_pinocchio_motion([4, 5, 6, 1, 2, 3])
+    array([1., 2., 3., 4., 5., 6.])
+    """
+    return as_array(_vectors(V, "V", "Motion"), "V", 6)[..., HALVES]
+
+
+def to_pinocchio_force(F: ArrayLike) -> Array:
+    """Turn a wrench or momentum (τ, f) into Pinocchio's (f, τ).
+
+    Parameters
+    ----------
+    F : Wrench or array_like of shape (..., 6)
+        (τ, f), N m and N (or with a further s for a momentum), in any frame.
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        (f, τ), in the same frame.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+
+    Examples
+    --------
+    >>> to_pinocchio_force([1, 2, 3, 4, 5, 6])
+    array([4., 5., 6., 1., 2., 3.])
+    """
+    return as_array(F, "F", 6)[..., HALVES]
+
+
+def from_pinocchio_force(F: Any) -> Array:
+    """Turn Pinocchio's wrench or momentum (f, τ) into (τ, f).
+
+    Parameters
+    ----------
+    F : pin.Force, sequence of them (``data.f``), or array_like of shape (..., 6)
+        (f, τ), N and N m (or with a further s for a momentum, ``data.hg``), in any frame.
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        (τ, f), in the same frame; (n, 6) from a sequence of n.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    TypeError
+        If a ``pin.Motion`` came.
+
+    Examples
+    --------
+    >>> from_pinocchio_force([0, 0, 9.81, 0.5, 0, 0])
+    array([0.5 , 0.  , 0.  , 0.  , 0.  , 9.81])
+    """
+    return as_array(_vectors(F, "F", "Force"), "F", 6)[..., HALVES]
+
+
+def _vectors(value: Any, name: str, kind: str) -> Any:
+    """Take the six numbers out of Pinocchio's own type, or out of each of a sequence."""
+    if hasattr(value, "vector"):
+        if type(value).__name__ != kind:
+            raise TypeError(f"{name}: expected a pin.{kind} or an array, got a pin.{type(value).__name__}")
+        return np.array(value.vector)
+    if not isinstance(value, np.ndarray) and hasattr(value, "__len__") and len(value) and hasattr(value[0], "vector"):
+        return np.stack([_vectors(one, name, kind) for one in value])
+    return value
+
+
+# -------------------------------------------------------------------- vectors and matrices over the joints
+
+
+def to_pinocchio_tangent(model: Model, v: ArrayLike) -> Array:
+    """Turn v, a, τ, h or g into Pinocchio's: the six of every free-flyer are swapped, all else stays.
+
+    Parameters
+    ----------
+    model : Model
+    v : array_like, shape (..., nv)
+        Free-flyers as (ω, v), or (τ, f).
+
+    Returns
+    -------
+    ndarray, shape (..., nv)
+        Free-flyers as (v, ω), or (f, τ).
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not nv long.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> to_pinocchio_tangent(model, np.arange(18))[:8]
+    array([3., 4., 5., 0., 1., 2., 6., 7.])
+    """
+    return as_array(v, "v", model.nv)[..., tangent_order(model.joints)]
+
+
+def from_pinocchio_tangent(model: Model, v: ArrayLike) -> Array:
+    """Turn Pinocchio's v, a, τ, h or g into ours: the inverse of `to_pinocchio_tangent`.
+
+    Parameters
+    ----------
+    model : Model
+    v : array_like, shape (..., nv)
+        Free-flyers as (v, ω), or (f, τ).
+
+    Returns
+    -------
+    ndarray, shape (..., nv)
+        Free-flyers as (ω, v), or (τ, f).
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not nv long.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> from_pinocchio_tangent(model, [1, 2, 3, 4, 5, 6, *range(7, 19)])[:8]
+    array([4., 5., 6., 1., 2., 3., 7., 8.])
+    """
+    return as_array(v, "v", model.nv)[..., tangent_order(model.joints)]
+
+
+def to_pinocchio_jacobian(model: Model, J: ArrayLike) -> Array:
+    """Turn a frame Jacobian, or the centroidal map A_G, into Pinocchio's: rows and columns.
+
+    Parameters
+    ----------
+    model : Model
+    J : array_like, shape (..., 6, nv)
+        Rows (angular, linear).
+
+    Returns
+    -------
+    ndarray, shape (..., 6, nv)
+        Rows (linear, angular), columns as `to_pinocchio_tangent`.
+
+    Raises
+    ------
+    ShapeError
+        If the last axes are not (6, nv).
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> arm = tw.load("planar_arm")
+    >>> J = tw.frame_jacobian(arm, arm.neutral(), "tool")
+    >>> bool((to_pinocchio_jacobian(arm, J)[:3] == J[3:]).all())  # the linear rows come first
+    True
+    """
+    return as_array(J, "J", 6, model.nv)[..., HALVES, :][..., tangent_order(model.joints)]
+
+
+def from_pinocchio_jacobian(model: Model, J: ArrayLike) -> Array:
+    """Turn Pinocchio's frame Jacobian, or ``data.Ag``, into ours: the inverse of `to_pinocchio_jacobian`.
+
+    Parameters
+    ----------
+    model : Model
+    J : array_like, shape (..., 6, nv)
+        Rows (linear, angular).
+
+    Returns
+    -------
+    ndarray, shape (..., 6, nv)
+        Rows (angular, linear), columns as `from_pinocchio_tangent`.
+
+    Raises
+    ------
+    ShapeError
+        If the last axes are not (6, nv).
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> arm = tw.load("planar_arm")
+    >>> from_pinocchio_jacobian(arm, np.arange(18).reshape(6, 3))[:, 0]
+    array([ 9., 12., 15.,  0.,  3.,  6.])
+    """
+    return as_array(J, "J", 6, model.nv)[..., HALVES, :][..., tangent_order(model.joints)]
+
+
+def to_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
+    """Turn a matrix whose columns alone belong to v into Pinocchio's: J_c of point contacts, S.
+
+    Its rows are no spatial vectors (three linear rows to a contact, one to an actuated joint) and stay.
+
+    Parameters
+    ----------
+    model : Model
+    J_c : array_like, shape (..., k, nv)
+
+    Returns
+    -------
+    ndarray, shape (..., k, nv)
+        Columns as `to_pinocchio_tangent`.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not nv long, or there is but one axis.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> J_c = tw.contact_jacobian(model, model.standing(), model.feet)
+    >>> to_pinocchio_contact_jacobian(model, J_c)[0, :3].round(12) + 0.0  # how the base's v moves a foot along x
+    array([1., 0., 0.])
+    """
+    return _with_rows(J_c, model.nv)[..., tangent_order(model.joints)]
+
+
+def from_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
+    """Turn Pinocchio's J_c into ours: the inverse of `to_pinocchio_contact_jacobian`.
+
+    Parameters
+    ----------
+    model : Model
+    J_c : array_like, shape (..., k, nv)
+
+    Returns
+    -------
+    ndarray, shape (..., k, nv)
+        Columns as `from_pinocchio_tangent`.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not nv long, or there is but one axis.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> from_pinocchio_contact_jacobian(model, np.arange(18)[None])[0, :8]
+    array([3., 4., 5., 0., 1., 2., 6., 7.])
+    """
+    return _with_rows(J_c, model.nv)[..., tangent_order(model.joints)]
+
+
+def _with_rows(J_c: ArrayLike, nv: int) -> Array:
+    """Check a matrix (..., k, nv) of any number of rows."""
+    J_c = as_array(J_c, "J_c", nv)
+    if J_c.ndim < 2:
+        raise ShapeError(f"J_c: expected shape (..., k, {nv}), got {J_c.shape}")
+    return J_c
+
+
+def to_pinocchio_matrix(model: Model, M: ArrayLike) -> Array:
+    """Turn M, C or M⁻¹ into Pinocchio's: rows and columns as in `to_pinocchio_tangent`.
+
+    Parameters
+    ----------
+    model : Model
+    M : array_like, shape (..., nv, nv)
+
+    Returns
+    -------
+    ndarray, shape (..., nv, nv)
+
+    Raises
+    ------
+    ShapeError
+        If the last axes are not (nv, nv).
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> M = tw.crba(model, model.standing())
+    >>> to_pinocchio_matrix(model, M)[0, 0].round(3)  # the mass, where ours has the inertia about x
+    np.float64(16.085)
+    """
+    order = tangent_order(model.joints)
+    return as_array(M, "M", model.nv, model.nv)[..., order, :][..., order]
+
+
+def from_pinocchio_matrix(model: Model, M: ArrayLike) -> Array:
+    """Turn Pinocchio's M, C or M⁻¹ into ours: the inverse of `to_pinocchio_matrix`.
+
+    Parameters
+    ----------
+    model : Model
+    M : array_like, shape (..., nv, nv)
+
+    Returns
+    -------
+    ndarray, shape (..., nv, nv)
+
+    Raises
+    ------
+    ShapeError
+        If the last axes are not (nv, nv).
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> from_pinocchio_matrix(model, np.diag(np.arange(18))).diagonal()[:8]
+    array([3., 4., 5., 0., 1., 2., 6., 7.])
+    """
+    order = tangent_order(model.joints)
+    return as_array(M, "M", model.nv, model.nv)[..., order, :][..., order]
+
+
+# -------------------------------------------------------------------- 6 × 6 matrices
+
+
+def to_pinocchio_transform(X: ArrayLike) -> Array:
+    """Turn a 6 × 6 matrix over (ω, v) or (τ, f) into Pinocchio's: X, X*, V×, V×* or a spatial inertia.
+
+    All four blocks change places: the one that stood bottom left stands top right.
+
+    Parameters
+    ----------
+    X : array_like, shape (..., 6, 6)
+
+    Returns
+    -------
+    ndarray, shape (..., 6, 6)
+
+    Raises
+    ------
+    ShapeError
+        If the last axes are not (6, 6).
+
+    Examples
+    --------
+    >>> from twistwrench import motion_transform
+    >>> X = motion_transform(np.eye(3), [1, 0, 0])
+    >>> to_pinocchio_transform(X)[:3, 3:]
+    array([[ 0.,  0.,  0.],
+           [ 0.,  0., -1.],
+           [ 0.,  1.,  0.]])
+    """
+    return as_array(X, "X", 6, 6)[..., HALVES, :][..., HALVES]
+
+
+def from_pinocchio_transform(X: ArrayLike) -> Array:
+    """Turn Pinocchio's 6 × 6 matrix over (v, ω) or (f, τ) into ours: the inverse of `to_pinocchio_transform`.
+
+    ``T.action``, ``T.actionInverse``, ``T.dualAction``, ``V.action``, ``V.dualAction``, ``inertia.matrix()``.
+
+    Parameters
+    ----------
+    X : array_like, shape (..., 6, 6)
+
+    Returns
+    -------
+    ndarray, shape (..., 6, 6)
+
+    Raises
+    ------
+    ShapeError
+        If the last axes are not (6, 6).
+
+    Examples
+    --------
+    >>> from_pinocchio_transform(np.diag([2, 2, 2, 0.1, 0.2, 0.3])).diagonal()  # a body of 2 kg
+    array([0.1, 0.2, 0.3, 2. , 2. , 2. ])
+    """
+    return as_array(X, "X", 6, 6)[..., HALVES, :][..., HALVES]

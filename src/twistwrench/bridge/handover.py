@@ -1,0 +1,230 @@
+"""A model handed over to Pinocchio and back (section 49.11).
+
+Bodies, joint ids and q are the same on both sides, entry for entry; limits and armature over v are
+reordered like v.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..checks import Array
+from ..errors import ModelError
+from ..inertia import SpatialInertia
+from ..joint import Continuous, FreeFlyer, Joint, Planar, Prismatic, Revolute, Spherical
+from ..model import Frame, Model
+from ..plucker import SE3
+from .arrays import tangent_order
+from .objects import (
+    from_pinocchio_inertia,
+    from_pinocchio_se3,
+    import_pinocchio,
+    to_pinocchio_inertia,
+    to_pinocchio_se3,
+)
+
+__all__ = ["from_pinocchio_model", "to_pinocchio_model"]
+
+WITHOUT_AXIS: dict[str, Callable[[], Joint]] = {"Planar": Planar, "Spherical": Spherical, "FreeFlyer": FreeFlyer}
+"""What follows ``JointModel`` in Pinocchio's name, and the joint here."""
+
+WITH_AXIS: dict[str, type[Revolute] | type[Prismatic] | type[Continuous]] = {
+    "R": Revolute,
+    "P": Prismatic,
+    "RUB": Continuous,
+    "RevoluteUnaligned": Revolute,
+    "PrismaticUnaligned": Prismatic,
+    "RevoluteUnboundedUnaligned": Continuous,
+}
+"""The same for the joints with an axis; the short names are followed by X, Y or Z."""
+
+AXES = {(1.0, 0.0, 0.0): "X", (0.0, 1.0, 0.0): "Y", (0.0, 0.0, 1.0): "Z"}
+
+ONE_CONTINUOUS_JOINT = """<robot name="one"><link name="from"/><link name="to"/>
+<joint name="turn" type="continuous"><parent link="from"/><child link="to"/><axis xyz="{} {} {}"/></joint></robot>"""
+
+
+def to_pinocchio_model(model: Model) -> Any:
+    """Return a model as ``pin.Model``.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    pin.Model
+        Joints with the same ids and the same q; placements, inertias, armature, gravity, limits, named
+        configurations. Every frame once: a joint's name as a JOINT frame, all others as OP_FRAME, since
+        a `Model` does not keep which of them were links. What Pinocchio has no place for, `Model.feet`,
+        stays behind.
+
+    Raises
+    ------
+    ImportError
+        If Pinocchio is missing.
+
+    Notes
+    -----
+    Equal to the last bit, but for the axis of a continuous joint that is none of x, y, z: Pinocchio's
+    Python offers such a joint only by way of a URDF, and normalises the axis again.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> there = to_pinocchio_model(model)
+    >>> (there.nq, there.nv, there.njoints) == (model.nq, model.nv, model.nbodies)
+    True
+    """
+    pin, order = import_pinocchio(), tangent_order(model.joints)
+    effort, velocity = model.effort_limit[order], model.velocity_limit[order]
+    there = pin.Model()
+    there.name = model.name
+    for i, joint in enumerate(model.joints):
+        if joint is None:
+            continue
+        qs, vs = model.q_slice[i], model.v_slice[i]
+        limits = effort[vs], velocity[vs], model.lower[qs], model.upper[qs]
+        placement = to_pinocchio_se3(model.placement[i])
+        there.addJoint(model.parent[i], _joint_there(pin, joint), placement, model.joint_names[i], *limits)
+        there.inertias[i] = to_pinocchio_inertia(model.inertia[i])
+    there.armature = model.armature[order]
+    there.gravity = pin.Motion(model.gravity.copy(), np.zeros(3))
+    _frames_there(pin, model, there)
+    for name, q in model.postures.items():
+        there.referenceConfigurations[name] = q
+    return there
+
+
+def _joint_there(pin: Any, joint: Joint) -> Any:
+    """Return the joint as one of Pinocchio's joint models, the aligned one where there is one."""
+    if not isinstance(joint, Revolute | Prismatic | Continuous):
+        return getattr(pin, "JointModel" + type(joint).__name__)()
+    aligned, unaligned = [name for name, kind in WITH_AXIS.items() if kind is type(joint)]
+    if joint.axis in AXES:
+        return getattr(pin, "JointModel" + aligned + AXES[joint.axis])()
+    if isinstance(joint, Continuous):  # its constructor takes no axis
+        return pin.buildModelFromXML(ONE_CONTINUOUS_JOINT.format(*joint.axis)).joints[1]
+    return getattr(pin, "JointModel" + unaligned)(np.array(joint.axis))
+
+
+def _frames_there(pin: Any, model: Model, there: Any) -> None:
+    """Add a frame per name; those that a body carries hang on its joint's frame."""
+    for i in range(1, model.nbodies):
+        parent = there.getFrameId(model.joint_names[model.parent[i]], pin.FrameType.JOINT) if model.parent[i] else 0
+        there.addJointFrame(i, parent)
+    for name, frame in model.frames.items():
+        if name in model.joint_names and model.joint_id(name) == frame.body:
+            continue
+        carrier = there.getFrameId(model.joint_names[frame.body], pin.FrameType.JOINT) if frame.body else 0
+        placement = to_pinocchio_se3(frame.placement)
+        there.addFrame(pin.Frame(name, frame.body, carrier, placement, pin.FrameType.OP_FRAME))
+
+
+def from_pinocchio_model(there: Any) -> Model:
+    """Return a ``pin.Model`` as `Model`.
+
+    Parameters
+    ----------
+    there : pin.Model
+
+    Returns
+    -------
+    Model
+        Bodies with the same ids and the same q; placements, inertias, armature, gravity, frames and named
+        configurations. Limits of velocity and effort are Pinocchio's upper ones; its largest double is
+        infinity. What is welded to the world, friction, damping and rotors given apart from the armature
+        take no part in the chapter's dynamics and are left out.
+
+    Raises
+    ------
+    ModelError
+        If a joint has no counterpart here (mimic, composite, helical, …; all are listed by name and type),
+        gravity turns, a body's inertia or placement cannot be, or two frames of one name lie apart.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> from_pinocchio_model(to_pinocchio_model(tw.load("go2")))
+    Model 'go2': floating base, 13 moving bodies, nq = 19, nv = 18, 16.085 kg
+    """
+    joints = _joints_here(there)
+    moving, names, order = range(1, len(joints)), tuple(there.names), tangent_order(joints)
+    if there.gravity.angular.any():
+        raise ModelError(f"gravity: expected an acceleration without rotation, got {there.gravity.vector} (v, ω)")
+    placement = [_of_joint(from_pinocchio_se3, there.jointPlacements[i], names[i], "placement") for i in moving]
+    inertia = [_of_joint(from_pinocchio_inertia, there.inertias[i], names[i], "inertia of its body") for i in moving]
+    return Model(
+        name=there.name,
+        base="floating" if len(joints) > 1 and isinstance(joints[1], FreeFlyer) else "fixed",
+        joint_names=names,
+        joints=joints,
+        parent=(-1, *(int(there.parents[i]) for i in moving)),
+        placement=(SE3.identity(), *placement),
+        inertia=(SpatialInertia.zero(), *inertia),
+        frames=_frames_here(there),
+        gravity=_frozen(there.gravity.linear),
+        armature=_frozen(there.armature[order]),
+        lower=_limits(there.lowerPositionLimit),
+        upper=_limits(there.upperPositionLimit),
+        velocity_limit=_limits(there.velocityLimit[order]),
+        effort_limit=_limits(there.effortLimit[order]),
+        postures={entry.key(): entry.data().copy() for entry in there.referenceConfigurations},
+    )
+
+
+def _joints_here(there: Any) -> tuple[Joint | None, ...]:
+    """Return the joints; the axis is read off the motion subspace, which every joint has."""
+    neutral = import_pinocchio().neutral(there)
+    joints: list[Joint | None] = [None]
+    unknown = []
+    for name, model in zip(list(there.names)[1:], list(there.joints)[1:], strict=True):
+        kind = model.shortname().removeprefix("JointModel")
+        if kind in WITHOUT_AXIS:
+            joints.append(WITHOUT_AXIS[kind]())
+        elif kind.rstrip("XYZ") in WITH_AXIS:
+            data = model.createData()
+            model.calc(data, neutral)
+            v, w = np.split(np.ravel(data.S), 2)  # Pinocchio's order
+            make = WITH_AXIS[kind.rstrip("XYZ")]
+            joints.append(make(v if make is Prismatic else w))
+        else:
+            unknown.append(f"{name!r} ({kind})")
+    if unknown:
+        known = ", ".join([*WITHOUT_AXIS, *WITH_AXIS])
+        raise ModelError(f"joints without a counterpart: {', '.join(unknown)}; those that have one: {known}")
+    return tuple(joints)
+
+
+def _frames_here(there: Any) -> dict[str, Frame]:
+    """Return the frames by name; a link and a joint may share one, at one place."""
+    frames: dict[str, Frame] = {}
+    for frame in list(there.frames)[1:]:  # the first is the universe
+        new = Frame(int(frame.parentJoint), _of_joint(from_pinocchio_se3, frame.placement, frame.name, "placement"))
+        old = frames.setdefault(frame.name, new)
+        if old.body != new.body or (old.placement.matrix() != new.placement.matrix()).any():
+            raise ModelError(f"frame {frame.name!r}: two frames of this name lie at different places")
+    return frames
+
+
+def _of_joint(convert: Callable[[Any], Any], value: Any, name: str, what: str) -> Any:
+    """Convert, and name the place in the error."""
+    try:
+        return convert(value)
+    except ValueError as error:
+        raise ModelError(f"{name!r}: {what}: {error}") from None
+
+
+def _limits(x: Array) -> Array:
+    """Return limits; Pinocchio's largest double stands for none."""
+    return _frozen(np.where(np.abs(x) >= np.finfo(np.float64).max, np.copysign(np.inf, x), x))
+
+
+def _frozen(x: Array) -> Array:
+    x = np.array(x)
+    x.flags.writeable = False
+    return x
