@@ -24,22 +24,6 @@ ids, τ of a joint with one degree of freedom, the centre of mass and the energi
 The functions on arrays do not need Pinocchio.
 """
 
-from .arrays import (
-    from_pinocchio_contact_jacobian,
-    from_pinocchio_force,
-    from_pinocchio_jacobian,
-    from_pinocchio_matrix,
-    from_pinocchio_motion,
-    from_pinocchio_tangent,
-    from_pinocchio_transform,
-    to_pinocchio_contact_jacobian,
-    to_pinocchio_force,
-    to_pinocchio_jacobian,
-    to_pinocchio_matrix,
-    to_pinocchio_motion,
-    to_pinocchio_tangent,
-    to_pinocchio_transform,
-)
 from .handover import from_pinocchio_model, to_pinocchio_model
 from .objects import (
     from_pinocchio_f_ext,
@@ -49,6 +33,24 @@ from .objects import (
     to_pinocchio_f_ext,
     to_pinocchio_inertia,
     to_pinocchio_se3,
+)
+from .spatial import (
+    from_pinocchio_force,
+    from_pinocchio_motion,
+    from_pinocchio_transform,
+    to_pinocchio_force,
+    to_pinocchio_motion,
+    to_pinocchio_transform,
+)
+from .tangent import (
+    from_pinocchio_contact_jacobian,
+    from_pinocchio_jacobian,
+    from_pinocchio_matrix,
+    from_pinocchio_tangent,
+    to_pinocchio_contact_jacobian,
+    to_pinocchio_jacobian,
+    to_pinocchio_matrix,
+    to_pinocchio_tangent,
 )
 
 __all__ = [

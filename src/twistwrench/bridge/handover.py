@@ -17,7 +17,6 @@ from ..inertia import SpatialInertia
 from ..joint import Continuous, FreeFlyer, Joint, Planar, Prismatic, Revolute, Spherical
 from ..model import Frame, Model
 from ..plucker import SE3
-from .arrays import tangent_order
 from .objects import (
     from_pinocchio_inertia,
     from_pinocchio_se3,
@@ -25,6 +24,7 @@ from .objects import (
     to_pinocchio_inertia,
     to_pinocchio_se3,
 )
+from .tangent import tangent_order
 
 __all__ = ["from_pinocchio_model", "to_pinocchio_model"]
 
@@ -43,6 +43,9 @@ WITH_AXIS: dict[str, type[Revolute] | type[Prismatic] | type[Continuous]] = {
 
 AXES = {(1.0, 0.0, 0.0): "X", (0.0, 1.0, 0.0): "Y", (0.0, 0.0, 1.0): "Z"}
 
+FRAME_KINDS = {"BODY": "link", "JOINT": "joint", "FIXED_JOINT": "joint", "SENSOR": "sensor"}
+"""What goes before the name of a frame where two of one name lie apart."""
+
 ONE_CONTINUOUS_JOINT = """<robot name="one"><link name="from"/><link name="to"/>
 <joint name="turn" type="continuous"><parent link="from"/><child link="to"/><axis xyz="{} {} {}"/></joint></robot>"""
 
@@ -58,9 +61,9 @@ def to_pinocchio_model(model: Model) -> Any:
     -------
     pin.Model
         Joints with the same ids and the same q; placements, inertias, armature, gravity, limits, named
-        configurations. Every frame once: a joint's name as a JOINT frame, all others as OP_FRAME, since
-        a `Model` does not keep which of them were links. What Pinocchio has no place for, `Model.feet`,
-        stays behind.
+        configurations. Every frame has one name: that of a joint is a JOINT frame, all others are OP_FRAMEs,
+        since a `Model` does not keep which of them were links (``"link:a"`` and ``"joint:a"`` become the BODY
+        and the joint frame ``"a"`` again). What Pinocchio has no place for, `Model.feet`, stays behind.
 
     Raises
     ------
@@ -113,16 +116,20 @@ def _joint_there(pin: Any, joint: Joint) -> Any:
 
 
 def _frames_there(pin: Any, model: Model, there: Any) -> None:
-    """Add a frame per name; those that a body carries hang on its joint's frame."""
+    """Add a frame per name; what a body carries hangs on its joint's frame."""
+    kinds = pin.FrameType
+    of_joint = [0]  # the index of each joint's frame; the world's is 0
     for i in range(1, model.nbodies):
-        parent = there.getFrameId(model.joint_names[model.parent[i]], pin.FrameType.JOINT) if model.parent[i] else 0
-        there.addJointFrame(i, parent)
+        of_joint.append(there.addJointFrame(i, of_joint[model.parent[i]]))
     for name, frame in model.frames.items():
-        if name in model.joint_names and model.joint_id(name) == frame.body:
+        kind, _, bare = name.rpartition(":")
+        if kind in ("", "joint") and bare in model.joint_names and model.joint_id(bare) == frame.body:
             continue
-        carrier = there.getFrameId(model.joint_names[frame.body], pin.FrameType.JOINT) if frame.body else 0
+        apart = f"link:{bare}" in model.frames and f"joint:{bare}" in model.frames
+        known = {"link": kinds.BODY, "joint": kinds.FIXED_JOINT} if apart else {}
+        shown = bare if kind in known else name
         placement = to_pinocchio_se3(frame.placement)
-        there.addFrame(pin.Frame(name, frame.body, carrier, placement, pin.FrameType.OP_FRAME))
+        there.addFrame(pin.Frame(shown, frame.body, of_joint[frame.body], placement, known.get(kind, kinds.OP_FRAME)))
 
 
 def from_pinocchio_model(there: Any) -> Model:
@@ -144,7 +151,8 @@ def from_pinocchio_model(there: Any) -> Model:
     ------
     ModelError
         If a joint has no counterpart here (mimic, composite, helical, …; all are listed by name and type),
-        gravity turns, a body's inertia or placement cannot be, or two frames of one name lie apart.
+        gravity turns, an inertia, a placement or a named configuration cannot be, or two frames have one name
+        and kind.
 
     Examples
     --------
@@ -156,9 +164,9 @@ def from_pinocchio_model(there: Any) -> Model:
     moving, names, order = range(1, len(joints)), tuple(there.names), tangent_order(joints)
     if there.gravity.angular.any():
         raise ModelError(f"gravity: expected an acceleration without rotation, got {there.gravity.vector} (v, ω)")
-    placement = [_of_joint(from_pinocchio_se3, there.jointPlacements[i], names[i], "placement") for i in moving]
-    inertia = [_of_joint(from_pinocchio_inertia, there.inertias[i], names[i], "inertia of its body") for i in moving]
-    return Model(
+    placement = [_named(from_pinocchio_se3, there.jointPlacements[i], names[i], "placement") for i in moving]
+    inertia = [_named(from_pinocchio_inertia, there.inertias[i], names[i], "inertia of its body") for i in moving]
+    model = Model(
         name=there.name,
         base="floating" if len(joints) > 1 and isinstance(joints[1], FreeFlyer) else "fixed",
         joint_names=names,
@@ -175,6 +183,9 @@ def from_pinocchio_model(there: Any) -> Model:
         effort_limit=_limits(there.effortLimit[order]),
         postures={entry.key(): entry.data().copy() for entry in there.referenceConfigurations},
     )
+    for name, q in model.postures.items():
+        _named(model.state, q, name, "named configuration")
+    return model
 
 
 def _joints_here(there: Any) -> tuple[Joint | None, ...]:
@@ -201,17 +212,29 @@ def _joints_here(there: Any) -> tuple[Joint | None, ...]:
 
 
 def _frames_here(there: Any) -> dict[str, Frame]:
-    """Return the frames by name; a link and a joint may share one, at one place."""
-    frames: dict[str, Frame] = {}
+    """Return the frames by name, by kind and name where those of one name lie apart (as `Builder` does)."""
+    found: dict[str, dict[str, Frame]] = {}
     for frame in list(there.frames)[1:]:  # the first is the universe
-        new = Frame(int(frame.parentJoint), _of_joint(from_pinocchio_se3, frame.placement, frame.name, "placement"))
-        old = frames.setdefault(frame.name, new)
-        if old.body != new.body or (old.placement.matrix() != new.placement.matrix()).any():
-            raise ModelError(f"frame {frame.name!r}: two frames of this name lie at different places")
+        placement = _named(from_pinocchio_se3, frame.placement, frame.name, "placement")
+        same_name, kind = found.setdefault(frame.name, {}), FRAME_KINDS.get(str(frame.type), "frame")
+        if kind in same_name:
+            raise ModelError(f"{frame.name!r}: two {kind}s of one name")
+        same_name[kind] = Frame(int(frame.parentJoint), placement)
+    frames = {}
+    for name, same_name in found.items():
+        first = next(iter(same_name.values()))
+        if all(_same(first, other) for other in same_name.values()):
+            frames[name] = first
+        else:
+            frames |= {f"{kind}:{name}": frame for kind, frame in same_name.items()}
     return frames
 
 
-def _of_joint(convert: Callable[[Any], Any], value: Any, name: str, what: str) -> Any:
+def _same(a: Frame, b: Frame) -> bool:
+    return a.body == b.body and bool((a.placement.matrix() == b.placement.matrix()).all())
+
+
+def _named(convert: Callable[[Any], Any], value: Any, name: str, what: str) -> Any:
     """Convert, and name the place in the error."""
     try:
         return convert(value)

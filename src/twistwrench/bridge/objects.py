@@ -14,7 +14,7 @@ from ..inertia import SpatialInertia
 from ..inverse_dynamics import external
 from ..model import Model
 from ..plucker import SE3
-from .arrays import from_pinocchio_force, to_pinocchio_force
+from .spatial import from_pinocchio_force, to_pinocchio_force
 
 __all__ = [
     "from_pinocchio_f_ext",

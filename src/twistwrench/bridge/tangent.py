@@ -1,13 +1,12 @@
-"""Arrays between (ω, v) and Pinocchio's (v, ω): pure reordering, without Pinocchio and without rounding.
+"""Vectors, Jacobians and matrices over v between our order and Pinocchio's: reordering, nothing else.
 
-Every function takes any leading batch axes, keeps the number type and returns a new array. The swap
-of two halves is its own inverse; both directions have a name so that a line of code says which way it goes.
+The six entries of every free-flyer, also inside the tree, are (ω, v) here and (v, ω) there; those of all
+other joints are the same. Batch axes and number types are kept, as in `spatial`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,26 +15,18 @@ from ..checks import Array, as_array
 from ..errors import ShapeError
 from ..joint import FreeFlyer, Joint
 from ..model import Model
+from .spatial import HALVES
 
 __all__ = [
     "from_pinocchio_contact_jacobian",
-    "from_pinocchio_force",
     "from_pinocchio_jacobian",
     "from_pinocchio_matrix",
-    "from_pinocchio_motion",
     "from_pinocchio_tangent",
-    "from_pinocchio_transform",
     "to_pinocchio_contact_jacobian",
-    "to_pinocchio_force",
     "to_pinocchio_jacobian",
     "to_pinocchio_matrix",
-    "to_pinocchio_motion",
     "to_pinocchio_tangent",
-    "to_pinocchio_transform",
 ]
-
-HALVES = np.array([3, 4, 5, 0, 1, 2])
-"""Where each of six entries comes from when the halves change places."""
 
 
 def tangent_order(joints: Sequence[Joint | None]) -> Array:
@@ -45,131 +36,6 @@ def tangent_order(joints: Sequence[Joint | None]) -> Array:
         if joint is not None:
             order = np.append(order, order.size + (HALVES if isinstance(joint, FreeFlyer) else np.arange(joint.nv)))
     return order
-
-
-# -------------------------------------------------------------------- twists and wrenches
-
-
-def to_pinocchio_motion(V: ArrayLike) -> Array:
-    """Turn a twist or spatial acceleration (ω, v) into Pinocchio's (v, ω).
-
-    Parameters
-    ----------
-    V : Twist or array_like of shape (..., 6)
-        (ω, v), rad/s and m/s (or per s²), in any frame.
-
-    Returns
-    -------
-    ndarray, shape (..., 6)
-        (v, ω), in the same frame.
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 6 long.
-
-    Examples
-    --------
-    >>> to_pinocchio_motion([1, 2, 3, 4, 5, 6])
-    array([4., 5., 6., 1., 2., 3.])
-    """
-    return as_array(V, "V", 6)[..., HALVES]
-
-
-def from_pinocchio_motion(V: Any) -> Array:
-    """Turn Pinocchio's twist or spatial acceleration (v, ω) into (ω, v).
-
-    Parameters
-    ----------
-    V : pin.Motion, sequence of them (``data.v``), or array_like of shape (..., 6)
-        (v, ω), m/s and rad/s (or per s²), in any frame.
-
-    Returns
-    -------
-    ndarray, shape (..., 6)
-        (ω, v), in the same frame; (n, 6) from a sequence of n.
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 6 long.
-    TypeError
-        If a ``pin.Force`` came.
-
-    Examples
-    --------
-    >>> from_pinocchio_motion([4, 5, 6, 1, 2, 3])
-    array([1., 2., 3., 4., 5., 6.])
-    """
-    return as_array(_vectors(V, "V", "Motion"), "V", 6)[..., HALVES]
-
-
-def to_pinocchio_force(F: ArrayLike) -> Array:
-    """Turn a wrench or momentum (τ, f) into Pinocchio's (f, τ).
-
-    Parameters
-    ----------
-    F : Wrench or array_like of shape (..., 6)
-        (τ, f), N m and N (or with a further s for a momentum), in any frame.
-
-    Returns
-    -------
-    ndarray, shape (..., 6)
-        (f, τ), in the same frame.
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 6 long.
-
-    Examples
-    --------
-    >>> to_pinocchio_force([1, 2, 3, 4, 5, 6])
-    array([4., 5., 6., 1., 2., 3.])
-    """
-    return as_array(F, "F", 6)[..., HALVES]
-
-
-def from_pinocchio_force(F: Any) -> Array:
-    """Turn Pinocchio's wrench or momentum (f, τ) into (τ, f).
-
-    Parameters
-    ----------
-    F : pin.Force, sequence of them (``data.f``), or array_like of shape (..., 6)
-        (f, τ), N and N m (or with a further s for a momentum, ``data.hg``), in any frame.
-
-    Returns
-    -------
-    ndarray, shape (..., 6)
-        (τ, f), in the same frame; (n, 6) from a sequence of n.
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 6 long.
-    TypeError
-        If a ``pin.Motion`` came.
-
-    Examples
-    --------
-    >>> from_pinocchio_force([0, 0, 9.81, 0.5, 0, 0])
-    array([0.5 , 0.  , 0.  , 0.  , 0.  , 9.81])
-    """
-    return as_array(_vectors(F, "F", "Force"), "F", 6)[..., HALVES]
-
-
-def _vectors(value: Any, name: str, kind: str) -> Any:
-    """Take the six numbers out of Pinocchio's own type, or out of each of a sequence."""
-    if hasattr(value, "vector"):
-        if type(value).__name__ != kind:
-            raise TypeError(f"{name}: expected a pin.{kind} or an array, got a pin.{type(value).__name__}")
-        return np.array(value.vector)
-    if not isinstance(value, np.ndarray) and hasattr(value, "__len__") and len(value) and hasattr(value[0], "vector"):
-        return np.stack([_vectors(one, name, kind) for one in value])
-    return value
-
-
-# -------------------------------------------------------------------- vectors and matrices over the joints
 
 
 def to_pinocchio_tangent(model: Model, v: ArrayLike) -> Array:
@@ -411,62 +277,3 @@ def from_pinocchio_matrix(model: Model, M: ArrayLike) -> Array:
     """
     order = tangent_order(model.joints)
     return as_array(M, "M", model.nv, model.nv)[..., order, :][..., order]
-
-
-# -------------------------------------------------------------------- 6 × 6 matrices
-
-
-def to_pinocchio_transform(X: ArrayLike) -> Array:
-    """Turn a 6 × 6 matrix over (ω, v) or (τ, f) into Pinocchio's: X, X*, V×, V×* or a spatial inertia.
-
-    All four blocks change places: the one that stood bottom left stands top right.
-
-    Parameters
-    ----------
-    X : array_like, shape (..., 6, 6)
-
-    Returns
-    -------
-    ndarray, shape (..., 6, 6)
-
-    Raises
-    ------
-    ShapeError
-        If the last axes are not (6, 6).
-
-    Examples
-    --------
-    >>> from twistwrench import motion_transform
-    >>> X = motion_transform(np.eye(3), [1, 0, 0])
-    >>> to_pinocchio_transform(X)[:3, 3:]
-    array([[ 0.,  0.,  0.],
-           [ 0.,  0., -1.],
-           [ 0.,  1.,  0.]])
-    """
-    return as_array(X, "X", 6, 6)[..., HALVES, :][..., HALVES]
-
-
-def from_pinocchio_transform(X: ArrayLike) -> Array:
-    """Turn Pinocchio's 6 × 6 matrix over (v, ω) or (f, τ) into ours: the inverse of `to_pinocchio_transform`.
-
-    ``T.action``, ``T.actionInverse``, ``T.dualAction``, ``V.action``, ``V.dualAction``, ``inertia.matrix()``.
-
-    Parameters
-    ----------
-    X : array_like, shape (..., 6, 6)
-
-    Returns
-    -------
-    ndarray, shape (..., 6, 6)
-
-    Raises
-    ------
-    ShapeError
-        If the last axes are not (6, 6).
-
-    Examples
-    --------
-    >>> from_pinocchio_transform(np.diag([2, 2, 2, 0.1, 0.2, 0.3])).diagonal()  # a body of 2 kg
-    array([0.1, 0.2, 0.3, 2. , 2. , 2. ])
-    """
-    return as_array(X, "X", 6, 6)[..., HALVES, :][..., HALVES]
