@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
+from .constants import cast
 from .errors import unknown_name
 from .inertia import cross_motion
-from .model import Model, cast
+from .model import Model
 from .plucker import SE3, motion_transform
 from .tree import joint_placements, split, walk
 

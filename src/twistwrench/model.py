@@ -16,13 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from .checks import Array, as_arrays, resolution
-from .errors import ShapeError, unknown_name
+from .checks import Array
+from .constants import Constants
+from .errors import unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
 from .plucker import SE3
+from .state import check_arrays, check_state
 
-__all__ = ["Constants", "Frame", "Model", "cast"]
+__all__ = ["Frame", "Model"]
 
 
 @dataclass(frozen=True)
@@ -242,7 +244,7 @@ class Model:
         ValueError
             If one of them is zero, which has no direction; the message names the joint.
         """
-        (q,) = self._arrays(q=q)
+        (q,) = check_arrays(self, q=q)
         pieces = [q[..., :0]]
         for i, s in enumerate(self.q_slice):
             joint = self.joints[i]
@@ -255,11 +257,10 @@ class Model:
         return np.concatenate(pieces, axis=-1)
 
     def _by_joint(self, function: Callable[[Joint, slice, slice], Array], like: Array) -> Array:
-        """Apply `function` to every joint with its slices and join the results."""
         pieces = [function(joint, qs, vs) for joint, qs, vs in zip(self.joints, self.q_slice, self.v_slice) if joint]
         return np.concatenate([like[..., :0], *pieces], axis=-1)
 
-    # ---------------------------------------------------------------- the check at the door
+    # ---------------------------------------------------------------- what the algorithms ask for
 
     def state(self, q: ArrayLike, **others: ArrayLike) -> tuple[Array, ...]:
         """Check a state and bring it to one dtype and one batch shape.
@@ -285,61 +286,7 @@ class Model:
             An infinity or a NaN; a quaternion or (cos, sin) that is off norm 1 by more than the
             root of the number type's resolution (1.5e-8 in float64).
         """
-        arrays = self._arrays(q=q, **others)
-        tails = [2 if name == "f_ext" else 1 for name in ("q", *others)]
-        batches = [x.shape[: x.ndim - tail] for x, tail in zip(arrays, tails)]
-        try:
-            batch = np.broadcast_shapes(*batches)
-        except ValueError:
-            named = ", ".join(f"{name} {shape}" for name, shape in zip(("q", *others), batches))
-            raise ShapeError(f"batch axes do not broadcast: {named}") from None
-        for name, x in zip(("q", *others), arrays):
-            if name.startswith("q"):
-                self._check_unit(x, name)
-        return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
-
-    def _arrays(self, **named: ArrayLike) -> tuple[Array, ...]:
-        """Convert to arrays of one dtype with the right last axes, or say what is wrong."""
-        for name, value in named.items():
-            if name != "f_ext":
-                self._check_not_swapped(name, value)
-        return as_arrays(**{name: (value, self._tail(name)) for name, value in named.items()})
-
-    def _check_not_swapped(self, name: str, value: ArrayLike) -> None:
-        """Say so where a v came for a q, or a q for a v."""
-        kind, other = ("q", "v") if name.startswith("q") else ("v", "q")
-        size, came = (self.nq, self.nv) if kind == "q" else (self.nv, self.nq)
-        try:
-            shape = np.shape(value)
-        except ValueError:  # ragged: as_arrays will say so
-            return
-        if size != came and shape[-1:] == (came,):
-            raise ShapeError(
-                f"{name}: expected shape (..., {size}), got {shape}; this looks like n{other}: "
-                f"{kind} has n{kind} = {size}, {other} has n{other} = {came}"
-            )
-
-    def _tail(self, name: str) -> tuple[int, ...]:
-        if name == "f_ext":
-            return (self.nbodies, 6)
-        return (self.nq,) if name.startswith("q") else (self.nv,)
-
-    def _check_unit(self, q: Array, name: str) -> None:
-        for i, s in enumerate(self.q_slice):
-            joint = self.joints[i]
-            if joint is None or joint.unit is None:
-                continue
-            part = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
-            norm2 = (q[..., part].real ** 2).sum(axis=-1)
-            bad = np.abs(norm2 - 1) > 2 * np.sqrt(resolution(q.dtype))
-            if bad.any():
-                what = "(cos, sin)" if joint.unit.stop - joint.unit.start == 2 else "quaternion"
-                raise ValueError(
-                    f"{name}: joint {self.joint_names[i]!r}: the {what} {name}[{part.start}:{part.stop}] has norm "
-                    f"{float(np.sqrt(norm2[bad].flat[0])):.6g}, expected 1; model.normalize(q) repairs it"
-                )
-
-    # ---------------------------------------------------------------- constants in a number type
+        return check_state(self, q, **others)
 
     def constants(self, dtype: DTypeLike) -> Constants:
         """Return the model's constants in a number type; made once per type."""
@@ -347,58 +294,6 @@ class Model:
         if key not in self._constants:
             self._constants[key] = Constants.of(self, key)
         return self._constants[key]
-
-
-@dataclass(frozen=True, eq=False)
-class Constants:
-    """What the recursions read of a model, in one number type. Entry 0 of each is the world's.
-
-    Attributes
-    ----------
-    S : list of ndarray, shape (6, nv of joint i)
-        The joint's motion subspace, in the body's frame.
-    I : list of ndarray, shape (6, 6)
-        The body's spatial inertia, in its frame.
-    placement : list of SE3
-        As `Model.placement`.
-    gravity : ndarray, shape (6,)
-        The spatial acceleration (0, g) of free fall, in the world.
-    armature : ndarray, shape (nv,)
-    """
-
-    S: list[Array]
-    I: list[Array]
-    placement: list[SE3]
-    gravity: Array
-    armature: Array
-
-    @classmethod
-    def of(cls, model: Model, dtype: np.dtype[Any]) -> Constants:
-        """Convert the constants of `model`."""
-        inertia = [
-            SpatialInertia(i.mass.astype(dtype), i.com.astype(dtype), i.inertia_at_com.astype(dtype))
-            for i in model.inertia
-        ]
-        return cls(
-            S=[joint.subspace(dtype) if joint else np.zeros((6, 0), dtype) for joint in model.joints],
-            I=[i.matrix() for i in inertia],
-            placement=[cast(T, dtype) for T in model.placement],
-            gravity=np.concatenate([np.zeros(3), model.gravity]).astype(dtype),
-            armature=model.armature.astype(dtype),
-        )
-
-
-def cast(T: SE3, dtype: DTypeLike) -> SE3:
-    """Convert a placement to a number type, its rotation orthonormal to that type's precision.
-
-    The model holds it in float64. For a finer type, two steps of Newton's iteration for the nearest
-    rotation, R ← R (3 − RᵀR)/2, remove what float64 could not hold.
-    """
-    R = T.rotation.astype(dtype)
-    if resolution(R.dtype) < resolution(np.float64):
-        for _ in range(2):
-            R = R @ (3 * np.eye(3, dtype=R.dtype) - R.mT @ R) / 2
-    return SE3(R, T.translation.astype(dtype))
 
 
 def _slices(sizes: list[int]) -> tuple[slice, ...]:

@@ -1,0 +1,70 @@
+"""The constants of a model in the number type in which it is asked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import DTypeLike
+
+from .checks import Array, resolution
+from .inertia import SpatialInertia
+from .plucker import SE3
+
+if TYPE_CHECKING:
+    from .model import Model
+
+__all__ = ["Constants", "cast"]
+
+
+@dataclass(frozen=True, eq=False)
+class Constants:
+    """What the recursions read of a model, in one number type. Entry 0 of each is the world's.
+
+    Attributes
+    ----------
+    S : list of ndarray, shape (6, nv of joint i)
+        The joint's motion subspace, in the body's frame.
+    I : list of ndarray, shape (6, 6)
+        The body's spatial inertia, in its frame.
+    placement : list of SE3
+        As `Model.placement`.
+    gravity : ndarray, shape (6,)
+        The spatial acceleration (0, g) of free fall, in the world.
+    armature : ndarray, shape (nv,)
+    """
+
+    S: list[Array]
+    I: list[Array]
+    placement: list[SE3]
+    gravity: Array
+    armature: Array
+
+    @classmethod
+    def of(cls, model: Model, dtype: np.dtype[Any]) -> Constants:
+        """Convert the constants of `model`."""
+        inertia = [
+            SpatialInertia(i.mass.astype(dtype), i.com.astype(dtype), i.inertia_at_com.astype(dtype))
+            for i in model.inertia
+        ]
+        return cls(
+            S=[joint.subspace(dtype) if joint else np.zeros((6, 0), dtype) for joint in model.joints],
+            I=[i.matrix() for i in inertia],
+            placement=[cast(T, dtype) for T in model.placement],
+            gravity=np.concatenate([np.zeros(3), model.gravity]).astype(dtype),
+            armature=model.armature.astype(dtype),
+        )
+
+
+def cast(T: SE3, dtype: DTypeLike) -> SE3:
+    """Convert a placement to a number type, its rotation orthonormal to that type's precision.
+
+    The model holds it in float64. For a finer type, two steps of Newton's iteration for the nearest
+    rotation, R ← R (3 − RᵀR)/2, remove what float64 could not hold.
+    """
+    R = T.rotation.astype(dtype)
+    if resolution(R.dtype) < resolution(np.float64):
+        for _ in range(2):
+            R = R @ (3 * np.eye(3, dtype=R.dtype) - R.mT @ R) / 2
+    return SE3(R, T.translation.astype(dtype))
