@@ -87,7 +87,8 @@ def unskew(M: ArrayLike) -> Array:
 def exp3(w: ArrayLike) -> Array:
     """Rotation by the angle θ = |w| about w: R = 1 + A[w]× + B[w]×² (section 49.2, Rodrigues' formula).
 
-    A = sin θ / θ and B = (1 − cos θ) / θ², the latter as ½ (sin ½θ / ½θ)², where nothing cancels.
+    A = sin θ / θ and B = (1 − cos θ)/θ². B comes as 2 H², H = sin ½θ / θ, where nothing cancels, and H goes to each
+    factor of [w]×²: the square is then symmetric to the last bit, and exp3(−w) the exact transpose of exp3(w).
 
     Parameters
     ----------
@@ -113,8 +114,8 @@ def exp3(w: ArrayLike) -> Array:
     """
     w = as_array(w, "w", 3)
     theta, W = length(w)[..., None, None], cross_matrix(w)
-    A, B = sinc(theta), sinc(theta / 2) ** 2 / 2
-    return np.asarray(np.eye(3, dtype=w.dtype) + A * W + (B * W) @ W)
+    A, H = sinc(theta), sinc(theta / 2) / 2
+    return np.asarray(np.eye(3, dtype=w.dtype) + A * W + 2 * (H * W) @ (H * W))
 
 
 def log3(R: ArrayLike) -> Array:
