@@ -91,7 +91,8 @@ class Builder:
         self._gravity = as_array(gravity, "gravity", 3).astype(np.float64)
         self._links: dict[str, _Link] = {}
         flyer = FreeFlyer() if base == "floating" else None
-        self._add(root, "universe", flyer, "root_joint", SE3.identity(), root_inertia or SpatialInertia.zero(), {}, 0.0)
+        inertia, joint_name = root_inertia or SpatialInertia.zero(), "root_joint" if flyer else ""
+        self._add(root, "universe", flyer, joint_name, SE3.identity(), inertia, {}, 0.0)
 
     def link(
         self,
