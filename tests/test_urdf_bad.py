@@ -1,0 +1,284 @@
+"""Everything that can be wrong with a URDF is an error that says what, where, and what was expected."""
+
+import os
+import re
+import time
+from pathlib import Path
+
+import pytest
+
+from twistwrench import ModelError
+from twistwrench.robots import load
+
+INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+JOINT = f'<joint name="j" type="revolute"><parent link="a"/><child link="b"/>{LIMIT}</joint>'
+GOOD = f'<robot name="r">\n<link name="a">{INERTIAL}</link>\n<link name="b">{INERTIAL}</link>\n{JOINT}\n</robot>'
+
+
+def refuse(source, *words, **options):
+    """Load what must be refused; the message must hold every word."""
+    with pytest.raises(ModelError) as caught:
+        load(source, **options)
+    message = str(caught.value)
+    for word in words:
+        assert word in message, f"{word!r} is not in: {message}"
+    return message
+
+
+@pytest.fixture
+def save(tmp_path):
+    def saved(text):
+        path = tmp_path / "robot.urdf"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    return saved
+
+
+def changed(old, new, count=1):
+    assert old in GOOD
+    return GOOD.replace(old, new, count)
+
+
+def test_the_good_file_is_good(save):
+    """All the faults below are one change away from this one."""
+    assert load(save(GOOD)).nv == 1
+
+
+# -------------------------------------------------------------------- one change that breaks it
+
+LINK_B = f'<link name="b">{INERTIAL}</link>'
+BACK = f'<joint name="k" type="revolute"><parent link="b"/><child link="a"/>{LIMIT}</joint>'
+AGAIN = f'<joint name="k" type="revolute"><parent link="a"/><child link="b"/>{LIMIT}</joint>'
+PLANAR = JOINT.replace("revolute", "planar")
+
+FAULTS = {
+    # the tree
+    "cycle of all": (changed(JOINT, JOINT + BACK), ["cycle", "a -> b -> a", "one root"]),
+    "cycle aside": (
+        changed(JOINT, JOINT.replace('"a"', '"c"') + f'<link name="c"/>{BACK.replace(chr(34) + "a", chr(34) + "c")}'),
+        ["cycle", "b -> c -> b"],
+    ),
+    "two roots": (changed(JOINT, ""), ["2 links", "one root", "'a', 'b'"]),
+    "two parents": (changed(JOINT, JOINT + AGAIN), ["line 4", "'b'", "two joints", "'j' and 'k'", "tree"]),
+    "own parent": (changed('<child link="b"/>', '<child link="a"/>'), ["'j'", "'a'", "both its parent and its child"]),
+    "parent unknown": (
+        changed('<parent link="a"/>', '<parent link="base_lnk"/>').replace('name="a"', 'name="base_link"'),
+        ["line 4", "'j'", "parent", "unknown link 'base_lnk'", "did you mean 'base_link'"],
+    ),
+    "child unknown": (changed('<child link="b"/>', '<child link="nobody"/>'), ["'j'", "child", "'nobody'"]),
+    "no parent element": (changed('<parent link="a"/>', ""), ["'j'", "names no parent link"]),
+    "no child attribute": (changed('<child link="b"/>', "<child/>"), ["'j'", "names no child link"]),
+    "no link": ('<robot name="r"/>', ["no <link>"]),
+    # names
+    "duplicate link": (changed(LINK_B, LINK_B + "\n" + LINK_B), ["line 4", "two links", "'b'", "line 3"]),
+    "duplicate joint": (changed(JOINT, JOINT + "\n" + JOINT), ["line 5", "two joints", "'j'", "line 4"]),
+    "link without name": (changed('<link name="b">', "<link>"), ["line 3", "<link> has no name"]),
+    "joint without name": (changed('<joint name="j"', '<joint name=""'), ["line 4", "<joint> has no name"]),
+    "link named as the world": (GOOD.replace('"b"', '"universe"'), ["'universe'", "the world"]),
+    # the joint
+    "unknown type": (changed('"revolute"', '"revolut"'), ["line 4", "'j'", "'revolut'", "continuous, prismatic"]),
+    "no type": (changed(' type="revolute"', ""), ["'j'", "type is None", "expected one of"]),
+    "zero axis": (changed(LIMIT, LIMIT + '<axis xyz="0 0 0"/>'), ["'j'", "axis is zero"]),
+    "axis without xyz": (changed(LIMIT, LIMIT + "<axis/>"), ["'j'", "<axis> has no xyz"]),
+    "axis of two": (changed(LIMIT, LIMIT + '<axis xyz="0 1"/>'), ["'j'", "<axis xyz='0 1'>", "3 numbers, got 2"]),
+    "planar without axis": (changed(JOINT, PLANAR), ["'j'", "planar", "0 0 1"]),
+    "planar across": (changed(JOINT, PLANAR.replace(LIMIT, '<axis xyz="0 1 0"/>')), ["planar", "[0.0, 1.0, 0.0]"]),
+    "planar upside down": (changed(JOINT, PLANAR.replace(LIMIT, '<axis xyz="0 0 -1"/>')), ["planar", "0 0 1"]),
+    "two axes": (changed(LIMIT, LIMIT + 2 * '<axis xyz="0 0 1"/>'), ["'j'", "two <axis>"]),
+    "no limit": (changed(LIMIT, ""), ["'j'", "revolute joint needs a <limit>", "continuous"]),
+    "no limit, prismatic": (changed(LIMIT, "").replace("revolute", "prismatic"), ["prismatic joint needs a <limit>"]),
+    "no effort": (changed(' effort="1"', ""), ["'j'", "<limit> lacks effort"]),
+    "no effort or velocity": (changed(' effort="1" velocity="1"', ""), ["<limit> lacks effort and velocity"]),
+    "limits crossed": (changed('lower="-1"', 'lower="2"'), ["'j'", "lower limit 2.0 is above its upper limit 1.0"]),
+    "lower above the default": (changed('lower="-1" upper="1"', 'lower="1"'), ["lower limit 1.0", "upper limit 0.0"]),
+    "negative effort": (changed('effort="1"', 'effort="-1"'), ["'j'", "effort limit is -1.0", "0 or more"]),
+    "mimic of nobody": (changed(LIMIT, LIMIT + "<mimic/>"), ["'j'", "<mimic> names no joint"]),
+    # numbers
+    "nan in a limit": (changed('upper="1"', 'upper="nan"'), ["'j'", "<limit upper='nan'>", "not a finite number"]),
+    "infinite limit": (changed('effort="1"', 'effort="inf"'), ["'j'", "not a finite number"]),
+    "overflow": (changed('<mass value="1"/>', '<mass value="1e999"/>'), ["'a'", "'1e999' is not a finite number"]),
+    "word for a mass": (changed('<mass value="1"/>', '<mass value="heavy"/>'), ["line 2", "'a'", "'heavy'"]),
+    "empty mass": (changed('<mass value="1"/>', '<mass value=""/>'), ["'a'", "expected 1 number, got 0"]),
+    "decimal comma": (changed('<mass value="1"/>', '<mass value="1,5"/>'), ["'1,5' is not a number"]),
+    "grouped digits": (changed('<mass value="1"/>', '<mass value="1_000"/>'), ["'1_000' is not a number"]),
+    "word in an inertia": (changed('ixy="0"', 'ixy="x"'), ["'a'", "<inertia ixy='x'>"]),
+    "nan in an origin": (changed(LIMIT, LIMIT + '<origin xyz="0 nan 0"/>'), ["'j'", "<origin xyz='0 nan 0'>"]),
+    "rpy of two": (changed(LIMIT, LIMIT + '<origin rpy="0 0"/>'), ["'j'", "<origin rpy='0 0'>", "got 2"]),
+    "xyz of four": (changed("<inertial>", '<inertial><origin xyz="0 0 0 1"/>'), ["'a'", "3 numbers, got 4"]),
+    "word for damping": (changed(LIMIT, LIMIT + '<dynamics damping="some"/>'), ["'j'", "<dynamics damping='some'>"]),
+    "nan in a mimic": (changed(LIMIT, LIMIT + '<mimic joint="k" offset="nan"/>'), ["'j'", "<mimic offset='nan'>"]),
+    "macro for a number": (changed('<mass value="1"/>', '<mass value="${m}"/>'), ["'${m}'", "xacro"]),
+    # inertias
+    "negative mass": (changed('<mass value="1"/>', '<mass value="-1"/>'), ["line 2", "'a'", "mass is -1"]),
+    "no mass": (changed('<mass value="1"/>', ""), ["'a'", "incomplete", "<mass> missing"]),
+    "no mass value": (changed('<mass value="1"/>', "<mass/>"), ["'a'", "incomplete", "mass value missing"]),
+    "no inertia": (changed(INERTIAL, '<inertial><mass value="1"/></inertial>'), ["'a'", "<inertia> missing"]),
+    "inertia in part": (changed(' iyy="1" izz="1"', ""), ["'a'", "incomplete", "iyy, izz missing"]),
+    "nothing in it": (changed(INERTIAL, "<inertial/>"), ["'a'", "<mass>, <inertia> missing", "leave out"]),
+    "two inertials": (changed(INERTIAL, 2 * INERTIAL), ["'a'", "two <inertial>"]),
+    "inertia without mass": (
+        GOOD[::-1].replace('<mass value="1"/>'[::-1], '<mass value="0"/>'[::-1], 1)[::-1],
+        ["'b'", "an inertia but no mass"],
+    ),
+    # the file
+    "empty": ("", ["robot.urdf", "the file is empty"]),
+    "blank": (" \n\t ", ["the file is empty"]),
+    "unclosed": (GOOD.removesuffix("</robot>"), ["line 5", "not well-formed XML"]),
+    "cut in a tag": (GOOD[: GOOD.index("velocity")], ["not well-formed XML"]),
+    "text": ("a robot", ["line 1", "not well-formed XML"]),
+    "binary": (bytes(range(256)), ["not well-formed XML"]),
+    "wrong encoding": (GOOD.replace("r", "ü", 1).encode("latin-1"), ["not well-formed XML"]),
+    "unknown encoding": ('<?xml version="1.0" encoding="martian"?>' + GOOD, ["not well-formed XML", "ncoding"]),
+    "bytes not of the encoding": ('<robot name="é"/>'.encode("latin-1"), ["line 1", "not well-formed XML"]),
+    "two elements": (GOOD + GOOD, ["not well-formed XML"]),
+    "another root": ("<gadget/>", ["root element is <gadget>", "expected <robot>"]),
+    "sdf": ('<sdf version="1.7"/>', ["<sdf>", "SDF"]),
+    "mjcf": ("<mujoco/>", ["<mujoco>", "MJCF"]),
+    "xacro": (
+        GOOD.replace('name="r">', 'xmlns:xacro="http://ros.org/wiki/xacro" name="r"><xacro:macro name="leg"/>'),
+        ["line 1", "xacro macros", "expand"],
+    ),
+    "undeclared xacro": (changed(JOINT, "<xacro:leg/>" + JOINT), ["not well-formed XML", "xacro"]),
+    # doors to elsewhere
+    "document type": ('<!DOCTYPE robot SYSTEM "http://nowhere.invalid/r.dtd">' + GOOD, ["DOCTYPE", "remove"]),
+    "entity": ('<!DOCTYPE robot [<!ENTITY m "1">]>' + GOOD.replace('"1"', '"&m;"'), ["DOCTYPE", "entities"]),
+    "external entity": ('<!DOCTYPE r [<!ENTITY e SYSTEM "file:///etc/passwd">]><robot>&e;</robot>', ["DOCTYPE"]),
+    "hidden document type": (
+        '<?xml version="1.0" encoding="UTF-16"?><!DOCTYPE robot [<!ENTITY m "1">]><robot name="r"/>'.encode("utf-16"),
+        ["DOCTYPE"],
+    ),
+}
+
+
+@pytest.mark.parametrize(("text", "words"), FAULTS.values(), ids=FAULTS.keys())
+def test_fault_is_named(save, text, words):
+    path = save(text)
+    refuse(path, str(path), *words, physical=False)
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_faults_do_not_depend_on_the_base(save, base):
+    for text, words in FAULTS.values():
+        refuse(save(text), *words, base=base)
+
+
+# -------------------------------------------------------------------- bodies that cannot exist
+
+
+def unphysical(**moments):
+    """Two faulty links that move, so that one message must name both."""
+    text = GOOD.replace('<link name="a">', '<link name="root"/><link name="a">')
+    text = text.replace(JOINT, JOINT + JOINT.replace('"a"', '"root"').replace('"b"', '"a"').replace('"j"', '"i"'))
+    for name, value in moments.items():
+        text = re.sub(f'{name}="[^"]*"', f'{name}="{value}"', text)
+    return text
+
+
+def test_all_bodies_that_cannot_exist_are_named_in_one_message(save):
+    path = save(unphysical(izz=10))
+    message = refuse(path, "2 moving bodies", "'a'", "'b'", "triangle inequality", "1, 1, 10", "physical=False")
+    assert message.count("triangle inequality") == 2
+
+
+def test_inertia_that_is_not_positive_definite_is_refused(save):
+    refuse(save(unphysical(ixx=-1)), "positive definite", "-1, 1, 1")
+    refuse(save(unphysical(ixy=5)), "positive definite", "-4, 1, 6")
+
+
+def test_a_mass_without_extension_is_refused(save):
+    refuse(save(unphysical(ixx=0, iyy=0, izz=0)), "positive definite", "0, 0, 0")
+
+
+@pytest.mark.parametrize("moments", [{"izz": 10}, {"ixx": -1}, {"ixx": 0, "iyy": 0, "izz": 0}])
+def test_physical_false_loads_them_all_the_same(save, moments):
+    assert load(save(unphysical(**moments)), physical=False).mass == 2
+
+
+def test_what_never_moves_need_not_exist(save):
+    path = save(changed('izz="1"', 'izz="10"'))  # only link a, the root
+    assert load(path, base="fixed").nv == 1
+    refuse(path, "'a'", "triangle inequality", base="floating")
+
+
+def test_welded_links_are_judged_by_their_sum(save):
+    """A point welded to a ball is no point: many a real file has one (a camera, a force sensor)."""
+    point = INERTIAL.replace('"1"', '"0"').replace('<mass value="0"', '<mass value="1"')
+    weld = '<joint name="w" type="fixed"><parent link="b"/><child link="c"/><origin xyz="1 0 0"/></joint>'
+    assert load(save(changed(JOINT, JOINT + weld + f'<link name="c">{point}</link>'))).mass == 2
+
+
+# -------------------------------------------------------------------- files that are none
+
+
+def test_missing_file_is_named(tmp_path):
+    for source in (tmp_path / "robot.urdf", str(tmp_path / "robot.urdf")):
+        refuse(source, str(tmp_path / "robot.urdf"), "no such file")
+    refuse("robot_that_is_not_here.urdf", "robot_that_is_not_here.urdf", "no such file")
+    refuse(Path("go2"), "go2", "no such file")  # a Path is a path, never a name
+
+
+def test_directory_is_no_file(tmp_path):
+    refuse(tmp_path, str(tmp_path), "is a directory")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "robot.urdf")
+    refuse(tmp_path / "robot.urdf", "not a regular file")
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may read every file")
+def test_unreadable_file_is_named(save):
+    path = save(GOOD)
+    path.chmod(0)
+    refuse(path, str(path), "cannot be read")
+
+
+def test_name_too_long_for_the_system_is_an_error_of_ours():
+    refuse("x" * 5000 + ".urdf", "cannot be read")
+
+
+def test_base_is_one_of_two(save):
+    refuse(save(GOOD), "base", "'flying'", "'fixed' or 'floating'", base="flying")
+
+
+def test_a_joint_called_root_joint_leaves_no_name_for_the_floating_base(save):
+    path = save(GOOD.replace('"j"', '"root_joint"'))
+    assert load(path).joint_names == ("universe", "root_joint")
+    refuse(path, str(path), "'root_joint'", "is taken", base="floating")
+
+
+# -------------------------------------------------------------------- attacks, and how long they take
+
+
+def test_ten_megabytes_of_nesting_are_refused_at_once(save):
+    depth = 10_000_000 // len("<link></link>")
+    path = save('<robot name="r">' + "<link>" * depth + "</link>" * depth + "</robot>")
+    start = time.perf_counter()
+    refuse(path, "nested deeper")
+    assert time.perf_counter() - start < 2
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_an_entity_bomb_is_refused_at_once(save, encoding):
+    laughs = "".join(f'<!ENTITY l{i} "{f"&l{i - 1};" * 10}">' for i in range(1, 12))
+    bomb = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE robot [<!ENTITY l0 "ha">{laughs}]>'
+    start = time.perf_counter()
+    refuse(save((bomb + '<robot name="&l11;"><link name="&l11;"/>&l11;</robot>').encode(encoding)))
+    assert time.perf_counter() - start < 2
+
+
+def test_many_links_without_a_joint_make_a_short_message(save):
+    links = "".join(f'<link name="l{i}"/>' for i in range(10_000))
+    assert len(refuse(save(f'<robot name="r">{links}</robot>'), "10000 links", "...")) < 500
+
+
+def test_a_long_cycle_is_found(save):
+    n = 2000
+    links = "".join(f'<link name="l{i}"/>' for i in range(n))
+    joints = "".join(
+        f'<joint name="j{i}" type="fixed"><parent link="l{i}"/><child link="l{(i + 1) % n}"/></joint>' for i in range(n)
+    )
+    assert len(refuse(save(f'<robot name="r">{links}{joints}</robot>'), "cycle", "l0", "...")) < 500
