@@ -33,11 +33,11 @@ def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
 
     Examples
     --------
-    A bob of 1 kg at the end of 1 m, at 2 rad/s:
+    A ball of 1 kg and 0.001 kg m² at the end of 1 m, at 2 rad/s:
 
     >>> import twistwrench as tw
     >>> tw.kinetic_energy(tw.load("pendulum"), [0.5], [2.0])
-    np.float64(2.0)
+    np.float64(2.002)
     """
     q, v = model.state(q, v=v)
     constants = model.constants(q.dtype)

@@ -58,8 +58,8 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
     >>> rest = np.zeros(model.nv)
-    >>> tw.rnea(model, model.standing(), rest, rest)[5].round(4)
-    np.float64(157.7939)
+    >>> tw.rnea(model, model.standing(), rest, rest)[5].round(3)
+    np.float64(157.794)
     """
     return _rnea(model, q, v, a, f_ext)[0]
 

@@ -77,9 +77,9 @@ def forward_kinematics(
     --------
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
-    >>> foot_less = tw.forward_kinematics(model, model.standing())
-    >>> foot_less.placement[1].translation.round(3), foot_less.twist  # the base
-    (array([0.   , 0.   , 0.287]), None)
+    >>> stance = tw.forward_kinematics(model, model.standing())
+    >>> stance.placement[1].translation.round(3), stance.twist  # the base
+    (array([0.   , 0.   , 0.265]), None)
     """
     if v is None:
         if a is not None:
