@@ -2,31 +2,36 @@
 
 Every 6-D quantity is (angular, linear): twists (ω, v), wrenches (τ, f). Arrays in, arrays out, with
 any number of leading batch axes; float32, float64, longdouble and their complex twins are kept.
+
+The public names are those of `twistwrench._names`; the sections that hold them are imported when the
+first of them is used.
+
+>>> import twistwrench as tw
+>>> tw.skew([1, 2, 3])
+array([[ 0., -3.,  2.],
+       [ 3.,  0., -1.],
+       [-2.,  1.,  0.]])
 """
-from . import newton_euler_3d
-from .builder import Builder
-from .centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
-from .coriolis import coriolis_matrix
-from .energy import kinetic_energy, potential_energy
-from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
-from .exponential import exp6, log6
-from .floating_base import (
-    Dynamics,
-    Equilibrium,
-    contact_jacobian,
-    dynamics,
-    selection_matrix,
-    static_equilibrium,
-)
-from .forward_dynamics import aba
-from .inertia import SpatialInertia, cross_force, cross_motion
-from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea
-from .joint import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
-from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
-from .mass_matrix import crba
-from .model import Model
-from .plucker import SE3, force_transform, motion_transform
-from .rotation import exp3, log3, skew, unskew
-from .trees import chain, random_tree
-from .twist import Twist, hat, screw, vee
-from .wrench import Wrench, power
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+# The one eager import: the sub-package has the name of its function, which must be bound after it.
+from .robots import load as load
+from .robots import robots as robots
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from ._names import *
+else:
+
+    def __getattr__(name: str) -> Any:
+        names = import_module("._names", __name__)
+        if name != "__all__" and name not in names.__all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        value = globals()[name] = getattr(names, name)
+        return value
+
+    def __dir__() -> list[str]:
+        return [*import_module("._names", __name__).__all__, "__version__"]

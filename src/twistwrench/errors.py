@@ -6,7 +6,6 @@ Each message names the argument, joint, link or frame, what was expected and wha
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 
 __all__ = ["FrameError", "ModelError", "ShapeError", "SingularError", "unknown_name"]
@@ -51,6 +50,8 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> KeyError:
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown frame 'FR_fot'; did you mean 'FR_foot', 'FL_foot'?
     """
+    import difflib  # only where something went wrong
+
     names = list(dict.fromkeys(known))
     near = difflib.get_close_matches(name, names, n=4, cutoff=0.5)
     if near:

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
-from typing import Literal
-
-from numpy.typing import ArrayLike
+from typing import TYPE_CHECKING, Literal
 
 from ..errors import ModelError
-from ..model import Model
 from .catalogue import PREFIX, Catalogue, Robot, find, robots
-from .srdf import read_states, with_stance, with_states
-from .urdf import load_urdf
+
+if TYPE_CHECKING:  # `import twistwrench` passes here: what the catalogue does not need is imported by `load`
+    from numpy.typing import ArrayLike
+
+    from ..model import Model
 
 __all__ = ["Catalogue", "Robot", "load", "robots"]
 
@@ -77,6 +77,9 @@ def load(
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown robot 'go3'; did you mean 'go2', 'go1', ...
     """
+    from .srdf import read_states, with_stance, with_states
+    from .urdf import load_urdf
+
     if base not in (None, "fixed", "floating"):
         raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
     if mimic not in (None, "independent"):

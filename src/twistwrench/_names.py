@@ -1,0 +1,95 @@
+"""The public names: what `twistwrench` offers, and the section that holds each."""
+
+from . import bridge, newton_euler_3d
+from .builder import Builder
+from .centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
+from .coriolis import coriolis_matrix
+from .cross import cross_force, cross_motion
+from .energy import kinetic_energy, potential_energy
+from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
+from .exponential import exp6, log6
+from .floating_base import (
+    Dynamics,
+    Equilibrium,
+    contact_jacobian,
+    dynamics,
+    selection_matrix,
+    static_equilibrium,
+)
+from .forward_dynamics import aba
+from .inertia import SpatialInertia
+from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea
+from .joint import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
+from .mass_matrix import crba
+from .model import Model
+from .plucker import SE3, force_transform, motion_transform
+from .robots import load, robots
+from .rotation import exp3, log3, skew, unskew
+from .trees import chain, random_tree
+from .twist import Screw, Twist, hat, screw, vee
+from .wrench import Wrench, power
+
+__all__ = [
+    "SE3",
+    "Builder",
+    "Continuous",
+    "Dynamics",
+    "Equilibrium",
+    "FrameError",
+    "FreeFlyer",
+    "Model",
+    "ModelError",
+    "NameNotFound",
+    "Planar",
+    "Prismatic",
+    "Revolute",
+    "Screw",
+    "ShapeError",
+    "SingularError",
+    "SpatialInertia",
+    "Spherical",
+    "Twist",
+    "Wrench",
+    "aba",
+    "bridge",
+    "center_of_mass",
+    "centroidal_map",
+    "centroidal_momentum",
+    "centroidal_momentum_rate",
+    "chain",
+    "contact_jacobian",
+    "coriolis_matrix",
+    "crba",
+    "cross_force",
+    "cross_motion",
+    "dynamics",
+    "exp3",
+    "exp6",
+    "force_transform",
+    "forward_kinematics",
+    "frame_bias_acceleration",
+    "frame_jacobian",
+    "frame_placement",
+    "gravity",
+    "hat",
+    "joint_wrenches",
+    "kinetic_energy",
+    "load",
+    "log3",
+    "log6",
+    "motion_transform",
+    "newton_euler_3d",
+    "nonlinear_effects",
+    "potential_energy",
+    "power",
+    "random_tree",
+    "rnea",
+    "robots",
+    "screw",
+    "selection_matrix",
+    "skew",
+    "static_equilibrium",
+    "unskew",
+    "vee",
+]
