@@ -42,7 +42,7 @@ def as_mpmath(x: ArrayLike) -> Array:
     ...     print(as_mpmath([0.1])[0])
     0.1000000000000000055511151
     """
-    from mpmath import mp  # type: ignore[import-untyped]
+    from mpmath import mp
 
     return Arithmetic(np.dtype(object), mp).array(x)
 

@@ -81,7 +81,7 @@ def _read(path: Path) -> bytes:
 
 def _parse(path: Path, data: bytes) -> XML:
     """Parse with nothing expanded, nothing fetched, and libxml2's limits on depth and size kept."""
-    from lxml import etree  # type: ignore[import-untyped]
+    from lxml import etree
 
     parser = etree.XMLParser(resolve_entities=False, load_dtd=False, no_network=True, huge_tree=False, recover=False)
     try:

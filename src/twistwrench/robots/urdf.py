@@ -69,8 +69,8 @@ def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, qui
 
 def _through_yourdfpy(root: XML, default_name: str) -> Any:
     """Hand yourdfpy the checked part of the file; return its `Robot` of links and joints."""
-    import yourdfpy  # type: ignore[import-untyped]
-    from lxml import etree  # type: ignore[import-untyped]
+    import yourdfpy
+    from lxml import etree
 
     plain = etree.Element("robot", name=root.get("name") or default_name)
     for element in root.iterchildren(*KEPT):
