@@ -224,10 +224,10 @@ def frame_bias_acceleration(
 
     Examples
     --------
-    The tip of a pendulum of 1 m at 2 rad/s is pulled to the pivot with ω² r:
+    The bob of a pendulum of 1 m at 2 rad/s is pulled to the pivot with ω² r:
 
     >>> import twistwrench as tw
-    >>> tw.frame_bias_acceleration(tw.load("pendulum"), [0.0], [2.0], "tip", "local_world_aligned")[3:].round(12)
+    >>> tw.frame_bias_acceleration(tw.load("pendulum"), [0.0], [2.0], "bob", "local_world_aligned")[3:].round(12)
     array([0., 0., 4.])
     """
     at = model.frame(frame)
