@@ -173,7 +173,7 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
     to_G, I = _to_center_of_mass(model, q), model.constants(q.dtype).I
     V, A = _motion(model, q, v, a)
     rates = [
-        np.matvec(to_G[i], np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]) @ I[i], V[i]))
+        np.matvec(to_G[i], np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]), np.matvec(I[i], V[i])))
         for i in range(model.nbodies)
     ]
     rate: Array = np.sum(rates, axis=0)

@@ -76,7 +76,7 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
         vJ = np.matvec(S[i], qd[i])
         V[i] = np.matvec(X[i], V[tree.parent[i]]) + vJ
         c[i] = np.matvec(cross_motion(V[i]), vJ)  # bias acceleration
-        pA[i] = np.matvec(cross_force(V[i]) @ IA[i], V[i]) - f_ext[..., i, :]  # bias wrench
+        pA[i] = np.matvec(cross_force(V[i]), np.matvec(IA[i], V[i])) - f_ext[..., i, :]  # bias wrench
     for i in tree.inward:  # pass 2: articulated inertia IA and bias wrench pA
         p = tree.parent[i]
         U[i] = IA[i] @ S[i]

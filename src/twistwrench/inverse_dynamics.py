@@ -78,7 +78,8 @@ def _rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLi
         vJ = np.matvec(S[i], qd[i])
         V[i] = np.matvec(X[i], V[p]) + vJ  # twist
         A[i] = np.matvec(X[i], A[p]) + np.matvec(S[i], qdd[i]) + np.matvec(cross_motion(V[i]), vJ)  # acceleration
-        F[i] = np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]) @ I[i], V[i]) - f_ext[..., i, :]  # Newton-Euler
+        h = np.matvec(I[i], V[i])  # momentum
+        F[i] = np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]), h) - f_ext[..., i, :]  # Newton-Euler
     for i in tree.inward:  # pass 2, from the tips to the base
         p = tree.parent[i]
         tau[i] = np.matvec(S[i].mT, F[i])  # the part that the joint does not bear by itself
