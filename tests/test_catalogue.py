@@ -1,0 +1,350 @@
+"""The catalogue says what is true of its robots, and they are what their files say."""
+
+import re
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from twistwrench import ModelError, center_of_mass, frame_placement
+from twistwrench.robots import catalogue, load, robots
+from twistwrench.robots.reading import read_robot_xml
+from twistwrench.robots.srdf import read_states
+from twistwrench.robots.stances import STANCES
+
+FOLDER = catalogue.example_robot_data_folder()
+OWN = [robot for robot in robots() if robot.source == "models"]
+OTHERS = [robot for robot in robots() if robot.source == "example-robot-data"]
+LEGGED = [robot for robot in robots() if robot.stance is not None]
+installed = pytest.mark.skipif(FOLDER is None, reason="example-robot-data is not installed: its rows are not checked")
+
+
+def here(rows):
+    return [row for row in rows if row.source == "models" or FOLDER is not None]
+
+
+def physical(robot):
+    return "physical=False" not in robot.note
+
+
+# -------------------------------------------------------------------- the table
+
+
+def test_names_are_unambiguous():
+    assert [name for name, count in Counter(robot.name for robot in robots()).items() if count > 1] == []
+
+
+def test_every_urdf_of_models_is_in_the_table():
+    assert {robot.file for robot in OWN} == {path.name for path in catalogue.models_folder().glob("*.urdf")}
+
+
+@installed
+def test_every_urdf_of_example_robot_data_is_in_the_table():
+    files = {path.relative_to(FOLDER).as_posix() for path in FOLDER.glob("**/*.urdf")}
+    stub = {"ur_description/urdf/ur3.urdf"}  # no link at all; Pinocchio refuses it as well
+    assert {robot.file for robot in OTHERS} == files - stub
+    with pytest.raises(ModelError, match="no <link>"):
+        load(FOLDER / stub.pop())
+
+
+@pytest.mark.parametrize("robot", here(robots()), ids=lambda robot: robot.name)
+def test_row_is_true(robot):
+    model = load(robot.name, physical=physical(robot))
+    assert (model.nv, model.base) == (robot.dof, robot.base)
+    massless = sum(bool(inertia.mass == 0) for inertia in model.inertia[1:])
+    joints = read_robot_xml(robot.path).findall("joint")
+    mimics = sum(joint.find("mimic") is not None and joint.get("type") != "fixed" for joint in joints)
+    facts = {"massless": massless, "mimic": mimics}
+    for word, count in facts.items():
+        noted = re.search(rf"(\d+) {word}", robot.note)
+        assert (int(noted[1]) if noted else 0) == count, word
+
+
+@pytest.mark.parametrize("robot", [r for r in here(robots()) if not physical(r)], ids=lambda robot: robot.name)
+def test_unphysical_robots_are_refused_with_the_way_out(robot):
+    with pytest.raises(ModelError, match=r"(?s)cannot exist.*physical=False.*link '"):
+        load(robot.name)
+
+
+@installed
+@pytest.mark.parametrize("robot", OTHERS, ids=lambda robot: robot.name)
+def test_licence_is_the_one_of_the_robots_readme(robot):
+    readme = FOLDER / robot.file.split("/")[0] / "README.md"
+    licence = re.search(r"(?i)license:\s*(.+)", readme.read_text())[1].strip()
+    assert robot.licence == {"ASL 2.0": "Apache-2.0"}.get(licence, licence)
+
+
+def test_table_prints_as_a_table():
+    text, html = repr(robots()), robots()._repr_html_()
+    lines = text.splitlines()
+    assert lines[0].split() == ["name", "dof", "base", "source", "licence", "note"]
+    assert len(lines) == len(robots()) + 1
+    assert html.count("<tr>") == len(robots()) + 1
+    assert all(robot.name in line for robot, line in zip(robots(), lines[1:], strict=True))
+    assert max(map(len, lines)) <= 140
+
+
+# -------------------------------------------------------------------- names
+
+
+def test_unknown_name_lists_the_nearest():
+    with pytest.raises(KeyError, match=r"unknown robot 'anymal'; did you mean .*'anymal_b'"):
+        load("anymal")
+    with pytest.raises(ValueError, match=r"did you mean .*'example-robot-data/go2'"):
+        load("example-robot-data/go3")
+
+
+@installed
+def test_plain_name_is_ours_and_the_prefix_leads_to_the_other():
+    assert (load("go2").name, load("example-robot-data/go2").name) == ("go2", "go2_description")
+    assert load("example-robot-data/panda").name == load("panda").name
+
+
+@pytest.mark.parametrize("name", ["pendulum", "go2"])
+def test_base_can_be_chosen(name):
+    fixed, floating = load(name, base="fixed"), load(name, base="floating")
+    assert (fixed.base, floating.base) == ("fixed", "floating")
+    assert floating.nv == fixed.nv + 6
+
+
+def test_without_example_robot_data_the_error_says_how_to_get_it(monkeypatch):
+    monkeypatch.setattr(catalogue, "example_robot_data_folder", lambda: None)
+    with pytest.raises(ModelError, match=r"'talos_reduced'.*pip install example-robot-data"):
+        load("talos_reduced")
+    assert load("go2").nv == 18
+
+
+def test_models_are_found_inside_an_installed_package(monkeypatch, tmp_path):
+    """A wheel carries models/ inside the package; a checkout has it beside src/."""
+    package = tmp_path / "site-packages" / "twistwrench"
+    (package / "robots").mkdir(parents=True)
+    monkeypatch.setattr(catalogue, "__file__", str(package / "robots" / "catalogue.py"))
+    (package / "models").mkdir()
+    assert catalogue.models_folder() == package / "models"
+    (package / "models").rmdir()
+    assert catalogue.models_folder() == tmp_path / "models"
+
+
+def test_conda_installs_example_robot_data_without_cmeel(monkeypatch, tmp_path):
+    folder = tmp_path / "share" / "example-robot-data" / "robots"
+    folder.mkdir(parents=True)
+    monkeypatch.setattr(sys, "path", [])
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    assert catalogue.example_robot_data_folder() == folder
+
+
+def test_yourdfpy_is_imported_only_when_a_file_is_loaded():
+    """It pulls in trimesh and some thirty other packages."""
+    code = "import sys, twistwrench as tw; tw.robots(); print('yourdfpy' in sys.modules, 'lxml' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "False"]
+
+
+# -------------------------------------------------------------------- how they stand
+
+
+def test_every_stance_belongs_to_a_robot():
+    names = {f"models/{robot.name}" for robot in OWN} | {robot.name.removeprefix(catalogue.PREFIX) for robot in OTHERS}
+    assert set(STANCES) <= names
+
+
+@pytest.mark.parametrize("robot", here(LEGGED), ids=lambda robot: robot.name)
+def test_legged_robots_stand_within_their_limits_with_all_feet_on_the_ground(robot):
+    model = load(robot.name, physical=physical(robot))
+    q = model.standing()
+    model.state(q)
+    assert (q >= model.lower).all()
+    assert (q <= model.upper).all()
+    feet = np.array([frame_placement(model, q, foot).translation for foot in model.feet])
+    assert len(model.feet) in (2, 4)
+    np.testing.assert_allclose(feet[:, 2], 0, atol=1e-5)  # SRDFs give five digits
+    above = center_of_mass(model, q)
+    assert above[2] > 0.1
+    middle, reach = feet.mean(axis=0), np.ptp(feet, axis=0)
+    assert (np.abs(above - middle)[:2] < np.maximum(reach[:2] / 2, 0.1)).all()  # it would not fall at once
+
+
+@pytest.mark.parametrize("robot", here(LEGGED), ids=lambda robot: robot.name)
+def test_standing_angles_are_the_same_on_a_fixed_base(robot):
+    fixed = load(robot.name, base="fixed", physical=False)
+    floating = load(robot.name, physical=False)
+    np.testing.assert_array_equal(fixed.standing(), floating.standing()[7:])
+
+
+@pytest.mark.parametrize("name", ["go2", "humanoid"])
+def test_our_robots_stand_exactly_on_the_ground(name):
+    model = load(name)
+    heights = [frame_placement(model, model.standing(), foot).translation[2] for foot in model.feet]
+    np.testing.assert_allclose(heights, 0, atol=1e-15)
+
+
+def test_humanoid_stands_with_flat_soles_below_its_centre_of_mass():
+    model = load("humanoid")
+    q = model.standing()
+    corners = [name for name in model.frame_names if re.fullmatch(r"(left|right)_sole_(fl|fr|rl|rr)", name)]
+    points = np.array([frame_placement(model, q, name).translation for name in corners])
+    assert len(points) == 8
+    np.testing.assert_allclose(points[:, 2], 0, atol=1e-15)
+    com = center_of_mass(model, q)[:2]
+    assert (points[:, :2].min(axis=0) < com).all()
+    assert (com < points[:, :2].max(axis=0)).all()
+
+
+def test_a_robot_without_legs_does_not_stand():
+    with pytest.raises(KeyError, match="standing"):
+        load("pendulum").standing()
+
+
+@installed
+def test_postures_come_from_the_srdf_and_continuous_joints_take_an_angle():
+    model = load("kinova")
+    states = read_states(catalogue.find("kinova").srdf)
+    q = model.postures["arm_up"]
+    for i, name in enumerate(model.joint_names):
+        angle = states["arm_up"].get(name)
+        if angle is not None:
+            expected = angle if model.joints[i].nq == 1 else [np.cos(angle[0]), np.sin(angle[0])]
+            np.testing.assert_allclose(q[model.q_slice[i]], expected, rtol=1e-15)
+
+
+@installed
+def test_base_of_a_posture_is_the_srdfs():
+    assert load("talos_reduced").postures["half_sitting"][:7].tolist() == [0, 0, 1.01927, 0, 0, 0, 1]
+
+
+def test_broken_srdf_is_an_error(tmp_path):
+    path = tmp_path / "robot.srdf"
+    path.write_text('<robot name="r">\n<group_state name="s"><joint name="j" value="up"/></group_state></robot>')
+    with pytest.raises(ModelError, match="line 2: a value in this posture"):
+        read_states(path)
+
+
+# -------------------------------------------------------------------- models/
+
+
+@installed
+def test_go2_equals_example_robot_datas_to_the_last_bit():
+    ours, theirs = load("go2"), load("example-robot-data/go2")
+    assert ours.joint_names == theirs.joint_names
+    assert ours.parent == theirs.parent
+    assert ours.joints == theirs.joints
+    for a, b in zip(ours.inertia, theirs.inertia, strict=True):
+        assert a.mass == b.mass
+        assert (a.com == b.com).all()
+        assert (a.inertia_at_com == b.inertia_at_com).all()
+    for a, b in zip(ours.placement, theirs.placement, strict=True):
+        assert (a.matrix() == b.matrix()).all()
+    assert set(ours.frame_names) == set(theirs.frame_names)
+    for name, frame in ours.frames.items():
+        assert frame.body == theirs.frame(name).body
+        assert (frame.placement.matrix() == theirs.frame(name).placement.matrix()).all()
+    for limit in ("lower", "upper", "velocity_limit", "effort_limit"):
+        np.testing.assert_array_equal(getattr(ours, limit), getattr(theirs, limit))
+
+
+def solid(comment, mass):
+    """Principal moments of the solid that a comment of humanoid.urdf names, from the textbook's formulas."""
+    sizes = [float(number) for number in re.findall(r"\d+\.?\d*", comment)]
+    if comment.startswith("box"):
+        a, b, c = sizes
+        return mass / 12 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
+    if comment.startswith("cylinder"):
+        r, length = sizes
+        across = mass / 12 * (3 * r * r + length * length)
+        return np.array([across, across, mass / 2 * r * r])
+    (r,) = sizes
+    return np.full(3, mass * 2 / 5 * r * r)
+
+
+def links_of(name):
+    """Yield name, comment, mass and inertia (ixx, iyy, izz) of each link with an inertial."""
+    text = (catalogue.models_folder() / f"{name}.urdf").read_text()
+    for link, body in re.findall(r'<link name="(\w+)">(.*?)</link>', text, re.DOTALL):
+        comment = re.match(r"\s*<!-- (.*?) -->", body)
+        mass = float(re.search(r'<mass value="(.*?)"', body)[1])
+        moments = [float(re.search(rf'{key}="(.*?)"', body)[1]) for key in ("ixx", "iyy", "izz")]
+        assert re.findall(r'(?:ixy|ixz|iyz)="(.*?)"', body) == ["0"] * 3
+        yield link, comment[1] if comment else "", mass, moments
+
+
+def test_humanoids_inertias_are_those_of_its_solids():
+    links = list(links_of("humanoid"))
+    assert len(links) == 25
+    for name, comment, mass, moments in links:
+        np.testing.assert_allclose(moments, solid(comment, mass), rtol=1e-9, err_msg=name)  # ten digits in the file
+
+
+def test_humanoids_masses_are_winters_fractions_of_20_kg():
+    mass = {name: m for name, _, m, _ in links_of("humanoid")}
+    segments = {
+        "head": 0.081,
+        "torso": 0.216 + 0.139,
+        "pelvis": 0.142,
+        "left_hip_yaw_link left_hip_roll_link left_thigh": 0.100,
+        "left_shank": 0.0465,
+        "left_ankle_link left_foot": 0.0145,
+        "left_shoulder_pitch_link left_shoulder_roll_link left_upper_arm": 0.028,
+        "left_forearm": 0.016,
+        "left_hand": 0.006,
+    }
+    for names, fraction in segments.items():
+        assert sum(mass[name] for name in names.split()) == pytest.approx(20 * fraction, rel=1e-14), names
+    assert sum(mass.values()) == pytest.approx(20, rel=1e-14)
+
+
+def test_humanoid_is_the_mirror_image_of_itself():
+    model, S = load("humanoid"), np.diag([1.0, -1.0, 1.0])
+    for i, name in enumerate(model.joint_names):
+        if not name.startswith("left_"):
+            continue
+        j = model.joint_id(name.replace("left_", "right_"))
+        a, b = model.inertia[i], model.inertia[j]
+        np.testing.assert_allclose(a.com, S @ b.com, atol=1e-15)
+        np.testing.assert_allclose(a.inertia_at_com, S @ b.inertia_at_com @ S, atol=1e-15)
+        np.testing.assert_allclose(model.placement[i].translation, S @ model.placement[j].translation)
+        low, high = model.lower[model.q_slice[i]], model.upper[model.q_slice[i]]
+        flip = model.joints[i].axis != (0, 1, 0)  # roll and yaw turn the other way in the mirror
+        mirrored = (-model.upper, -model.lower) if flip else (model.lower, model.upper)
+        np.testing.assert_array_equal(low, mirrored[0][model.q_slice[j]])
+        np.testing.assert_array_equal(high, mirrored[1][model.q_slice[j]])
+
+
+@pytest.mark.parametrize(
+    ("robot", "link", "comment"),
+    [
+        ("pendulum", "rod", "ball, r = 0.05"),
+        ("double_pendulum", "upper", "cylinder r = 0.02, l = 0.6"),
+        ("double_pendulum", "lower", "cylinder r = 0.02, l = 0.6"),
+        ("cart_pole", "cart", "box 0.5 x 0.3 x 0.2"),
+        ("cart_pole", "pole", "cylinder r = 0.02, l = 1.0"),
+    ],
+)
+def test_inertias_of_the_small_ones_are_those_of_their_solids(robot, link, comment):
+    mass, moments = {name: (m, moments) for name, _, m, moments in links_of(robot)}[link]
+    np.testing.assert_allclose(moments, solid(comment, mass), rtol=1e-15)
+
+
+def test_planar_arms_links_are_cylinders_along_x():
+    links = {name: (m, moments) for name, _, m, moments in links_of("planar_arm")}
+    for name, r, length in (("upper_arm", 0.04, 0.5), ("forearm", 0.03, 0.4), ("hand", 0.02, 0.3)):
+        mass, moments = links[name]
+        np.testing.assert_allclose(moments, solid(f"cylinder {r} {length}", mass)[::-1], rtol=1e-15, err_msg=name)
+
+
+def test_planar_arm_reaches_its_length_and_lifts_with_positive_angles():
+    model = load("planar_arm")
+    np.testing.assert_allclose(frame_placement(model, model.neutral(), "tool").translation, [1.2, 0, 0])
+    up = frame_placement(model, [np.pi / 2, 0, 0], "tool").translation
+    np.testing.assert_allclose(up, [0, 0, 1.2], atol=1e-15)
+
+
+def test_models_carry_no_meshes_and_name_their_source():
+    readme = (catalogue.models_folder() / "README.md").read_text(encoding="utf-8")
+    for robot in OWN:
+        text = Path(robot.path).read_text(encoding="utf-8")
+        assert not re.search("<(visual|collision|mesh)", text)
+        assert re.search("(?i)our own (figures|design)|that Unitree publishes|Barto", text)
+        assert f"`{robot.name}`" in readme
