@@ -7,7 +7,7 @@ from typing import ClassVar, NoReturn, Self
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from .checks import Array, as_array
+from .checks import Array, as_array, as_arrays
 from .errors import FrameError
 
 __all__ = ["SpatialVector", "common_frame", "latex_matrix"]
@@ -80,7 +80,11 @@ class SpatialVector:
     def __mul__(self, scalar: ArrayLike) -> Self:
         if isinstance(scalar, SpatialVector):
             return NotImplemented
-        return type(self)(as_array(scalar, "scalar")[..., None] * self._vector, frame=self._frame)
+        # A Python number takes the type of the vector: twice a float32 twist is a float32 twist.
+        if type(scalar) in (int, float, complex):
+            scalar = np.asarray(scalar, np.result_type(self._vector, scalar))
+        s, x = as_arrays(scalar=(scalar, ()), vector=(self._vector, (6,)))
+        return type(self)(s[..., None] * x, frame=self._frame)
 
     __rmul__ = __mul__
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -185,6 +186,9 @@ class SpatialInertia:
         # Parallel axes from each centre of mass to the common one come to m₁m₂/m times the square of their distance.
         D, reduced = cross_matrix(other.com - self.com), (m1 * m2 / nonzero)[..., None, None]
         return SpatialInertia._trusted(m, com, self.inertia_at_com + other.inertia_at_com - reduced * (D @ D))
+
+    def __radd__(self, other: object) -> NoReturn:
+        raise TypeError(f"{type(other).__name__} + SpatialInertia: only inertias add, once they are in one frame")
 
     def momentum(self, V: ArrayLike) -> Array:
         """Return the momentum I V: angular, about the origin of the frame, and linear.
