@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .centroidal import centroidal_map
-from .checks import Array
-from .errors import SingularError, unknown_name
+from .checks import Array, resolution
+from .errors import ShapeError, SingularError, unknown_name
 from .inverse_dynamics import gravity, nonlinear_effects
 from .kinematics import frame_jacobian
 from .mass_matrix import crba
@@ -114,7 +114,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | Non
     ----------
     model : Model
     q : array_like, shape (nq,)
-        One configuration.
+        One configuration, real. The least squares are done in float64 whatever its number type.
     contacts : sequence of str, optional
         Frames at which the robot touches the ground; `model.feet` unless given.
 
@@ -128,7 +128,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | Non
     SingularError
         If no forces at these contacts balance the weight; the message says what is left over.
     NameNotFound, ShapeError, ValueError
-        As `contact_jacobian`; or if the base is fixed, or there are no contacts.
+        As `contact_jacobian`; or if the base is fixed, there are no contacts, or q is a batch or complex.
 
     Notes
     -----
@@ -146,11 +146,14 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | Non
     contacts = model.feet if contacts is None else contacts
     if model.base != "floating" or not len(contacts):
         raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(contacts)}")
+    (q,) = model.state(q)
+    if q.ndim != 1 or q.dtype.kind == "c":
+        raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
     g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
     b = _unactuated(model)
-    forces = np.linalg.lstsq(J_c[:, :b].mT, g[:b])[0]
+    forces = np.linalg.lstsq(J_c[:, :b].mT.astype(np.float64), g[:b].astype(np.float64))[0].astype(q.dtype)
     left = g[:b] - J_c[:, :b].mT @ forces
-    if np.abs(left).max() > 1e-8 * np.abs(g[:b]).max():
+    if np.abs(left).max() > np.sqrt(resolution(q.dtype)) * np.abs(g[:b]).max():
         raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
     return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3))
 
