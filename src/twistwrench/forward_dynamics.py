@@ -83,6 +83,7 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
         D_inv[i] = invert(S[i].mT @ U[i] + _diagonal(rotor[i]), felt[i], model.joint_names[i])
         u[i] = tau[i] - np.matvec(S[i].mT, pA[i])
         Ia = IA[i] - U[i] @ D_inv[i] @ U[i].mT  # what is felt through the joint: Schur complement
+        Ia = (Ia + Ia.mT) / 2  # an asymmetry left by rounding would grow from link to link
         pa = pA[i] + np.matvec(Ia, c[i]) + np.matvec(U[i] @ D_inv[i], u[i])
         IA[p] = IA[p] + X[i].mT @ Ia @ X[i]
         pA[p] = pA[p] + np.matvec(X[i].mT, pa)
