@@ -331,11 +331,11 @@ def joints_transmit_what_their_motors_and_bearings_hold(ne, draw):
     tau = ne.inverse_dynamics(model, q, v, a, f_ext)
     errors = [error(wrenches[1], tau[:6])]  # the free-flyer holds nothing by itself
     R, p = ne.placements(model, q)
-    for i, joint in enumerate(model.joints[1:], start=1):
-        along = {"revolute": slice(0, 3), "continuous": slice(0, 3), "prismatic": slice(3, 6)}.get(joint.kind)
-        if along:
+    for i, joint in enumerate(model.joints):
+        along = {"revolute": slice(0, 3), "continuous": slice(0, 3), "prismatic": slice(3, 6)}
+        if joint and joint.kind in along:
             motor = (tau - model.armature * a)[model.v_slice[i]]
-            errors.append(error(joint.axis @ wrenches[i][along], motor))
+            errors.append(error(joint.axis @ wrenches[i][along[joint.kind]], motor))
         # The whole of it, bearing too, changes the momentum of what lies beyond the joint.
         beyond = [j for j in range(1, model.nbodies) if i in path_to_world(model, j)]
         cut = SimpleNamespace(**vars(model))
@@ -351,10 +351,10 @@ def joints_transmit_what_their_motors_and_bearings_hold(ne, draw):
 
 
 def path_to_world(model, body):
-    path = []
+    path = [body]
     while body > 0:
-        path.append(body)
         body = model.parent[body]
+        path.append(body)
     return path
 
 

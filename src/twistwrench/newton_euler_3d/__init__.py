@@ -17,16 +17,16 @@ of change can be carried from one point or frame to the next without a correctio
 ===  =============================================  ==========================================
 
 Leave one out, turn one's sign round, or take the lever arm from the wrong end, and every number that
-comes out still looks plausible: the chapter's table of common mistakes in 49.1 is a list of just these
-terms. The sources carry the numbers (1) to (6) at the lines where they stand; the tests take them out
-one by one. From 49.2 on, six-dimensional vectors put 1, 2 and 5 into one matrix X, and 3, 4 and 6 into
-one product V×. This package is what they are measured against.
+comes out still looks plausible: half of the common mistakes that the chapter lists in 49.1 are of this
+kind, a forgotten 1 and a 5 with the wrong sign. The sources carry the numbers (1) to (6) at the lines
+where they stand; the tests take them out one by one. From 49.2 on, six-dimensional vectors put 1 and 5
+into one matrix X, and the others into one product V×. This package is what they are measured against.
 
-It is written apart from all that follows, shares no code with it, and takes no step to be fast, so
-that an error there has no twin here. And it works in any kind of number: given mpmath's, it gives the
-truth to as many digits as mpmath is set to. All constants of the model are taken as the exact numbers
-that their doubles are; rotations, joint axes and the quaternions of q, which doubles hold only nearly
-at length 1, are first made so to the last digit.
+It is written apart from all that follows and shares no formula with it, so that an error there has no
+twin here. It takes each sum as it stands and takes no step to be fast. And it works in any kind of
+number: given mpmath's, it gives the truth to as many digits as mpmath is set to. All constants of the
+model are taken as the exact numbers that their doubles are; rotations, joint axes and the quaternions
+of q, which doubles hold only nearly at length 1, are first made so to the last digit.
 
 One state per call, no batches. All vectors are ordered (ω, v) and (τ, f), as everywhere in twistwrench.
 

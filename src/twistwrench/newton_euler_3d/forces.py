@@ -142,8 +142,8 @@ def joint_wrenches(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: 
     Returns
     -------
     ndarray, shape (nbodies, 6)
-        (τ, f) at body i's frame's origin and in its axes, N m and N. Row 0 is zero: no joint
-        carries the world.
+        (τ, f) at body i's frame's origin and in its axes, N m and N. Row 0 is what the ground must
+        bear, at the world's origin.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def joint_wrenches(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: 
     for i in range(1, model.nbodies):
         force, moment = _taken(state, bodies[i], state.f_ext[i])
         j = i
-        while j > 0:  # every joint between the body and the world transmits it
+        while j >= 0:  # every joint between the body and the world transmits it, and the ground bears it
             at_joint = moment + cross(bodies[i].com - bodies[j].origin, force)  # (5)
             inward = bodies[j].rotation.mT
             wrenches[j] += np.concatenate([inward @ at_joint, inward @ force])
