@@ -20,7 +20,8 @@ Leave one out, turn one's sign round, or take the lever arm from the wrong end, 
 comes out still looks plausible: half of the common mistakes that the chapter lists in 49.1 are of this
 kind, a forgotten 1 and a 5 with the wrong sign. The sources carry the numbers (1) to (6) at the lines
 where they stand; the tests take them out one by one. From 49.2 on, six-dimensional vectors put 1 and 5
-into one matrix X, and the others into one product V×. This package is what they are measured against.
+into one matrix X, do away with the centripetal part of 2 by what they call an acceleration, and turn 3,
+4 and 6 into one product V×. This package is what they are measured against.
 
 It is written apart from all that follows and shares no formula with it, so that an error there has no
 twin here. It takes each sum as it stands and takes no step to be fast. And it works in any kind of
