@@ -1,0 +1,70 @@
+"""The test-suite is tested: each fault of faults.py, put in on purpose, must be noticed.
+
+A copy of the package gets one wrong line, and the tests of physics and those against an outside oracle
+run on it, not the ones that compare the package with itself or its examples. One of them must fail.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from .faults import FAULTS, Fault
+
+ROOT = Path(__file__).parents[1]
+# Closed forms and invariants first: they are quick, and need no Pinocchio.
+PHYSICS_AND_ORACLES = [
+    "test_physics.py",
+    "test_textbook.py",
+    "test_joint.py",
+    "test_random_trees.py",
+    "test_rotation.py",
+    "test_exponential.py",
+    "test_plucker.py",
+    "test_inertia.py",
+    "test_urdf.py",
+    "test_newton_euler_3d.py",
+]
+
+
+def run_on_copy(folder: Path, fault: Fault | None) -> subprocess.CompletedProcess[str]:
+    package = folder / "twistwrench"
+    shutil.copytree(ROOT / "src/twistwrench", package, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "models", package / "models", dirs_exist_ok=True)
+    if fault:
+        file = package / fault.file
+        file.write_text(file.read_text(encoding="utf-8").replace(fault.right, fault.wrong), encoding="utf-8")
+    tests = [str(ROOT / "tests" / name) for name in PHYSICS_AND_ORACLES]
+    options = ["-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:doctest"]
+    return subprocess.run(
+        [sys.executable, "-m", "pytest", "-o", "addopts=--import-mode=importlib", *options, *tests],
+        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": str(folder), "HYPOTHESIS_STORAGE_DIRECTORY": str(folder / "hypothesis")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_each_fault_changes_one_line_of_the_source():
+    for fault in FAULTS:
+        text = (ROOT / "src/twistwrench" / fault.file).read_text(encoding="utf-8")
+        assert text.count(fault.right) == 1, f"{fault.slip}: found {text.count(fault.right)} times in {fault.file}"
+        assert fault.wrong != fault.right, fault.slip
+    assert len({fault.slip for fault in FAULTS}) == len(FAULTS) >= 30
+
+
+@pytest.mark.slow
+def test_the_copy_without_a_fault_passes(tmp_path):
+    run = run_on_copy(tmp_path, None)
+    assert run.returncode == 0, run.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: f"{fault.file}: {fault.slip}")
+def test_fault_is_noticed(fault, tmp_path):
+    run = run_on_copy(tmp_path, fault)
+    assert run.returncode == 1, f"nothing noticed {fault.slip!r}\n{run.stdout[-2000:]}{run.stderr[-2000:]}"
