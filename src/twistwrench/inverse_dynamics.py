@@ -99,7 +99,7 @@ def joint_wrenches(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext
     -------
     ndarray, shape (..., nbodies, 6)
         (τ, f) of the joint on body i, gravity carried. Row 0 is what the ground must bear, in the
-        world's frame. Pinocchio's ``data.f`` after its ``rnea``.
+        world's frame; the others are Pinocchio's ``data.f`` after its ``rnea``.
 
     Raises
     ------
