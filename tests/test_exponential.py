@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from twistwrench._scalars import cosine_defect, sine_defect
 from twistwrench.cross import cross_motion
 from twistwrench.errors import ShapeError
 from twistwrench.exponential import exp6, log6
@@ -131,6 +132,23 @@ def test_exponential_and_logarithm_are_good_to_a_few_units_in_the_last_place(mp,
         assert np.abs(back[:3] - V[:3]).max() <= 4 * EPS * angle
         # Near π, rounding R alone moves v by about ten units.
         assert np.abs(back[3:] - V[3:]).max() <= 12 * EPS * size
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+def test_coefficients_are_good_to_a_few_units_in_the_last_place_on_both_sides_of_their_series(mp, dtype):
+    one, eps = dtype(1), np.finfo(dtype).eps
+    x = np.array(
+        [1e-18, 1e-9, 1e-4, 0.01, 0.3, 0.9, np.nextafter(one, 0 * one), 1, np.nextafter(one, 2 * one), 1.5], dtype
+    )
+    for k, exact in enumerate(mp.mpf(str(value)) for value in x):
+        defects = {
+            sine_defect: (exact - mp.sin(exact)) / exact**3,
+            cosine_defect: (mp.sin(exact) - exact * mp.cos(exact)) / exact**3,
+        }
+        for function, truth in defects.items():
+            assert abs(mp.mpf(str(function(x)[k])) / truth - 1) <= 8 * mp.mpf(float(eps))
+    assert sine_defect(np.zeros(1, dtype)) == one / 6
+    assert cosine_defect(np.zeros(1, dtype)) == one / 3
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 0.6, 1.4, 2.5])

@@ -151,7 +151,9 @@ def test_newton_euler_in_six_dimensions_is_euler_and_newton_at_the_centre_of_mas
 def test_change_of_frame_is_the_congruence_with_the_force_transform():
     body, T = bodies(15), placements(16)
     Xf = T.force_transform()
-    np.testing.assert_allclose(body.transform(T).matrix(), Xf @ body.matrix() @ Xf.mT, rtol=0, atol=4e-13)
+    moved = body.transform(T)
+    np.testing.assert_allclose(moved.matrix(), Xf @ body.matrix() @ Xf.mT, rtol=0, atol=4e-13)
+    np.testing.assert_array_equal(moved.inertia_at_com, moved.inertia_at_com.mT)
 
 
 def test_energy_and_momentum_are_the_same_in_every_frame():
@@ -346,6 +348,17 @@ def test_batch_axes_and_number_types_are_kept(shape, dtype):
     Xf = T.force_transform()
     scale = 64 * float(np.finfo(dtype).eps) * 50
     np.testing.assert_allclose(body.transform(T).matrix(), Xf @ body.matrix() @ Xf.mT, rtol=0, atol=scale)
+
+
+def test_a_float32_body_in_a_float64_frame_is_float64_throughout():
+    moved = bodies(38, (), np.float32).transform(placements(41, ()))
+    assert moved.mass.dtype == moved.com.dtype == moved.inertia_at_com.dtype == np.float64
+
+
+def test_rounding_in_the_two_halves_of_an_inertia_is_averaged():
+    I_c = np.diag([1.0, 2.0, 2.5])
+    I_c[0, 1] = 1e-9
+    np.testing.assert_array_equal(SpatialInertia(1, [0, 0, 0], I_c).inertia_at_com[:2, :2], [[1, 5e-10], [5e-10, 2]])
 
 
 def test_one_body_meets_a_batch_of_frames_and_twists():
