@@ -141,13 +141,13 @@ class Model:
         return float(sum(inertia.mass for inertia in self.inertia))
 
     def frame(self, name: str) -> Frame:
-        """Return the frame of this name; an unknown name lists the nearest ones."""
+        """Return the frame of this name; raises NameNotFound, with the nearest names, where there is none."""
         if name not in self.frames:
             raise unknown_name(f"frame of {self.name!r}", name, self.frames)
         return self.frames[name]
 
     def joint_id(self, name: str) -> int:
-        """Return the index of the joint of this name, which is also its body's."""
+        """Return the index of the joint of this name, which is also its body's; raises NameNotFound as `frame`."""
         if name not in self.joint_names:
             raise unknown_name(f"joint of {self.name!r}", name, self.joint_names)
         return self.joint_names.index(name)
@@ -177,7 +177,7 @@ class Model:
 
         Raises
         ------
-        KeyError
+        NameNotFound
             If the model has none: only the legged robots of the catalogue do.
         """
         if "standing" not in self.postures:
@@ -187,9 +187,8 @@ class Model:
     def random_configuration(self, *, rng: np.random.Generator | int | None = None) -> Array:
         """Draw a configuration, shape (nq,).
 
-        Uniform between the limits; uniform over the turns of a quaternion or a (cos, sin). Where a
-        limit is infinite, a revolute angle lies in ±π and a length in ±1 m (Pinocchio returns
-        infinities there).
+        Uniform between the limits; uniform over the turns of a quaternion or a (cos, sin). Where a limit is infinite,
+        a revolute angle lies in ±π and a length in ±1 m (Pinocchio returns infinities there).
 
         Parameters
         ----------

@@ -135,6 +135,8 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
         If the twist or wrench is zero, or its axis is too far away for a floating-point number.
     TypeError
         If `of` contradicts the type of `x`.
+    ValueError
+        If `of` is neither.
 
     Examples
     --------

@@ -30,6 +30,10 @@ __all__ = [
 def import_pinocchio() -> Any:
     """Return the module `pinocchio`, or say how to get it.
 
+    Returns
+    -------
+    module
+
     Raises
     ------
     ImportError
