@@ -94,10 +94,11 @@ def to_pinocchio_model(model: Model) -> Any:
         limits = effort[vs], velocity[vs], model.lower[qs], model.upper[qs]
         placement = to_pinocchio_se3(model.placement[i])
         there.addJoint(model.parent[i], _joint_there(pin, joint), placement, model.joint_names[i], *limits)
-        there.inertias[i] = to_pinocchio_inertia(model.inertia[i])
     there.armature = model.armature[order]
     there.gravity = pin.Motion(model.gravity.copy(), np.zeros(3))
     _frames_there(pin, model, there)
+    for i in range(1, model.nbodies):  # last: each frame adds an inertia of its own, and to add zero rounds
+        there.inertias[i] = to_pinocchio_inertia(model.inertia[i])
     for name, q in model.postures.items():
         there.referenceConfigurations[name] = q
     return there
