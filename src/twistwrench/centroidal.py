@@ -14,7 +14,7 @@ from .errors import SingularError
 from .inertia import cross_force
 from .kinematics import _motion, _placements
 from .model import Model
-from .plucker import SE3, force_transform
+from .plucker import SE3
 from .tree import composite_inertias, walk
 
 __all__ = ["center_of_mass", "centroidal_map", "centroidal_momentum", "centroidal_momentum_rate"]
@@ -184,4 +184,4 @@ def _to_center_of_mass(model: Model, q: Array) -> list[Array]:
     """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
     placement = _placements(model, q)
     p_G = _center_of_mass(model, placement, q)
-    return [force_transform(T.rotation, T.translation - p_G) for T in placement]
+    return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]

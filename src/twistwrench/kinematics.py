@@ -12,7 +12,7 @@ from .constants import cast
 from .errors import unknown_name
 from .inertia import cross_motion
 from .model import Model
-from .plucker import SE3, motion_transform
+from .plucker import SE3
 from .tree import joint_placements, split, walk
 
 __all__ = [
@@ -250,5 +250,5 @@ def _to_reference(reference: str, T: SE3) -> Array:
     if reference == "world":
         return T.motion_transform()
     if reference == "local_world_aligned":
-        return motion_transform(T.rotation, zero)
+        return SE3._trusted(T.rotation, zero).motion_transform()
     raise unknown_name("reference", reference, ["local", "world", "local_world_aligned"])
