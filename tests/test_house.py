@@ -281,10 +281,11 @@ def test_every_argument_and_every_result_is_described():
 
 
 def test_every_error_that_is_raised_is_documented():
-    """In the docstring of the function, or of the class whose method it is."""
+    """By the function, or by the class whose method it is; an operator's TypeError is the language's."""
     silent = []
     for place, node in INTERFACE.items():
-        for function in [n for n in ast.walk(node) if isinstance(n, Function)]:
+        methods = [n for n in ast.walk(node) if isinstance(n, Function)]
+        for function in [f for f in methods if not f.name.startswith("__") or f.name == "__init__"]:
             raises = [n.exc for n in ast.walk(function) if isinstance(n, ast.Raise) and n.exc is not None]
             names = {ast.unparse(exc.func if isinstance(exc, ast.Call) else exc) for exc in raises}
             names = {"NameNotFound" if name == "unknown_name" else name for name in names} - {"NotImplementedError"}
