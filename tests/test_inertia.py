@@ -328,6 +328,19 @@ def test_a_matrix_that_is_no_spatial_inertia_is_refused():
         SpatialInertia.from_matrix(np.eye(3))
 
 
+def test_the_room_for_an_inertia_ends_at_the_square_root_of_the_resolution():
+    skewed = np.zeros((3, 3))
+    skewed[0, 1] = EPS**0.5
+    SpatialInertia(1, [0, 0, 0], np.eye(3) + 0.9 * skewed)
+    with pytest.raises(ModelError, match="symmetric"):
+        SpatialInertia(1, [0, 0, 0], np.eye(3) + 1.1 * skewed)
+    M, off = np.eye(6), np.zeros((6, 6))
+    off[3, 4] = EPS**0.5
+    SpatialInertia.from_matrix(M + 0.9 * off)
+    with pytest.raises(ModelError, match="I6: expected"):
+        SpatialInertia.from_matrix(M + 1.1 * off)
+
+
 # --- shapes, types -------------------------------------------------------------------------------
 
 

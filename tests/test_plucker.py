@@ -213,6 +213,15 @@ def test_a_matrix_with_a_wrong_last_row_is_refused():
         SE3.from_matrix(M)
 
 
+def test_the_room_for_a_last_row_ends_at_the_square_root_of_the_resolution():
+    M = np.eye(4)
+    M[3, 0] = 0.9 * EPS**0.5
+    np.testing.assert_array_equal(SE3.from_matrix(M).matrix(), np.eye(4))
+    M[3, 0] = 1.1 * EPS**0.5
+    with pytest.raises(ShapeError, match="last row"):
+        SE3.from_matrix(M)
+
+
 def test_a_placement_shows_itself():
     T = SE3(np.eye(3), [1, 2, 3])
     again = eval(repr(T))

@@ -259,6 +259,13 @@ def test_a_matrix_that_is_not_skew_is_refused_with_its_distance():
     np.testing.assert_array_equal(unskew(np.zeros((3, 3))), np.zeros(3))
 
 
+def test_the_room_for_a_skew_matrix_ends_at_the_square_root_of_the_resolution():
+    W, off = skew([0, 0, 1]), np.diag([EPS**0.5, 0, 0]) / 2  # |M + Mᵀ| is twice the entry
+    np.testing.assert_array_equal(unskew(W + 0.9 * off), [0, 0, 1])
+    with pytest.raises(ShapeError):
+        unskew(W + 1.1 * off)
+
+
 def test_the_zero_quaternion_is_refused_with_its_place_in_the_batch():
     with pytest.raises(SingularError, match=r"zero quaternion is no rotation at index \(1,\)"):
         quaternion_to_rotation([[0, 0, 0, 1], [0, 0, 0, 0]])

@@ -61,6 +61,15 @@ def test_a_matrix_outside_se3_is_refused():
         vee(np.zeros((3, 3)))
 
 
+def test_the_room_for_a_matrix_in_se3_ends_at_the_square_root_of_the_resolution():
+    M = hat([0, 0, 1, 0, 0, 0])
+    M[3, 3] = 0.9 * 2.0**-26
+    np.testing.assert_array_equal(vee(M), [0, 0, 1, 0, 0, 0])
+    M[3, 3] = 1.1 * 2.0**-26
+    with pytest.raises(ShapeError, match="last row of zeros"):
+        vee(M)
+
+
 # --- screws --------------------------------------------------------------------------------------
 
 
