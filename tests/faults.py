@@ -216,7 +216,7 @@ FAULTS = [
         "Jacobian in the world without moving its origin",
         "kinematics.py",
         "        return T.motion_transform()\n",
-        "        return motion_transform(T.rotation, zero)\n",
+        "        return SE3._trusted(T.rotation, zero).motion_transform()\n",
     ),
     Fault(
         "spatial for classical acceleration",
