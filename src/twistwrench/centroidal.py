@@ -184,4 +184,5 @@ def _to_center_of_mass(model: Model, q: Array) -> list[Array]:
     """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
     placement = _placements(model, q)
     p_G = _center_of_mass(model, placement, q)
-    return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]
+    rotation = [np.broadcast_to(T.rotation, (*q.shape[:-1], 3, 3)) for T in placement]  # the world's has no batch
+    return [SE3._trusted(R, T.translation - p_G).force_transform() for R, T in zip(rotation, placement, strict=True)]
