@@ -1,0 +1,167 @@
+"""The command line: ``twistwrench validate``, ``twistwrench robots``.
+
+A command is a function that adds its parser; it names in ``set_defaults(run=...)`` what does the work
+and returns the exit status. What a command needs it imports there, so that ``--help`` is quick.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .errors import ModelError, NameNotFound
+
+if TYPE_CHECKING:
+    from .validate import Report
+
+__all__ = ["COMMANDS", "main"]
+
+Commands = Any
+"""What ``add_subparsers`` returns; argparse has no public name for it."""
+
+FAILED, MISUSED, INTERRUPTED = 1, 2, 130
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        The arguments; those of the process unless given.
+
+    Returns
+    -------
+    int
+        0; 1 where a check failed; 2 where the command cannot be carried out.
+
+    Examples
+    --------
+    >>> main(["robots", "--source", "models"])
+    name             dof  base      source  licence       note
+    cart_pole        2    fixed     models  BSD-3-Clause
+    ...
+    0
+    """
+    parser = argparse.ArgumentParser(prog="twistwrench", description="Spatial vector algebra and robot dynamics.")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for add in COMMANDS:
+        add(commands)
+    args = parser.parse_args(argv)
+    try:
+        return int(args.run(args))
+    except BrokenPipeError:  # the reader has seen enough, as in `twistwrench robots | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except (NameNotFound, ModelError, ImportError, OSError) as error:
+        print(f"twistwrench: {error}", file=sys.stderr)
+        return MISUSED
+
+
+# -------------------------------------------------------------------- robots
+
+
+def add_robots(commands: Commands) -> None:
+    """Add ``twistwrench robots``."""
+    parser = commands.add_parser("robots", help="list the robots that can be loaded by name")
+    parser.add_argument("--source", choices=["models", "example-robot-data"], help="only those that come with it")
+    parser.set_defaults(run=run_robots)
+
+
+def run_robots(args: argparse.Namespace) -> int:
+    """Print the catalogue."""
+    from .robots import Catalogue, robots
+
+    print(Catalogue(robot for robot in robots() if args.source in (None, robot.source)))
+    return 0
+
+
+# -------------------------------------------------------------------- validate
+
+
+def add_validate(commands: Commands) -> None:
+    """Add ``twistwrench validate``."""
+    parser = commands.add_parser(
+        "validate",
+        help="hold every quantity against Pinocchio and the 50-digit truth",
+        description="Hold every quantity of the chapter against Pinocchio and against the truth in 50 digits, at "
+        "random states, and print a row for each. Exit status 1 where a row is outside its bound.",
+    )
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("robot", nargs="*", default=[], metavar="ROBOT", help="a name of `twistwrench robots` or a URDF")
+    what.add_argument("--all", action="store_true", help="every robot on a fixed and on a floating base, a line each")
+    parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own (--all: both)")
+    parser.add_argument("--states", type=_positive, default=8, metavar="N", help="random states (8)")
+    parser.add_argument("--truths", type=_positive, metavar="N", help="states with the truth computed (3; --all: 1)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random states (0)")
+    parser.add_argument("--json", metavar="FILE", help="write the results as JSON; - for stdout, without the table")
+    parser.add_argument("--jobs", type=_positive, metavar="N", help="processes for --all (as many as processors)")
+    parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
+    parser.set_defaults(run=run_validate)
+
+
+def run_validate(args: argparse.Namespace) -> int:
+    """Validate, print and write."""
+    start = time.perf_counter()
+    reports, passed = (_validate_all if args.all else _validate_some)(args)
+    if args.json:
+        seconds = time.perf_counter() - start
+        found = {"passed": passed, "seconds": round(seconds, 3), "reports": reports}
+        text = json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False)
+        print(text) if args.json == "-" else Path(args.json).write_text(text + "\n", encoding="utf-8")
+    return 0 if passed else FAILED
+
+
+def _validate_some(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool]:
+    """Validate the robots that are named, a table each."""
+    from .validate import validate
+
+    reports: list[Report] = []
+    for name in args.robot or ["go2"]:
+        report = validate(
+            name, base=args.base, states=args.states, truths=args.truths or 3, rng=args.seed, progress=_shows_bar(args)
+        )
+        if args.json != "-":
+            print("\n" * bool(reports) + str(report))
+        reports.append(report)
+    return [report.as_dict() for report in reports], all(report.passed for report in reports)
+
+
+def _validate_all(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool]:
+    """Validate the whole catalogue, a line each."""
+    from tqdm import tqdm
+
+    from .validate import sweep
+
+    start, outcomes = time.perf_counter(), []
+    which = sweep.every_robot(args.base)
+    found = sweep.sweep(which, jobs=args.jobs, states=args.states, truths=args.truths or 1, seed=args.seed)
+    say: Callable[[str], None] = tqdm.write if args.json != "-" else lambda text: None  # stdout is for the JSON
+    say(sweep.header())
+    for outcome in tqdm(found, total=len(which), unit="robot", disable=not _shows_bar(args), leave=False):
+        outcomes.append(outcome)
+        say(sweep.line(outcome))
+    say("\n" + sweep.summary(outcomes, time.perf_counter() - start))
+    return [outcome.as_dict() for outcome in outcomes], all(outcome.passed for outcome in outcomes)
+
+
+def _shows_bar(args: argparse.Namespace) -> bool:
+    return args.progress or sys.stderr.isatty()
+
+
+def _positive(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"expected 1 or more, got {text}")
+    return value
+
+
+COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots)

@@ -1,0 +1,84 @@
+"""The configuration manifold in exact numbers: what `Model.integrate` must return (49.1, 49.3).
+
+Quaternions, (cos, sin) and the power series of the exponential, none of which the package uses for it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..checks import Array
+from ..model import Model
+from ..newton_euler_3d.bodies import cross
+
+__all__ = ["integrate"]
+
+
+def integrate(model: Model, q: Array, dv: Array) -> Array:
+    """Return q ⊕ dv for one state of mpmath numbers, shape (nq,)."""
+    pieces = [
+        _step(joint.kind, q[qs], dv[vs])
+        for joint, qs, vs in zip(model.joints, model.q_slice, model.v_slice, strict=True)
+        if joint
+    ]
+    return np.concatenate(pieces)
+
+
+def _step(kind: str, q: Array, dv: Array) -> Array:
+    if kind in ("revolute", "prismatic"):
+        return q + dv
+    if kind == "continuous":
+        return _turned(q, dv[0])
+    if kind == "planar":
+        c, s, w = q[2], q[3], dv[2]
+        shift = _shift(np.array([w * 0, w * 0, w]), np.array([dv[0], dv[1], w * 0]))
+        place = q[:2] + np.array([c * shift[0] - s * shift[1], s * shift[0] + c * shift[1]])
+        return np.concatenate([place, _turned(q[2:], w)])
+    if kind == "spherical":
+        return _product(q, _quaternion(dv))
+    position, quaternion = q[:3], q[3:]  # a free-flyer
+    return np.concatenate(
+        [position + _rotate(quaternion, _shift(dv[:3], dv[3:])), _product(quaternion, _quaternion(dv[:3]))]
+    )
+
+
+def _turned(cs: Array, angle: Any) -> Array:
+    """Turn a direction (cos, sin), of which the length does not matter."""
+    mp = angle.context
+    c, s = cs / mp.sqrt((cs * cs).sum())
+    return np.array([c * mp.cos(angle) - s * mp.sin(angle), s * mp.cos(angle) + c * mp.sin(angle)])
+
+
+def _quaternion(w: Array) -> Array:
+    """Return (x, y, z, w) of the turn by the vector `w`."""
+    mp = w[0].context
+    angle = mp.sqrt((w * w).sum())
+    half_sinc = mp.sin(angle / 2) / angle if angle else mp.mpf(1) / 2
+    return np.append(w * half_sinc, mp.cos(angle / 2))
+
+
+def _product(a: Array, b: Array) -> Array:
+    """Return the quaternion product a b, of length 1."""
+    u, v = a[:3], b[:3]
+    product = np.append(a[3] * v + b[3] * u + cross(u, v), a[3] * b[3] - (u * v).sum())
+    unit: Array = product / product[0].context.sqrt((product * product).sum())
+    return unit
+
+
+def _rotate(quaternion: Array, x: Array) -> Array:
+    """Return u x u⁻¹ for a quaternion u of any length."""
+    u, w, square = quaternion[:3], quaternion[3], (quaternion * quaternion).sum()
+    rotated: Array = x + 2 * (w * cross(u, x) + cross(u, cross(u, x))) / square
+    return rotated
+
+
+def _shift(w: Array, v: Array) -> Array:
+    """Return ∫₀¹ exp(t [w]×) v dt = v + w × v / 2! + w × (w × v) / 3! + …, until nothing is added any more."""
+    total, term, k = v, v, 1
+    while (abs(term) > v[0].context.eps * abs(v).max()).any():
+        k += 1
+        term = cross(w, term) / k
+        total = total + term
+    return total

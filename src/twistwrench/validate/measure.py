@@ -1,0 +1,218 @@
+"""One row measured: how far ours is from Pinocchio and from the truth, and whether that is allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..checks import Array
+from ..errors import ShapeError, SingularError
+from ..model import Model
+from .conditioning import CANCELLED
+from .oracle import Oracle
+from .quantity import BOUND, Quantity
+from .states import States
+
+__all__ = ["Judge", "Row"]
+
+
+@dataclass(frozen=True)
+class Row:
+    """What came out for one quantity.
+
+    Attributes
+    ----------
+    section, quantity, pinocchio : str
+        Where in the chapter, what, and what Pinocchio calls it.
+    shape : tuple of int
+        Of the value at one state.
+    ours_vs_pinocchio, ours_vs_truth, pinocchio_vs_truth : float or None
+        Worst relative error over the states; None where a side is missing, NaN where one gave no number.
+        Where the bound varies, of the state that came closest to its bound.
+    bound : float
+        The relative error allowed: 1e-12, or more where the conditioning forbids that.
+    passed : bool
+    singular : bool
+        Ours says that the quantity does not exist here; the row passes if that is so.
+    note : str
+        What there is to say beyond the numbers.
+    """
+
+    section: str
+    quantity: str
+    pinocchio: str
+    shape: tuple[int, ...] = ()
+    ours_vs_pinocchio: float | None = None
+    ours_vs_truth: float | None = None
+    pinocchio_vs_truth: float | None = None
+    bound: float = BOUND
+    passed: bool = False
+    singular: bool = False
+    note: str = ""
+
+    @property
+    def error(self) -> float | None:
+        """The error that decides: against the truth where that is known, else against Pinocchio."""
+        return self.ours_vs_pinocchio if self.ours_vs_truth is None else self.ours_vs_truth
+
+
+class Right(NamedTuple):
+    """A right value as the sum of two doubles: 32 digits of it."""
+
+    high: Array
+    low: Array | float = 0.0
+
+
+@dataclass(frozen=True)
+class At:
+    """What one state showed: errors of every entry, in units of the scale; None where a side is missing."""
+
+    ours_vs_pinocchio: Array | None
+    ours_vs_truth: Array | None
+    pinocchio_vs_truth: Array | None
+    bound: float
+
+    @property
+    def decides(self) -> Array:
+        """The truth decides; where it is not known, Pinocchio."""
+        errors = self.ours_vs_pinocchio if self.ours_vs_truth is None else self.ours_vs_truth
+        return np.zeros(0) if errors is None else errors
+
+    @property
+    def closeness(self) -> float:
+        """The deciding error in units of the bound. A NaN is infinitely far off."""
+        worst = self.decides.max(initial=0) / self.bound
+        return float(np.inf if np.isnan(worst) else worst)
+
+    def place(self, state: int) -> str:
+        """Say where the worst entry is."""
+        entry = np.unravel_index(np.argmax(self.decides), self.decides.shape)
+        return f"worst at state {state}, entry {tuple(int(k) for k in entry)}"
+
+
+@dataclass(frozen=True)
+class Judge:
+    """What a quantity is compared with, and at which states.
+
+    Attributes
+    ----------
+    model : Model
+    states : States
+    oracle : Oracle or None
+        Pinocchio.
+    context : mpmath context or None
+        In whose numbers the truth is computed.
+    truths : int
+        At how many of the states it is computed in any case. It is computed as well wherever ours and
+        Pinocchio differ by more than the bound, to see who is right.
+    """
+
+    model: Model
+    states: States
+    oracle: Oracle | None
+    context: Any
+    truths: int
+
+    def row(self, quantity: Quantity) -> Row:
+        """Measure one quantity."""
+        row = Row(quantity.section, quantity.name, quantity.pinocchio)
+        try:
+            ours = quantity.ours(self.model, self.states)
+        except SingularError as error:
+            passed = quantity.is_singular(self.model, self.states, str(error))
+            return replace(row, passed=passed, singular=True, note=self._named(str(error)))
+        except Exception as error:  # the other rows are worth seeing all the same
+            return replace(row, note=f"{type(error).__name__}: {error}")
+        row = replace(row, shape=ours.shape[1:])
+        try:
+            return _sum_up(row, [self._at(quantity, i, x) for i, x in enumerate(ours)])
+        except SingularError as error:
+            return replace(row, note=f"ours gives numbers where none exist: {error}")
+        except ShapeError as error:
+            return replace(row, note=str(error))
+
+    def _named(self, message: str) -> str:
+        """Shorten the message of a SingularError that names many joints."""
+        names = [repr(name) for name in self.model.joint_names if repr(name) in message]
+        if not names:
+            return "singular: " + " ".join(message.split())
+        more = f" and {len(names) - 4} more" if len(names) > 4 else ""
+        return f"singular: {len(names)} joint{'s' * (len(names) > 1)}: {', '.join(names[:4])}{more}"
+
+    def _at(self, quantity: Quantity, i: int, x: Array) -> At:
+        s = self.states[i]
+        theirs = None if self.oracle is None else Right(quantity.theirs(self.oracle, s))
+        truth = self._truth(quantity, s) if theirs is None or i < self.truths else None
+        at = self._compare(quantity, s, x, theirs, truth)
+        if truth is None and at.closeness > 1:
+            truth = self._truth(quantity, s)  # who is right?
+            at = self._compare(quantity, s, x, theirs, truth)
+        return at
+
+    def _truth(self, quantity: Quantity, s: States) -> Right | None:
+        if self.context is None:
+            return None
+        y = quantity.truth(self.model, s.exact(self.context))
+        high = y.astype(np.float64)
+        return Right(high, np.asarray(y - high, np.float64))
+
+    def _compare(self, quantity: Quantity, s: States, x: Array, theirs: Right | None, truth: Right | None) -> At:
+        right = theirs if truth is None else truth
+        if right is None:
+            raise ValueError("nothing to compare with: neither Pinocchio nor mpmath is there")
+        if x.shape != right.high.shape:
+            raise ShapeError(f"ours has shape {x.shape}, expected {right.high.shape}")
+        scale, bound = np.abs(right.high).max(initial=0), BOUND
+        if quantity.terms is not None:
+            scale = max(scale, CANCELLED * quantity.terms(self.model, s))
+        if quantity.bound is not None:
+            bound = max(bound, quantity.bound(self.model, s, right.high))
+        return At(
+            ours_vs_pinocchio=_errors(x, theirs, scale),
+            ours_vs_truth=_errors(x, truth, scale),
+            pinocchio_vs_truth=None if theirs is None else _errors(theirs.high, truth, scale),
+            bound=bound,
+        )
+
+
+def _errors(x: Array, right: Right | None, scale: float) -> Array | None:
+    """Return the relative error of each entry. Where the scale is zero, so is the right value, to the last bit."""
+    if right is None:
+        return None
+    off = np.abs(x - right.high - right.low)
+    return np.asarray(off / scale if scale else np.where(off == 0, 0.0, np.inf))
+
+
+def _sum_up(row: Row, states: Sequence[At]) -> Row:
+    """Take the worst of the states."""
+    known = [i for i, at in enumerate(states) if at.ours_vs_truth is not None] or range(len(states))
+    worst = max(known, key=lambda i: states[i].closeness)
+    constant = all(at.bound == BOUND for at in states)
+    seen = states if constant else [states[worst]]
+    row = replace(
+        row,
+        ours_vs_pinocchio=_worst(at.ours_vs_pinocchio for at in seen),
+        ours_vs_truth=_worst(at.ours_vs_truth for at in seen),
+        pinocchio_vs_truth=_worst(at.pinocchio_vs_truth for at in seen),
+        bound=states[worst].bound,
+        passed=all(at.closeness <= 1 for at in states),
+    )
+    return replace(row, note=_on_pinocchio(states) if row.passed else states[worst].place(worst))
+
+
+def _worst(errors: Iterable[Array | None]) -> float | None:
+    """Return the largest error; NaN if there is one."""
+    known = [e.max(initial=0) for e in errors if e is not None]
+    return float(np.max(known)) if known else None
+
+
+def _on_pinocchio(states: Sequence[At]) -> str:
+    """Say where ours is right and Pinocchio is not."""
+    wrong = [at.pinocchio_vs_truth for at in states if at.pinocchio_vs_truth is not None]
+    worst = _worst(wrong) or 0.0
+    if np.isnan(worst):
+        return "Pinocchio gives NaN"
+    return f"Pinocchio is {worst:.1e} off the truth" if worst > max(at.bound for at in states) else ""

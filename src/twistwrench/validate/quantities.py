@@ -1,0 +1,14 @@
+"""All rows, in the order of the chapter."""
+
+from __future__ import annotations
+
+from .dynamics_rows import DYNAMICS
+from .kinematics_rows import KINEMATICS
+from .momentum_rows import MOMENTUM
+from .quantity import Quantity
+
+__all__ = ["QUANTITIES"]
+
+QUANTITIES: tuple[Quantity, ...] = tuple(
+    sorted((*KINEMATICS, *MOMENTUM, *DYNAMICS), key=lambda row: float(row.section.split(".")[1]))
+)

@@ -1,0 +1,173 @@
+"""What a validation found: as a table, as JSON."""
+
+from __future__ import annotations
+
+import json
+import math
+import unicodedata
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from html import escape
+from typing import Any
+
+from .measure import Row
+
+__all__ = ["Report", "notes", "number"]
+
+HEADER = ("§", "quantity", "in Pinocchio", "shape", "vs Pin.", "vs truth", "bound", "")
+RIGHT = (4, 5, 6)
+
+
+@dataclass(frozen=True)
+class Report:
+    """What came out for one robot.
+
+    Attributes
+    ----------
+    robot : str
+    description : str
+        Base, bodies, sizes.
+    base : str
+    nv : int
+    rows : tuple of Row
+    pinocchio, mpmath : str or None
+        Versions; None where it is missing and that side was left out.
+    states, truths : int
+        Number of random states, and of those at which the truth was computed in any case.
+    seed : int or None
+    loader : bool
+        Whether Pinocchio read the same URDF by itself.
+    seconds : float
+    """
+
+    robot: str
+    description: str
+    base: str
+    nv: int
+    rows: tuple[Row, ...]
+    pinocchio: str | None
+    mpmath: str | None
+    states: int
+    truths: int
+    seed: int | None
+    loader: bool
+    seconds: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether every row is inside its bound."""
+        return all(row.passed for row in self.rows)
+
+    @property
+    def failed(self) -> tuple[Row, ...]:
+        """The rows that are not."""
+        return tuple(row for row in self.rows if not row.passed)
+
+    @property
+    def worst(self) -> Row | None:
+        """The row closest to its bound, or furthest beyond it."""
+        compared = [row for row in self.rows if row.error is not None]
+        return max(compared, key=lambda row: _ratio(row), default=None)
+
+    def __str__(self) -> str:
+        lines = [f"{self.robot}: {self.description}", *self._sides(), "", *_aligned([HEADER, *map(_cells, self.rows)])]
+        return "\n".join([*lines, *notes(self.rows), "", self.summary()])
+
+    def _sides(self) -> list[str]:
+        """Say what ours was held against, and what is missing."""
+        if self.pinocchio is None:
+            pinocchio = "Pinocchio is not installed: held against the truth alone (pip install pin; not on Windows)"
+        else:
+            reads = "reads the same URDF" if self.loader else "is handed the model over by the bridge"
+            pinocchio = f"Pinocchio {self.pinocchio} {reads}, {_count(self.states, 'random state')}, seed {self.seed}"
+        if self.mpmath is None:
+            truth = "mpmath is not installed: without the 50-digit truth (pip install mpmath gmpy2)"
+        else:
+            truth = f"truth: newton_euler_3d in 50 digits, {self.truths} of the states and wherever the two differ"
+        return [pinocchio, truth]
+
+    def summary(self) -> str:
+        """Return the last line."""
+        good, time = len(self.rows) - len(self.failed), f"{self.seconds:.1f} s"
+        if not self.rows:
+            return f"nothing moves, nothing to compare · {time}"
+        if self.passed:
+            return f"{good} of {len(self.rows)} rows inside their bounds · {time}"
+        names = ", ".join(row.quantity for row in self.failed)
+        return f"{good} of {len(self.rows)} rows inside their bounds; outside: {names} · {time}"
+
+    def to_json(self, indent: int | None = 2) -> str:
+        """Return everything as JSON; what is no number or infinite is null."""
+        return json.dumps(self.as_dict(), indent=indent, ensure_ascii=False, allow_nan=False)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything in JSON's own types."""
+        plain = asdict(self) | {"passed": self.passed}
+        plain["rows"] = [{key: _finite(value) for key, value in asdict(row).items()} for row in self.rows]
+        return plain
+
+    def _repr_html_(self) -> str:
+        cells = [HEADER, *map(_cells, self.rows)]
+        rows = ("<tr>" + "".join(f"<td>{escape(c)}</td>" for c in line) + "</tr>" for line in cells)
+        head = "<br>".join(escape(line) for line in (f"{self.robot}: {self.description}", *self._sides()))
+        return f"<p>{head}</p><table>{''.join(rows)}</table><p>{escape(self.summary())}</p>"
+
+
+def notes(rows: Iterable[Row]) -> list[str]:
+    """Return what there is to say of the rows, each thing once."""
+    said: dict[str, list[str]] = {}
+    for row in rows:
+        if row.note:
+            said.setdefault(row.note, []).append(row.pinocchio if row.pinocchio[0].isalpha() else row.quantity)
+    return [f"    {'; '.join(names)}: {note}" for note, names in said.items()]
+
+
+def _ratio(row: Row) -> float:
+    ratio = (row.error or 0.0) / row.bound
+    return math.inf if math.isnan(ratio) else ratio
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    verdict = "✓" if row.passed else "✗"
+    if row.singular:
+        return (row.section, row.quantity, row.pinocchio, "", "", "singular", "", verdict)
+    shape = "×".join(map(str, row.shape)) or ("scalar" if row.error is not None else "")
+    errors = [number(row.ours_vs_pinocchio), number(row.ours_vs_truth)]
+    return (row.section, row.quantity, row.pinocchio, shape, *errors, number(row.bound), verdict)
+
+
+def number(x: float | None) -> str:
+    """Write an error in two digits; a dash where there is none.
+
+    Examples
+    --------
+    >>> number(2.34e-16), number(0.0), number(None)
+    ('2.3e-16', '0', '–')
+    """
+    if x is None:
+        return "–"
+    return "NaN" if math.isnan(x) else "0" if x == 0 else f"{x:.1e}".replace("1.0e-12", "1e-12")
+
+
+def _aligned(lines: list[tuple[str, ...]]) -> list[str]:
+    """Lay cells out in columns, numbers to the right."""
+    widths = [max(map(_width, column)) for column in zip(*lines, strict=True)]
+    return ["  ".join(map(_pad, line, widths, range(len(widths)))).rstrip() for line in lines]
+
+
+def _pad(cell: str, width: int, column: int) -> str:
+    space = " " * (width - _width(cell))
+    return space + cell if column in RIGHT else cell + space
+
+
+def _width(text: str) -> int:
+    """Return how many columns a text takes: the dot over a letter takes none."""
+    return sum(not unicodedata.combining(c) for c in text)
+
+
+def _count(n: int, what: str) -> str:
+    return f"{n} {what}{'' if n == 1 else 's'}"
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,153 @@
+"""Validate one robot (49.11)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from ..errors import NameNotFound
+from ..model import Model
+from ..robots import load
+from ..robots.catalogue import find
+from .measure import Judge
+from .oracle import Oracle
+from .quantities import QUANTITIES
+from .quantity import Quantity
+from .report import Report
+from .states import random_states
+
+__all__ = ["validate"]
+
+DIGITS = 50
+
+
+def validate(
+    robot: Model | str | PathLike[str],
+    *,
+    base: Literal["fixed", "floating"] | None = None,
+    states: int = 8,
+    truths: int = 3,
+    rng: np.random.Generator | int = 0,
+    progress: bool = False,
+) -> Report:
+    """Hold every quantity of the chapter against Pinocchio and against the 50-digit truth.
+
+    Parameters
+    ----------
+    robot : Model, str or path
+        A name or a path is loaded as by `twistwrench.load`, without refusing bodies that cannot exist, and
+        Pinocchio reads the same file by itself. A `Model` is handed over to it by the bridge.
+    base : {"fixed", "floating"}, optional
+        For a name or a path: the base to load it with.
+    states : int
+        Number of random states; ours is computed for all of them in one batch.
+    truths : int
+        At how many of them the truth is computed in any case. Where ours and Pinocchio differ by more
+        than the bound, it is computed as well.
+    rng : numpy Generator or int
+        Where the states come from. The same seed gives the same report, but for the time.
+    progress : bool
+        Show a bar on stderr.
+
+    Returns
+    -------
+    Report
+        Prints as a table; `Report.passed` says whether every row is inside its bound.
+
+    Raises
+    ------
+    NameNotFound, ModelError
+        As `twistwrench.load`.
+    ImportError
+        If neither Pinocchio nor mpmath is there to compare with.
+    ValueError
+        If `states` is below 1, or a base is named for a `Model`.
+
+    Notes
+    -----
+    Error: the largest difference at a state, over the largest entry of the right value; where larger
+    terms cancelled in that, over a part of those. Bound: 1e-12; for what comes out of an inverse the
+    larger one that its conditioning allows. See `twistwrench.validate.conditioning`. The truth decides
+    where it is known, Pinocchio elsewhere.
+
+    Examples
+    --------
+    >>> from twistwrench.validate import validate
+    >>> report = validate("pendulum", states=2, truths=1)
+    >>> report.passed
+    True
+    """
+    start = time.perf_counter()
+    if states < 1:
+        raise ValueError(f"states: expected 1 or more, got {states}")
+    model, path = _load(robot, base)
+    oracle, context = _oracle(model, path), _context()
+    if oracle is None and context is None:
+        raise ImportError('nothing to compare with: pip install "twistwrench[validate]" brings Pinocchio and mpmath')
+    judge = Judge(model, random_states(model, states, rng=rng), oracle, context, truths=min(truths, states))
+    rows = [judge.row(q) for q in _bar(QUANTITIES, progress, model.name) if q.applies(model)] if model.nv else []
+    return Report(
+        robot=model.name if isinstance(robot, Model) else str(robot),
+        description=repr(model).partition(": ")[2],
+        base=model.base,
+        nv=model.nv,
+        rows=tuple(rows),
+        pinocchio=None if oracle is None else str(oracle.pin.__version__),
+        mpmath=None if context is None else _version_of_mpmath(),
+        states=states,
+        truths=judge.truths,
+        seed=rng if isinstance(rng, int) else None,
+        loader=path is not None,
+        seconds=time.perf_counter() - start,
+    )
+
+
+def _load(robot: Model | str | PathLike[str], base: Literal["fixed", "floating"] | None) -> tuple[Model, Path | None]:
+    """Return the model, and the URDF it came from where there is one."""
+    if isinstance(robot, Model):
+        if base is not None:
+            raise ValueError(f"base: a Model has its base ({robot.base}) already, got {base!r}")
+        return robot, None
+    model = load(robot, base=base, physical=False, mimic="independent")
+    try:
+        return model, find(str(robot)).path
+    except NameNotFound:
+        return model, Path(robot)
+
+
+def _oracle(model: Model, path: Path | None) -> Oracle | None:
+    try:
+        return Oracle(model, path)
+    except ImportError:
+        return None
+
+
+def _context() -> Any:
+    """Return an mpmath context of our own, so that nobody else's number of digits changes; None without mpmath."""
+    try:
+        from mpmath import MPContext
+    except ImportError:
+        return None
+    context = MPContext()
+    context.dps = DIGITS
+    return context
+
+
+def _version_of_mpmath() -> str:
+    import mpmath
+
+    return str(mpmath.__version__)
+
+
+def _bar(quantities: Iterable[Quantity], show: bool, name: str) -> Iterable[Quantity]:
+    if not show:
+        return quantities
+    from tqdm import tqdm
+
+    bar: Iterable[Quantity] = tqdm(quantities, desc=name, unit="row", leave=False)
+    return bar

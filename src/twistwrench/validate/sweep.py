@@ -1,0 +1,131 @@
+"""Validate all robots of the catalogue, on several processes (49.11)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+from typing import Any, Literal
+
+from ..robots import robots
+from ..robots.catalogue import example_robot_data_folder
+from .quantity import BOUND
+from .report import Report, notes, number
+from .run import validate
+
+__all__ = ["Outcome", "every_robot", "header", "line", "summary", "sweep"]
+
+Base = Literal["fixed", "floating"]
+BASES: tuple[Base, Base] = ("fixed", "floating")
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one robot on one base: a report, or the error that prevented it."""
+
+    robot: str
+    base: Base
+    report: Report | None
+    error: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether there is a report and every row of it is inside its bound."""
+        return self.report is not None and self.report.passed
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything in JSON's own types."""
+        if self.report is not None:
+            return self.report.as_dict()
+        return {"robot": self.robot, "base": self.base, "passed": False, "error": self.error}
+
+
+def every_robot(base: Base | None = None) -> list[tuple[str, Base]]:
+    """List the robots of the catalogue that are installed, each on both bases unless told which."""
+    there = [r.name for r in robots() if r.source == "models" or example_robot_data_folder() is not None]
+    return [(name, b) for name in there for b in (BASES if base is None else (base,))]
+
+
+def sweep(
+    which: Sequence[tuple[str, Base]], *, jobs: int | None = None, states: int = 8, truths: int = 1, seed: int = 0
+) -> Iterator[Outcome]:
+    """Validate robots, several at a time.
+
+    Parameters
+    ----------
+    which : sequence of (name, base)
+    jobs : int, optional
+        Number of processes; as many as there are processors unless given.
+    states, truths, seed
+        As `validate`'s states, truths and rng.
+
+    Yields
+    ------
+    Outcome
+        In the order of `which`.
+    """
+    jobs = min(jobs or os.cpu_count() or 1, len(which) or 1)
+    if jobs == 1:
+        for name, base in which:
+            yield _outcome(name, base, states, truths, seed)
+        return
+    # Spawned, not forked: a fork copies locks of the BLAS's threads in whatever state they are.
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        running = [pool.submit(_outcome, name, base, states, truths, seed) for name, base in which]
+        try:
+            for future in running:
+                yield future.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _outcome(name: str, base: Base, states: int, truths: int, seed: int) -> Outcome:
+    try:
+        return Outcome(name, base, validate(name, base=base, states=states, truths=truths, rng=seed))
+    except Exception as error:  # the other robots are worth seeing all the same
+        return Outcome(name, base, None, f"{type(error).__name__}: {error}")
+
+
+COLUMNS = ((27, "robot"), (8, "base"), (3, "nv"), (5, "rows"), (23, "closest to its bound"))
+NUMBERS = ("vs Pin.", "vs truth", "bound")
+
+
+def header() -> str:
+    """Return the first line of the table."""
+    return "  ".join([*(title.ljust(width) for width, title in COLUMNS), *(n.rjust(7) for n in NUMBERS)])
+
+
+def line(outcome: Outcome) -> str:
+    """Return an outcome's line of the table, and below it what there is to say of its rows."""
+    report = outcome.report
+    if report is None:
+        return f"{outcome.robot:27}  {outcome.base:8}  ✗ {outcome.error}"
+    row, good = report.worst, len(report.rows) - len(report.failed)
+    cells = [outcome.robot, outcome.base, str(report.nv), f"{good}/{len(report.rows)}", row.quantity if row else ""]
+    numbers = [row.ours_vs_pinocchio, row.ours_vs_truth, row.bound] if row else [None] * 3
+    padded = [cell.ljust(width) for cell, (width, _) in zip(cells, COLUMNS, strict=True)]
+    verdict = "✓" if report.passed else "✗"
+    first = "  ".join([*padded, *(number(x).rjust(7) for x in numbers), verdict])
+    return "\n".join([first, *notes(report.rows), *_beyond(report)])
+
+
+def _beyond(report: Report) -> list[str]:
+    """Say which rows needed more than 1e-12, and what their conditioning allows them."""
+    return [
+        f"    {row.pinocchio}: error {number(row.error)}, its conditioning allows {number(row.bound)}"
+        for row in report.rows
+        if row.passed and row.error is not None and row.error > BOUND
+    ]
+
+
+def summary(outcomes: Sequence[Outcome], seconds: float) -> str:
+    """Return the last line."""
+    good, rows = sum(o.passed for o in outcomes), sum(len(o.report.rows) for o in outcomes if o.report)
+    names = ", ".join(f"{o.robot} ({o.base})" for o in outcomes if not o.passed)
+    return (
+        f"{good} of {len(outcomes)} robots and bases inside all their bounds, {rows} rows"
+        + (f"; not: {names}" if names else "")
+        + f" · {seconds:.0f} s"
+    )
