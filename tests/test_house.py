@@ -16,7 +16,19 @@ TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 ORDER = [
     *("errors", "checks", "newton_euler_3d"),
     *("_scalars", "rotation", "_physical", "_spatial_vector", "twist", "plucker", "exponential", "wrench"),
-    *("cross", "inertia", "joint", "constants", "state", "model", "builder", "trees", "tree", "kinematics"),
+    *(
+        "cross",
+        "inertia",
+        "joint",
+        "joint_types",
+        "constants",
+        "state",
+        "model",
+        "builder",
+        "trees",
+        "tree",
+        "kinematics",
+    ),
     *("inverse_dynamics", "forward_dynamics", "mass_matrix", "coriolis", "energy", "centroidal", "floating_base"),
     *("bridge", "robots", "_names", "__init__", "validate", "cli", "__main__"),
 ]

@@ -19,7 +19,7 @@ from .floating_base import (
 from .forward_dynamics import aba
 from .inertia import SpatialInertia
 from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea
-from .joint import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from .joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
 from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .mass_matrix import crba
 from .model import Model

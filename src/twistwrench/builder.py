@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike
 from .checks import Array, as_array
 from .errors import ModelError, ShapeError, unknown_name
 from .inertia import SpatialInertia
-from .joint import FreeFlyer, Joint
+from .joint import Joint
+from .joint_types import FreeFlyer
 from .model import Frame, Model
 from .plucker import SE3
 

@@ -12,7 +12,8 @@ from .builder import Base, Builder
 from .checks import Array
 from .errors import ModelError, unknown_name
 from .inertia import SpatialInertia
-from .joint import Continuous, FreeFlyer, Joint, Planar, Prismatic, Revolute, Spherical
+from .joint import Joint
+from .joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
 from .model import Model
 from .plucker import SE3
 from .rotation import quaternion_to_rotation

@@ -14,7 +14,8 @@ import numpy as np
 from ..checks import Array
 from ..errors import ModelError
 from ..inertia import SpatialInertia
-from ..joint import Continuous, FreeFlyer, Joint, Planar, Prismatic, Revolute, Spherical
+from ..joint import Joint
+from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
 from ..model import Frame, Model
 from ..plucker import SE3
 from .objects import (

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array
 from ..errors import ShapeError
-from ..joint import FreeFlyer, Joint
+from ..joint import Joint
+from ..joint_types import FreeFlyer
 from ..model import Model
 from .spatial import HALVES
 

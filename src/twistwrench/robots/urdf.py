@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 from ..builder import Builder
 from ..errors import ModelError
 from ..inertia import SpatialInertia
-from ..joint import Continuous, FreeFlyer, Joint, Planar, Prismatic, Revolute
+from ..joint import Joint
+from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute
 from ..model import Model
 from ..plucker import SE3
 from .reading import XML, read_robot_xml

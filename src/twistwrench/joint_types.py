@@ -1,0 +1,244 @@
+"""The joints of the package. The layouts of q are Pinocchio's; table 4.1 of RBDA has the same joints.
+
+===========  ===  ===  ============================  ==========================  ==============
+kind         nq   nv   q                             v                           Featherstone
+===========  ===  ===  ============================  ==========================  ==============
+revolute      1    1   angle                         rate                        RBDA table 4.1
+prismatic     1    1   length                        rate                        RBDA table 4.1
+continuous    2    1   (cos, sin)                    rate
+planar        4    3   (x, y, cos, sin)              (vx, vy, ωz), moved frame   RBDA table 4.1
+spherical     4    3   (qx, qy, qz, qw)              ω, moved frame              RBDA table 4.1
+free_flyer    7    6   (x, y, z, qx, qy, qz, qw)     (ω, v), moved frame         RBDA table 4.1
+===========  ===  ===  ============================  ==========================  ==============
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
+
+from .checks import Array, as_array
+from .errors import ModelError
+from .joint import GroupJoint, Joint, placement, same_side, turn, unit
+from .plucker import SE3
+from .rotation import quaternion_to_rotation, rotation_to_quaternion, skew
+
+__all__ = ["Continuous", "FreeFlyer", "Planar", "Prismatic", "Revolute", "Spherical"]
+
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+@dataclass(frozen=True)
+class _AxisJoint(Joint):
+    """A joint with one degree of freedom, along or about a unit axis of its frame."""
+
+    axis: tuple[float, float, float]
+    """Unit vector, the same in the joint's frame and in the moved frame."""
+
+    nv: ClassVar[int] = 1
+
+    def __init__(self, axis: str | ArrayLike) -> None:
+        if isinstance(axis, str) and axis not in AXES:
+            raise ModelError(f"axis: expected 'x', 'y', 'z' or a vector of 3, got {axis!r}")
+        a = as_array(AXES[axis] if isinstance(axis, str) else axis, "axis", 3).astype(np.float64)
+        if a.ndim != 1 or not a.any():
+            raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
+        if abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # what is normalised stays, to the last bit
+            a = unit(a / np.abs(a).max())
+        object.__setattr__(self, "axis", (float(a[0]), float(a[1]), float(a[2])))
+
+    def _axis(self, dtype: DTypeLike) -> Array:
+        """Return the axis in a number type, of norm 1 to that type's own precision."""
+        a = np.asarray(self.axis).astype(dtype)
+        return unit(a) if np.finfo(a.dtype).eps < np.finfo(np.float64).eps else a
+
+
+class Revolute(_AxisJoint):
+    """A turn about an axis. q is the angle in rad.
+
+    Parameters
+    ----------
+    axis : {"x", "y", "z"} or array_like, shape (3,)
+        Normalised here.
+
+    Raises
+    ------
+    ModelError
+        If the axis is zero or not a vector of three.
+
+    Examples
+    --------
+    >>> Revolute([0, 3, 4]).axis
+    (0.0, 0.6, 0.8)
+    >>> Revolute("z").subspace()[:, 0]
+    array([0., 0., 1., 0., 0., 0.])
+    """
+
+    kind, nq = "revolute", 1
+
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S = (axis, 0)."""
+        return np.concatenate([self._axis(dtype), np.zeros(3, dtype)])[:, None]
+
+    def transform(self, q: Array) -> SE3:
+        """Return the turn by the angle q about the axis."""
+        return turn(self._axis(q.dtype), np.cos(q[..., 0]), np.sin(q[..., 0]))
+
+
+class Prismatic(_AxisJoint):
+    """A slide along an axis. q is the length in m.
+
+    Parameters
+    ----------
+    axis : {"x", "y", "z"} or array_like, shape (3,)
+        Normalised here.
+
+    Raises
+    ------
+    ModelError
+        If the axis is zero or not a vector of three.
+
+    Examples
+    --------
+    >>> Prismatic("x").transform(np.array([0.5])).translation
+    array([0.5, 0. , 0. ])
+    """
+
+    kind, nq = "prismatic", 1
+
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S = (0, axis)."""
+        return np.concatenate([np.zeros(3, dtype), self._axis(dtype)])[:, None]
+
+    def transform(self, q: Array) -> SE3:
+        """Return the shift by q along the axis."""
+        return placement(np.eye(3, dtype=q.dtype), q * self._axis(q.dtype))
+
+
+class Continuous(_AxisJoint, GroupJoint):
+    """A turn without end about an axis. q is (cos, sin).
+
+    Parameters
+    ----------
+    axis : {"x", "y", "z"} or array_like, shape (3,)
+        Normalised here.
+
+    Raises
+    ------
+    ModelError
+        If the axis is zero or not a vector of three.
+
+    Examples
+    --------
+    >>> wheel = Continuous("y")
+    >>> wheel.integrate(wheel.neutral(), np.array([np.pi / 2])).round(15)
+    array([0., 1.])
+    """
+
+    kind, nq = "continuous", 2
+    unit = slice(0, 2)
+    _one = 0
+
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S = (axis, 0)."""
+        return np.concatenate([self._axis(dtype), np.zeros(3, dtype)])[:, None]
+
+    def transform(self, q: Array) -> SE3:
+        """Return the turn with this cosine and sine about the axis."""
+        cs = unit(q)
+        return turn(self._axis(q.dtype), cs[..., 0], cs[..., 1])
+
+    def coordinates(self, T: SE3, near: Array) -> Array:
+        """Read cosine and sine off the turn: cos = (tr R − 1)/2, sin = axis · (R − Rᵀ)/2."""
+        R = T.rotation
+        k = skew(self._axis(R.dtype))
+        return unit(np.stack([(np.trace(R, axis1=-2, axis2=-1) - 1) / 2, (R * k).sum((-2, -1)) / 2], axis=-1))
+
+
+@dataclass(frozen=True)
+class Planar(GroupJoint):
+    """A slide in the x-y plane and a turn about z. q is (x, y, cos, sin).
+
+    Examples
+    --------
+    >>> Planar().subspace().T
+    array([[0., 0., 0., 1., 0., 0.],
+           [0., 0., 0., 0., 1., 0.],
+           [0., 0., 1., 0., 0., 0.]])
+    """
+
+    kind, nq, nv = "planar", 4, 3
+    unit = slice(2, 4)
+    _one = 2
+
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S: the columns are the unit twists of vx, vy and ωz."""
+        return np.eye(6, dtype=dtype)[:, [3, 4, 2]]
+
+    def transform(self, q: Array) -> SE3:
+        """Return the shift by (x, y, 0) and the turn about z."""
+        cs = unit(q[..., 2:])
+        turned = turn(np.eye(3, dtype=q.dtype)[2], cs[..., 0], cs[..., 1])
+        return placement(turned.rotation, np.concatenate([q[..., :2], np.zeros_like(q[..., :1])], axis=-1))
+
+    def coordinates(self, T: SE3, near: Array) -> Array:
+        """Read x, y, cosine and sine off the placement."""
+        return np.concatenate([T.translation[..., :2], unit(T.rotation[..., :2, 0])], axis=-1)
+
+
+@dataclass(frozen=True)
+class Spherical(GroupJoint):
+    """A turn about any axis. q is the quaternion (qx, qy, qz, qw), v is ω in the moved frame.
+
+    Examples
+    --------
+    >>> ball = Spherical()
+    >>> ball.difference(ball.neutral(), np.array([1.0, 0, 0, 0]))  # half a turn about x
+    array([3.14159265, 0.        , 0.        ])
+    """
+
+    kind, nq, nv = "spherical", 4, 3
+    unit = slice(0, 4)
+
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S = (1, 0): the three angular columns."""
+        return np.eye(6, 3, dtype=dtype)
+
+    def transform(self, q: Array) -> SE3:
+        """Return the turn of the quaternion."""
+        return placement(quaternion_to_rotation(q), np.zeros(3, q.dtype))
+
+    def coordinates(self, T: SE3, near: Array) -> Array:
+        """Read the quaternion off the turn, with the sign that is closer to `near`."""
+        return same_side(rotation_to_quaternion(T.rotation), near)
+
+
+@dataclass(frozen=True)
+class FreeFlyer(GroupJoint):
+    """No constraint at all. q is (x, y, z, qx, qy, qz, qw), v is the body twist (ω, v).
+
+    Examples
+    --------
+    >>> free = FreeFlyer()
+    >>> free.integrate(free.neutral(), np.array([0, 0, 0, 1.0, 2, 3]))
+    array([1., 2., 3., 0., 0., 0., 1.])
+    """
+
+    kind, nq, nv = "free_flyer", 7, 6
+    unit = slice(3, 7)
+
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S = 1: every twist."""
+        return np.eye(6, dtype=dtype)
+
+    def transform(self, q: Array) -> SE3:
+        """Return the placement with this position and quaternion."""
+        return placement(quaternion_to_rotation(q[..., 3:]), q[..., :3])
+
+    def coordinates(self, T: SE3, near: Array) -> Array:
+        """Read position and quaternion off the placement, the sign closer to `near`."""
+        quaternion = same_side(rotation_to_quaternion(T.rotation), near[..., 3:])
+        return np.concatenate([T.translation, quaternion], axis=-1)
