@@ -12,8 +12,8 @@ import pytest
 from twistwrench import ModelError, center_of_mass, frame_placement
 from twistwrench.robots import catalogue, load, robots
 from twistwrench.robots.reading import read_robot_xml
-from twistwrench.robots.srdf import read_states
-from twistwrench.robots.stances import STANCES
+from twistwrench.robots.srdf import read_states, with_stance
+from twistwrench.robots.stances import STANCES, Stance
 
 FOLDER = catalogue.example_robot_data_folder()
 OWN = [robot for robot in robots() if robot.source == "models"]
@@ -191,6 +191,13 @@ def test_humanoid_stands_with_flat_soles_below_its_centre_of_mass():
     com = center_of_mass(model, q)[:2]
     assert (points[:, :2].min(axis=0) < com).all()
     assert (com < points[:, :2].max(axis=0)).all()
+
+
+def test_the_lowest_foot_is_the_one_on_the_ground():
+    model = with_stance(load("go2"), Stance(("base", "FL_foot", "imu")))
+    heights = [float(frame_placement(model, model.standing(), foot).translation[2]) for foot in model.feet]
+    assert min(heights) == heights[1] == 0
+    assert heights[0] > 0.3
 
 
 def test_a_robot_without_legs_does_not_stand():

@@ -203,6 +203,14 @@ def test_mimic_independent_is_quiet(tmp_path):
         assert load(mimicking(tmp_path), mimic="independent").nv == 2
 
 
+def test_a_fixed_joint_that_mimics_moves_nothing_and_is_not_mentioned(tmp_path):
+    path = mimicking(tmp_path)
+    path.write_text(path.read_text().replace('name="b" type="revolute"', 'name="b" type="fixed"'))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert load(path).nv == 1
+
+
 def test_following_joints_are_refused_not_ignored(tmp_path):
     with pytest.raises(ValueError, match="mimic: expected 'independent'"):
         load(mimicking(tmp_path), mimic="follow")

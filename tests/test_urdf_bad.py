@@ -187,6 +187,12 @@ def test_inertia_that_is_not_positive_definite_is_refused(save):
     refuse(save(unphysical(ixy=5)), "positive definite", "-4, 1, 6")
 
 
+def test_what_is_welded_to_a_faulty_link_is_named_with_it(save):
+    weld = '<joint name="w" type="fixed"><parent link="b"/><child link="c"/></joint>'
+    text = unphysical(izz=10).replace(JOINT, JOINT + weld + f'<link name="c">{INERTIAL}</link>')
+    assert "link 'b'" in refuse(save(text), "(with 'c' welded to it)")
+
+
 def test_a_mass_without_extension_is_refused(save):
     refuse(save(unphysical(ixx=0, iyy=0, izz=0)), "positive definite", "0, 0, 0")
 
@@ -250,6 +256,10 @@ def test_a_joint_called_root_joint_leaves_no_name_for_the_floating_base(save):
     refuse(path, str(path), "'root_joint'", "is taken", base="floating")
 
 
+def test_a_comment_may_speak_of_a_doctype(save):
+    assert load(save(changed(JOINT, "<!-- no <!DOCTYPE here -->" + JOINT))).nv == 1
+
+
 # -------------------------------------------------------------------- attacks, and how long they take
 
 
@@ -266,7 +276,7 @@ def test_an_entity_bomb_is_refused_at_once(save, encoding):
     laughs = "".join(f'<!ENTITY l{i} "{f"&l{i - 1};" * 10}">' for i in range(1, 12))
     bomb = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE robot [<!ENTITY l0 "ha">{laughs}]>'
     start = time.perf_counter()
-    refuse(save((bomb + '<robot name="&l11;"><link name="&l11;"/>&l11;</robot>').encode(encoding)))
+    refuse(save((bomb + '<robot name="&l11;"><link name="&l11;"/>&l11;</robot>').encode(encoding)), "DOCTYPE")
     assert time.perf_counter() - start < 2
 
 

@@ -6,7 +6,6 @@ well-formed is refused. (yourdfpy, left alone, would recover what it can and dro
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ __all__ = ["XML", "read_robot_xml"]
 XML = Any
 """An lxml element; lxml carries no types."""
 
+DOCTYPE = "declares a document type (<!DOCTYPE ...>); a URDF has none, and entities are not expanded: remove it"
 OTHER_FORMATS = {"sdf": "SDF", "mujoco": "MJCF", "COLLADA": "COLLADA"}
 
 
@@ -44,12 +44,9 @@ def read_robot_xml(path: Path) -> XML:
     Traceback (most recent call last):
     twistwrench.errors.ModelError: nowhere.urdf: no such file
     """
-    data = _read(path)
-    if re.search(rb"<!\s*(DOCTYPE|ENTITY)", data, re.IGNORECASE):
-        raise ModelError(f"{path}: {_DOCTYPE}")
-    root = _parse(path, data)
-    if root.getroottree().docinfo.doctype:  # the encodings that the search above cannot see through
-        raise ModelError(f"{path}: {_DOCTYPE}")
+    root = _parse(path, _read(path))
+    if root.getroottree().docinfo.doctype:
+        raise ModelError(f"{path}: {DOCTYPE}")
     _drop_namespace(root)
     if root.tag != "robot":
         known = OTHER_FORMATS.get(str(root.tag))
@@ -57,9 +54,6 @@ def read_robot_xml(path: Path) -> XML:
         raise ModelError(f"{path}: the root element is <{root.tag}>, expected <robot>{hint}")
     _refuse_macros(path, root)
     return root
-
-
-_DOCTYPE = "declares a document type (<!DOCTYPE ...>); a URDF has none, and entities are not expanded: remove it"
 
 
 def _read(path: Path) -> bytes:
@@ -80,7 +74,7 @@ def _read(path: Path) -> bytes:
 
 
 def _parse(path: Path, data: bytes) -> XML:
-    """Parse with nothing expanded, nothing fetched, and libxml2's limits on depth and size kept."""
+    """Parse with nothing expanded, nothing fetched, and libxml2's limits on depth and growth kept."""
     from lxml import etree
 
     parser = etree.XMLParser(resolve_entities=False, load_dtd=False, no_network=True, huge_tree=False, recover=False)
@@ -90,6 +84,8 @@ def _parse(path: Path, data: bytes) -> XML:
         reason, line = error.msg or "nothing could be parsed", error.lineno
     except ValueError as error:
         reason, line = str(error), 1
+    if "entit" in reason.lower():
+        raise ModelError(f"{path}, line {line}: {DOCTYPE} ({reason})")
     if "depth" in reason.lower():
         raise ModelError(f"{path}, line {line}: elements are nested deeper than any robot's ({reason})")
     raise ModelError(f"{path}, line {line}: not well-formed XML: {reason}")

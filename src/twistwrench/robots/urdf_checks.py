@@ -193,8 +193,8 @@ def _check_tree(path: Path, links: dict[str, XML], joints: dict[str, XML]) -> No
             )
         carrier[child], parent[child] = name, ends["parent"]
     if cycle := _cycle(links, parent):
-        shown = cycle if len(cycle) < 12 else [*cycle[:6], "...", *cycle[-4:]]
-        raise ModelError(f"{path}: the links form a cycle: {' -> '.join(shown)}; expected a tree with one root")
+        short = cycle if len(cycle) < 12 else [*cycle[:6], "...", *cycle[-4:]]
+        raise ModelError(f"{path}: the links form a cycle: {' -> '.join(short)}; expected a tree with one root")
     roots = [name for name in links if name not in parent]
     if len(roots) > 1:
         shown = ", ".join(map(repr, roots[:6])) + (", ..." if len(roots) > 6 else "")
