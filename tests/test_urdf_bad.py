@@ -103,6 +103,7 @@ FAULTS = {
     "empty mass": (changed('<mass value="1"/>', '<mass value=""/>'), ["'a'", "expected 1 number, got 0"]),
     "decimal comma": (changed('<mass value="1"/>', '<mass value="1,5"/>'), ["'1,5' is not a number"]),
     "grouped digits": (changed('<mass value="1"/>', '<mass value="1_000"/>'), ["'1_000' is not a number"]),
+    "arabic digits": (changed('<mass value="1"/>', '<mass value="١"/>'), ["'١' is not a number"]),
     "word in an inertia": (changed('ixy="0"', 'ixy="x"'), ["'a'", "<inertia ixy='x'>"]),
     "nan in an origin": (changed(LIMIT, LIMIT + '<origin xyz="0 nan 0"/>'), ["'j'", "<origin xyz='0 nan 0'>"]),
     "rpy of two": (changed(LIMIT, LIMIT + '<origin rpy="0 0"/>'), ["'j'", "<origin rpy='0 0'>", "got 2"]),
@@ -132,6 +133,7 @@ FAULTS = {
     "wrong encoding": (GOOD.replace("r", "ü", 1).encode("latin-1"), ["not well-formed XML"]),
     "unknown encoding": ('<?xml version="1.0" encoding="martian"?>' + GOOD, ["not well-formed XML", "ncoding"]),
     "bytes not of the encoding": ('<robot name="é"/>'.encode("latin-1"), ["line 1", "not well-formed XML"]),
+    "entity of nobody": (changed('"1"', '"&one;"'), ["line 2", "not well-formed XML", "one"]),
     "two elements": (GOOD + GOOD, ["not well-formed XML"]),
     "another root": ("<gadget/>", ["root element is <gadget>", "expected <robot>"]),
     "sdf": ('<sdf version="1.7"/>', ["<sdf>", "SDF"]),
@@ -213,6 +215,25 @@ def test_welded_links_are_judged_by_their_sum(save):
     point = INERTIAL.replace('"1"', '"0"').replace('<mass value="0"', '<mass value="1"')
     weld = '<joint name="w" type="fixed"><parent link="b"/><child link="c"/><origin xyz="1 0 0"/></joint>'
     assert load(save(changed(JOINT, JOINT + weld + f'<link name="c">{point}</link>'))).mass == 2
+
+
+@pytest.mark.parametrize("text", ['value="1"', 'ixx="1"', 'izz="1"'])
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_numbers_that_overflow_are_refused(save, text, base):
+    """Each is a finite number; their sums or products are not."""
+    key = text.split("=")[0]
+    weld = JOINT.replace("revolute", "fixed").replace(LIMIT, '<origin xyz="1e200 0 0"/>')
+    move = f'<joint name="k" type="revolute"><parent link="c"/><child link="a"/>{LIMIT}</joint><link name="c"/>'
+    path = save(changed(JOINT, weld + move).replace(text, f'{key}="1.7e308"'))
+    refuse(path, str(path), "overflow", base=base)
+
+
+@pytest.mark.parametrize(("end", "named"), [("b", "joint 'j'"), ("a", "frame 'x'")])
+def test_a_way_that_overflows_is_refused(save, end, named):
+    far = '<origin xyz="1.7e308 0 0"/>'
+    weld = f'<joint name="w" type="fixed"><parent link="{end}"/><child link="c"/>{far}</joint><link name="c"/>'
+    on = weld.replace('"c"', '"d"').replace(f'"{end}"', '"c"').replace('"w"', '"x"')
+    refuse(save(changed(JOINT, JOINT + weld + on)), named, "overflow")
 
 
 # -------------------------------------------------------------------- files that are none

@@ -19,17 +19,34 @@ from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute
 from ..model import Model
 from ..plucker import SE3
 from .reading import XML, read_robot_xml
-from .urdf_checks import check_robot
+from .urdf_checks import INERTIA, LIMITS, check_robot
 
 __all__ = ["load_urdf"]
 
 Base = Literal["fixed", "floating"]
 
 KEPT = {
-    "link": ("inertial",),
-    "joint": ("origin", "parent", "child", "axis", "limit"),
+    "link": ("name",),
+    "inertial": (),
+    "mass": ("value",),
+    "inertia": INERTIA,
+    "joint": ("name", "type"),
+    "origin": ("xyz", "rpy"),
+    "parent": ("link",),
+    "child": ("link",),
+    "axis": ("xyz",),
+    "limit": LIMITS,
 }
-"""What of a link and a joint yourdfpy gets to see. Meshes are not among it: none is ever looked for."""
+"""The elements, and their attributes, that yourdfpy gets to see. Meshes are not among them: none is looked for."""
+
+INSIDE = {
+    "robot": ("link", "joint"),
+    "link": ("inertial",),
+    "inertial": ("origin", "mass", "inertia"),
+    "joint": ("origin", "parent", "child", "axis", "limit"),
+    "fixed": ("origin", "parent", "child"),
+}
+"""Which of them stand inside which. An axis or a limit means nothing on a fixed joint."""
 
 
 def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, quiet: bool) -> Model:
@@ -61,10 +78,12 @@ def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, qui
         _warn_of_mimics(path, root)
     robot = _through_yourdfpy(root, default_name=path.stem)
     try:
-        model = _build(robot, base, gravity)
+        with np.errstate(over="ignore", invalid="ignore"):
+            model = _build(robot, base, gravity)
+            _check_finite(model)
+        _check_bodies(robot, model, physical)
     except ModelError as error:
         raise ModelError(f"{path}: {error}") from None
-    _check_bodies(path, robot, model, physical)
     return model
 
 
@@ -74,11 +93,13 @@ def _through_yourdfpy(root: XML, default_name: str) -> Any:
     from lxml import etree
 
     plain = etree.Element("robot", name=root.get("name") or default_name)
-    for element in root.iterchildren(*KEPT):
-        copy = etree.SubElement(plain, element.tag, dict(element.attrib))
-        for child in element.iterchildren(*KEPT[element.tag]):
-            copy.append(child)
-    text = BytesIO(etree.tostring(plain))
+    waiting = [(root, plain, INSIDE["robot"])]
+    for element, copy, tags in waiting:  # grows as it is walked
+        for child in element.iterchildren(*tags):
+            attributes = {key: child.get(key) for key in KEPT[child.tag] if child.get(key) is not None}
+            inside = INSIDE.get("fixed" if child.get("type") == "fixed" else child.tag, ())
+            waiting.append((child, etree.SubElement(copy, child.tag, attributes), inside))
+    text = BytesIO(etree.tostring(plain, encoding="utf-8"))
     return yourdfpy.URDF.load(text, build_scene_graph=False, load_meshes=False).robot
 
 
@@ -154,10 +175,20 @@ def _inertia(link: Any) -> SpatialInertia:
     return about_com.transform(_placement(link.inertial.origin))
 
 
+def _check_finite(model: Model) -> None:
+    """Refuse numbers that are finite in the file and overflow when links are merged."""
+    for i, (inertia, placement) in enumerate(zip(model.inertia, model.placement, strict=True)):
+        if not (np.isfinite(inertia.matrix()).all() and np.isfinite(placement.matrix()).all()):
+            raise ModelError(f"joint {model.joint_names[i]!r}: what hangs on it overflows, or the way to it")
+    for name, frame in model.frames.items():
+        if not np.isfinite(frame.placement.matrix()).all():
+            raise ModelError(f"frame {name!r}: the way to it overflows")
+
+
 # -------------------------------------------------------------------- bodies that can exist
 
 
-def _check_bodies(path: Path, robot: Any, model: Model, physical: bool) -> None:
+def _check_bodies(robot: Any, model: Model, physical: bool) -> None:
     """Check each moving body, welded links merged: that sum is all that enters the dynamics.
 
     A single welded link may be a point, or carry an inertia without mass, as in many a real file.
@@ -166,13 +197,13 @@ def _check_bodies(path: Path, robot: Any, model: Model, physical: bool) -> None:
     for joint, links in _welded(robot, model).items():
         inertia = model.inertia[model.joint_id(joint)]
         if inertia.mass == 0 and inertia.inertia_at_com.any():
-            raise ModelError(f"{path}: link {links[0].name!r}: it moves, and has an inertia but no mass")
+            raise ModelError(f"link {links[0].name!r}: it moves, and has an inertia but no mass")
         if physical and inertia.mass > 0 and (fault := _fault(inertia, links)):
             faults.append(fault)
     if faults:
         bodies = "1 moving body" if len(faults) == 1 else f"{len(faults)} moving bodies"
         listed = "".join(f"\n  {fault}" for fault in faults)
-        raise ModelError(f"{path}: {bodies} cannot exist (physical=False loads the robot all the same):{listed}")
+        raise ModelError(f"{bodies} cannot exist (physical=False loads the robot all the same):{listed}")
 
 
 def _welded(robot: Any, model: Model) -> dict[str, list[Any]]:

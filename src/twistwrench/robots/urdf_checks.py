@@ -14,9 +14,10 @@ from pathlib import Path
 from ..errors import ModelError, unknown_name
 from .reading import XML
 
-__all__ = ["INERTIA", "JOINT_TYPES", "check_robot"]
+__all__ = ["INERTIA", "JOINT_TYPES", "LIMITS", "check_robot"]
 
 INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+LIMITS = ("lower", "upper", "effort", "velocity")
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 RESERVED = "universe"
 """Pinocchio's name of the world, which stands in `Model.joint_names` as well."""
@@ -135,7 +136,7 @@ def _check_limit(path: Path, what: str, joint: XML, kind: str) -> None:
     missing = [key for key in ("effort", "velocity") if limit.get(key) is None]
     if missing:
         raise ModelError(f"{_at(path, limit)}: {what}: its <limit> lacks {' and '.join(missing)}")
-    value = _optional_numbers(path, limit, what, ("lower", "upper", "effort", "velocity"), 1)
+    value = _optional_numbers(path, limit, what, LIMITS, 1)
     lower, upper = value.get("lower", 0.0), value.get("upper", 0.0)
     if lower > upper:
         raise ModelError(f"{_at(path, limit)}: {what}: its lower limit {lower} is above its upper limit {upper}")
@@ -165,7 +166,7 @@ def _numbers(path: Path, element: XML, what: str, key: str, count: int) -> list[
     values = []
     for word in words:
         try:
-            values.append(float(word.replace("_", "?")))  # Python alone reads 1_000 as a number
+            values.append(float(word if word.isascii() and "_" not in word else "?"))  # Python alone reads 1_000
         except ValueError:
             hint = "; expand the macros with xacro first" if "$" in word else ""
             raise ModelError(f"{name}: {word!r} is not a number{hint}") from None
