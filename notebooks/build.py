@@ -1,0 +1,129 @@
+"""Build the notebooks: from each text in source/, one in English and one in Chinese, without outputs.
+
+usage:  python notebooks/build.py             write en/ and zh/
+        python notebooks/build.py --check     change nothing; exit 1 where a notebook is not what its source says
+
+A source is a Python file in percent form. Its code cells go into both notebooks, each Markdown cell into the one
+whose language it names; an English cell is followed by the Chinese one that says the same:
+
+    # %% [markdown] lang="en"
+    # Turn the base.
+    # %% [markdown] lang="zh"
+    # 让基座转起来。
+    # %%
+    v[2] = 0.5
+
+In the Chinese text, commas and the like may be typed half as wide as Chinese has them, and a line may end anywhere.
+"""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+import jupytext
+import nbformat
+
+HERE = Path(__file__).resolve().parent
+LANGUAGES = ("en", "zh")
+NAMES = {
+    "00_first": "00_first",
+    "49_01": "49_01_why",
+    "49_02": "49_02_twist",
+    "49_03": "49_03_pluecker",
+    "49_04": "49_04_wrench",
+    "49_05": "49_05_inertia",
+    "49_06": "49_06_rnea",
+    "49_07": "49_07_aba",
+    "49_08": "49_08_crba",
+    "49_09": "49_09_floating_base",
+    "49_10": "49_10_centroidal",
+    "49_11": "49_11_pinocchio",
+}
+"""What the notebook of each source is called."""
+METADATA = {
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
+
+HAN = "\u4e00-\u9fff"
+LINE_END = rf"[{HAN},;:?!、。]\n[{HAN}]|[,;:?!、。]\n([A-Za-z]|\*\*|\$(?!\$)|`(?!``))"
+"""Where a line ends and no blank may show."""
+HALF_WIDTH = rf"((?<=[{HAN}])|(?<=[{HAN}]\)))[,;:?!] ?|[,;:?!](?=[{HAN}])"
+FULL_WIDTH = {ord(mark): ord(mark) + 0xFEE0 for mark in ",;:?!"}
+
+
+def sources() -> list[Path]:
+    """Return the sources that there are, in the chapter's order."""
+    return [path for name in NAMES if (path := HERE / "source" / f"{name}.py").exists()]
+
+
+def target(source: Path, language: str) -> Path:
+    """Return where the notebook of a source is kept."""
+    return HERE / language / f"{NAMES[source.stem]}.ipynb"
+
+
+def cells(source: Path) -> list[nbformat.NotebookNode]:
+    """Return the cells of a source; raises ValueError where the two languages are not in step."""
+    found = jupytext.reads(source.read_text(encoding="utf-8"), fmt="py:percent").cells
+    waiting = ""
+    for k, cell in enumerate(found):
+        language = cell.metadata.get("lang", "") if cell.cell_type == "markdown" else ""
+        if cell.cell_type == "markdown" and language not in LANGUAGES:
+            raise ValueError(f'{source.name}, cell {k}: expected lang="en" or lang="zh" on a Markdown cell')
+        if (waiting == "en") != (language == "zh"):
+            raise ValueError(f"{source.name}, cell {k}: each English cell is followed by its Chinese one")
+        waiting = language
+    if waiting == "en":
+        raise ValueError(f"{source.name}: the last English cell has no Chinese one")
+    return found
+
+
+def chinese(text: str) -> str:
+    """Set a Chinese text: no blank where a line ends between two characters, and full-width punctuation."""
+    lines: list[str] = []
+    for line in text.split("\n"):
+        if lines and not lines[-1].startswith(("#", "|")) and re.search(LINE_END, f"{lines[-1][-1:]}\n{line.lstrip()}"):
+            lines[-1] += line.lstrip()
+        else:
+            lines.append(line)
+    return re.sub(HALF_WIDTH, lambda mark: mark[0].strip().translate(FULL_WIDTH), "\n".join(lines))
+
+
+def build(source: Path, language: str) -> str:
+    """Return the notebook of a source in one language, as the text of an .ipynb."""
+    notebook = nbformat.v4.new_notebook(metadata=METADATA)
+    for cell in cells(source):
+        if cell.cell_type == "code":
+            notebook.cells.append(nbformat.v4.new_code_cell(cell.source))
+        elif cell.metadata["lang"] == language:
+            text = chinese(cell.source) if language == "zh" else cell.source
+            notebook.cells.append(nbformat.v4.new_markdown_cell(text))
+    for k, cell in enumerate(notebook.cells):
+        cell.id = f"cell-{k:02}"  # the same in every build: only what changed shows in a diff
+    nbformat.validate(notebook)
+    return nbformat.writes(notebook) + "\n"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Write all notebooks, or check them."""
+    parser = argparse.ArgumentParser(description="Build the notebooks from their sources.")
+    parser.add_argument("--check", action="store_true", help="change nothing; exit 1 where a notebook is out of step")
+    check = parser.parse_args(arguments).check
+    stale = []
+    for source in sources():
+        for language in LANGUAGES:
+            path, text = target(source, language), build(source, language)
+            if path.exists() and path.read_text(encoding="utf-8") == text:
+                continue
+            stale.append(path.relative_to(HERE).as_posix())
+            if not check:
+                path.parent.mkdir(exist_ok=True)
+                path.write_text(text, encoding="utf-8", newline="\n")
+    for name in stale:
+        print(f"{name}: out of step with its source" if check else name)
+    return int(check and bool(stale))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,148 @@
+# %% [markdown] lang="en"
+# # Five minutes with twistwrench
+#
+# You need nothing from the chapter yet. In the next nine cells you load a robot dog, look at it, ask what its motors
+# must do, and check the answer in two other ways. Run the cells one by one (Shift + Enter), and change them:
+# nothing can break.
+# %% [markdown] lang="zh"
+# # 五分钟认识 twistwrench
+#
+# 现在还不需要读过本章。下面九个代码单元里,你会加载一只机器狗,看看它的样子,问问它的电机要出多大力,
+# 再用另外两种办法核对答案。请逐个运行(Shift + Enter),也请随手改一改:改不坏。
+# %%
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import plot
+
+model = tw.load("go2")
+model
+# %% [markdown] lang="en"
+# `tw.robots()` lists what else there is; a path to a URDF file works as well. Go2 has 12 motors. Its trunk is not
+# bolted to anything, which gives it six more degrees of freedom: `nv` = 6 + 12 = 18. To say where the trunk is takes
+# seven numbers, a position and a quaternion: `nq` = 7 + 12 = 19.
+# %% [markdown] lang="zh"
+# `tw.robots()` 列出目录里的其他机器人;给一个 URDF 文件的路径也行。Go2 有 12 个电机,躯干没有固定在任何东西上,
+# 所以多出六个自由度:`nv` = 6 + 12 = 18。而要说清躯干在哪里,需要七个数(位置加四元数):`nq` = 7 + 12 = 19。
+# %%
+q = model.standing()  # a posture with all four feet on the floor
+assert (model.nq, model.nv) == (19, 18)
+assert q.shape == (19,)
+print("base position", q[:3].round(3), " quaternion x, y, z, w", q[3:7])
+print("front left leg: hip, thigh, calf", q[7:10], "rad")
+# %% [markdown] lang="en"
+# ## What holds it up?
+#
+# Four feet carry the weight. The cross in the picture is the centre of mass; it lies 2 mm behind the middle of the
+# four feet, so the rear feet carry a little more.
+# %% [markdown] lang="zh"
+# ## 是什么把它撑住的?
+#
+# 四只脚承担全部重量。图中的叉是质心,它在四脚中心之后 2 mm 处,所以后脚承担得略多一点。
+# %%
+held = tw.static_equilibrium(model, q)
+feet = np.array([tw.frame_placement(model, q, foot).translation for foot in model.feet])
+
+ax = plot.robot(model, q)
+newtons = [f"{force:.1f} N" for force in held.forces[:, 2]]
+plot.arrows(feet, held.forces, scale=0.004, texts=newtons, label="force of the ground", ax=ax)
+ax.legend(loc="upper left")
+plt.show()
+# %%
+weight = -model.mass * model.gravity[2]
+middle, com = feet.mean(axis=0), tw.center_of_mass(model, q)
+assert np.isclose(held.forces[:, 2].sum(), weight)
+assert held.forces[2:, 2].min() > held.forces[:2, 2].max()  # the rear feet carry more
+print(f"weight {weight:.2f} N; centre of mass {1000 * (com - middle)[0]:.1f} mm ahead of the middle of the feet")
+# %% [markdown] lang="en"
+# ## What must the motors do?
+#
+# Say how the robot is to move, `q`, `v` and `a`, and `rnea` tells the forces that this takes: **inverse dynamics**.
+# The first six numbers are the trunk's, moment first and force second: this order, angular before linear, holds
+# everywhere in the package. Standing still in the air, without a floor, somebody would have to hold the trunk with
+# the whole weight, 157.79 N upwards.
+# %% [markdown] lang="zh"
+# ## 电机要做什么?
+#
+# 说出机器人该怎么运动(`q`、`v`、`a`),`rnea` 就告诉你这需要多大的力:这叫**逆动力学**。前六个数属于躯干,
+# 先力矩后力;先角后线,整个包都是这个顺序。如果没有地面而要静止在空中,就得有人用全部重量那么大的力
+# 向上托住躯干:157.79 N。
+# %%
+rest = np.zeros(model.nv)
+tau = tw.rnea(model, q, rest, rest)
+print("base moment [N m]", tau[:3].round(3) + 0.0, " base force [N]", tau[3:6].round(2) + 0.0)
+assert np.isclose(tau[5], weight)
+# %% [markdown] lang="en"
+# ## Is that right?
+#
+# Never believe one program alone. **First**, a different way in the same package: the equation of motion is
+# $M\,\dot v + h = \tau$, and $M$ and $h$ come from other functions than `rnea`.
+# %% [markdown] lang="zh"
+# ## 答案对吗?
+#
+# 只有一个程序的答案,先别相信。**第一**,在同一个包里换条路走:运动方程是 $M\,\dot v + h = \tau$,
+# 而 $M$ 和 $h$ 来自 `rnea` 以外的函数。
+# %%
+rng = np.random.default_rng(0)
+v, a = rng.standard_normal((2, model.nv))
+tau = tw.rnea(model, q, v, a)
+M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)
+error = np.abs(M @ a + h - tau).max()
+assert error < 1e-12 * np.abs(tau).max()
+print(f"largest difference {error:.1e} N m, of forces up to {np.abs(tau).max():.0f}")
+# %% [markdown] lang="en"
+# **Second**, other people's program: Pinocchio, the library that most legged robots are controlled with. Its
+# `q` is ours; in its vectors the linear part stands first. `tw.bridge` changes the order, and nothing else does.
+# %% [markdown] lang="zh"
+# **第二**,换别人的程序:Pinocchio,腿足机器人控制中用得最多的动力学库。它的 `q` 与我们的一样,
+# 但它的向量线性部分在前。换序只由 `tw.bridge` 来做,别处都不换。
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    theirs_model = tw.bridge.to_pinocchio_model(model)
+    theirs_v, theirs_a = (tw.bridge.to_pinocchio_tangent(model, x) for x in (v, a))
+    theirs = pin.rnea(theirs_model, theirs_model.createData(), q, theirs_v, theirs_a)
+    error = np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - tau).max()
+    assert error < 1e-12 * np.abs(tau).max()
+    print(f"largest difference from Pinocchio {error:.1e}")
+# %% [markdown] lang="en"
+# ## One more picture
+#
+# The mass matrix says how the degrees of freedom feel each other's acceleration. A front leg does not feel a rear
+# leg: white squares. The trunk feels all of them: the first six rows and columns.
+# %% [markdown] lang="zh"
+# ## 再看一张图
+#
+# 质量矩阵说的是各自由度如何感受到彼此的加速度。前腿感受不到后腿:白色的方块。躯干感受得到每一条腿:
+# 前六行和前六列。
+# %%
+legs = [(f"{foot[:2]}", model.v_slice[model.joint_id(f"{foot[:2]}_hip_joint")].start) for foot in model.feet]
+starts = [start for _, start in legs]
+ax = plot.matrix(M, "mass matrix of Go2", lines=[3, *starts])
+ax.set_xticks([1, 4, *(start + 1 for start in starts)], ["base ω", "base v", *(name for name, _ in legs)])
+ax.set_yticks([1, 4, *(start + 1 for start in starts)], ["base ω", "base v", *(name for name, _ in legs)])
+plt.show()
+front, rear = slice(starts[0], starts[0] + 3), slice(starts[2], starts[2] + 3)
+assert (M[front, rear] == 0).all()
+assert (M[:6, rear] != 0).any()
+# %% [markdown] lang="en"
+# ## Where to go next
+#
+# - Notebook 49.1 begins the chapter: why six numbers for a velocity.
+# - `help(tw.rnea)` shows shapes, units and frames; each function has an example.
+# - `twistwrench validate go2` in a terminal compares every quantity with Pinocchio.
+# - `twistwrench exercises start my_answers` puts the chapter's exercises into a folder of yours, and `pytest` there
+#   checks your answers.
+# - The code is meant to be read: `rnea` fits on one screen, in `inverse_dynamics.py`.
+# %% [markdown] lang="zh"
+# ## 接下来去哪里
+#
+# - 笔记本 49.1 从本章的开头讲起:速度为什么要用六个数。
+# - `help(tw.rnea)` 给出形状、单位和坐标系;每个函数都有例子。
+# - 在终端运行 `twistwrench validate go2`,把每个量与 Pinocchio 逐一比较。
+# - `twistwrench exercises start my_answers` 把本章练习放进你自己的文件夹,在那里运行 `pytest` 就能检查答案。
+# - 代码是写来读的:`rnea` 一屏就能看完,在 `inverse_dynamics.py` 里。

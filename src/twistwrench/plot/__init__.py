@@ -1,0 +1,33 @@
+"""Pictures for the notebooks. Every function takes the axes to draw on, or makes some, and returns them.
+
+Needs matplotlib, which is imported when the first picture is made: ``pip install "twistwrench[plot]"``.
+
+- `style`: colours; axes on which a metre is a metre in every direction.
+- `frames`: frames, arrows.
+- `robot`: a robot as a stick figure.
+- `screws`: screw axes, the field of a twist.
+- `matrices`: a matrix as coloured squares.
+"""
+
+from .frames import arrows, triad
+from .matrices import ANGULAR_LINEAR, matrix
+from .robot import robot, sticks
+from .screws import point_velocity, screw_axis, twist_field
+from .style import COLOURS, XYZ, axes_2d, axes_3d, fit
+
+__all__ = [
+    "ANGULAR_LINEAR",
+    "COLOURS",
+    "XYZ",
+    "arrows",
+    "axes_2d",
+    "axes_3d",
+    "fit",
+    "matrix",
+    "point_velocity",
+    "robot",
+    "screw_axis",
+    "sticks",
+    "triad",
+    "twist_field",
+]

@@ -1,0 +1,84 @@
+"""Matrices as coloured squares, so that their blocks and zeros are seen (49.3, 49.5, 49.8)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import as_array
+from ..errors import ShapeError
+from .style import COLOURS, axes_2d
+
+__all__ = ["ANGULAR_LINEAR", "matrix"]
+
+ANGULAR_LINEAR = ("ωx", "ωy", "ωz", "vx", "vy", "vz")
+"""Names of the entries of a twist."""
+
+
+def matrix(
+    A: ArrayLike,
+    title: str = "",
+    *,
+    rows: Sequence[str] = (),
+    columns: Sequence[str] = (),
+    lines: Sequence[int] = (3,),
+    numbers: str | None = None,
+    limit: float | None = None,
+    ax: Any = None,
+) -> Any:
+    """Draw a matrix: orange where it is negative, purple where it is positive, white only where it is zero.
+
+    The colour grows with the cube root of the entry, so that small ones are seen.
+
+    Parameters
+    ----------
+    A : array_like, shape (m, n)
+    title : str
+    rows, columns : sequence of str
+        Names of the rows and columns.
+    lines : sequence of int
+        Before which rows and columns a line separates the blocks.
+    numbers : str, optional
+        How to write the entries into the squares, for example ``".2f"``; zeros are left out.
+    limit : float, optional
+        The value that has full colour, as all beyond it have; the largest of `A` unless given.
+    ax : matplotlib Axes, optional
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    ShapeError
+        If `A` is not a matrix, or the names are not as many as its rows and columns.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> ax = matrix(np.diag([1, -1]), numbers="g", lines=(1,), ax=Figure().add_subplot())
+    >>> [text.get_text() for text in ax.texts]
+    ['1', '-1']
+    """
+    A = as_array(A, "A").astype(float)
+    if A.ndim != 2 or len(rows) not in (0, A.shape[0]) or len(columns) not in (0, A.shape[1]):
+        raise ShapeError(f"A, rows, columns: {A.shape} with {len(rows)} and {len(columns)} names do not go together")
+    ax = axes_2d(ax, size=(4.5, 4.5))
+    limit = limit or float(np.abs(A).max()) or 1.0
+    shade = np.ma.masked_equal(np.cbrt(A / limit), 0)  # masked squares stay white
+    ax.imshow(shade, cmap="PuOr", vmin=-1, vmax=1)
+    for k in lines:
+        ax.axhline(k - 0.5, color=COLOURS["black"], linewidth=1)
+        ax.axvline(k - 0.5, color=COLOURS["black"], linewidth=1)
+    ax.set_xticks(range(len(columns)), columns, fontsize=8)
+    ax.set_yticks(range(len(rows)), rows, fontsize=8)
+    ax.tick_params(length=0, top=False, labeltop=True, bottom=False, labelbottom=False)
+    ax.set_title(title, fontsize=11)
+    if numbers is not None:
+        for i, k in np.argwhere(A != 0):
+            dark = abs(shade[i, k]) > 0.7
+            ax.text(k, i, format(A[i, k], numbers), ha="center", va="center", fontsize=8, color="w" if dark else "k")
+    return ax

@@ -1,0 +1,135 @@
+"""Screw axes, and the velocity field of a rigid motion (49.2)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array, as_array, as_arrays
+from ..twist import Twist, screw
+from .frames import arrows
+from .style import COLOURS, axes_3d, fit
+
+__all__ = ["point_velocity", "screw_axis", "twist_field"]
+
+
+def point_velocity(V: Twist | ArrayLike, points: ArrayLike) -> Array:
+    """Return the velocities v + ω × p of the points of a body (49.1).
+
+    Parameters
+    ----------
+    V : Twist or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s.
+    points : array_like, shape (..., 3)
+        In the frame of `V`, m.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        In the frame of `V`, m/s.
+
+    Raises
+    ------
+    ShapeError
+        If a last axis is not 6 or 3 long.
+
+    Examples
+    --------
+    >>> point_velocity([0, 0, 2, 0, 0, 0], [1, 0, 0])
+    array([0., 2., 0.])
+    """
+    V, p = as_arrays(V=(V, (6,)), points=(points, (3,)))
+    return np.asarray(V[..., 3:] + np.cross(V[..., :3], p))
+
+
+def screw_axis(
+    V: Twist | ArrayLike,
+    *,
+    length: float = 1.0,
+    colour: str = COLOURS["blue"],
+    label: str | None = None,
+    ax: Any = None,
+) -> Any:
+    """Draw the axis of a twist as a dashed line, with an arrow along it and a dot at its point nearest to the origin.
+
+    Parameters
+    ----------
+    V : Twist or array_like of shape (6,)
+        (ω, v), rad/s and m/s.
+    length : float
+        Of the line, m; its middle is the dot.
+    colour : str
+    label : str, optional
+        For the legend.
+    ax : matplotlib Axes3D, optional
+
+    Returns
+    -------
+    matplotlib Axes3D
+
+    Raises
+    ------
+    ShapeError, SingularError
+        As `twistwrench.screw`; or if `V` is a batch.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> ax = screw_axis([0, 0, 1, 0, -1, 0], length=2, ax=Figure().add_subplot(projection="3d"))
+    >>> np.stack(ax.lines[0].get_data_3d(), axis=-1) + 0.0
+    array([[ 1.,  0., -1.],
+           [ 1.,  0.,  1.]])
+    """
+    axis, point, _, _ = screw(as_array(V, "V", 6).reshape(6))
+    axis, point = axis.astype(float), point.astype(float)
+    ax = axes_3d(ax)
+    ends = point + length / 2 * np.stack([-axis, axis])
+    ax.plot(*ends.mT, "--", color=colour, linewidth=1.6, label=label)
+    ax.plot(*point[:, None], "o", color=colour, markersize=5)
+    return arrows(ends[1], axis, scale=0.15 * length, colour=colour, ax=ax)
+
+
+def twist_field(
+    V: Twist | ArrayLike,
+    points: ArrayLike,
+    *,
+    scale: float = 1.0,
+    colour: str = COLOURS["sky"],
+    label: str | None = "velocity",
+    ax: Any = None,
+) -> Any:
+    """Draw the velocities that a twist gives to points, v + ω × p, as arrows.
+
+    Parameters
+    ----------
+    V : Twist or array_like of shape (6,)
+        (ω, v), rad/s and m/s.
+    points : array_like, shape (..., 3)
+        In the frame of `V`, m.
+    scale : float
+        Metres in the picture for 1 m/s.
+    colour : str
+    label : str, optional
+        For the legend.
+    ax : matplotlib Axes3D, optional
+
+    Returns
+    -------
+    matplotlib Axes3D
+
+    Raises
+    ------
+    ShapeError
+        As `point_velocity`.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> ax = Figure().add_subplot(projection="3d")
+    >>> twist_field([0, 0, 1, 0, 0, 0], [[1, 0, 0], [0, 1, 0]], ax=ax) is ax
+    True
+    """
+    p = as_array(points, "points", 3)
+    return fit(arrows(p, point_velocity(V, p), scale=scale, colour=colour, label=label, ax=ax))

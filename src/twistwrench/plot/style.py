@@ -1,0 +1,135 @@
+"""What all pictures share: colours, and axes on which a metre is a metre in every direction."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import as_array
+
+__all__ = ["COLOURS", "XYZ", "axes_2d", "axes_3d", "fit"]
+
+COLOURS = {
+    "black": "#000000",
+    "orange": "#E69F00",
+    "sky": "#56B4E9",
+    "green": "#009E73",
+    "yellow": "#F0E442",
+    "blue": "#0072B2",
+    "vermilion": "#D55E00",
+    "purple": "#CC79A7",
+    "grey": "#808080",
+}
+"""Colours that people with any kind of colour vision tell apart (Okabe and Ito), and a grey."""
+
+XYZ = (COLOURS["vermilion"], COLOURS["green"], COLOURS["blue"])
+"""Of the axes x, y, z of a frame."""
+
+
+def axes_2d(ax: Any = None, *, size: tuple[float, float] = (6.0, 3.5)) -> Any:
+    """Return flat axes to draw on: those given, or those of a new figure.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes, optional
+    size : (float, float)
+        Width and height of a new figure, inches.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> ax = Figure().add_subplot()
+    >>> axes_2d(ax) is ax
+    True
+    """
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot as plt
+
+    return plt.subplots(figsize=size, layout="constrained")[1]
+
+
+def axes_3d(ax: Any = None, *, size: tuple[float, float] = (6.5, 5.0)) -> Any:
+    """Return spatial axes to draw on, labelled in metres: those given, or those of a new figure.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes3D, optional
+    size : (float, float)
+        Width and height of a new figure, inches.
+
+    Returns
+    -------
+    matplotlib Axes3D
+
+    Raises
+    ------
+    TypeError
+        If `ax` is flat.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes_3d(Figure().add_subplot(projection="3d")).get_zlabel()
+    'z [m]'
+    """
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        ax = plt.figure(figsize=size, layout="constrained").add_subplot(projection="3d")
+        ax.view_init(elev=20, azim=-60)
+    if not hasattr(ax, "get_zlabel"):
+        raise TypeError(f"ax: expected axes with projection='3d', got {type(ax).__name__}")
+    ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+    return ax
+
+
+def fit(ax: Any, points: ArrayLike | None = None) -> Any:
+    """Set the limits to what has been drawn, with one scale on all three axes.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes3D
+    points : array_like, shape (..., 3), optional
+        What else must be in the picture, m.
+
+    Returns
+    -------
+    matplotlib Axes3D
+        `ax`.
+
+    Raises
+    ------
+    ShapeError, ValueError
+        If `points` are no points.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> ax = axes_3d(Figure().add_subplot(projection="3d"))
+    >>> low, high = fit(ax, [[0, 0, 0], [1, 2, 4]]).get_zlim()
+    >>> bool(low <= 0 < 4 <= high)
+    True
+    """
+    if points is not None:
+        p = as_array(points, "points", 3).reshape(-1, 3)
+        ax.auto_scale_xyz(p[:, 0], p[:, 1], p[:, 2], had_data=ax.has_data())
+    ax.set_aspect("equal")
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        low, high = axis.get_view_interval()
+        axis.set_major_locator(_few_ticks(high - low))
+    return ax
+
+
+def _few_ticks(span: float) -> Any:
+    """Ticks 0.1, 0.2 or 0.5 times a power of ten apart, four at most: short axes would crowd them."""
+    from matplotlib.ticker import MultipleLocator
+
+    steps = np.array([1, 2, 5, 10, 20, 50]) * 10.0 ** (np.floor(np.log10(span)) - 1)
+    return MultipleLocator(float(steps[np.argmax(span / steps <= 4)]))
