@@ -30,7 +30,7 @@ ORDER = [
         "kinematics",
     ),
     *("inverse_dynamics", "forward_dynamics", "mass_matrix", "coriolis", "energy", "centroidal", "floating_base"),
-    *("bridge", "robots", "_names", "__init__", "validate", "cli", "__main__"),
+    *("bridge", "robots", "plot", "_names", "__init__", "validate", "cli", "__main__"),
 ]
 """The chapter's order. A section imports from earlier ones only; a folder is one section."""
 
