@@ -146,7 +146,7 @@ def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
 
 def _frame_placement(model: Model, q: Array, body: int, T: SE3) -> SE3:
     relative = joint_placements(model, q)
-    for i in model.support(body):
+    for i in [*model.support(body), 0]:
         T = relative[i] @ T
     return T
 

@@ -59,9 +59,14 @@ def walk(model: Model, q: Array) -> Tree:
 
 def joint_placements(model: Model, q: Array) -> list[SE3]:
     """Return for each body its placement in its parent's frame: tree constant, then joint (49.3)."""
-    placement = model.constants(q.dtype).placement
+    placement, batch = model.constants(q.dtype).placement, q.shape[:-1]
+    still = placement[0]  # the world's, given the batch axes that the others get from q
+    world = SE3._trusted(
+        np.broadcast_to(still.rotation, (*batch, 3, 3)), np.broadcast_to(still.translation, (*batch, 3))
+    )
     return [
-        T @ joint.transform(q[..., s]) if joint else T for T, joint, s in zip(placement, model.joints, model.q_slice)
+        T @ joint.transform(q[..., s]) if joint else world
+        for T, joint, s in zip(placement, model.joints, model.q_slice)
     ]
 
 
