@@ -10,15 +10,10 @@ import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 
 from .strategies import KINDS, Recipe, recipes
-from .truth import assert_agree, largest, pinocchio, textbook, truth
+from .truth import assert_agree, check_against_the_truth, largest, pinocchio, textbook
 
 LONG_CHAIN = Recipe(40, seed=7, base="floating", kinds=("revolute",), branching=0.0)
 BIG_TREE = Recipe(40, seed=3, base="fixed")
-
-
-def check_against_the_truth(recipe: Recipe, dtype) -> None:
-    model, s, frame = recipe.model, recipe.state(dtype=dtype), recipe.frame()
-    assert_agree(model, s, textbook(model, s, frame), truth(model, s, frame), dtype=dtype)
 
 
 @given(recipes(8))
@@ -26,20 +21,20 @@ def check_against_the_truth(recipe: Recipe, dtype) -> None:
 @example(BIG_TREE)
 @settings(max_examples=20)
 def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
-    check_against_the_truth(recipe, np.dtype(np.float64))
+    check_against_the_truth(recipe, np.float64)
 
 
 @pytest.mark.slow
 @given(recipes(40))
 @settings(max_examples=200)
 def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(recipe):
-    check_against_the_truth(recipe, np.dtype(np.float64))
+    check_against_the_truth(recipe, np.float64)
 
 
 @given(recipes(5))
 @settings(max_examples=10)
 def test_complex_states_are_right_too(recipe):
-    check_against_the_truth(recipe, np.dtype(np.complex128))
+    check_against_the_truth(recipe, np.complex128)
 
 
 def test_row_of_25_ball_joints_costs_forward_dynamics_no_digits():

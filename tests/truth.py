@@ -13,7 +13,7 @@ import twistwrench as tw
 from twistwrench import bridge
 from twistwrench import newton_euler_3d as slow
 
-from .strategies import REFERENCES, State
+from .strategies import REFERENCES, Recipe, State
 
 mpmath.mp.dps = 50
 
@@ -209,3 +209,9 @@ def assert_agree(model, s: State, got: dict, true: dict, *, dtype=None, against=
             f"{name}: relative error {error / size if size else error:.3g} is above {bound:.3g}"
             + (f", the bound from a conditioning of {lost:.3g}" if lost != 1 else "")
         )
+
+
+def check_against_the_truth(recipe: Recipe, dtype) -> None:
+    """Every quantity of one state of a random tree is right, and of that number type."""
+    model, s, frame = recipe.model, recipe.state(dtype=dtype), recipe.frame()
+    assert_agree(model, s, textbook(model, s, frame), truth(model, s, frame), dtype=np.dtype(dtype))
