@@ -46,8 +46,9 @@ class _AxisJoint(Joint):
         a = as_array(AXES[axis] if isinstance(axis, str) else axis, "axis", 3).astype(np.float64)
         if a.ndim != 1 or not a.any():
             raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
-        if abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # what is normalised stays, to the last bit
-            a = unit(a / np.abs(a).max())
+        size = np.abs(a).max()
+        if size > 2 or abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # what is normalised stays, to the bit
+            a = unit(a / size)
         object.__setattr__(self, "axis", (float(a[0]), float(a[1]), float(a[2])))
 
     def _axis(self, dtype: DTypeLike) -> Array:
