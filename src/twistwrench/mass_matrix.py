@@ -50,7 +50,8 @@ def crba(model: Model, q: ArrayLike) -> Array:
     M = np.zeros((*q.shape[:-1], model.nv, model.nv), q.dtype)
     for i in tree.outward:
         F = IC[i] @ tree.S[i]  # wrench for a unit acceleration of joint i, in frame i
-        M[..., at[i], at[i]] = tree.S[i].mT @ F
+        own = tree.S[i].mT @ F
+        M[..., at[i], at[i]] = (own + own.mT) / 2  # symmetric to the last bit, whatever rounding left
         j = i
         while tree.parent[j] > 0:  # on the way to the base
             F = tree.X[j].mT @ F
