@@ -5,8 +5,8 @@
 (True, 29)
 """
 
-from .measure import Row
+from .measure import Judge, Row
 from .report import Report
 from .run import validate
 
-__all__ = ["Report", "Row", "validate"]
+__all__ = ["Judge", "Report", "Row", "validate"]

@@ -3,10 +3,12 @@
 The error of a quantity is measured against its own largest entry. Two things can forbid 1e-12 of that:
 
 - *Cancellation*, as in the g of a nearly vertical axis. The scale is then 1 % of the largest term that
-  was summed; an error of 1e-12 of it is 45 roundings of that term.
-- *An inverse*, as in forward dynamics. The bound is then computed, never a wider constant.
+  was summed; 1e-12 of it is 45 roundings of that term.
+- *An inverse*, as in forward dynamics where M is nearly singular. The bound is then computed from the
+  condition, and an error above 1e-12 must also be one that rounding explains: the result solves its
+  equation to a few roundings of the equation's terms.
 
-Both are computed here from `newton_euler_3d` in double precision, which shares nothing with what is judged.
+All is computed here from `newton_euler_3d`, which shares nothing with what is judged.
 """
 
 from __future__ import annotations
@@ -21,8 +23,10 @@ from .states import States
 
 __all__ = [
     "CANCELLED",
+    "ROUNDINGS",
     "equilibrium_bound",
     "forward_dynamics_bound",
+    "forward_dynamics_residual",
     "momentum_products",
     "reach",
     "twist_products",
@@ -34,8 +38,8 @@ __all__ = [
 CANCELLED = 0.01
 """The part of the terms' size that a result is measured against where it is itself smaller than that."""
 
-ROUNDINGS = 10
-"""Roundings allowed per degree of freedom in a computed bound: each entry is a sum over up to nv terms."""
+ROUNDINGS = 10 * resolution(np.float64)
+"""K ε: the relative error that each term of an equation may have picked up, ten roundings."""
 
 
 def twist_products(model: Model, s: States, reference: str) -> float:
@@ -65,17 +69,32 @@ def wrenches(model: Model, q: Array, v: Array, a: Array, f_ext: Array | None = N
     return np.repeat(np.abs(F).max(axis=-1), [at.stop - at.start for at in model.v_slice])
 
 
-def forward_dynamics_bound(model: Model, s: States, qdd: Array, f_ext: Array | None = None) -> float:
-    """Return K ε ‖ |M⁻¹| (|M| |q̈| + |τ| + |F|) ‖ / ‖q̈‖: a relative error K ε in every term of M q̈ = τ − h.
-
-    Skeel's bound: it does not mind badly scaled rows. |F| are the joints' wrenches, whose projections are h.
-    """
+def _terms(model: Model, s: States, qdd: Array, f_ext: Array | None) -> tuple[Array, Array]:
+    """Return M, and the size of the terms of each row of M q̈ = τ − h; |F|, of which h is a projection, for |h|."""
     M = ne.mass_matrix(model, s.q)
+    return M, np.abs(M) @ np.abs(qdd) + np.abs(s.tau) + wrenches(model, s.q, s.v, 0 * s.v, f_ext)
+
+
+def forward_dynamics_bound(model: Model, s: States, qdd: Array, f_ext: Array | None = None) -> float:
+    """Return K ε ‖ |M⁻¹| (|M| |q̈| + |τ| + |F|) ‖ / ‖q̈‖: what relative errors K ε of the terms do to q̈.
+
+    Skeel's condition, which does not mind badly scaled rows. Infinite where M is singular in double precision.
+    """
+    M, terms = _terms(model, s, qdd, f_ext)
+    if not (np.diag(M) > 0).all():
+        return np.inf
     d = 1 / np.sqrt(np.diag(M))
-    inverse = d[:, None] * np.linalg.inv(d[:, None] * M * d) * d
-    terms = np.abs(M) @ np.abs(qdd) + np.abs(s.tau) + wrenches(model, s.q, s.v, 0 * s.v, f_ext)
-    allowed = np.abs(inverse) @ terms
-    return float(ROUNDINGS * model.nv * resolution(np.float64) * allowed.max() / np.abs(qdd).max())
+    try:
+        inverse = d[:, None] * np.linalg.inv(d[:, None] * M * d) * d
+    except np.linalg.LinAlgError:
+        return np.inf
+    return float(ROUNDINGS * (np.abs(inverse) @ terms).max() / np.abs(qdd).max())
+
+
+def forward_dynamics_residual(model: Model, s: States, exact: States, f_ext: Array | None = None) -> float:
+    """Return by what part of its terms the worst row of M q̈ = τ − h is missed; q̈ is the a of the state."""
+    missed = ne.inverse_dynamics(model, exact.q, exact.v, exact.a, f_ext) - exact.tau
+    return float((np.abs(missed.astype(np.float64)) / _terms(model, s, s.a, f_ext)[1]).max())
 
 
 def equilibrium_bound(model: Model, s: States, solution: Array) -> float:
@@ -85,7 +104,7 @@ def equilibrium_bound(model: Model, s: States, solution: Array) -> float:
     computations, section 5.6); τ inherits that through J_cᵀ, and adds K ε of its own terms.
     """
     J, n = contact_jacobian(model, s), model.nv - 6
-    forces, unit = solution[n:], ROUNDINGS * model.nv * resolution(np.float64)
+    forces, unit = solution[n:], ROUNDINGS
     of_forces = 3 * np.linalg.cond(J[:, :6]) * unit * np.sqrt((forces**2).sum())
     own = unit * (wrenches(model, s.q, 0 * s.v, 0 * s.v)[6:] + np.abs(J[:, 6:].mT) @ np.abs(forces))
     of_tau = own.max(initial=0) + np.linalg.norm(J[:, 6:], 2) * of_forces if n else 0.0
@@ -103,7 +122,7 @@ def without_inertia(model: Model, s: States) -> tuple[set[str], set[str]]:
     nothing = set(names[np.diag(M) == 0])
     lost, felt = set(), np.diag(M).copy()
     for k in reversed(range(nv)):
-        if M[k, k] <= ROUNDINGS * nv * resolution(np.float64) * felt[k]:
+        if M[k, k] <= nv * ROUNDINGS * felt[k]:
             lost.add(names[k])
         else:
             M[:k, :k] -= np.outer(M[:k, k], M[k, :k]) / M[k, k]

@@ -11,7 +11,14 @@ from .. import newton_euler_3d as ne
 from ..checks import Array
 from ..model import Model
 from . import exact
-from .conditioning import equilibrium_bound, forward_dynamics_bound, momentum_products, without_inertia, wrenches
+from .conditioning import (
+    equilibrium_bound,
+    forward_dynamics_bound,
+    forward_dynamics_residual,
+    momentum_products,
+    without_inertia,
+    wrenches,
+)
 from .oracle import Oracle
 from .quantity import Quantity
 from .states import States
@@ -54,16 +61,18 @@ FORWARD_DYNAMICS = (
         theirs=_aba,
         truth=lambda m, s: ne.forward_dynamics(m, s.q, s.v, s.tau),
         bound=forward_dynamics_bound,
+        residual=forward_dynamics_residual,
         singular=_names_the_massless,
     ),
     Quantity(
         "49.7",
-        "with wrenches outside",
+        "forward dynamics, f_ext",
         "aba, fext",
         ours=lambda m, s: tw.aba(m, s.q, s.v, s.tau, s.f_ext),
         theirs=lambda p, s: _aba(p, s, s.f_ext),
         truth=lambda m, s: ne.forward_dynamics(m, s.q, s.v, s.tau, s.f_ext),
         bound=lambda m, s, qdd: forward_dynamics_bound(m, s, qdd, s.f_ext),
+        residual=lambda m, s, exact: forward_dynamics_residual(m, s, exact, s.f_ext),
         singular=_names_the_massless,
     ),
 )
@@ -88,7 +97,7 @@ DYNAMICS = (
     ),
     Quantity(
         "49.6",
-        "with wrenches outside",
+        "inverse dynamics, f_ext",
         "rnea, fext",
         ours=lambda m, s: tw.rnea(m, s.q, s.v, s.a, s.f_ext),
         theirs=lambda p, s: _rnea(p, s, s.f_ext),

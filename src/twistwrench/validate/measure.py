@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from textwrap import shorten
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from ..checks import Array
 from ..errors import ShapeError, SingularError
 from ..model import Model
-from .conditioning import CANCELLED
+from .conditioning import CANCELLED, ROUNDINGS
 from .oracle import Oracle
 from .quantity import BOUND, Quantity
 from .states import States
@@ -74,6 +75,7 @@ class At:
     ours_vs_truth: Array | None
     pinocchio_vs_truth: Array | None
     bound: float
+    residual: float | None = None
 
     @property
     def decides(self) -> Array:
@@ -82,9 +84,14 @@ class At:
         return np.zeros(0) if errors is None else errors
 
     @property
+    def error(self) -> float:
+        """The worst of the errors that decide."""
+        return float(self.decides.max(initial=0))
+
+    @property
     def closeness(self) -> float:
         """The deciding error in units of the bound. A NaN is infinitely far off."""
-        worst = self.decides.max(initial=0) / self.bound
+        worst = np.max([self.error / self.bound, (self.residual or 0.0) / ROUNDINGS])
         return float(np.inf if np.isnan(worst) else worst)
 
     def place(self, state: int) -> str:
@@ -130,7 +137,7 @@ class Judge:
         try:
             return _sum_up(row, [self._at(quantity, i, x) for i, x in enumerate(ours)])
         except SingularError as error:
-            return replace(row, note=f"ours gives numbers where none exist: {error}")
+            return replace(row, note=f"ours gives numbers where there are none: {error}")
         except ShapeError as error:
             return replace(row, note=str(error))
 
@@ -138,7 +145,7 @@ class Judge:
         """Shorten the message of a SingularError that names many joints."""
         names = [repr(name) for name in self.model.joint_names if repr(name) in message]
         if not names:
-            return "singular: " + " ".join(message.split())
+            return "singular: " + shorten(message.partition(": (")[0], 90, placeholder=" …")
         more = f" and {len(names) - 4} more" if len(names) > 4 else ""
         return f"singular: {len(names)} joint{'s' * (len(names) > 1)}: {', '.join(names[:4])}{more}"
 
@@ -150,6 +157,9 @@ class Judge:
         if truth is None and at.closeness > 1:
             truth = self._truth(quantity, s)  # who is right?
             at = self._compare(quantity, s, x, theirs, truth)
+        if quantity.residual is not None and BOUND < at.error <= at.bound:
+            s = replace(s, a=x)
+            at = replace(at, residual=quantity.residual(self.model, s, s.exact(self.context)))
         return at
 
     def _truth(self, quantity: Quantity, s: States) -> Right | None:
@@ -200,7 +210,7 @@ def _sum_up(row: Row, states: Sequence[At]) -> Row:
         bound=states[worst].bound,
         passed=all(at.closeness <= 1 for at in states),
     )
-    return replace(row, note=_on_pinocchio(states) if row.passed else states[worst].place(worst))
+    return replace(row, note=_remark(states) if row.passed else states[worst].place(worst))
 
 
 def _worst(errors: Iterable[Array | None]) -> float | None:
@@ -209,10 +219,16 @@ def _worst(errors: Iterable[Array | None]) -> float | None:
     return float(np.max(known)) if known else None
 
 
-def _on_pinocchio(states: Sequence[At]) -> str:
-    """Say where ours is right and Pinocchio is not."""
-    wrong = [at.pinocchio_vs_truth for at in states if at.pinocchio_vs_truth is not None]
-    worst = _worst(wrong) or 0.0
-    if np.isnan(worst):
+def _remark(states: Sequence[At]) -> str:
+    """Say where rounding forbids 1e-12, and where ours is right and Pinocchio is not."""
+    beyond = [at for at in states if at.residual is not None]
+    theirs = _worst(at.pinocchio_vs_truth for at in states) or 0.0
+    if beyond:
+        worst = max(beyond, key=lambda at: at.error)
+        return (
+            f"error {worst.error:.1e} at {len(beyond)} of {len(states)} states, M is so nearly singular that rounding "
+            f"may cost {worst.bound:.1e}; the equation is met to {worst.residual:.1e} of its terms"
+        )
+    if np.isnan(theirs):
         return "Pinocchio gives NaN"
-    return f"Pinocchio is {worst:.1e} off the truth" if worst > max(at.bound for at in states) else ""
+    return f"Pinocchio is {theirs:.1e} off the truth" if theirs > max(at.bound for at in states) else ""

@@ -39,6 +39,9 @@ class Quantity:
         cancel, rounding is theirs, not the result's.
     bound : callable, optional
         Of the model, one state and the right result: the relative error that the conditioning allows.
+    residual : callable, optional
+        Of the model, a state whose a is our result, and the same in exact numbers: by what part of its
+        terms the equation is missed that the result should solve. Asked where the error is above 1e-12.
     singular : callable
         Of the model, the states and the message of a SingularError of ours: whether it is right. Unless
         given, it is where the truth, in double precision, does not exist at one of the states either.
@@ -54,6 +57,7 @@ class Quantity:
     truth: Callable[[Model, States], Array]
     terms: Callable[[Model, States], float] | None = None
     bound: Callable[[Model, States, Array], float] | None = None
+    residual: Callable[[Model, States, States], float] | None = None
     applies: Callable[[Model], bool] = lambda model: True
     singular: Callable[[Model, States, str], bool] | None = None
 

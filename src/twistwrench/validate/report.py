@@ -12,7 +12,7 @@ from typing import Any
 
 from .measure import Row
 
-__all__ = ["Report", "notes", "number"]
+__all__ = ["Report", "notes", "number", "pad"]
 
 HEADER = ("§", "quantity", "in Pinocchio", "shape", "vs Pin.", "vs truth", "bound", "")
 RIGHT = (4, 5, 6)
@@ -90,7 +90,7 @@ class Report:
         """Return the last line."""
         good, time = len(self.rows) - len(self.failed), f"{self.seconds:.1f} s"
         if not self.rows:
-            return f"nothing moves, nothing to compare · {time}"
+            return f"nothing moves: nothing to compare · {time}"
         if self.passed:
             return f"{good} of {len(self.rows)} rows inside their bounds · {time}"
         names = ", ".join(row.quantity for row in self.failed)
@@ -118,7 +118,7 @@ def notes(rows: Iterable[Row]) -> list[str]:
     said: dict[str, list[str]] = {}
     for row in rows:
         if row.note:
-            said.setdefault(row.note, []).append(row.pinocchio if row.pinocchio[0].isalpha() else row.quantity)
+            said.setdefault(row.note, []).append(row.quantity)
     return [f"    {'; '.join(names)}: {note}" for note, names in said.items()]
 
 
@@ -152,12 +152,14 @@ def number(x: float | None) -> str:
 def _aligned(lines: list[tuple[str, ...]]) -> list[str]:
     """Lay cells out in columns, numbers to the right."""
     widths = [max(map(_width, column)) for column in zip(*lines, strict=True)]
-    return ["  ".join(map(_pad, line, widths, range(len(widths)))).rstrip() for line in lines]
+    right = [i in RIGHT for i in range(len(widths))]
+    return ["  ".join(map(pad, line, widths, right)).rstrip() for line in lines]
 
 
-def _pad(cell: str, width: int, column: int) -> str:
+def pad(cell: str, width: int, right: bool) -> str:
+    """Fill a cell up to a width."""
     space = " " * (width - _width(cell))
-    return space + cell if column in RIGHT else cell + space
+    return space + cell if right else cell + space
 
 
 def _width(text: str) -> int:

@@ -102,7 +102,7 @@ def validate(
         states=states,
         truths=judge.truths,
         seed=rng if isinstance(rng, int) else None,
-        loader=path is not None,
+        loader=oracle is not None and path is not None,
         seconds=time.perf_counter() - start,
     )
 

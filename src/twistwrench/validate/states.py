@@ -46,7 +46,12 @@ class States:
         return States(**{key: array[i] for key, array in self._arrays().items()}, frames=self.frames)
 
     def exact(self, context: Any) -> States:
-        """Return one state in the numbers of an mpmath context; every double has an exact twin there."""
+        """Return one state in the numbers of an mpmath context, where every double has an exact twin.
+
+        Without a context in long doubles, which mostly hold 19 digits.
+        """
+        if context is None:
+            return States(**{key: array.astype(np.longdouble) for key, array in self._arrays().items()}, frames=())
         exact = np.frompyfunc(lambda x: context.mpf(float(x)), 1, 1)
         return States(**{key: exact(array) for key, array in self._arrays().items()}, frames=self.frames)
 

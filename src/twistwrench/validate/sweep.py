@@ -10,9 +10,8 @@ from multiprocessing import get_context
 from typing import Any, Literal
 
 from ..robots import robots
-from ..robots.catalogue import example_robot_data_folder
-from .quantity import BOUND
-from .report import Report, notes, number
+from ..robots.catalogue import PREFIX, example_robot_data_folder
+from .report import Report, notes, number, pad
 from .run import validate
 
 __all__ = ["Outcome", "every_robot", "header", "line", "summary", "sweep"]
@@ -88,36 +87,29 @@ def _outcome(name: str, base: Base, states: int, truths: int, seed: int) -> Outc
         return Outcome(name, base, None, f"{type(error).__name__}: {error}")
 
 
-COLUMNS = ((27, "robot"), (8, "base"), (3, "nv"), (5, "rows"), (23, "closest to its bound"))
-NUMBERS = ("vs Pin.", "vs truth", "bound")
+COLUMNS = ("robot", "base", "nv", "rows", "closest to its bound", "vs Pin.", "truth", "bound", "")
+WIDTHS = (26, 8, 3, 5, 23, 7, 7, 7, 1)
 
 
 def header() -> str:
     """Return the first line of the table."""
-    return "  ".join([*(title.ljust(width) for width, title in COLUMNS), *(n.rjust(7) for n in NUMBERS)])
+    return _laid_out(COLUMNS)
 
 
 def line(outcome: Outcome) -> str:
     """Return an outcome's line of the table, and below it what there is to say of its rows."""
-    report = outcome.report
+    report, name = outcome.report, outcome.robot.replace(PREFIX, "…/")
     if report is None:
-        return f"{outcome.robot:27}  {outcome.base:8}  ✗ {outcome.error}"
-    row, good = report.worst, len(report.rows) - len(report.failed)
-    cells = [outcome.robot, outcome.base, str(report.nv), f"{good}/{len(report.rows)}", row.quantity if row else ""]
-    numbers = [row.ours_vs_pinocchio, row.ours_vs_truth, row.bound] if row else [None] * 3
-    padded = [cell.ljust(width) for cell, (width, _) in zip(cells, COLUMNS, strict=True)]
-    verdict = "✓" if report.passed else "✗"
-    first = "  ".join([*padded, *(number(x).rjust(7) for x in numbers), verdict])
-    return "\n".join([first, *notes(report.rows), *_beyond(report)])
+        return _laid_out((name, outcome.base, "", "", outcome.error))
+    row, count = report.worst, f"{len(report.rows) - len(report.failed)}/{len(report.rows)}"
+    what = row.quantity if row else "(nothing moves)"
+    numbers = map(number, (row.ours_vs_pinocchio, row.ours_vs_truth, row.bound)) if row else [""] * 3
+    cells = (name, outcome.base, str(report.nv), count, what, *numbers, "✓" if outcome.passed else "✗")
+    return "\n".join([_laid_out(cells), *notes(report.rows)])
 
 
-def _beyond(report: Report) -> list[str]:
-    """Say which rows needed more than 1e-12, and what their conditioning allows them."""
-    return [
-        f"    {row.pinocchio}: error {number(row.error)}, its conditioning allows {number(row.bound)}"
-        for row in report.rows
-        if row.passed and row.error is not None and row.error > BOUND
-    ]
+def _laid_out(cells: Sequence[str]) -> str:
+    return " ".join(pad(cell, width, right=5 <= i <= 7) for i, (cell, width) in enumerate(zip(cells, WIDTHS))).rstrip()
 
 
 def summary(outcomes: Sequence[Outcome], seconds: float) -> str:
