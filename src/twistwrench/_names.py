@@ -1,5 +1,8 @@
 """The public names: what `twistwrench` offers, and the section that holds each."""
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from . import bridge, newton_euler_3d
 from .builder import Builder
 from .centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
@@ -29,6 +32,9 @@ from .rotation import exp3, log3, skew, unskew
 from .trees import chain, random_tree
 from .twist import Screw, Twist, hat, screw, vee
 from .wrench import Wrench, power
+
+if TYPE_CHECKING:
+    from . import exercises
 
 __all__ = [
     "SE3",
@@ -64,6 +70,7 @@ __all__ = [
     "cross_force",
     "cross_motion",
     "dynamics",
+    "exercises",
     "exp3",
     "exp6",
     "force_transform",
@@ -93,3 +100,9 @@ __all__ = [
     "unskew",
     "vee",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name != "exercises":  # nothing else needs them: they come when they are asked for
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return import_module(".exercises", __package__)

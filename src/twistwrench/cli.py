@@ -1,4 +1,4 @@
-"""The command line: ``twistwrench validate``, ``twistwrench robots``.
+"""The command line: ``twistwrench validate``, ``twistwrench robots``, ``twistwrench exercises``.
 
 A command is a function that adds its parser; it names in ``set_defaults(run=...)`` what does the work
 and returns the exit status. What a command needs it imports there, so that ``--help`` is quick.
@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .errors import ModelError, NameNotFound
+from .exercises.commands import register as add_exercises
 
 if TYPE_CHECKING:
     from .validate import Report
@@ -164,4 +165,4 @@ def _positive(text: str) -> int:
     return value
 
 
-COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots)
+COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_exercises)

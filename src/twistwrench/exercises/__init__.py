@@ -1,0 +1,31 @@
+"""The chapter's exercises, checked.
+
+`start` writes skeletons into a folder; there, plain ``pytest`` checks the student's functions and says
+what is wrong with them. `status` shows the progress, `hint` and `solution` help.
+
+The exercises are those of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
+How to add one is in the README beside this file.
+
+>>> print(hint("49.3.2", language="en").splitlines()[0])
+49.3.2 A pure rotation: hint 1 of 2
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .helping import hint, solution
+    from .progress import Status, status
+    from .skeletons import start
+    from .workbook import mine
+
+__all__ = ["Status", "hint", "mine", "solution", "start", "status"]
+
+_HOME = {"hint": "helping", "solution": "helping", "Status": "progress", "status": "progress"}
+_HOME |= {"start": "skeletons", "mine": "workbook"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f".{_HOME[name]}", __name__), name)

@@ -1,0 +1,142 @@
+"""The pytest plugin that a student's folder names in its pytest.ini.
+
+Each function that an exercise asks for is a test, and so is each answer in words. What still is ``...``
+is skipped and says "to do". A test has the name of its exercise, ``49_3_1-...``, and the mark of its
+section, ``s49_3``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import pytest
+
+from . import catalogue
+from .exercise import Exercise
+from .judge import Verdict
+from .progress import survey
+from .text import Text
+from .workbook import Workbook
+
+__all__ = ["SectionFile", "pytest_collect_file", "pytest_configure", "pytest_terminal_summary"]
+
+TO_DO = Text("to do: {id} {name}", "未做:{id} {name}")
+COMPARE = Text(
+    "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照,参考答案:"
+)
+
+BOOKS = pytest.StashKey[dict[str, Workbook]]()
+
+
+def mark_of(section: str) -> str:
+    """Return the mark of a section."""
+    return "project" if section == "project" else "s" + section.replace(".", "_")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Announce the marks, and let ``-k 49_1`` mean section 49.1 and not 49.10 as well."""
+    config.stash[BOOKS] = {}
+    for section, title in catalogue.SECTIONS.items():
+        config.addinivalue_line("markers", f"{mark_of(section)}: {title.en}")
+    if config.option.keyword:
+        config.option.keyword = re.sub(r"\b49_(\d+)\b", r"49_\1_", config.option.keyword)
+
+
+def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect the files of the exercises."""
+    sections = {catalogue.file_name(section): section for section in catalogue.SECTIONS}
+    if file_path.name not in sections:
+        return None
+    books = parent.config.stash[BOOKS]
+    book = books.setdefault(str(file_path.parent), Workbook(file_path.parent))
+    return SectionFile.of(parent, path=file_path, section=sections[file_path.name], book=book)
+
+
+class SectionFile(pytest.File):
+    """The student's file of a section."""
+
+    section: str
+    book: Workbook
+
+    @classmethod
+    def of(cls, parent: pytest.Collector, *, path: Any, section: str, book: Workbook) -> SectionFile:
+        """Make a collector that knows its section and its folder."""
+        made = cls.from_parent(parent, path=path)
+        made.section, made.book = section, book
+        return made
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """Yield a test for all that an exercise asks for."""
+        for exercise in catalogue.of_section(self.section):
+            names = [part.name for part in exercise.parts]
+            for name in names + [exercise.answer_name] * (exercise.answer is not None):
+                yield Answer.of(self, exercise=exercise, name=name)
+
+
+class Wrong(Exception):
+    """A wrong answer; its argument is the message."""
+
+
+class Answer(pytest.Item):
+    """A function, or an answer in words, of an exercise."""
+
+    parent: SectionFile
+    exercise: Exercise
+    asked: str
+
+    @classmethod
+    def of(cls, parent: SectionFile, *, exercise: Exercise, name: str) -> Answer:
+        """Make a test with the name of its exercise and the mark of its section."""
+        label = "words" if name == exercise.answer_name else name
+        item = cls.from_parent(parent, name=f"{exercise.id.replace('.', '_')}-{label}")
+        item.exercise, item.asked = exercise, name
+        item.add_marker(mark_of(exercise.section))
+        return item
+
+    def runtest(self) -> None:
+        """Judge it."""
+        book, exercise = self.parent.book, self.exercise
+        verdict = self._verdict()
+        if verdict.state == "to do":
+            pytest.skip(TO_DO.fill(id=exercise.id, name=self.asked).of(book.language))
+        if verdict.state == "wrong":
+            raise Wrong(verdict.message(book.language))
+
+    def _verdict(self) -> Verdict:
+        if self.asked == self.exercise.answer_name:
+            verdict = self.parent.book.verdict_in_words(self.exercise)
+            return Verdict("done") if verdict is None else verdict
+        part = next(part for part in self.exercise.parts if part.name == self.asked)
+        return self.parent.book.verdict(self.exercise, part)
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Show the message of a wrong answer as it is; of anything else the trace."""
+        return str(excinfo.value) if isinstance(excinfo.value, Wrong) else super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Any, int | None, str]:
+        """Say where the test stands."""
+        return self.path, None, self.name
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    """Show model answers for comparison, each once, and how far the student is."""
+    for book in config.stash[BOOKS].values():
+        for exercise in _to_compare(book):
+            terminalreporter.section(f"{exercise.id} {exercise.title.of(book.language)}")
+            terminalreporter.write_line(COMPARE.fill(id=exercise.id).of(book.language))
+            terminalreporter.write_line("\n" + (exercise.answer or Text("", "")).of(book.language).strip())
+            book.remember(compared=[*book.state["compared"], exercise.id])
+        if not config.option.collectonly:
+            terminalreporter.section(str(book.folder))
+            terminalreporter.write_line(str(survey(book)))
+
+
+def _to_compare(book: Workbook) -> Iterator[Exercise]:
+    """Yield the exercises in words that are right by now and whose model answer was not shown yet."""
+    for exercise in map(catalogue.exercise, catalogue.available()):
+        if exercise.answer is None or exercise.id in book.state["compared"]:
+            continue
+        if all(verdict.state == "done" for verdict in book.verdicts(exercise).values()):
+            yield exercise

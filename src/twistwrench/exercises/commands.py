@@ -1,0 +1,97 @@
+"""The command line of the exercises: ``twistwrench exercises start | status | hint | solution | list``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any
+
+__all__ = ["register"]
+
+REFUSED = 1
+
+
+def register(commands: Any) -> None:
+    """Add ``twistwrench exercises``."""
+    parser = commands.add_parser("exercises", help="the chapter's exercises, checked by pytest")
+    actions = parser.add_subparsers(required=True, metavar="ACTION")
+    start = _action(actions, "start", "write the skeletons into DIR; what is there stays as it is", run_start)
+    start.add_argument("dir", metavar="DIR")
+    status = _action(actions, "status", "check all answers and show the progress by section", run_status)
+    status.add_argument("dir", nargs="?", default=".", metavar="DIR")
+    hint = _action(actions, "hint", "the next hint for an exercise", run_hint)
+    solution = _action(actions, "solution", "a solution of an exercise", run_solution)
+    for asked in (hint, solution):
+        asked.add_argument("id", metavar="ID", help="as 49.3.1")
+        asked.add_argument("--dir", default=".", metavar="DIR", help="where the exercises are (here)")
+    hint.add_argument("--all", action="store_true", help="all hints")
+    hint.add_argument("--again", action="store_true", help="the last hint again")
+    solution.add_argument("--yes", action="store_true", help="do not ask whether you are sure")
+    _action(actions, "list", "all exercises", run_list)
+
+
+def _action(actions: Any, name: str, help: str, run: Any) -> Any:
+    parser = actions.add_parser(name, help=help)
+    parser.add_argument("--language", choices=["en", "zh"], help="English or 简体中文")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run_start(args: argparse.Namespace) -> int:
+    """Write the skeletons."""
+    from .skeletons import start
+    from .workbook import Workbook
+
+    new, kept = start(args.dir, language=args.language)
+    for word, zh, paths in (("new", "新增", new), ("kept as it is", "保持不变", kept)):
+        label = zh if Workbook(args.dir).language == "zh" else word
+        for path in paths:
+            print(f"{path}: {label}")
+    print(f"\ncd {args.dir} && pytest")
+    return 0
+
+
+def run_status(args: argparse.Namespace) -> int:
+    """Print the progress; exit status 1 where an answer is wrong."""
+    from .progress import status
+
+    found = status(args.dir, language=args.language)
+    print(found)
+    return REFUSED if any(row.count("wrong") for row in found.rows) else 0
+
+
+def run_hint(args: argparse.Namespace) -> int:
+    """Print a hint."""
+    from .helping import hint
+
+    print(hint(args.id, args.dir, again=args.again, every=args.all, language=args.language))
+    return 0
+
+
+def run_solution(args: argparse.Namespace) -> int:
+    """Print a solution, once the student is sure."""
+    from .helping import solution
+
+    text = solution(args.id, args.dir, language=args.language)
+    if not args.yes and not _sure(args.id):
+        return REFUSED
+    print(text)
+    return 0
+
+
+def _sure(number: str) -> bool:
+    """Ask; without somebody to answer, say how to do without asking."""
+    if not sys.stdin.isatty():
+        print(f"The solution of {number} is shown with --yes; a hint first? twistwrench exercises hint {number}")
+        return False
+    return input(f"Show the solution of {number}? A hint may be enough. [y/N] ").strip().lower() in ("y", "yes", "是")
+
+
+def run_list(args: argparse.Namespace) -> int:
+    """Print number, kind and title of every exercise."""
+    from . import catalogue
+    from .text import default_language
+
+    for exercise in map(catalogue.exercise, catalogue.available()):
+        print(f"{exercise.id:10} {exercise.kind:8} {exercise.title.of(args.language or default_language())}")
+    return 0

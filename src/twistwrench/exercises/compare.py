@@ -1,0 +1,94 @@
+"""Answers against each other: entry by entry, each return value by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..checks import Array
+from .exercise import Part, Quantity
+
+__all__ = ["Value", "agree", "close", "pieces", "to_do", "values"]
+
+FLOOR = 1e-3
+"""Entries below this part of a unit count as zero to the tolerance: an exact 0 is as good as 1e-17."""
+
+
+class Value(NamedTuple):
+    """One thing that a function returned, as an array; None where it cannot be one."""
+
+    quantity: Quantity
+    array: Array | None
+    raw: Any
+
+
+def to_do(answer: Any) -> bool:
+    """Whether an answer, or a part of it, still is the ``...`` of the skeleton."""
+    if isinstance(answer, tuple | list):
+        return any(to_do(x) for x in answer)
+    return answer is Ellipsis
+
+
+def pieces(answer: Any, returns: Sequence[Quantity]) -> Sequence[Any] | None:
+    """Split an answer into the things that were asked for; None if there are not as many."""
+    if len(returns) == 1:
+        return [answer]
+    if (isinstance(answer, np.ndarray) and answer.ndim == 0) or not hasattr(answer, "__len__"):
+        return None
+    return list(answer) if len(answer) == len(returns) and not isinstance(answer, str | dict) else None
+
+
+def values(answer: Any, returns: Sequence[Quantity]) -> list[Value] | None:
+    """Return what a function returned, piece by piece, or None if there are not as many pieces as asked for."""
+    split = pieces(answer, returns)
+    return None if split is None else [Value(q, _array(x), x) for q, x in zip(returns, split)]
+
+
+def _array(x: Any) -> Array | None:
+    """Convert to an array of numbers or of truth values."""
+    if x is None or isinstance(x, str):
+        return None
+    for name in ("matrix", "vector"):  # our SE3 and SpatialInertia, our Twist and Wrench
+        held = getattr(x, name, None)
+        if held is not None and not isinstance(x, np.ndarray):
+            x = held() if callable(held) else held
+            break
+    try:
+        array = np.asarray(x)
+    except ValueError:  # rows of different lengths
+        return None
+    if array.dtype.kind in "iu":
+        array = array.astype(float)
+    return array if array.dtype.kind in "bfc" else None
+
+
+def close(a: Value, b: Value, rtol: float) -> bool:
+    """Whether two values are the same, to a part of the largest entry of the second."""
+    if a.array is None or b.array is None:
+        return isinstance(a.raw, str) and isinstance(b.raw, str) and a.raw.strip() == b.raw.strip()
+    if a.array.shape != b.array.shape:
+        return False
+    if a.array.dtype.kind == "b" or b.array.dtype.kind == "b":
+        return a.array.dtype.kind == b.array.dtype.kind and bool((a.array == b.array).all())
+    if not np.isfinite(a.array).all():
+        return bool(np.array_equal(a.array, b.array))
+    scale = np.abs(b.array[np.isfinite(b.array)]).max(initial=FLOOR)
+    with np.errstate(invalid="ignore"):
+        return bool((np.abs(a.array - b.array) <= rtol * scale).all())
+
+
+def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bool:
+    """Whether two answers to the same arguments are the same answer."""
+    if part.canonical is not None:
+        canonical: Callable[..., Any] = part.canonical
+        try:
+            first, second = canonical(first, *arguments), canonical(second, *arguments)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+            return False
+        returns: Sequence[Quantity] = [Quantity("")] * (len(second) if isinstance(second, tuple) else 1)
+    else:
+        returns = part.returns
+    a, b = values(first, returns), values(second, returns)
+    return a is not None and b is not None and all(close(x, y, part.rtol) for x, y in zip(a, b))

@@ -1,0 +1,143 @@
+"""From a wrong answer to what went wrong: first the slips by name, then what the comparison shows."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from .compare import agree, pieces, values
+from .exercise import Exercise, Part
+from .phrases import say
+from .relations import describe
+from .slips import SLIPS
+from .text import Text
+from .wrong import swap
+
+__all__ = ["explain", "matching_slips"]
+
+Answers = Sequence[Any]
+Cases = Sequence[tuple[Any, ...]]
+
+NOTICEABLE = 1e-6
+"""From which size on the residual of a property counts, for answers of the size of 1."""
+
+MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
+
+TWISTS: dict[str, Callable[[Any], Any]] = {
+    "swapped-halves": swap,
+    "transposed-answer": lambda x: np.asarray(x).mT,
+    "degrees": lambda x: np.asarray(x) * 180 / np.pi,
+    "thousand": lambda x: np.asarray(x) * 1000,
+}
+"""What can be done to any answer on top of another slip: by these, two slips at once are recognised."""
+
+
+def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
+    """Return the slips that give these very answers on all cases."""
+    return [slip for slip, wrong in part.slips.items() if _matches(part, wrong, answers, cases)]
+
+
+def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
+    for answer, arguments in zip(answers, cases):
+        try:
+            with warnings.catch_warnings(), np.errstate(all="ignore"):
+                warnings.simplefilter("ignore")
+                slipped = part.value(wrong, arguments)
+        except MISHAPS:
+            return False
+        if not agree(part, answer, slipped, arguments):
+            return False
+    return True
+
+
+def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:
+    """Return two slips that together give these answers on all cases."""
+    for second, twist in TWISTS.items():
+        for first, wrong in part.slips.items():
+
+            def both(*arguments: Any, wrong: Any = wrong, twist: Any = twist) -> Any:
+                answer = wrong(*arguments)
+                return tuple(map(twist, answer)) if isinstance(answer, tuple) else twist(answer)
+
+            if first != second and _matches(part, both, answers, cases):
+                return first, second
+    return None
+
+
+def explain(exercise: Exercise, part: Part, answers: Answers, cases: Cases) -> tuple[list[str], list[Text]]:
+    """Explain a wrong answer.
+
+    Returns
+    -------
+    slips : list of str
+        Those that give the very same answer.
+    lines : list of Text
+        What the message says.
+    """
+    found = matching_slips(part, answers, cases)
+    if found:
+        return found, _named(exercise, found)
+    pair = two_slips(part, answers, cases)
+    if pair is not None:
+        first, second = (SLIPS[name] for name in pair)
+        line = say("two slips", first=first.title, second=second.title)
+        return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
+    lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
+    broken = _broken_property(part, answers, cases)
+    if broken is not None:
+        lines.append(say("broken", text=broken))
+    return [], [*lines, _where(exercise, exercise.section)]
+
+
+def _named(exercise: Exercise, found: list[str]) -> list[Text]:
+    slips = [SLIPS[name] for name in found]
+    if len(slips) == 1:
+        return [say("slip", title=slips[0].title), slips[0].why, _where(exercise, slips[0].section)]
+    each = [Text(f"  - {s.title.en}. {s.why.en}", f"  - {s.title.zh}。{s.why.zh}") for s in slips]
+    return [say("slips"), *each, _where(exercise, slips[0].section)]
+
+
+def _where(exercise: Exercise, section: str) -> Text:
+    return say("where", section=section, id=exercise.id)
+
+
+def _indented(line: Text) -> Text:
+    return Text("  " + line.en, "  " + line.zh)
+
+
+def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
+    """Say what is wrong with the first wrong answer, piece by piece."""
+    for answer, arguments in zip(answers, cases):
+        expected = part.value(part.solution, arguments)
+        if agree(part, answer, expected, arguments):
+            continue
+        if answer is None:
+            return [say("none")]
+        got, right = values(answer, part.returns), values(expected, part.returns)
+        if got is None or right is None:
+            names = ", ".join(q.name for q in part.returns)
+            return [say("pieces", n=len(part.returns), names=names, got=_count(answer))]
+        return [line for a, b in zip(got, right) for line in describe(a, b, part.rtol)]
+    return []
+
+
+def _count(answer: Any) -> str:
+    return str(len(answer)) if isinstance(answer, tuple | list) else type(answer).__name__
+
+
+def _broken_property(part: Part, answers: Answers, cases: Cases) -> Text | None:
+    """Return the first property that a right answer has and one of these has not."""
+    for item in part.properties:
+        for answer, arguments in zip(answers, cases):
+            if pieces(answer, part.returns) is None:
+                return None
+            try:
+                residual = np.abs(np.asarray(item.residual(answer, *arguments), complex))
+            except MISHAPS:
+                return None
+            if not (residual <= NOTICEABLE).all():
+                return item.text
+    return None

@@ -1,0 +1,138 @@
+"""What an exercise is: its texts, and the functions that the student writes."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from .layouts import PLAIN, Layout
+from .text import Text
+
+__all__ = ["Exercise", "Kind", "Part", "Property", "Quantity"]
+
+Kind = Literal["code", "number", "explain", "prove"]
+Cases = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One thing that a function returns: its symbol, how its numbers are arranged, and its unit."""
+
+    name: str
+    layout: Layout = PLAIN
+    unit: str = ""
+
+
+@dataclass(frozen=True)
+class Property:
+    """Something that every right answer has, whoever computed it.
+
+    ``residual(answer, *arguments)`` is zero, entry by entry, where the answer has it.
+    """
+
+    text: Text
+    residual: Callable[..., Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """One function that the student writes.
+
+    Attributes
+    ----------
+    solution : callable
+        The reference. Its name and its signature are those of the student's function; its source is the solution.
+    doc : Text
+        The docstring of the skeleton: shape, unit and frame of every argument and of what is returned.
+    returns : tuple of Quantity
+        What it returns; a tuple of several where there are several.
+    cases : callable
+        From a random generator to a list of argument tuples. Numbers that need none: ``[()]``.
+    slips : mapping
+        Name of a slip of `slips.SLIPS` to a wrong implementation with the same signature.
+    alike : tuple
+        Groups of those names that cannot be told apart here: the message then names all of a group.
+    properties : tuple of Property
+        What a right answer fulfils. They explain a wrong answer that is no known slip.
+    canonical : callable, optional
+        ``canonical(answer, *arguments)``: what is compared where more than one answer is right.
+    call : callable, optional
+        ``call(function, *arguments)``: how the function is used, where a plain call would not do (a class).
+    given : str
+        Lines of the body that the skeleton already has, before ``return ...``.
+    rtol : float
+        How near the answer must come, relative to its largest entry.
+    """
+
+    solution: Callable[..., Any]
+    doc: Text
+    returns: tuple[Quantity, ...]
+    cases: Cases
+    slips: Mapping[str, Callable[..., Any]]
+    alike: tuple[frozenset[str], ...] = ()
+    properties: tuple[Property, ...] = ()
+    canonical: Callable[..., Any] | None = None
+    call: Callable[..., Any] | None = None
+    given: str = ""
+    rtol: float = 1e-9
+
+    @property
+    def name(self) -> str:
+        """The name of the student's function."""
+        return self.solution.__name__
+
+    @property
+    def arguments(self) -> str:
+        """The arguments, as in a signature without types."""
+        if inspect.isclass(self.solution):
+            return ""
+        parameters = inspect.signature(self.solution).parameters.values()
+        return ", ".join(p.name if p.default is p.empty else f"{p.name}={p.default!r}" for p in parameters)
+
+    def value(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+        """Call a function as this part calls it."""
+        return function(*arguments) if self.call is None else self.call(function, *arguments)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exercise:
+    """An exercise of the chapter.
+
+    Attributes
+    ----------
+    id : str
+        The chapter's number, as "49.3.1"; the project's stages are "project.1" to "project.4".
+    kind : {"code", "number", "explain", "prove"}
+    title, text : Text
+        The text in our own words, with the chapter's numbers. Where the chapter is wrong it says so.
+    parts : tuple of Part
+    hints : tuple of Text
+        From a nudge to nearly the answer.
+    answer : Text, optional
+        The model answer, where the student writes one in words; shown after the attempt.
+    uses : tuple of str
+        Functions of earlier exercises that the skeleton offers through `mine`.
+    """
+
+    id: str
+    kind: Kind
+    title: Text
+    text: Text
+    parts: tuple[Part, ...]
+    hints: tuple[Text, ...]
+    answer: Text | None = None
+    uses: tuple[str, ...] = field(default=())
+
+    @property
+    def section(self) -> str:
+        """The section, as "49.3", or "project"."""
+        return self.id.rpartition(".")[0]
+
+    @property
+    def answer_name(self) -> str:
+        """The name that the student's answer in words has in the file."""
+        return "answer_" + self.id.replace(".", "_")

@@ -1,0 +1,116 @@
+"""Hints one at a time, and solutions on request."""
+
+from __future__ import annotations
+
+from os import PathLike
+
+from . import catalogue
+from .skeletons import source_of
+from .text import Language, Text
+from .workbook import Workbook
+from .wrapping import wrapped
+
+__all__ = ["hint", "solution"]
+
+SAY = {
+    "hint": Text("{id} {title}: hint {k} of {n}", "{id} {title}:提示 {k}/{n}"),
+    "last": Text(
+        "That was the last one. The solution: twistwrench exercises solution {id}",
+        "提示已全部给出。查看解答:twistwrench exercises solution {id}",
+    ),
+    "solution": Text("{id} {title}: a solution", "{id} {title}:参考解答"),
+    "model": Text("The model answer:", "参考答案:"),
+    "later": Text(
+        "The model answer is shown once yours is written: fill in {name}.",
+        "写下你自己的回答(填写 {name})之后才显示参考答案。",
+    ),
+}
+
+
+def hint(
+    number: str,
+    folder: str | PathLike[str] = ".",
+    *,
+    again: bool = False,
+    every: bool = False,
+    language: Language | None = None,
+) -> str:
+    """Return the next hint for an exercise. How many were given is remembered in the folder.
+
+    Parameters
+    ----------
+    number : str
+        Of the exercise, as "49.3.1".
+    folder : str or path
+        One that `start` has filled. In any other, nothing is remembered, and the first hint comes each time.
+    again : bool
+        Repeat the last hint.
+    every : bool
+        All hints at once.
+    language : {"en", "zh"}, optional
+        That of the folder unless given.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    NameNotFound
+        If there is no such exercise.
+
+    Examples
+    --------
+    >>> print(hint("49.3.1", language="en").splitlines()[0])
+    49.3.1 A pure translation: hint 1 of 2
+    """
+    exercise, book = catalogue.exercise(number), Workbook(folder, language=language)
+    spoken, n = book.language, len(exercise.hints)
+    shown = int(book.state["hints"].get(number, 0))
+    last = n if every else min(max(shown, 1) if again else shown + 1, n)
+    if (book.folder / catalogue.file_name(exercise.section)).exists():
+        book.remember(hints={**book.state["hints"], number: max(shown, last)})
+    lines: list[str] = []
+    for k in range(1 if every else last, last + 1):
+        title = SAY["hint"].fill(id=number, title=exercise.title, k=k, n=n).of(spoken)
+        lines += [title, "", *wrapped(exercise.hints[k - 1].of(spoken)), ""]
+    return "\n".join([*lines, SAY["last"].fill(id=number).of(spoken)] if last == n else lines[:-1])
+
+
+def solution(number: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
+    """Return a solution of an exercise, as it could stand in the student's file.
+
+    The model answer to a question in words comes along once the student has answered it.
+
+    Parameters
+    ----------
+    number : str
+        Of the exercise, as "49.3.1".
+    folder : str or path
+        One that `start` has filled.
+    language : {"en", "zh"}, optional
+        That of the folder unless given.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    NameNotFound
+        If there is no such exercise.
+
+    Examples
+    --------
+    >>> print(solution("49.3.1", language="en").splitlines()[0])
+    49.3.1 A pure translation: a solution
+    """
+    exercise, book = catalogue.exercise(number), Workbook(folder, language=language)
+    spoken = book.language
+    lines = [SAY["solution"].fill(id=number, title=exercise.title).of(spoken)]
+    lines += ["\n" + source_of(part, spoken).rstrip() for part in exercise.parts]
+    if exercise.answer is not None:
+        attempted = book.words(exercise) is not None
+        said = SAY["model"] if attempted else SAY["later"].fill(name=exercise.answer_name)
+        lines += ["", said.of(spoken), *(wrapped(exercise.answer.of(spoken)) if attempted else [])]
+    return "\n".join(lines)

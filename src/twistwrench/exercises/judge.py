@@ -1,0 +1,145 @@
+"""Judge one function of the student: to do, done or wrong, and what to say about it."""
+
+from __future__ import annotations
+
+import copy
+import traceback
+import zlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from .compare import agree, to_do
+from .diagnose import explain
+from .exercise import Exercise, Part
+from .phrases import say
+from .text import Text
+
+__all__ = ["State", "Verdict", "judge"]
+
+State = Literal["to do", "done", "wrong"]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is to be said about an answer.
+
+    Attributes
+    ----------
+    state : {"to do", "done", "wrong"}
+    lines : tuple of Text
+        The message, line by line; empty for what is done.
+    slips : tuple of str
+        The slips that give the same answer, keys of `slips.SLIPS`.
+    """
+
+    state: State
+    lines: tuple[Text, ...] = ()
+    slips: tuple[str, ...] = ()
+
+    def message(self, language: Literal["en", "zh"]) -> str:
+        """Return the message in one language."""
+        return "\n".join(line.of(language) for line in self.lines)
+
+
+class _Stop(Exception):
+    """The student's function did not give an answer."""
+
+
+def judge(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed: int = 0) -> Verdict:
+    """Compare a function with the reference on random cases.
+
+    Parameters
+    ----------
+    exercise : Exercise
+    part : Part
+        Of the exercise.
+    function : callable
+        The student's.
+    seed : int
+        Of the random cases. The same seed gives the same verdict.
+
+    Returns
+    -------
+    Verdict
+    """
+    cases = list(part.cases(np.random.default_rng([seed, zlib.crc32(part.name.encode())])))
+    answers: list[Any] = []
+    for arguments in cases:
+        try:
+            answer = _run(part, function, arguments)
+        except NotImplementedError:
+            return Verdict("to do")
+        except _Stop as stop:
+            return Verdict("wrong", (_head(exercise, part), *stop.args))
+        if to_do(answer):
+            return Verdict("to do")
+        answers.append(answer)
+    right = [agree(part, a, part.value(part.solution, args), args) for a, args in zip(answers, cases)]
+    if all(right):
+        return Verdict("done")
+    slips, lines = explain(exercise, part, answers, cases)
+    context = _context(part, cases, right)
+    return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips))
+
+
+def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+    """Call the student's function on copies of the arguments, and say where it stopped if it did."""
+    given = tuple(copy.deepcopy(x) if isinstance(x, np.ndarray | list) else x for x in arguments)
+    try:
+        answer = part.value(function, given)
+    except NotImplementedError:
+        raise
+    except Exception as error:  # whatever the student's code raises becomes a message
+        raise _Stop(*_stopped(error)) from None
+    for name, before, after in zip(part.arguments.split(", "), arguments, given):
+        if isinstance(before, np.ndarray) and not np.array_equal(before, after):
+            raise _Stop(say("changed", name=name.partition("=")[0]))
+    return answer
+
+
+def _stopped(error: Exception) -> list[Text]:
+    """Say what was raised, and at which line of the student's file."""
+    lines = [say("stopped", error=f"{type(error).__name__}: {error}")]
+    own = [f for f in traceback.extract_tb(error.__traceback__) if not _ours(f.filename)]
+    if own:
+        frame = own[-1]
+        lines.append(say("at line", file=Path(frame.filename).name, line=frame.lineno))
+        lines.append(Text(f"    {frame.line}", f"    {frame.line}"))
+    return lines
+
+
+def _ours(file: str) -> bool:
+    """Whether a frame is in this package, in NumPy or in another library, and not in the student's file."""
+    return str(Path(__file__).parents[1]) in file or "site-packages" in file or file.startswith("<")
+
+
+def _head(exercise: Exercise, part: Part) -> Text:
+    return say("head", id=exercise.id, name=part.name)
+
+
+def _context(part: Part, cases: Sequence[tuple[Any, ...]], right: list[bool]) -> list[Text]:
+    """Say in how many cases the answer is wrong, and show the first."""
+    arguments = cases[right.index(False)]
+    if not arguments:
+        return []
+    wrong = right.count(False)
+    names = [name.partition("=")[0] for name in part.arguments.split(", ")]
+    shown = ", ".join(f"{name} = {_short(x)}" for name, x in zip(names, arguments))
+    first = say("all wrong", all=len(cases)) if wrong == len(cases) else say("cases", wrong=wrong, all=len(cases))
+    return [first, Text(f"    {shown}", f"    {shown}")]
+
+
+def _short(x: Any) -> str:
+    """Write an argument on little room."""
+    if isinstance(x, np.ndarray):
+        if x.size > 9:
+            return f"array {x.shape}"
+        return np.array2string(x, precision=3, separator=", ", suppress_small=True).replace("\n", "")
+    if isinstance(x, float):
+        return f"{x:.4g}"
+    text = " ".join(str(getattr(x, "name", x)).split())
+    return text if len(text) <= 40 else type(x).__name__

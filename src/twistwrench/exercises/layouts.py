@@ -1,0 +1,83 @@
+"""How the numbers of an answer are arranged: the blocks that a message can point to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+from .text import Text
+
+__all__ = [
+    "FORCE_TRANSFORM",
+    "INERTIA",
+    "JACOBIAN",
+    "JOINT_SPACE",
+    "MASS_MATRIX",
+    "MOMENTUM",
+    "MOTION_TRANSFORM",
+    "PLAIN",
+    "POSE",
+    "TWIST",
+    "WRENCH",
+    "Layout",
+]
+
+Parts = tuple[tuple[Text, slice], ...]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Names for the parts of the last axes of an array.
+
+    `axes` holds, for each of the last axes, its parts: a name and the slice of indices it stands for.
+    """
+
+    axes: tuple[Parts, ...] = ()
+
+    def blocks(self, shape: tuple[int, ...]) -> Iterator[tuple[Text, tuple[Any, ...]]]:
+        """Yield name and index of every block of an array of that shape that is not empty."""
+        if not self.axes or len(shape) < len(self.axes):
+            return
+        sizes = shape[len(shape) - len(self.axes) :]
+        for parts in product(*self.axes):
+            if all(part.start < size for (_, part), size in zip(parts, sizes)):
+                names = [name for name, _ in parts]
+                yield _joined(names), (..., *(part for _, part in parts))
+
+
+def _joined(names: list[Text]) -> Text:
+    """Name a block: the rows of a vector, or rows and columns of a matrix."""
+    if len(names) == 1:
+        return Text(f"the {names[0].en} rows", f"{names[0].zh} 各行")
+    rows, columns = names
+    return Text(f"the block of rows {rows.en}, columns {columns.en}", f"{rows.zh} 行 {columns.zh} 列的块")
+
+
+def _halves(angular: str, linear: str) -> Parts:
+    return (Text(angular, angular), slice(0, 3)), (Text(linear, linear), slice(3, 6))
+
+
+_MOTION, _FORCE, _MOMENTUM = _halves("ω", "v"), _halves("τ", "f"), _halves("k (angular)", "l (linear)")
+_JOINTS = (Text("of the base", "基座"), slice(0, 6)), (Text("of the joints", "关节"), slice(6, None))
+_STATE = (
+    (Text("of the base's rotation", "基座转动"), slice(0, 3)),
+    (Text("of the base's translation", "基座平动"), slice(3, 6)),
+    (Text("of the joints", "关节"), slice(6, None)),
+)
+_POSE_ROWS = (Text("0 to 2", "0–2"), slice(0, 3)), (Text("3", "3"), slice(3, 4))
+_POSE_COLUMNS = (Text("0 to 2 (rotation)", "0–2(旋转)"), slice(0, 3)), (Text("3 (position)", "3(位置)"), slice(3, 4))
+
+PLAIN = Layout()
+TWIST = Layout((_MOTION,))
+WRENCH = Layout((_FORCE,))
+MOMENTUM = Layout((_MOMENTUM,))
+JOINT_SPACE = Layout((_STATE,))
+"""A vector of a floating base's nv entries."""
+MOTION_TRANSFORM = Layout((_MOTION, _MOTION))
+FORCE_TRANSFORM = Layout((_FORCE, _FORCE))
+INERTIA = Layout((_MOMENTUM, _MOTION))
+JACOBIAN = Layout((_MOTION, _JOINTS))
+MASS_MATRIX = Layout((_JOINTS, _JOINTS))
+POSE = Layout((_POSE_ROWS, _POSE_COLUMNS))

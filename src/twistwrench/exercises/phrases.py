@@ -1,0 +1,81 @@
+"""Every sentence that a message is made of."""
+
+from .text import Text
+
+__all__ = ["PHRASES", "say"]
+
+PHRASES = {
+    # the head of a message
+    "head": Text("{id}  {name}: not yet right.", "{id}  {name}:还不对。"),
+    "cases": Text("Wrong in {wrong} of {all} cases. The first:", "{all} 组数据中错了 {wrong} 组。第一组:"),
+    "all wrong": Text("Tried on {all} random cases. The first:", "用 {all} 组随机数据检验。第一组:"),
+    "slip": Text("The slip: {title}.", "错因:{title}。"),
+    "slips": Text("One of these, which cannot be told apart here:", "以下几种之一(此处无法区分):"),
+    "two slips": Text("Two slips at once: {first}; and {second}.", "两处错误:{first};并且 {second}。"),
+    "where": Text(
+        "Read {section}; ask for a hint: twistwrench exercises hint {id}",
+        "参阅 {section};需要提示:twistwrench exercises hint {id}",
+    ),
+    "no slip": Text("It is none of the known slips. What the comparison shows:", "不属于已知的典型错误。比较结果:"),
+    "broken": Text("What a right answer has and yours has not: {text}", "正确答案应满足而你的不满足:{text}"),
+    # what kept an answer from being compared
+    "stopped": Text("It stopped with {error}", "运行出错:{error}"),
+    "at line": Text("in {file}, line {line}:", "位于 {file} 第 {line} 行:"),
+    "none": Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`?"),
+    "pieces": Text(
+        "It must return {n} things, in this order: {names}. It returned {got}.",
+        "应按顺序返回 {n} 个量:{names}。实际返回 {got}。",
+    ),
+    "not numbers": Text("{name} must be {what}, not {got}.", "{name} 应为{what},而不是 {got}。"),
+    "numbers": Text("numbers", "数值"),
+    "truth values": Text("True or False", "True 或 False"),
+    "words": Text("a string", "字符串"),
+    "shape": Text("{name} has the shape {got}; it must be {expected}.", "{name} 的形状是 {got},应为 {expected}。"),
+    "nan": Text("{name} has entries that are not numbers: {where}.", "{name} 含有非数值的元素:{where}。"),
+    "changed": Text(
+        "It changes its argument `{name}`. Work on a copy: the caller still needs it.",
+        "它修改了参数 `{name}`。请在副本上运算,调用者还要用它。",
+    ),
+    "missing": Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。"),
+    "not a function": Text("{name} in {file} is no function any more.", "{file} 中的 {name} 已不是函数。"),
+    "file": Text("{file} cannot be read: {error}", "无法读取 {file}:{error}"),
+    "no file": Text(
+        "{file} is not there: `twistwrench exercises start` brings it back.",
+        "缺少 {file}:用 `twistwrench exercises start` 可重新生成。",
+    ),
+    "words missing": Text(
+        "The function is right. Now say it in words: fill in {name}.", "函数已正确。请再用文字作答:填写 {name}。"
+    ),
+    "words short": Text("{name} is very short: a sentence or two, please.", "{name} 太短:请写一两句话。"),
+    # how an entry or a block compares
+    "whole": Text("{name}", "{name}"),
+    "block": Text("{name}, {block}", "{name},{block}"),
+    "is": Text("{what}: {relation}", "{what}:{relation}"),
+    "others right": Text("the rest of {name} is right", "{name} 的其余部分正确"),
+    "right": Text("right", "正确"),
+    "zero": Text("zero, and must not be", "为零,不应为零"),
+    "not zero": Text("must be zero", "应为零"),
+    "sign": Text("the sign is wrong", "符号相反"),
+    "transposed": Text("transposed", "被转置"),
+    "transposed sign": Text("transposed, and the sign is wrong", "被转置且符号相反"),
+    "factor": Text("too large by a factor of {factor:.4g}", "大了 {factor:.4g} 倍"),
+    "divisor": Text("too small by a factor of {factor:.4g}", "小了 {factor:.4g} 倍"),
+    "permuted": Text("the right numbers, in the wrong places", "数值正确,位置不对"),
+    "signs": Text("the right numbers, some with the wrong sign", "数值正确,部分符号错误"),
+    "upper": Text("only the upper triangle is right", "只有上三角正确"),
+    "lower": Text("only the lower triangle is right", "只有下三角正确"),
+    "diagonal": Text("only the diagonal is right", "只有对角线正确"),
+    "off diagonal": Text("right but for the diagonal", "除对角线外正确"),
+    "entries": Text("wrong in {entries}, right elsewhere", "错在 {entries},其余正确"),
+    "inexact": Text("right to {digits} digits only: an approximation?", "只有 {digits} 位正确:是不是用了近似?"),
+    "too large": Text("too large", "偏大"),
+    "too small": Text("too small", "偏小"),
+    "other": Text("other numbers altogether", "数值完全不同"),
+    "false": Text("is {got}", "是 {got}"),
+    "text differs": Text("another text", "文字不同"),
+}
+
+
+def say(phrase: str, **values: object) -> Text:
+    """Return a phrase with its braces filled."""
+    return PHRASES[phrase].fill(**values)

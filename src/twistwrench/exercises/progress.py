@@ -1,0 +1,138 @@
+"""How far a student is: a row for each section, and what comes next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from os import PathLike
+from typing import Literal
+
+from . import catalogue
+from .judge import State
+from .text import Language, Text
+from .workbook import Workbook
+from .wrapping import columns
+
+__all__ = ["Row", "Status", "status"]
+
+WIDTH = 12
+
+SAY = {
+    "to do": Text("to do", "未做"),
+    "done": Text("done", "完成"),
+    "wrong": Text("wrong", "有误"),
+    "total": Text("total", "合计"),
+    "next": Text("Next: {id} {title}, in {file}", "下一题:{id} {title}({file})"),
+    "fix": Text("To mend: {ids}", "待改正:{ids}"),
+    "borrowed": Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现:{names}"),
+    "finished": Text("All done.", "全部完成。"),
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """How far one section is: the state of each of its exercises."""
+
+    section: str
+    states: dict[str, State]
+
+    def count(self, state: State) -> int:
+        """Return how many exercises are in a state."""
+        return list(self.states.values()).count(state)
+
+
+@dataclass(frozen=True)
+class Status:
+    """How far all is; prints as a table.
+
+    Attributes
+    ----------
+    rows : tuple of Row
+        One for each section.
+    borrowed : tuple of str
+        Functions that later exercises took from the reference.
+    """
+
+    rows: tuple[Row, ...]
+    language: Language
+    borrowed: tuple[str, ...] = ()
+
+    @property
+    def done(self) -> int:
+        """Return how many exercises are done."""
+        return sum(row.count("done") for row in self.rows)
+
+    @property
+    def total(self) -> int:
+        """Return how many exercises there are."""
+        return sum(len(row.states) for row in self.rows)
+
+    def __str__(self) -> str:
+        lines = [self._line(row.section, catalogue.SECTIONS[row.section].of(self.language), row) for row in self.rows]
+        every = Row("", {number: state for row in self.rows for number, state in row.states.items()})
+        lines += ["", self._line("", self._say("total"), every) + f"  {100 * self.done // max(self.total, 1)} %"]
+        return "\n".join([*lines, "", *self._advice(every)])
+
+    def _say(self, phrase: str, **values: object) -> str:
+        return SAY[phrase].fill(**values).of(self.language)
+
+    def _line(self, section: str, title: str, row: Row) -> str:
+        counts = {state: row.count(state) for state in row.states.values()}
+        size = max(len(row.states), 1)
+        full = round(WIDTH * counts.get("done", 0) / size)
+        bar = "█" * full + "·" * (WIDTH - full)
+        kinds: tuple[Literal["done", "wrong", "to do"], ...] = ("done", "wrong", "to do")
+        said = ", ".join(f"{counts[kind]} {self._say(kind)}" for kind in kinds if kind in counts)
+        return f"{section:8}{title}{' ' * (28 - columns(title))}{bar}  {said}"
+
+    def _advice(self, every: Row) -> list[str]:
+        wrong = [number for number, state in every.states.items() if state == "wrong"]
+        waiting = [number for number, state in every.states.items() if state == "to do"]
+        lines = [self._say("fix", ids=", ".join(wrong))] if wrong else []
+        if waiting:
+            exercise = catalogue.exercise(waiting[0])
+            file = catalogue.file_name(exercise.section)
+            lines.append(self._say("next", id=exercise.id, title=exercise.title, file=file))
+        if self.borrowed:
+            lines.append(self._say("borrowed", names=", ".join(self.borrowed)))
+        return lines or [self._say("finished")]
+
+
+def status(folder: str | PathLike[str] = ".", *, language: Language | None = None) -> Status:
+    """Check every exercise of a folder and say how far it is.
+
+    Parameters
+    ----------
+    folder : str or path
+        One that `start` has filled.
+    language : {"en", "zh"}, optional
+        Of the table; that of the folder unless given.
+
+    Returns
+    -------
+    Status
+
+    Raises
+    ------
+    ModelError
+        If nothing was started there.
+    """
+    return survey(Workbook.existing(folder, language=language))
+
+
+def survey(book: Workbook) -> Status:
+    """Return the status of a folder that is open."""
+    rows = []
+    for section in catalogue.SECTIONS:
+        states = {e.id: state_of(v.state for v in book.verdicts(e).values()) for e in catalogue.of_section(section)}
+        if states:
+            rows.append(Row(section, states))
+    return Status(tuple(rows), book.language, tuple(sorted(book.borrowed)))
+
+
+def state_of(states: Iterable[State]) -> State:
+    """Return the state of an exercise with several parts: wrong if one is, done if all are."""
+    found = set(states)
+    if "wrong" in found:
+        return "wrong"
+    return "to do" if "to do" in found else "done"

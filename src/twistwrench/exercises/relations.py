@@ -1,0 +1,160 @@
+"""How a wrong array differs from the right one: sign, transpose, factor, zero, places."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..checks import Array
+from .compare import FLOOR, Value
+from .phrases import say
+from .text import Text
+
+__all__ = ["describe"]
+
+TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
+"""Factors that say what went wrong. Others are chance, and would give a number away."""
+
+
+def describe(got: Value, right: Value, rtol: float) -> list[Text]:
+    """Say what is wrong with one value, or nothing where it is right."""
+    name = got.quantity.name
+    problem = _not_comparable(got, right)
+    if problem is not None:
+        return [problem]
+    if got.array is None or right.array is None:
+        same = str(got.raw).strip() == str(right.raw).strip()
+        return [] if same else [_is(Text(name, name), say("text differs"))]
+    if right.array.dtype.kind == "b":
+        return _truths(name, got.array, right.array)
+    tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
+    relation = _relation(got.array, right.array, tolerance)
+    if relation == say("right"):
+        return []
+    if relation is not None:
+        return [_is(Text(name, name), relation)]
+    return _blocks(got, right, tolerance)
+
+
+def _truths(name: str, got: Array, right: Array) -> list[Text]:
+    wrong = [str(bool(x)) for x, y in zip(got.flat, right.flat) if x != y]
+    return [_is(Text(name, name), say("false", got=wrong[0]))] if wrong else []
+
+
+def _is(what: Text, relation: Text) -> Text:
+    return say("is", what=what, relation=relation)
+
+
+def _not_comparable(got: Value, right: Value) -> Text | None:
+    """Say why an answer cannot be compared: its type, its shape, its NaN."""
+    name = got.quantity.name
+    if right.array is None:
+        return None if isinstance(got.raw, str) else _type(got, "words")
+    truths = right.array.dtype.kind == "b"
+    if got.array is None or (got.array.dtype.kind == "b") != truths:
+        return _type(got, "truth values" if truths else "numbers")
+    if got.array.shape != right.array.shape:
+        return say("shape", name=name, got=got.array.shape, expected=right.array.shape)
+    bad = np.argwhere(~np.isfinite(got.array)) if not truths else np.empty((0, 0))
+    if len(bad) and np.isfinite(right.array).all():
+        return say("nan", name=name, where=_places(bad))
+    return None
+
+
+def _type(got: Value, expected: str) -> Text:
+    return say("not numbers", name=got.quantity.name, what=say(expected), got=type(got.raw).__name__)
+
+
+def _blocks(got: Value, right: Value, tolerance: float) -> list[Text]:
+    """Say what is wrong with each block, where the whole shows no pattern."""
+    name, a, b = got.quantity.name, got.array, right.array
+    if a is None or b is None:
+        return []
+    lines, some_right = [], False
+    for block, index in got.quantity.layout.blocks(b.shape):
+        relation = _relation(a[index], b[index], tolerance) or _entries(a[index], b[index], tolerance)
+        if relation == say("right"):
+            some_right = True
+        else:
+            lines.append(_is(say("block", name=name, block=block), relation))
+    if not lines:
+        return [_is(Text(name, name), _entries(a, b, tolerance))]
+    return lines + [say("others right", name=name)] * some_right
+
+
+def _relation(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return how one array is the other in disguise; None if it is not."""
+
+    def same(x: Array, y: Array) -> bool:
+        return bool((np.abs(x - y) <= tolerance).all())
+
+    square = b.ndim >= 2 and b.shape[-1] == b.shape[-2] > 1
+    if same(a, b):
+        return say("right")
+    if same(b, np.zeros_like(b)):
+        return say("not zero")
+    if same(a, np.zeros_like(a)):
+        return say("zero")
+    if same(a, -b):
+        return say("sign")
+    if square and same(a, b.mT):
+        return say("transposed")
+    if square and same(a, -b.mT):
+        return say("transposed sign")
+    return _factor(a, b, tolerance) or (_triangles(a, b, same) if square else None) or _shuffled(a, b, tolerance)
+
+
+def _factor(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return by which telling factor an array is too large or too small."""
+    for factor in TELLING:
+        if (np.abs(a - factor * b) <= factor * tolerance).all():
+            return say("factor", factor=factor)
+        if (np.abs(factor * a - b) <= tolerance).all():
+            return say("divisor", factor=factor)
+    return None
+
+
+def _triangles(a: Array, b: Array, same: Any) -> Text | None:
+    """Return which triangle of a square matrix is right."""
+    upper, lower = same(np.triu(a), np.triu(b)), same(np.tril(a), np.tril(b))
+    if upper or lower:
+        return say("upper" if upper else "lower")
+    diagonal = np.eye(b.shape[-1], dtype=bool)
+    if same(a * ~diagonal, b * ~diagonal):
+        return say("off diagonal")
+    return say("diagonal") if same(a * diagonal, b * diagonal) and not same(b * diagonal, 0 * b) else None
+
+
+def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return whether the numbers are right, and only signs or places wrong."""
+    if b.size < 2:
+        return None
+    if (np.abs(np.abs(a) - np.abs(b)) <= tolerance).all():
+        wrong = np.abs(a - b) > tolerance
+        return say("signs") if wrong.sum() > 3 or b.ndim == 0 else None
+    if (np.abs(np.sort(a.real.ravel()) - np.sort(b.real.ravel())) <= tolerance).all():
+        return say("permuted")
+    return None
+
+
+def _entries(a: Array, b: Array, tolerance: float) -> Text:
+    """Say where two arrays differ, or by how much, where nothing better can be said."""
+    wrong = np.abs(a - b) > tolerance
+    error = float(np.abs(a - b).max() / max(np.abs(b).max(initial=0), FLOOR))
+    if error < 1e-3:
+        return say("inexact", digits=int(-np.log10(error)))
+    if b.ndim and 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
+        where = np.argwhere(wrong)
+        signs = (np.abs(a + b)[wrong] <= tolerance).all()
+        text = say("entries", entries=_places(where))
+        return say("is", what=text, relation=say("sign")) if signs else text
+    if b.size == 1:
+        return say("too large" if np.abs(a) > np.abs(b) else "too small")
+    return say("other")
+
+
+def _places(where: Array) -> str:
+    """Write indices as they are written in Python."""
+    shown = ", ".join("[" + ", ".join(str(int(k)) for k in place) + "]" for place in where[:3])
+    return shown + (", ..." if len(where) > 3 else "")

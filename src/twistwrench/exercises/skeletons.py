@@ -1,0 +1,146 @@
+"""The files that a student starts from, written out of the exercises."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+from os import PathLike
+from pathlib import Path
+
+from . import catalogue
+from .exercise import Exercise, Part
+from .text import Language, Text, default_language
+from .workbook import STATE_FILE, Workbook
+from .wrapping import wrapped
+
+__all__ = ["skeleton", "solved", "source_of", "start"]
+
+PYTEST_INI = """\
+[pytest]
+addopts = -p twistwrench.exercises.checking --tb=short -q
+"""
+
+HEAD = {
+    "en": '''"""Section {section}: {title}.
+
+Replace each `...` by your answer and run `pytest {file}` in this folder. Twists are (ω, v), wrenches
+(τ, f), units SI. `twistwrench exercises hint {first}` gives a hint, and the next one when asked again.
+
+After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
+"""
+''',
+    "zh": '''"""{section} 节:{title}。
+
+把每个 `...` 换成你的答案,然后在本目录运行 `pytest {file}`。twist 为 (ω, v),wrench 为 (τ, f),
+使用国际单位。`twistwrench exercises hint {first}` 给出一条提示,再次运行给出下一条。
+
+改写自 Robotics Tutorial 第 49 章的练习,作者 Pengfei Guo(CC BY 4.0)。
+"""
+''',
+}
+
+IMPORTS = """
+import numpy as np
+
+import twistwrench as tw
+"""
+
+YOURS = Text("yours where it is right, else the reference", "你的实现正确时用你的,否则用参考实现")
+WORDS = Text("In your own words, as a string:", "用自己的话回答,写成字符串:")
+
+
+def start(folder: str | PathLike[str], *, language: Language | None = None) -> tuple[list[Path], list[Path]]:
+    """Write the skeletons of all exercises into a folder. Nothing that is there is touched.
+
+    Parameters
+    ----------
+    folder : str or path
+        Made if need be.
+    language : {"en", "zh"}, optional
+        Of texts and messages; what the environment says unless given.
+
+    Returns
+    -------
+    new, kept : list of path
+        The files that were written, and those that were there before.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    asked = language or (Workbook(folder).language if (folder / STATE_FILE).exists() else default_language())
+    files = {"pytest.ini": PYTEST_INI}
+    files |= {catalogue.file_name(s): skeleton(s, asked) for s in catalogue.SECTIONS if catalogue.of_section(s)}
+    new, kept = [], []
+    for name, text in files.items():
+        path = folder / name
+        if path.exists():
+            kept.append(path)
+        else:
+            path.write_text(text, encoding="utf-8")
+            new.append(path)
+    Workbook(folder).remember(language=asked)
+    return new, kept
+
+
+def skeleton(section: str, language: Language) -> str:
+    """Return the student's file of a section, as it is before the start."""
+    return _file(section, language, solve=False)
+
+
+def solved(section: str, language: Language) -> str:
+    """Return the student's file of a section with every solution written in."""
+    return _file(section, language, solve=True)
+
+
+def _file(section: str, language: Language, *, solve: bool) -> str:
+    exercises = catalogue.of_section(section)
+    title, file = catalogue.SECTIONS[section].of(language), catalogue.file_name(section)
+    text = HEAD[language].format(section=section, title=title, file=file, first=exercises[0].id) + IMPORTS
+    uses = list(dict.fromkeys(name for exercise in exercises for name in exercise.uses))
+    text += "from twistwrench.exercises import mine\n"
+    if uses:
+        text += "\n"
+        origin = {name: catalogue.find_part(name)[0].id for name in uses}
+        text += "".join(f'{name} = mine("{name}")  # {origin[name]}: {YOURS.of(language)}\n' for name in uses)
+    return text + "".join(_exercise(exercise, language, solve=solve) for exercise in exercises)
+
+
+def _exercise(exercise: Exercise, language: Language, *, solve: bool) -> str:
+    """Write one exercise: its text as a comment, its functions, the place for the words."""
+    rule = "# " + "-" * 98
+    lines = [f"{exercise.id}  {exercise.title.of(language)}", "", *wrapped(exercise.text.of(language))]
+    text = "\n\n" + rule + "\n" + "".join(f"# {line}".rstrip() + "\n" for line in lines) + rule + "\n"
+    for part in exercise.parts:
+        text += "\n\n" + (source_of(part, language) if solve else _stub(part, language))
+    if exercise.answer is not None:
+        words = '"""' + inspect.cleandoc(exercise.answer.of(language)) + '"""' if solve else "..."
+        text += f"\n\n# {WORDS.of(language)}\n{exercise.answer_name} = {words}\n"
+    return text
+
+
+def _docstring(part: Part, language: Language) -> str:
+    return textwrap.indent('"""' + inspect.cleandoc(part.doc.of(language)) + '\n"""', "    ") + "\n"
+
+
+def _head(part: Part) -> str:
+    if inspect.isclass(part.solution):
+        return f"class {part.name}:\n"
+    return f"def {part.name}({part.arguments}):\n"
+
+
+def _stub(part: Part, language: Language) -> str:
+    given = textwrap.indent(textwrap.dedent(part.given).strip("\n"), "    ")
+    given += "\n" if given else ""
+    last = "" if inspect.isclass(part.solution) else "    return ...\n"
+    return _head(part) + _docstring(part, language) + given + last
+
+
+def source_of(part: Part, language: Language) -> str:
+    """Return the solution of a part as the student would write it: no types, the skeleton's docstring."""
+    source = textwrap.dedent(inspect.getsource(part.solution))
+    node = ast.parse(source).body[0]
+    if not isinstance(node, ast.FunctionDef | ast.ClassDef):
+        return source
+    documented = ast.get_docstring(node) is not None
+    start = (node.body[0].end_lineno or 0) if documented else node.body[0].lineno - 1
+    return _head(part) + _docstring(part, language) + "\n".join(source.split("\n")[start:]).rstrip() + "\n"

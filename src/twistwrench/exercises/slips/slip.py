@@ -1,0 +1,27 @@
+"""What a slip is: a mistake with a name."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ..text import Text
+
+__all__ = ["Slip"]
+
+
+class Slip(NamedTuple):
+    """A mistake that many have made before.
+
+    Attributes
+    ----------
+    title : Text
+        Its name, as the message says it.
+    why : Text
+        What is true instead, in a sentence or two.
+    section : str
+        Where the chapter has it.
+    """
+
+    title: Text
+    why: Text
+    section: str

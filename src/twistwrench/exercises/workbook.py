@@ -1,0 +1,206 @@
+"""A folder with a student's answers: what is in it, and how far it is."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from functools import cached_property
+from importlib.util import module_from_spec, spec_from_file_location
+from os import PathLike
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ..errors import ModelError
+from . import catalogue
+from .exercise import Exercise, Part
+from .judge import Verdict, judge
+from .phrases import say
+from .text import Language, Text, default_language
+
+__all__ = ["STATE_FILE", "Workbook", "mine"]
+
+STATE_FILE = ".twistwrench.json"
+"""Remembers the language, how many hints were shown and which model answers."""
+
+SHORTEST_ANSWER = 12
+"""Characters of an answer in words; a sentence in Chinese needs no more."""
+
+
+class Workbook:
+    """A folder that `start` has filled.
+
+    The student's files are read once: make a new one to see what has been changed since.
+
+    Parameters
+    ----------
+    folder : str or path
+    language : {"en", "zh"}, optional
+        Of the messages; the one that the folder was started in unless given.
+    """
+
+    def __init__(self, folder: str | PathLike[str], *, language: Language | None = None) -> None:
+        self.folder = Path(folder)
+        self._asked = language
+        self._modules: dict[str, ModuleType | Text | None] = {}
+        self._verdicts: dict[str, Verdict] = {}
+        self._judging: set[str] = set()
+        self.borrowed: set[str] = set()
+        """Functions that others asked for through `mine` and that came from the reference."""
+
+    @classmethod
+    def existing(cls, folder: str | PathLike[str], *, language: Language | None = None) -> Workbook:
+        """Open a folder that was started before.
+
+        Raises
+        ------
+        ModelError
+            If nothing was started there.
+        """
+        book = cls(folder, language=language)
+        if not any((book.folder / catalogue.file_name(section)).exists() for section in catalogue.SECTIONS):
+            raise ModelError(f"{book.folder}: no exercises here; twistwrench exercises start {book.folder}")
+        return book
+
+    # ---------------------------------------------------------------- what is remembered
+
+    @cached_property
+    def state(self) -> dict[str, Any]:
+        """What the hidden file remembers."""
+        try:
+            kept = json.loads((self.folder / STATE_FILE).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            kept = {}
+        return {"hints": {}, "compared": [], **(kept if isinstance(kept, dict) else {})}
+
+    def remember(self, **news: Any) -> None:
+        """Write the hidden file."""
+        self.state.update(news)
+        text = json.dumps(self.state, indent=1, ensure_ascii=False)
+        (self.folder / STATE_FILE).write_text(text + "\n", encoding="utf-8")
+
+    @property
+    def language(self) -> Language:
+        """The language of the messages."""
+        kept = self.state.get("language", default_language())
+        return self._asked or ("zh" if kept == "zh" else "en")
+
+    # ---------------------------------------------------------------- what the student wrote
+
+    def module(self, section: str) -> ModuleType | Text:
+        """Return the student's file of a section as a module, or why there is none."""
+        if section not in self._modules:
+            self._modules[section] = None  # while it is being read
+            self._modules[section] = self._read(self.folder / catalogue.file_name(section))
+        return self._modules[section] or say("no file", file=catalogue.file_name(section))
+
+    def _read(self, path: Path) -> ModuleType | Text:
+        if not path.exists():
+            return say("no file", file=path.name)
+        spec = spec_from_file_location(path.stem, path)
+        if spec is None or spec.loader is None:
+            return say("no file", file=path.name)
+        module = module_from_spec(spec)
+        module.__dict__["__workbook__"] = self
+        try:
+            spec.loader.exec_module(module)
+        except Exception as error:  # whatever the student's file raises becomes a message
+            line = f", line {error.lineno}" if isinstance(error, SyntaxError) else ""
+            return say("file", file=path.name + line, error=f"{type(error).__name__}: {getattr(error, 'msg', error)}")
+        return module
+
+    def words(self, exercise: Exercise) -> str | None:
+        """Return the student's answer in words, None where there is none yet."""
+        module = self.module(exercise.section)
+        text = None if isinstance(module, Text) else getattr(module, exercise.answer_name, None)
+        return text.strip() if isinstance(text, str) and text.strip() else None
+
+    # ---------------------------------------------------------------- how far it is
+
+    def verdict(self, exercise: Exercise, part: Part) -> Verdict:
+        """Judge one function; each is judged once."""
+        if part.name not in self._verdicts:
+            self._judging.add(part.name)
+            try:
+                self._verdicts[part.name] = self._judge(exercise, part)
+            finally:
+                self._judging.discard(part.name)
+        return self._verdicts[part.name]
+
+    def _judge(self, exercise: Exercise, part: Part) -> Verdict:
+        module, file = self.module(exercise.section), catalogue.file_name(exercise.section)
+        head = say("head", id=exercise.id, name=part.name)
+        if isinstance(module, Text):
+            missing = not (self.folder / file).exists()
+            return Verdict("to do" if missing else "wrong", (head, module))
+        function = getattr(module, part.name, None)
+        if not callable(function):
+            phrase = "missing" if function is None else "not a function"
+            return Verdict("wrong", (head, say(phrase, name=part.name, file=file)))
+        return judge(exercise, part, function)
+
+    def verdict_in_words(self, exercise: Exercise) -> Verdict | None:
+        """Judge whether the answer in words is there; None where none is asked for."""
+        if exercise.answer is None:
+            return None
+        words = self.words(exercise)
+        if words is None:
+            return Verdict("to do", (say("words missing", name=exercise.answer_name),))
+        if len(words) < SHORTEST_ANSWER:
+            return Verdict("wrong", (say("words short", name=exercise.answer_name),))
+        return Verdict("done")
+
+    def verdicts(self, exercise: Exercise) -> dict[str, Verdict]:
+        """Return the verdicts on all that an exercise asks for, by the name in the file."""
+        found = {part.name: self.verdict(exercise, part) for part in exercise.parts}
+        words = self.verdict_in_words(exercise)
+        return found if words is None else {**found, exercise.answer_name: words}
+
+    def best(self, name: str) -> Callable[..., Any]:
+        """Return the student's function where it is right, the reference where it is not yet."""
+        exercise, part = catalogue.find_part(name)
+        module = self.module(exercise.section)
+        if name not in self._judging and not isinstance(module, Text) and self.verdict(exercise, part).state == "done":
+            function: Callable[..., Any] = getattr(module, name)
+            return function
+        self.borrowed.add(name)
+        return part.solution
+
+
+def mine(name: str) -> Callable[..., Any]:
+    """Return a function of an earlier exercise: yours once it is right, the reference until then.
+
+    Which of the two is decided when it is first called.
+
+    Parameters
+    ----------
+    name : str
+        Of the function, as in the skeletons.
+
+    Returns
+    -------
+    callable
+
+    Raises
+    ------
+    NameNotFound
+        If no exercise asks for a function of that name.
+
+    Examples
+    --------
+    >>> skew = mine("skew")  # outside a folder with exercises: the reference
+    >>> skew([1.0, 2.0, 3.0])
+    array([[ 0., -3.,  2.],
+           [ 3.,  0., -1.],
+           [-2.,  1.,  0.]])
+    """
+    _, part = catalogue.find_part(name)
+    asker = sys._getframe(1).f_globals  # the file that asks tells the folder
+    book = asker.get("__workbook__") or Workbook(Path(asker.get("__file__", "")).parent)
+
+    def function(*arguments: Any, **named: Any) -> Any:
+        return book.best(name)(*arguments, **named)
+
+    function.__name__, function.__doc__ = name, part.doc.en
+    return function

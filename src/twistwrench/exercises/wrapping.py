@@ -1,0 +1,48 @@
+"""Lines of a given width, in a script with spaces and in one without."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import unicodedata
+
+__all__ = ["columns", "wrapped"]
+
+WIDTH = 98
+NO_START = "、。,;:!?)】》”’,.;:!?)"
+
+
+def columns(text: str) -> int:
+    """Return how many columns of a terminal a text takes: Chinese characters take two."""
+    return sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text)
+
+
+def wrapped(text: str, width: int = WIDTH) -> list[str]:
+    """Break a text into lines. Paragraphs stay apart, and lines that begin with two spaces stay as they are."""
+    lines: list[str] = []
+    for paragraph in inspect.cleandoc(text).split("\n\n"):
+        flowing: list[str] = []
+        for line in paragraph.split("\n"):
+            if line.startswith("  "):
+                lines += [*_fill(flowing, width), line]
+                flowing = []
+            else:
+                flowing.append(line.strip())
+        lines += [*_fill(flowing, width), ""]
+    return lines[:-1]
+
+
+def _fill(parts: list[str], width: int) -> list[str]:
+    """Fill lines with words; each Chinese character is a word, and no line starts with a full stop."""
+    text = ""
+    for part in parts:
+        glued = not text or columns(text[-1]) == 2 or columns(part[:1]) == 2
+        text += part if glued else " " + part
+    lines, line = [], ""
+    for word in re.findall(r"[\x21-\u2dff]+ *|[^\x21-\u2dff]", text):
+        if line and columns(line + word.rstrip()) > width and word[0] not in NO_START:
+            lines.append(line.rstrip())
+            line = word.lstrip()
+        else:
+            line += word
+    return [*lines, line.rstrip()] if line.strip() else lines

@@ -1,0 +1,73 @@
+"""Wrong implementations, made out of right ones: the slips that need no code of their own.
+
+Each takes the reference, and gives a function with the same arguments that makes one slip. Where the
+reference returns several things, ``only`` says which of them are touched; by default all are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..checks import Array
+
+__all__ = ["after", "as_column", "before", "negated", "swap", "swapped", "times", "transposed"]
+
+Function = Callable[..., Any]
+
+
+def after(solution: Function, change: Callable[[Any], Any], *, only: tuple[int, ...] | None = None) -> Function:
+    """Change what the reference returns."""
+
+    def wrong(*arguments: Any) -> Any:
+        answer = solution(*arguments)
+        if not isinstance(answer, tuple):
+            return change(answer)
+        return tuple(change(x) if only is None or k in only else x for k, x in enumerate(answer))
+
+    return wrong
+
+
+def before(solution: Function, change: Callable[[Any], Any], *, which: int) -> Function:
+    """Change one of the arguments before the reference sees them."""
+
+    def wrong(*arguments: Any) -> Any:
+        return solution(*(change(x) if k == which else x for k, x in enumerate(arguments)))
+
+    return wrong
+
+
+def swap(x: Any) -> Array:
+    """Exchange the angular and the linear half of every axis that is 6 long or longer; what follows stays."""
+    x = np.array(x)
+    for axis, size in enumerate(x.shape):
+        if size >= 6:
+            x = np.take(x, [k + 3 if k < 3 else k - 3 if k < 6 else k for k in range(size)], axis)
+    return np.asarray(x)
+
+
+def swapped(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
+    """(v, ω) in place of (ω, v)."""
+    return after(solution, swap, only=only)
+
+
+def transposed(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
+    """Rows and columns exchanged."""
+    return after(solution, lambda x: np.asarray(x).mT, only=only)
+
+
+def negated(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
+    """Every sign wrong."""
+    return after(solution, lambda x: -np.asarray(x), only=only)
+
+
+def times(solution: Function, factor: float, *, only: tuple[int, ...] | None = None) -> Function:
+    """Wrong by a factor."""
+    return after(solution, lambda x: factor * np.asarray(x), only=only)
+
+
+def as_column(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
+    """(n, 1) in place of (n,)."""
+    return after(solution, lambda x: np.asarray(x)[..., None], only=only)
