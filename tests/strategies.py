@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from hypothesis import settings
 from hypothesis import strategies as st
 
 import twistwrench as tw
@@ -14,6 +16,11 @@ from twistwrench.trees import KINDS
 
 BATCHES = [(), (1,), (3, 1, 2), (0,)]
 REFERENCES = ["local", "world", "local_world_aligned"]
+
+
+def examples(count: int) -> settings:
+    """Try that many examples; TWISTWRENCH_EXAMPLES=20 in the environment makes it twenty times as many."""
+    return settings(max_examples=count * int(os.environ.get("TWISTWRENCH_EXAMPLES", "1")))
 
 
 class State(NamedTuple):

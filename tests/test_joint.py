@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import twistwrench as tw
 from twistwrench import bridge
+
+from .strategies import examples
 
 OBLIQUE = np.array([0.48, -0.6, 0.64])
 JOINTS = {
@@ -115,7 +117,7 @@ def test_step_is_the_exponential_of_its_twist(joint):
 
 @every_joint
 @given(seed=st.integers(0, 2**32 - 1), size=st.sampled_from([1e-300, 1e-12, 1e-6, 1e-3, 1.0, 3.1]))
-@settings(max_examples=25)
+@examples(25)
 def test_difference_undoes_integrate_for_turns_below_pi(joint, seed, size):
     rng = np.random.default_rng(seed)
     q, dv = draw(joint, rng), rng.standard_normal(joint.nv)
@@ -127,7 +129,7 @@ def test_difference_undoes_integrate_for_turns_below_pi(joint, seed, size):
 
 @every_joint
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=25)
+@examples(25)
 def test_integrate_undoes_difference_up_to_the_sign_of_a_quaternion(joint, seed):
     rng = np.random.default_rng(seed)
     q0, q1 = draw(joint, rng), draw(joint, rng)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 import twistwrench as tw
 
-from .strategies import BATCHES, Recipe, State, random_state, recipes
+from .strategies import BATCHES, Recipe, State, examples, random_state, recipes
 from .truth import ULPS, assert_agree, check_against_the_truth, textbook
 
 LONG = np.finfo(np.longdouble).eps < np.finfo(np.float64).eps
@@ -29,7 +29,7 @@ TREES = [Recipe(6, seed=1, base="floating"), Recipe(7, seed=4, branching=1.0), R
     ],
 )
 @given(recipes(5))
-@settings(max_examples=8)
+@examples(8)
 def test_every_number_type_is_kept_and_is_right_to_its_own_precision(dtype, recipe):
     check_against_the_truth(recipe, dtype)
 
@@ -46,7 +46,7 @@ def test_every_number_type_is_kept_and_is_right_to_its_own_precision(dtype, reci
     ],
 )
 @given(recipes(25))
-@settings(max_examples=50)
+@examples(50)
 def test_every_number_type_is_right_on_larger_trees(dtype, recipe):
     check_against_the_truth(recipe, dtype)
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 
-from .strategies import KINDS, Recipe, recipes
+from .strategies import KINDS, Recipe, examples, recipes
 from .truth import assert_agree, check_against_the_truth, largest, pinocchio, textbook
 
 LONG_CHAIN = Recipe(40, seed=7, base="floating", kinds=("revolute",), branching=0.0)
@@ -19,20 +19,20 @@ BIG_TREE = Recipe(40, seed=3, base="fixed")
 @given(recipes(8))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@settings(max_examples=20)
+@examples(20)
 def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
     check_against_the_truth(recipe, np.float64)
 
 
 @pytest.mark.slow
 @given(recipes(40))
-@settings(max_examples=200)
+@examples(200)
 def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(recipe):
     check_against_the_truth(recipe, np.float64)
 
 
 @given(recipes(5))
-@settings(max_examples=10)
+@examples(10)
 def test_complex_states_are_right_too(recipe):
     check_against_the_truth(recipe, np.complex128)
 
@@ -60,20 +60,20 @@ def check_against_pinocchio(recipe: Recipe) -> None:
 @given(recipes(40))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@settings(max_examples=60)
+@examples(60)
 def test_every_quantity_is_pinocchios(recipe):
     check_against_pinocchio(recipe)
 
 
 @pytest.mark.slow
 @given(recipes(40))
-@settings(max_examples=1000)
+@examples(1000)
 def test_every_quantity_is_pinocchios_at_length(recipe):
     check_against_pinocchio(recipe)
 
 
 @given(recipes(40))
-@settings(max_examples=40)
+@examples(40)
 def test_a_random_tree_is_what_was_asked_for(recipe):
     model = recipe.model
     assert model.nbodies == recipe.n + 1

@@ -175,17 +175,15 @@ def scale(name: str, model, s: State, true: dict[str, np.ndarray]) -> float:
     return max(largest(true[name]), terms.get(name, 0.0))
 
 
-def skeel(model, s: State, true: dict[str, np.ndarray], name: str) -> float:
-    """How much of the relative precision forward dynamics loses at most in this state.
+def skeel(M, a, tau, h) -> float:
+    """How much of the relative precision forward dynamics loses at most in a state.
 
     The componentwise condition of M a = τ − h: ‖ |M⁻¹| (|M| |a| + |τ| + |h|) ‖ / ‖a‖. Raw cond(M) would
     say the same of a heavy root, which costs nothing.
     """
-    M, a, h = (np.abs(double(true[key])) for key in ("M", name, "h"))
-    if name.endswith("f_ext"):
-        h = h + np.abs(double(true["rnea"]) - double(true["rnea f_ext"]))
-    inverse = np.abs(np.linalg.inv(double(true["M"])))
-    return float((inverse @ (M @ a + np.abs(s.tau).astype(float) + h)).max() / a.max())
+    inverse = np.abs(np.linalg.inv(double(M)))
+    M, a, tau, h = (np.abs(double(x)).astype(float) for x in (M, a, tau, h))
+    return float((inverse @ (M @ a + tau + h)).max() / a.max())
 
 
 def assert_agree(model, s: State, got: dict, true: dict, *, dtype=None, against=None) -> None:
@@ -203,7 +201,8 @@ def assert_agree(model, s: State, got: dict, true: dict, *, dtype=None, against=
         size, lost = scale(name, model, s, sizes), 1.0
         bound = ULPS * float(np.finfo(ours.dtype).eps)
         if name.startswith("aba"):
-            lost = skeel(model, s, sizes, name)
+            pushed = double(sizes["rnea"]) - double(sizes["rnea f_ext"]) if name.endswith("f_ext") else 0
+            lost = skeel(sizes["M"], sizes[name], s.tau, np.abs(double(sizes["h"])) + np.abs(pushed))
             bound = SKEEL * float(np.finfo(ours.dtype).eps) * lost
         assert error <= bound * size, (
             f"{name}: relative error {error / size if size else error:.3g} is above {bound:.3g}"
