@@ -182,6 +182,20 @@ def test_points_on_the_drawn_axis_move_along_it_with_the_pitch(space):
         np.testing.assert_allclose(V[3:] + np.cross(V[:3], point), along, atol=1e-12)
 
 
+def test_the_drawn_axis_is_centred_near_what_is_looked_at(space):
+    near = np.array([0.4, -0.3, 2.0])
+    plot.screw_axis(V, near=near, ax=space)
+    ends, (middle,) = lines(space)
+    np.testing.assert_allclose(ends.mean(axis=0), middle, atol=1e-12)
+    assert abs((near - middle) @ (ends[1] - ends[0])) < 1e-12
+    np.testing.assert_allclose(V[3:] + np.cross(V[:3], middle), tw.screw(V).pitch * V[:3], atol=1e-12)
+
+
+def test_the_axes_of_many_twists_at_once_are_refused(space):
+    with pytest.raises(tw.ShapeError, match=r"expected one twist, got a batch of shape \(2,\)"):
+        plot.screw_axis(np.stack([V, V]), ax=space)
+
+
 def test_the_field_of_a_twist_is_the_rate_of_what_it_moves(space):
     rng = np.random.default_rng(2)
     points = rng.standard_normal((5, 3))

@@ -56,7 +56,7 @@ for name, velocity in velocities.items():
 # %%
 ax = plot.robot(model, q)
 places = np.array([p, *points.values()])
-plot.arrows(places, [v_base, *velocities.values()], scale=0.3, texts=["base", *points], label="velocity", ax=ax)
+plot.arrows(places, [v_base, *velocities.values()], scale=0.22, texts=["base", *points], label="velocity", ax=ax)
 ax.view_init(elev=50, azim=-80)
 ax.legend()
 plt.show()

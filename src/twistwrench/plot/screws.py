@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array, as_arrays
+from ..errors import ShapeError
 from ..twist import Twist, screw
 from .frames import arrows
 from .style import COLOURS, axes_3d, fit
@@ -48,18 +49,21 @@ def screw_axis(
     V: Twist | ArrayLike,
     *,
     length: float = 1.0,
+    near: ArrayLike = (0.0, 0.0, 0.0),
     colour: str = COLOURS["blue"],
     label: str | None = None,
     ax: Any = None,
 ) -> Any:
-    """Draw the axis of a twist as a dashed line, with an arrow along it and a dot at its point nearest to the origin.
+    """Draw the axis of a twist as a dashed line with an arrow along it.
 
     Parameters
     ----------
     V : Twist or array_like of shape (6,)
         (ω, v), rad/s and m/s.
     length : float
-        Of the line, m; its middle is the dot.
+        Of the line, m.
+    near : array_like, shape (3,)
+        The middle of the line is the point of the axis nearest to this, m; a dot marks it.
     colour : str
     label : str, optional
         For the legend.
@@ -72,7 +76,7 @@ def screw_axis(
     Raises
     ------
     ShapeError, SingularError
-        As `twistwrench.screw`; or if `V` is a batch.
+        As `twistwrench.screw`; or if `V` is a batch, or `near` no point.
 
     Examples
     --------
@@ -82,8 +86,11 @@ def screw_axis(
     array([[ 1.,  0., -1.],
            [ 1.,  0.,  1.]])
     """
-    axis, point, _, _ = screw(as_array(V, "V", 6).reshape(6))
-    axis, point = axis.astype(float), point.astype(float)
+    V = as_array(V, "V", 6)
+    if V.ndim != 1:
+        raise ShapeError(f"V: expected one twist, got a batch of shape {V.shape[:-1]}")
+    axis, point = (x.astype(float) for x in screw(V)[:2])
+    point = point + axis * (axis * (as_array(near, "near", 3) - point)).sum(-1)
     ax = axes_3d(ax)
     ends = point + length / 2 * np.stack([-axis, axis])
     ax.plot(*ends.mT, "--", color=colour, linewidth=1.6, label=label)
