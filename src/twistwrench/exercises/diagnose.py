@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .compare import agree, pieces, values
+from .compare import Value, agree, close, pieces, values
 from .exercise import Exercise, Part
 from .phrases import say
 from .relations import describe
@@ -41,16 +41,41 @@ def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
 
 
 def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
-    for answer, arguments in zip(answers, cases):
-        try:
-            with warnings.catch_warnings(), np.errstate(all="ignore"):
-                warnings.simplefilter("ignore")
-                slipped = part.value(wrong, arguments)
-        except MISHAPS:
-            return False
-        if not agree(part, answer, slipped, arguments):
-            return False
-    return True
+    slipped = _slipped(part, wrong, cases)
+    return slipped is not None and all(agree(part, a, b, args) for a, b, args in zip(answers, slipped, cases))
+
+
+def _slipped(part: Part, wrong: Callable[..., Any], cases: Cases) -> list[Any] | None:
+    """Return what a wrong implementation gives on all cases; None where it stops."""
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return [part.value(wrong, arguments) for arguments in cases]
+    except MISHAPS:
+        return None
+
+
+def slips_by_piece(part: Part, answers: Answers, cases: Cases) -> dict[str, list[str]] | None:
+    """Return the slips in each of several things returned, where every wrong one is explained by some slip."""
+    if len(part.returns) == 1 or part.canonical is not None:
+        return None
+    split = [values(answer, part.returns) for answer in answers]
+    right = [values(part.value(part.solution, arguments), part.returns) for arguments in cases]
+    tried = {slip: _slipped(part, wrong, cases) for slip, wrong in part.slips.items()}
+    made = {slip: [values(answer, part.returns) for answer in found] for slip, found in tried.items() if found}
+
+    def same(first: list[list[Value] | None], second: list[list[Value] | None], k: int) -> bool:
+        return all(a and b and close(a[k], b[k], part.rtol) for a, b in zip(first, second))
+
+    every = range(len(part.returns))
+    wrong = {k for k in every if not same(split, right, k)}
+    touched = {slip: {k for k in every if not same(other, right, k)} for slip, other in made.items()}
+    found = {}
+    for k in sorted(wrong):
+        fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
+        # a slip that would have spoilt what is right here is less likely than one that would not
+        found[part.returns[k].name] = [slip for slip in fitting if touched[slip] <= wrong] or fitting
+    return found if all(found.values()) else None
 
 
 def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:
@@ -80,11 +105,18 @@ def explain(exercise: Exercise, part: Part, answers: Answers, cases: Cases) -> t
     found = matching_slips(part, answers, cases)
     if found:
         return found, _named(exercise, found)
+    pieces_found = slips_by_piece(part, answers, cases)
+    if pieces_found:
+        names = list(dict.fromkeys(name for found in pieces_found.values() for name in found))
+        return names, _named_by_piece(exercise, pieces_found)
     pair = two_slips(part, answers, cases)
     if pair is not None:
         first, second = (SLIPS[name] for name in pair)
         line = say("two slips", first=first.title, second=second.title)
         return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
+    structure = _structure(part, answers)
+    if structure is not None:
+        return [], [structure, _where(exercise, exercise.section)]
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
     broken = _broken_property(part, answers, cases)
     if broken is not None:
@@ -98,6 +130,19 @@ def _named(exercise: Exercise, found: list[str]) -> list[Text]:
         return [say("slip", title=slips[0].title), slips[0].why, _where(exercise, slips[0].section)]
     each = [Text(f"  - {s.title.en}. {s.why.en}", f"  - {s.title.zh}。{s.why.zh}") for s in slips]
     return [say("slips"), *each, _where(exercise, slips[0].section)]
+
+
+def _named_by_piece(exercise: Exercise, found: dict[str, list[str]]) -> list[Text]:
+    """Name the slip in each thing that was returned; each reason once."""
+    lines, told, last = [], set(), exercise.section
+    for name, slips in found.items():
+        titles = [SLIPS[slip].title for slip in slips]
+        title = Text(", or ".join(t.en for t in titles), ",或 ".join(t.zh for t in titles))
+        lines.append(say("slip in", name=name, title=title))
+        lines += [_indented(SLIPS[slip].why) for slip in slips if slip not in told]
+        told.update(slips)
+        last = SLIPS[slips[0]].section
+    return [*lines, _where(exercise, last)]
 
 
 def _where(exercise: Exercise, section: str) -> Text:
@@ -114,14 +159,20 @@ def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
         expected = part.value(part.solution, arguments)
         if agree(part, answer, expected, arguments):
             continue
-        if answer is None:
-            return [say("none")]
         got, right = values(answer, part.returns), values(expected, part.returns)
-        if got is None or right is None:
-            names = ", ".join(q.name for q in part.returns)
-            return [say("pieces", n=len(part.returns), names=names, got=_count(answer))]
-        return [line for a, b in zip(got, right) for line in describe(a, b, part.rtol)]
+        return [line for a, b in zip(got or [], right or []) for line in describe(a, b, part.rtol)]
     return []
+
+
+def _structure(part: Part, answers: Answers) -> Text | None:
+    """Say whether nothing came back, or not as many things as asked for."""
+    for answer in answers:
+        if answer is None:
+            return say("none")
+        if pieces(answer, part.returns) is None:
+            names = ", ".join(q.name for q in part.returns)
+            return say("pieces", n=len(part.returns), names=names, got=_count(answer))
+    return None
 
 
 def _count(answer: Any) -> str:

@@ -136,9 +136,9 @@ def _context(part: Part, cases: Sequence[tuple[Any, ...]], right: list[bool]) ->
 def _short(x: Any) -> str:
     """Write an argument on little room."""
     if isinstance(x, np.ndarray):
-        if x.size > 9:
+        if x.ndim > 1 or x.size > 9:
             return f"array {x.shape}"
-        return np.array2string(x, precision=3, separator=", ", suppress_small=True).replace("\n", "")
+        return np.array2string(x, precision=3, separator=", ", suppress_small=True)
     if isinstance(x, float):
         return f"{x:.4g}"
     text = " ".join(str(getattr(x, "name", x)).split())

@@ -10,6 +10,7 @@ PHRASES = {
     "cases": Text("Wrong in {wrong} of {all} cases. The first:", "{all} 组数据中错了 {wrong} 组。第一组:"),
     "all wrong": Text("Tried on {all} random cases. The first:", "用 {all} 组随机数据检验。第一组:"),
     "slip": Text("The slip: {title}.", "错因:{title}。"),
+    "slip in": Text("The slip in {name}: {title}.", "{name} 的错因:{title}。"),
     "slips": Text("One of these, which cannot be told apart here:", "以下几种之一(此处无法区分):"),
     "two slips": Text("Two slips at once: {first}; and {second}.", "两处错误:{first};并且 {second}。"),
     "where": Text(

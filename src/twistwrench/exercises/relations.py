@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..checks import Array
@@ -19,7 +17,7 @@ TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi
 
 def describe(got: Value, right: Value, rtol: float) -> list[Text]:
     """Say what is wrong with one value, or nothing where it is right."""
-    name = got.quantity.name
+    name = got.quantity.name + (f" [{got.quantity.unit}]" if got.quantity.unit else "")
     problem = _not_comparable(got, right)
     if problem is not None:
         return [problem]
@@ -29,12 +27,12 @@ def describe(got: Value, right: Value, rtol: float) -> list[Text]:
     if right.array.dtype.kind == "b":
         return _truths(name, got.array, right.array)
     tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
-    relation = _relation(got.array, right.array, tolerance)
+    relation = _plain(got.array, right.array, tolerance) or _triangle(got.array, right.array, tolerance)
     if relation == say("right"):
         return []
     if relation is not None:
         return [_is(Text(name, name), relation)]
-    return _blocks(got, right, tolerance)
+    return _blocks(name, got, right, tolerance)
 
 
 def _truths(name: str, got: Array, right: Array) -> list[Text]:
@@ -66,43 +64,51 @@ def _type(got: Value, expected: str) -> Text:
     return say("not numbers", name=got.quantity.name, what=say(expected), got=type(got.raw).__name__)
 
 
-def _blocks(got: Value, right: Value, tolerance: float) -> list[Text]:
+def _blocks(name: str, got: Value, right: Value, tolerance: float) -> list[Text]:
     """Say what is wrong with each block, where the whole shows no pattern."""
-    name, a, b = got.quantity.name, got.array, right.array
+    a, b = got.array, right.array
     if a is None or b is None:
         return []
     lines, some_right = [], False
     for block, index in got.quantity.layout.blocks(b.shape):
-        relation = _relation(a[index], b[index], tolerance) or _entries(a[index], b[index], tolerance)
+        relation = _relation(a[index], b[index], tolerance)
         if relation == say("right"):
             some_right = True
         else:
             lines.append(_is(say("block", name=name, block=block), relation))
     if not lines:
-        return [_is(Text(name, name), _entries(a, b, tolerance))]
+        return [_is(Text(name, name), _relation(a, b, tolerance))]
     return lines + [say("others right", name=name)] * some_right
 
 
-def _relation(a: Array, b: Array, tolerance: float) -> Text | None:
-    """Return how one array is the other in disguise; None if it is not."""
+def _relation(a: Array, b: Array, tolerance: float) -> Text:
+    """Return how one array is the other in disguise, or where or by how much they differ."""
+    for find in (_plain, _triangle, _diagonal, _shuffled):
+        relation = find(a, b, tolerance)
+        if relation is not None:
+            return relation
+    return _entries(a, b, tolerance)
 
-    def same(x: Array, y: Array) -> bool:
-        return bool((np.abs(x - y) <= tolerance).all())
 
-    square = b.ndim >= 2 and b.shape[-1] == b.shape[-2] > 1
-    if same(a, b):
-        return say("right")
-    if same(b, np.zeros_like(b)):
-        return say("not zero")
-    if same(a, np.zeros_like(a)):
-        return say("zero")
-    if same(a, -b):
-        return say("sign")
-    if square and same(a, b.mT):
-        return say("transposed")
-    if square and same(a, -b.mT):
-        return say("transposed sign")
-    return _factor(a, b, tolerance) or (_triangles(a, b, same) if square else None) or _shuffled(a, b, tolerance)
+def _same(a: Array, b: Array, tolerance: float) -> bool:
+    return bool((np.abs(a - b) <= tolerance).all())
+
+
+def _square(b: Array) -> bool:
+    return b.ndim >= 2 and b.shape[-1] == b.shape[-2] > 1
+
+
+def _plain(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return whether an array is right, zero, of the wrong sign, transposed or off by a factor."""
+    disguises = {"right": b, "zero": np.zeros_like(b), "sign": -b}
+    if _square(b):
+        disguises |= {"transposed": b.mT, "transposed sign": -b.mT}
+    if _same(b, np.zeros_like(b), tolerance):
+        return say("right" if _same(a, b, tolerance) else "not zero")
+    for phrase, disguise in disguises.items():
+        if _same(a, disguise, tolerance):
+            return say(phrase)
+    return _factor(a, b, tolerance)
 
 
 def _factor(a: Array, b: Array, tolerance: float) -> Text | None:
@@ -115,15 +121,25 @@ def _factor(a: Array, b: Array, tolerance: float) -> Text | None:
     return None
 
 
-def _triangles(a: Array, b: Array, same: Any) -> Text | None:
-    """Return which triangle of a square matrix is right."""
-    upper, lower = same(np.triu(a), np.triu(b)), same(np.tril(a), np.tril(b))
-    if upper or lower:
-        return say("upper" if upper else "lower")
-    diagonal = np.eye(b.shape[-1], dtype=bool)
-    if same(a * ~diagonal, b * ~diagonal):
+def _triangle(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return which triangle of a symmetric matrix is right."""
+    if not _square(b) or not _same(b, b.mT, tolerance):
+        return None
+    for phrase, part in (("upper", np.triu), ("lower", np.tril)):
+        if _same(part(a), part(b), tolerance):
+            return say(phrase)
+    return None
+
+
+def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return whether the diagonal of a square matrix is right, or only the rest."""
+    if not _square(b):
+        return None
+    on = np.eye(b.shape[-1], dtype=bool)
+    if _same(a * ~on, b * ~on, tolerance):
         return say("off diagonal")
-    return say("diagonal") if same(a * diagonal, b * diagonal) and not same(b * diagonal, 0 * b) else None
+    right = _same(a * on, b * on, tolerance) and not _same(b * on, np.zeros_like(b), tolerance)
+    return say("diagonal") if right else None
 
 
 def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:

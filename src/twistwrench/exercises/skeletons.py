@@ -18,7 +18,7 @@ __all__ = ["skeleton", "solved", "source_of", "start"]
 
 PYTEST_INI = """\
 [pytest]
-addopts = -p twistwrench.exercises.checking --tb=short -q
+addopts = -p twistwrench.exercises.checking --tb=short -q -rN
 """
 
 HEAD = {

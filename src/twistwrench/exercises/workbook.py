@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from importlib.util import module_from_spec, spec_from_file_location
 from os import PathLike
@@ -104,7 +105,8 @@ class Workbook:
         module = module_from_spec(spec)
         module.__dict__["__workbook__"] = self
         try:
-            spec.loader.exec_module(module)
+            with _importable(self.folder):
+                spec.loader.exec_module(module)
         except Exception as error:  # whatever the student's file raises becomes a message
             line = f", line {error.lineno}" if isinstance(error, SyntaxError) else ""
             return say("file", file=path.name + line, error=f"{type(error).__name__}: {getattr(error, 'msg', error)}")
@@ -166,6 +168,21 @@ class Workbook:
             return function
         self.borrowed.add(name)
         return part.solution
+
+
+@contextmanager
+def _importable(folder: Path) -> Iterator[None]:
+    """Let files of the folder import each other, and leave nothing of them behind for another folder."""
+    before = set(sys.modules)
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+        for name in set(sys.modules) - before:
+            file = getattr(sys.modules[name], "__file__", None)
+            if file and Path(file).parent == folder:
+                del sys.modules[name]
 
 
 def mine(name: str) -> Callable[..., Any]:
