@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..checks import Array, as_array, as_arrays
 from ..errors import ShapeError
 from ..twist import Twist, screw
+from ..wrench import Wrench
 from .frames import arrows
 from .style import COLOURS, axes_3d, fit
 
@@ -46,7 +47,7 @@ def point_velocity(V: Twist | ArrayLike, points: ArrayLike) -> Array:
 
 
 def screw_axis(
-    V: Twist | ArrayLike,
+    V: Twist | Wrench | ArrayLike,
     *,
     length: float = 1.0,
     near: ArrayLike = (0.0, 0.0, 0.0),
@@ -54,12 +55,12 @@ def screw_axis(
     label: str | None = None,
     ax: Any = None,
 ) -> Any:
-    """Draw the axis of a twist as a dashed line with an arrow along it.
+    """Draw the axis of a twist, or of a wrench, as a dashed line with an arrow along it.
 
     Parameters
     ----------
-    V : Twist or array_like of shape (6,)
-        (ω, v), rad/s and m/s.
+    V : Twist, Wrench or array_like of shape (6,)
+        (ω, v), rad/s and m/s, or (τ, f), N m and N. A plain array is a twist.
     length : float
         Of the line, m.
     near : array_like, shape (3,)
@@ -86,10 +87,10 @@ def screw_axis(
     array([[ 1.,  0., -1.],
            [ 1.,  0.,  1.]])
     """
-    V = as_array(V, "V", 6)
-    if V.ndim != 1:
-        raise ShapeError(f"V: expected one twist, got a batch of shape {V.shape[:-1]}")
-    axis, point = (x.astype(float) for x in screw(V)[:2])
+    x, kind = as_array(V, "V", 6), "wrench" if isinstance(V, Wrench) else "twist"
+    if x.ndim != 1:
+        raise ShapeError(f"V: expected one {kind}, got a batch of shape {x.shape[:-1]}")
+    axis, point = (part.astype(float) for part in screw(V if kind == "wrench" else x)[:2])
     point = point + axis * (axis * (as_array(near, "near", 3) - point)).sum(-1)
     ax = axes_3d(ax)
     ends = point + length / 2 * np.stack([-axis, axis])
