@@ -7,9 +7,15 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `robot`: a robot as a stick figure.
 - `screws`: screw axes, the field of a twist.
 - `matrices`: a matrix as coloured squares.
+- `contacts`: friction cones, soles and their centre of pressure.
+- `inertias`: bodies as ellipsoids, the mass felt in each direction.
+- `flow`: what a recursion carries along the tree.
 """
 
+from .contacts import center_of_pressure, friction_cone, sole
+from .flow import flow, seats
 from .frames import arrows, triad
+from .inertias import ellipsoid, ellipsoids, felt_mass, semi_axes
 from .matrices import ANGULAR_LINEAR, matrix
 from .robot import robot, sticks
 from .screws import point_velocity, screw_axis, twist_field
@@ -22,11 +28,20 @@ __all__ = [
     "arrows",
     "axes_2d",
     "axes_3d",
+    "center_of_pressure",
+    "ellipsoid",
+    "ellipsoids",
+    "felt_mass",
     "fit",
+    "flow",
+    "friction_cone",
     "matrix",
     "point_velocity",
     "robot",
     "screw_axis",
+    "seats",
+    "semi_axes",
+    "sole",
     "sticks",
     "triad",
     "twist_field",

@@ -1,0 +1,150 @@
+"""Contacts: the friction cone of a point, the centre of pressure of a sole (49.4)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array, as_array
+from ..errors import SingularError
+from ..wrench import Wrench
+from .style import COLOURS, axes_2d, axes_3d, fit
+
+__all__ = ["center_of_pressure", "friction_cone", "sole"]
+
+
+def center_of_pressure(F: Wrench | ArrayLike) -> Array:
+    """Return the point (−τ_y, τ_x, 0) / f_z of the plane z = 0 about which F has only a moment along z (49.4).
+
+    Parameters
+    ----------
+    F : Wrench or array_like of shape (..., 6)
+        (τ, f) of the ground on the foot, in a frame whose z axis is the normal of the sole, N m and N.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        In the frame of `F`, m.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    SingularError
+        If there is no force along z: the foot does not stand.
+
+    Examples
+    --------
+    >>> center_of_pressure([0, -1, 0, 0, 0, 100])
+    array([0.01, 0.  , 0.  ])
+    """
+    F = as_array(F, "F", 6)
+    if (F[..., 5].real == 0).any():
+        raise SingularError("center_of_pressure: without a force along the normal there is none")
+    return np.stack([-F[..., 1], F[..., 0], 0 * F[..., 5]], axis=-1) / F[..., 5:]
+
+
+def friction_cone(
+    point: ArrayLike,
+    mu: float,
+    *,
+    height: float = 0.1,
+    colour: str = COLOURS["sky"],
+    label: str | None = None,
+    ax: Any = None,
+) -> Any:
+    """Draw the cone √(f_x² + f_y²) ≤ μ f_z of the forces that a contact can bear without slipping.
+
+    Parameters
+    ----------
+    point : array_like, shape (3,)
+        The contact, on a floor across z, m.
+    mu : float
+        Coefficient of friction.
+    height : float
+        Of the picture of the cone, m.
+    colour : str
+    label : str, optional
+        For the legend.
+    ax : matplotlib Axes3D, optional
+
+    Returns
+    -------
+    matplotlib Axes3D
+
+    Raises
+    ------
+    ShapeError
+        If `point` is not a point.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> ax = friction_cone([0, 0, 0], 0.6, height=1.0, ax=Figure().add_subplot(projection="3d"))
+    >>> rim = np.stack(ax.lines[0].get_data_3d(), axis=-1)
+    >>> np.hypot(rim[:, 0], rim[:, 1]).max().round(3), rim[0, 2]
+    (np.float64(0.6), np.float64(1.0))
+    """
+    p = as_array(point, "point", 3).reshape(3).astype(float)
+    angle = np.linspace(0, 2 * np.pi, 49)
+    rim = p + height * np.stack([mu * np.cos(angle), mu * np.sin(angle), np.ones(49)], axis=-1)
+    ax = axes_3d(ax)
+    ax.plot(*rim.mT, color=colour, linewidth=1.2, label=label)
+    x, y, z = np.stack([np.broadcast_to(p, rim.shape), rim]).transpose(2, 0, 1)
+    ax.plot_surface(x, y, z, color=colour, alpha=0.25, linewidth=0)
+    return fit(ax, rim)
+
+
+def sole(
+    corners: ArrayLike,
+    F: Wrench | ArrayLike | None = None,
+    *,
+    text: str = "",
+    colour: str = COLOURS["vermilion"],
+    ax: Any = None,
+) -> Any:
+    """Draw a sole from above, and on it the centre of pressure of a wrench.
+
+    Parameters
+    ----------
+    corners : array_like, shape (n, 3)
+        Of the sole, one after the other around it, in its frame, m.
+    F : Wrench or array_like of shape (6,), optional
+        (τ, f) of the ground on the foot, in the frame of the sole, N m and N.
+    text : str
+        Written beside the centre of pressure.
+    colour : str
+        Of the centre of pressure.
+    ax : matplotlib Axes, optional
+
+    Returns
+    -------
+    matplotlib Axes
+        x points up, as the foot does, and y to the left.
+
+    Raises
+    ------
+    ShapeError, SingularError
+        As `center_of_pressure`.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> corners = [[0.1, 0.05, 0], [0.1, -0.05, 0], [-0.1, -0.05, 0], [-0.1, 0.05, 0]]
+    >>> ax = sole(corners, [0, -1, 0, 0, 0, 100], ax=Figure().add_subplot())
+    >>> ax.lines[0].get_xydata()  # (y, x)
+    array([[0.  , 0.01]])
+    """
+    c = as_array(corners, "corners", 3).astype(float)
+    ax = axes_2d(ax, size=(3.0, 4.0))
+    if not ax.patches:
+        ax.fill(c[:, 1], c[:, 0], facecolor="0.92", edgecolor=COLOURS["black"], linewidth=1.2)
+        ax.set(xlabel="y [m]", ylabel="x [m]", aspect="equal")
+        ax.invert_xaxis()
+    if F is not None:
+        x, y, _ = center_of_pressure(as_array(F, "F", 6).reshape(6).astype(float))
+        ax.plot(y, x, "o", color=colour, markersize=8)
+        ax.annotate(text, (y, x), xytext=(6, 4), textcoords="offset points", fontsize=8)
+    return ax

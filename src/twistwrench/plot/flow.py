@@ -1,0 +1,114 @@
+"""What a recursion carries along the tree (49.6, 49.7)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array, as_array
+from ..errors import ShapeError
+from ..model import Model
+from .style import COLOURS, axes_2d
+
+__all__ = ["flow", "seats"]
+
+
+def seats(model: Model) -> Array:
+    """Return a place for each body in a flat picture of the tree: across its depth, along its branch.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    ndarray, shape (nbodies, 2)
+        (depth, −branch). The world is at depth 0; every tip has a branch of its own, and what carries
+        several stands in their middle.
+
+    Examples
+    --------
+    The cart of a cart-pole, and its pole:
+
+    >>> import twistwrench as tw
+    >>> seats(tw.load("cart_pole"))
+    array([[0., 0.],
+           [1., 0.],
+           [2., 0.]])
+    """
+    depth, branch, tips = np.zeros(model.nbodies), np.zeros(model.nbodies), 0
+    for i in range(1, model.nbodies):
+        depth[i] = depth[model.parent[i]] + 1
+    for i in reversed(range(model.nbodies)):  # children have larger numbers than what carries them
+        children = [j for j in range(1, model.nbodies) if model.parent[j] == i]
+        branch[i] = branch[children].mean() if children else tips
+        tips += not children
+    return np.stack([depth, branch - branch.max()], axis=-1) + 0.0
+
+
+def flow(
+    model: Model,
+    texts: Sequence[str],
+    *,
+    inward: bool = False,
+    amounts: ArrayLike | None = None,
+    colour: str = COLOURS["blue"],
+    ax: Any = None,
+) -> Any:
+    """Draw the tree as boxes, with an arrow through each joint for what a pass hands on.
+
+    Parameters
+    ----------
+    model : Model
+    texts : sequence of str, one for each body
+        Written at the arrow through the joint of each body; the first, the world's, below its box.
+    inward : bool
+        Whether the arrows lead from the tips to the base.
+    amounts : array_like, shape (nbodies,), optional
+        The arrows grow with the square root of these; all alike unless given. The first is not read.
+    colour : str
+        Of the arrows.
+    ax : matplotlib Axes, optional
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    ShapeError
+        If there is not one text and one amount for each body.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> from matplotlib.figure import Figure
+    >>> ax = flow(tw.load("cart_pole"), ["", "1 kg", "0.1 kg"], inward=True, ax=Figure().add_subplot())
+    >>> [text.get_text() for text in ax.texts if text.get_text()]
+    ['world', 'slide', 'hinge', '1 kg', '0.1 kg']
+    """
+    size = np.ones(model.nbodies) if amounts is None else as_array(amounts, "amounts", model.nbodies).astype(float)
+    if len(texts) != model.nbodies or size.ndim != 1:
+        raise ShapeError(f"texts, amounts: expected {model.nbodies} of each, got {len(texts)} and {size.shape}")
+    seat = seats(model)
+    width = 1 + 4 * np.sqrt(np.abs(size) / (np.abs(size[1:]).max(initial=0) or 1.0))
+    ax = axes_2d(ax, size=(11.0, 3.2))
+    names = ["world", *(name.removesuffix("_joint") for name in model.joint_names[1:])]
+    box = {"boxstyle": "round,pad=0.35", "facecolor": "0.93", "edgecolor": COLOURS["black"]}
+    for place, name in zip(seat, names):
+        ax.text(*place, name, ha="center", va="center", fontsize=9, bbox=box, zorder=3)
+    if texts[0]:
+        ax.text(*(seat[0] + [0, -0.45]), texts[0], ha="center", va="center", fontsize=9, color=colour)
+    for i in range(1, model.nbodies):
+        ends = [seat[model.parent[i]] + [0.28, 0], seat[i] - [0.28, 0]]
+        start, end = reversed(ends) if inward else ends
+        style = {"arrowstyle": "-|>", "color": colour, "linewidth": width[i], "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", end, start, arrowprops=style)
+        middle = np.mean(ends, axis=0)
+        ax.annotate(texts[i], middle, (0, 5), textcoords="offset points", ha="center", va="bottom", fontsize=8)
+    ax.set(xlim=(-0.4, seat[:, 0].max() + 0.4), ylim=(seat[:, 1].min() - 0.5, 0.6))
+    ax.axis("off")
+    return ax
