@@ -227,6 +227,12 @@ def test_the_limit_of_a_matrix_scales_its_colours(flat):
     assert flat.images[0].get_array()[0, 0] == pytest.approx(0.5)
 
 
+def test_what_rounding_left_of_a_zero_can_be_drawn_as_zero(flat):
+    plot.matrix([[1.0, -1e-17], [1e-11, 0.0]], rounding=1e-12, numbers="g", ax=flat)
+    np.testing.assert_array_equal(np.ma.getmaskarray(flat.images[0].get_array()), [[False, True], [False, True]])
+    assert [t.get_text() for t in flat.texts] == ["1", "1e-11"]
+
+
 def test_names_that_are_not_as_many_as_the_rows_are_refused(flat):
     with pytest.raises(tw.ShapeError, match="do not go together"):
         plot.matrix(np.eye(2), rows=["one"], ax=flat)

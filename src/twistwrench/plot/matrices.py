@@ -27,6 +27,7 @@ def matrix(
     lines: Sequence[int] = (3,),
     numbers: str | None = None,
     limit: float | None = None,
+    rounding: float = 0.0,
     ax: Any = None,
 ) -> Any:
     """Draw a matrix: orange where it is negative, purple where it is positive, white only where it is zero.
@@ -45,6 +46,8 @@ def matrix(
         How to write the entries into the squares, for example ``".2f"``; zeros are left out.
     limit : float, optional
         The value that has full colour, as all beyond it have; the largest of `A` unless given.
+    rounding : float
+        Entries up to this are taken for zeros that rounding has touched.
     ax : matplotlib Axes, optional
 
     Returns
@@ -66,6 +69,7 @@ def matrix(
     A = as_array(A, "A").astype(float)
     if A.ndim != 2 or len(rows) not in (0, A.shape[0]) or len(columns) not in (0, A.shape[1]):
         raise ShapeError(f"A, rows, columns: {A.shape} with {len(rows)} and {len(columns)} names do not go together")
+    A = np.where(np.abs(A) > rounding, A, 0)
     ax = axes_2d(ax, size=(4.5, 4.5))
     limit = limit or float(np.abs(A).max()) or 1.0
     shade = np.ma.masked_equal(np.cbrt(A / limit), 0)  # masked squares stay white

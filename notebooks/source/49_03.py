@@ -1,0 +1,362 @@
+# %% [markdown] lang="en"
+# # 49.3 Plücker transforms
+#
+# The four rules of 49.1 become two matrices: $X$ takes twists from one frame to another, $X^*$ takes wrenches. This
+# notebook derives $X$ in six steps and checks each on numbers, looks at the blocks, and shows why $X^*$ is
+# $X^{-T}$ and not $X^T$.
+# %% [markdown] lang="zh"
+# # 49.3 Plücker 变换矩阵
+#
+# 49.1 的四条规则可以合成两个矩阵:$X$ 变换 twist,$X^*$ 变换 wrench。这个笔记本分六步推导 $X$,每一步都用数字核对,
+# 再看看矩阵的分块结构,并说明为什么 $X^*$ 是 $X^{-T}$ 而不是 $X^T$。
+# %%
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import plot
+
+model = tw.load("go2")
+q = model.standing()
+hip = model.joint_id("FR_hip_joint")
+q[model.q_slice[hip].start :][:3] = -0.4, 0.9, -1.6  # the right front leg, put out to the side
+
+placement = tw.forward_kinematics(model, q).placement
+base, calf = placement[1], placement[model.joint_id("FR_calf_joint")]
+T_AB = base.inverse() @ calf  # A: the base, B: the calf
+R, p = T_AB.rotation, T_AB.translation
+# %%
+ax = plot.robot(model, q, com=False)
+plot.triad(base, "A", ax=ax)
+plot.triad(calf, "B", ax=ax)
+ax.view_init(elev=18, azim=-35)
+plt.show()
+# %% [markdown] lang="en"
+# ## Six steps
+#
+# **1.** 49.2 tells how a body twist becomes a spatial one. The same holds between any two frames:
+#
+# $$[\boldsymbol V_A] = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
+#
+# **2.** The inverse of a placement turns back and then moves back:
+#
+# $$T_{AB}^{-1} = \begin{pmatrix} R^T & -R^T\boldsymbol p \\ 0 & 1 \end{pmatrix}.$$
+#
+# **3.** Multiply the three matrices:
+#
+# $$T\,[\boldsymbol V_B]\,T^{-1} = \begin{pmatrix} R[\boldsymbol\omega]_\times R^T &
+# -R[\boldsymbol\omega]_\times R^T\boldsymbol p + R\boldsymbol v \\ 0 & 0 \end{pmatrix}.$$
+# %% [markdown] lang="zh"
+# ## 六步推导
+#
+# **第一步。** 49.2 说明了 body twist 怎样变成 spatial twist。任意两个坐标系之间也是如此:
+#
+# $$[\boldsymbol V_A] = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
+#
+# **第二步。** 位姿的逆:先转回去,再移回去:
+#
+# $$T_{AB}^{-1} = \begin{pmatrix} R^T & -R^T\boldsymbol p \\ 0 & 1 \end{pmatrix}.$$
+#
+# **第三步。** 三个矩阵相乘:
+#
+# $$T\,[\boldsymbol V_B]\,T^{-1} = \begin{pmatrix} R[\boldsymbol\omega]_\times R^T &
+# -R[\boldsymbol\omega]_\times R^T\boldsymbol p + R\boldsymbol v \\ 0 & 0 \end{pmatrix}.$$
+# %%
+rng = np.random.default_rng(3)
+V_B = rng.standard_normal(6)
+w, v = V_B[:3], V_B[3:]
+T, back = T_AB.matrix(), T_AB.inverse().matrix()
+carried = T @ tw.hat(V_B) @ back  # 1
+
+assert np.allclose(back[:3], np.hstack([R.T, -(R.T @ p)[:, None]]), atol=1e-15)  # 2
+assert np.allclose(T @ back, np.eye(4), atol=1e-15)
+W = R @ tw.skew(w) @ R.T
+assert np.allclose(carried[:3, :3], W, atol=1e-15)  # 3
+assert np.allclose(carried[:3, 3], -W @ p + R @ v, atol=1e-15)
+# %% [markdown] lang="en"
+# **4.** A rotation keeps cross products, $R(\boldsymbol a \times \boldsymbol b) = R\boldsymbol a \times R\boldsymbol b$.
+# Therefore
+#
+# $$R\,[\boldsymbol\omega]_\times R^T = [R\boldsymbol\omega]_\times.$$
+#
+# **5.** Turn the cross product round, and the lever comes to the front:
+#
+# $$-[R\boldsymbol\omega]_\times\,\boldsymbol p = \boldsymbol p \times R\boldsymbol\omega = [\boldsymbol p]_\times R\,\boldsymbol\omega.$$
+#
+# **6.** Read off what happens to $\boldsymbol\omega$ and to $\boldsymbol v$:
+#
+# $$\begin{pmatrix} \boldsymbol\omega_A \\ \boldsymbol v_A \end{pmatrix} =
+# \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}
+# \begin{pmatrix} \boldsymbol\omega_B \\ \boldsymbol v_B \end{pmatrix}, \qquad
+# {}^A\!X_B = \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}.$$
+#
+# The coupling term of 49.1 has become the block at the bottom left.
+# %% [markdown] lang="zh"
+# **第四步。** 旋转保持叉积,$R(\boldsymbol a \times \boldsymbol b) = R\boldsymbol a \times R\boldsymbol b$,因此
+#
+# $$R\,[\boldsymbol\omega]_\times R^T = [R\boldsymbol\omega]_\times.$$
+#
+# **第五步。** 叉积交换次序,力臂就到了前面:
+#
+# $$-[R\boldsymbol\omega]_\times\,\boldsymbol p = \boldsymbol p \times R\boldsymbol\omega = [\boldsymbol p]_\times R\,\boldsymbol\omega.$$
+#
+# **第六步。** 读出 $\boldsymbol\omega$ 与 $\boldsymbol v$ 各自的变化:
+#
+# $$\begin{pmatrix} \boldsymbol\omega_A \\ \boldsymbol v_A \end{pmatrix} =
+# \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}
+# \begin{pmatrix} \boldsymbol\omega_B \\ \boldsymbol v_B \end{pmatrix}, \qquad
+# {}^A\!X_B = \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}.$$
+#
+# 49.1 的耦合项变成了左下角的那一块。
+# %%
+assert np.allclose(W, tw.skew(R @ w), atol=1e-15)  # 4
+assert np.allclose(-W @ p, tw.skew(p) @ R @ w, atol=1e-15)  # 5
+X = T_AB.motion_transform()
+assert np.array_equal(X, np.block([[R, np.zeros((3, 3))], [tw.skew(p) @ R, R]]))  # 6
+assert np.allclose(X @ V_B, tw.vee(carried), atol=1e-15)
+# %% [markdown] lang="en"
+# ## The blocks
+#
+# This is $X$ from Go2's right calf to the base, beside $X^*$ for wrenches, which the second half of this notebook is
+# about. White is exactly zero. Same blocks; the coupling has changed its corner, because for wrenches it is the
+# *angular* part that depends on the point.
+# %% [markdown] lang="zh"
+# ## 分块结构
+#
+# 左边是从 Go2 右前小腿到基座的 $X$,右边是变换 wrench 的 $X^*$,后者是这个笔记本后半部分的主题。白色表示恰好为零。
+# 块是一样的,只是耦合块换了一个角,因为对 wrench 来说,依赖参考点的是*角*的部分。
+# %%
+X_star = T_AB.force_transform()
+figure, axes = plt.subplots(1, 2, figsize=(10, 5), layout="constrained")
+moment_force = ("τx", "τy", "τz", "fx", "fy", "fz")
+for ax, A, title, names in zip(axes, (X, X_star), ("X: twists", "X*: wrenches"), (plot.ANGULAR_LINEAR, moment_force)):
+    plot.matrix(A, title, rows=names, columns=names, numbers=".2f", ax=ax)
+plt.show()
+
+assert not X[:3, 3:].any()
+assert not X_star[3:, :3].any()
+assert np.array_equal(X[3:, :3], X_star[:3, 3:])
+assert np.isclose(np.linalg.det(X), 1)
+# %% [markdown] lang="en"
+# ## Chains and inverses
+#
+# Placements chain, $T_{AC} = T_{AB}T_{BC}$; conjugating twice is conjugating once with the product; so the matrices
+# chain as well, ${}^A\!X_C = {}^A\!X_B\,{}^B\!X_C$. Along Go2's leg, base ← hip ← thigh ← calf:
+# %% [markdown] lang="zh"
+# ## 链式法则与逆
+#
+# 位姿可以连乘,$T_{AC} = T_{AB}T_{BC}$;连续两次共轭等于用乘积共轭一次;所以矩阵也可以连乘,
+# ${}^A\!X_C = {}^A\!X_B\,{}^B\!X_C$。沿着 Go2 的腿,基座 ← 髋 ← 大腿 ← 小腿:
+# %%
+links = [placement[model.parent[i]].inverse() @ placement[i] for i in (hip, hip + 1, hip + 2)]
+steps = [link.motion_transform() for link in links]
+assert np.allclose(steps[0] @ steps[1] @ steps[2], X, atol=1e-15)
+
+figure, axes = plt.subplots(1, 4, figsize=(12, 3.4), layout="constrained")
+names = ["base ← hip", "hip ← thigh", "thigh ← calf", "their product: base ← calf"]
+for ax, A, name in zip(axes, [*steps, X], names):
+    plot.matrix(A, name, numbers=".2f", limit=1.0, rounding=1e-12, ax=ax)
+plt.show()
+# %% [markdown] lang="en"
+# The way back needs no solver. $T_{BA}$ has the rotation $R^T$ and the translation $-R^T\boldsymbol p$, and with step 4
+#
+# $${}^B\!X_A = ({}^A\!X_B)^{-1} = \begin{pmatrix} R^T & 0 \\ -R^T[\boldsymbol p]_\times & R^T \end{pmatrix}.$$
+#
+# A general inverse is also less exact, since the condition number of $X$ grows with the square of the distance:
+# %% [markdown] lang="zh"
+# 往回变换不需要解方程。$T_{BA}$ 的旋转是 $R^T$,平移是 $-R^T\boldsymbol p$,再用第四步的恒等式:
+#
+# $${}^B\!X_A = ({}^A\!X_B)^{-1} = \begin{pmatrix} R^T & 0 \\ -R^T[\boldsymbol p]_\times & R^T \end{pmatrix}.$$
+#
+# 用通用的矩阵求逆反而更不精确,因为 $X$ 的条件数随距离的平方增长:
+# %%
+X_back = T_AB.inverse().motion_transform()
+assert np.allclose(X_back, np.block([[R.T, np.zeros((3, 3))], [-R.T @ tw.skew(p), R.T]]), atol=1e-15)
+assert np.allclose(X @ X_back, np.eye(6), atol=1e-15)
+turns, directions = tw.exp3(rng.standard_normal((50, 3))), rng.standard_normal((50, 3))
+for metres in (0.3, 10, 1000):
+    far = tw.SE3(turns, metres * directions)
+    exact = tw.SE3(turns.astype(np.longdouble), far.translation.astype(np.longdouble)).inverse().motion_transform()
+    solved, written = np.linalg.inv(far.motion_transform()), far.inverse().motion_transform()
+    errors = [float(np.abs(inverse - exact).max()) for inverse in (solved, written)]
+    cond = np.linalg.cond(far.motion_transform()).max()
+    print(
+        f"{metres:6} m: condition {cond:8.2g}, error of np.linalg.inv {errors[0]:.1e}, of the formula {errors[1]:.1e}"
+    )
+    assert errors[0] > 2 * errors[1]
+# %% [markdown] lang="en"
+# ## Wrenches: the power decides
+#
+# The power $P = \boldsymbol F \cdot \boldsymbol V$ is watts, and watts do not depend on who looks:
+#
+# $$\boldsymbol F_B^T\boldsymbol V_B = \boldsymbol F_A^T\boldsymbol V_A = \boldsymbol F_A^T X\,\boldsymbol V_B
+# \quad\text{for all } \boldsymbol V_B \quad\Rightarrow\quad \boldsymbol F_B = X^T\boldsymbol F_A, \quad
+# \boldsymbol F_A = X^{-T}\boldsymbol F_B.$$
+#
+# So $X^T$ is a matrix for wrenches, but it leads *back*, from $A$ to $B$. The one that leads the way $X$ does is
+#
+# $$X^* = X^{-T} = \begin{pmatrix} R & [\boldsymbol p]_\times R \\ 0 & R \end{pmatrix}.$$
+#
+# "Dual means transposed", so people write $X^T$. Here are all three candidates with the force of the ground on the foot,
+# 40 N upwards; $B$ is at the foot now.
+# %% [markdown] lang="zh"
+# ## Wrench:由功率决定
+#
+# 功率 $P = \boldsymbol F \cdot \boldsymbol V$ 的单位是瓦,多少瓦与谁来看无关:
+#
+# $$\boldsymbol F_B^T\boldsymbol V_B = \boldsymbol F_A^T\boldsymbol V_A = \boldsymbol F_A^T X\,\boldsymbol V_B
+# \quad\text{对所有 } \boldsymbol V_B \quad\Rightarrow\quad \boldsymbol F_B = X^T\boldsymbol F_A, \quad
+# \boldsymbol F_A = X^{-T}\boldsymbol F_B.$$
+#
+# 所以 $X^T$ 确实是变换 wrench 的矩阵,但它的方向是*往回*,从 $A$ 到 $B$。与 $X$ 同方向的是
+#
+# $$X^* = X^{-T} = \begin{pmatrix} R & [\boldsymbol p]_\times R \\ 0 & R \end{pmatrix}.$$
+#
+# "对偶就是转置",于是有人写成 $X^T$。下面用地面对脚的力(向上 40 N)把三个候选都试一遍,这里 $B$ 取在脚上。
+# %%
+foot = tw.frame_placement(model, q, "FR_foot")
+T_AF = base.inverse() @ foot
+X, X_star = T_AF.motion_transform(), T_AF.force_transform()
+force = np.array([0, 0, 40.0])  # in the base's axes, which are the world's here
+F_foot = np.concatenate([np.zeros(3), T_AF.rotation.T @ force])
+by_hand = np.concatenate([np.cross(T_AF.translation, force), force])  # moment about the base: lever × force
+
+for name, matrix in {"X*": X_star, "Xᵀ": X.T, "X": X}.items():
+    F_base = matrix @ F_foot
+    print(f"{name:3} moment {F_base[:3].round(2) + 0.0} N m, force {F_base[3:].round(2) + 0.0} N")
+    assert np.allclose(F_base, by_hand, atol=1e-13) == (name == "X*")
+assert np.allclose(X_star, np.linalg.inv(X).T, atol=1e-14)
+assert np.allclose(X.T @ by_hand, F_foot, atol=1e-13)  # and this is what Xᵀ is for: the way back
+# %% [markdown] lang="en"
+# ## The same power in every frame
+#
+# The calf moves at random, the ground pushes on its foot. We take twist and wrench into one frame after the other, down
+# the leg and out to the world, and multiply. With $X$ and $X^*$ the power is the same everywhere; with $X^T$ in the place
+# of $X^*$ it is different in every frame, and none of these numbers looks impossible.
+# %% [markdown] lang="zh"
+# ## 在每个坐标系里功率都相同
+#
+# 小腿随机运动,地面推着它的脚。把 twist 和 wrench 依次变换到各个坐标系,从脚沿腿一直到世界,再相乘。
+# 用 $X$ 与 $X^*$ 时功率处处相同;用 $X^T$ 代替 $X^*$,每个坐标系里的功率都不一样,而这些数没有一个看上去不可能。
+# %%
+rates = rng.standard_normal(model.nv)
+V_foot = tw.frame_jacobian(model, q, "FR_foot", "local") @ rates
+frames = {"foot": foot, "calf": calf, "thigh": placement[hip + 1], "hip": placement[hip], "base": base}
+frames["world"] = tw.SE3.identity()
+good, wrong = [], []
+for T_world in frames.values():
+    T = T_world.inverse() @ foot
+    V = T.motion_transform() @ V_foot
+    good.append(tw.power(T.force_transform() @ F_foot, V))
+    wrong.append(tw.power(T.motion_transform().T @ F_foot, V))
+assert np.allclose(good, good[0], rtol=1e-13)
+assert np.isclose(wrong, good).tolist() == [True, False, False, False, False, False]
+
+ax = plot.axes_2d(size=(7, 3.5))
+ax.bar(np.arange(6) - 0.2, good, 0.4, color=plot.COLOURS["blue"], label="(X* F) · (X V)")
+ax.bar(np.arange(6) + 0.2, wrong, 0.4, color=plot.COLOURS["vermilion"], label="(Xᵀ F) · (X V)")
+ax.axhline(0, color="k", linewidth=0.8)
+ax.set(xticks=range(6), xticklabels=frames, ylabel="power [W]", title="one foot, one push, six frames")
+ax.legend()
+plt.show()
+# %% [markdown] lang="en"
+# The two agree in the foot's own frame only, where $X = 1$. A test that never leaves that frame cannot tell them apart;
+# nor can one without rotation and lever.
+#
+# ## What the recursions do with it
+#
+# Let $X_i$ take twists from the parent's frame to link $i$'s. Velocities go outward with $X_i$: this is the forward pass
+# of RNEA (49.6).
+#
+# $$\boldsymbol V_i = X_i\,\boldsymbol V_{\lambda(i)} + S_i\,\dot q_i$$
+# %% [markdown] lang="zh"
+# 二者只在脚自己的坐标系里相等,因为那里 $X = 1$。只在这一个坐标系里做的测试分不清它们,没有旋转也没有力臂的测试也一样。
+#
+# ## 递推算法怎样使用它
+#
+# 设 $X_i$ 把 twist 从父连杆的坐标系变换到连杆 $i$ 的坐标系。速度用 $X_i$ 向外传递,这就是 RNEA 的正向传递(49.6)。
+#
+# $$\boldsymbol V_i = X_i\,\boldsymbol V_{\lambda(i)} + S_i\,\dot q_i$$
+# %%
+outward = [link.inverse().motion_transform() for link in links]  # X_i of hip, thigh, calf
+twist = rates[:6]  # the base's own
+for i, X_i in zip((hip, hip + 1, hip + 2), outward):
+    twist = X_i @ twist + model.joints[i].subspace() @ rates[model.v_slice[i]]
+assert np.allclose(twist, tw.forward_kinematics(model, q, rates).twist[hip + 2], atol=1e-14)
+# %% [markdown] lang="en"
+# Forces come back inward, from $i$ to its parent. That is against the direction of $X_i$, so it takes $X_i^T$. The chapter's
+# listings write $X_i^*$ there: with an $X_i$ that leads outward this is the wrong way round. At each joint the motor
+# bears the part of the wrench along its axis, $\tau_i = S_i^T \boldsymbol F_i$. The Jacobian knows the same answer:
+# %% [markdown] lang="zh"
+# 力则向内传回,从 $i$ 到父连杆,与 $X_i$ 的方向相反,所以用 $X_i^T$。本章的伪代码在这里写的是 $X_i^*$:既然 $X_i$ 是向外的,
+# 这就反了。在每个关节处,电机承担 wrench 沿自己轴的分量,$\tau_i = S_i^T \boldsymbol F_i$。雅可比矩阵给出同样的答案:
+# %%
+J = tw.frame_jacobian(model, q, "FR_foot", "local")
+expected = (J.T @ F_foot)[model.v_slice[hip].start :][:3]
+
+
+def torques(inward):
+    """Torques of hip, thigh and calf under the push, with one matrix for each step inward."""
+    F = (calf.inverse() @ foot).force_transform() @ F_foot  # from the foot to the calf's frame
+    found = []
+    for i in (hip + 2, hip + 1, hip):
+        found.insert(0, (model.joints[i].subspace().T @ F).item())
+        F = inward[i - hip] @ F
+    return np.array(found)
+
+
+by_transpose = torques([X_i.T for X_i in outward])
+by_star = torques([link.inverse().force_transform() for link in links])  # X_i*: leads outward as well
+print("Xᵢᵀ ", by_transpose.round(3), "N m\nXᵢ* ", by_star.round(3), "N m\nJᵀF ", expected.round(3), "N m")
+assert np.allclose(by_transpose, expected, atol=1e-13)
+assert np.isclose(by_star[2], expected[2])  # the first joint is right, so the slip survives a short test
+assert np.abs(by_star - expected).max() > 1
+# %% [markdown] lang="en"
+# ## Pinocchio
+#
+# `SE3.action` is $X$ in the order $(\boldsymbol v, \boldsymbol\omega)$: there $[\boldsymbol p]_\times R$ stands at the
+# *top right*. The chapter's listing looks for it at the bottom left and would stop with an AssertionError.
+# `SE3.dualAction` is $X^*$.
+# %% [markdown] lang="zh"
+# ## 与 Pinocchio 对照
+#
+# `SE3.action` 是按 $(\boldsymbol v, \boldsymbol\omega)$ 排列的 $X$:其中 $[\boldsymbol p]_\times R$ 在*右上角*。
+# 本章的代码到左下角去找它,一运行就会 AssertionError。`SE3.dualAction` 是 $X^*$。
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    data = pin_model.createData()
+    pin.forwardKinematics(pin_model, data, q)
+    oMi = data.oMi[hip + 2]
+    X_world, X_star_world = calf.motion_transform(), calf.force_transform()
+    assert np.allclose(tw.bridge.from_pinocchio_transform(oMi.action), X_world, atol=1e-12)
+    assert np.allclose(tw.bridge.from_pinocchio_transform(oMi.dualAction), X_star_world, atol=1e-12)
+
+    coupling = pin.skew(oMi.translation) @ oMi.rotation
+    assert np.allclose(oMi.action[:3, 3:], coupling)
+    assert not oMi.action[3:, :3].any()  # where the chapter expects it
+    linear_first = ("vx", "vy", "vz", "ωx", "ωy", "ωz")
+    plot.matrix(oMi.action, "oMi.action", rows=linear_first, columns=linear_first, numbers=".2f", rounding=1e-12)
+    plt.show()
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.3.1** $X$ and $X^*$ of a pure translation, by hand
+# - **49.3.2** $X$ of a pure rotation; when turning both halves is enough
+# - **49.3.3** the chain rule, proved
+#
+# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.3.1`.
+# Next: notebook 49.4.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.3.1** 手算纯平移的 $X$ 与 $X^*$
+# - **49.3.2** 纯旋转的 $X$;什么时候只要分别旋转两半就够了
+# - **49.3.3** 证明链式法则
+#
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`;`twistwrench exercises hint 49.3.1` 给提示。
+# 下一个:笔记本 49.4。
