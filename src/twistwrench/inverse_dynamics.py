@@ -178,7 +178,10 @@ def external(model: Model, f_ext: ArrayLike | None) -> ArrayLike:
     """Return the wrenches on the bodies, zero where none came; refuse one on the world."""
     if f_ext is None:
         return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
-    f_ext = np.asarray(f_ext)
+    try:
+        f_ext = np.asarray(f_ext)
+    except ValueError:  # rows of different lengths: `Model.state` says so
+        return f_ext
     if f_ext.shape[-2:] == (model.nbodies, 6) and f_ext[..., 0, :].any():
         raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
     return f_ext

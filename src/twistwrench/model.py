@@ -103,6 +103,12 @@ class Model:
     feet: tuple[str, ...] = ()
     _constants: dict[Any, Constants] = field(default_factory=dict, init=False)
 
+    def __post_init__(self) -> None:
+        for name in ("gravity", "armature", "lower", "upper", "velocity_limit", "effort_limit"):
+            own = np.array(getattr(self, name), np.float64)
+            own.flags.writeable = False
+            object.__setattr__(self, name, own)
+
     # ---------------------------------------------------------------- sizes and names
 
     @property
@@ -202,17 +208,13 @@ class Model:
         return np.concatenate([np.zeros(0), *parts])
 
     def integrate(self, q: ArrayLike, v_dt: ArrayLike) -> Array:
-        """Go from q along v_dt: q ⊕ v_dt.
+        """Go from q along v_dt: q ⊕ v_dt, shape (..., nq).
 
         Parameters
         ----------
         q : array_like, shape (..., nq)
         v_dt : array_like, shape (..., nv)
             Velocity times duration.
-
-        Returns
-        -------
-        ndarray, shape (..., nq)
         """
         q, v_dt = self.state(q, v_dt=v_dt)
         return self._by_joint(lambda joint, qs, vs: joint.integrate(q[..., qs], v_dt[..., vs]), q)
@@ -224,19 +226,15 @@ class Model:
         ----------
         q0, q1 : array_like, shape (..., nq)
         """
-        q0, q1 = self.state(q0, q1=q1)
+        q0, q1 = check_state(self, q0=q0, q1=q1)
         return self._by_joint(lambda joint, qs, vs: joint.difference(q0[..., qs], q1[..., qs]), q0)
 
     def normalize(self, q: ArrayLike) -> Array:
-        """Scale the quaternions and the (cos, sin) in q to norm 1.
+        """Scale the quaternions and the (cos, sin) in q to norm 1, shape (..., nq).
 
         Parameters
         ----------
         q : array_like, shape (..., nq)
-
-        Returns
-        -------
-        ndarray, shape (..., nq)
 
         Raises
         ------
@@ -285,7 +283,7 @@ class Model:
             An infinity or a NaN; a quaternion or (cos, sin) that is off norm 1 by more than the
             root of the number type's resolution (1.5e-8 in float64).
         """
-        return check_state(self, q, **others)
+        return check_state(self, q=q, **others)
 
     def constants(self, dtype: DTypeLike) -> Constants:
         """Return the model's constants in a number type; made once per type."""

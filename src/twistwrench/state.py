@@ -20,17 +20,16 @@ if TYPE_CHECKING:
 __all__ = ["check_arrays", "check_state"]
 
 
-def check_state(model: Model, q: ArrayLike, **others: ArrayLike) -> tuple[Array, ...]:
+def check_state(model: Model, **named: ArrayLike) -> tuple[Array, ...]:
     """Check a state and bring it to one dtype and one batch shape: see `Model.state`."""
-    arrays = check_arrays(model, q=q, **others)
-    names = ("q", *others)
+    arrays, names = check_arrays(model, **named), tuple(named)
     tails = [2 if name == "f_ext" else 1 for name in names]
     batches = [x.shape[: x.ndim - tail] for x, tail in zip(arrays, tails)]
     try:
         batch = np.broadcast_shapes(*batches)
     except ValueError:
-        named = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches))
-        raise ShapeError(f"batch axes do not broadcast: {named}") from None
+        listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches))
+        raise ShapeError(f"batch axes do not broadcast: {listed}") from None
     for name, x in zip(names, arrays):
         if name.startswith("q"):
             _check_unit(model, x, name)
