@@ -1,13 +1,13 @@
 # %% [markdown] lang="en"
 # # Five minutes with twistwrench
 #
-# You need nothing from the chapter yet. In the next nine cells you load a robot dog, look at it, ask what its motors
+# You need nothing from the chapter yet. In the next eight cells you load a robot dog, look at it, ask what its motors
 # must do, and check the answer in two other ways. Run the cells one by one (Shift + Enter), and change them:
 # nothing can break.
 # %% [markdown] lang="zh"
 # # 五分钟认识 twistwrench
 #
-# 现在还不需要读过本章。下面九个代码单元里,你会加载一只机器狗,看看它的样子,问问它的电机要出多大力,
+# 现在还不需要读过本章。下面八个代码单元里,你会加载一只机器狗,看看它的样子,问问它的电机要出多大力,
 # 再用另外两种办法核对答案。请逐个运行(Shift + Enter),也请随手改一改:改不坏。
 # %%
 import matplotlib.pyplot as plt
