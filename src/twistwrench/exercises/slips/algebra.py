@@ -226,4 +226,60 @@ ALGEBRA = {
         ),
         "49.3",
     ),
+    "translation-sign": Slip(
+        Text("the translation has the wrong sign", "平移符号错了"),
+        Text(
+            "p is the origin of B as A sees it, so it is added: x_A = R x_B + p.",
+            "p 是 A 中看到的 B 的原点,应当相加:x_A = R x_B + p。",
+        ),
+        "49.0",
+    ),
+    "untransformed": Slip(
+        Text("the change of frame is left out", "没有做坐标变换"),
+        Text(
+            "The numbers are still those of the other frame; X takes them over, even between frames of one rigid body.",
+            "数值仍是另一坐标系中的;即使两个坐标系属于同一刚体,也要用 X 变换。",
+        ),
+        "49.2",
+    ),
+    "elementwise-exp": Slip(
+        Text("np.exp takes the exponential of each entry, not of the matrix", "np.exp 是逐元素的指数,不是矩阵指数"),
+        Text(
+            "The matrix exponential is the series 1 + A + A²/2 + ...; with matrix products.",
+            "矩阵指数是级数 1 + A + A²/2 + ……,其中是矩阵乘法。",
+        ),
+        "49.2",
+    ),
+    "exp-turned": Slip(
+        Text(
+            "the translation of the exponential is R v: as if all the turning came first",
+            "指数映射的平移写成了 R v:好像先转完再走",
+        ),
+        Text(
+            "Turning and moving happen together: v points along x at the start and along R x only at the end.",
+            "转动与平动同时进行:v 开始时沿 x,到最后才沿 R x。",
+        ),
+        "49.2",
+    ),
+    "second-order-exp": Slip(
+        Text("the series of the exponential is cut off after the second power", "指数级数只取到了二次项"),
+        Text(
+            "Sum it up: the powers of [ω]× repeat, and give sine and cosine.",
+            "[ω]× 的幂次循环出现,求和得到正弦和余弦,应写成精确解。",
+        ),
+        "49.2",
+    ),
+    "lever-all": Slip(
+        Text("the whole distance in place of the distance from the axis", "用了到原点的距离,而不是到转轴的距离"),
+        Text(
+            "Only the part of r at right angles to ω counts: |ω × r| = ω r sin(angle).",
+            "只有 r 垂直于 ω 的部分起作用:|ω × r| = ω r sin(夹角)。",
+        ),
+        "49.2",
+    ),
+    "omega-dropped": Slip(
+        Text("a length in place of a velocity: ω is missing", "给出的是长度而不是速度:漏乘 ω"),
+        Text("v = ω r, in m/s.", "v = ω r,单位 m/s。"),
+        "49.2",
+    ),
 }

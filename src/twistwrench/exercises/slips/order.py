@@ -168,4 +168,39 @@ ORDER = {
         ),
         "49.1",
     ),
+    "angle-of-one": Slip(
+        Text("a continuous joint is counted as one number in q", "连续旋转关节在 q 中只算了 1 个数"),
+        Text(
+            "Pinocchio keeps its angle as (cos, sin): two numbers in q, one in v.",
+            "Pinocchio 用 (cos, sin) 存储其角度:q 中 2 个数,v 中 1 个数。",
+        ),
+        "49.1",
+    ),
+    "aligned-for-local": Slip(
+        Text("the world's axes in place of the body's own", "用了世界坐标轴,而不是自身坐标轴"),
+        Text(
+            "The reference point is right. Turn both halves into the body's axes by Rᵀ.",
+            "参考点是对的;两半都还要用 Rᵀ 变到自身坐标轴。",
+        ),
+        "49.2",
+    ),
+    "pinocchio-velocity": Slip(
+        Text(
+            "v is filled in the other order: the base moves where it should turn",
+            "按另一种顺序填写了 v:基座在平移而不是转动",
+        ),
+        Text(
+            "Here v[:3] is the base's ω and v[3:6] its v. Pinocchio has them the other way round.",
+            "这里 v[:3] 是基座的 ω,v[3:6] 是线速度;Pinocchio 恰好相反。",
+        ),
+        "49.2",
+    ),
+    "joint-for-frame": Slip(
+        Text("the frame of the last joint in place of the foot's", "取了最后一个关节的坐标系,而不是脚的坐标系"),
+        Text(
+            "The foot is welded to the calf: same body, another reference point. Use the frame, not the joint.",
+            "脚焊接在小腿上:同一刚体,参考点不同。应取 frame,而不是 joint。",
+        ),
+        "49.2",
+    ),
 }
