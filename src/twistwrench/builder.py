@@ -134,7 +134,7 @@ class Builder:
         Raises
         ------
         ModelError
-            A name that is taken, limits that cross, an armature below zero or on a weld.
+            A name that is taken, limits that cross, an armature below zero, limits or an armature on a weld.
         NameNotFound
             If the parent is not known.
         """
@@ -176,8 +176,10 @@ class Builder:
                 f"joint {joint_name!r}: lower limit {vectors['lower']} is above upper limit {vectors['upper']}"
             )
         rotor = _vector(armature, nv, f"joint {joint_name!r}: armature")
-        if (rotor < 0).any() or (joint is None and np.any(armature)):
-            raise ModelError(f"joint {joint_name!r}: armature {armature!r} is below zero, or on a weld")
+        if (rotor < 0).any():
+            raise ModelError(f"joint {joint_name!r}: armature {armature!r} is below zero")
+        if joint is None and (np.any(armature) or any(np.isfinite(limit).any() for limit in limits.values())):
+            raise ModelError(f"link {name!r}: limits and armature belong to a joint, and this link is welded on")
         self._links[name] = _Link(name, parent, joint, joint_name, placement, inertia, **vectors, armature=rotor)
 
     def build(self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = ()) -> Model:
