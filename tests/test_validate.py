@@ -26,7 +26,11 @@ QUICK = {"states": 2, "truths": 1}
 
 def judge(model, *, states=3, truths=1):
     return Judge(
-        model, random_states(model, states, rng=0), Oracle(model, None) if PINOCCHIO else None, _context(), truths
+        model,
+        random_states(model, states, rng=0, frames=1),
+        Oracle(model, None) if PINOCCHIO else None,
+        _context(),
+        truths,
     )
 
 

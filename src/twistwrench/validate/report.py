@@ -73,18 +73,23 @@ class Report:
         lines = [f"{self.robot}: {self.description}", *self._sides(), "", *_aligned([HEADER, *map(_cells, self.rows)])]
         return "\n".join([*lines, *notes(self.rows), "", self.summary()])
 
+    @property
+    def missing(self) -> list[str]:
+        """Say which side is not installed."""
+        pinocchio = "Pinocchio is not installed: held against the truth alone (pip install pin; not on Windows)"
+        mpmath = "mpmath is not installed: without the 50-digit truth (pip install mpmath gmpy2)"
+        return [pinocchio] * (self.pinocchio is None) + [mpmath] * (self.mpmath is None)
+
     def _sides(self) -> list[str]:
-        """Say what ours was held against, and what is missing."""
-        if self.pinocchio is None:
-            pinocchio = "Pinocchio is not installed: held against the truth alone (pip install pin; not on Windows)"
-        else:
+        """Say at which states ours was held against what."""
+        states = "1 state" if self.states == 1 else f"{self.states} states"
+        lines = [f"at {states}" + ("" if self.seed is None else f" of seed {self.seed}")]
+        if self.pinocchio is not None:
             reads = "reads the same URDF" if self.loader else "is handed the model over by the bridge"
-            pinocchio = f"Pinocchio {self.pinocchio} {reads}, {_count(self.states, 'random state')}, seed {self.seed}"
-        if self.mpmath is None:
-            truth = "mpmath is not installed: without the 50-digit truth (pip install mpmath gmpy2)"
-        else:
-            truth = f"truth: newton_euler_3d in 50 digits, {self.truths} of the states and wherever the two differ"
-        return [pinocchio, truth]
+            lines.append(f"vs Pin.: Pinocchio {self.pinocchio}, which {reads}")
+        if self.mpmath is not None:
+            lines.append(f"vs truth: newton_euler_3d in 50 digits, at {self.truths} and wherever the two differ")
+        return [*lines, *self.missing]
 
     def summary(self) -> str:
         """Return the last line."""
@@ -165,10 +170,6 @@ def pad(cell: str, width: int, right: bool) -> str:
 def _width(text: str) -> int:
     """Return how many columns a text takes: the dot over a letter takes none."""
     return sum(not unicodedata.combining(c) for c in text)
-
-
-def _count(n: int, what: str) -> str:
-    return f"{n} {what}{'' if n == 1 else 's'}"
 
 
 def _finite(value: Any) -> Any:

@@ -32,6 +32,7 @@ def validate(
     base: Literal["fixed", "floating"] | None = None,
     states: int = 8,
     truths: int = 3,
+    frames: int = 4,
     rng: np.random.Generator | int = 0,
     progress: bool = False,
 ) -> Report:
@@ -49,6 +50,8 @@ def validate(
     truths : int
         At how many of them the truth is computed in any case. Where ours and Pinocchio differ by more
         than the bound, it is computed as well.
+    frames : int
+        At most so many frames' Jacobians are compared: of the feet, then of other tips of the tree.
     rng : numpy Generator or int
         Where the states come from. The same seed gives the same report, but for the time.
     progress : bool
@@ -66,7 +69,7 @@ def validate(
     ImportError
         If neither Pinocchio nor mpmath is there to compare with.
     ValueError
-        If `states` is below 1, or a base is named for a `Model`.
+        If `states` or `frames` is below 1, or a base is named for a `Model`.
 
     Notes
     -----
@@ -83,13 +86,15 @@ def validate(
     True
     """
     start = time.perf_counter()
-    if states < 1:
-        raise ValueError(f"states: expected 1 or more, got {states}")
+    for name, value in (("states", states), ("frames", frames)):
+        if value < 1:
+            raise ValueError(f"{name}: expected 1 or more, got {value}")
     model, path = _load(robot, base)
     oracle, context = _oracle(model, path), _context()
     if oracle is None and context is None:
         raise ImportError('nothing to compare with: pip install "twistwrench[validate]" brings Pinocchio and mpmath')
-    judge = Judge(model, random_states(model, states, rng=rng), oracle, context, truths=min(truths, states))
+    at = random_states(model, states, rng=rng, frames=frames)
+    judge = Judge(model, at, oracle, context, truths=min(truths, states))
     rows = [judge.row(q) for q in _bar(QUANTITIES, progress, model.name) if q.applies(model)] if model.nv else []
     return Report(
         robot=model.name if isinstance(robot, Model) else str(robot),

@@ -59,7 +59,7 @@ class States:
         return {f.name: getattr(self, f.name) for f in fields(self) if f.name != "frames"}
 
 
-def random_states(model: Model, n: int, *, rng: np.random.Generator | int) -> States:
+def random_states(model: Model, n: int, *, rng: np.random.Generator | int, frames: int = 4) -> States:
     """Draw states: q as `Model.random_configuration`, all else from normal distributions.
 
     Parameters
@@ -67,6 +67,8 @@ def random_states(model: Model, n: int, *, rng: np.random.Generator | int) -> St
     model : Model
     n : int
     rng : numpy Generator or int
+    frames : int
+        At most so many frames to look at.
 
     Returns
     -------
@@ -87,17 +89,17 @@ def random_states(model: Model, n: int, *, rng: np.random.Generator | int) -> St
     q = np.stack([model.random_configuration(rng=rng) for _ in range(n)])
     if "standing" in model.postures:
         q[0] = model.standing()
-    return States(q=q, v=v, a=a, tau=tau, dv=dv / 2, f_ext=f_ext, frames=sample_frames(model))
+    return States(q=q, v=v, a=a, tau=tau, dv=dv / 2, f_ext=f_ext, frames=sample_frames(model, frames))
 
 
-def sample_frames(model: Model, most: int = 4) -> tuple[str, ...]:
+def sample_frames(model: Model, most: int) -> tuple[str, ...]:
     """Choose the frames to look at: the feet, and others at the tips of the tree.
 
     Of each tip the last frame in the file: it is often welded on, and its placement then counts as well.
     """
     last = {frame.body: name for name, frame in model.frames.items()}
     tips = [last[i] for i in range(1, model.nbodies) if i not in model.parent]
-    return tuple(dict.fromkeys([*model.feet, *_spread(tips, most)]))[: max(most, len(model.feet))]
+    return tuple(dict.fromkeys([*model.feet, *_spread(tips, most)]))[:most]
 
 
 def _spread(names: Sequence[str], most: int) -> Sequence[str]:

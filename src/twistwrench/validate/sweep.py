@@ -50,7 +50,7 @@ def every_robot(base: Base | None = None) -> list[tuple[str, Base]]:
 def sweep(
     which: Sequence[tuple[str, Base]], *, jobs: int | None = None, states: int = 8, truths: int = 1, seed: int = 0
 ) -> Iterator[Outcome]:
-    """Validate robots, several at a time.
+    """Validate robots, several at a time, each with two frames.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def sweep(
 
 def _outcome(name: str, base: Base, states: int, truths: int, seed: int) -> Outcome:
     try:
-        return Outcome(name, base, validate(name, base=base, states=states, truths=truths, rng=seed))
+        return Outcome(name, base, validate(name, base=base, states=states, truths=truths, frames=2, rng=seed))
     except Exception as error:  # the other robots are worth seeing all the same
         return Outcome(name, base, None, f"{type(error).__name__}: {error}")
 
@@ -113,11 +113,13 @@ def _laid_out(cells: Sequence[str]) -> str:
 
 
 def summary(outcomes: Sequence[Outcome], seconds: float) -> str:
-    """Return the last line."""
+    """Return the last line, and before it what was missing."""
+    missing = {text: None for o in outcomes if o.report for text in o.report.missing}
     good, rows = sum(o.passed for o in outcomes), sum(len(o.report.rows) for o in outcomes if o.report)
     names = ", ".join(f"{o.robot} ({o.base})" for o in outcomes if not o.passed)
-    return (
+    line = (
         f"{good} of {len(outcomes)} robots and bases inside all their bounds, {rows} rows"
         + (f"; not: {names}" if names else "")
         + f" · {seconds:.0f} s"
     )
+    return "\n".join([*missing, line])
