@@ -6,6 +6,7 @@ what is wrong with them. `status` shows the progress, `hint` and `solution` help
 The exercises are those of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
 How to add one is in the README beside this file.
 
+>>> from twistwrench.exercises import hint
 >>> print(hint("49.3.2", language="en").splitlines()[0])
 49.3.2 A pure rotation: hint 1 of 2
 """

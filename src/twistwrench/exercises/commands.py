@@ -6,9 +6,17 @@ import argparse
 import sys
 from typing import Any
 
+from .text import Language, Text
+
 __all__ = ["register"]
 
 REFUSED = 1
+
+ASK = Text("Show the solution of {id}? A hint may be enough. [y/N] ", "显示 {id} 的解答?也许一条提示就够了。[y/N] ")
+UNASKED = Text(
+    "The solution of {id} is shown with --yes; a hint first? twistwrench exercises hint {id}",
+    "加上 --yes 即显示 {id} 的解答;要不要先看提示?twistwrench exercises hint {id}",
+)
 
 
 def register(commands: Any) -> None:
@@ -39,15 +47,17 @@ def _action(actions: Any, name: str, help: str, run: Any) -> Any:
 
 def run_start(args: argparse.Namespace) -> int:
     """Write the skeletons."""
+    import shlex
+
     from .skeletons import start
     from .workbook import Workbook
 
     new, kept = start(args.dir, language=args.language)
-    for word, zh, paths in (("new", "新增", new), ("kept as it is", "保持不变", kept)):
-        label = zh if Workbook(args.dir).language == "zh" else word
+    language = Workbook(args.dir).language
+    for label, paths in ((Text("new", "新增"), new), (Text("kept as it is", "保持不变"), kept)):
         for path in paths:
-            print(f"{path}: {label}")
-    print(f"\ncd {args.dir} && pytest")
+            print(f"{path}: {label.of(language)}")
+    print(f"\ncd {shlex.quote(args.dir)} && pytest")
     return 0
 
 
@@ -71,20 +81,21 @@ def run_hint(args: argparse.Namespace) -> int:
 def run_solution(args: argparse.Namespace) -> int:
     """Print a solution, once the student is sure."""
     from .helping import solution
+    from .workbook import Workbook
 
     text = solution(args.id, args.dir, language=args.language)
-    if not args.yes and not _sure(args.id):
+    if not args.yes and not _sure(args.id, Workbook(args.dir, language=args.language).language):
         return REFUSED
     print(text)
     return 0
 
 
-def _sure(number: str) -> bool:
+def _sure(number: str, language: Language) -> bool:
     """Ask; without somebody to answer, say how to do without asking."""
     if not sys.stdin.isatty():
-        print(f"The solution of {number} is shown with --yes; a hint first? twistwrench exercises hint {number}")
+        print(UNASKED.fill(id=number).of(language))
         return False
-    return input(f"Show the solution of {number}? A hint may be enough. [y/N] ").strip().lower() in ("y", "yes", "是")
+    return input(ASK.fill(id=number).of(language)).strip().lower() in ("y", "yes", "是")
 
 
 def run_list(args: argparse.Namespace) -> int:

@@ -71,23 +71,27 @@ def _blocks(name: str, got: Value, right: Value, tolerance: float) -> list[Text]
         return []
     lines, some_right = [], False
     for block, index in got.quantity.layout.blocks(b.shape):
-        relation = _relation(a[index], b[index], tolerance)
+        origin = [0] * (b.ndim - len(index) + 1) + [part.start for part in index[1:]]
+        relation = _relation(a[index], b[index], tolerance, origin)
         if relation == say("right"):
             some_right = True
         else:
             lines.append(_is(say("block", name=name, block=block), relation))
     if not lines:
-        return [_is(Text(name, name), _relation(a, b, tolerance))]
+        return [_is(Text(name, name), _relation(a, b, tolerance, [0] * b.ndim))]
     return lines + [say("others right", name=name)] * some_right
 
 
-def _relation(a: Array, b: Array, tolerance: float) -> Text:
-    """Return how one array is the other in disguise, or where or by how much they differ."""
+def _relation(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
+    """Return how one array is the other in disguise, or where or by how much they differ.
+
+    `origin` is where the block begins, so that entries are numbered as in the whole.
+    """
     for find in (_plain, _triangle, _diagonal, _shuffled):
         relation = find(a, b, tolerance)
         if relation is not None:
             return relation
-    return _entries(a, b, tolerance)
+    return _entries(a, b, tolerance, origin)
 
 
 def _same(a: Array, b: Array, tolerance: float) -> bool:
@@ -139,7 +143,7 @@ def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
     if _same(a * ~on, b * ~on, tolerance):
         return say("off diagonal")
     right = _same(a * on, b * on, tolerance) and not _same(b * on, np.zeros_like(b), tolerance)
-    return say("diagonal") if right else None
+    return say("diagonal") if right and (np.abs(a - b) > tolerance).sum() > 3 else None
 
 
 def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
@@ -154,14 +158,14 @@ def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
     return None
 
 
-def _entries(a: Array, b: Array, tolerance: float) -> Text:
+def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
     """Say where two arrays differ, or by how much, where nothing better can be said."""
     wrong = np.abs(a - b) > tolerance
     error = float(np.abs(a - b).max() / max(np.abs(b).max(initial=0), FLOOR))
     if error < 1e-3:
         return say("inexact", digits=int(-np.log10(error)))
     if b.ndim and 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
-        where = np.argwhere(wrong)
+        where = np.argwhere(wrong) + origin
         signs = (np.abs(a + b)[wrong] <= tolerance).all()
         text = say("entries", entries=_places(where))
         return say("is", what=text, relation=say("sign")) if signs else text

@@ -12,7 +12,7 @@ from . import catalogue
 from .exercise import Exercise, Part
 from .text import Language, Text, default_language
 from .workbook import STATE_FILE, Workbook
-from .wrapping import wrapped
+from .wrapping import columns, wrapped
 
 __all__ = ["skeleton", "solved", "source_of", "start"]
 
@@ -119,7 +119,10 @@ def _exercise(exercise: Exercise, language: Language, *, solve: bool) -> str:
 
 
 def _docstring(part: Part, language: Language) -> str:
-    return textwrap.indent('"""' + inspect.cleandoc(part.doc.of(language)) + '\n"""', "    ") + "\n"
+    """Write the docstring of a function, on one line where it fits."""
+    lines = [line for text in inspect.cleandoc(part.doc.of(language)).split("\n") for line in wrapped(text, 94) or [""]]
+    end = "\n" if len(lines) > 1 or columns(lines[0]) > 88 else ""
+    return textwrap.indent('"""' + "\n".join(lines) + end + '"""', "    ") + "\n"
 
 
 def _head(part: Part) -> str:

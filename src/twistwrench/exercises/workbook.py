@@ -7,7 +7,6 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cached_property
-from importlib.util import module_from_spec, spec_from_file_location
 from os import PathLike
 from pathlib import Path
 from types import ModuleType
@@ -99,14 +98,11 @@ class Workbook:
     def _read(self, path: Path) -> ModuleType | Text:
         if not path.exists():
             return say("no file", file=path.name)
-        spec = spec_from_file_location(path.stem, path)
-        if spec is None or spec.loader is None:
-            return say("no file", file=path.name)
-        module = module_from_spec(spec)
-        module.__dict__["__workbook__"] = self
+        module = ModuleType(path.stem)
+        module.__dict__.update(__file__=str(path), __workbook__=self)
         try:
-            with _importable(self.folder):
-                spec.loader.exec_module(module)
+            with _importable(self.folder):  # compiled anew each time: a cached file can be older than the last change
+                exec(compile(path.read_text(encoding="utf-8"), path, "exec"), module.__dict__)
         except Exception as error:  # whatever the student's file raises becomes a message
             line = f", line {error.lineno}" if isinstance(error, SyntaxError) else ""
             return say("file", file=path.name + line, error=f"{type(error).__name__}: {getattr(error, 'msg', error)}")
