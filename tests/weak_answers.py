@@ -29,7 +29,7 @@ ANSWERS = [
         "n = sum(6 if k == 'free_flyer' else 3 if k == 'spherical' else 1 for k in kinds)\nreturn n + 1, n",
         "nq: too small",
     ),
-    Weak("newton_euler", "return I_c @ alpha, m * a_c", "gyroscopic term V ×* I V is missing"),
+    Weak("newton_euler", "return I_c @ alpha, m * a_c", "gyroscopic term is missing"),
     Weak("newton_euler", "return m * a_c, I_c @ alpha + np.cross(omega, I_c @ omega)", "swapped"),
     # 49.1
     Weak("sizes", "return 19, 19, 18, 18", "nq in place of nv"),

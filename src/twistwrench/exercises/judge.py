@@ -17,8 +17,12 @@ from .diagnose import explain
 from .exercise import Exercise, Part
 from .phrases import say
 from .text import Text
+from .wrapping import hanging
 
 __all__ = ["State", "Verdict", "judge"]
+
+ROOM = 96
+"""Columns for the arguments of a case."""
 
 State = Literal["to do", "done", "wrong"]
 
@@ -42,7 +46,7 @@ class Verdict:
 
     def message(self, language: Literal["en", "zh"]) -> str:
         """Return the message in one language."""
-        return "\n".join(line.of(language) for line in self.lines)
+        return "\n".join(piece for line in self.lines for piece in hanging(line.of(language)))
 
 
 class _Stop(Exception):
@@ -128,18 +132,19 @@ def _context(part: Part, cases: Sequence[tuple[Any, ...]], right: list[bool]) ->
         return []
     wrong = right.count(False)
     names = [name.partition("=")[0] for name in part.arguments.split(", ")]
-    shown = ", ".join(f"{name} = {_short(x)}" for name, x in zip(names, arguments))
+    shown = "    " + ", ".join(f"{name} = {_short(x)}" for name, x in zip(names, arguments))
+    shown = shown if len(shown) <= ROOM else shown[:ROOM] + " ..."
     first = say("all wrong", all=len(cases)) if wrong == len(cases) else say("cases", wrong=wrong, all=len(cases))
-    return [first, Text(f"    {shown}", f"    {shown}")]
+    return [first, Text(shown, shown)]
 
 
 def _short(x: Any) -> str:
     """Write an argument on little room."""
     if isinstance(x, np.ndarray):
-        if x.ndim > 1 or x.size > 9:
+        if x.ndim > 1 or x.size > 6:
             return f"array {x.shape}"
-        return np.array2string(x, precision=3, separator=", ", suppress_small=True)
+        return "[" + ", ".join(f"{entry:.3g}" for entry in x) + "]"
     if isinstance(x, float):
         return f"{x:.4g}"
     text = " ".join(str(getattr(x, "name", x)).split())
-    return text if len(text) <= 40 else type(x).__name__
+    return text if len(text) <= ROOM or isinstance(x, list) else type(x).__name__

@@ -6,7 +6,7 @@ import inspect
 import re
 import unicodedata
 
-__all__ = ["columns", "wrapped"]
+__all__ = ["columns", "hanging", "wrapped"]
 
 WIDTH = 98
 NO_START = "、。,;:!?)】》”’,.;:!?)"
@@ -30,6 +30,15 @@ def wrapped(text: str, width: int = WIDTH) -> list[str]:
                 flowing.append(line.strip())
         lines += [*_fill(flowing, width), ""]
     return lines[:-1]
+
+
+def hanging(line: str, width: int = WIDTH) -> list[str]:
+    """Break one line of a message, and indent what follows like its beginning. Code (indented by four) stays."""
+    indent = line[: len(line) - len(line.lstrip(" -"))]
+    if (len(indent) >= 4 and "-" not in indent) or columns(line) <= width:
+        return [line]
+    first, *others = _fill([line[len(indent) :]], width - len(indent))
+    return [indent + first, *(" " * len(indent) + other for other in others)]
 
 
 def _fill(parts: list[str], width: int) -> list[str]:

@@ -52,7 +52,10 @@ ROTATION = Part(
     ),
     returns=(Quantity("X", MOTION_TRANSFORM),),
     cases=lambda rng: [(exp3(rng.standard_normal(3)),) for _ in range(4)],
-    slips={"rotation-transposed": before(rotation_transform, lambda R: R.mT, which=0)},
+    slips={
+        "rotation-transposed": before(rotation_transform, lambda R: R.mT, which=0),
+        "half-rotated": lambda R: np.block([[R, 0 * R], [0 * R, np.eye(3)]]),
+    },
 )
 
 BOTH = Part(

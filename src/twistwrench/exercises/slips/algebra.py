@@ -78,8 +78,8 @@ ALGEBRA = {
             "用了逆变换:从 A 到 B,而不是从 B 到 A",
         ),
         Text(
-            "Read the letters: V_A = X_AB V_B. The B of X_AB meets the B of V_B.",
-            "看下标:V_A = X_AB V_B,X_AB 的 B 与 V_B 的 B 相邻。",
+            "Read the letters, x_A = T_AB x_B and V_A = X_AB V_B: what is known in B meets the B of the transform.",
+            "看下标:x_A = T_AB x_B,V_A = X_AB V_B;已知量的 B 与变换的 B 相邻。",
         ),
         "49.3",
     ),
@@ -112,7 +112,7 @@ ALGEBRA = {
             "A point moves with its frame, x_A = R x_B + p. Directions only rotate.",
             "点随坐标系平移:x_A = R x_B + p;只有方向向量才只旋转。",
         ),
-        "49.0",
+        "49.3",
     ),
     "translation-first": Slip(
         Text("the translation comes before the rotation", "先平移后旋转,顺序错了"),
@@ -120,7 +120,7 @@ ALGEBRA = {
             "p has coordinates in A: rotate first, then add it. R (x + p) adds it in B.",
             "p 是 A 中的坐标:先旋转再相加。R (x + p) 相当于在 B 中相加。",
         ),
-        "49.0",
+        "49.3",
     ),
     "skew-sign": Slip(
         Text("the cross matrix is transposed: every sign is wrong", "反对称矩阵被转置:符号全反"),
@@ -128,7 +128,7 @@ ALGEBRA = {
             "[ω]× has −ω₃ in row 0, column 1, so that [ω]× x = ω × x. Its transpose gives x × ω.",
             "[ω]× 第 0 行第 1 列是 −ω₃,这样 [ω]× x = ω × x;其转置给出 x × ω。",
         ),
-        "49.0",
+        "49.2",
     ),
     "skew-symmetric": Slip(
         Text("the cross matrix is symmetric: the minus signs are missing", "反对称矩阵写成了对称矩阵:漏了负号"),
@@ -136,7 +136,7 @@ ALGEBRA = {
             "A cross product changes sign with the order of its factors, so [ω]×ᵀ = −[ω]×.",
             "叉积交换次序变号,所以 [ω]×ᵀ = −[ω]×。",
         ),
-        "49.0",
+        "49.2",
     ),
     "cross-order": Slip(
         Text("the factors of the cross product are exchanged", "叉积的两个因子次序颠倒"),
@@ -232,7 +232,7 @@ ALGEBRA = {
             "p is the origin of B as A sees it, so it is added: x_A = R x_B + p.",
             "p 是 A 中看到的 B 的原点,应当相加:x_A = R x_B + p。",
         ),
-        "49.0",
+        "49.3",
     ),
     "untransformed": Slip(
         Text("the change of frame is left out", "没有做坐标变换"),
@@ -281,5 +281,10 @@ ALGEBRA = {
         Text("a length in place of a velocity: ω is missing", "给出的是长度而不是速度:漏乘 ω"),
         Text("v = ω r, in m/s.", "v = ω r,单位 m/s。"),
         "49.2",
+    ),
+    "half-rotated": Slip(
+        Text("only one half is rotated", "只旋转了一半"),
+        Text("Both ω and v change axes: R stands on the diagonal twice.", "ω 和 v 都要换坐标轴:对角线上有两个 R。"),
+        "49.3",
     ),
 }

@@ -44,10 +44,10 @@ DYNAMICS = {
         "49.6",
     ),
     "gyroscopic-missing": Slip(
-        Text("the gyroscopic term V ×* I V is missing", "漏了陀螺项 V ×* I V"),
+        Text("the gyroscopic term is missing", "漏了陀螺项"),
         Text(
-            "The momentum I V is carried round by the body: its derivative gains V ×* I V.",
-            "动量 I V 随刚体转动,导数中多出 V ×* I V。",
+            "The body carries its momentum round as it turns: the rate gains V ×* I V, in three dimensions ω × I ω.",
+            "动量随刚体转动,变化率中多出 V ×* I V,三维时是 ω × I ω。",
         ),
         "49.6",
     ),
@@ -89,8 +89,8 @@ DYNAMICS = {
     "external-sign": Slip(
         Text("the outside force is added in place of subtracted", "外力被加上,应当减去"),
         Text(
-            "What the ground gives, the joints need not: τ = M a + h − Jᵀf.",
-            "地面提供的力无需关节提供:τ = M a + h − Jᵀf。",
+            "What the surroundings give, the joints need not: τ = M a + h − Jᵀf.",
+            "环境提供的力无需关节提供:τ = M a + h − Jᵀf。",
         ),
         "49.1",
     ),
@@ -124,13 +124,16 @@ DYNAMICS = {
         "49.7",
     ),
     "bias-for-zero": Slip(
-        Text("h is left out: M a = τ without gravity and velocity terms", "漏了 h:写成 M a = τ,没有重力和速度项"),
-        Text("Forward dynamics is a = M⁻¹ (τ − h).", "正动力学是 a = M⁻¹ (τ − h)。"),
+        Text("h is left out: gravity and the velocity terms are missing", "漏了 h:没有重力项和速度项"),
+        Text("The equation is M a + h = τ, or a = M⁻¹ (τ − h).", "方程是 M a + h = τ,即 a = M⁻¹ (τ − h)。"),
         "49.7",
     ),
     "bias-sign": Slip(
-        Text("h is added to τ in place of subtracted", "h 被加到 τ 上,应当减去"),
-        Text("M a + h = τ, so a = M⁻¹ (τ − h).", "M a + h = τ,所以 a = M⁻¹ (τ − h)。"),
+        Text("h has the wrong sign", "h 的符号错了"),
+        Text(
+            "h stands beside M a: M a + h = τ, and a = M⁻¹ (τ − h).",
+            "h 与 M a 在同一边:M a + h = τ,所以 a = M⁻¹ (τ − h)。",
+        ),
         "49.7",
     ),
     "joints-missing": Slip(
