@@ -38,7 +38,7 @@ def run_on_copy(folder: Path, fault: Fault | None) -> subprocess.CompletedProces
         file = package / fault.file
         file.write_text(file.read_text(encoding="utf-8").replace(fault.right, fault.wrong), encoding="utf-8")
     tests = [str(ROOT / "tests" / name) for name in PHYSICS_AND_ORACLES]
-    options = ["-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:doctest"]
+    options = ["-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "-p", "no:xdist"]
     return subprocess.run(
         [sys.executable, "-m", "pytest", "-o", "addopts=--import-mode=importlib", *options, *tests],
         cwd=ROOT,
