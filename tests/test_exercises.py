@@ -2,14 +2,17 @@
 
 import subprocess
 import sys
+from importlib import import_module
 from itertools import combinations
+from pkgutil import iter_modules
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, checking, hint, skeletons, solution, start, status
+from twistwrench.exercises import catalogue, checking, hint, skeletons, slips, solution, start, status
 from twistwrench.exercises.compare import agree
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.slips import SLIPS
@@ -79,6 +82,13 @@ def test_the_catalogue_of_slips():
     assert len(titles) == len(set(titles))
 
 
+def test_no_two_files_define_one_slip():
+    files = [import_module(f"twistwrench.exercises.slips.{m.name}") for m in iter_modules(slips.__path__)]
+    tables = [value for file in files for value in vars(file).values() if isinstance(value, dict) and value]
+    keys = [key for table in tables for key, value in table.items() if isinstance(value, slips.Slip)]
+    assert sorted(keys) == sorted(SLIPS)
+
+
 def test_every_slip_of_the_catalogue_occurs_somewhere():
     missing = set(SLIPS) - {cell.slip for cell in slip_table()}
     if {*catalogue.available()} != CHAPTER:
@@ -142,6 +152,20 @@ def test_what_is_not_begun_is_to_do(e, part):
 
     if part.call is None:
         assert judge(e, part, untouched).state == judge(e, part, raising).state == "to do"
+
+
+def test_the_twist_of_the_foot_is_pinocchios():
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    model = tw.load("go2")
+    theirs = tw.bridge.to_pinocchio_model(model)
+    data, frame = theirs.createData(), theirs.getFrameId("FR_foot")
+    q = model.random_configuration(rng=np.random.default_rng(3))
+    v = np.zeros(theirs.nv)
+    v[5] = 0.5  # Pinocchio's order: the base's ω_z comes sixth
+    pin.forwardKinematics(theirs, data, q, v)
+    V = pin.getFrameVelocity(theirs, data, frame, pin.LOCAL)
+    ours = catalogue.find_part("foot_twist")[1].solution(model, q, 0.5)
+    np.testing.assert_allclose(ours, [*V.angular, *V.linear], atol=1e-14)
 
 
 # ---------------------------------------------------------------- a student's path
