@@ -210,15 +210,16 @@ def test_the_arrows_of_a_pass_lead_its_way(inward, flat):
     amounts = np.arange(MODEL.nbodies)
     plot.flow(MODEL, [str(i) for i in range(MODEL.nbodies)], inward=inward, amounts=amounts, ax=flat)
     seats = plot.seats(MODEL)
-    arrows = [text for text in flat.texts if getattr(text, "arrow_patch", None) is not None]
-    assert len(arrows) == MODEL.nbodies - 1
-    for i, arrow in enumerate(arrows, start=1):
-        start, tip = np.array(arrow.xyann), np.array(arrow.xy)
-        assert (tip[0] < start[0]) == inward
-        near, far = (tip, start) if inward else (start, tip)
+    assert len(flat.patches) == MODEL.nbodies - 1
+    for i, arrow in enumerate(flat.patches, start=1):
+        way = arrow._path_original.vertices  # ends at the tip
+        assert (way[-1, 0] < way[0, 0]) == inward
+        near, far = (way[-1], way[0]) if inward else (way[0], way[-1])
+        assert 0 < near[0] - seats[MODEL.parent[i], 0] < 0.5
+        assert 0 < seats[i, 0] - far[0] < 0.5
         assert near[1] == seats[MODEL.parent[i], 1]
         assert far[1] == seats[i, 1]
-    widths = np.array([arrow.arrow_patch.get_linewidth() for arrow in arrows])
+    widths = np.array([arrow.get_linewidth() for arrow in flat.patches])
     np.testing.assert_allclose(widths, 1 + 4 * np.sqrt(amounts[1:] / amounts.max()), rtol=1e-12)
 
 
@@ -227,8 +228,10 @@ def test_each_text_stands_at_its_arrow(flat):
     seats = plot.seats(MODEL)
     places = {text.get_text(): np.array(getattr(text, "xy", text.get_position())) for text in flat.texts}
     for i in range(1, MODEL.nbodies):
-        np.testing.assert_allclose(places[f"<{i}>"], (seats[i] + seats[MODEL.parent[i]]) / 2, rtol=1e-12)
+        way = flat.patches[i - 1]._path_original.vertices
+        np.testing.assert_allclose(places[f"<{i}>"], way[1:].mean(axis=0), rtol=1e-12)  # above the level part
     np.testing.assert_allclose(places["<0>"], seats[0] - [0, 0.45], rtol=1e-12)
+    np.testing.assert_array_equal(places["base"], seats[1])
     np.testing.assert_array_equal(places["FL_hip"], seats[2])
 
 

@@ -97,18 +97,25 @@ def flow(
     width = 1 + 4 * np.sqrt(np.abs(size) / (np.abs(size[1:]).max(initial=0) or 1.0))
     ax = axes_2d(ax, size=(11.0, 3.2))
     names = ["world", *(name.removesuffix("_joint") for name in model.joint_names[1:])]
+    names[1:2] = ["base"] if model.base == "floating" else names[1:2]
     box = {"boxstyle": "round,pad=0.35", "facecolor": "0.93", "edgecolor": COLOURS["black"]}
     for place, name in zip(seat, names):
         ax.text(*place, name, ha="center", va="center", fontsize=9, bbox=box, zorder=3)
     if texts[0]:
         ax.text(*(seat[0] + [0, -0.45]), texts[0], ha="center", va="center", fontsize=9, color=colour)
     for i in range(1, model.nbodies):
-        ends = [seat[model.parent[i]] + [0.28, 0], seat[i] - [0.28, 0]]
-        start, end = reversed(ends) if inward else ends
-        style = {"arrowstyle": "-|>", "color": colour, "linewidth": width[i], "shrinkA": 0, "shrinkB": 0}
-        ax.annotate("", end, start, arrowprops=style)
-        middle = np.mean(ends, axis=0)
-        ax.annotate(texts[i], middle, (0, 5), textcoords="offset points", ha="center", va="bottom", fontsize=8)
+        end = seat[i] - [0.28, 0]
+        way = np.array([seat[model.parent[i]] + [0.24, 0], end - [0.36, 0], end])  # then level, below its text
+        _arrow(ax, way[::-1] if inward else way, color=colour, linewidth=width[i])
+        ax.annotate(texts[i], end - [0.18, 0], (0, 5), textcoords="offset points", ha="center", va="bottom", fontsize=8)
     ax.set(xlim=(-0.4, seat[:, 0].max() + 0.4), ylim=(seat[:, 1].min() - 0.5, 0.6))
     ax.axis("off")
     return ax
+
+
+def _arrow(ax: Any, way: Array, **style: Any) -> None:
+    """Draw an arrow along a broken line."""
+    from matplotlib.patches import FancyArrowPatch
+    from matplotlib.path import Path
+
+    ax.add_patch(FancyArrowPatch(path=Path(way), arrowstyle="-|>", mutation_scale=11, joinstyle="round", **style))
