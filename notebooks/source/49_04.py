@@ -1,0 +1,411 @@
+# %% [markdown] lang="en"
+# # 49.4 Wrenches
+#
+# A wrench is a force on a rigid body in six numbers, $\boldsymbol F = (\boldsymbol\tau, \boldsymbol f)$: its moment about
+# the origin of the frame, and the force. This notebook shows what it has to do with a twist, how it changes frame, which
+# screw hides in it, and what the ground can and cannot do to a foot.
+# %% [markdown] lang="zh"
+# # 49.4 Wrench(空间力)
+#
+# Wrench 用六个数表示作用在刚体上的力,$\boldsymbol F = (\boldsymbol\tau, \boldsymbol f)$:对坐标系原点的力矩,再加上力。
+# 这个笔记本说明它与 twist 的关系,换坐标系时怎样变,里面藏着怎样的螺旋,以及地面能对脚做什么、不能做什么。
+# %%
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import plot
+
+model = tw.load("go2")
+q = model.standing()
+q[:2] = 0.6, 0.3
+v = np.zeros(model.nv)
+v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
+# %% [markdown] lang="en"
+# ## Power: what a wrench is for
+#
+# Somebody pushes the robot's nose forward and to the left, $\boldsymbol f = (10, 15, 0)$ N at
+# $\boldsymbol r = (0.28, 0, 0)$ m of the base. About the base's origin that is the wrench
+# $(\boldsymbol r \times \boldsymbol f, \boldsymbol f)$. The power of the push is the force times the velocity of the
+# *nose*, $\boldsymbol f \cdot (\boldsymbol v + \boldsymbol\omega \times \boldsymbol r)$. Turn the triple product round,
+# and the nose is gone:
+#
+# $$P = \boldsymbol f^T \boldsymbol v + (\boldsymbol r \times \boldsymbol f)^T \boldsymbol\omega = \boldsymbol F^T
+# \boldsymbol V.$$
+#
+# So a wrench is what turns a twist into watts. This is why $\boldsymbol\tau$ stands where $\boldsymbol\omega$ stands, and
+# $\boldsymbol f$ where $\boldsymbol v$ does. A twist and a wrench live in different spaces, dual to each other: you can
+# pair them, you cannot add them.
+# %% [markdown] lang="zh"
+# ## 功率:wrench 的用处
+#
+# 有人向左前方推机器人的鼻子:在基座坐标系的 $\boldsymbol r = (0.28, 0, 0)$ m 处,$\boldsymbol f = (10, 15, 0)$ N。
+# 对基座原点来说,这就是 wrench $(\boldsymbol r \times \boldsymbol f, \boldsymbol f)$。推力的功率等于力乘以
+# *鼻子*的速度,$\boldsymbol f \cdot (\boldsymbol v + \boldsymbol\omega \times \boldsymbol r)$。把混合积轮换一下,
+# 鼻子就不见了:
+#
+# $$P = \boldsymbol f^T \boldsymbol v + (\boldsymbol r \times \boldsymbol f)^T \boldsymbol\omega = \boldsymbol F^T
+# \boldsymbol V.$$
+#
+# 所以 wrench 就是把 twist 变成瓦特的东西。正因为如此,$\boldsymbol\tau$ 与 $\boldsymbol\omega$ 放在同一位置,
+# $\boldsymbol f$ 与 $\boldsymbol v$ 放在同一位置。Twist 和 wrench 属于两个互为对偶的空间:可以配对,不能相加。
+# %%
+r, f = np.array([0.28, 0, 0]), np.array([10.0, 15.0, 0])
+F = np.concatenate([np.cross(r, f), f])  # of the push, in the base's frame
+V = v[:6]  # of the base, in its own frame
+
+assert np.isclose(tw.power(F, V), f @ plot.point_velocity(V, r))
+assert np.isclose(tw.Wrench(F, frame="base") @ tw.Twist(V, frame="base"), tw.power(F, V))
+try:
+    tw.Wrench(F) + tw.Twist(V)
+except TypeError as refused:
+    print(refused)
+else:
+    raise AssertionError("a wrench has been added to a twist")
+# %% [markdown] lang="en"
+# ## The same watts in every frame
+#
+# Who looks does not matter: the power has to be the same in the frame $B$ of the base, in the world $A$, in the frame of
+# a foot. The twist changes by $\boldsymbol V_A = X \boldsymbol V_B$ (49.3). Then
+# $\boldsymbol F_A^T X \boldsymbol V_B = \boldsymbol F_B^T \boldsymbol V_B$ for every twist, and that fixes how a
+# wrench must change:
+#
+# $$\boldsymbol F_B = X^T \boldsymbol F_A, \qquad \boldsymbol F_A = X^{-T} \boldsymbol F_B = X^* \boldsymbol F_B,
+# \qquad X^* = \begin{pmatrix} R & [\boldsymbol p]_\times R \\ 0 & R \end{pmatrix}.$$
+#
+# Written out, $\boldsymbol f_A = R \boldsymbol f_B$ and
+# $\boldsymbol\tau_A = R \boldsymbol\tau_B + \boldsymbol p \times R \boldsymbol f_B$: the force only turns, the moment
+# also gets the lever $\boldsymbol p$. The coupling that stands bottom left in $X$ stands top right in $X^*$. Note that
+# $X^*$ is not $X^T$: the transpose leads the *other way*, from $A$ to $B$.
+# %% [markdown] lang="zh"
+# ## 在每个坐标系里都是同样的瓦特数
+#
+# 谁来看都一样:无论在基座坐标系 $B$、世界 $A$ 还是脚的坐标系里,功率必须相同。Twist 按
+# $\boldsymbol V_A = X \boldsymbol V_B$ 变换(49.3)。于是对任意 twist 都有
+# $\boldsymbol F_A^T X \boldsymbol V_B = \boldsymbol F_B^T \boldsymbol V_B$,wrench 的变换规则也就定下来了:
+#
+# $$\boldsymbol F_B = X^T \boldsymbol F_A, \qquad \boldsymbol F_A = X^{-T} \boldsymbol F_B = X^* \boldsymbol F_B,
+# \qquad X^* = \begin{pmatrix} R & [\boldsymbol p]_\times R \\ 0 & R \end{pmatrix}.$$
+#
+# 展开就是 $\boldsymbol f_A = R \boldsymbol f_B$ 和
+# $\boldsymbol\tau_A = R \boldsymbol\tau_B + \boldsymbol p \times R \boldsymbol f_B$:力只需旋转,力矩还要加上力臂
+# $\boldsymbol p$ 的一项。耦合项在 $X$ 里位于左下,在 $X^*$ 里位于右上。注意 $X^*$ 不是 $X^T$:转置走的是*反方向*,
+# 从 $A$ 到 $B$。
+# %%
+base = tw.forward_kinematics(model, q).placement[1]
+foot = tw.frame_placement(model, q, "FR_foot")
+X, X_star = foot.motion_transform(), foot.force_transform()
+assert np.allclose(X_star, np.linalg.inv(X).T, atol=1e-15)
+assert not np.allclose(X_star, X.T)
+
+figure, axes = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
+plot.matrix(X, "X, for twists: foot to world", rows=plot.ANGULAR_LINEAR, columns=plot.ANGULAR_LINEAR, ax=axes[0])
+wrench_names = ["τx", "τy", "τz", "fx", "fy", "fz"]
+plot.matrix(X_star, "X*, for wrenches: foot to world", rows=wrench_names, columns=wrench_names, ax=axes[1])
+plt.show()
+# %% [markdown] lang="en"
+# Now the push in five frames. Each bar is the power, split into the part of the force and the part of the moment. The
+# sum is the same, to rounding. The two parts are not: move the origin aside, and they grow, one against the other. The
+# chapter reads them as "translational" and "rotational" power; they only say where the origin is.
+# %% [markdown] lang="zh"
+# 现在把这一推放到五个坐标系里看。每根柱子是功率,分成力的部分和力矩的部分。总和都相同(只差舍入误差)。这两部分却不同:
+# 把原点向旁边移远,两者就越来越大,彼此抵消。本章把它们读作"平动功率"和"转动功率",其实它们只说明原点放在哪里。
+# %%
+frames = {  # each one placed in the world
+    "base": base,
+    "nose": base @ tw.SE3(np.eye(3), r),
+    "foot": foot,
+    "world": tw.SE3.identity(),
+    "3 m off": tw.SE3(np.eye(3), [-1.9, 2.0, 0]),
+}
+parts = {}
+for name, T in frames.items():
+    to_frame = T.inverse() @ base  # the base, placed in this frame
+    F_there, V_there = to_frame.force_transform() @ F, to_frame.motion_transform() @ V
+    parts[name] = F_there[3:] @ V_there[3:], F_there[:3] @ V_there[:3]
+    assert np.isclose(sum(parts[name]), tw.power(F, V), rtol=1e-13)
+force_part, moment_part = np.array(list(parts.values())).T
+assert np.ptp(force_part) > 10  # W: this is no property of the push
+assert np.isclose(moment_part[1], 0)  # about the nose the push has no moment
+
+ax = plot.axes_2d(size=(7, 3.2))
+x = np.arange(len(parts))
+ax.bar(x - 0.18, force_part, 0.32, color=plot.COLOURS["sky"], label="f · v")
+ax.bar(x + 0.18, moment_part, 0.32, color=plot.COLOURS["orange"], label="τ · ω")
+ax.plot(x, force_part + moment_part, "D", color=plot.COLOURS["black"], label="power")
+ax.axhline(0, color="k", linewidth=0.8)
+ax.set(xticks=x, xticklabels=parts, ylabel="W", title="one push, five frames")
+ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+plt.show()
+# %% [markdown] lang="en"
+# ## What a foot gets from the ground
+#
+# Go2 stands on rubber balls. A contact that small is a **point contact**: it transmits a force, but no moment about
+# itself. In a frame at the foot the wrench is $(\boldsymbol 0, \boldsymbol f)$, three numbers in place of six. Seen from
+# the origin of the world the very same force has the moment $\boldsymbol p \times \boldsymbol f$: nothing was added, the
+# moment is now taken about another point. In one frame, wrenches add. The four feet together balance the weight, in
+# force *and* in moment:
+# %% [markdown] lang="zh"
+# ## 地面给脚的 wrench
+#
+# Go2 站在小橡胶球上。这么小的接触就是**点接触**:能传递力,对接触点本身没有力矩。在脚处的坐标系里,wrench 是
+# $(\boldsymbol 0, \boldsymbol f)$,六个数只剩三个。从世界原点看,同一个力却有力矩 $\boldsymbol p \times \boldsymbol f$:
+# 并没有多出什么,只是力矩换了一个参考点来取。在同一个坐标系里,wrench 可以相加。四只脚合起来与重力平衡,
+# 不光是力,*力矩*也平衡:
+# %%
+held = tw.static_equilibrium(model, q)
+at_foot = np.concatenate([np.zeros((4, 3)), held.forces], axis=-1)  # (0, f), in the axes of the world
+places = np.array([tw.frame_placement(model, q, name).translation for name in model.feet])
+in_world = np.matvec(tw.force_transform(np.eye(3), places), at_foot)
+for name, wrench in zip(model.feet, in_world):
+    print(f"{name}: moment about the world's origin {wrench[:3].round(2)} N m, force {wrench[3:].round(2) + 0.0} N")
+
+assert np.allclose(in_world[:, :3], np.cross(places, held.forces))
+weight = model.mass * model.gravity
+of_gravity = np.concatenate([np.cross(tw.center_of_mass(model, q), weight), weight])
+assert np.allclose(in_world.sum(axis=0) + of_gravity, 0, atol=1e-12)
+# %%
+ax = plot.robot(model, q)
+for place in places:
+    ax.plot(*np.stack([np.zeros(3), place], axis=-1), ":", color=plot.COLOURS["grey"], linewidth=1)
+plot.arrows(places, held.forces, scale=0.006, label="f at each foot [39 N]", ax=ax)
+colour = plot.COLOURS["blue"]
+names = [name[:2] for name in model.feet]
+plot.arrows(
+    np.zeros(3), in_world[:, :3], scale=0.01, colour=colour, texts=names, label="moment about the origin", ax=ax
+)
+ax.text(0, 0, 0.03, "origin of the world", ha="center", fontsize=9)
+ax.view_init(elev=35, azim=-75)
+ax.legend(loc="upper left")
+plt.show()
+# %% [markdown] lang="en"
+# The dotted lines are the levers; each moment is at right angles to its lever and to the force. (The chapter's first
+# exercise makes Go2 12 kg heavy. The model that the chapter loads has 16.085 kg: 39.45 N for each foot on average, a
+# little more behind than in front.)
+#
+# ## From wrenches to joints
+#
+# A force at a foot moves the joints as well. The foot's Jacobian says how fast the foot is, $\boldsymbol v_i = J_i v$;
+# equal power, $\boldsymbol f_i^T J_i v = (J_i^T \boldsymbol f_i)^T v$, says how its force enters the equation of motion:
+# by $J_i^T$. For all feet that is $J_c^T \boldsymbol\lambda$. The same thing another way: hand the wrench to `rnea` as
+# `f_ext`, on the body that carries the foot and in its frame.
+# %% [markdown] lang="zh"
+# 虚线是力臂;每个力矩都垂直于自己的力臂,也垂直于力。(本章第一道练习里的 Go2 是 12 kg。本章加载的那个模型是
+# 16.085 kg,平均每只脚 39.45 N,后脚比前脚略多。)
+#
+# ## 从 wrench 到关节
+#
+# 脚上的力也会带动关节。脚的 Jacobian 说的是脚有多快,$\boldsymbol v_i = J_i v$;由功率相等,
+# $\boldsymbol f_i^T J_i v = (J_i^T \boldsymbol f_i)^T v$,就知道力怎样进入运动方程:乘 $J_i^T$。所有脚合起来就是
+# $J_c^T \boldsymbol\lambda$。也可以换条路:把 wrench 作为 `f_ext` 交给 `rnea`,放在带着这只脚的刚体上,用它自己的坐标系。
+# %%
+J_c = tw.contact_jacobian(model, q, model.feet)  # 12 × 18
+lam = held.forces.ravel()
+assert np.isclose(lam @ (J_c @ v), (J_c.T @ lam) @ v)
+
+f_ext = np.zeros((model.nbodies, 6))
+kin = tw.forward_kinematics(model, q)
+for name, wrench in zip(model.feet, in_world):
+    body = model.frames[name].body
+    f_ext[body] = kin.placement[body].inverse().force_transform() @ wrench  # from the world to the body
+rest = np.zeros(model.nv)
+assert np.allclose(tw.rnea(model, q, rest, rest) - tw.rnea(model, q, rest, rest, f_ext), J_c.T @ lam)
+assert np.allclose(tw.rnea(model, q, rest, rest, f_ext)[:6], 0, atol=1e-12)  # nobody need hold the base
+# %% [markdown] lang="en"
+# ## The screw of a wrench
+#
+# As every twist is a turning about an axis and a sliding along it, every wrench is a force along an axis and a moment
+# about it. The axis runs along $\boldsymbol f$ through $\boldsymbol f \times \boldsymbol\tau / |\boldsymbol f|^2$; the
+# pitch $h = \boldsymbol f^T\boldsymbol\tau / |\boldsymbol f|^2$ is the moment for each newton. With $h = 0$ it is a pure
+# force: four standing feet act like one force through the centre of mass. A couple has $\boldsymbol f = 0$, infinite
+# pitch, and no place of its own.
+# %% [markdown] lang="zh"
+# ## Wrench 的螺旋
+#
+# 每个 twist 都是绕一条轴转动并沿它滑动;同样,每个 wrench 都是沿一条轴的力加上绕它的力矩。轴的方向是
+# $\boldsymbol f$,经过点 $\boldsymbol f \times \boldsymbol\tau / |\boldsymbol f|^2$;螺距
+# $h = \boldsymbol f^T\boldsymbol\tau / |\boldsymbol f|^2$ 是每牛顿带的力矩。$h = 0$ 时是纯力:站立的四只脚合起来,
+# 就像一个经过质心的力。力偶的 $\boldsymbol f = 0$,螺距无穷大,没有自己的位置。
+# %%
+together = tw.Wrench(in_world.sum(axis=0), frame="world").screw()
+assert np.isclose(together.pitch, 0, atol=1e-15)
+assert np.allclose(together.point[:2], tw.center_of_mass(model, q)[:2])
+
+couple = tw.screw([0, 0, 5.0, 0, 0, 0], of="wrench")
+assert couple.pitch == np.inf
+for p in np.random.default_rng(0).standard_normal((9, 3)):  # the same about every point
+    assert np.array_equal(tw.force_transform(np.eye(3), p) @ [0, 0, 5.0, 0, 0, 0], [0, 0, 5.0, 0, 0, 0])
+# %% [markdown] lang="en"
+# Now a moment of a trot: only two feet stand, front left and rear right, and push sideways to turn the robot. Together
+# that is a screw with a pitch. Both feet carry the same here, so its axis runs through the middle between them. The cones are what friction
+# allows at a point, the **friction cone** $\sqrt{f_x^2 + f_y^2} \le \mu f_z$, here with $\mu = 0.6$: a force inside does
+# not slip.
+# %% [markdown] lang="zh"
+# 再看小跑中的一瞬:只有左前脚和右后脚着地,它们向侧面蹬,让机器人转身。合起来是一个有螺距的螺旋。这里两只脚
+# 承担的力相同,所以轴经过两脚的正中。圆锥是摩擦在一个点上所允许的力,即**摩擦锥**
+# $\sqrt{f_x^2 + f_y^2} \le \mu f_z$,这里 $\mu = 0.6$:力在锥内,脚就不打滑。
+# %%
+mu = 0.6
+stance, push = places[[0, 3]], np.array([[-12.0, 18.0, 78.9], [12.0, -18.0, 78.9]])
+at_stance = np.concatenate([np.zeros((2, 3)), push], axis=-1)
+trot = tw.Wrench(np.matvec(tw.force_transform(np.eye(3), stance), at_stance).sum(axis=0), frame="world")
+axis, point, pitch, magnitude = trot.screw()
+print(f"{magnitude:.1f} N along the axis, {pitch * magnitude:.2f} N m about it: pitch {1000 * pitch:.1f} mm")
+
+assert (np.hypot(push[:, 0], push[:, 1]) < mu * push[:, 2]).all()  # no foot slips
+assert np.isclose(magnitude, push[:, 2].sum())  # the sideways forces cancel
+assert np.allclose(point[:2], stance.mean(axis=0)[:2])
+assert np.isclose(pitch * magnitude, np.cross(stance[0] - stance[1], push[0])[2])  # what is left of them is a moment
+about_axis = trot.moment - np.cross(point, trot.force)
+assert np.allclose(about_axis, pitch * trot.force)  # about its axis, and only there, the moment is along the force
+# %%
+ax = plot.robot(model, q)
+for k, place in enumerate(stance):
+    plot.friction_cone(place, mu, height=0.14, label=None if k else "friction cone", ax=ax)
+plot.arrows(stance, push, scale=0.003, label="force of the ground", ax=ax)
+middle = tw.center_of_mass(model, q)
+plot.screw_axis(trot, length=0.7, near=middle, colour=plot.COLOURS["blue"], label="axis of the two together", ax=ax)
+ax.view_init(elev=22, azim=-70)
+ax.legend(loc="upper left")
+plt.show()
+# %% [markdown] lang="en"
+# ## A sole can do more, but not everything
+#
+# A humanoid has soles: a **surface contact**, six numbers. Think of the pressure under the sole as forces at its four
+# corners. Each can only push. The forces together act at one point of the sole, about which there is no tangential
+# moment, the **centre of pressure** (COP). With $\tau_x = \sum y_i f_i$ and $\tau_y = -\sum x_i f_i$ it is
+#
+# $$x_{COP} = \frac{\sum x_i f_i}{\sum f_i} = -\frac{\tau_y}{f_z}, \qquad y_{COP} = \frac{\sum y_i f_i}{\sum f_i} =
+# \frac{\tau_x}{f_z},$$
+#
+# an average of the corners with weights $f_i \ge 0$. An average cannot leave the sole: that is all there is to
+# $|\tau_x| \le d_y f_z$ and $|\tau_y| \le d_x f_z$.
+# %% [markdown] lang="zh"
+# ## 脚底能做得更多,但不是什么都行
+#
+# 人形机器人有脚底:这是**面接触**,六个数都在。把脚底的压力想成四个角上的力,每个力只能推,不能拉。这些力合起来
+# 作用在脚底的一个点上,对这个点没有切向力矩,它叫**压力中心**(COP)。由 $\tau_x = \sum y_i f_i$ 和
+# $\tau_y = -\sum x_i f_i$ 得
+#
+# $$x_{COP} = \frac{\sum x_i f_i}{\sum f_i} = -\frac{\tau_y}{f_z}, \qquad y_{COP} = \frac{\sum y_i f_i}{\sum f_i} =
+# \frac{\tau_x}{f_z},$$
+#
+# 也就是四个角以 $f_i \ge 0$ 为权的平均。平均不会跑出脚底:$|\tau_x| \le d_y f_z$ 和 $|\tau_y| \le d_x f_z$
+# 说的就是这件事。
+# %%
+human = tw.load("humanoid")
+sole = tw.frame_placement(human, human.standing(), "left_sole")
+corner_names = [f"left_sole_{corner}" for corner in ("fl", "fr", "rr", "rl")]
+corners = np.array(
+    [sole.inverse().act(tw.frame_placement(human, human.standing(), name).translation) for name in corner_names]
+)
+d_x, d_y = np.abs(corners).max(axis=0)[:2]
+print(f"half a sole: {1000 * d_x:.1f} mm long, {1000 * d_y:.1f} mm wide")
+
+
+def wrench_of(forces):
+    """Wrench of forces at the corners, in the frame of the sole."""
+    return np.concatenate([np.cross(corners, forces), forces], axis=-1).sum(axis=-2)
+
+
+rng = np.random.default_rng(1)
+pressure = rng.exponential(25.0, (5000, 4))  # N, at the corners: they push
+slope, turned = mu * rng.random((5000, 4)), rng.uniform(0, 2 * np.pi, (5000, 4))
+rubbing = pressure[..., None] * np.stack([slope * np.cos(turned), slope * np.sin(turned), np.ones((5000, 4))], axis=-1)
+feet = wrench_of(rubbing)  # 5000 wrenches that the ground can bring about
+cop = plot.center_of_pressure(feet)
+assert (np.abs(cop[:, 0]) <= d_x).all()
+assert (np.abs(cop[:, 1]) <= d_y).all()
+assert (np.abs(feet[:, 0]) <= d_y * feet[:, 5]).all()
+assert (np.abs(feet[:, 1]) <= d_x * feet[:, 5]).all()
+# %% [markdown] lang="en"
+# Three ways to stand, seen from above: quietly (the least forces at eight corners that hold the robot), about to tip
+# forward, and beyond: there the heel would have to be *glued* to the floor. The numbers are the forces at the corners.
+# %% [markdown] lang="zh"
+# 三种站法,从上往下看:安静站立(撑住机器人的八个角上的最小力);快要向前倒;已经越界:脚跟得*粘*在地上才行。
+# 数字是四个角上的力。
+# %%
+eight = corner_names + [name.replace("left", "right") for name in corner_names]
+quiet = tw.static_equilibrium(human, human.standing(), eight).forces[:4]
+stands = {"quiet": wrench_of(quiet)}
+for name, x_cop in {"about to tip": 0.95 * d_x, "impossible": 1.4 * d_x}.items():
+    total = quiet.sum(axis=0)
+    stands[name] = np.concatenate([np.cross([x_cop, 0, 0], total), total])
+
+G = np.array([[*np.cross(corner, [0, 0, 1]), 0, 0, 1] for corner in corners]).T  # four forces to one wrench
+figure, axes = plt.subplots(1, 3, figsize=(8, 4.4), layout="constrained", sharey=True)
+for ax, (name, wrench) in zip(axes, stands.items()):
+    least = np.linalg.lstsq(G, wrench)[0]
+    assert np.allclose(G @ least, wrench, atol=1e-9)
+    assert (least.min() >= 0) == (name != "impossible")
+    plot.sole(corners, wrench, text="COP" if name == "quiet" else "", ax=ax)
+    for (x, y, _), force in zip(corners, least):
+        ax.text(y, x, f"{force:.0f} N", ha="center", va="bottom" if x > 0 else "top", fontsize=9)
+    ax.set(title=name, xlim=(0.05, -0.05), ylim=(-0.1, 0.13))
+plt.show()
+assert abs(plot.center_of_pressure(stands["impossible"])[0]) > d_x
+# %% [markdown] lang="en"
+# The chapter's table stops there: friction cone and COP. One moment is left without a bound, the one about the normal.
+# Friction limits it too. No corner pushes sideways with more than $\mu f_i$, and none is further than
+# $\sqrt{d_x^2 + d_y^2}$ from the middle: so $|\tau_z| \le \mu f_z \sqrt{d_x^2 + d_y^2}$. A controller that forgets this
+# asks the ground for what it does not give, and the robot spins on its sole.
+# %% [markdown] lang="zh"
+# 本章的表格到此为止:摩擦锥加 COP。还有一个力矩没有界,就是绕法向的那个。摩擦同样限制它:每个角的侧向力都不超过
+# $\mu f_i$,离中心都不超过 $\sqrt{d_x^2 + d_y^2}$,所以 $|\tau_z| \le \mu f_z \sqrt{d_x^2 + d_y^2}$。忘掉这一条的控制器
+# 会向地面要它给不出的力,机器人就在脚底上打转。
+# %%
+reach = np.hypot(d_x, d_y)
+assert (np.abs(feet[:, 2]) <= mu * feet[:, 5] * reach).all()
+assert (np.abs(feet[:, 2]) / feet[:, 5]).max() > 0.5 * mu * reach  # and the bound is not far off
+
+twisting = np.array([0, 0, 100.0, 0, 0, 98.1])  # 100 N m about the normal
+assert np.hypot(*twisting[3:5]) <= mu * twisting[5]  # within the friction cone
+assert np.allclose(plot.center_of_pressure(twisting), 0)  # its COP in the middle of the sole
+print(f"friction gives {mu * twisting[5] * reach:.1f} N m at most, not {twisting[2]:.0f}")
+assert twisting[2] > 10 * mu * twisting[5] * reach
+# %% [markdown] lang="en"
+# ## Pinocchio agrees
+#
+# Its `Force` stores the force first, $(\boldsymbol f, \boldsymbol\tau)$; `SE3.act` applies $X^*$ to a `Force` and $X$ to
+# a `Motion`, so the type decides. `tw.bridge` does the reordering.
+# %% [markdown] lang="zh"
+# ## 与 Pinocchio 对照
+#
+# 它的 `Force` 把力存在前面,$(\boldsymbol f, \boldsymbol\tau)$;`SE3.act` 对 `Force` 用 $X^*$,对 `Motion` 用 $X$,由类型决定。
+# 换序交给 `tw.bridge`。
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    T = tw.bridge.to_pinocchio_se3(base)
+    force, motion = pin.Force(tw.bridge.to_pinocchio_force(F)), pin.Motion(tw.bridge.to_pinocchio_motion(V))
+    ours = base.force_transform() @ F
+    assert np.allclose(force.vector[:3], F[3:])  # force first
+    assert np.abs(tw.bridge.from_pinocchio_force(T.act(force)) - ours).max() < 1e-12 * np.abs(ours).max()
+    assert np.isclose(T.act(motion).dot(T.act(force)), tw.power(F, V), rtol=1e-13)
+
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    theirs = pin.rnea(pin_model, pin_model.createData(), q, rest, rest, tw.bridge.to_pinocchio_f_ext(model, f_ext))
+    ours = tw.rnea(model, q, rest, rest, f_ext)
+    assert np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - ours).max() < 1e-12 * np.abs(lam).max()
+    print("torques of a leg that stands", ours[6:9].round(3), "N m, in both")
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.4.1** the contact wrench of one foot of a standing Go2
+# - **49.4.2** where the moment comes from when the point of reference moves to the world's origin
+# - **49.4.3** the COP, and why it has to lie in the support polygon
+#
+# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises hint 49.4.2` helps. Next: notebook 49.5.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.4.1** Go2 站立时一只脚的接触 wrench
+# - **49.4.2** 参考点移到世界原点,力矩从哪里来
+# - **49.4.3** COP,以及它为什么必须在支撑多边形内
+#
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises hint 49.4.2` 给提示。下一个:笔记本 49.5。

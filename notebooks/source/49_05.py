@@ -1,0 +1,409 @@
+# %% [markdown] lang="en"
+# # 49.5 Spatial inertia
+#
+# A twist goes in, a momentum comes out: $\boldsymbol h = \hat I\,\boldsymbol V$. This notebook builds the 6 × 6 matrix
+# that does it, draws what it knows about a body, moves it, adds it, and writes the equations of Newton and Euler as one.
+# At the end a Go2 with locked joints is thrown into the air.
+# %% [markdown] lang="zh"
+# # 49.5 空间惯量
+#
+# 输入 twist,输出动量:$\boldsymbol h = \hat I\,\boldsymbol V$。这个笔记本构造出做这件事的 6 × 6 矩阵,画出它对刚体
+# 知道些什么,给它换坐标系,把它们相加,再把牛顿方程和欧拉方程写成一个。最后,把一只关节锁死的 Go2 抛向空中。
+# %%
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import plot
+
+model = tw.load("go2")
+q = model.standing()
+rng = np.random.default_rng(5)
+# %% [markdown] lang="en"
+# ## From ten numbers to a matrix
+#
+# A rigid body has a mass $m$, a centre of mass $\boldsymbol c$, and an inertia $I_c$ about it: 1 + 3 + 6 numbers. Let its
+# twist be $(\boldsymbol\omega, \boldsymbol v)$, about the origin $O$ of its frame. Its centre of mass moves with
+# $\boldsymbol v_C = \boldsymbol v + \boldsymbol\omega \times \boldsymbol c$. So its linear momentum is
+# $\boldsymbol p = m \boldsymbol v_C$, and its angular momentum about $O$ is
+# $\boldsymbol L_O = I_c \boldsymbol\omega + \boldsymbol c \times \boldsymbol p$. Collect what multiplies
+# $\boldsymbol\omega$ and what multiplies $\boldsymbol v$:
+#
+# $$\begin{pmatrix} \boldsymbol L_O \\ \boldsymbol p \end{pmatrix} =
+# \begin{pmatrix} I_c - m[\boldsymbol c]_\times^2 & m[\boldsymbol c]_\times \\ -m[\boldsymbol c]_\times & m\,1 \end{pmatrix}
+# \begin{pmatrix} \boldsymbol\omega \\ \boldsymbol v \end{pmatrix}.$$
+# %% [markdown] lang="zh"
+# ## 从十个数到一个矩阵
+#
+# 刚体有质量 $m$、质心 $\boldsymbol c$ 和关于质心的惯量 $I_c$:1 + 3 + 6 个数。设它的 twist 是
+# $(\boldsymbol\omega, \boldsymbol v)$,以自己坐标系的原点 $O$ 为参考点。质心的速度是
+# $\boldsymbol v_C = \boldsymbol v + \boldsymbol\omega \times \boldsymbol c$,所以线动量是
+# $\boldsymbol p = m \boldsymbol v_C$,关于 $O$ 的角动量是
+# $\boldsymbol L_O = I_c \boldsymbol\omega + \boldsymbol c \times \boldsymbol p$。把乘 $\boldsymbol\omega$ 的和乘
+# $\boldsymbol v$ 的分别收集起来:
+#
+# $$\begin{pmatrix} \boldsymbol L_O \\ \boldsymbol p \end{pmatrix} =
+# \begin{pmatrix} I_c - m[\boldsymbol c]_\times^2 & m[\boldsymbol c]_\times \\ -m[\boldsymbol c]_\times & m\,1 \end{pmatrix}
+# \begin{pmatrix} \boldsymbol\omega \\ \boldsymbol v \end{pmatrix}.$$
+# %%
+thigh = model.inertia[model.joint_id("FL_thigh_joint")]
+m, c, I_c = thigh.mass, tw.skew(thigh.com), thigh.inertia_at_com
+I = np.block([[I_c - m * c @ c, m * c], [-m * c, m * np.eye(3)]])
+assert np.allclose(thigh.matrix(), I, rtol=1e-14)
+
+title = "Î of Go2's front left thigh [kg m², kg m, kg]"
+plot.matrix(I, title, rows=["Lx", "Ly", "Lz", "px", "py", "pz"], columns=plot.ANGULAR_LINEAR, numbers=".2g")
+plt.show()
+# %% [markdown] lang="en"
+# Top left the inertia about the *origin*, bottom right the mass, and between them the coupling: with the centre of mass
+# off the origin, turning is also moving. Is it right? Do not ask another formula. A rigid body is a heap of points;
+# take 500 at random and add up what each one has.
+# %% [markdown] lang="zh"
+# 左上是关于*原点*的惯量,右下是质量,中间是耦合:质心不在原点,转动就带着移动。对不对?不要去问另一个公式。
+# 刚体就是一堆质点;随机取 500 个,把每个质点的动量加起来。
+# %%
+masses, points = rng.uniform(0, 0.01, 500), rng.uniform([-0.2, 0, -0.3], [0.2, 0.1, 0.5], (500, 3))
+com = masses @ points / masses.sum()
+arms = tw.skew(points - com)
+heap = tw.SpatialInertia(masses.sum(), com, -np.tensordot(masses, arms @ arms, axes=1))
+
+V = rng.standard_normal(6)
+velocities = plot.point_velocity(V, points)
+p_heap = masses @ velocities
+L_heap = masses @ np.cross(points, velocities)
+assert np.allclose(heap.matrix() @ V, np.concatenate([L_heap, p_heap]), rtol=1e-12)
+assert np.allclose(heap.momentum(V), heap.matrix() @ V, rtol=1e-12)
+assert np.isclose(heap.kinetic_energy(V), masses @ (velocities**2).sum(axis=1) / 2, rtol=1e-12)
+assert np.isclose(heap.kinetic_energy(V), V @ heap.matrix() @ V / 2, rtol=1e-12)
+# %% [markdown] lang="en"
+# The matrix is symmetric, and $\boldsymbol V^T \hat I \boldsymbol V$ is twice the kinetic energy. The chapter calls it
+# positive definite. That holds if the mass is positive and $I_c$ is positive definite. A point mass may turn about itself
+# for nothing, and so may a thin rod about its length: their matrices have rank 3 and 5. All ten numbers can be read
+# back from the 36.
+# %% [markdown] lang="zh"
+# 这个矩阵对称,$\boldsymbol V^T \hat I \boldsymbol V$ 是动能的两倍。本章说它正定:这要求质量为正,而且 $I_c$ 正定。
+# 质点绕自己转不费任何能量,细杆绕自己的长轴转也是:它们的矩阵秩是 3 和 5。十个数都能从 36 个数里读回来。
+# %%
+assert np.linalg.eigvalsh(heap.matrix()).min() > 0
+ball = tw.SpatialInertia(2.0, [0, 0, 0.1], np.zeros((3, 3)))
+rod = tw.SpatialInertia(2.0, [0, 0, 0.1], np.diag([0.02, 0.02, 0]))
+assert [np.linalg.matrix_rank(body.matrix()) for body in (ball, rod, heap)] == [3, 5, 6]
+assert np.isclose(ball.kinetic_energy([1.0, 0, 0, 0, 0.1, 0]), 0)
+
+again = tw.SpatialInertia.from_matrix(heap.matrix())
+assert np.isclose(again.mass, heap.mass)
+assert np.allclose(again.com, heap.com)
+assert np.allclose(again.inertia_at_com, heap.inertia_at_com)
+# %% [markdown] lang="en"
+# ## What a robot's inertias look like
+#
+# For motion, a body *is* its ten numbers: whatever its shape, a uniform ellipsoid with semi-axes
+# $a_i = \sqrt{5\,(\mathrm{tr}\,I_c - 2 I_i) / 2m}$ behaves just the same. Here is Go2, each link drawn as that ellipsoid.
+# On the right all joints are locked, and the whole robot is one.
+#
+# To make one body of thirteen takes two steps. First bring each inertia into the frame of the base. Equal energy,
+# $\boldsymbol V_B^T \hat I_B \boldsymbol V_B = \boldsymbol V_A^T \hat I_A \boldsymbol V_A$, leaves no choice:
+#
+# $$\hat I_A = X^{-T} \hat I_B X^{-1} = X^* \hat I_B X^{-1}.$$
+#
+# Then add: momenta of bodies that share a twist add, so their inertias do. That sum is the **composite inertia** on
+# which CRBA rests (49.8).
+# %% [markdown] lang="zh"
+# ## 机器人的惯量长什么样
+#
+# 就运动而言,刚体就*是*它的十个数:无论形状如何,半轴为 $a_i = \sqrt{5\,(\mathrm{tr}\,I_c - 2 I_i) / 2m}$ 的均匀椭球
+# 动起来完全一样。下图是 Go2,每个连杆画成这样的椭球。右边是关节全部锁死之后,整个机器人成了一个椭球。
+#
+# 把十三个刚体合成一个要两步。先把每个惯量换到基座坐标系。能量相等,
+# $\boldsymbol V_B^T \hat I_B \boldsymbol V_B = \boldsymbol V_A^T \hat I_A \boldsymbol V_A$,就没有别的选择:
+#
+# $$\hat I_A = X^{-T} \hat I_B X^{-1} = X^* \hat I_B X^{-1}.$$
+#
+# 然后相加:twist 相同的刚体,动量可以相加,惯量也就可以相加。这个和就是**复合惯量**,CRBA 以它为基础(49.8)。
+# %%
+placement = tw.forward_kinematics(model, q).placement
+in_base = [placement[1].inverse() @ T for T in placement]  # of each body in the base
+locked = sum(
+    (I_i.transform(T) for I_i, T in zip(model.inertia[2:], in_base[2:])),
+    start=model.inertia[1],
+)
+summed = np.zeros((6, 6))
+for I_i, T in zip(model.inertia[1:], in_base[1:]):
+    X = T.motion_transform()
+    summed += np.linalg.inv(X).T @ I_i.matrix() @ np.linalg.inv(X)
+assert np.allclose(locked.matrix(), summed, atol=1e-14)
+assert np.isclose(locked.mass, 16.085)
+assert np.allclose(locked.matrix(), tw.crba(model, q)[:6, :6], atol=1e-14)  # the base's own block of M
+# %%
+figure = plt.figure(figsize=(12, 4.6), layout="constrained")
+for k in range(2):
+    ax = figure.add_subplot(1, 2, k + 1, projection="3d")
+    plot.robot(model, q, com=bool(k), ax=ax)
+    if k:
+        plot.ellipsoid(locked, placement[1], colour=plot.COLOURS["orange"], alpha=0.35, ax=ax)
+    else:
+        plot.ellipsoids(model, q, ax=ax)
+    ax.set_title("all joints locked: one body" if k else "thirteen bodies")
+    ax.view_init(elev=18, azim=-65)
+plt.show()
+lengths, _ = plot.semi_axes(locked)
+print("semi-axes of the locked robot", lengths.round(3), "m")
+# %% [markdown] lang="en"
+# An ellipsoid is not the shape of a link, and may stick out of it. But it shows that calves are thin, and that thighs
+# have their mass near the hip, where the motors sit. The chapter says "twelve links": there are thirteen bodies, the
+# base is one. (In Pinocchio's `model.inertias` the base is entry 1; entry 0 is the world.)
+#
+# ## Parallel axes
+#
+# The transform above contains a theorem you know. With no rotation, the top left block becomes $I_c - m[\boldsymbol
+# d]_\times^2$: the parallel axes. Mind the sign: $[\boldsymbol d]_\times^2$ has *no positive* eigenvalue, so the minus
+# makes the inertia larger. With a plus, something turns that weighs less than nothing. A change of frame, on the other
+# hand, is a congruence: it changes eigenvalues, but never their signs.
+# %% [markdown] lang="zh"
+# 椭球不是连杆的外形,可能伸到外面去。但看得出小腿很细,大腿的质量集中在靠近髋的一端,电机就装在那里。
+# 本章说"12 个连杆",其实是十三个刚体,基座也算一个。
+# (在 Pinocchio 的 `model.inertias` 里,基座是第 1 项;第 0 项是世界。)
+#
+# ## 平行轴
+#
+# 上面的变换里就有你熟悉的定理。没有旋转时,左上块变成 $I_c - m[\boldsymbol d]_\times^2$:平行轴定理。注意符号:
+# $[\boldsymbol d]_\times^2$ *没有正*特征值,所以减号让惯量变大。写成加号,转动的东西就比没有还轻。而换坐标系是
+# **合同变换**:特征值会变,但符号不会变。
+# %%
+d = np.array([0.3, -0.1, 0.2])
+moved = tw.SpatialInertia(m, [0, 0, 0], I_c).transform(tw.SE3(np.eye(3), d)).matrix()
+D = tw.skew(d)
+assert np.allclose(moved[:3, :3], I_c - m * D @ D, rtol=1e-14)
+assert np.linalg.eigvalsh(I_c + m * D @ D).min() < 0  # the wrong sign
+
+for T in tw.exp6(5 * rng.standard_normal((100, 6))).matrix():
+    somewhere = thigh.transform(tw.SE3.from_matrix(T)).matrix()
+    assert np.linalg.eigvalsh(somewhere).min() > 0
+# %% [markdown] lang="en"
+# ## Which bodies can exist
+#
+# Not every positive definite matrix is a body. The moments are sums over the same points,
+# $I_1 = \sum m(y^2 + z^2)$ and so on, so $I_1 + I_2 - I_3 = 2\sum m z^2$ cannot be negative: the **triangle inequality**.
+# (It also stands under the root of the semi-axes.) In the picture each point is a body, by the ratios of its principal
+# moments: bodies exist in the shaded triangle only. `diag(1, 1, 10)` passes the chapter's check for eigenvalues and lies
+# far outside.
+# %% [markdown] lang="zh"
+# ## 什么样的刚体可以存在
+#
+# 正定的矩阵不一定是刚体。各个惯量矩是对同一批质点求和,$I_1 = \sum m(y^2 + z^2)$ 等等,所以
+# $I_1 + I_2 - I_3 = 2\sum m z^2$ 不会是负的:这就是**三角不等式**。(半轴公式的根号下也是它。)图中每个点是一个刚体,
+# 坐标是主惯量矩之比:只有阴影三角形里的刚体才存在。`diag(1, 1, 10)` 通得过本章的特征值检查,却远在三角形之外。
+# %%
+ax = plot.axes_2d(size=(5.5, 4.2))
+ax.fill([0, 1, 0.5], [1, 1, 0.5], color="0.9")
+for name, colour in {"go2": "blue", "humanoid": "orange"}.items():
+    moments = np.array([np.linalg.eigvalsh(I_i.inertia_at_com) for I_i in tw.load(name).inertia[1:]])
+    assert (moments[:, 0] + moments[:, 1] >= moments[:, 2]).all()
+    ax.plot(*(moments[:, :2] / moments[:, 2:]).T, "o", color=plot.COLOURS[colour], label=f"links of {name}")
+ax.plot(0.1, 0.1, "X", color=plot.COLOURS["vermilion"], markersize=10, label="diag(1, 1, 10)")
+for x, y, text in [(0, 1.03, "rod"), (0.97, 1.03, "ball"), (0.44, 0.46, "disc"), (0.06, 0.66, "plates on this edge")]:
+    ax.text(x, y, text, fontsize=9)
+ax.set(xlabel="I₁ / I₃", ylabel="I₂ / I₃", xlim=(-0.05, 1.1), ylim=(0, 1.12), title="I₁ ≤ I₂ ≤ I₃")
+ax.legend(loc="lower right")
+plt.show()
+
+impossible = tw.SpatialInertia(1.0, np.zeros(3), np.diag([1.0, 1.0, 10.0]))
+assert np.linalg.eigvalsh(impossible.matrix()).min() > 0
+try:
+    impossible.check_physical("plate")
+except tw.ModelError as refused:
+    print(refused)
+else:
+    raise AssertionError("a body that cannot exist has passed")
+# %% [markdown] lang="en"
+# ## Two cross products
+#
+# Momentum is what Newton and Euler differentiate, and the frame of the body moves. How does $X$ change as the body
+# moves with $\boldsymbol V$? By a matrix, $\dot X = X\,(\boldsymbol V\times)$; and $X^*$ by its dual,
+# $\dot X^* = X^* (\boldsymbol V\times^*)$:
+#
+# $$\boldsymbol V\times = \begin{pmatrix} [\boldsymbol\omega]_\times & 0 \\ [\boldsymbol v]_\times &
+# [\boldsymbol\omega]_\times \end{pmatrix}, \qquad \boldsymbol V\times^* = -(\boldsymbol V\times)^T =
+# \begin{pmatrix} [\boldsymbol\omega]_\times & [\boldsymbol v]_\times \\ 0 & [\boldsymbol\omega]_\times \end{pmatrix}.$$
+#
+# That they are dual is once more equal power. Note what the chapter's "check of antisymmetry" does not say: neither matrix
+# is antisymmetric. The product is: $\boldsymbol V \times \boldsymbol W = -\boldsymbol W \times \boldsymbol V$.
+# %% [markdown] lang="zh"
+# ## 两种空间叉积
+#
+# 牛顿和欧拉对动量求导,而刚体的坐标系在动。刚体以 $\boldsymbol V$ 运动时,$X$ 怎样变?乘一个矩阵,
+# $\dot X = X\,(\boldsymbol V\times)$;$X^*$ 则乘它的对偶,$\dot X^* = X^* (\boldsymbol V\times^*)$:
+#
+# $$\boldsymbol V\times = \begin{pmatrix} [\boldsymbol\omega]_\times & 0 \\ [\boldsymbol v]_\times &
+# [\boldsymbol\omega]_\times \end{pmatrix}, \qquad \boldsymbol V\times^* = -(\boldsymbol V\times)^T =
+# \begin{pmatrix} [\boldsymbol\omega]_\times & [\boldsymbol v]_\times \\ 0 & [\boldsymbol\omega]_\times \end{pmatrix}.$$
+#
+# 二者对偶,理由还是功率相等。注意本章所谓"验证反对称性"并不是这个意思:两个矩阵都不是反对称矩阵。反对称的是乘积:
+# $\boldsymbol V \times \boldsymbol W = -\boldsymbol W \times \boldsymbol V$。
+# %%
+V, W, F = rng.standard_normal((3, 6))
+cross, dual = tw.cross_motion(V), tw.cross_force(V)
+assert np.array_equal(dual, -cross.T)
+assert not np.allclose(cross, -cross.T)
+assert np.allclose(cross @ W, -tw.cross_motion(W) @ V)
+assert np.allclose(cross @ V, 0)
+assert np.isclose((dual @ F) @ W, -F @ (cross @ W))  # the pair keeps the power
+
+T, h = tw.exp6(rng.standard_normal(6)), 1e-100  # derivatives by the complex step, as in 49.2
+moving = T @ tw.exp6(1j * h * V)
+assert np.allclose(moving.motion_transform().imag / h, T.motion_transform() @ cross)
+assert np.allclose(moving.force_transform().imag / h, T.force_transform() @ dual)
+X = T.motion_transform()
+assert np.allclose(X @ cross @ np.linalg.inv(X), tw.cross_motion(X @ V))  # the product does not depend on the frame
+bracket = cross @ tw.cross_motion(W) - tw.cross_motion(W) @ cross
+assert np.allclose(tw.cross_motion(cross @ W), bracket)  # the Lie bracket
+# %% [markdown] lang="en"
+# ## Newton and Euler in one line
+#
+# In the world the momentum is $X^* \hat I \boldsymbol V$, and the force is its rate. Product rule:
+# $X^* \hat I \dot{\boldsymbol V} + X^*(\boldsymbol V\times^*) \hat I \boldsymbol V$. Back in the body's frame, $X^*$ drops
+# out:
+#
+# $$\boldsymbol F = \hat I \dot{\boldsymbol V} + \boldsymbol V \times^* \hat I \boldsymbol V.$$
+#
+# For comparison the old way, three coupling terms and a change of the point of reference. Below, `stone` is a model with
+# one free body, and gravity switched off.
+# %% [markdown] lang="zh"
+# ## 一行写下牛顿和欧拉
+#
+# 在世界坐标系里动量是 $X^* \hat I \boldsymbol V$,力是它的变化率。用乘积法则:
+# $X^* \hat I \dot{\boldsymbol V} + X^*(\boldsymbol V\times^*) \hat I \boldsymbol V$。回到刚体坐标系,$X^*$ 就去掉了:
+#
+# $$\boldsymbol F = \hat I \dot{\boldsymbol V} + \boldsymbol V \times^* \hat I \boldsymbol V.$$
+#
+# 再用老办法比较:三个耦合项,外加换一次参考点。下面的 `stone` 是只有一个自由刚体的模型,并关掉了重力。
+# %%
+V, V_dot = rng.standard_normal((2, 6))
+I = heap.matrix()
+one_line = I @ V_dot + tw.cross_force(V) @ I @ V
+
+w, v, alpha, v_dot = V[:3], V[3:], V_dot[:3], V_dot[3:]
+a_C = v_dot + np.cross(w, v) + np.cross(alpha, heap.com) + np.cross(w, np.cross(w, heap.com))
+f = heap.mass * a_C  # Newton
+tau_C = heap.inertia_at_com @ alpha + np.cross(w, heap.inertia_at_com @ w)  # Euler
+assert np.allclose(one_line, np.concatenate([tau_C + np.cross(heap.com, f), f]), rtol=1e-12)
+
+builder = tw.Builder("stone", base="floating", root_inertia=heap, gravity=[0, 0, 0])
+stone = builder.build()
+assert np.allclose(tw.rnea(stone, stone.neutral(), V, V_dot), one_line, rtol=1e-12)
+# %% [markdown] lang="en"
+# The chapter says that the gyroscopic term $\boldsymbol\omega \times I\boldsymbol\omega$ comes from differentiating in a
+# rotating frame. It is there in the world's axes as well, because the inertia turns with the body:
+# %% [markdown] lang="zh"
+# 本章说陀螺项 $\boldsymbol\omega \times I\boldsymbol\omega$ 来自在旋转坐标系里求导。其实在世界坐标轴里也有它,
+# 因为惯量随刚体一起转:
+# %%
+turning = tw.exp3(1j * h * w)  # the world's axes stand still; ω is constant, and the body turns
+L = turning @ heap.inertia_at_com @ turning.mT @ w
+assert np.allclose(L.imag / h, np.cross(w, heap.inertia_at_com @ w))
+# %% [markdown] lang="en"
+# ## A Go2 in the air
+#
+# Lock the joints and throw the robot, spinning about one of its principal axes with 4 rad/s, and 0.02 rad/s amiss. No
+# wrench acts about the centre of mass (gravity has none there), so the momentum in the world stays what it is. We step
+# it exactly that way: find the twist at half time, move the body along it with `exp6`, and see the same momentum from
+# the new place, $\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$. All three spins are one batch.
+# %% [markdown] lang="zh"
+# ## 空中的 Go2
+#
+# 锁死关节,把机器人抛出去,让它绕某一条主轴以 4 rad/s 旋转,外加 0.02 rad/s 的偏差。关于质心没有 wrench 作用
+# (重力对质心没有力矩),所以世界坐标系里的动量保持不变。我们就照这个意思走每一步:先求半步处的 twist,用 `exp6`
+# 沿它移动刚体,再从新的位置看同一个动量,$\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$。三种旋转放在一个 batch 里。
+# %%
+moments, axes = np.linalg.eigh(locked.inertia_at_com)
+axes *= np.linalg.det(axes)  # right-handed
+thrown = locked.transform(tw.SE3(axes, locked.com).inverse())  # seen from its principal axes
+assert np.allclose(thrown.matrix(), np.diag([*moments, *[locked.mass] * 3]), atol=1e-15)
+
+
+def tumble(spins, dt, steps):
+    """Twists at each step, and the momentum in the world."""
+    I_inverse = np.linalg.inv(thrown.matrix())
+    h, T = thrown.momentum(spins), tw.exp6(np.zeros_like(spins))
+    twists, momenta = [], []
+    for _ in range(steps):
+        V = np.matvec(I_inverse, h)
+        twists.append(V)
+        momenta.append(np.matvec(T.force_transform(), h))
+        half = tw.exp6(V * dt / 2)
+        step = tw.exp6(dt * np.matvec(I_inverse, np.matvec(half.inverse().force_transform(), h)))
+        T, h = T @ step, np.matvec(step.inverse().force_transform(), h)
+    return np.array(twists), np.array(momenta)
+
+
+spins = np.concatenate([4 * np.eye(3) + 0.02, np.zeros((3, 3))], axis=-1)
+twists, momenta = tumble(spins, 0.01, 1200)
+assert np.allclose(momenta, momenta[0], rtol=0, atol=1e-12)  # conserved, to rounding
+energy = thrown.kinetic_energy(twists)
+drift = np.ptp(energy, axis=0).max() / energy.max()
+assert drift < 1e-3  # not built in: this is the error of the steps
+finer = thrown.kinetic_energy(tumble(spins, 0.005, 2400)[0])
+assert np.ptp(finer, axis=0).max() / energy.max() < drift / 3.5  # a quarter, or less, with half the step
+# %%
+figure, panels = plt.subplots(1, 3, figsize=(12, 3.2), layout="constrained", sharey=True)
+names = ["smallest", "middle", "largest"]
+for k, ax in enumerate(panels):
+    for j, colour in enumerate(plot.XYZ):
+        ax.plot(0.01 * np.arange(1200), twists[:, k, j], color=colour, label=f"ω about the {names[j]}")
+    ax.set(xlabel="time [s]", title=f"thrown about the {names[k]}, {moments[k]:.3f} kg m²")
+panels[0].set_ylabel("rad/s, in the body's axes")
+panels[0].legend(loc="lower right")
+plt.show()
+assert twists[:, [0, 2], [0, 2]].min() > 3.99  # about the smallest and the largest moment it spins on
+assert twists[:, 1, 1].min() < -3.9  # about the middle one it turns over
+# %% [markdown] lang="en"
+# No one touched it: $\boldsymbol V\times^* \hat I \boldsymbol V$ alone turns the robot over, and back. Spinning about the
+# middle axis is possible, but unstable (the intermediate-axis theorem). Try it with your phone.
+#
+# ## Pinocchio agrees
+#
+# Its `Inertia` keeps the same ten numbers; its `matrix()` is in the order $(\boldsymbol v, \boldsymbol\omega)$, with
+# $m\,1$ at the top left. The chapter's last assertion on it fails for this reason. It also takes the impossible body.
+# %% [markdown] lang="zh"
+# 没有人碰它:单凭 $\boldsymbol V\times^* \hat I \boldsymbol V$ 就让机器人翻过去又翻回来。绕中间轴旋转是可能的,但不稳定
+# (中间轴定理)。拿手机试试看。
+#
+# ## 与 Pinocchio 对照
+#
+# 它的 `Inertia` 存的是同样的十个数;它的 `matrix()` 按 $(\boldsymbol v, \boldsymbol\omega)$ 排列,$m\,1$ 在左上。
+# 本章对它的最后一条断言就因此失败。它也接受那个不可能存在的刚体。
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    theirs = tw.bridge.to_pinocchio_inertia(heap)
+    assert np.allclose(theirs.matrix()[:3, :3], heap.mass * np.eye(3))  # linear first
+    assert np.allclose(tw.bridge.from_pinocchio_transform(theirs.matrix()), heap.matrix(), rtol=1e-12)
+    momentum = theirs * pin.Motion(tw.bridge.to_pinocchio_motion(V))
+    assert np.allclose(tw.bridge.from_pinocchio_force(momentum), heap.momentum(V), rtol=1e-12)
+
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    assert not pin_model.inertias[0].matrix().any()  # the world
+    assert np.isclose(pin_model.inertias[1].mass, 7.277)  # the base, with what is welded to it
+    assert pin.Inertia(1.0, np.zeros(3), np.diag([1.0, 1.0, 10.0])).mass == 1.0
+    print("inertia and momentum: the same in both")
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.5.1** the 6 × 6 matrix of a link, by hand
+# - **49.5.2** Go2's base against Pinocchio, entry by entry
+# - **49.5.3** why the matrix falls into two blocks at the centre of mass
+#
+# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises hint 49.5.1` helps. Next: notebook 49.6.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.5.1** 手算一个连杆的 6 × 6 矩阵
+# - **49.5.2** Go2 的基座,与 Pinocchio 逐元素比较
+# - **49.5.3** 为什么在质心处矩阵分成两块
+#
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises hint 49.5.1` 给提示。下一个:笔记本 49.6。

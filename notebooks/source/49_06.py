@@ -1,0 +1,359 @@
+# %% [markdown] lang="en"
+# # 49.6 RNEA: inverse dynamics
+#
+# Given a motion, which forces make it happen? The recursive Newton–Euler algorithm answers by walking the tree twice:
+# outward with the motion, inward with the forces. This notebook walks it step by step on Go2, draws what each step
+# carries, and shows what gravity is in it. It ends with what the chapter's pseudocode gets wrong.
+# %% [markdown] lang="zh"
+# # 49.6 RNEA:逆动力学
+#
+# 给定运动,需要什么样的力?递归牛顿-欧拉算法沿运动树走两遍来回答:向外带着运动,向内带着力。这个笔记本在 Go2 上
+# 一步一步走一遍,画出每一步带的是什么,说明重力在里面是什么,最后看看本章的伪代码错在哪里。
+# %%
+import dataclasses
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import plot
+from twistwrench.tree import split, walk
+
+model = tw.load("go2")
+q = model.standing()
+v, a = np.zeros((2, model.nv))
+v[2], v[3], a[3] = 0.6, 0.8, 2.0  # the base turns left at 0.6 rad/s, walks at 0.8 m/s, and speeds up
+for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs swing, two go back
+    thigh = model.v_slice[model.joint_id(f"{leg}_thigh_joint")].start
+    v[thigh : thigh + 2] = sign * np.array([-5.0, 4.0])
+    a[thigh : thigh + 2] = sign * np.array([30.0, 90.0])
+# %% [markdown] lang="en"
+# ## The tree
+#
+# Body 0 is the world, body 1 the base; every body $i$ hangs on its parent $\lambda(i)$ by joint $i$. To the recursion
+# a joint is two things: the matrix $X_i$ that takes a twist from the parent's frame to frame $i$, and the subspace
+# $S_i$ of the motions that the joint allows, 6 × 1 for a hinge and 6 × 6 for the base, which is free. `walk` computes
+# them. Since $\lambda(i) < i$, counting up is going outward.
+# %% [markdown] lang="zh"
+# ## 运动树
+#
+# 刚体 0 是世界,刚体 1 是基座;每个刚体 $i$ 由关节 $i$ 挂在父刚体 $\lambda(i)$ 上。对递推来说,一个关节就是两样东西:
+# 把 twist 从父坐标系换到坐标系 $i$ 的矩阵 $X_i$,以及关节所允许的运动的子空间 $S_i$,转动关节是 6 × 1,自由的基座是
+# 6 × 6。`walk` 负责算出它们。因为 $\lambda(i) < i$,编号从小到大就是由内向外。
+# %%
+tree = walk(model, q)
+parent, S, I, X = tree.parent, tree.S, tree.I, tree.X
+qd, qdd = split(model, v), split(model, a)  # one piece for each joint
+print("body            parent          S")
+for i in range(1, 5):
+    print(f"{model.joint_names[i]:15} {model.joint_names[parent[i]]:15} {S[i].shape}")
+assert all(parent[i] < i for i in range(1, model.nbodies))
+assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
+# %% [markdown] lang="en"
+# ## Outward: twists and accelerations
+#
+# A body moves as its parent does, seen from its own frame, and its joint adds to that:
+#
+# $$\boldsymbol V_i = X_i \boldsymbol V_{\lambda(i)} + S_i \dot q_i.$$
+#
+# Differentiate, and use how $X$ changes (49.5). What the motion of the frames leaves over is one cross product, the
+# Coriolis term:
+#
+# $$\boldsymbol a_i = X_i \boldsymbol a_{\lambda(i)} + S_i \ddot q_i + \boldsymbol V_i \times S_i \dot q_i.$$
+#
+# The start is the world: $\boldsymbol V_0 = 0$, and $\boldsymbol a_0 = (0, -\boldsymbol g)$: instead of pulling
+# every body down, let the world rise. Why that is the same, we see below.
+# %% [markdown] lang="zh"
+# ## 向外:twist 与加速度
+#
+# 刚体随父刚体一起运动(换到自己的坐标系里看),关节再添上自己的一份:
+#
+# $$\boldsymbol V_i = X_i \boldsymbol V_{\lambda(i)} + S_i \dot q_i.$$
+#
+# 求导,并用上 $X$ 的变化规律(49.5)。坐标系的运动留下的只有一个叉积,即科里奥利项:
+#
+# $$\boldsymbol a_i = X_i \boldsymbol a_{\lambda(i)} + S_i \ddot q_i + \boldsymbol V_i \times S_i \dot q_i.$$
+#
+# 起点是世界:$\boldsymbol V_0 = 0$,而 $\boldsymbol a_0 = (0, -\boldsymbol g)$:不是把每个刚体往下拉,而是让世界向上加速。
+# 为什么两者一样,下面会看到。
+# %%
+V, A = np.zeros((2, model.nbodies, 6))
+A[0, 3:] = -model.gravity  # the world rises
+for i in tree.outward:
+    V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
+    A[i] = X[i] @ A[parent[i]] + S[i] @ qdd[i] + tw.cross_motion(V[i]) @ S[i] @ qd[i]
+
+kin = tw.forward_kinematics(model, q, v, a)
+assert np.allclose(V, kin.twist, atol=1e-14)
+risen = [T.inverse().motion_transform() @ A[0] for T in kin.placement]  # the part of A that is the world's
+assert np.allclose(A - risen, kin.acceleration, atol=1e-13)
+
+h = 1e-100  # and is it the rate of V? The complex step says so:
+moving = tw.forward_kinematics(model, model.integrate(q, 1j * h * v), v + 1j * h * a).twist
+assert np.allclose(moving.imag / h, kin.acceleration, atol=1e-12)
+# %% [markdown] lang="en"
+# ## Inward: wrenches
+#
+# Newton–Euler says which wrench each body needs for its motion. It all comes through joints: through its own, and from
+# there on to its children. So the wrench through joint $i$ is the body's own need plus what the children take:
+#
+# $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
+# \sum_{\lambda(j) = i} X_j^T \boldsymbol F_j, \qquad \boldsymbol\tau_i = S_i^T \boldsymbol F_i.$$
+#
+# $X_j^T$, because $X_j$ leads outward and equal power turns its transpose inward (49.4). Of the six numbers of
+# $\boldsymbol F_i$ a hinge bears five by itself: only the one along $S_i$ is the motor's.
+# %% [markdown] lang="zh"
+# ## 向内:wrench
+#
+# 牛顿-欧拉方程说出每个刚体为了自己的运动需要多大的 wrench。它全部来自关节:从自己的关节进来,再往子刚体那里传。
+# 所以经过关节 $i$ 的 wrench,是刚体自己的需要,加上子刚体拿走的:
+#
+# $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
+# \sum_{\lambda(j) = i} X_j^T \boldsymbol F_j, \qquad \boldsymbol\tau_i = S_i^T \boldsymbol F_i.$$
+#
+# 用 $X_j^T$,是因为 $X_j$ 向外,而功率相等使它的转置向内(49.4)。$\boldsymbol F_i$ 的六个数里,转动关节自己就承受了五个,
+# 只有沿 $S_i$ 的那一个归电机。
+# %%
+own = np.array([I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i] for i in range(model.nbodies)])
+F, tau = own.copy(), [np.zeros(0)] * model.nbodies
+for i in tree.inward:
+    tau[i] = S[i].T @ F[i]  # the motor's part
+    F[parent[i]] += X[i].T @ F[i]  # all of it must come through the parent
+tau = np.concatenate(tau)
+
+assert np.allclose(F, tw.joint_wrenches(model, q, v, a), rtol=1e-12, atol=1e-12)
+assert np.allclose(tau, tw.rnea(model, q, v, a), rtol=1e-12, atol=1e-12)
+
+
+# %% [markdown] lang="en"
+# That is RNEA. `tw.rnea` does the same, for batches and for any number type. This is what has travelled: each label says
+# what goes through that joint, and the width of the arrow how much of it.
+# %% [markdown] lang="zh"
+# 这就是 RNEA。`tw.rnea` 做的是同样的事,只是还支持 batch 和任何数值类型。下图是一路传递的东西:标注是经过该关节的量,
+# 箭头的粗细表示多少。
+# %%
+def sizes(vectors, angular, linear):
+    """Lengths of both halves, for the labels; nothing for the world."""
+    top, bottom = np.linalg.norm(vectors[:, :3], axis=1), np.linalg.norm(vectors[:, 3:], axis=1)
+    return [""] + [f"{x:.1f} {angular}\n{y:.1f} {linear}" for x, y in zip(top[1:], bottom[1:])]
+
+
+figure, axes = plt.subplots(3, 1, figsize=(10, 9.5), layout="constrained")
+blue, green, red = (plot.COLOURS[name] for name in ("blue", "green", "vermilion"))
+lengths = np.linalg.norm(np.stack([V, A, F])[..., 3:], axis=-1)
+passes = [
+    ("outward: twists |ω|, |v|", sizes(V, "rad/s", "m/s"), blue, False),
+    ("outward: accelerations |α|, |a|; the world rises with 9.8 m/s²", sizes(A, "rad/s²", "m/s²"), green, False),
+    ("inward: wrenches |τ|, |f|", sizes(F, "N m", "N"), red, True),
+]
+for ax, amounts, (title, texts, colour, inward) in zip(axes, lengths, passes):
+    plot.flow(model, texts, inward=inward, amounts=amounts, colour=colour, ax=ax)
+    ax.set_title(title, loc="left", fontsize=11)
+plt.show()
+assert np.allclose(F[0, 3:], kin.placement[1].rotation @ F[1, 3:])  # the ground, or you, must hold the last of it
+# %% [markdown] lang="en"
+# An independent check without any frames: the power of all $\boldsymbol\tau$ is the rate of the energy, kinetic and
+# potential.
+# %% [markdown] lang="zh"
+# 再做一个完全不涉及坐标系的独立检查:全部 $\boldsymbol\tau$ 的功率等于能量(动能加势能)的变化率。
+# %%
+q_on, v_on = model.integrate(q, 1j * h * v), v + 1j * h * a  # one instant later
+energy = tw.kinetic_energy(model, q_on, v_on) + tw.potential_energy(model, q_on)
+assert np.isclose(tau @ v, energy.imag / h, rtol=1e-12)
+print(f"power {tau @ v:.2f} W")
+# %% [markdown] lang="en"
+# ## Gravity: a rising world, or thirteen weights
+#
+# Each body needs $\hat I_i (\boldsymbol a_i - \boldsymbol g_i)$ where $\boldsymbol g_i$ is gravity, seen from body $i$
+# as a spatial acceleration $(0, R_i^T \boldsymbol g)$. But $\hat I_i (0, R_i^T \boldsymbol g)$ *is* the weight: the force
+# $m R_i^T \boldsymbol g$ with the moment $\boldsymbol c \times m R_i^T \boldsymbol g$. So it is the same whether you
+# take the weight of each body as an external wrench, or subtract $\boldsymbol g_i$ from each acceleration. And since the
+# recursion hands an acceleration of the world to every body, one line does for all. Here both, the second with gravity
+# switched off:
+# %% [markdown] lang="zh"
+# ## 重力:向上加速的世界,或十三份重量
+#
+# 每个刚体需要 $\hat I_i (\boldsymbol a_i - \boldsymbol g_i)$,其中 $\boldsymbol g_i$ 是从刚体 $i$ 看的重力,写成空间加速度
+# $(0, R_i^T \boldsymbol g)$。而 $\hat I_i (0, R_i^T \boldsymbol g)$ *就是*重力:力 $m R_i^T \boldsymbol g$,带着力矩
+# $\boldsymbol c \times m R_i^T \boldsymbol g$。所以把每个刚体的重力当作外力,或从每个加速度里减去 $\boldsymbol g_i$,
+# 结果一样。又因为递推会把世界的加速度传给每个刚体,写一行就够了。下面两种都算,第二种关掉了重力:
+# %%
+weights = np.zeros((model.nbodies, 6))
+for i in range(1, model.nbodies):
+    force = model.inertia[i].mass * kin.placement[i].rotation.T @ model.gravity
+    weights[i] = [*np.cross(model.inertia[i].com, force), *force]
+    assert np.allclose(weights[i], I[i] @ [0, 0, 0, *(kin.placement[i].rotation.T @ model.gravity)], atol=1e-15)
+
+weightless = dataclasses.replace(model, gravity=np.zeros(3))
+assert not np.allclose(tw.rnea(weightless, q, v, a), tau)
+assert np.allclose(tw.rnea(weightless, q, v, a, f_ext=weights), tau, rtol=1e-12, atol=1e-12)
+# %% [markdown] lang="en"
+# ## At rest
+#
+# With $v = a = 0$ what is left is what holds the robot up. The first six numbers are the wrench on the base: in the air,
+# somebody must hold the whole weight *upwards*, and since the centre of mass is not in the base's origin, with a moment
+# $\boldsymbol c \times m\boldsymbol g$ as well. (The chapter has $-mg$ and no moment.)
+#
+# If the robot stands, the floor does that, and every wrench in the legs turns round. Left: held by the base, each joint
+# carries what hangs below it. Right: standing, each joint carries what is above it.
+# %% [markdown] lang="zh"
+# ## 静止时
+#
+# 当 $v = a = 0$,剩下的就是撑住机器人的力。前六个数是基座的 wrench:如果悬在空中,就得有人*向上*托住全部重量;而质心
+# 不在基座原点,所以还有力矩 $\boldsymbol c \times m\boldsymbol g$。(本章写的是 $-mg$,没有力矩。)
+#
+# 如果机器人站着,这件事由地面来做,腿里的每个 wrench 都反过来。左:托住基座,每个关节承担挂在它下面的部分。
+# 右:站立,每个关节承担在它上面的部分。
+# %%
+rest = np.zeros(model.nv)
+base_wrench = tw.rnea(model, q, rest, rest)[:6]
+up = -model.mass * model.gravity
+c = kin.placement[1].inverse().act(tw.center_of_mass(model, q))  # base and world are aligned here
+assert np.allclose(base_wrench, [*np.cross(c, up), *up])
+print("base: moment", base_wrench[:3].round(3) + 0.0, "N m, force", base_wrench[3:].round(2) + 0.0, "N")
+
+ground = np.zeros((model.nbodies, 6))
+for name, force in zip(model.feet, tw.static_equilibrium(model, q).forces):
+    body = model.frames[name].body
+    at_foot = tw.SE3(np.eye(3), tw.frame_placement(model, q, name).translation)
+    ground[body] = (kin.placement[body].inverse() @ at_foot).force_transform() @ [0, 0, 0, *force]
+
+sticks, red = plot.sticks(model, q), plot.COLOURS["vermilion"]
+figure, axes = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained", sharey=True)
+for ax, (title, f_ext) in zip(axes, {"held by the base with 157.8 N": None, "standing": ground}.items()):
+    through = tw.joint_wrenches(model, q, rest, rest, f_ext)
+    lift = np.array([T.rotation @ f for T, f in zip(kin.placement, through[:, 3:])])[:, 2]
+    assert np.isclose(lift[1], up[2] if f_ext is None else 0)
+    for stick in sticks[sticks[:, 1, 0] > 0]:  # the front legs, seen from behind
+        ax.plot(*stick[:, 1:].T, color=plot.COLOURS["grey"], linewidth=3)
+    for i in range(2, 8):
+        assert (lift[i] > 0) == (f_ext is None)
+        _, y, z = kin.placement[i].translation
+        ax.annotate("", (y, z + 0.0015 * lift[i]), (y, z), arrowprops={"arrowstyle": "-|>", "color": red, "lw": 2})
+        ax.plot(y, z, "k.")
+        ax.annotate(f"{lift[i]:.1f} N", (y, z), (6, 6), textcoords="offset points", fontsize=9, color=red)
+    ax.set(xlabel="y [m]", title=title, aspect="equal", xlim=(0.2, -0.24), ylim=(-0.02, 0.34))
+axes[0].set_ylabel("z [m]")
+plt.show()
+# %% [markdown] lang="en"
+# ## h, g, C and M from one function
+#
+# The equation of motion is $M(q)\,\dot v + h(q, v) = \tau$ with $h = C(q, v)\,v + g(q)$, and RNEA *is* its left side.
+# Feed it zeros, and its parts come out one by one: $g$ at rest, $h$ without acceleration, column $k$ of $M$ with a unit
+# acceleration, no velocity and no gravity. It never builds $M$; that is why it is O(N): three products with $X$ for each
+# body, whatever the number of bodies.
+# %% [markdown] lang="zh"
+# ## 从一个函数得到 h、g、C、M
+#
+# 运动方程是 $M(q)\,\dot v + h(q, v) = \tau$,其中 $h = C(q, v)\,v + g(q)$,而 RNEA *就是*它的左边。往里面填零,各部分就
+# 一个一个出来:静止时是 $g$,没有加速度时是 $h$;单位加速度、零速度、零重力时,是 $M$ 的第 $k$ 列。它从不构造 $M$,
+# 所以是 O(N):每个刚体三次与 $X$ 相乘,刚体再多也是如此。
+# %%
+g, h_qv = tw.rnea(model, q, rest, rest), tw.rnea(model, q, v, rest)
+assert np.allclose(g, tw.gravity(model, q))
+assert np.allclose(h_qv, tw.nonlinear_effects(model, q, v))
+Cv = h_qv - g
+assert np.allclose(tw.coriolis_matrix(model, q, v) @ v, Cv, atol=1e-13)
+assert np.allclose(tw.rnea(model, q, 2 * v, rest) - g, 4 * Cv)  # Coriolis forces grow with the square of the speed
+
+M = tw.rnea(weightless, q, rest, np.eye(model.nv)).T  # all columns in one batch
+assert np.allclose(M, tw.crba(model, q), atol=1e-13)
+assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
+
+
+# %% [markdown] lang="en"
+# ## The pseudocode, run
+#
+# Typed in as the chapter prints it, three things go wrong:
+#
+# 1. The backward loop *sets* `F[i] = I a + V ×* I V`. By then the children have added theirs to `F[i]`; the assignment
+#    throws that away.
+# 2. It passes on `X[i]^* * F[i]` with `X[i]` from parent to child. But $X^* = X^{-T}$ goes the same way as $X$: outward.
+#    Inward goes $X^T$.
+# 3. Its loops begin at link 1, after the base: no line adds the base's own wrench.
+#
+# Colour marks what is wrong. The calves, with no children, come out right every time: a test on one joint, or at the
+# tips, would have passed.
+# %% [markdown] lang="zh"
+# ## 把伪代码跑一遍
+#
+# 照本章印的样子敲进去,有三处错误:
+#
+# 1. 反向循环里是*赋值* `F[i] = I a + V ×* I V`。这时子刚体已经把自己的加到 `F[i]` 上了,一赋值就全丢了。
+# 2. 它用 `X[i]^* * F[i]` 往回传,而 `X[i]` 是从父到子。可是 $X^* = X^{-T}$ 与 $X$ 同向:向外。向内的是 $X^T$。
+# 3. 循环从基座之后的连杆 1 开始:没有一行加上基座自己的 wrench。
+#
+# 有颜色的地方就是错的。小腿没有子刚体,每次都对:如果只测一个关节,或只测末端,就发现不了。
+# %%
+def inward(overwrite=False, star=False, without_base=False):
+    """Walk inward, right or as printed."""
+    F, tau = own.copy(), [np.zeros(0)] * model.nbodies
+    F[1] *= not without_base
+    for i in tree.inward:
+        F[i] = own[i] if overwrite else F[i]
+        tau[i] = S[i].T @ F[i]
+        back = np.linalg.inv(X[i]) if star else X[i]
+        F[parent[i]] += back.T @ F[i]
+    return np.concatenate(tau)
+
+
+assert np.allclose(inward(), tau)
+rows = {"1. overwritten": {"overwrite": True}, "2. X* for Xᵀ": {"star": True}, "3. no base": {"without_base": True}}
+errors = np.array([inward(**how) - inward() for how in rows.values()])
+
+names = ["τx", "τy", "τz", "fx", "fy", "fz"]
+names += [name.removesuffix("_joint").replace("_", "\n") for name in model.joint_names[2:]]
+ax = plot.axes_2d(size=(12.5, 2.8))
+plot.matrix(errors, "error of rnea, N m and N", rows=list(rows), columns=names, lines=[], numbers=".2g", ax=ax)
+ax.axvline(5.5, color="k", linewidth=1)
+plt.show()
+
+calves, others = [8, 11, 14, 17], [6, 7, 9, 10, 12, 13, 15, 16]
+assert (errors[:, calves] == 0).all()
+assert (errors[:2, others] != 0).all()
+assert np.allclose(inward(overwrite=True)[:6], own[1])  # the base by itself: all legs are lost
+assert np.allclose(inward(without_base=True)[:6], tau[:6] - own[1])  # the other way round
+assert (errors[2, 6:] == 0).all()
+# %% [markdown] lang="en"
+# ## Pinocchio agrees
+#
+# Not only the torques: after its `rnea`, `data.f` holds the wrenches through the joints and `data.a_gf` the accelerations
+# of a rising world. (`data.a` is for `forwardKinematics` to fill: after `rnea` do not read it.)
+# %% [markdown] lang="zh"
+# ## 与 Pinocchio 对照
+#
+# 不只是力矩:调用它的 `rnea` 之后,`data.f` 里是经过各关节的 wrench,`data.a_gf` 里是世界向上加速时的加速度。
+# (`data.a` 由 `forwardKinematics` 填写,调用 `rnea` 之后不要读它。)
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    data = pin_model.createData()
+    to_pin = tw.bridge.to_pinocchio_tangent
+    theirs = tw.bridge.from_pinocchio_tangent(model, pin.rnea(pin_model, data, q, to_pin(model, v), to_pin(model, a)))
+    scale = np.abs(tau).max()
+    assert np.abs(theirs - tau).max() < 1e-12 * scale
+    assert np.abs(tw.bridge.from_pinocchio_force(list(data.f)) - F)[1:].max() < 1e-12 * scale
+    assert np.abs(tw.bridge.from_pinocchio_motion(list(data.a_gf)) - A)[1:].max() < 1e-12 * np.abs(A).max()
+    print("torques, wrenches and accelerations: the same in both")
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.6.1** `rnea` against $M \ddot q + h$
+# - **49.6.2** why gravity enters at the world, and why that is the same
+# - **49.6.3** the base's wrench at rest
+#
+# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises hint 49.6.2` helps. Next: notebook 49.7.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.6.1** `rnea` 与 $M \ddot q + h$ 比较
+# - **49.6.2** 重力为什么从世界那里进入,为什么这样是等价的
+# - **49.6.3** 静止时基座的 wrench
+#
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises hint 49.6.2` 给提示。下一个:笔记本 49.7。
