@@ -10,6 +10,9 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `contacts`: friction cones, soles and their centre of pressure.
 - `inertias`: bodies as ellipsoids, the mass felt in each direction.
 - `flow`: what a recursion carries along the tree.
+- `sparsity`: the mass matrix beside the tree.
+- `stance`: a robot on its feet, with its support polygon.
+- `stride`: a robot from the side.
 """
 
 from .contacts import center_of_pressure, friction_cone, sole
@@ -19,6 +22,9 @@ from .inertias import ellipsoid, ellipsoids, felt_mass, semi_axes
 from .matrices import ANGULAR_LINEAR, matrix
 from .robot import robot, sticks
 from .screws import point_velocity, screw_axis, twist_field
+from .sparsity import mass_matrix, same_branch
+from .stance import foot_forces, hull, support_polygon
+from .stride import side_view
 from .style import COLOURS, XYZ, axes_2d, axes_3d, fit
 
 __all__ = [
@@ -34,15 +40,21 @@ __all__ = [
     "felt_mass",
     "fit",
     "flow",
+    "foot_forces",
     "friction_cone",
+    "hull",
+    "mass_matrix",
     "matrix",
     "point_velocity",
     "robot",
+    "same_branch",
     "screw_axis",
     "seats",
     "semi_axes",
+    "side_view",
     "sole",
     "sticks",
+    "support_polygon",
     "triad",
     "twist_field",
 ]

@@ -1,0 +1,118 @@
+"""The mass matrix beside the tree that its zeros come from (49.8)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array, as_array
+from ..model import Model
+from .matrices import ANGULAR_LINEAR, matrix
+from .style import COLOURS, axes_2d
+
+__all__ = ["mass_matrix", "same_branch"]
+
+
+def same_branch(model: Model) -> Array:
+    """Return where the tree lets M be other than zero: where one of two joints carries the other (49.8).
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    ndarray of bool, shape (nv, nv)
+
+    Examples
+    --------
+    Nine of a leg's entries go with each of the four legs, and not with the other three:
+
+    >>> import twistwrench as tw
+    >>> int((~same_branch(tw.load("go2"))).sum()) == 4 * 3 * 9
+    True
+    """
+    carries = np.zeros((model.nv, model.nv), bool)
+    for i in range(1, model.nbodies):
+        for j in model.support(i):
+            carries[model.v_slice[j], model.v_slice[i]] = True
+    return np.asarray(carries | carries.T)
+
+
+def mass_matrix(
+    model: Model, M: ArrayLike, title: str = "", *, rounding: float = 1e-12, indent: float = 0.9, ax: Any = None
+) -> Any:
+    """Draw a mass matrix with the tree beside its rows, like the folders of a file system.
+
+    White squares are the zeros that the tree alone explains; those that are zero although one of
+    the two joints carries the other have a dot.
+
+    Parameters
+    ----------
+    model : Model
+    M : array_like, shape (..., nv, nv)
+        Of one posture or of many: then the largest of each entry is drawn, and white or dotted is what is
+        zero in all of them.
+    title : str
+    rounding : float
+        Entries up to this are taken for zeros.
+    indent : float
+        How far a joint stands to the right of the one that carries it, in squares.
+    ax : matplotlib Axes, optional
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    ShapeError
+        If the last axes of `M` are not (nv, nv).
+
+    Examples
+    --------
+    A cart that moves along x, and its pole:
+
+    >>> import twistwrench as tw
+    >>> from matplotlib.figure import Figure
+    >>> model = tw.load("cart_pole")
+    >>> ax = mass_matrix(model, tw.crba(model, [0.0, 0.3]), ax=Figure().add_subplot())
+    >>> [text.get_text() for text in ax.texts]
+    ['slide', 'hinge']
+    """
+    M = as_array(M, "M", model.nv, model.nv).astype(float).reshape(-1, model.nv, model.nv)
+    largest = np.take_along_axis(M, np.abs(M).argmax(axis=0)[None], axis=0)[0]
+    ax = matrix(largest, title, lines=(), rounding=rounding, ax=axes_2d(ax, size=(7.5, 5.4)))
+    rows, columns = np.nonzero((np.abs(largest) <= rounding) & same_branch(model))
+    ax.plot(columns, rows, ".", color=COLOURS["grey"], markersize=4)
+    outward = range(1, model.nbodies)
+    branches = [model.v_slice[i].start for i in outward if model.parent[i] in (0, 1) or model.parent[i] != i - 1]
+    for k in [*branches, model.nv]:
+        ax.plot([-0.5, model.nv - 0.5], [k - 0.5, k - 0.5], color=COLOURS["black"], linewidth=0.8)
+        ax.plot([k - 0.5, k - 0.5], [-0.5, model.nv - 0.5], color=COLOURS["black"], linewidth=0.8)
+    _tree(model, indent, ax)
+    ax.set_ylim(model.nv - 0.4, -0.6)
+    for side in ax.spines.values():
+        side.set_visible(False)
+    return ax
+
+
+def _tree(model: Model, indent: float, ax: Any) -> None:
+    """Draw the joints at their rows, left of the matrix."""
+    depth = [len(model.support(i)) for i in range(model.nbodies)]
+    names = [name.removesuffix("_joint") for name in model.joint_names]
+    widest = max(d * indent + 0.5 * len(name) for d, name in zip(depth[1:], names[1:]))
+    x = np.array(depth) * indent - widest - 1.5
+    y = np.array([(s.start + s.stop - 1) / 2 for s in model.v_slice])
+    for i in range(1, model.nbodies):
+        p = model.parent[i]
+        if p:
+            bend = x[p] + 0.3
+            ax.plot([bend, bend, x[i] - 0.1], [y[p] + 0.45, y[i], y[i]], color=COLOURS["black"], linewidth=1)
+        ax.text(x[i], y[i], names[i], ha="left", va="center", fontsize=9)
+        if model.v_slice[i].stop - model.v_slice[i].start == 6:
+            for name, row in zip(ANGULAR_LINEAR, range(model.nv)[model.v_slice[i]]):
+                ax.text(-0.7, row, name, ha="right", va="center", fontsize=8)
+    ax.set_xlim(x[1] - 0.5, model.nv - 0.4)

@@ -1,0 +1,185 @@
+"""The pictures of sections 49.8 to 49.11: the right numbers in them."""
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+
+matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed: the pictures are not checked")
+from matplotlib.figure import Figure  # noqa: E402
+
+from twistwrench import plot  # noqa: E402
+
+MODEL = tw.load("go2")
+Q = MODEL.standing()
+
+
+@pytest.fixture
+def space():
+    return Figure().add_subplot(projection="3d")
+
+
+@pytest.fixture
+def flat():
+    return Figure().add_subplot()
+
+
+def curve(line):
+    """Return the points of a line in space."""
+    return np.stack(line.get_data_3d(), axis=-1)
+
+
+def random_postures():
+    rng = np.random.default_rng(1)
+    return np.array([MODEL.random_configuration(rng=rng) for _ in range(10)])
+
+
+@pytest.mark.parametrize(
+    ("draw", "fixture"),
+    [
+        (lambda ax: plot.mass_matrix(MODEL, tw.crba(MODEL, Q), ax=ax), "flat"),
+        (lambda ax: plot.side_view(MODEL, Q, ax=ax), "flat"),
+        (lambda ax: plot.support_polygon(np.eye(3), [0, 0, 1], ax=ax), "space"),
+        (lambda ax: plot.foot_forces(MODEL, Q, np.ones((4, 3)), ax=ax), "space"),
+    ],
+)
+def test_a_picture_is_drawn_on_the_axes_given(draw, fixture, request):
+    ax = request.getfixturevalue(fixture)
+    assert draw(ax) is ax
+    assert ax.figure.axes == [ax]
+
+
+# ---------------------------------------------------------------- the mass matrix
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_off_the_branch_the_mass_matrix_is_zero_and_on_it_hardly_ever(base):
+    for seed in range(5):
+        model = tw.random_tree(8, rng=seed, base=base)
+        M = tw.crba(model, model.random_configuration(rng=seed))
+        branch = plot.same_branch(model)
+        assert not M[~branch].any()
+        between = branch.copy()  # a planar joint has zeros of its own between its entries, a free-flyer as well
+        for s in model.v_slice:
+            between[s, s] = False
+        assert (M[between] != 0).mean() > 0.8
+
+
+def test_the_branches_of_a_chain_are_all_one():
+    assert plot.same_branch(tw.chain(5)).all()
+
+
+def test_a_mass_matrix_shows_the_largest_of_each_entry_with_its_sign(flat):
+    many = tw.crba(MODEL, random_postures())
+    plot.mass_matrix(MODEL, many, ax=flat)
+    shade = flat.images[0].get_array()
+    largest = np.abs(many).max(axis=0)
+    np.testing.assert_allclose(
+        np.abs(shade.filled(0)) ** 3, np.where(largest > 1e-12, largest / largest.max(), 0), atol=1e-12
+    )
+    signed = np.where(many.max(axis=0) == largest, 1, -1)
+    shown = largest > 1e-12
+    np.testing.assert_array_equal(np.sign(shade.filled(0))[shown], signed[shown])
+
+
+def test_dots_mark_the_zeros_that_the_tree_does_not_explain(flat):
+    many = tw.crba(MODEL, random_postures())
+    plot.mass_matrix(MODEL, many, ax=flat)
+    (dots,) = [line for line in flat.lines if line.get_marker() == "."]
+    squares = {(int(row), int(column)) for column, row in dots.get_xydata()}
+    assert len(squares) == 20
+    assert {(0, 3), (1, 4), (2, 5), (3, 4), (3, 5), (4, 5), (3, 6), (3, 9), (3, 12), (3, 15)} < squares
+    assert squares == {(column, row) for row, column in squares}
+    assert all((np.abs(many[:, row, column]) < 1e-12).all() for row, column in squares)
+
+
+@pytest.mark.parametrize("name", ["go2", "humanoid", "planar_arm"])
+def test_each_joint_stands_at_its_row_right_of_the_one_that_carries_it(name, flat):
+    model = tw.load(name)
+    plot.mass_matrix(model, np.eye(model.nv), ax=flat)
+    place = {text.get_text(): np.array(text.get_position()) for text in flat.texts}
+    names = [joint.removesuffix("_joint") for joint in model.joint_names]
+    for i in range(1, model.nbodies):
+        rows = np.arange(model.nv)[model.v_slice[i]]
+        assert place[names[i]][1] == rows.mean()
+        assert place[names[i]][0] < -1  # left of the matrix
+        if model.parent[i]:
+            assert place[names[i]][0] == pytest.approx(place[names[model.parent[i]]][0] + 0.9)
+
+
+def test_a_mass_matrix_of_another_robot_is_refused(flat):
+    with pytest.raises(tw.ShapeError, match=r"M: expected shape \(\.\.\., 18, 18\)"):
+        plot.mass_matrix(MODEL, np.eye(12), ax=flat)
+
+
+# ---------------------------------------------------------------- feet on the ground
+
+
+def test_the_hull_is_a_convex_polygon_around_all_points():
+    rng = np.random.default_rng(2)
+    points = rng.standard_normal((60, 3))
+    corners = plot.hull(points)
+    assert {tuple(c) for c in corners} < {tuple(p) for p in points}
+    sides = np.roll(corners, -1, axis=0)[:, :2] - corners[:, :2]
+    to_points = points[None, :, :2] - corners[:, None, :2]
+    left = sides[:, None, 0] * to_points[..., 1] - sides[:, None, 1] * to_points[..., 0]
+    assert left.min() > -1e-12  # every point is on the left of every side, or on it
+    assert (left > 1e-12).sum() == len(corners) * 60 - 2 * len(corners)  # on it are its two ends only
+
+
+@pytest.mark.parametrize("points", [[[0, 0], [0, 0], [0, 0]], [[0, 0], [1, 1], [2, 2], [1, 1]]])
+def test_the_hull_of_points_on_a_line_is_its_two_ends(points):
+    corners = plot.hull(points)
+    np.testing.assert_array_equal(corners, np.unique([np.min(points, 0), np.max(points, 0)], axis=0))
+
+
+def test_the_plumb_line_leads_from_the_centre_of_mass_to_the_floor(space):
+    corners, com = np.array([[0, 0, 0.1], [1, 0, 0.1], [0, 1, 0.1], [1, 1, 0.1]]), np.array([0.4, 0.3, 0.8])
+    plot.support_polygon(corners, com, label="polygon", ax=space)
+    outline, plumb, foot = space.lines
+    np.testing.assert_array_equal(curve(outline), np.append(plot.hull(corners), [[0, 0, 0.1]], axis=0))
+    np.testing.assert_allclose(curve(plumb), [com, [0.4, 0.3, 0.1]], rtol=1e-12)
+    np.testing.assert_allclose(curve(foot), [[0.4, 0.3, 0.1]], rtol=1e-12)
+    assert space.get_legend_handles_labels()[1] == ["polygon"]
+
+
+def test_the_polygon_of_two_feet_is_a_line(space):
+    plot.support_polygon([[0, 0, 0], [1, 0, 0]], ax=space)
+    assert len(space.lines) == 1
+    assert not space.collections
+
+
+def test_foot_forces_start_at_the_feet_and_are_written_beside_them(space):
+    forces = np.arange(12.0).reshape(4, 3)
+    plot.foot_forces(MODEL, Q, forces, scale=0.01, ax=space)
+    feet = np.array([tw.frame_placement(MODEL, Q, foot).translation for foot in MODEL.feet])
+    assert [text.get_text().strip() for text in space.texts] == ["2.0 N", "5.0 N", "8.0 N", "11.0 N"]
+    np.testing.assert_allclose([t.get_position_3d() for t in space.texts], feet + 0.01 * forces, atol=1e-12)
+
+
+def test_foot_forces_act_on_the_contacts_that_are_named(space):
+    plot.foot_forces(MODEL, Q, [[0, 0, 7.0]], ["RL_foot"], scale=0.0, ax=space)
+    np.testing.assert_allclose(
+        space.texts[0].get_position_3d(), tw.frame_placement(MODEL, Q, "RL_foot").translation, atol=1e-12
+    )
+    with pytest.raises(tw.ShapeError, match="forces"):
+        plot.foot_forces(MODEL, Q, np.ones((3, 3)), ax=space)
+
+
+# ---------------------------------------------------------------- from the side
+
+
+def test_a_side_view_shows_x_and_z_and_is_shifted(flat):
+    q = MODEL.random_configuration(rng=3)
+    plot.side_view(MODEL, q, shift=2.0, ax=flat)
+    drawn = {tuple(line.get_xydata().ravel().round(9)) for line in flat.lines[:-1]}
+    sticks = plot.sticks(MODEL, q)[..., [0, 2]] + [2.0, 0]
+    assert drawn == {tuple(stick.ravel().round(9)) for stick in sticks}
+    com = tw.center_of_mass(MODEL, q)
+    np.testing.assert_allclose(flat.lines[-1].get_xydata(), [[com[0] + 2, com[2]]], rtol=1e-12)
+
+
+def test_near_and_far_legs_have_their_own_colours_and_the_near_ones_are_in_front(flat):
+    plot.side_view(MODEL, Q, com=False, ax=flat)
+    colours = [line.get_color() for line in flat.lines]
+    assert colours == [plot.COLOURS["blue"]] * 6 + [plot.COLOURS["grey"]] * 4 + [plot.COLOURS["vermilion"]] * 6
