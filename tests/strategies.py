@@ -74,8 +74,9 @@ def recipes(max_bodies: int = 40, *, bases=("fixed", "floating"), kinds=KINDS):
 def random_state(model: tw.Model, *, rng, batch=(), dtype=np.float64) -> State:
     """A state with entries of order 1 in a number type, the wrench on the world zero.
 
-    Long double numbers are filled to their last bit. In complex numbers every entry has an imaginary part of
-    about 0.1, except in quaternions and (cos, sin), where it is that of a complex step: 1e-20.
+    Long double numbers are filled to their last bit. In complex numbers the entries have imaginary parts of about
+    0.1; those of q 0.01, so that the real parts of the inertias stay positive, and those of quaternions and
+    (cos, sin) 1e-20, as in a complex step.
     """
     rng = np.random.default_rng(rng)
     dtype = np.dtype(dtype)
@@ -89,11 +90,12 @@ def random_state(model: tw.Model, *, rng, batch=(), dtype=np.float64) -> State:
         arrays = [x + 1e-17 * rng.standard_normal(x.shape).astype(real) for x in arrays]
     arrays[0] = model.normalize(arrays[0])
     if dtype.kind == "c":
-        arrays = [x + 0.1j * rng.standard_normal(x.shape).astype(real) for x in arrays]
+        sizes = (0.01j, 0.1j, 0.1j, 0.1j, 0.1j)
+        arrays = [x + i * rng.standard_normal(x.shape).astype(real) for x, i in zip(arrays, sizes, strict=True)]
         for joint, s in zip(model.joints, model.q_slice):
             if joint is not None and joint.unit is not None:
                 unit = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
-                arrays[0].imag[..., unit] *= 1e-19
+                arrays[0].imag[..., unit] *= 1e-18
     q, v, a, tau, f_ext = (x.astype(dtype, copy=False) for x in arrays)
     f_ext[..., 0, :] = 0
     return State(q, v, a, tau, f_ext)

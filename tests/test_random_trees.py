@@ -19,7 +19,7 @@ BIG_TREE = Recipe(40, seed=3, base="fixed")
 @given(recipes(8))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@examples(20)
+@examples(15)
 def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
     check_against_the_truth(recipe, np.float64)
 
@@ -60,7 +60,7 @@ def check_against_pinocchio(recipe: Recipe) -> None:
 @given(recipes(40))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@examples(60)
+@examples(40)
 def test_every_quantity_is_pinocchios(recipe):
     check_against_pinocchio(recipe)
 
