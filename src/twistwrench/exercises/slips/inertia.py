@@ -90,7 +90,7 @@ INERTIA = {
         "49.4",
     ),
     "g-rounded": Slip(
-        Text("another g: 9.8 or 10 in place of 9.81 m/s²", "g 取了 9.8 或 10,应为 9.81 m/s²"),
+        Text("g = 9.8 in place of 9.81 m/s²", "g 取了 9.8,应为 9.81 m/s²"),
         Text("The models use 9.81 m/s².", "模型中取 9.81 m/s²。"),
         "49.4",
     ),
