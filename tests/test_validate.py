@@ -261,6 +261,13 @@ def test_an_error_beyond_1e_12_passes_where_rounding_explains_it():
     assert "the equation is met to" in row.note
 
 
+def test_to_call_singular_what_is_only_nearly_so_fails():
+    def gives_up(model, states):
+        raise tw.SingularError("joint 'first'")
+
+    assert not judge(coaxial()).row(replace(quantity("forward dynamics"), ours=gives_up)).passed
+
+
 def test_an_error_within_the_bound_fails_where_rounding_does_not_explain_it():
     """The equation is then missed by far more than a few roundings of its terms."""
     q, j = quantity("forward dynamics"), judge(coaxial())

@@ -42,14 +42,11 @@ def _aba(p: Oracle, s: States, *f_ext: Array) -> Array:
     return p.vector(p.pin.aba(p.model, p.data, s.q, p.tangent(s.v), p.tangent(s.tau), *extra))
 
 
-def _names_the_massless(model: Model, states: States, message: str) -> bool:
+def _names_the_massless(model: Model, s: States, message: str) -> bool:
     """Whether the error names all joints that move nothing, or if there are none, one that feels no inertia."""
     named = {name for name in model.joint_names if repr(name) in message}
-    for i in range(len(states)):
-        nothing, lost = without_inertia(model, states[i])
-        if named and (named == nothing or (not nothing and named <= lost)):
-            return True
-    return False
+    nothing, lost = without_inertia(model, s)
+    return bool(named) and (named == nothing or (not nothing and named <= lost))
 
 
 FORWARD_DYNAMICS = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from ..checks import Array
@@ -42,9 +42,9 @@ class Quantity:
     residual : callable, optional
         Of the model, a state whose a is our result, and the same in exact numbers: by what part of its
         terms the equation is missed that the result should solve. Asked where the error is above 1e-12.
-    singular : callable
-        Of the model, the states and the message of a SingularError of ours: whether it is right. Unless
-        given, it is where the truth, in double precision, does not exist at one of the states either.
+    singular : callable, optional
+        Of the model, one state in exact numbers and the message of a SingularError of ours: whether it is
+        right there. Unless given, it is where the truth does not exist either.
     applies : callable
         Of the model: whether it has this quantity.
     """
@@ -61,11 +61,11 @@ class Quantity:
     applies: Callable[[Model], bool] = lambda model: True
     singular: Callable[[Model, States, str], bool] | None = None
 
-    def is_singular(self, model: Model, states: States, message: str) -> bool:
-        """Say whether a SingularError of ours is right."""
+    def is_singular(self, model: Model, states: Iterable[States], message: str) -> bool:
+        """Say whether a SingularError of ours is right at one of these states, given in exact numbers."""
         if self.singular is not None:
-            return self.singular(model, states, message)
-        return any(self._does_not_exist(model, states[i]) for i in range(len(states)))
+            return any(self.singular(model, s, message) for s in states)
+        return any(self._does_not_exist(model, s) for s in states)
 
     def _does_not_exist(self, model: Model, s: States) -> bool:
         try:
