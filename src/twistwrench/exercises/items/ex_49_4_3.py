@@ -139,16 +139,16 @@ HOLDS = Part(
 
         F: array (6,), (τ, f), N m and N, about the centre of the sole, z upward.
         d_x, d_y: numbers, m, half the length and half the width of the sole.
-        Returns: True or False. The edge itself is allowed.""",
+        Returns: True or False. The edge itself is allowed. p(F) gives the centre of pressure.""",
         """返回仅就压力而言地面能否对脚底施加该 wrench(不考虑摩擦)。
 
         F:数组 (6,),(τ, f),N m 与 N,对脚底中心取矩,z 向上。
         d_x、d_y:数,单位 m,脚底的半长与半宽。
-        返回:True 或 False,恰在边缘上算可以。""",
+        返回:True 或 False,恰在边缘上算可以。p(F) 给出压力中心。""",
     ),
     returns=(Quantity("holds"),),
     cases=_wrenches,
-    given='p = mine("center_of_pressure")  # p(F) gives its x and y',
+    given='p = mine("center_of_pressure")',
     slips={
         "cop-axes": lambda F, d_x, d_y: sole_holds(F, d_y, d_x),
         "pulling-allowed": _unchecked,
