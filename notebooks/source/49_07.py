@@ -1,0 +1,410 @@
+# %% [markdown] lang="en"
+# # 49.7 ABA: forward dynamics
+#
+# Given the forces at the joints, how does the robot accelerate? You could build $M$ and solve. The articulated-body
+# algorithm does without $M$: it asks of each joint which inertia it *feels* when all joints behind it are free. This
+# notebook shows that inertia, walks the three passes on Go2, and asks how exact the answer is.
+# %% [markdown] lang="zh"
+# # 49.7 ABA:正向动力学
+#
+# 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$:它问每个关节,当后面的关节全部自由时,它
+# *感受到*的惯量是多少。这个笔记本把这种惯量画出来,在 Go2 上走完三遍递推,最后看答案有多准。
+# %%
+import matplotlib.pyplot as plt
+import mpmath
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import newton_euler_3d, plot
+from twistwrench.tree import composite_inertias, split, walk
+
+model = tw.load("go2")
+q = model.standing()
+rng = np.random.default_rng(7)
+v, tau = rng.standard_normal((2, model.nv))
+rest = np.zeros(model.nv)
+# %% [markdown] lang="en"
+# ## A pendulum in the hand
+#
+# Hold a rod by a hinge at its upper end and move the hinge. The rod follows with
+# $\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$ and takes $\boldsymbol F = \hat I \boldsymbol a$. The hinge is free: it
+# transmits nothing along $S$, so $S^T \boldsymbol F = 0$. That gives $\ddot q$, and with it what the hand feels:
+#
+# $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
+#
+# The bracket is an **articulated inertia**: the rod, less what the free joint lets go. It is no longer ten numbers. Along
+# the rod the hand feels all of the mass; across, the rod just swings, and (if it is thin) only a quarter is felt.
+# %% [markdown] lang="zh"
+# ## 手里的单摆
+#
+# 用铰链捏住一根杆的上端,移动铰链。杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要
+# $\boldsymbol F = \hat I \boldsymbol a$。铰链是自由的:沿 $S$ 不传递任何东西,所以 $S^T \boldsymbol F = 0$。由此得到
+# $\ddot q$,也就知道手感受到什么:
+#
+# $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
+#
+# 括号里就是**铰接体惯量**:杆的惯量,减去自由关节放走的那部分。它不再是十个数。沿着杆的方向,手感受到全部质量;
+# 横着推,杆只是摆开,(细杆时)只感受到四分之一。
+# %%
+rod = tw.chain(1, mass=2.0).inertia[1]  # 1 m long, hangs along −z
+S = tw.Revolute("y").subspace()
+I = rod.matrix()
+felt = I - I @ S @ np.linalg.inv(S.T @ I @ S) @ S.T @ I
+assert np.allclose(felt @ S, 0, atol=1e-12)  # turning the hand about the hinge moves nothing
+assert np.isclose(felt[5, 5], 2.0)  # kg, along the rod
+assert np.isclose(felt[3, 3], 2.0 / 4, rtol=0.01)  # kg, across
+assert np.isclose(felt[4, 4], 2.0)  # along the hinge it cannot swing
+# %%
+figure, axes = plt.subplots(1, 3, figsize=(10, 3.8), layout="constrained", sharey=True)
+for ax, angle in zip(axes, np.deg2rad([0, 40, 90])):
+    X = tw.SE3(tw.exp3([0, -angle, 0]), np.zeros(3)).inverse().motion_transform()  # from the hand to the turned rod
+    ax.plot([0, np.sin(angle)], [0, -np.cos(angle)], color=plot.COLOURS["grey"], linewidth=6, solid_capstyle="round")
+    plot.felt_mass(I, scale=0.4, colour=plot.COLOURS["orange"], label="hinge locked", ax=ax)
+    plot.felt_mass(X.T @ felt @ X, scale=0.4, label="hinge free", ax=ax)
+    ax.plot(0, 0, "k.")
+    ax.set(title=f"rod at {np.rad2deg(angle):.0f}°", xlabel="force along x for 1 m/s²", xticks=[-0.8, 0, 0.8])
+    ax.set(xticklabels=["−2 N", "0", "2 N"], yticks=[])
+figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+plt.show()
+# %% [markdown] lang="en"
+# Each point of a curve is the force that gives the hand 1 m/s² in some direction. Locked, the rod is one number, its
+# mass: a circle. Free, it is an ellipse, thin across the rod.
+#
+# ## Three passes
+#
+# Now let the rod carry a tree, let it move, and give the joint a torque. For each body the whole tree behind its joint
+# acts as $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$: linear in the acceleration, whatever hangs on
+# it. (RNEA's $\boldsymbol F_i$; the bias wrench $\boldsymbol p_i^A$ is what it takes without acceleration.) The same
+# elimination as above, joint by joint from the tips:
+#
+# 1. **Outward**: twists $\boldsymbol V_i$, bias accelerations $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;
+#    to begin with, $\hat I_i^A = \hat I_i$ and $\boldsymbol p_i^A = \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$.
+# 2. **Inward**: with $U_i = \hat I_i^A S_i$, $D_i = S_i^T U_i$, $u_i = \tau_i - S_i^T \boldsymbol p_i^A$, the parent
+#    feels
+# $$\hat I_i^a = \hat I_i^A - U_i D_i^{-1} U_i^T, \qquad \boldsymbol p_i^a = \boldsymbol p_i^A + \hat I_i^a \boldsymbol c_i
+# + U_i D_i^{-1} u_i,$$
+#    taken into its frame: $\hat I_{\lambda}^A$ grows by $X_i^T \hat I_i^a X_i$, $\boldsymbol p_{\lambda}^A$ by
+#    $X_i^T \boldsymbol p_i^a$.
+# 3. **Outward**: $\ddot q_i = D_i^{-1}\big(u_i - U_i^T (X_i \boldsymbol a_\lambda + \boldsymbol c_i)\big)$, and on to the
+#    next.
+#
+# The chapter writes $X_i^* \hat I X_i^{-1}$ and $X_i^* \boldsymbol p$ here, with $X_i$ from parent to child. That leads
+# outward, as in 49.6: the calf ends up above the thigh.
+# %% [markdown] lang="zh"
+# 曲线上每个点,是让手在某个方向得到 1 m/s² 所需的力。铰链锁死时,杆只是一个数,即质量:一个圆。铰链自由时是椭圆,
+# 横着杆的方向很窄。
+#
+# ## 三遍递推
+#
+# 现在让杆后面带上一棵树,让它运动,再给关节加上力矩。对每个刚体,关节后面的整棵树表现为
+# $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$:不管挂着什么,对加速度总是线性的。(这就是 RNEA 的
+# $\boldsymbol F_i$;偏置力 $\boldsymbol p_i^A$ 是没有加速度时所需的。)做法与上面的消元一样,从末端开始,一个关节一个关节地做:
+#
+# 1. **向外**：twist $\boldsymbol V_i$,偏置加速度 $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;起初
+#    $\hat I_i^A = \hat I_i$，$\boldsymbol p_i^A = \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$。
+# 2. **向内**:令 $U_i = \hat I_i^A S_i$、$D_i = S_i^T U_i$、$u_i = \tau_i - S_i^T \boldsymbol p_i^A$,父刚体感受到
+# $$\hat I_i^a = \hat I_i^A - U_i D_i^{-1} U_i^T, \qquad \boldsymbol p_i^a = \boldsymbol p_i^A + \hat I_i^a \boldsymbol c_i
+# + U_i D_i^{-1} u_i,$$
+#    再换到它的坐标系:$\hat I_{\lambda}^A$ 加上 $X_i^T \hat I_i^a X_i$，$\boldsymbol p_{\lambda}^A$ 加上
+#    $X_i^T \boldsymbol p_i^a$。
+# 3. **向外**：$\ddot q_i = D_i^{-1}\big(u_i - U_i^T (X_i \boldsymbol a_\lambda + \boldsymbol c_i)\big)$,再到下一个。
+#
+# 本章这里写的是 $X_i^* \hat I X_i^{-1}$ 和 $X_i^* \boldsymbol p$,而 $X_i$ 是从父到子。这和 49.6 一样是向外的:
+# 小腿会跑到大腿上方去。
+# %%
+tree = walk(model, q)
+n, parent, S, I, X = model.nbodies, tree.parent, tree.S, tree.I, tree.X
+qd, torque = split(model, v), split(model, tau)
+V, A, c, pA = np.zeros((4, n, 6))
+IA, U, D, u, qdd = np.array(I), [None] * n, [None] * n, [None] * n, [np.zeros(0)] * n
+A[0, 3:] = -model.gravity  # the world rises, as in RNEA
+
+for i in tree.outward:  # 1: twists
+    V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
+    c[i] = tw.cross_motion(V[i]) @ S[i] @ qd[i]
+    pA[i] = tw.cross_force(V[i]) @ I[i] @ V[i]
+for i in tree.inward:  # 2: articulated inertias
+    U[i] = IA[i] @ S[i]
+    D[i] = S[i].T @ U[i]
+    u[i] = torque[i] - S[i].T @ pA[i]
+    Ia = IA[i] - U[i] @ np.linalg.solve(D[i], U[i].T)
+    pa = pA[i] + Ia @ c[i] + U[i] @ np.linalg.solve(D[i], u[i])
+    IA[parent[i]] += X[i].T @ Ia @ X[i]
+    pA[parent[i]] += X[i].T @ pa
+for i in tree.outward:  # 3: accelerations
+    A[i] = X[i] @ A[parent[i]] + c[i]
+    qdd[i] = np.linalg.solve(D[i], u[i] - U[i].T @ A[i])
+    A[i] += S[i] @ qdd[i]
+qdd = np.concatenate(qdd)
+
+assert np.allclose(qdd, tw.aba(model, q, v, tau), rtol=1e-11, atol=1e-11)
+through = tw.joint_wrenches(model, q, v, qdd)
+assert np.allclose(np.matvec(IA, A)[1:] + pA[1:], through[1:], atol=1e-10)  # F = I^A a + p^A, for every body
+assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on to the world
+
+
+# %% [markdown] lang="en"
+# ## Locked or free
+#
+# Two inertias answer two questions about the same subtree:
+#
+# - **composite** $\hat I^C$: joints *locked*, one rigid body (49.5). CRBA builds $M$ from it, and $S_i^T \hat I_i^C S_i$
+#   is the entry $M_{ii}$.
+# - **articulated** $\hat I^A$: joints *free*. $D_i = S_i^T \hat I_i^A S_i$ is what the motor feels.
+#
+# Letting joints go can only make it lighter. Below, six equal rods: at each hinge the mass that the rod before it feels,
+# drawn as above. All hinges locked, the circles grow with the number of rods. All hinges free, the other five add
+# little across the first rod, and nothing like their mass along it.
+# %% [markdown] lang="zh"
+# ## 锁死还是自由
+#
+# 对同一棵子树,两种惯量回答两个问题:
+#
+# - **复合惯量** $\hat I^C$:关节*锁死*,成为一个刚体(49.5)。CRBA 用它构造 $M$，$S_i^T \hat I_i^C S_i$ 就是元素
+#   $M_{ii}$。
+# - **铰接体惯量** $\hat I^A$:关节*自由*。$D_i = S_i^T \hat I_i^A S_i$ 就是电机感受到的惯量。
+#
+# 放开关节只会变轻。下面是六根相同的杆:每个铰链处画的是前一根杆感受到的质量,画法同上。铰链全锁死,圆随杆数变大;
+# 铰链全自由,后面那五根杆横着第一根杆的方向几乎没有增加什么,沿着它的方向也远远不到它们的质量。
+# %%
+def through_joints(model, q):
+    """Composite inertia of each subtree, and what its parent feels of it through the free joint."""
+    tree = walk(model, np.asarray(q, float))
+    IA, felt = [*tree.I], [None] * model.nbodies
+    for i in tree.inward:
+        U = IA[i] @ tree.S[i]
+        felt[i] = IA[i] - U @ np.linalg.solve(tree.S[i].T @ U, U.T)
+        IA[tree.parent[i]] = IA[tree.parent[i]] + tree.X[i].T @ felt[i] @ tree.X[i]
+    return composite_inertias(tree), felt
+
+
+rods = tw.chain(6)
+bent = np.deg2rad([70, -20, -25, -25, 15, 25])
+locked, free = through_joints(rods, bent)
+placement = tw.forward_kinematics(rods, bent).placement
+joints = np.array([T.translation for T in placement[1:]] + [tw.frame_placement(rods, bent, "tip").translation])
+
+ax = plot.axes_2d(size=(8, 5.5))
+ax.plot(joints[:, 0], joints[:, 2], "-o", color=plot.COLOURS["grey"], linewidth=4, markersize=5)
+for i in range(1, 7):
+    turn = tw.SE3(placement[i].rotation, np.zeros(3)).inverse().motion_transform()  # into the axes of the world
+    at = placement[i].translation[[0, 2]]
+    assert np.isclose((turn.T @ locked[i] @ turn)[5, 5], 7 - i)  # kg: all rods behind
+    assert (np.linalg.eigvalsh(locked[i] - free[i]) > -1e-12).all()  # free is lighter, for every motion
+    orange = plot.COLOURS["orange"]
+    plot.felt_mass(turn.T @ locked[i] @ turn, at, scale=0.14, colour=orange, label="locked" if i == 1 else None, ax=ax)
+    plot.felt_mass(turn.T @ free[i] @ turn, at, scale=0.14, label="free" if i == 1 else None, ax=ax)
+assert free[1][3, 3] < 1.3 * free[6][3, 3]
+assert free[1][5, 5] < 3
+print("free, across and along the first rod:", free[1][3, 3].round(2), free[1][5, 5].round(2), "kg")
+print("          and with nothing behind it:", free[6][3, 3].round(2), free[6][5, 5].round(2), "kg")
+ax.set(xlabel="x [m]", ylabel="z [m]", title="mass felt through each hinge (6 kg locked, at the first)")
+ax.legend(loc="lower right")
+plt.show()
+# %% [markdown] lang="en"
+# And Go2? Roll its trunk, and the legs swing behind: a quarter of the locked inertia is felt. Lift it, and you lift
+# 13.4 kg of 16.1. The articulated inertia of the base is what a controller that knows $M$ would call a Schur complement;
+# pushing at the base tells the same:
+# %% [markdown] lang="zh"
+# 那么 Go2 呢?让躯干绕前后轴翻滚,腿就跟在后面摆:只感受到锁死时惯量的四分之一。把它往上提,提起的是 16.1 kg 中的
+# 13.4 kg。基座的铰接体惯量,在知道 $M$ 的控制器那里叫作 Schur 补;在基座上推一把,得到的也是它:
+# %%
+M = tw.crba(model, q)
+schur = M[:6, :6] - M[:6, 6:] @ np.linalg.solve(M[6:, 6:], M[6:, :6])
+assert np.allclose(IA[1], schur, atol=1e-12)
+assert np.allclose(IA[1][3:, 3:].diagonal(), [15.2, 15.3, 13.4], atol=0.1)  # kg
+
+pushes = np.pad(np.eye(6), [(0, 0), (0, 12)])  # 1 N m or 1 N on the base, six ways in one batch
+response = (tw.aba(model, q, rest, pushes) - tw.aba(model, q, rest, rest))[:, :6]
+assert np.allclose(response, np.linalg.inv(IA[1]), rtol=1e-10, atol=1e-12)
+
+front_left = range(2, 5)
+pairs = {  # what is compared: names, locked, free
+    "trunk, turning [kg m²]": (["roll", "pitch", "yaw"], M.diagonal()[:3], IA[1].diagonal()[:3]),
+    "trunk, moving [kg]": (["x", "y", "z"], M.diagonal()[3:6], IA[1].diagonal()[3:]),
+    "motors [kg m²]": (["hip", "thigh", "calf"], M.diagonal()[6:9], [D[i].item() for i in front_left]),
+}
+figure, axes = plt.subplots(1, 3, figsize=(11, 3.4), layout="constrained")
+for ax, (title, (names, when_locked, when_free)) in zip(axes, pairs.items()):
+    x = np.arange(3)
+    ax.bar(x - 0.2, when_locked, 0.4, color=plot.COLOURS["orange"], label="joints behind locked")
+    ax.bar(x + 0.2, when_free, 0.4, color=plot.COLOURS["blue"], label="joints behind free")
+    ax.set(xticks=x, xticklabels=names, title=title)
+    assert (np.asarray(when_free) <= np.asarray(when_locked) * (1 + 1e-12)).all()
+figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+plt.show()
+assert np.isclose(IA[1][0, 0] / M[0, 0], 0.24, atol=0.01)
+# %% [markdown] lang="en"
+# The base matters as much. Give the front left hip 1 N m. With the base held it accelerates with 54 rad/s²; on a free
+# robot with 95, since the trunk gives way, and every other joint moves too. (The chapter's pseudocode sets
+# $\boldsymbol a_0 = -\boldsymbol g$ for the base and so computes the held robot.)
+# %% [markdown] lang="zh"
+# 基座的影响同样大。给左前髋 1 N m。托住基座时它以 54 rad/s² 加速;机器人自由时是 95,因为躯干会让开,而且其他关节都跟着动。
+# (本章的伪代码给基座设 $\boldsymbol a_0 = -\boldsymbol g$,算的其实是被托住的机器人。)
+# %%
+fixed, push = tw.load("go2", base="fixed"), np.eye(model.nv)[6]
+held = tw.aba(fixed, q[7:], rest[6:], push[6:]) - tw.aba(fixed, q[7:], rest[6:], rest[6:])
+loose = tw.aba(model, q, rest, push) - tw.aba(model, q, rest, rest)
+print(f"front left hip: {held[0]:.0f} rad/s² with the base held, {loose[6]:.0f} with the base free")
+assert np.allclose([held[0], loose[6]], [54.3, 95.5], atol=0.1)
+assert np.allclose(held[3:], 0, atol=1e-12)  # held, the other legs notice nothing
+assert (np.abs(loose[9:]) > 0.1).all()
+# %% [markdown] lang="en"
+# ## There and back
+#
+# `aba` and `rnea` are inverses of each other. Two programs of a different kind that agree are a good test: a hundred
+# random states at once.
+# %% [markdown] lang="zh"
+# ## 一去一回
+#
+# `aba` 与 `rnea` 互为逆。两个路数不同的程序结果一致,就是很好的检验:一次用一百个随机状态。
+# %%
+qs = np.array([model.random_configuration(rng=rng) for _ in range(100)])
+vs, taus = rng.standard_normal((2, 100, model.nv))
+accelerations = tw.aba(model, qs, vs, taus)
+assert accelerations.shape == (100, 18)
+assert np.abs(tw.rnea(model, qs, vs, accelerations) - taus).max() < 1e-12 * np.abs(accelerations).max()
+assert np.allclose(tw.aba(model, qs, vs, tw.rnea(model, qs, vs, vs)), vs, atol=1e-10)
+# %% [markdown] lang="en"
+# ## Free fall
+#
+# Without torques and at rest, every body falls alike: the base with $\boldsymbol g$ in its own axes, no joint moves. Not
+# approximately; exactly. It is no longer so when $v \ne 0$: the swinging legs pull at the base, and a spatial
+# acceleration leaves out $\boldsymbol\omega \times \boldsymbol v$. What does fall with $\boldsymbol g$, always, is the
+# centre of mass: $\dot{\boldsymbol h}_G$ is the weight (49.10).
+# %% [markdown] lang="zh"
+# ## 自由落体
+#
+# 没有力矩又静止时,每个刚体落得一样快:基座的加速度是它自己坐标轴下的 $\boldsymbol g$,关节不动。不是近似,是精确。
+# $v \ne 0$ 时就不是了:摆动的腿会拉动基座,而且空间加速度里不含 $\boldsymbol\omega \times \boldsymbol v$。永远以
+# $\boldsymbol g$ 下落的是质心:$\dot{\boldsymbol h}_G$ 就是重力(49.10)。
+# %%
+for any_q in qs[:10]:
+    falling = tw.aba(model, any_q, rest, rest)
+    down = tw.forward_kinematics(model, any_q).placement[1].rotation.T @ model.gravity
+    assert np.allclose(falling, [0, 0, 0, *down, *rest[6:]], atol=1e-11)
+
+tumbling = tw.aba(model, qs[0], vs[0], rest)
+down = tw.forward_kinematics(model, qs[0]).placement[1].rotation.T @ model.gravity
+assert np.linalg.norm(tumbling[3:6] - down) > 0.5  # m/s²
+rate = tw.centroidal_momentum_rate(model, qs[0], vs[0], tumbling)
+assert np.allclose(rate, [0, 0, 0, *(model.mass * model.gravity)], atol=1e-10)
+# %% [markdown] lang="en"
+# ## Where there is no answer
+#
+# $D_i^{-1}$ asks for an inertia. If a joint moves nothing that has one, its acceleration is not determined: no number
+# would be right, and `aba` says so, with the joint's name. Real models have such joints.
+# %% [markdown] lang="zh"
+# ## 没有答案的地方
+#
+# $D_i^{-1}$ 要求有惯量。如果一个关节带动的东西全都没有惯量,它的加速度就定不下来:给什么数都不对。`aba` 会直说,并给出
+# 关节的名字。真实的模型里就有这样的关节。
+# %%
+builder = tw.Builder("arm with a massless hand", base="fixed")
+forearm = tw.SpatialInertia(1.0, [0, 0, -0.25], np.diag([0.02, 0.02, 0.001]))
+builder.link("forearm", parent="base_link", joint=tw.Revolute("y"), inertia=forearm)
+below = tw.SE3(np.eye(3), [0, 0, -0.5])
+builder.link("hand", parent="forearm", joint=tw.Revolute("x"), joint_name="wrist", placement=below)
+arm = builder.build()
+try:
+    tw.aba(arm, [0.0, 0.0], [0.0, 0.0], [0.0, 0.0])
+except tw.SingularError as refused:
+    message = str(refused)
+else:
+    raise AssertionError("a joint without inertia has been given an acceleration")
+print(message)
+assert "wrist" in message
+assert np.linalg.matrix_rank(tw.crba(arm, [0.0, 0.0])) == 1
+# %% [markdown] lang="en"
+# ## How exact?
+#
+# Take a chain of ten rods whose mass grows from the first to the last, and compute $\ddot q$ in fifty digits, with 3-D
+# vectors (`newton_euler_3d`). That is the truth; what do `aba`, and `crba` with `solve`, make of it in double precision?
+# Every entry of $M$ contains the heavy tip, and a light rod drowns in rounding. ABA lets the tip go at each free joint
+# before it is added. A light tip does no harm to either, though $M$ is worse conditioned there than with equal rods: the
+# condition number alone does not tell.
+# %% [markdown] lang="zh"
+# ## 有多准?
+#
+# 取十根杆连成的链,质量从第一根到最后一根逐渐增大,用 3D 向量以五十位数字算出 $\ddot q$(`newton_euler_3d`)。这就是真值;
+# 用双精度的 `aba`,以及 `crba` 加 `solve`,各得到什么?$M$ 的每个元素里都有沉重的末端,轻的杆淹没在舍入误差里。ABA 在每个
+# 自由关节处先把末端放走,再相加。末端轻的时候对两者都没有坏处,尽管那里的 $M$ 比等质量时条件更差:只看条件数是看不出来的。
+# %%
+ratios = np.array([1e-9, 1e-6, 1e-3, 1e0, 1e3, 1e6, 1e9])
+errors, conditions = np.zeros((2, len(ratios), 5)), []
+for k, ratio in enumerate(ratios):
+    rods = tw.chain(10, mass_ratio=ratio)
+    for j in range(5):
+        state = rng.standard_normal((3, 10))
+        with mpmath.workdps(50):
+            truth = newton_euler_3d.forward_dynamics(rods, *map(newton_euler_3d.as_mpmath, state)).astype(float)
+        bent, speed, force = state
+        M = tw.crba(rods, bent)
+        solved = np.linalg.solve(M, force - tw.nonlinear_effects(rods, bent, speed))
+        for way, answer in enumerate((tw.aba(rods, bent, speed, force), solved)):
+            errors[way, k, j] = np.abs(answer - truth).max() / np.abs(truth).max()
+    conditions.append(np.linalg.cond(M))
+by_aba, by_solving = np.median(errors, axis=-1)
+
+ax = plot.axes_2d(size=(7, 3.8))
+ax.loglog(ratios, by_solving, "s-", color=plot.COLOURS["orange"], label="crba, then solve")
+ax.loglog(ratios, by_aba, "o-", color=plot.COLOURS["blue"], label="aba")
+ax.set(xlabel="mass of the last rod / mass of the first", ylabel="relative error of q̈", title="ten rods, five states")
+ax.grid(alpha=0.3)
+ax.legend()
+plt.show()
+assert by_aba[-1] < 1e-3 * by_solving[-1]  # a heavy tip: three digits more
+assert by_aba[:4].max() < 1e-12
+assert by_solving[0] < 1e-12
+assert conditions[0] > conditions[3]  # worse conditioned, and exact all the same
+# %% [markdown] lang="en"
+# ## Pinocchio agrees
+#
+# Three more things to know. Its `crba` already returns a symmetric matrix in Python: the chapter's
+# $M + M^T - \mathrm{diag}(M)$ doubles everything off the diagonal. `np.linalg.solve` does not know about triangles: given the
+# upper one only, it solves another problem. And for the arm above its `aba` returns nan, without a word.
+# %% [markdown] lang="zh"
+# ## 与 Pinocchio 对照
+#
+# 另外有三点要知道。在 Python 里,它的 `crba` 返回的已经是对称矩阵:本章的 $M + M^T - \mathrm{diag}(M)$ 会把对角线以外
+# 全部加倍。`np.linalg.solve` 不认识三角矩阵:只给上三角,它解的就是另一个问题。还有,对上面那条手臂,它的 `aba` 一声不响
+# 地返回 nan。
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    data = pin_model.createData()
+    pin_v, pin_tau = (tw.bridge.to_pinocchio_tangent(model, x) for x in (v, tau))
+    theirs = pin.aba(pin_model, data, q, pin_v, pin_tau)
+    assert np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - qdd).max() < 1e-11 * np.abs(qdd).max()
+
+    M, h = pin.crba(pin_model, data, q), pin.nonLinearEffects(pin_model, data, q, pin_v)
+    assert np.array_equal(M, M.T)
+    assert np.allclose(np.linalg.solve(M, pin_tau - h), theirs)
+    doubled = M + M.T - np.diag(M.diagonal())
+    for wrong in (doubled, np.triu(M)):
+        off = np.abs(np.linalg.solve(wrong, pin_tau - h) - theirs).max()
+        print(f"off by {off:.0f} rad/s²")
+        assert off > 10
+
+    pin_arm = tw.bridge.to_pinocchio_model(arm)
+    assert np.isnan(pin.aba(pin_arm, pin_arm.createData(), np.zeros(2), np.zeros(2), np.zeros(2))).any()
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.7.1** the acceleration of a Go2 without torques
+# - **49.7.2** `aba` against `crba` and `solve`, in time: measure it yourself
+#
+# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises hint 49.7.1` helps. Next: notebook 49.8.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.7.1** 没有力矩时 Go2 的加速度
+# - **49.7.2** `aba` 与"`crba` 加 `solve`"比时间:自己量一量
+#
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises hint 49.7.1` 给提示。下一个:笔记本 49.8。
