@@ -100,9 +100,16 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
     except Exception as error:  # whatever the student's code raises becomes a message
         raise _Stop(*_stopped(error)) from None
     for name, before, after in zip(part.arguments.split(", "), arguments, given):
-        if isinstance(before, np.ndarray) and not np.array_equal(before, after):
+        if not _unchanged(before, after):
             raise _Stop(say("changed", name=name.partition("=")[0]))
     return answer
+
+
+def _unchanged(before: Any, after: Any) -> bool:
+    """Whether an array, a number, or each of a list of them still is what it was."""
+    if isinstance(before, list):
+        return len(before) == len(after) and all(map(_unchanged, before, after))
+    return not isinstance(before, np.ndarray | int | float) or np.array_equal(before, after)
 
 
 def _stopped(error: Exception) -> list[Text]:
@@ -144,6 +151,8 @@ def _short(x: Any) -> str:
         if x.ndim > 1 or x.size > 6:
             return f"array {x.shape}"
         return "[" + ", ".join(f"{entry:.3g}" for entry in x) + "]"
+    if isinstance(x, list) and any(isinstance(entry, np.ndarray) for entry in x):
+        return f"list of {len(x)} arrays"
     if isinstance(x, float):
         return f"{x:.4g}"
     text = " ".join(str(getattr(x, "name", x)).split())

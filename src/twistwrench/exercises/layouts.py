@@ -10,6 +10,8 @@ from typing import Any
 from .text import Text
 
 __all__ = [
+    "CENTROIDAL_MAP",
+    "CONTACT_JACOBIAN",
     "FORCE_TRANSFORM",
     "INERTIA",
     "JACOBIAN",
@@ -66,6 +68,7 @@ _STATE = (
     (Text("of the base's translation", "基座平动"), slice(3, 6)),
     (Text("of the joints", "关节"), slice(6, None)),
 )
+_FEET = tuple((Text(f"of foot {k}", f"第 {k} 只脚"), slice(3 * k, 3 * k + 3)) for k in range(4))
 _POSE_ROWS = (Text("0 to 2", "0–2"), slice(0, 3)), (Text("3", "3"), slice(3, 4))
 _POSE_COLUMNS = (Text("0 to 2 (rotation)", "0–2(旋转)"), slice(0, 3)), (Text("3 (position)", "3(位置)"), slice(3, 4))
 
@@ -80,4 +83,6 @@ FORCE_TRANSFORM = Layout((_FORCE, _FORCE))
 INERTIA = Layout((_MOMENTUM, _MOTION))
 JACOBIAN = Layout((_MOTION, _JOINTS))
 MASS_MATRIX = Layout((_JOINTS, _JOINTS))
+CENTROIDAL_MAP = Layout((_MOMENTUM, _STATE))
+CONTACT_JACOBIAN = Layout((_FEET, _JOINTS))
 POSE = Layout((_POSE_ROWS, _POSE_COLUMNS))
