@@ -1,11 +1,15 @@
-"""The robots of the exercises, each loaded once."""
+"""The robots of the exercises: those of the catalogue, each loaded once, and small random ones."""
 
+from dataclasses import replace
 from functools import cache
+
+import numpy as np
 
 from ..model import Model
 from ..robots import load
+from ..trees import random_tree
 
-__all__ = ["robot"]
+__all__ = ["robot", "small_robot", "weightless"]
 
 
 @cache
@@ -18,3 +22,25 @@ def robot(name: str) -> Model:
     18
     """
     return load(name)
+
+
+def small_robot(rng: np.random.Generator) -> Model:
+    """Return a random robot: a floating base and three joints.
+
+    Examples
+    --------
+    >>> small_robot(np.random.default_rng(1)).nv
+    9
+    """
+    return random_tree(4, rng=rng, base="floating", kinds=("revolute", "prismatic"))
+
+
+def weightless(model: Model) -> Model:
+    """Return the same robot where there is no gravity.
+
+    Examples
+    --------
+    >>> weightless(robot("go2")).gravity
+    array([0., 0., 0.])
+    """
+    return replace(model, gravity=np.zeros(3))
