@@ -23,12 +23,13 @@ CONTACT = {
     ),
     "wrench-about-world": Slip(
         Text(
-            "the wrench is expressed in the world frame, not in the foot's own",
-            "wrench 在世界坐标系中表达,而不是在脚坐标系中",
+            "the wrench is expressed in the world frame, not in the body's own",
+            "wrench 在世界坐标系中表达,而不是在本体坐标系中",
         ),
         Text(
-            "In the foot's frame the axes are the foot's, and the moment is about the foot: a point contact has none.",
-            "脚坐标系中用脚的坐标轴,并对脚取矩,而点接触对接触点没有力矩。",
+            "In a body's frame the axes are the body's, and the moment is about its origin. (A point contact has none "
+            "about itself.)",
+            "在本体坐标系中要用它的坐标轴,并对它的原点取矩(点接触对接触点没有力矩)。",
         ),
         "49.4",
     ),

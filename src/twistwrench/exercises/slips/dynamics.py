@@ -187,8 +187,8 @@ DYNAMICS = {
     "moment-dropped": Slip(
         Text("the moment of the weight is left out", "漏了重力的力矩"),
         Text(
-            "The weight acts at the centre of mass, c × m g about the base.",
-            "重力作用在质心,关于基座的力矩为 c × m g。",
+            "The weight acts at the centre of mass: about the origin of the frame its moment is c × m g.",
+            "重力作用在质心,对坐标系原点的力矩为 c × m g。",
         ),
         "49.6",
     ),

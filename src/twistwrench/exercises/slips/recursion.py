@@ -43,6 +43,26 @@ RECURSION = {
         ),
         "49.6",
     ),
+    "orders-mixed": Slip(
+        Text("M in the order (v, ω) meets a in the order (ω, v)", "M 的顺序是 (v, ω),而 a 的顺序是 (ω, v)"),
+        Text(
+            "Pinocchio's M has the base's linear part first. Reorder its rows and columns, or use Pinocchio for all.",
+            "Pinocchio 的 M 中基座线分量在前。要重排其行和列,或全部都用 Pinocchio 计算。",
+        ),
+        "49.6",
+    ),
+    "as-printed": Slip(
+        Text(
+            "the wrench as the chapter prints it: the sign is wrong, and the moment is missing",
+            "照抄了本章的结果:符号错了,而且漏了力矩",
+        ),
+        Text(
+            "RNEA returns what holds the robot: +m g upward, and a moment where the centre of mass is not above or "
+            "below the base's origin.",
+            "RNEA 返回托住机器人的力:向上的 +m g;质心不在基座原点正上方或正下方时还有力矩。",
+        ),
+        "49.6",
+    ),
     "base-weightless": Slip(
         Text("the base's own weight is left out: only the legs are there", "漏了基座自身的重力:只算了腿"),
         Text(
