@@ -1,0 +1,343 @@
+# %% [markdown] lang="en"
+# # 49.8 CRBA: the mass matrix
+#
+# $M(q)$ says how heavy a robot feels at each joint, and how much one joint feels of another. RNEA and ABA go without
+# it; controllers that solve a quadratic program want it. This notebook asks where each entry of $M$ comes from, which
+# entries are zero and why, and what the computation costs.
+# %% [markdown] lang="zh"
+# # 49.8 CRBA:质量矩阵
+#
+# $M(q)$ 说的是:在每个关节上,机器人有多"重",一个关节又能感受到另一个关节多少。RNEA 和 ABA 都用不着它,
+# 而求解二次规划的控制器需要它。这个笔记本弄清 $M$ 的每个元素从哪里来,哪些元素为零、为什么为零,以及计算的代价。
+# %%
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import plot
+
+model = tw.load("go2")
+rng = np.random.default_rng(8)
+q = model.random_configuration(rng=rng)  # nothing is zero by accident here
+rest = np.zeros(model.nv)
+names = [name.removesuffix("_joint") for name in model.joint_names]
+# %% [markdown] lang="en"
+# ## A column of $M$ is an experiment
+#
+# The equation of motion is $\tau = M\ddot q + h$. Let the robot be at rest, switch gravity off, and ask of one joint the
+# acceleration 1, of all others 0. The forces that this takes are one column of $M$. `rnea` can do the experiment; what
+# gravity adds is taken off again. Eighteen experiments at once:
+# %% [markdown] lang="zh"
+# ## $M$ 的一列就是一次实验
+#
+# 运动方程是 $\tau = M\ddot q + h$。让机器人静止,关掉重力,要求某一个关节的加速度为 1,其余全为 0。
+# 所需的力就是 $M$ 的一列。`rnea` 可以做这个实验,再把重力的部分减掉。十八次实验一起做:
+# %%
+columns = tw.rnea(model, q, rest, np.eye(model.nv)) - tw.gravity(model, q)  # row k: the experiment with joint k
+M = tw.crba(model, q)
+assert M.shape == (18, 18)
+assert np.abs(columns.T - M).max() < 1e-12 * np.abs(M).max()
+assert np.array_equal(M, M.T)
+# %% [markdown] lang="en"
+# The experiments come out symmetric: what the knee feels of the hip, the hip feels of the knee. The reason is that $M$
+# is what the kinetic energy is made of. Each body has the twist $V_i = \sum_j {}^i\!X_j S_j \dot q_j$, summed over the
+# joints $j$ between it and the world, and so
+#
+# $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
+# M_{jk} = \sum_{i\ \text{behind}\ j\ \text{and}\ k} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
+#
+# Only bodies that are moved by *both* joints count.
+# %% [markdown] lang="zh"
+# 实验结果是对称的:膝能感受到髋多少,髋就能感受到膝多少。原因在于 $M$ 正是动能的系数矩阵。每个刚体的 twist 是
+# $V_i = \sum_j {}^i\!X_j S_j \dot q_j$,对它与世界之间的所有关节 $j$ 求和,于是
+#
+# $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
+# M_{jk} = \sum_{i\ \text{在}\ j\ \text{与}\ k\text{之后}} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
+#
+# 求和只包括*同时*位于 $j$ 和 $k$ 之后的刚体,也就是被这两个关节都带动的刚体。
+# %%
+v = rng.standard_normal(model.nv)
+twists = tw.forward_kinematics(model, q, v).twist
+energies = [inertia.kinetic_energy(V) for inertia, V in zip(model.inertia, twists)]
+print(f"kinetic energy {sum(energies):.6f} J, body by body; {v @ M @ v / 2:.6f} J with M")
+assert np.isclose(v @ M @ v / 2, sum(energies), rtol=1e-12)
+assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
+# %% [markdown] lang="en"
+# ## Composite inertia
+#
+# Let joint $j$ carry joint $k$. Then the bodies behind both are simply the bodies behind $k$, and with the other joints
+# locked they move as one rigid body. Its inertia $I^C_k$, the **composite inertia**, is the sum of theirs, taken to
+# frame $k$: from the tips inward, each adds its own to what carries it.
+# %% [markdown] lang="zh"
+# ## 复合刚体惯量
+#
+# 设关节 $j$ 在 $k$ 的上游。那么位于两者之后的刚体就是 $k$ 之后的那些;其余关节锁死时,它们像一个刚体一样运动。
+# 这个刚体的惯量 $I^C_k$ 叫**复合刚体惯量**,是各个刚体的惯量换到坐标系 $k$ 后的和:从末端向内,每个刚体把自己的加到
+# 带动它的那个刚体上。
+# %%
+placement = tw.forward_kinematics(model, q).placement
+link = [None, None, *(placement[model.parent[i]].inverse() @ placement[i] for i in range(2, model.nbodies))]
+composite = list(model.inertia)
+for i in reversed(range(2, model.nbodies)):
+    p = model.parent[i]
+    composite[p] = composite[p] + composite[i].transform(link[i])
+
+masses = [float(inertia.mass) for inertia in composite]
+assert np.isclose(masses[1], model.mass)  # the base carries everything
+assert np.allclose(composite[1].com, placement[1].inverse().act(tw.center_of_mass(model, q)), rtol=1e-12, atol=1e-12)
+
+plot.flow(model, ["", *(f"{mass:.2f} kg" for mass in masses[1:])], inward=True, amounts=masses)
+plt.show()
+# %% [markdown] lang="en"
+# ## Entry by entry
+#
+# Now one column, for the right front calf. A unit acceleration of the knee needs the wrench $F = I^C S$ on the calf. The
+# knee's motor supplies the part along its own axis: the diagonal entry. The whole wrench is passed on to the thigh, whose
+# joint must hold against its part, $S_j^T F$, and so on down to the base:
+#
+# $$M_{kk} = S_k^T I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
+# %% [markdown] lang="zh"
+# ## 逐个元素
+#
+# 现在来算一列,右前小腿的那一列。膝关节的单位加速度要求小腿上有 wrench $F = I^C S$。膝电机提供沿自己轴的那一份:
+# 对角元素。整个 wrench 传给大腿,大腿的关节要顶住属于自己的一份 $S_j^T F$,就这样一直传到基座:
+#
+# $$M_{kk} = S_k^T I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
+# %%
+k = model.joint_id("FR_calf_joint")
+column = np.zeros(model.nv)
+F = (composite[k].matrix() @ model.joints[k].subspace())[:, 0]
+for j in model.support(k):  # from the calf to the base
+    column[model.v_slice[j]] = model.joints[j].subspace().T @ F
+    print(f"felt by {names[j]:8} {column[model.v_slice[j]].round(4)}")
+    if model.parent[j]:
+        F = link[j].force_transform() @ F  # T_λj leads inward, and so does its X*: it is the transpose above
+assert np.abs(column - M[:, model.v_slice[k].start]).max() < 1e-12
+# %% [markdown] lang="en"
+# The last six numbers are a wrench on the base, moment first. The loop never visits another leg, so those entries stay
+# zero. `tw.crba` is this, for all joints: a pass inward for $I^C$, then for each joint a climb to the base. (The
+# chapter's pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong way round; and it stops before
+# link 0, which is the base, so its matrix has no base rows.)
+#
+# ## Which entries are zero
+#
+# Here is $M$ beside the tree. The colours show the largest value that each entry took in 50 random postures; what is
+# white was zero in all of them.
+# %% [markdown] lang="zh"
+# 最后六个数是作用在基座上的 wrench,力矩在前。循环从不经过别的腿,那些元素就一直是零。`tw.crba` 就是对所有关节做这件事:
+# 先向内走一遍求 $I^C$,再从每个关节爬到基座。(本章伪代码爬升时用的是向外的 $X$ 的 $X^*$,方向反了;
+# 而且它到 0 号连杆,也就是基座之前就停了,所以算出的矩阵没有基座行。)
+#
+# ## 哪些元素为零
+#
+# 下面是 $M$ 和运动树。颜色表示每个元素在 50 个随机位形中取到的最大值,白色表示在所有这些位形中都是零。
+# %%
+postures = np.array([model.random_configuration(rng=rng) for _ in range(50)])
+many = tw.crba(model, postures)
+plot.mass_matrix(model, many, "mass matrix of Go2, 50 postures")
+plt.show()
+
+zero = (np.abs(many) < 1e-12).all(axis=0)
+branch = plot.same_branch(model)
+assert zero[~branch].all()
+assert (~branch).sum() == 108  # a third of the 324 entries: one leg does not feel another
+# %% [markdown] lang="en"
+# The blank blocks come from the tree: no body is behind both a front and a rear leg's joint. The dots are zeros that the
+# tree does not explain. The chapter's picture has the base's rows full; sixteen of their entries are zero:
+#
+# - The base's block is the composite inertia of the whole robot,
+#   $\begin{pmatrix} \bar I & m[c]_\times \\ -m[c]_\times & m 1 \end{pmatrix}$: off its diagonal $m1$ has six zeros, and
+#   the two $[c]_\times$ have three each on theirs.
+# - To turn a leg about the hip's x axis takes no force along x: four more, one for each leg.
+# %% [markdown] lang="zh"
+# 空白的大块来自树结构:没有哪个刚体同时在前腿和后腿的关节之后。带点的零则是树结构解释不了的。
+# 本章的示意图里基座行是满的,其实其中有十六个元素为零:
+#
+# - 基座块就是整个机器人的复合刚体惯量
+#   $\begin{pmatrix} \bar I & m[c]_\times \\ -m[c]_\times & m 1 \end{pmatrix}$:其中 $m1$ 的非对角元素有六个零,
+#   两个 $[c]_\times$ 的对角线上各有三个。
+# - 让腿绕髋的 x 轴转,不需要沿 x 方向的力:又是四个零,每条腿一个。
+# %%
+assert np.allclose(M[:6, :6], composite[1].matrix(), rtol=1e-12, atol=1e-12)
+assert zero[:6, :6].sum() == 12
+hips = [model.v_slice[model.joint_id(f"{leg}_hip_joint")].start for leg in ("FL", "FR", "RL", "RR")]
+assert np.argwhere(zero[:6, 6:]).tolist() == [[3, hip - 6] for hip in hips]  # row 3 is the force along x
+assert (zero & branch).sum() == 12 + 2 * 4  # the same four again in the columns
+# %% [markdown] lang="en"
+# ## Keeping the zeros
+#
+# To solve $M\ddot q = \tau - h$ one factors $M$ into triangles. Beginning with the base, as the textbook does, couples
+# all legs: the zeros fill up. Beginning with the tips loses none of them. It is the same lesson as in ABA: work from the
+# tips inward.
+# %% [markdown] lang="zh"
+# ## 保住这些零
+#
+# 求解 $M\ddot q = \tau - h$ 时,要把 $M$ 分解成三角矩阵。照教科书的顺序从基座开始消元,所有的腿就耦合在一起,
+# 零被填满;从末端开始消元,一个零也不会丢。这和 ABA 是同一个道理:从末端向内做。
+# %%
+base_first = np.linalg.cholesky(M)  # M = L Lᵀ
+tips_first = np.linalg.cholesky(M[::-1, ::-1])[::-1, ::-1]  # M = U Uᵀ: the same, with rows and columns reversed
+assert np.allclose(tips_first @ tips_first.T, M, rtol=1e-12, atol=1e-12)
+
+figure, axes = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
+for ax, triangle, title in zip(axes, (base_first, tips_first), ("base first: L", "tips first: U")):
+    plot.matrix(triangle, title, lines=[6, *hips], rounding=1e-12, ax=ax)
+plt.show()
+
+other_legs = ~branch
+assert (np.abs(base_first[other_legs & np.tri(18, dtype=bool)]) > 1e-12).sum() == 54  # all of them
+assert np.abs(tips_first[other_legs]).max() < 1e-12
+# %% [markdown] lang="en"
+# ## Positive definite, and when not
+#
+# $\dot q^T M \dot q = 2T$ is positive for every motion, as long as no motion leaves everything that has mass at rest.
+# So the eigenvalues of $M$ are positive and its rank is full. A last link without mass breaks this: its joint can turn
+# without any energy. Then forward dynamics has no answer, and `aba` says so.
+# %% [markdown] lang="zh"
+# ## 正定,以及什么时候不正定
+#
+# 只要没有哪种运动能让所有带质量的东西都静止,$\dot q^T M \dot q = 2T$ 对任何运动都为正。所以 $M$ 的特征值都为正,
+# 满秩。末端连杆没有质量就会破坏这一点:它的关节转动不需要能量。这时正动力学没有答案,`aba` 会告诉你。
+# %%
+eigenvalues = np.linalg.eigvalsh(many)
+print(f"eigenvalues in 50 postures: {eigenvalues.min():.2g} to {eigenvalues.max():.3g}")
+assert eigenvalues.min() > 0
+assert np.linalg.matrix_rank(M) == 18
+
+builder = tw.Builder("arm with a bare tool")
+rod = tw.SpatialInertia(1.0, [0, 0, -0.5], np.diag([0.084, 0.084, 0.001]))
+builder.link("upper", parent="base_link", joint=tw.Revolute("y"), inertia=rod)
+builder.link("tool", parent="upper", joint=tw.Revolute("x"), placement=tw.SE3(np.eye(3), [0, 0, -1]))
+bare = builder.build()
+assert np.linalg.matrix_rank(tw.crba(bare, [0.1, 0.2])) == 1
+try:
+    tw.aba(bare, [0.1, 0.2], [0, 0], [0, 1])
+except tw.SingularError as refused:
+    print(refused)
+else:
+    raise AssertionError("a torque on nothing has been given an acceleration")
+# %% [markdown] lang="en"
+# ## What it costs
+#
+# Each joint climbs to the base, so the cost is $O(N \cdot \mathrm{depth})$. The table in 49.1 calls CRBA linear, 49.8
+# says $O(N^2)$; both are right for some robot. We do not time this, we count: how many lines of `tw.crba` does Python
+# execute? Three kinds of tree: a chain, legs of three links, and a bush, where the base carries every link.
+# %% [markdown] lang="zh"
+# ## 计算代价
+#
+# 每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$。49.1 的表格说 CRBA 是线性的,49.8 说是 $O(N^2)$:
+# 对某种机器人来说都对。这里不计时,而是数数:Python 一共执行了 `tw.crba` 的多少行?三种树:链、每条腿三个连杆的多腿机器人,
+# 以及所有连杆都直接挂在基座上的灌木。
+# %%
+carriers = {
+    "chain": lambda k: k - 1,
+    "legs of three": lambda k: k - 1 if k % 3 else -1,
+    "bush": lambda k: -1,
+}
+
+
+def grow(carrier, n):
+    """Build a tree of n links on a fixed base; -1 is the base."""
+    builder = tw.Builder("tree")
+    for k in range(n):
+        parent = "base_link" if carrier(k) < 0 else f"link_{carrier(k)}"
+        builder.link(f"link_{k}", parent=parent, joint=tw.Revolute("y"), inertia=rod, placement=link[2])
+    return builder.build()
+
+
+def executed_lines(tree):
+    """Count the lines of tw.crba that are run, those in loops every time."""
+    events = []
+
+    def in_crba(frame, event, argument):
+        events.append(event)
+        return in_crba
+
+    before = sys.gettrace()
+    sys.settrace(lambda frame, event, argument: in_crba if frame.f_code is tw.crba.__code__ else None)
+    try:
+        tw.crba(tree, np.full(tree.nq, 0.3))
+    finally:
+        sys.settrace(before)
+    return events.count("line")
+
+
+sizes = [3, 6, 12, 24, 48]
+trees = {name: [grow(carrier, n) for n in sizes] for name, carrier in carriers.items()}
+lines = {name: np.array([executed_lines(tree) for tree in family]) for name, family in trees.items()}
+climbs = {name: [sum(len(t.support(i)) - 1 for i in range(1, t.nbodies)) for t in trees[name]] for name in trees}
+# %%
+ax = plot.axes_2d(size=(6, 3.6))
+for (name, counted), colour in zip(lines.items(), ("vermilion", "green", "blue")):
+    ax.loglog(sizes, counted, "o-", color=plot.COLOURS[colour], label=name)
+ax.set(xlabel="number of links N", ylabel="lines executed", title="the work of CRBA depends on the tree")
+ax.set_xticks(sizes, [str(n) for n in sizes], minor=False)
+ax.minorticks_off()
+ax.grid(alpha=0.3)
+ax.legend()
+plt.show()
+
+all_lines = np.concatenate(list(lines.values()))
+counts = np.stack([np.ones(15), np.tile(sizes, 3), np.concatenate(list(climbs.values()))], axis=-1)
+price = np.linalg.lstsq(counts, all_lines)[0]
+print("lines = {:.0f} + {:.0f} N + {:.0f} × (steps up the tree)".format(*price))
+assert np.allclose(counts @ price, all_lines, atol=1e-6)  # exactly: nothing else costs anything
+assert np.array_equal(climbs["chain"], [n * (n - 1) // 2 for n in sizes])
+assert climbs["legs of three"] == sizes  # 0 + 1 + 2 steps for the three links of a leg
+assert lines["chain"][-1] / lines["chain"][-2] > 3.7  # twice the links, almost four times the work
+assert lines["bush"][-1] / lines["bush"][-2] < 2
+# %% [markdown] lang="en"
+# The work goes where the entries are. Of the matrices, the chain's is full and the bush's is diagonal:
+# %% [markdown] lang="zh"
+# 活儿就在有元素的地方。链的矩阵是满的,灌木的矩阵是对角的:
+# %%
+for name, family in trees.items():
+    entries = [np.count_nonzero(tw.crba(tree, rng.uniform(-1, 1, tree.nq))) for tree in family]
+    print(f"{name:13} entries that are not zero:", *entries)
+    assert np.array_equal(entries, np.array(sizes) + 2 * np.array(climbs[name]))
+# %% [markdown] lang="en"
+# ## Pinocchio
+#
+# The same matrix, with the base's rows and columns in the order (linear, angular). The chapter says that `pin.crba` fills
+# the upper triangle only and symmetrises by $M + M^T - \mathrm{diag}(M)$. In Python the matrix is already symmetric, and
+# this recipe doubles every entry off the diagonal:
+# %% [markdown] lang="zh"
+# ## 与 Pinocchio 对照
+#
+# 同一个矩阵,只是基座的行和列按(线,角)排列。本章说 `pin.crba` 只填上三角,要用 $M + M^T - \mathrm{diag}(M)$ 对称化。
+# 但在 Python 里矩阵已经是对称的,这样做会把所有非对角元素加倍:
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    theirs = pin.crba(pin_model, pin_model.createData(), q)
+    assert np.abs(tw.bridge.from_pinocchio_matrix(model, theirs) - M).max() < 1e-12 * np.abs(M).max()
+    assert np.array_equal(theirs, theirs.T)
+
+    recipe = theirs + theirs.T - np.diag(theirs.diagonal())
+    off_diagonal = ~np.eye(18, dtype=bool)
+    assert np.allclose(recipe[off_diagonal], 2 * theirs[off_diagonal])
+    right, doubled = (np.linalg.eigvalsh(matrix).min() for matrix in (theirs, recipe))
+    print(f"smallest eigenvalue {right:.4f}, with the recipe {doubled:.4f}")
+    assert right > 0 > doubled  # a motion with negative energy
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.8.1** the base's block of $M$ in the neutral posture, and why it is not diagonal
+# - **49.8.2** how large $M$ is with a floating base, and with a fixed one
+#
+# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.8.1`.
+# Next: notebook 49.9.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.8.1** 零位形下 $M$ 的基座块,它为什么不是对角阵
+# - **49.8.2** 浮动基座时 $M$ 多大,固定基座时多大
+#
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`；`twistwrench exercises hint 49.8.1` 给提示。
+# 下一个:笔记本 49.9。
