@@ -1,0 +1,451 @@
+# %% [markdown] lang="en"
+# # 49.10 Centroidal momentum and CCRBA
+#
+# Whatever a robot does with its legs, the world notices six numbers: the momentum of the whole,
+# $h_G = (k_G, l_G)$, angular and linear, at the centre of mass $G$. This notebook computes it, lets Go2 walk, trot and
+# bound, and looks at what the simple models of chapter 51 leave out.
+# %% [markdown] lang="zh"
+# # 49.10 质心动量与 CCRBA
+#
+# 不管机器人的腿怎么动,外界能察觉的只有六个数:整体在质心 $G$ 处的动量 $h_G = (k_G, l_G)$,前一半是角动量,后一半是线动量。
+# 这个笔记本先把它算出来,再让 Go2 慢走、小跑(trot)、跳跑(bound),看看第 51 章的简化模型各自丢掉了什么。
+# %%
+from typing import NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import plot
+
+model = tw.load("go2")
+rng = np.random.default_rng(10)
+q, v, a = model.random_configuration(rng=rng), *rng.standard_normal((2, model.nv))
+weight = model.mass * 9.81
+tiny = 1e-100  # step of complex-step derivatives (49.2)
+# %% [markdown] lang="en"
+# ## The momentum of the whole
+#
+# Each body has the momentum $I_i V_i$ in its own frame. It is a force-like vector: $X^*$ takes it to $G$, and there
+# momenta add. The linear half is $m v_G$, with the velocity of the centre of mass:
+#
+# $$h_G = \sum_i {}^G\!X_i^*\, I_i V_i = \begin{pmatrix} k_G \\ m v_G \end{pmatrix}.$$
+# %% [markdown] lang="zh"
+# ## 整体的动量
+#
+# 每个刚体在自己的坐标系里有动量 $I_i V_i$。动量与力同类:用 $X^*$ 换到 $G$ 处,就可以相加。线动量那一半等于 $m v_G$,
+# 即总质量乘以质心速度:
+#
+# $$h_G = \sum_i {}^G\!X_i^*\, I_i V_i = \begin{pmatrix} k_G \\ m v_G \end{pmatrix}.$$
+# %%
+motion = tw.forward_kinematics(model, q, v)
+p_G = tw.center_of_mass(model, q)
+to_G = [tw.force_transform(T.rotation, T.translation - p_G) for T in motion.placement]
+bodies = range(1, model.nbodies)
+
+h_G = sum(to_G[i] @ model.inertia[i].momentum(motion.twist[i]) for i in bodies)
+v_G = tw.center_of_mass(model, model.integrate(q, 1j * tiny * v)).imag / tiny
+print("k_G", h_G[:3].round(4), "kg m²/s   l_G", h_G[3:].round(3), "kg m/s")
+assert np.allclose(h_G, tw.centroidal_momentum(model, q, v), rtol=1e-12)
+assert np.allclose(h_G[3:], model.mass * v_G, rtol=1e-12)
+# %% [markdown] lang="en"
+# ## The matrix $A_G$, in two ways
+#
+# $h_G$ is linear in the velocity: $h_G = A_G\dot q$. With $V_i = J_i \dot q$ the sum above gives
+# $A_G = \sum_i {}^G\!X_i^*\, I_i J_i$. (The chapter moves the inertia to $G$ and leaves $J_i$ in the frame of the body.
+# That mixes two frames and is another matrix.) This touches every joint below every body. **CCRBA** needs each joint
+# once: a unit velocity of joint $i$ moves its subtree as one rigid body, whose momentum is $I^C_i S_i$ (49.8), and
+# column $i$ is that, seen from $G$. There is no climb to the base: $O(N)$.
+# %% [markdown] lang="zh"
+# ## 矩阵 $A_G$ 的两种算法
+#
+# $h_G$ 对速度是线性的:$h_G = A_G\dot q$。代入 $V_i = J_i \dot q$,上面的和就给出
+# $A_G = \sum_i {}^G\!X_i^*\, I_i J_i$。(本章把惯量换到 $G$ 处,却让 $J_i$ 留在刚体自己的坐标系里:两个坐标系混用,得到的是另一个矩阵。)
+# 这样算,每个刚体都要碰到它上游的所有关节。**CCRBA** 对每个关节只算一次:关节 $i$ 的单位速度让它的子树像一个刚体那样运动,
+# 动量是 $I^C_i S_i$(49.8),从 $G$ 处看就是第 $i$ 列。不用爬到基座,所以是 $O(N)$。
+# %%
+A_G = tw.centroidal_map(model, q)
+J = [None, *(tw.frame_jacobian(model, q, model.joint_names[i], "local") for i in bodies)]
+assert np.allclose(sum(to_G[i] @ model.inertia[i].matrix() @ J[i] for i in bodies), A_G, rtol=1e-12, atol=1e-12)
+
+in_G = [tw.SE3(T.rotation, T.translation - p_G) for T in motion.placement]
+mixed = sum(model.inertia[i].transform(in_G[i]).matrix() @ J[i] for i in bodies)
+assert np.abs(mixed - A_G).max() > 1
+
+composite, columns = list(model.inertia), []
+for i in reversed(bodies):
+    columns.insert(0, to_G[i] @ composite[i].matrix() @ model.joints[i].subspace())
+    parent = model.parent[i]
+    if parent:
+        link = motion.placement[parent].inverse() @ motion.placement[i]
+        composite[parent] = composite[parent] + composite[i].transform(link)
+assert np.allclose(np.hstack(columns), A_G, rtol=1e-12, atol=1e-12)
+assert np.allclose(A_G @ v, h_G, rtol=1e-12)
+# %% [markdown] lang="en"
+# ## What changes it
+#
+# Newton and Euler, for the robot as a whole: only what touches it from outside, and the weight, which has no moment
+# about $G$.
+#
+# $$\dot h_G = \begin{pmatrix} \sum_k (p_k - p_G) \times f_k \\ \sum_k f_k + m g \end{pmatrix}.$$
+#
+# Any state, any torques, any forces at the feet. Then once more without forces: no motor can change more than how the
+# momentum is shared out inside.
+# %% [markdown] lang="zh"
+# ## 什么能改变它
+#
+# 把牛顿和欧拉方程用于整个机器人:只有来自外界的力起作用,再加上重力,而重力对 $G$ 没有力矩。
+#
+# $$\dot h_G = \begin{pmatrix} \sum_k (p_k - p_G) \times f_k \\ \sum_k f_k + m g \end{pmatrix}.$$
+#
+# 任意状态、任意力矩、任意足端力。然后去掉足端力再来一次:电机能改变的只是动量在内部怎样分配。
+# %%
+S, J_c = tw.selection_matrix(model), tw.contact_jacobian(model, q, model.feet)
+torques, forces = 5 * rng.standard_normal(12), 30 * rng.standard_normal((4, 3))
+feet = np.array([tw.frame_placement(model, q, foot).translation for foot in model.feet])
+
+pushed = tw.aba(model, q, v, S.T @ torques + J_c.T @ forces.ravel())
+rate = tw.centroidal_momentum_rate(model, q, v, pushed)
+outside = np.concatenate([np.cross(feet - p_G, forces).sum(axis=0), forces.sum(axis=0) + model.mass * model.gravity])
+assert np.abs(rate - outside).max() < 1e-12 * np.abs(outside).max()
+
+in_the_air = tw.aba(model, q, v, S.T @ torques)
+rate_in_the_air = tw.centroidal_momentum_rate(model, q, v, in_the_air)
+print("in the air, all legs moving:", rate_in_the_air.round(9) + 0.0)
+assert np.allclose(rate_in_the_air, [0, 0, 0, 0, 0, -weight], rtol=1e-12, atol=1e-10)
+# %% [markdown] lang="en"
+# ## The base's rows are this equation
+#
+# The first six rows of $M\ddot q + h = S^T\tau + J_c^T\lambda$ have no torques either. They are the same six equations,
+# written at the base. Take them to $G$ with ${}^G\!X_b^*$:
+#
+# $${}^G\!X_b^*\,(M_{bb}\ M_{bj}) = A_G, \qquad {}^G\!X_b^*\, h_b = \dot A_G \dot q - \begin{pmatrix} 0 \\ m g \end{pmatrix},
+# \qquad {}^G\!X_b^*\, J_{c,b}^T\lambda = \begin{pmatrix} \sum (p_k - p_G) \times f_k \\ \sum f_k \end{pmatrix}.$$
+# %% [markdown] lang="zh"
+# ## 基座行就是这个方程
+#
+# $M\ddot q + h = S^T\tau + J_c^T\lambda$ 的前六行里也没有力矩。它们就是同样的六个方程,只是写在基座处。用 ${}^G\!X_b^*$ 换到 $G$ 处:
+#
+# $${}^G\!X_b^*\,(M_{bb}\ M_{bj}) = A_G, \qquad {}^G\!X_b^*\, h_b = \dot A_G \dot q - \begin{pmatrix} 0 \\ m g \end{pmatrix},
+# \qquad {}^G\!X_b^*\, J_{c,b}^T\lambda = \begin{pmatrix} \sum (p_k - p_G) \times f_k \\ \sum f_k \end{pmatrix}.$$
+# %%
+M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)
+gravity = np.array([0, 0, 0, 0, 0, -weight])
+A_G_rate_v = tw.centroidal_momentum_rate(model, q, v, np.zeros(18))
+at_feet = np.concatenate([np.cross(feet - p_G, forces).sum(axis=0), forces.sum(axis=0)])
+assert np.allclose(to_G[1] @ M[:6], A_G, rtol=1e-12, atol=1e-12)
+assert np.allclose(to_G[1] @ h[:6], A_G_rate_v - gravity, rtol=1e-12, atol=1e-10)
+assert np.allclose(to_G[1] @ J_c[:, :6].T @ forces.ravel(), at_feet, rtol=1e-12, atol=1e-10)
+
+leg_starts = [6, 9, 12, 15]
+figure, axes = plt.subplots(1, 3, figsize=(13, 3.2), width_ratios=[18, 7, 18], layout="constrained")
+moment_force = ["τx", "τy", "τz", "fx", "fy", "fz"]
+limit = np.abs(A_G).max()
+plot.matrix(to_G[1], "X*: base to G", rows=moment_force, columns=moment_force, limit=1, ax=axes[1])
+for ax, A, title in ((axes[0], M[:6], "base's rows of M"), (axes[2], A_G, "A_G = X* times these rows")):
+    plot.matrix(A, title, lines=(), limit=limit, rounding=1e-12, rows=["kx", "ky", "kz", "lx", "ly", "lz"], ax=ax)
+    for k in leg_starts:
+        ax.axvline(k - 0.5, color="k", linewidth=1)
+    ax.set_xticks([1, 4, 7, 10, 13, 16], ["ω", "v", "FL", "FR", "RL", "RR"])
+plt.show()
+# %% [markdown] lang="en"
+# ## At rest it is zero
+#
+# $\dot h_G = A_G\ddot q + \dot A_G\dot q$ is a statement about the motion. At rest, with $\ddot q = 0$, it is zero: on a
+# standing robot the ground balances the weight. The chapter expects the weight to come out; for that the robot must fall.
+# %% [markdown] lang="zh"
+# ## 静止时为零
+#
+# $\dot h_G = A_G\ddot q + \dot A_G\dot q$ 说的是运动。静止且 $\ddot q = 0$ 时它为零:站着的机器人,重力被地面抵消了。
+# 本章说这时应该得到重力;要得到重力,机器人得真的在下落。
+# %%
+rest, stand = np.zeros(18), model.standing()
+assert not tw.centroidal_momentum_rate(model, stand, rest, rest).any()
+falling = tw.aba(model, stand, rest, rest)
+assert np.allclose(tw.centroidal_momentum_rate(model, stand, rest, falling), gravity, rtol=1e-12, atol=1e-10)
+
+held = tw.static_equilibrium(model, stand)
+assert np.allclose(held.forces.sum(axis=0) + model.mass * model.gravity, 0, rtol=1e-12, atol=1e-10)
+
+
+# %% [markdown] lang="en"
+# ## Three gaits
+#
+# Now Go2 moves. The joints follow smooth curves: each leg sways, and its knee bends while it swings forward. The trunk
+# bobs, and in the bound it pitches. Position and velocity are written out; the acceleration is the complex-step
+# derivative of the velocity. The motion is prescribed, and we ask what the world must do for it.
+# %% [markdown] lang="zh"
+# ## 三种步态
+#
+# 现在让 Go2 动起来。关节走光滑的曲线:每条腿前后摆动,向前摆时弯膝;躯干上下起伏,跳跑(bound)时还会俯仰。
+# 位置和速度写成公式,加速度是速度的复数步长导数。运动是给定的,我们要问的是:外界得为此做些什么。
+# %%
+class Gait(NamedTuple):
+    """Strides per second, phase of FL FR RL RR, sway of a leg, bend of a knee, bob [m] and pitch of the trunk [rad]."""
+
+    strides: float
+    phases: tuple
+    sway: float = 0.4
+    bend: float = 0.7
+    bob: float = 0.0095
+    pitch: float = 0.0
+
+
+gaits = {
+    "slow walk": Gait(0.5, (0, 0.5, 0.75, 0.25), sway=0.15, bend=0.3, bob=0.0),
+    "trot": Gait(2.5, (0, 0.5, 0.5, 0)),
+    "bound": Gait(2.5, (0, 0, 0.5, 0.5), pitch=0.15),
+}
+
+
+def move(t, gait):
+    """Return q and v at times t, which may be complex. A leg whose phase is 0 is in the middle of its swing."""
+    t, w, leg = np.asarray(t)[..., None], 2 * np.pi * gait.strides, stand[2]
+    phase = w * t + 2 * np.pi * np.array(gait.phases)
+    sway, d_sway = -gait.sway * np.sin(phase), -gait.sway * w * np.cos(phase)
+    lift = (1 + np.cos(phase)) / 2
+    knee, d_knee = 1.8 + gait.bend * lift**2, -gait.bend * w * lift * np.sin(phase)
+    legs = np.stack([0 * sway, sway + knee / 2, -knee], axis=-1).reshape(*t.shape[:-1], 12)
+    d_legs = np.stack([0 * sway, d_sway + d_knee / 2, -d_knee], axis=-1).reshape(*t.shape[:-1], 12)
+
+    speed = gait.sway * w * leg  # the feet that stand do not slide, nearly
+    z = leg + gait.bob * (1 - np.cos(2 * w * t)) + 0.19 * gait.pitch
+    tilt, d_tilt, d_z = (
+        -gait.pitch * np.cos(w * t),
+        gait.pitch * w * np.sin(w * t),
+        2 * gait.bob * w * np.sin(2 * w * t),
+    )
+    none, c, s = 0 * t, np.cos(tilt), np.sin(tilt)
+    q = [speed * t, none, z, none, np.sin(tilt / 2), none, np.cos(tilt / 2), legs]
+    v = [none, d_tilt, none, c * speed - s * d_z, none, s * speed + c * d_z, d_legs]  # in the axes of the base
+    return np.concatenate(q, axis=-1), np.concatenate(v, axis=-1)
+
+
+def acceleration(t, gait):
+    """Return the rate of v."""
+    return move(t + 1j * tiny, gait)[1].imag / tiny
+
+
+for gait in gaits.values():  # v is the rate of q: see it at a foot
+    t = rng.uniform(0, 1, 20)
+    foot_v = np.matvec(tw.frame_jacobian(model, move(t, gait)[0], "FR_foot", "local_world_aligned"), move(t, gait)[1])
+    foot = tw.frame_placement(model, move(t + 1j * tiny, gait)[0], "FR_foot").translation.imag / tiny
+    assert np.abs(foot_v[:, 3:] - foot).max() < 1e-12
+# %%
+figure, axes = plt.subplots(3, 1, figsize=(11, 3.9), layout="constrained")
+for ax, (name, gait) in zip(axes, gaits.items()):
+    postures = move(np.arange(6) / 6 / gait.strides, gait)[0]
+    postures[:, 0] = 0  # side by side, wherever the robot has got to
+    for k, posture in enumerate(postures):
+        plot.side_view(model, posture, shift=0.85 * k, ax=ax)
+    ax.axhline(0, color="k", linewidth=0.8)
+    ax.set_ylim(-0.02, 0.36)
+    ax.set(title=f"{name}, {gait.sway * 2 * np.pi * gait.strides * stand[2]:.2f} m/s", xlabel="", xticks=[])
+plt.show()
+# %% [markdown] lang="en"
+# ## $h_G$ over a stride
+#
+# Trot and bound lift the trunk twice in each stride: $l_z$. Forward the speed is nearly constant, and only the wobble
+# about its mean is drawn. (Mind the scales of $k_G$: each gait has its own.) The great difference is in $k_y$: in the trot one leg swings forward while its neighbour stands,
+# and their angular momenta nearly cancel; in the bound the trunk pitches and both pairs go with it.
+# %% [markdown] lang="zh"
+# ## 一个步态周期里的 $h_G$
+#
+# 小跑和跳跑每个周期把躯干抬起两次:见 $l_z$。前进速度几乎不变,图中只画它围绕平均值的波动。(注意 $k_G$ 的刻度:每种步态各不相同。)差别最大的是 $k_y$:小跑时一条腿向前摆,
+# 旁边那条正在支撑,两者的角动量几乎抵消;跳跑时躯干俯仰,两对腿也随之摆动。
+# %%
+strides = {}
+figure, axes = plt.subplots(2, 3, figsize=(12, 5), sharex=True, layout="constrained")
+for (name, gait), column in zip(gaits.items(), axes.T):
+    t = np.linspace(0, 1, 241) / gait.strides
+    momentum = tw.centroidal_momentum(model, *move(t, gait))
+    strides[name] = t, momentum
+    wobble = momentum - momentum[:-1].mean(axis=0)
+    for k in range(3):
+        column[0].plot(t * gait.strides, momentum[:, k], color=plot.XYZ[k], label=f"k_{'xyz'[k]}")
+        column[1].plot(t * gait.strides, wobble[:, 3 + k], color=plot.XYZ[k], label=f"l_{'xyz'[k]}")
+    column[0].set_title(f"{name}: k up to {np.abs(momentum[:, :3]).max():.3f} kg m²/s")
+    column[1].set_ylim(-5.5, 5.5)
+    column[1].set_xlabel("part of the stride")
+axes[0, 0].set_ylabel("k_G [kg m²/s]")
+axes[1, 0].set_ylabel("l_G, less its mean [kg m/s]")
+axes[0, 2].legend(fontsize=8, loc="lower left")
+axes[1, 0].legend(fontsize=8, loc="upper left")
+plt.show()
+
+largest = {name: np.abs(momentum[:, 1]).max() for name, (_, momentum) in strides.items()}
+print({name: f"{k_y:.3f} kg m²/s" for name, k_y in largest.items()})
+assert largest["slow walk"] < 0.1 * largest["trot"]
+assert largest["trot"] < 0.1 * largest["bound"]
+
+
+# %% [markdown] lang="en"
+# ## $\dot h_G$ in three ways
+#
+# By the formula; by watching $h_G$ change (dots: a difference over 0.2 ms; the assertion uses a complex step, which is
+# exact); and from inverse dynamics: the first six of `rnea` are the wrench on the base that the world must supply. Moved
+# to $G$, and with the weight, it has to be the same. Here for the bound:
+# %% [markdown] lang="zh"
+# ## 用三种办法求 $\dot h_G$
+#
+# 用公式;看 $h_G$ 怎样变化(圆点:0.2 ms 的差分;断言里用复数步长,没有截断误差);以及用逆动力学:`rnea` 的前六个数就是外界必须施加在基座上的
+# wrench,换到 $G$ 处再加上重力,应该得到同样的结果。以跳跑为例:
+# %%
+def wrench_at_G(q, v, a):
+    """Return what rnea asks of the world, at the centre of mass, in the axes of the world."""
+    base = tw.forward_kinematics(model, q).placement[1]
+    X_star = tw.force_transform(base.rotation, base.translation - tw.center_of_mass(model, q))
+    return np.matvec(X_star, tw.rnea(model, q, v, a)[..., :6])
+
+
+rates = {}
+for name, gait in gaits.items():
+    t = strides[name][0]
+    by_formula = tw.centroidal_momentum_rate(model, *move(t, gait), acceleration(t, gait))
+    watched = tw.centroidal_momentum(model, *move(t + 1j * tiny, gait)).imag / tiny
+    by_rnea = wrench_at_G(*move(t, gait), acceleration(t, gait)) + gravity
+    rates[name] = by_formula
+    assert np.abs(by_formula - watched).max() < 1e-12 * np.abs(by_formula).max()
+    assert np.abs(by_formula - by_rnea).max() < 1e-12 * weight
+
+t, dt = strides["bound"][0], 1e-4
+later, earlier = (tw.centroidal_momentum(model, *move(t + step, gaits["bound"])) for step in (dt, -dt))
+difference = (later - earlier) / (2 * dt)
+figure, axes = plt.subplots(1, 2, figsize=(11, 3.4), layout="constrained")
+for ax, k, label in zip(axes, (1, 5), ("rate of k_y [N m]", "rate of l_z [N]")):
+    ax.plot(t, by_formula[:, k], color=plot.COLOURS["sky"], linewidth=5, label="A_G a + (rate of A_G) v")
+    ax.plot(t, by_rnea[:, k], "--", color=plot.COLOURS["black"], label="wrench of the world, from rnea")
+    ax.plot(t[::12], difference[::12, k], "o", color=plot.COLOURS["vermilion"], label="change of h_G")
+    ax.set(xlabel="time [s]", ylabel=label)
+axes[0].legend(fontsize=8)
+axes[1].axhline(-weight, color="k", linewidth=0.8, linestyle=":")
+axes[1].text(t[0], -weight, "−m g: free fall", ha="left", va="bottom", fontsize=8)
+axes[1].set_ylim(-175, 175)
+plt.show()
+assert np.abs(difference - by_formula).max() < 1e-4 * np.abs(by_formula).max()
+# %% [markdown] lang="en"
+# ## When is $\dot k_G \approx 0$?
+#
+# The linear inverted pendulum says: always. A rate $\dot k_G$ that it leaves out shifts the centre of pressure by
+# $|\dot k_G| / mg$, so it can be read in millimetres. The same gait at different frequencies: velocities grow with $f$,
+# accelerations with $f^2$, and so does the error.
+# %% [markdown] lang="zh"
+# ## 什么时候 $\dot k_G \approx 0$？
+#
+# 线性倒立摆(LIPM)说:总是如此。被它忽略的 $\dot k_G$ 会使压力中心移动 $|\dot k_G| / mg$,所以可以用毫米来衡量。
+# 同一种步态用不同的频率来走:速度与 $f$ 成正比,加速度与 $f^2$ 成正比,误差也与 $f^2$ 成正比。
+# %%
+frequencies = np.geomspace(0.25, 4, 17)
+shifts = {}
+for name in ("trot", "bound"):
+    family = [gaits[name]._replace(strides=f) for f in frequencies]
+    times = [np.linspace(0, 1, 121) / f for f in frequencies]
+    k_rate = [tw.centroidal_momentum_rate(model, *move(t, g), acceleration(t, g))[:, 1] for t, g in zip(times, family)]
+    shifts[name] = 1000 * np.abs(k_rate).max(axis=1) / weight
+    assert np.allclose(shifts[name] / frequencies**2, shifts[name][0] / frequencies[0] ** 2, rtol=1e-12)
+
+half_length = 1000 * tw.frame_placement(model, stand, "FL_foot").translation[0]
+ax = plot.axes_2d(size=(6.5, 3.6))
+for (name, shift), colour in zip(shifts.items(), ("blue", "vermilion")):
+    ax.loglog(frequencies, shift, ".-", color=plot.COLOURS[colour], label=name)
+ax.axhline(half_length, color="k", linestyle=":")
+ax.text(0.25, half_length, "from the middle to the front feet", va="bottom", fontsize=8)
+ax.set(xlabel="strides per second", ylabel="shift of the centre of pressure [mm]", title="what k̇_G = 0 leaves out")
+ax.set_xticks([0.25, 0.5, 1, 2, 4], ["0.25", "0.5", "1", "2", "4"])
+ax.minorticks_off()
+ax.grid(alpha=0.3)
+ax.legend()
+plt.show()
+# %% [markdown] lang="en"
+# ## LIPM and SRBM
+#
+# Two more assumptions deserve numbers. The LIPM also keeps the height constant, else it is not linear: with
+# $\ddot z \ne 0$ the force along the leg is scaled by $1 + \ddot z/g$. The single rigid body (SRBM) keeps six equations,
+# but its momentum is that of a body that turns with the trunk, $k_G \approx \bar I \omega$, with the inertia of the
+# standing robot. What swinging legs add is missing, and where the trunk does not turn, that is all of $k_G$.
+# %% [markdown] lang="zh"
+# ## LIPM 与 SRBM
+#
+# 还有两个假设值得用数字看一看。LIPM 还假设高度不变,否则它就不是线性的:$\ddot z \ne 0$ 时,沿腿的力要乘以 $1 + \ddot z/g$。
+# 单刚体模型(SRBM)保留了六个方程,但它的动量是随躯干转动的一个刚体的动量,$k_G \approx \bar I \omega$,惯量取站立时的值。
+# 摆动的腿所贡献的部分就没有了;若躯干不转,丢掉的就是全部 $k_G$。
+# %%
+inertia = tw.centroidal_map(model, stand)[:3, :3]  # the base is level: of the whole robot about G, in its axes
+
+
+def rigid(t, gait):
+    """Return the angular momentum of the single rigid body, in the axes of the world."""
+    q, v = move(t, gait)
+    return np.matvec(tw.forward_kinematics(model, q).placement[1].rotation @ inertia, v[..., :3])
+
+
+print("gait        k̇_G in all   SRBM leaves out   height: z̈/g up to")
+left_out = {}
+for name, gait in gaits.items():
+    t = strides[name][0]
+    rigid_rate = rigid(t + 1j * tiny, gait).imag / tiny
+    errors = [np.abs(x).max() / weight * 1000 for x in (rates[name][:, :3], rates[name][:, :3] - rigid_rate)]
+    left_out[name] = *errors, np.abs(rates[name][:, 5]).max() / weight
+    print(f"{name:10} {errors[0]:9.2f} mm {errors[1]:14.2f} mm {left_out[name][2]:15.5f}")
+
+x = np.arange(3)
+ax = plot.axes_2d(size=(6.5, 3.4))
+for k, (model_name, colour) in enumerate({"LIPM": "vermilion", "SRBM": "blue"}.items()):
+    bars = ax.bar(
+        x + 0.4 * k - 0.2, [row[k] for row in left_out.values()], 0.4, color=plot.COLOURS[colour], label=model_name
+    )
+    ax.bar_label(bars, fmt="%.3g", fontsize=8)
+ax.set(xticks=x, xticklabels=left_out, yscale="log", ylim=(0.1, 400), ylabel="shift of the centre of pressure [mm]")
+ax.set_title("moment left out, over the weight")
+ax.legend(loc="upper left")
+plt.show()
+
+assert max(left_out["slow walk"]) < 0.5  # half a millimetre, and nothing of the height: both models will do
+assert np.isclose(left_out["trot"][0], left_out["trot"][1])  # a level trunk: the SRBM has no angular momentum at all
+assert left_out["bound"][1] < 0.5 * left_out["bound"][0] < 0.5 * half_length
+assert min(left_out["trot"][2], left_out["bound"][2]) > 0.8  # nearly in free fall twice a stride: no LIPM
+# %% [markdown] lang="en"
+# ## Pinocchio
+#
+# `data.Ag` and `data.hg` have the linear rows first. `computeCentroidalMomentumTimeVariation` returns all of $\dot h_G$,
+# not $\dot A_G\dot q$ alone.
+# %% [markdown] lang="zh"
+# ## 与 Pinocchio 对照
+#
+# `data.Ag` 和 `data.hg` 的线动量行在前。`computeCentroidalMomentumTimeVariation` 返回的是整个 $\dot h_G$,
+# 不只是 $\dot A_G\dot q$。
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    data = pin_model.createData()
+    pin_v, pin_a = tw.bridge.to_pinocchio_tangent(model, v), tw.bridge.to_pinocchio_tangent(model, a)
+    A_there = pin.computeCentroidalMap(pin_model, data, q)
+    h_there = pin.computeCentroidalMomentum(pin_model, data, q, pin_v).vector.copy()
+    rate_there = pin.computeCentroidalMomentumTimeVariation(pin_model, data, q, pin_v, pin_a).vector.copy()
+    rate_here = tw.centroidal_momentum_rate(model, q, v, a)
+    assert np.abs(tw.bridge.from_pinocchio_jacobian(model, A_there) - A_G).max() < 1e-12 * np.abs(A_G).max()
+    assert np.abs(tw.bridge.from_pinocchio_force(h_there) - h_G).max() < 1e-12 * np.abs(h_G).max()
+    assert np.abs(tw.bridge.from_pinocchio_force(rate_there) - rate_here).max() < 1e-12 * np.abs(rate_here).max()
+    print("A_G, h_G and its rate: the same")
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.10.1** the blocks of $A_G$ of a standing Go2
+# - **49.10.2** $l_G = m v_G$
+# - **49.10.3** why $\dot k_G = 0$ will do for a slow walk, and not for a somersault
+#
+# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.10.1`.
+# Next: notebook 49.11.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.10.1** 站立的 Go2 的 $A_G$ 分块
+# - **49.10.2** $l_G = m v_G$
+# - **49.10.3** 为什么 $\dot k_G = 0$ 适用于慢走,却不适用于翻跟头
+#
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`；`twistwrench exercises hint 49.10.1` 给提示。
+# 下一个:笔记本 49.11。
