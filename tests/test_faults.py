@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[1]
 PHYSICS_AND_ORACLES = [
     "test_physics.py",
     "test_textbook.py",
+    "test_floating_base.py",
     "test_joint.py",
     "test_random_trees.py",
     "test_rotation.py",
