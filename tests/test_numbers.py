@@ -45,8 +45,8 @@ def test_every_number_type_is_kept_and_is_right_to_its_own_precision(dtype, reci
         pytest.param(np.clongdouble, marks=needs_long_double),
     ],
 )
-@given(recipes(25))
-@examples(50)
+@given(recipes(14))
+@examples(25)
 def test_every_number_type_is_right_on_larger_trees(dtype, recipe):
     check_against_the_truth(recipe, dtype)
 

@@ -26,7 +26,7 @@ def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(200)
+@examples(40)
 def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(recipe):
     check_against_the_truth(recipe, np.float64)
 
@@ -67,7 +67,7 @@ def test_every_quantity_is_pinocchios(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(1000)
+@examples(400)
 def test_every_quantity_is_pinocchios_at_length(recipe):
     check_against_pinocchio(recipe)
 
