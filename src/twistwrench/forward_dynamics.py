@@ -104,7 +104,7 @@ def inertia_felt(model: Model, tree: Tree) -> list[Array]:
     felt = [((IC @ S) * S).sum(axis=-2) + r for IC, S, r in zip(composite_inertias(tree), tree.S, rotor)]
     massless = [model.joint_names[i] for i in tree.outward if (felt[i].real <= 0).any()]
     if massless:
-        raise SingularError(f"no inertia behind joint {', '.join(map(repr, massless))}: their q̈ is not determined")
+        raise SingularError(f"no inertia behind joint {', '.join(map(repr, massless))}: q̈ is not determined there")
     return felt
 
 
