@@ -261,7 +261,7 @@ def test_joints_that_move_nothing_are_named_and_all_but_aba_still_works():
     assert not tw.crba(model, q)[1:].any()
     assert not tw.rnea(model, q, v, a)[1:].any()
     assert np.isfinite(tw.centroidal_momentum_rate(model, q, v, a)).all()
-    with pytest.raises(tw.SingularError, match="'joint_c': their"):
+    with pytest.raises(tw.SingularError, match="'joint_c': q̈ is not"):
         tw.aba(alone, q, v, a)
     assert np.isfinite(tw.aba(mounted, q, v, a)).all()  # a light link with a heavy one on it is no obstacle
 

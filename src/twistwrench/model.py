@@ -167,10 +167,8 @@ class Model:
         return path
 
     def __repr__(self) -> str:
-        return (
-            f"Model {self.name!r}: {self.base} base, {self.nbodies - 1} moving bodies, "
-            f"nq = {self.nq}, nv = {self.nv}, {self.mass:.6g} kg"
-        )
+        bodies = "1 moving body" if self.nbodies == 2 else f"{self.nbodies - 1} moving bodies"
+        return f"Model {self.name!r}: {self.base} base, {bodies}, nq = {self.nq}, nv = {self.nv}, {self.mass:.6g} kg"
 
     # ---------------------------------------------------------------- the configuration manifold
 
