@@ -26,7 +26,7 @@ def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(40)
+@examples(20)
 def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(recipe):
     check_against_the_truth(recipe, np.float64)
 
