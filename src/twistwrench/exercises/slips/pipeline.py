@@ -1,0 +1,162 @@
+"""Slips of a recursion, of counting and fitting, and of checking one's own work (49.11 and the project)."""
+
+from ..text import Text
+from .slip import Slip
+
+__all__ = ["PIPELINE"]
+
+PIPELINE = {
+    "chain-for-tree": Slip(
+        Text("the body before in the list is taken for the parent", "把列表中的前一个物体当成了父连杆"),
+        Text("That holds for a chain. In a tree it is parent[i].", "那只对单链成立;树中父连杆是 parent[i]。"),
+        "49.6",
+    ),
+    "acceleration-not-carried": Slip(
+        Text("the parent's acceleration is not carried on", "没有传递父连杆的加速度"),
+        Text(
+            "A link accelerates with what carries it: A_i = X A_parent + ...", "连杆随父连杆一起加速:A_i = X A_父 + ……"
+        ),
+        "49.6",
+    ),
+    "own-acceleration-missing": Slip(
+        Text("the joint's own acceleration S q̈ is missing", "漏了关节自身的加速度 S q̈"),
+        Text("A_i = X A_parent + S q̈ + V × S q̇ has three terms.", "A_i = X A_父 + S q̈ + V × S q̇ 有三项。"),
+        "49.6",
+    ),
+    "subtree-left-out": Slip(
+        Text("a body's own inertia in place of that of its subtree", "用了单个连杆的惯量,而不是子树的复合惯量"),
+        Text(
+            "A joint moves everything beyond it: add X[i]ᵀ I^C X[i] to the parent first.",
+            "关节带动它之后的全部连杆:要先把 X[i]ᵀ I^C X[i] 加到父连杆上。",
+        ),
+        "49.8",
+    ),
+    "off-diagonal-missing": Slip(
+        Text("only the blocks on the diagonal are filled", "只填了对角块"),
+        Text(
+            "Joint i also feels the joints on its way to the base: walk there with F.",
+            "关节 i 与通往基座路径上的关节都有耦合:要带着 F 沿路径向上走。",
+        ),
+        "49.8",
+    ),
+    "transforms-two": Slip(
+        Text("two transforms per link, as the chapter has it", "每个连杆算了两次变换,与本章的说法相同"),
+        Text(
+            "The twist and the acceleration go outward, the wrench comes inward: three.",
+            "twist 和加速度向外,wrench 向内:一共三次。",
+        ),
+        "49.11",
+    ),
+    "quadratic-always": Slip(
+        Text("N(N − 1)/2 for a tree: that is a chain's", "对树也用了 N(N − 1)/2,那是单链的"),
+        Text(
+            "Each body walks up its own branch only: add up the depths.",
+            "每个刚体只沿自己的分支向上走:把各自的深度相加。",
+        ),
+        "49.11",
+    ),
+    "world-counted": Slip(
+        Text("the step to the world is counted as well", "把通往世界的一步也算了进去"),
+        Text("The world has no joint, so no wrench need be carried into it.", "世界没有关节,不需要把力传到那里。"),
+        "49.11",
+    ),
+    "two-points": Slip(
+        Text("only the first and the last point are used", "只用了首尾两个点"),
+        Text(
+            "Two points lie on any curve. Fit all of them; the misfit then tells whether it is a power at all.",
+            "任何曲线都能通过两点。应拟合全部数据,残差才能说明它是不是幂律。",
+        ),
+        "49.11",
+    ),
+    "fit-unlogged": Slip(
+        Text("a line through the times, not through their logarithms", "直接对时间作直线拟合,没有取对数"),
+        Text(
+            "t = c Nᵏ is a line of slope k only on logarithmic axes.",
+            "t = c Nᵏ 只有在双对数坐标下才是斜率为 k 的直线。",
+        ),
+        "49.11",
+    ),
+    "fit-half-logged": Slip(
+        Text("only one of the two axes is logarithmic", "只有一个坐标取了对数"),
+        Text("log t = k log N + c: both.", "log t = k log N + c:两个都要取对数。"),
+        "49.11",
+    ),
+    "fit-through-origin": Slip(
+        Text("the line is forced through the origin", "强制直线过原点"),
+        Text(
+            "The constant c in log t = k log N + c sets the unit of time: fit it as well.",
+            "log t = k log N + c 中的常数 c 由时间单位决定,也要拟合。",
+        ),
+        "49.11",
+    ),
+    "fit-intercept": Slip(
+        Text("the constant of the line in place of its slope", "给出的是截距,而不是斜率"),
+        Text("np.polyfit returns the highest power first.", "np.polyfit 先返回最高次项的系数。"),
+        "49.11",
+    ),
+    "fit-inverted": Slip(
+        Text("N over t in place of t over N", "横纵坐标弄反:用 t 拟合了 N"),
+        Text("Asked is how the time grows with N.", "要的是时间随 N 怎样增长。"),
+        "49.11",
+    ),
+    "equal-shares": Slip(
+        Text("each foot gets a quarter of the weight", "每只脚平分了 1/4 的重力"),
+        Text(
+            "So it is only if the centre of mass is above the middle of the feet. The moments decide.",
+            "只有质心恰在四脚中心上方时才如此;分配由力矩平衡决定。",
+        ),
+        "49.11",
+    ),
+    "limits-all": Slip(
+        Text("all limits are replaced, also those that are finite", "把有限的限位也替换了"),
+        Text("The joints' limits are the robot's own: keep them.", "关节限位是机器人自身的,应当保留。"),
+        "49.11",
+    ),
+    "limits-position-only": Slip(
+        Text("only the first three entries are looked at", "只处理了前三个分量"),
+        Text(
+            "Any entry may be infinite, as those of a second free-flyer: ask np.isfinite.",
+            "任何分量都可能是无穷,例如第二个自由飞行关节:用 np.isfinite 判断。",
+        ),
+        "49.11",
+    ),
+    "kinds-mixed": Slip(
+        Text("a twist and a wrench are added", "把 twist 和 wrench 相加了"),
+        Text("They are of different kinds, as metres and newtons are: refuse.", "两者种类不同,就像米和牛顿:应当拒绝。"),
+        "49.4",
+    ),
+    "pairing-of-equals": Slip(
+        Text("the power of two things of one kind is taken", "对同一种量求了功率"),
+        Text(
+            "FᵀV needs a wrench and a twist. VᵀV mixes (rad/s)² with (m/s)², and means nothing.",
+            "FᵀV 需要一个 wrench 和一个 twist;VᵀV 把 (rad/s)² 与 (m/s)² 相加,没有意义。",
+        ),
+        "49.4",
+    ),
+    "error-signed": Slip(
+        Text("the largest error is taken without its absolute value", "取最大误差时没有取绝对值"),
+        Text("An error of −3 is smaller than 0 but not small.", "误差 −3 小于 0,但并不小。"),
+        "49.11",
+    ),
+    "error-absolute": Slip(
+        Text("the error is absolute, not relative", "给出的是绝对误差,而不是相对误差"),
+        Text(
+            "1e-9 N m is much for 1e-6 N m and nothing for 1e3: divide by the largest entry.",
+            "1e-9 N m 相对 1e-6 N m 很大,相对 1e3 N m 可忽略:要除以最大分量。",
+        ),
+        "49.11",
+    ),
+    "error-averaged": Slip(
+        Text("the mean of the errors in place of the largest", "取了平均误差,而不是最大误差"),
+        Text("One wrong joint among many is lost in a mean.", "众多关节中只有一个出错时,平均值会把它掩盖。"),
+        "49.11",
+    ),
+    "error-of-joints": Slip(
+        Text("the six rows of the base are not compared", "没有比较基座的六行"),
+        Text(
+            "Most faults of a floating base show there: compare all nv rows.",
+            "浮动基座的错误大多出现在那里:应比较全部 nv 行。",
+        ),
+        "49.11",
+    ),
+}
