@@ -16,7 +16,7 @@ from .compare import agree, to_do
 from .diagnose import explain
 from .exercise import Exercise, Part
 from .phrases import say
-from .text import Text
+from .text import Language, Text
 from .wrapping import hanging
 
 __all__ = ["State", "Verdict", "judge"]
@@ -139,13 +139,17 @@ def _context(part: Part, cases: Sequence[tuple[Any, ...]], right: list[bool]) ->
         return []
     wrong = right.count(False)
     names = [name.partition("=")[0] for name in part.arguments.split(", ")]
-    shown = "    " + ", ".join(f"{name} = {_short(x)}" for name, x in zip(names, arguments))
-    shown = shown if len(shown) <= ROOM else shown[:ROOM] + " ..."
     first = say("all wrong", all=len(cases)) if wrong == len(cases) else say("cases", wrong=wrong, all=len(cases))
-    return [first, Text(shown, shown)]
+    return [first, Text(_shown(names, arguments, "en"), _shown(names, arguments, "zh"))]
 
 
-def _short(x: Any) -> str:
+def _shown(names: Sequence[str], arguments: tuple[Any, ...], language: Language) -> str:
+    """Write the arguments of a case on one line."""
+    line = "    " + ", ".join(f"{name} = {_short(x, language)}" for name, x in zip(names, arguments))
+    return line if len(line) <= ROOM else line[:ROOM] + " ..."
+
+
+def _short(x: Any, language: Language) -> str:
     """Write an argument on little room."""
     if isinstance(x, np.ndarray):
         if x.ndim > 1 or x.size > 6:
@@ -155,5 +159,6 @@ def _short(x: Any) -> str:
         return f"list of {len(x)} arrays"
     if isinstance(x, float):
         return f"{x:.4g}"
-    text = " ".join(str(getattr(x, "name", x)).split())
+    name = getattr(x, "name", x)
+    text = " ".join((name.of(language) if isinstance(name, Text) else str(name)).split())
     return text if len(text) <= ROOM or isinstance(x, list) else type(x).__name__
