@@ -44,7 +44,7 @@ RECURSION = {
         "49.6",
     ),
     "orders-mixed": Slip(
-        Text("M in the order (v, ω) meets a in the order (ω, v)", "M 的顺序是 (v, ω),而 a 的顺序是 (ω, v)"),
+        Text("M is in the order (v, ω), the vectors are in (ω, v)", "M 的顺序是 (v, ω),而各向量的顺序是 (ω, v)"),
         Text(
             "Pinocchio's M has the base's linear part first. Reorder its rows and columns, or use Pinocchio for all.",
             "Pinocchio 的 M 中基座线分量在前。要重排其行和列,或全部都用 Pinocchio 计算。",
@@ -105,8 +105,9 @@ RECURSION = {
     "base-held": Slip(
         Text("the base is held: only the joints' block of M is solved", "基座被固定:只解了 M 的关节块"),
         Text(
-            "A free base gives way, and all 18 equations are coupled. The chapter's loop of ABA is for a fixed base.",
-            "自由的基座会运动,18 个方程是耦合的。本章的 ABA 伪代码只适用于固定基座。",
+            "A free base gives way: its equations and those of the joints are coupled. The chapter's ABA is for a fixed "
+            "base.",
+            "自由的基座会运动,它的方程与关节的方程是耦合的。本章的 ABA 伪代码只适用于固定基座。",
         ),
         "49.7",
     ),
@@ -116,6 +117,24 @@ RECURSION = {
             "The base is pulled by the legs that swing; the centre of mass is not, since those forces are internal.",
             "摆动的腿会拉动基座;质心不受影响,因为这些是内力。",
         ),
+        "49.7",
+    ),
+    "as-at-rest": Slip(
+        Text("the answer for a robot at rest: v is left out", "给出的是静止时的答案:漏了 v"),
+        Text(
+            "Legs that swing pull at the base. Keep v in aba, and add ω × v for the acceleration of a point.",
+            "摆动的腿会拉动基座。aba 中要保留 v,求点的加速度还要加 ω × v。",
+        ),
+        "49.7",
+    ),
+    "mass-not-divided": Slip(
+        Text("the rate of the momentum in place of an acceleration", "给出的是动量变化率,而不是加速度"),
+        Text("l = m v_G, so the centre of mass accelerates by l̇/m.", "l = m v_G,所以质心加速度是 l̇/m。"),
+        "49.7",
+    ),
+    "inverse-missing": Slip(
+        Text("M (τ − h) in place of M⁻¹ (τ − h)", "写成了 M (τ − h),应为 M⁻¹ (τ − h)"),
+        Text("M a = τ − h: a is what solves it.", "M a = τ − h:a 是这个方程组的解。"),
         "49.7",
     ),
 }
