@@ -105,8 +105,8 @@ RECURSION = {
     "base-held": Slip(
         Text("the base is held: only the joints' block of M is solved", "基座被固定:只解了 M 的关节块"),
         Text(
-            "A free base gives way: its equations and those of the joints are coupled. The chapter's ABA is for a fixed "
-            "base.",
+            "A free base gives way: its equations and those of the joints are coupled. The chapter's ABA is for a "
+            "fixed base.",
             "自由的基座会运动,它的方程与关节的方程是耦合的。本章的 ABA 伪代码只适用于固定基座。",
         ),
         "49.7",
