@@ -3,14 +3,14 @@
 import ast
 import re
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+from .pages import DOCS, cut, names_author_and_licence, run
+
 ENGLISH, CHINESE = DOCS / "errata.md", DOCS / "errata.zh-CN.md"
 HEADING = re.compile(r"^### (\d+)\. (49(?:\.\d+)*) (.+)$", re.MULTILINE)
-FENCE = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 class Entry(NamedTuple):
@@ -18,23 +18,13 @@ class Entry(NamedTuple):
     section: str
     title: str
     text: str
-    blocks: list[str]  # each behind as many newlines as stand before it on the page, so that a failure names its line
-
-
-def blocks(page: str, start: int, end: int) -> list[str]:
-    return ["\n" * page.count("\n", 0, m.start(1)) + m[1] for m in FENCE.finditer(page, start, end)]
+    blocks: list[str]
 
 
 def read(path: Path) -> tuple[str, list[Entry]]:
     """The lines that all blocks start from, and the entries."""
-    page = path.read_text(encoding="utf-8")
-    headings = list(HEADING.finditer(page))
-    ends = [*(heading.start() for heading in headings[1:]), len(page)]
-    (preamble,) = blocks(page, 0, headings[0].start())
-    return preamble, [
-        Entry(int(h[1]), h[2], h[3], page[h.end() : end], blocks(page, h.end(), end))
-        for h, end in zip(headings, ends, strict=True)
-    ]
+    (preamble,), parts = cut(path, HEADING)
+    return preamble, [Entry(int(h[1]), h[2], h[3], text, blocks) for h, text, blocks in parts]
 
 
 PREAMBLE, ENTRIES = read(ENGLISH)
@@ -44,9 +34,7 @@ SHOWN = [entry for entry in ENTRIES if entry.blocks]
 @pytest.mark.parametrize("entry", SHOWN, ids=[f"{e.number}: {e.section} {e.title}" for e in SHOWN])
 def test_what_the_entry_calls_true_is_true(entry: Entry) -> None:
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the chapter is judged by it")
-    namespace: dict[str, Any] = {"__name__": f"errata_{entry.number}"}
-    for source in (PREAMBLE, *entry.blocks):
-        exec(compile(source, str(ENGLISH), "exec"), namespace)
+    run(ENGLISH, [PREAMBLE, *entry.blocks])
 
 
 @pytest.mark.parametrize("entry", SHOWN, ids=lambda entry: str(entry.number))
@@ -89,7 +77,5 @@ def test_both_languages_have_the_same_entries_and_the_same_code() -> None:
 
 
 def test_both_pages_name_the_author_and_the_licence() -> None:
-    for path in (ENGLISH, CHINESE):
-        head = path.read_text(encoding="utf-8")[:1000]
-        assert "Pengfei Guo" in head
-        assert "CC BY 4.0" in head
+    assert names_author_and_licence(ENGLISH)
+    assert names_author_and_licence(CHINESE)
