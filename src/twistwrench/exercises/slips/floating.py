@@ -120,6 +120,29 @@ FLOATING = {
         ),
         "49.10",
     ),
+    "acceleration-unscaled": Slip(
+        Text("the velocity is scaled and the acceleration is not", "只改了速度,没有改加速度"),
+        Text("With q(s t) the acceleration is s² a.", "位形是 q(s t) 时,加速度是 s² a。"),
+        "49.10",
+    ),
+    "acceleration-scaled-once": Slip(
+        Text("the acceleration is scaled by s in place of s²", "加速度乘了 s,应乘 s²"),
+        Text("Differentiate q(s t) twice: each time a factor s comes out.", "对 q(s t) 求两次导,每次都出来一个 s。"),
+        "49.10",
+    ),
+    "velocity-unscaled": Slip(
+        Text("the acceleration is scaled and the velocity is not", "只改了加速度,没有改速度"),
+        Text(
+            "With q(s t) the velocity is s v, and Ȧ_G v is quadratic in it.",
+            "位形是 q(s t) 时,速度是 s v,而 Ȧ_G v 对速度是二次的。",
+        ),
+        "49.10",
+    ),
+    "pace-inverted": Slip(
+        Text("the pace is taken the wrong way round", "节奏的倍数弄反了"),
+        Text("At pace s > 1 the robot is faster: velocities grow.", "s > 1 表示更快:速度变大。"),
+        "49.10",
+    ),
     "linear-for-angular": Slip(
         Text("the linear rows in place of the angular ones", "取了线动量行,而不是角动量行"),
         Text("In the order (k, l) the angular rows are 0:3.", "按 (k, l) 的顺序,角动量是 0:3 行。"),
