@@ -67,4 +67,106 @@ ANSWERS = [
         "X = mine('plucker')\nA, B = X(R_AB, p_AB)[0], X(R_BC, p_BC)[0]\nreturn X(R_AB @ R_BC, p_AB + p_BC)[0], A @ B",
         "p_BC is added without turning it into A",
     ),
+    # 49.4
+    Weak("foot_loads", "return 12 * 9.81 / 4, 15 * 9.81 / 4", "f_z (model) [N]: too small"),
+    Weak(
+        "foot_wrench",
+        "m = sum(body.mass for body in model.inertia)\nreturn np.array([0, 0, 0, 0, 0, m * 9.81 / 4])",
+        "the world's axes in place of the body's own",
+    ),
+    Weak(
+        "contact_wrench",
+        "f = R @ f_c\nF = np.r_[np.cross(f, p), f]\nreturn F, plucker(R, p)[0] @ np.r_[0, 0, 0, f_c]",
+        "The slip in F by X*: X taken for X*",
+    ),
+    Weak("sole_wrench", "f = forces.sum(0)\nreturn np.r_[np.cross(points.mean(0), f), f]", "at the mean of the points"),
+    Weak("center_of_pressure", "return F[:2] / F[5]", "the axes of the centre of pressure are exchanged"),
+    Weak(
+        "sole_holds",
+        "return bool(abs(F[0] / F[5]) <= d_y and abs(F[1] / F[5]) <= d_x)",
+        "the ground is allowed to pull",
+    ),
+    # 49.5
+    Weak(
+        "spatial_inertia",
+        "C = tw.skew(c)\nreturn np.block([[I_c + m * C @ C, m * C], [-m * C, m * np.eye(3)]])",
+        "the parallel-axis term has the wrong sign",
+    ),
+    Weak("link_inertia", "return np.diag([0.03, 0.03, 0.005, 2, 2, 2]), 0.005", "columns v: zero, and must not be"),
+    Weak("chapter_order", "return I[[3, 4, 5, 0, 1, 2]]", "only the rows are exchanged"),
+    Weak("base_inertia", "b = model.inertia[0]\nreturn b.mass, b.matrix()", "body 0, the universe"),
+    Weak(
+        "base_inertia",
+        "b = model.inertia[1]\nreturn b.mass, tw.bridge.to_pinocchio_transform(b.matrix())",
+        "(ω, v) and (v, ω) are swapped",
+    ),
+    Weak("moved_inertia", "X, _ = plucker(R, p)\nreturn X @ I @ np.linalg.inv(X)", "X I X⁻¹ in place of X* I X⁻¹"),
+    Weak(
+        "about_center_of_mass",
+        "zero = np.zeros((3, 3))\nreturn np.block([[I_c, zero], [zero, np.eye(3)]])",
+        "the mass is missing",
+    ),
+    # 49.6
+    Weak(
+        "torques_two_ways",
+        "h = tw.rnea(model, q, v, a)\nreturn h, tw.crba(model, q) @ a + h",
+        "h is taken with the acceleration",
+    ),
+    Weak(
+        "torques_two_ways",
+        "M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)\n"
+        "M = M + M.T - np.diag(M.diagonal())\nreturn tw.rnea(model, q, v, a), M @ a + h",
+        "the entries off the diagonal are doubled",
+    ),
+    Weak(
+        "mass_matrix_by_rnea",
+        "rest = np.zeros(model.nv)\nreturn np.array([tw.rnea(model, q, rest, e) for e in np.eye(model.nv)]).T",
+        "gravity is left in the columns",
+    ),
+    Weak(
+        "weight_wrenches",
+        "W = np.zeros((model.nbodies, 6))\nT = tw.forward_kinematics(model, q).placement\n"
+        "for i in range(1, model.nbodies):\n    W[i, 3:] = model.inertia[i].mass * T[i].rotation.T @ model.gravity\n"
+        "return W",
+        "the moment of the weight is left out",
+    ),
+    Weak(
+        "gravity_two_ways",
+        "return tw.rnea(model, q, v, a), tw.rnea(model, q, v, a, f_ext=mine('weight_wrenches')(model, q))",
+        "gravity is counted twice",
+    ),
+    Weak("go2_base_wrench", "return np.array([0, 0, 0, 0, 0, -16.085 * 9.81])", "as the chapter prints it"),
+    Weak(
+        "base_wrench_at_rest",
+        "m = sum(body.mass for body in model.inertia)\nreturn np.array([0, 0, 0, 0, 0, m * 9.81])",
+        "the τ rows: zero, and must not be",
+    ),
+    # 49.7
+    Weak(
+        "fall_from_rest",
+        "rest, expected = np.zeros((2, model.nv))\nexpected[5] = -9.81\nreturn tw.aba(model, q, rest, rest), expected",
+        "the world's axes in place of the body's own",
+    ),
+    Weak(
+        "fall_in_motion",
+        "a = tw.aba(model, q, v, np.zeros(model.nv))\nreturn a[3:6], model.gravity",
+        "the change of frame is left out",
+    ),
+    Weak(
+        "forward_dynamics_two_ways",
+        "return tw.aba(model, q, v, tau), np.linalg.solve(tw.crba(model, q), tau)",
+        "h is left out",
+    ),
+    Weak(
+        "time_ratio",
+        "start = clock()\nfor _ in range(calls):\n    first()\nmiddle = clock()\nfor _ in range(calls):\n    second()\n"
+        "return (clock() - middle) / (middle - start)",
+        "one block of calls for each",
+    ),
+    Weak(
+        "time_ratio",
+        "from timeit import timeit\nreturn timeit(second, number=calls) / timeit(first, number=calls)",
+        "the clock that is handed in is not read",
+    ),
+    Weak("measured_ratio", "return 18 * 18 / 18", "an order of growth is taken for a time"),
 ]
