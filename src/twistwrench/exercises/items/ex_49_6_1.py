@@ -118,7 +118,7 @@ COLUMNS = Part(
         Returns: array (nv, nv), full, the base's six rows and columns first, (ω, v).""",
         """只用 RNEA 求出质量矩阵并返回。
 
-        单个关节取单位加速度时,RNEA 给出的几乎就是 M 的一列。只是"几乎"。
+        单个关节取单位加速度时,RNEA 给出的几乎就是 M 的一列。只是“几乎”。
         model:浮动基座机器人。q:数组 (nq,)。`tw.rnea(model, q, v, a)` 就是 RNEA。
         返回:数组 (nv, nv),完整矩阵,前六行六列属于基座 (ω, v)。""",
     ),
@@ -158,7 +158,7 @@ EXERCISE = Exercise(
         """对随机运动 (q, v, a) 用两种方法计算关节力并比较:用 RNEA 一次算出;用 M a + h,
         其中 M 由 CRBA 得到,h 由 RNEA 在 a = 0 时得到。本章用 Pinocchio,用 twistwrench 也可以。
 
-        再进一步:RNEA 能算出任意加速度需要多大的力,所以它"知道" M。不用 CRBA,把 M 从 RNEA 中取出来。""",
+        再进一步:RNEA 能算出任意加速度需要多大的力,所以它“知道” M。不用 CRBA,把 M 从 RNEA 中取出来。""",
     ),
     parts=(TWO_WAYS, COLUMNS),
     hints=(
