@@ -26,7 +26,7 @@ def foot_wrench(model: Any, q: Any, foot: Any) -> Any:
     mass = sum(body.mass for body in model.inertia)
     R = tw.frame_placement(model, q, foot).rotation
     upward = -mass * model.gravity / 4
-    return np.concatenate([np.zeros(3), R.T @ upward])
+    return np.concatenate([np.zeros(3), R.mT @ upward])
 
 
 def _loads(mass: float, *, model: float = 16.085, g: float = 9.81, feet: int = 4) -> Any:

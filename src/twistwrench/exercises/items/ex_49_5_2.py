@@ -19,7 +19,7 @@ __all__ = ["EXERCISE", "base_inertia", "chapter_order"]
 
 def chapter_order(I: Any) -> Any:
     """From (v, ω) to (ω, v)."""
-    order = [3, 4, 5, 0, 1, 2]
+    order = np.r_[3:6, 0:3]
     return I[np.ix_(order, order)]
 
 
@@ -29,6 +29,9 @@ def base_inertia(model: Any) -> Any:
     base = model.inertia[1]
     return base.mass, build(base.mass, base.com, base.inertia_at_com)
 
+
+EXCHANGE = np.kron([[0, 1], [1, 0]], np.eye(3))
+"""Exchanges the halves of a vector."""
 
 LINK_BASE = (
     6.921,
@@ -93,8 +96,8 @@ REORDERED = Part(
     cases=_linear_first,
     slips={
         "swapped-halves": lambda I: I,
-        "rows-only": lambda I: I[[3, 4, 5, 0, 1, 2]],
-        "columns-only": lambda I: I[:, [3, 4, 5, 0, 1, 2]],
+        "rows-only": lambda I: EXCHANGE @ I,
+        "columns-only": lambda I: I @ EXCHANGE,
         "reversed": lambda I: I[::-1, ::-1],
     },
     properties=(
@@ -175,8 +178,8 @@ EXERCISE = Exercise(
             "惯量把 twist 变成动量。两者都重排,矩阵的行和列也都要重排。",
         ),
         Text(
-            "`I[np.ix_(order, order)]` picks rows and columns at once; order = [3, 4, 5, 0, 1, 2].",
-            "`I[np.ix_(order, order)]` 同时选取行和列,order = [3, 4, 5, 0, 1, 2]。",
+            "`I[np.ix_(order, order)]` picks rows and columns at once; order is 3, 4, 5, 0, 1, 2.",
+            "`I[np.ix_(order, order)]` 同时选取行和列,order 为 3, 4, 5, 0, 1, 2。",
         ),
         Text(
             "The four hip rotors are joined to the base by fixed joints, 0.089 kg each. What is welded on belongs to "

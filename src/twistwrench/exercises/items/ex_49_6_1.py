@@ -27,7 +27,7 @@ def mass_matrix_by_rnea(model: Any, q: Any) -> Any:
     rest = np.zeros(model.nv)
     gravity = tw.rnea(model, q, rest, rest)
     columns = [tw.rnea(model, q, rest, e) - gravity for e in np.eye(model.nv)]
-    return np.array(columns).T
+    return np.array(columns).mT
 
 
 def _second(model: Any, q: Any, v: Any, a: Any, tau: Any) -> Any:
@@ -134,7 +134,7 @@ COLUMNS = Part(
         ),
     },
     properties=(
-        Property(Text("M is symmetric", "M 对称"), lambda answer, model, q: answer - answer.T),
+        Property(Text("M is symmetric", "M 对称"), lambda answer, model, q: answer - answer.mT),
         Property(
             Text("½ vᵀM v is the kinetic energy", "½ vᵀM v 等于动能"),
             lambda answer, model, q: [

@@ -11,7 +11,7 @@ from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import robot, small_robot, weightless
 from ..text import Text
 from ..workbook import mine
-from ..wrong import negated, swapped
+from ..wrong import negated, swap, swapped
 
 __all__ = ["EXERCISE", "gravity_two_ways", "weight_wrenches"]
 
@@ -22,7 +22,7 @@ def weight_wrenches(model: Any, q: Any) -> Any:
     W = np.zeros((model.nbodies, 6))
     for i in range(1, model.nbodies):
         body = model.inertia[i]
-        force = body.mass * placement[i].rotation.T @ model.gravity
+        force = body.mass * placement[i].rotation.mT @ model.gravity
         W[i] = np.concatenate([np.cross(body.com, force), force])
     return W
 
@@ -72,10 +72,6 @@ def _second(f_ext: Any) -> Any:
     return wrong
 
 
-def _twice(model: Any, weightless: Any, q: Any, v: Any, a: Any) -> Any:
-    return tw.rnea(model, q, v, a), tw.rnea(model, q, v, a, f_ext=weight_wrenches(model, q))
-
-
 WEIGHTS = Part(
     solution=weight_wrenches,
     doc=Text(
@@ -96,15 +92,17 @@ WEIGHTS = Part(
     returns=(Quantity("W", WRENCH),),
     cases=_postures,
     slips={
-        "moment-dropped": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.zeros(3), m * R.T @ g)),
+        "moment-dropped": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.zeros(3), m * R.mT @ g)),
         "untransformed": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(c, m * g), m * g)),
         "aligned-for-local": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(R @ c, m * g), m * g)),
         "rotation-forward": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(c, m * R @ g), m * R @ g)),
-        "cross-order": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(m * R.T @ g, c), m * R.T @ g)),
-        "mass-dropped": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(c, R.T @ g), R.T @ g)),
+        "cross-order": lambda model, q: _weights(
+            model, q, lambda m, c, R, g: (np.cross(m * R.mT @ g, c), m * R.mT @ g)
+        ),
+        "mass-dropped": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(c, R.mT @ g), R.mT @ g)),
         "wrench-about-world": _about_world,
         "weight-upward": negated(weight_wrenches),
-        "swapped-halves": lambda model, q: np.roll(weight_wrenches(model, q), 3, axis=1),
+        "swapped-halves": lambda model, q: np.array([swap(F) for F in weight_wrenches(model, q)]),
         "base-weightless": _without_base,
     },
     properties=(
@@ -146,7 +144,7 @@ TWO_WAYS = Part(
     slips={
         "gravity-missing": _second(lambda model, q: np.zeros((model.nbodies, 6))),
         "external-sign": _second(lambda model, q: -weight_wrenches(model, q)),
-        "gravity-twice": _twice,
+        "gravity-twice": lambda model, weightless, q, v, a: gravity_two_ways(model, model, q, v, a),
         "base-weightless": _second(_without_base),
         "swapped-halves": swapped(gravity_two_ways),
     },

@@ -19,8 +19,8 @@ def base_wrench_at_rest(model: Any, q: Any) -> Any:
     """Wrench on the base that holds the robot, without RNEA."""
     base = tw.forward_kinematics(model, q).placement[1]
     mass = sum(body.mass for body in model.inertia)
-    lever = base.rotation.T @ (tw.center_of_mass(model, q) - base.translation)
-    force = -mass * base.rotation.T @ model.gravity
+    lever = base.rotation.mT @ (tw.center_of_mass(model, q) - base.translation)
+    force = -mass * base.rotation.mT @ model.gravity
     return np.concatenate([np.cross(lever, force), force])
 
 
@@ -45,7 +45,7 @@ def _wrench(moment_and_force: Any) -> Any:
 def _of_base(model: Any, q: Any) -> Any:
     """Return what holds the base alone, without the legs."""
     R, _, _, _ = _parts(model, q)
-    force = -model.inertia[1].mass * R.T @ model.gravity
+    force = -model.inertia[1].mass * R.mT @ model.gravity
     return np.concatenate([np.cross(model.inertia[1].com, force), force])
 
 
@@ -73,15 +73,15 @@ BY_HAND = Part(
     returns=(Quantity("F", WRENCH),),
     cases=_cases,
     slips={
-        "as-printed": _wrench(lambda R, p, c, f: (0 * f, -R.T @ f)),
+        "as-printed": _wrench(lambda R, p, c, f: (0 * f, -R.mT @ f)),
         "base-wrench-sign": negated(base_wrench_at_rest),
-        "moment-dropped": _wrench(lambda R, p, c, f: (0 * f, R.T @ f)),
-        "lever-from-world": _wrench(lambda R, p, c, f: (R.T @ np.cross(c, f), R.T @ f)),
-        "lever-unrotated": _wrench(lambda R, p, c, f: (np.cross(c - p, R.T @ f), R.T @ f)),
+        "moment-dropped": _wrench(lambda R, p, c, f: (0 * f, R.mT @ f)),
+        "lever-from-world": _wrench(lambda R, p, c, f: (R.mT @ np.cross(c, f), R.mT @ f)),
+        "lever-unrotated": _wrench(lambda R, p, c, f: (np.cross(c - p, R.mT @ f), R.mT @ f)),
         "aligned-for-local": _wrench(lambda R, p, c, f: (np.cross(c - p, f), f)),
         "wrench-about-world": _wrench(lambda R, p, c, f: (np.cross(c, f), f)),
         "rotation-forward": _wrench(lambda R, p, c, f: (R @ np.cross(c - p, f), R @ f)),
-        "cross-order": _wrench(lambda R, p, c, f: (-R.T @ np.cross(c - p, f), R.T @ f)),
+        "cross-order": _wrench(lambda R, p, c, f: (-R.mT @ np.cross(c - p, f), R.mT @ f)),
         "one-link": _of_base,
         "base-weightless": lambda model, q: base_wrench_at_rest(model, q) - _of_base(model, q),
         "mass-for-weight": times(base_wrench_at_rest, 1 / 9.81),

@@ -20,7 +20,7 @@ def fall_from_rest(model: Any, q: Any) -> Any:
     rest = np.zeros(model.nv)
     base = tw.forward_kinematics(model, q).placement[1]
     expected = np.zeros(model.nv)
-    expected[3:6] = base.rotation.T @ model.gravity
+    expected[3:6] = base.rotation.mT @ model.gravity
     return tw.aba(model, q, rest, rest), expected
 
 
@@ -77,7 +77,7 @@ def _of_momentum(of_com: Any) -> Any:
 
 def _turned(model: Any, q: Any, v: Any) -> Any:
     R = tw.forward_kinematics(model, q).placement[1].rotation
-    return tuple(R.T @ x for x in fall_in_motion(model, q, v))
+    return tuple(R.mT @ x for x in fall_in_motion(model, q, v))
 
 
 def _aligned(model: Any, q: Any, v: Any) -> Any:
@@ -122,7 +122,7 @@ FROM_REST = Part(
         "bias-sign": _instead(lambda model, q: -fall_from_rest(model, q)[0]),
         "aligned-for-local": _instead(expected=lambda g, R: g),
         "rotation-forward": _instead(expected=lambda g, R: R @ g),
-        "gravity-sign": _instead(expected=lambda g, R: -R.T @ g),
+        "gravity-sign": _instead(expected=lambda g, R: -R.mT @ g),
         "swapped-halves": swapped(fall_from_rest),
         "base-missing": after(fall_from_rest, lambda a: a[6:]),
     },
@@ -161,7 +161,7 @@ IN_MOTION = Part(
         "classical-acceleration": _moving(lambda R, a, w, u: R @ a[3:6]),
         "cross-order": _moving(lambda R, a, w, u: R @ (a[3:6] + np.cross(u, w))),
         "untransformed": _moving(lambda R, a, w, u: a[3:6]),
-        "rotation-transposed": _moving(lambda R, a, w, u: R.T @ (a[3:6] + np.cross(w, u))),
+        "rotation-transposed": _moving(lambda R, a, w, u: R.mT @ (a[3:6] + np.cross(w, u))),
         "angular-for-linear": _moving(lambda R, a, w, u: R @ (a[:3] + np.cross(w, u))),
         "as-at-rest": lambda model, q, v: (model.gravity, model.gravity),
         "base-for-com": lambda model, q, v: (fall_in_motion(model, q, v)[0],) * 2,

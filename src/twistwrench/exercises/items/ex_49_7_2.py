@@ -97,13 +97,14 @@ def _timed(function: Any, first: Any, second: Any, calls: Any, clock: Any) -> An
     return answer if answer is ... or clock.readings else np.nan
 
 
-def _verdict_on_ratio(answer: Any, first: Any, second: Any, calls: Any, clock: Any) -> Any:
+def _verdict(answer: Any, right: float) -> float:
     """Return 0 for about the right ratio, and other numbers for its inverse, too large, too small and no clock."""
-    off = float(answer) * first.seconds / second.seconds
-    if np.isnan(off):
+    ratio = float(answer)
+    if np.isnan(ratio):
         return 4.0
-    inverse = float(answer) * second.seconds / first.seconds
-    return 0.0 if abs(off - 1) < 0.15 else 1.0 if abs(inverse - 1) < 0.15 else 2.0 if off > 1 else 3.0
+    if abs(ratio / right - 1) < 0.15:
+        return 0.0
+    return 1.0 if abs(ratio * right - 1) < 0.15 else 2.0 if ratio > right else 3.0
 
 
 def _machines(rng: Any) -> Any:
@@ -188,7 +189,7 @@ RATIO = Part(
     returns=(Quantity("ratio"),),
     cases=_machines,
     call=_timed,
-    canonical=_verdict_on_ratio,
+    canonical=lambda answer, first, second, calls, clock: _verdict(answer, second.seconds / first.seconds),
     slips={
         "ratio-inverted": lambda first, second, calls, clock: 1 / time_ratio(first, second, calls, clock),
         "single-call": lambda first, second, calls, clock: time_ratio(first, second, 1, clock),
