@@ -30,7 +30,7 @@ ORDER = [
         "kinematics",
     ),
     *("inverse_dynamics", "forward_dynamics", "mass_matrix", "coriolis", "energy", "centroidal", "floating_base"),
-    *("bridge", "robots", "plot", "_names", "__init__", "validate", "exercises", "cli", "__main__"),
+    *("fast", "bridge", "robots", "plot", "_names", "__init__", "validate", "exercises", "cli", "__main__"),
 ]
 """The chapter's order. A section imports from earlier ones only; a folder is one section."""
 
@@ -234,11 +234,11 @@ def test_nothing_forbidden_stands_in_the_source():
 
 
 def interface() -> Iterator[tuple[str, ast.ClassDef | Function]]:
-    """Yield place and node of every function and class that `twistwrench` and its two folders of functions offer."""
+    """Yield place and node of every function and class that `twistwrench` and its three folders of functions offer."""
     for node in ast.walk(TREES["_names.py"]):
         if isinstance(node, ast.ImportFrom) and node.module:
             yield from offered_nodes(node.module, {alias.name for alias in node.names})
-    for folder in ("bridge", "newton_euler_3d"):
+    for folder in ("bridge", "fast", "newton_euler_3d"):
         yield from offered_nodes(folder, offered(f"{folder}/__init__.py"))
 
 

@@ -3,7 +3,7 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from . import bridge, newton_euler_3d
+from . import bridge, fast, newton_euler_3d
 from .builder import Builder
 from .centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
 from .coriolis import coriolis_matrix
@@ -73,6 +73,7 @@ __all__ = [
     "exercises",
     "exp3",
     "exp6",
+    "fast",
     "force_transform",
     "forward_kinematics",
     "frame_bias_acceleration",

@@ -1,0 +1,199 @@
+"""The links of a plan: a link of its own for every degree of freedom.
+
+The frame of a link is turned such that its freedom is a turn about, or a slide along, its z axis. The links of
+one joint have one origin in common; the last of them carries the body, those before it have no mass. So there
+is one kind of link only, and no kind of joint in the algorithms.
+
+The links are numbered level by level, from the base to the tips, and in a level as far as possible in the order
+of their parents: what a level reads of the one below it is then a slice. Number 0 is the base: the body that
+floats, or the world of a fixed base.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from ..checks import Array
+from ..model import Model
+
+__all__ = ["Index", "Level", "Link", "Step", "base_floats", "index", "levels_of", "links_of", "parents_of", "steps_of"]
+
+Index = slice | Array
+"""Some of the links: a slice where it can be one, since a slice copies nothing."""
+
+
+@dataclass(eq=False)
+class Link:
+    """One degree of freedom, and the link that it moves.
+
+    Attributes
+    ----------
+    joint : int
+        The joint that it belongs to.
+    entry : int
+        Its entry in v.
+    turns : bool
+        Whether it turns about the z axis; else it slides along it.
+    first, last : bool
+        Whether it is the first, the last of its joint.
+    axes : ndarray, shape (3, 3)
+        The axes of the link, as columns, in those of the joint's body. Long double.
+    parent : Link or None
+        What carries it; None is the base.
+    """
+
+    joint: int
+    entry: int
+    turns: bool
+    first: bool
+    last: bool
+    axes: Array
+    parent: Link | None = None
+    children: list[Link] = field(default_factory=list)
+    height: int = 0
+    number: int = 0
+
+
+class Level(NamedTuple):
+    """The links at one distance from the base.
+
+    Attributes
+    ----------
+    here : slice
+        Their numbers.
+    up : slice or ndarray
+        The numbers of their parents.
+    inward : list of (parents, children)
+        The same in groups in each of which no parent occurs twice: children can be added to their parents.
+    """
+
+    here: slice
+    up: Index
+    inward: list[tuple[Index, Index]]
+
+
+class Step(NamedTuple):
+    """One step of all links at once towards the base.
+
+    Attributes
+    ----------
+    movers : slice
+        The links that are not at the base after it.
+    left : slice or ndarray
+        For each, the ancestor that it leaves.
+    reached : slice or ndarray
+        For each, the ancestor that it reaches.
+    """
+
+    movers: slice
+    left: Index
+    reached: Index
+
+
+def base_floats(model: Model) -> bool:
+    """Whether all bodies hang on body 1, and that one on nothing."""
+    joint = model.joints[1] if model.nbodies > 1 else None
+    return joint is not None and joint.kind == "free_flyer" and model.parent.count(0) == 1
+
+
+def links_of(model: Model) -> list[Link]:
+    """Return the links without the base, numbered from 1."""
+    start = 2 if base_floats(model) else 1
+    carrier: dict[int, Link | None] = dict.fromkeys(range(start))  # of each body; the base carries itself
+    made: list[Link] = []
+    for i in range(start, model.nbodies):
+        parent = carrier[model.parent[i]]
+        for link in _links_of_joint(model, i):
+            link.parent, parent = parent, link
+            made.append(link)
+        carrier[i] = parent
+    for link in reversed(made):
+        if link.parent is not None:
+            link.parent.children.insert(0, link)
+            link.parent.height = max(link.parent.height, link.height + 1)
+    return _numbered([link for link in made if link.parent is None])
+
+
+def _links_of_joint(model: Model, i: int) -> Iterator[Link]:
+    """Yield a link for each column of S, which is a unit vector."""
+    joint, start = model.joints[i], model.v_slice[i].start
+    S = joint.subspace(np.longdouble) if joint is not None else np.zeros((6, 0), np.longdouble)
+    for k, column in enumerate(S.mT):
+        turns = bool(column[:3].any())
+        axes = _axes_with_z(column[:3] if turns else column[3:])
+        yield Link(i, start + k, turns, first=k == 0, last=k == S.shape[1] - 1, axes=axes)
+
+
+def _axes_with_z(z: Array) -> Array:
+    """Return right-handed axes, as columns, the third of which is the unit vector z; exact for a coordinate axis."""
+    x = np.zeros_like(z)
+    x[np.abs(z).argmin()] = 1
+    x = x - z[np.abs(z).argmin()] * z
+    x = x / np.sqrt((x * x).sum())
+    y = z[[1, 2, 0]] * x[[2, 0, 1]] - z[[2, 0, 1]] * x[[1, 2, 0]]
+    return np.stack([x, y, z], axis=-1)
+
+
+def _numbered(roots: list[Link]) -> list[Link]:
+    """Give the links their numbers, level by level: first children in the order of their parents, then second ones.
+
+    The child with the longest way to a tip counts as the first. Those that have children of their own thus
+    tend to stand at the head of a level.
+    """
+    order: list[Link] = []
+    families = [roots]
+    while any(families):
+        ranked = [sorted(family, key=lambda link: -link.height) for family in families if family]
+        level = [family[k] for k in range(max(map(len, ranked))) for family in ranked if k < len(family)]
+        order += level
+        families = [link.children for link in level]
+    for number, link in enumerate(order, start=1):
+        link.number = number
+    return order
+
+
+def index(numbers: list[int]) -> Index:
+    """Return numbers as a slice where they are consecutive, as an array where not."""
+    first = numbers[0] if numbers else 0
+    if numbers == list(range(first, first + len(numbers))):
+        return slice(first, first + len(numbers))
+    return np.array(numbers, dtype=np.intp)
+
+
+def parents_of(links: list[Link]) -> list[int]:
+    """Return the number of each link's parent, with an entry for the base."""
+    return [0, *(link.parent.number if link.parent else 0 for link in links)]
+
+
+def levels_of(links: list[Link]) -> list[Level]:
+    """Return the levels, from the base to the tips."""
+    parent, depth = parents_of(links), [0]
+    for i in range(1, len(parent)):
+        depth.append(depth[parent[i]] + 1)
+    levels = []
+    for d, size in sorted(Counter(depth[1:]).items()):
+        here = range(depth.index(d), depth.index(d) + size)
+        up = [parent[i] for i in here]
+        groups: dict[int, list[int]] = defaultdict(list)
+        for i in here:
+            groups[up[: i - here.start].count(parent[i])].append(i)
+        inward = [(index([parent[i] for i in group]), index(group)) for group in groups.values()]
+        levels.append(Level(slice(here.start, here.stop), slice(0, 1) if d == 1 else index(up), inward))
+    return levels
+
+
+def steps_of(links: list[Link], levels: list[Level]) -> list[Step]:
+    """Return the steps that lead every link to the one below the base."""
+    parent = parents_of(links)
+    steps, at = [], list(range(len(parent)))
+    for level in levels[1:]:
+        movers = slice(level.here.start, len(parent))
+        left = at[movers]
+        at = [parent[i] for i in at]
+        steps.append(Step(movers, index(left), index(at[movers])))
+    return steps

@@ -1,0 +1,253 @@
+"""The plan: what can be worked out from a model before the first state comes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from ..checks import Array
+from ..model import Model
+from .links import Index, Level, Link, Step, base_floats, index, levels_of, links_of, parents_of, steps_of
+
+__all__ = ["Plan", "Seat", "plan_of"]
+
+_PLANS: WeakKeyDictionary[Model, dict[Any, Any]] = WeakKeyDictionary()
+"""The plans of the models that are alive; a plan never refers to its model."""
+
+
+class Seat(NamedTuple):
+    """The first link of a joint that places it anywhere: planar, spherical or free-flyer.
+
+    Attributes
+    ----------
+    link : int
+        Its number.
+    kind : str
+        Of the joint.
+    q : slice
+        The joint's entries.
+    axes : ndarray, shape (3, 3)
+        As `Link.axes`.
+    """
+
+    link: int
+    kind: str
+    q: slice
+    axes: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Constants of a model in one number type, link by link; 1 + n links, the first of which is the base.
+
+    Attributes
+    ----------
+    floats : bool
+        Whether link 0 is a body that floats, with the first six entries of v; else it is the world.
+    n, nq, nv : int
+        Number of links without the base, of entries of q, and of degrees of freedom.
+    units : list of slice
+        The entries of q that have norm 1.
+    parent : list of int
+        Of each link; 0 also for the base.
+    levels : list of Level
+        From the base to the tips.
+    steps : list of Step
+        From each link to the base.
+    fixed : ndarray, shape (n, 4, 3)
+        The axes x, y, z of each link before it turns and the offset of its origin, in the axes of its parent.
+    entry : ndarray of int, shape (1 + n,)
+        The entry of each link in v; -1 for the base.
+    apart : (ndarray, ndarray) of int
+        The entries of M that are always zero, of links none of which carries the other.
+    turning : ndarray, shape (1 + n, 1), or None
+        1 for a link that turns, 0 for one that slides; None where all turn.
+    last, before : slice or ndarray
+        For each link the last one of its joint, and the one that carries the joint.
+    angles, circles, lengths : (slice or ndarray, ndarray of int)
+        Links without the base, and the entry of q that holds the angle; its cosine, with the sine next; the length.
+    seats : list of list of Seat
+        Level by level, what is placed freely.
+    inertia : ndarray, shape (1 + n, 4, 3)
+        Of each link in its axes about its origin: the rows of the inertia, then mass times centre of mass.
+    mass, carried : ndarray, shape (1 + n, 1)
+        Of each link; of the link and of all that it carries.
+    first, second : ndarray, shape (1 + n,)
+        Bounds of each link's own moments of mass: the length of the first, the trace of the inertia.
+    bodies : list of (int, int, ndarray)
+        Link, body and the body's axes in those of the link, as columns.
+    rotor : ndarray, shape (nv, 1)
+        `Model.armature`.
+    gravity : ndarray, shape (3, 1)
+        In the world.
+    under : ndarray, shape (3, 3)
+        The axes from which a floating base turns, as columns in those of the world.
+    """
+
+    floats: bool
+    n: int
+    nq: int
+    nv: int
+    units: list[slice]
+    parent: list[int]
+    levels: list[Level]
+    steps: list[Step]
+    fixed: Array
+    entry: Array
+    apart: tuple[Array, Array]
+    turning: Array | None
+    last: Index
+    before: Index
+    angles: tuple[Index, Array]
+    circles: tuple[Index, Array]
+    lengths: tuple[Index, Array]
+    seats: list[list[Seat]]
+    inertia: Array
+    mass: Array
+    carried: Array
+    first: Array
+    second: Array
+    bodies: list[tuple[int, int, Array]]
+    rotor: Array
+    gravity: Array
+    under: Array
+
+    def support(self, link: int) -> list[int]:
+        """Return the links from `link` towards the base, without the base."""
+        path = []
+        while link > 0:
+            path.append(link)
+            link = self.parent[link]
+        return path
+
+
+def plan_of(model: Model, dtype: np.dtype[Any]) -> Plan:
+    """Return the plan of a model for a real number type; made once, forgotten with the model."""
+    plans = _PLANS.setdefault(model, {})
+    if dtype not in plans:
+        plans[dtype] = _make(model, dtype)
+    plan: Plan = plans[dtype]
+    return plan
+
+
+def _make(model: Model, dtype: np.dtype[Any]) -> Plan:
+    links, floats = links_of(model), base_floats(model)
+    levels = levels_of(links)
+    spread, mass = _inertias(model, links)
+    carried = mass.copy()
+    for level in reversed(levels):
+        for parents, children in level.inward:
+            carried[parents] += carried[children]
+    turning = np.array([[True], *([link.turns] for link in links)])
+    ends = {link.joint: link.number for link in links if link.last}
+    starts = {link.joint: link.parent.number if link.parent else 0 for link in links if link.first}
+    return Plan(
+        floats=floats,
+        n=len(links),
+        nq=model.nq,
+        nv=model.nv,
+        units=_units(model),
+        parent=parents_of(links),
+        levels=levels,
+        steps=steps_of(links, levels),
+        fixed=_fixed(model, links).astype(dtype),
+        entry=np.array([-1, *(link.entry for link in links)], np.intp),
+        apart=_apart(links),
+        turning=None if turning.all() else turning.astype(dtype),
+        last=index([ends[link.joint] for link in links]),
+        before=index([starts[link.joint] for link in links]),
+        angles=_moved_by(model, links, "revolute"),
+        circles=_moved_by(model, links, "continuous"),
+        lengths=_moved_by(model, links, "prismatic"),
+        seats=[_seats(model, links[level.here.start - 1 : level.here.stop - 1], dtype) for level in levels],
+        inertia=spread.astype(dtype),
+        mass=mass.astype(dtype),
+        carried=carried.astype(dtype),
+        first=np.sqrt((spread[:, 3] ** 2).sum(axis=-1)).astype(dtype),
+        second=spread[:, range(3), range(3)].sum(axis=-1).astype(dtype),
+        bodies=[*([(0, 1, np.eye(3, dtype=dtype))] if floats else []), *_bodies(links, dtype)],
+        rotor=model.armature.astype(dtype)[:, None],
+        gravity=model.gravity.astype(dtype)[:, None],
+        under=model.constants(np.longdouble).placement[1 if floats else 0].rotation.astype(dtype),
+    )
+
+
+def _units(model: Model) -> list[slice]:
+    return [
+        slice(q.start + joint.unit.start, q.start + joint.unit.stop)
+        for joint, q in zip(model.joints, model.q_slice)
+        if joint is not None and joint.unit is not None
+    ]
+
+
+def _apart(links: list[Link]) -> tuple[Array, Array]:
+    """Return rows and columns of M where neither link carries the other."""
+    related = np.eye(1 + len(links), dtype=bool)
+    for link in links:
+        if link.parent is not None:
+            related[link.number] |= related[link.parent.number]
+    rows, columns = np.nonzero(~(related | related.mT)[1:, 1:])
+    entry = np.array([link.entry for link in links], np.intp)
+    return entry[rows], entry[columns]
+
+
+def _bodies(links: list[Link], dtype: np.dtype[Any]) -> list[tuple[int, int, Array]]:
+    return [(link.number, link.joint, link.axes.mT.astype(dtype)) for link in links if link.last]
+
+
+def _inertias(model: Model, links: list[Link]) -> tuple[Array, Array]:
+    """Return inertia and first moment of each link, in its axes about its origin, and its mass."""
+    spread, mass = np.zeros((1 + len(links), 4, 3), np.longdouble), np.zeros((1 + len(links), 1), np.longdouble)
+    carriers = [(link.number, link.joint, link.axes) for link in links if link.last]
+    if base_floats(model):
+        carriers.insert(0, (0, 1, np.eye(3, dtype=np.longdouble)))
+    for number, body, axes in carriers:
+        given = model.inertia[body]
+        mass[number] = given.mass
+        com = axes.mT @ given.com.astype(np.longdouble)
+        about_com = axes.mT @ given.inertia_at_com.astype(np.longdouble) @ axes
+        spread[number, :3] = about_com + given.mass * ((com * com).sum() * np.eye(3) - np.outer(com, com))
+        spread[number, 3] = given.mass * com
+    return spread, mass
+
+
+def _fixed(model: Model, links: list[Link]) -> Array:
+    """Return where each link is in its parent's axes before it moves: the axes as rows, then the offset."""
+    constants = model.constants(np.longdouble)
+    rows = np.zeros((len(links), 4, 3), np.longdouble)
+    for row, link in zip(rows, links):
+        carrier = np.eye(3, dtype=np.longdouble) if link.parent is None else link.parent.axes
+        if not link.first:
+            row[:3] = (carrier.mT @ link.axes).mT
+            continue
+        seat = constants.placement[link.joint]
+        axes = seat.rotation if _anywhere(model, link.joint) else seat.rotation @ link.axes
+        row[:3], row[3] = (carrier.mT @ axes).mT, carrier.mT @ seat.translation
+    if not base_floats(model) and links:
+        roots = [i for i, link in enumerate(links) if link.parent is None]
+        rows[roots, 3] -= rows[0, 3]  # nothing depends on where the base is, but digits do
+    return rows
+
+
+def _anywhere(model: Model, i: int) -> bool:
+    """Whether joint i turns and shifts in ways that the links do not know: its `Seat` does."""
+    joint = model.joints[i]
+    return joint is not None and joint.kind in ("planar", "spherical", "free_flyer")
+
+
+def _seats(model: Model, links: list[Link], dtype: np.dtype[Any]) -> list[Seat]:
+    """Return what is placed freely in a level, by its place in the level."""
+    return [
+        Seat(k, joint.kind, model.q_slice[link.joint], link.axes.astype(dtype))
+        for k, link in enumerate(links)
+        if link.first and _anywhere(model, link.joint) and (joint := model.joints[link.joint]) is not None
+    ]
+
+
+def _moved_by(model: Model, links: list[Link], kind: str) -> tuple[Index, Array]:
+    """Return which links, without the base, a kind of joint moves, and where their q begins."""
+    mine = [k for k, link in enumerate(links) if (joint := model.joints[link.joint]) and joint.kind == kind]
+    return index(mine), np.array([model.q_slice[links[k].joint].start for k in mine], np.intp)

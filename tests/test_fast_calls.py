@@ -1,0 +1,300 @@
+"""How the fast way is called: what it refuses, where it writes, how it is spread, what it keeps."""
+
+import gc
+import weakref
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench import fast
+from twistwrench.fast import many, plan
+
+from .strategies import Recipe, random_state
+
+GO2 = tw.load("go2")
+CALLS = {
+    "rnea": lambda package, model, q, v, **options: package.rnea(model, q, v, v, **options),
+    "aba": lambda package, model, q, v, **options: package.aba(model, q, v, v, **options),
+    "nonlinear_effects": lambda package, model, q, v, **options: package.nonlinear_effects(model, q, v, **options),
+    "crba": lambda package, model, q, v, **options: package.crba(model, q, **options),
+    "centroidal_map": lambda package, model, q, v, **options: package.centroidal_map(model, q, **options),
+}
+TAILS = {"rnea": (18,), "aba": (18,), "nonlinear_effects": (18,), "crba": (18, 18), "centroidal_map": (6, 18)}
+
+
+@pytest.fixture
+def small_chunks(monkeypatch):
+    """Chunks of 10 states, so that a short batch has several, the last of them not full."""
+    monkeypatch.setattr(many, "FEWEST", 10)
+    monkeypatch.setattr(many, "CACHED", 1)
+
+
+@pytest.fixture
+def states():
+    return random_state(GO2, rng=0, batch=(37,))
+
+
+# ---------------------------------------------------------------- what is refused
+
+
+def spoil(x, index, value):
+    x = x.copy()
+    x[index] = value
+    return x
+
+
+Q, V = GO2.standing(), np.zeros(18)
+WRONG = {
+    "a NaN in q": (spoil(Q, 8, np.nan), V),
+    "an infinity in v": (Q, spoil(V, 3, np.inf)),
+    "two infinities in v": (Q, spoil(V, slice(3, 5), [np.inf, -np.inf])),
+    "a quaternion off norm 1": (spoil(Q, 6, 1.001), V),
+    "a quaternion just off norm 1": (spoil(Q, slice(3, 7), Q[3:7] * (1 + 1.6e-8)), V),
+    "a zero quaternion": (spoil(Q, slice(3, 7), 0), V),
+    "v for q": (V, V),
+    "q for v": (Q, Q),
+    "too short": (Q[:-1], V),
+    "batches that do not fit": (np.tile(Q, (3, 1)), np.tile(V, (2, 1))),
+    "text": (["a"] * 19, V),
+    "rows of different lengths": ([[1.0], [1.0, 2.0]], V),
+    "a bad state in a batch": (spoil(np.tile(Q, (3, 1)), (1, 6), 1.1), np.tile(V, (3, 1))),
+}
+
+
+@pytest.mark.parametrize("name", ["rnea", "aba", "nonlinear_effects"])
+@pytest.mark.parametrize("wrong", WRONG)
+def test_what_the_textbook_refuses_is_refused_in_the_same_words(name, wrong):
+    q, v = WRONG[wrong]
+    with pytest.raises(ValueError) as textbook:  # noqa: PT011 - the message is compared below
+        CALLS[name](tw, GO2, q, v)
+    with pytest.raises(type(textbook.value)) as ours:
+        CALLS[name](fast, GO2, q, v)
+    said = str(textbook.value)
+    for defaulted in (", a ()", ", f_ext ()"):  # what the textbook fills in where it did not come
+        said = said.replace(defaulted, "")
+    assert str(ours.value) == said
+
+
+@pytest.mark.parametrize("q", [spoil(Q, slice(3, 7), Q[3:7] * (1 + 1.4e-8)), Q.tolist(), Q.astype(np.float16)])
+def test_what_the_textbook_takes_is_taken(q):
+    np.testing.assert_allclose(fast.crba(GO2, q), tw.crba(GO2, q), rtol=0, atol=1e-6)
+    assert fast.crba(GO2, q).dtype == tw.crba(GO2, q).dtype
+
+
+def test_large_numbers_are_finite():
+    """Even if their squares are not."""
+    v = np.full(18, 1e200)
+    np.testing.assert_array_equal(fast.dynamics(GO2, Q, v, want={"M"}).M, fast.crba(GO2, Q))
+
+
+def test_number_types_are_brought_together_as_in_the_textbook():
+    q, v = Q.astype(np.float32), np.ones(18)
+    for a in (np.zeros(18, int), np.zeros(18, np.float32), [0] * 18):
+        ours, book = fast.rnea(GO2, q, v, a), tw.rnea(GO2, q, v, a)
+        assert ours.dtype == book.dtype == np.float64
+        np.testing.assert_allclose(ours, book, rtol=0, atol=1e-9)
+    assert fast.rnea(GO2, q, q[1:], [0] * 18).dtype == np.float32
+
+
+def test_a_wrench_on_the_world_is_refused():
+    f_ext = np.zeros((GO2.nbodies, 6))
+    f_ext[0, 0] = 1
+    for function in (fast.rnea, fast.aba):
+        with pytest.raises(ValueError, match="row 0 is a wrench on the world"):
+            function(GO2, Q, V, V, f_ext)
+
+
+def test_unknown_names_are_refused():
+    with pytest.raises(KeyError, match="unknown quantity 'm'"):
+        fast.dynamics(GO2, Q, V, want={"m"})
+    with pytest.raises(KeyError, match="did you mean 'FR_foot'"):
+        fast.dynamics(GO2, Q, V, contacts=["FR_fot"])
+    with pytest.raises(ValueError, match="got the string 'FR_foot'"):
+        fast.dynamics(GO2, Q, V, contacts="FR_foot")
+    fast.dynamics(GO2, Q, V, contacts=["FR_fot"], want={"h"})  # nobody asked for J_c
+
+
+def massless():
+    """A joint that moves nothing with mass, beyond one that does."""
+    rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
+    builder = tw.Builder("massless")
+    builder.link("heavy", parent="base_link", joint=tw.Revolute("x"), inertia=rod)
+    builder.link("light", parent="heavy", joint=tw.Revolute("y"))
+    return builder.build()
+
+
+def parallel():
+    """Two joints about one axis, the mass behind both: the outer one moves, the inner one feels nothing."""
+    rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
+    builder = tw.Builder("parallel")
+    builder.link("inner", parent="base_link", joint=tw.Revolute("x"))
+    builder.link("outer", parent="inner", joint=tw.Revolute("x"), inertia=rod)
+    return builder.build()
+
+
+@pytest.mark.parametrize("make", [massless, parallel])
+def test_singular_models_are_refused_in_the_same_words(make):
+    model = make()
+    q = np.array([[0.3, 0.4], [0.5, 0.6]])
+    with pytest.raises(tw.SingularError) as textbook:
+        tw.aba(model, q, q, q)
+    with pytest.raises(tw.SingularError) as ours:
+        fast.aba(model, q, q, q)
+    assert str(ours.value) == str(textbook.value)
+    np.testing.assert_allclose(fast.crba(model, q), tw.crba(model, q), rtol=0, atol=1e-15)
+
+
+def test_what_is_only_nearly_singular_is_solved():
+    """A rotor of a billionth of the inertia beyond it: too little for the quick check, enough for the textbook."""
+    rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
+    builder = tw.Builder("nearly")
+    builder.link("inner", parent="base_link", joint=tw.Revolute("x"), armature=2e-15)
+    builder.link("outer", parent="inner", joint=tw.Revolute("x"), inertia=rod)
+    model, q = builder.build(), np.array([[0.3, 0.4], [0.5, 0.6]])
+    np.testing.assert_array_equal(fast.aba(model, q, q, q), tw.aba(model, q, q, q))
+
+
+def test_no_mass_has_no_centroidal_map():
+    builder = tw.Builder("nothing")
+    builder.link("light", parent="base_link", joint=tw.Revolute("y"))
+    with pytest.raises(tw.SingularError, match="nothing that moves has mass"):
+        fast.centroidal_map(builder.build(), [0.0])
+
+
+# ---------------------------------------------------------------- what is written where
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_inputs_are_only_read(name, states):
+    q, v = states.q.copy(), states.v.copy()
+    q.flags.writeable = v.flags.writeable = False
+    CALLS[name](fast, GO2, q, v)
+    np.testing.assert_array_equal(q, states.q)
+    np.testing.assert_array_equal(v, states.v)
+
+
+@pytest.mark.parametrize("order", ["states first", "states last", "every second"])
+@pytest.mark.parametrize("name", CALLS)
+def test_out_is_filled_and_returned(name, order, states, small_chunks):
+    shape = (37, *TAILS[name])
+    out = {
+        "states first": lambda: np.full(shape, np.nan),
+        "states last": lambda: many.empty((37,), TAILS[name], float),
+        "every second": lambda: np.full((2 * 37, *TAILS[name]), np.nan)[::2],
+    }[order]()
+    returned = CALLS[name](fast, GO2, states.q, states.v, out=out)
+    assert returned is out
+    np.testing.assert_array_equal(out, CALLS[name](fast, GO2, states.q, states.v))
+
+
+def test_out_with_batch_axes_that_cannot_be_one_is_filled():
+    s = random_state(GO2, rng=0, batch=(3, 4))
+    out = np.full((3, 8, 18), np.nan)[:, ::2]
+    assert fast.rnea(GO2, s.q, s.v, s.a, out=out) is out
+    np.testing.assert_array_equal(out, fast.rnea(GO2, s.q, s.v, s.a))
+
+
+def test_out_of_dynamics_is_filled_where_it_is_given(states):
+    mine = tw.Dynamics(M=np.empty((37, 18, 18)), h=np.empty((37, 18)))
+    d = fast.dynamics(GO2, states.q, states.v, out=mine, want={"M", "A_G"})
+    assert d.M is mine.M
+    assert d.h is None
+    np.testing.assert_array_equal(d.M, fast.crba(GO2, states.q))
+    np.testing.assert_allclose(d.A_G, fast.centroidal_map(GO2, states.q), rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("out", [np.empty((37, 17)), np.empty((37, 18), np.float32), np.empty((2, 18)), [0.0] * 18])
+def test_an_out_that_does_not_fit_is_refused(out, states):
+    with pytest.raises(tw.ShapeError, match=r"out: expected an array of float64 of shape \(37, 18\)"):
+        fast.rnea(GO2, states.q, states.v, states.a, out=out)
+
+
+def test_out_may_be_an_input(states):
+    qdd = fast.aba(GO2, states.q, states.v, states.tau)
+    tau = states.tau.copy()
+    fast.aba(GO2, states.q, states.v, tau, out=tau)
+    np.testing.assert_array_equal(tau, qdd)
+
+
+# ---------------------------------------------------------------- how it is spread
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_chunks_and_threads_change_nothing(name, states, small_chunks, monkeypatch):
+    one = CALLS[name](fast, GO2, states.q, states.v)
+    two = CALLS[name](fast, GO2, states.q, states.v, workers=2)
+    monkeypatch.setattr(many, "FEWEST", 1000)
+    whole = CALLS[name](fast, GO2, states.q, states.v)
+    np.testing.assert_array_equal(one, two)
+    np.testing.assert_allclose(one, whole, rtol=0, atol=1e-13 * np.abs(whole).max())
+
+
+def test_an_error_in_a_thread_is_seen(small_chunks):
+    q = np.full((30, 2), 0.4)
+    with pytest.raises(tw.SingularError, match="'light'"):
+        fast.aba(massless(), q, q, q, workers=2)
+
+
+@pytest.mark.parametrize("workers", [0, -1])
+def test_there_must_be_a_worker(workers, states):
+    with pytest.raises(ValueError, match=f"workers: expected 1 or more, got {workers}"):
+        fast.rnea(GO2, states.q, states.v, states.a, workers=workers)
+
+
+def test_progress_is_shown_when_asked_for(states, small_chunks, capsys):
+    fast.crba(GO2, states.q)
+    assert capsys.readouterr().err == ""
+    fast.crba(GO2, states.q, progress=True)
+    assert "37/37" in capsys.readouterr().err
+
+
+def test_memory_does_not_grow_with_the_batch(states):
+    """Besides the results, as much for 20 000 states as for 4000: what a chunk needs."""
+    import tracemalloc
+
+    peaks = []
+    for n in (4000, 20_000):
+        q, out = np.tile(Q, (n, 1)), np.empty((n, 18, 18))
+        tracemalloc.start()
+        fast.crba(GO2, q, out=out)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.2 * peaks[0]
+
+
+# ---------------------------------------------------------------- what is kept
+
+
+def test_a_plan_is_made_once_for_each_number_type():
+    model = tw.chain(3)
+    assert plan.plan_of(model, np.dtype(float)) is plan.plan_of(model, np.dtype(float))
+    assert plan.plan_of(model, np.dtype(float)) is not plan.plan_of(model, np.dtype(np.float32))
+    assert plan.plan_of(model, np.dtype(np.float32)).mass.dtype == np.float32
+
+
+def test_a_plan_goes_with_its_model():
+    model = tw.chain(3)
+    fast.crba(model, [0.1, 0.2, 0.3])
+    kept = weakref.ref(plan.plan_of(model, np.dtype(float))), weakref.ref(model)
+    del model
+    gc.collect()
+    assert [reference() for reference in kept] == [None, None]
+
+
+def test_levels_of_legs_are_slices():
+    """Slices copy nothing. The legs of Go2 are the picture of the package's docstring."""
+    levels = plan.plan_of(GO2, np.dtype(float)).levels
+    assert [(level.here, level.up) for level in levels] == [
+        (slice(1, 5), slice(0, 1)),
+        (slice(5, 9), slice(1, 5)),
+        (slice(9, 13), slice(5, 9)),
+    ]
+
+
+def test_every_link_has_its_parent_before_it():
+    for seed in range(5):
+        model = Recipe(30, seed=seed).model
+        made = plan.plan_of(model, np.dtype(float))
+        assert sorted(made.entry[1:]) == list(range(model.nv))
+        assert all(parent < link for link, parent in enumerate(made.parent[1:], start=1))
