@@ -19,6 +19,8 @@ __all__ = [
     "MASS_MATRIX",
     "MOMENTUM",
     "MOTION_TRANSFORM",
+    "PINOCCHIO_INERTIA",
+    "PINOCCHIO_TRANSFORM",
     "PLAIN",
     "POSE",
     "TWIST",
@@ -62,6 +64,7 @@ def _halves(angular: str, linear: str) -> Parts:
 
 
 _MOTION, _FORCE, _MOMENTUM = _halves("ω", "v"), _halves("τ", "f"), _halves("k (angular)", "l (linear)")
+_PINOCCHIO_MOTION, _PINOCCHIO_MOMENTUM = _halves("v", "ω"), _halves("l (linear)", "k (angular)")
 _JOINTS = (Text("of the base", "基座"), slice(0, 6)), (Text("of the joints", "关节"), slice(6, None))
 _STATE = (
     (Text("of the base's rotation", "基座转动"), slice(0, 3)),
@@ -81,6 +84,9 @@ JOINT_SPACE = Layout((_STATE,))
 MOTION_TRANSFORM = Layout((_MOTION, _MOTION))
 FORCE_TRANSFORM = Layout((_FORCE, _FORCE))
 INERTIA = Layout((_MOMENTUM, _MOTION))
+PINOCCHIO_TRANSFORM = Layout((_PINOCCHIO_MOTION, _PINOCCHIO_MOTION))
+PINOCCHIO_INERTIA = Layout((_PINOCCHIO_MOMENTUM, _PINOCCHIO_MOTION))
+"""In Pinocchio's own order, the linear half first."""
 JACOBIAN = Layout((_MOTION, _JOINTS))
 MASS_MATRIX = Layout((_JOINTS, _JOINTS))
 CENTROIDAL_MAP = Layout((_MOMENTUM, _STATE))

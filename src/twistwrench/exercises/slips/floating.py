@@ -62,6 +62,22 @@ FLOATING = {
         ),
         "49.9",
     ),
+    "joint-rows-for-forces": Slip(
+        Text("λ is taken from the joint rows, as if the motors did nothing", "由关节行解 λ,好像电机不出力"),
+        Text(
+            "Each joint row has an unknown torque as well. The base's rows have none: they decide about λ.",
+            "每个关节行都有一个未知力矩;基座行没有,λ 由基座行决定。",
+        ),
+        "49.11",
+    ),
+    "contact-rows-all": Slip(
+        Text("all six rows of each foot are kept", "每只脚保留了全部六行"),
+        Text(
+            "A point contact exerts a force and no moment: the three linear rows.",
+            "点接触只有力、没有力矩:只取三个线速度行。",
+        ),
+        "49.9",
+    ),
     "moment-about-origin": Slip(
         Text("the moments are about the world's origin, not the centre of mass", "力矩是对世界原点取的,而不是对质心"),
         Text("The lever arm begins at the centre of mass: (p_k − p_G) × f_k.", "力臂从质心量起:(p_k − p_G) × f_k。"),
