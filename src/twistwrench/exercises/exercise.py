@@ -87,9 +87,9 @@ class Part:
 
     @property
     def arguments(self) -> str:
-        """The arguments, as in a signature without types."""
+        """The arguments, as in a signature without types; of a class, those that `call` uses it with."""
         if inspect.isclass(self.solution):
-            return ""
+            return ", ".join([*inspect.signature(self.call).parameters][1:]) if self.call else ""
         parameters = inspect.signature(self.solution).parameters.values()
         return ", ".join(p.name if p.default is p.empty else f"{p.name}={p.default!r}" for p in parameters)
 

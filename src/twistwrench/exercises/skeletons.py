@@ -133,9 +133,19 @@ def _head(part: Part) -> str:
 
 def _stub(part: Part, language: Language) -> str:
     given = textwrap.indent(textwrap.dedent(part.given).strip("\n"), "    ")
-    given += "\n" if given else ""
+    given = ("\n" if inspect.isclass(part.solution) else "") + given + ("\n" if given else "")
     last = "" if inspect.isclass(part.solution) else "    return ...\n"
     return _head(part) + _docstring(part, language) + given + last
+
+
+def _untyped(node: ast.ClassDef) -> str:
+    """Return the methods of a class without types."""
+    methods = [method for method in node.body if isinstance(method, ast.FunctionDef)]
+    for method in methods:
+        method.returns = None
+        for argument in method.args.args:
+            argument.annotation = None
+    return "\n" + "\n\n".join(map(ast.unparse, methods)) + "\n"
 
 
 def source_of(part: Part, language: Language) -> str:
@@ -144,6 +154,8 @@ def source_of(part: Part, language: Language) -> str:
     node = ast.parse(source).body[0]
     if not isinstance(node, ast.FunctionDef | ast.ClassDef):
         return source
+    if isinstance(node, ast.ClassDef):
+        return _head(part) + _docstring(part, language) + textwrap.indent(_untyped(node), "    ")
     documented = ast.get_docstring(node) is not None
     start = (node.body[0].end_lineno or 0) if documented else node.body[0].lineno - 1
     return _head(part) + _docstring(part, language) + "\n".join(source.split("\n")[start:]).rstrip() + "\n"
