@@ -84,7 +84,7 @@ def _dynamics(rng: Any) -> Any:
 
 
 def _inertias(rng: Any) -> Any:
-    bodies = [robot("go2").inertia[i] for i in (1, 3, 5)]
+    bodies = [robot("go2").inertia[i] for i in rng.choice(np.arange(1, 14), 3, replace=False)]
     return [(float(body.mass), np.array(body.com), np.array(body.inertia_at_com)) for body in bodies]
 
 

@@ -133,6 +133,40 @@ PIPELINE = {
         ),
         "49.4",
     ),
+    "difference-reversed": Slip(
+        Text("b − a in place of a − b", "写成了 b − a,应为 a − b"),
+        Text("a.__sub__(b) is a − b: `self` comes first.", "a.__sub__(b) 是 a − b:`self` 在前。"),
+        "49.2",
+    ),
+    "kind-lost": Slip(
+        Text("every sum is a twist", "所有的和都成了 twist"),
+        Text(
+            "The sum of two wrenches is a wrench: pass `self.kind` on.",
+            "两个 wrench 之和仍是 wrench:要传递 `self.kind`。",
+        ),
+        "49.4",
+    ),
+    "half-angle": Slip(
+        Text("it turns by half the angle", "只转了一半的角度"),
+        Text(
+            "A quaternion holds sin and cos of half the angle; products of two of its entries make the whole.",
+            "四元数存的是半角的正弦和余弦;两个分量的乘积才给出整角。",
+        ),
+        "49.1",
+    ),
+    "twist-not-carried": Slip(
+        Text("the parent's twist is not carried on", "没有传递父连杆的 twist"),
+        Text("A link moves with what carries it: V_i = X V_parent + S q̇.", "连杆随父连杆一起运动:V_i = X V_父 + S q̇。"),
+        "49.6",
+    ),
+    "visited-outward": Slip(
+        Text(
+            "the bodies are visited outward: a parent is used before its children have added to it",
+            "由内向外遍历:子连杆还没加上来,父连杆就已被使用",
+        ),
+        Text("Go from the last body to the first.", "应从最后一个物体到第一个。"),
+        "49.6",
+    ),
     "error-signed": Slip(
         Text("the largest error is taken without its absolute value", "取最大误差时没有取绝对值"),
         Text("An error of −3 is smaller than 0 but not small.", "误差 −3 小于 0,但并不小。"),

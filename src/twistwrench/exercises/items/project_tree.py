@@ -1,0 +1,233 @@
+"""The project, stage 1, continued: placements, twists and wrenches along a tree."""
+
+from typing import Any
+
+import numpy as np
+
+from ...tree import joint_placements, split
+from ...trees import random_tree
+from ..exercise import Part, Property, Quantity
+from ..robots import robot
+from ..text import Text
+from ..workbook import mine
+from ..wrong import after, swap
+
+__all__ = ["PLACEMENTS", "TWISTS", "WRENCHES", "body_placements", "body_twists", "carried_wrenches"]
+
+
+def body_placements(parent: Any, T: Any) -> Any:
+    """Placements in the world out of those in the parents."""
+    placed = [np.eye(4)]
+    for i in range(1, len(parent)):
+        placed.append(placed[parent[i]] @ T[i])
+    return np.array(placed)
+
+
+def body_twists(parent: Any, T: Any, V_joint: Any) -> Any:
+    """Twists of all bodies out of those of their joints."""
+    transforms = mine("transforms_of")
+    V = [np.zeros(6)]
+    for i in range(1, len(parent)):
+        X, _ = transforms(np.linalg.inv(T[i]))
+        V.append(X @ V[parent[i]] + V_joint[i])
+    return np.array(V)
+
+
+def carried_wrenches(parent: Any, T: Any, F: Any) -> Any:
+    """Wrenches that the joints pass on, out of those that the bodies need."""
+    transforms = mine("transforms_of")
+    carried = F.copy()
+    for i in range(len(parent) - 1, 0, -1):
+        _, X_star = transforms(T[i])
+        carried[parent[i]] += X_star @ carried[i]
+    return carried
+
+
+def _transforms(T: Any) -> Any:
+    return mine("transforms_of")(T)
+
+
+def _previous(parent: Any) -> Any:
+    """Return the parents that a chain would have."""
+    return tuple(range(-1, len(parent) - 1))
+
+
+def _placed(step: Any) -> Any:
+    """Place a body otherwise, given its parent's placement and its own in the parent."""
+
+    def wrong(parent: Any, T: Any) -> Any:
+        placed = [np.eye(4)]
+        for i in range(1, len(parent)):
+            placed.append(step(placed[parent[i]], T[i]))
+        return np.array(placed)
+
+    return wrong
+
+
+def _unmoved(before: Any, T: Any) -> Any:
+    T = before @ T
+    T[:3, 3] = before[:3, 3]
+    return T
+
+
+def _added(before: Any, T: Any) -> Any:
+    """Add the positions as they are."""
+    placed = before @ T
+    placed[:3, 3] = before[:3, 3] + T[:3, 3]
+    return placed
+
+
+def _outward(step: Any) -> Any:
+    """Carry a twist otherwise, given T, the parent's twist and the joint's."""
+
+    def wrong(parent: Any, T: Any, V_joint: Any) -> Any:
+        V = [np.zeros(6)]
+        for i in range(1, len(parent)):
+            V.append(step(T[i], V[parent[i]], V_joint[i]))
+        return np.array(V)
+
+    return wrong
+
+
+def _inward(step: Any, *, reverse: bool = True) -> Any:
+    """Carry a wrench otherwise, given T, the parent's wrench so far and the body's."""
+
+    def wrong(parent: Any, T: Any, F: Any) -> Any:
+        carried = F.copy()
+        bodies = range(1, len(parent))
+        for i in reversed(bodies) if reverse else bodies:
+            carried[parent[i]] = step(T[i], carried[parent[i]], carried[i])
+        return carried
+
+    return wrong
+
+
+def _uncoupled(X: Any) -> Any:
+    """Return a transform without its coupling."""
+    return np.block([[X[:3, :3], np.zeros((3, 3))], [np.zeros((3, 3)), X[3:, 3:]]])
+
+
+def _robots(rng: Any) -> Any:
+    """Return for some robots the parents, the placements in them, and the motion at the joints."""
+    cases = []
+    for model in (robot("go2"), random_tree(5, rng=rng), random_tree(6, rng=rng, base="floating")):
+        q, v = model.random_configuration(rng=rng), split(model, rng.standard_normal(model.nv))
+        V_joint = np.array([S @ rate for S, rate in zip(model.constants(np.dtype(float)).S, v)])
+        cases.append((model.parent, np.array([T.matrix() for T in joint_placements(model, q)]), V_joint))
+    return cases
+
+
+def _with_wrenches(rng: Any) -> Any:
+    return [
+        (parent, T, np.concatenate([[np.zeros(6)], rng.standard_normal((len(T) - 1, 6))]))
+        for parent, T, _ in _robots(rng)
+    ]
+
+
+PLACEMENTS = Part(
+    solution=body_placements,
+    rtol=1e-12,
+    doc=Text(
+        """Return the placement of each body in the world: Pinocchio's `data.oMi`.
+
+        parent: tuple of n whole numbers: parent[i] carries body i and comes before it; 0 is the world, parent[0] is −1.
+        T: array (n, 4, 4): T[i] is the placement of body i in its parent; T[0] is 1.
+        Returns: array (n, 4, 4).""",
+        """返回每个物体在世界中的位姿:即 Pinocchio 的 `data.oMi`。
+
+        parent:n 个整数的元组:parent[i] 承载物体 i 并排在它前面;0 是世界,parent[0] 为 −1。
+        T:数组 (n, 4, 4):T[i] 是物体 i 在父物体中的位姿,T[0] 为单位阵。
+        返回:数组 (n, 4, 4)。""",
+    ),
+    returns=(Quantity("oMi"),),
+    cases=lambda rng: [(parent, T) for parent, T, _ in _robots(rng)],
+    slips={
+        "composition-order": _placed(lambda before, T: T @ before),
+        "chain-for-tree": lambda parent, T: body_placements(_previous(parent), T),
+        "translation-unrotated": _placed(_added),
+        "translation-dropped": _placed(_unmoved),
+        "inverse-transform": after(body_placements, np.linalg.inv),
+        "untransformed": lambda parent, T: T,
+    },
+)
+
+TWISTS = Part(
+    solution=body_twists,
+    rtol=1e-12,
+    doc=Text(
+        """Return the twist of each body: Pinocchio's `data.v`. Twists add up once they are in one frame.
+
+        parent, T: as in `body_placements`.
+        V_joint: array (n, 6), (ω, v), S q̇ of each joint: body i against its parent, in frame i; row 0 is zero.
+        Returns: array (n, 6), (ω, v), rad/s and m/s: the twist of body i in frame i; row 0 is zero.""",
+        """返回每个物体的 twist:即 Pinocchio 的 `data.v`。twist 变到同一坐标系后才能相加。
+
+        parent、T:同 `body_placements`。
+        V_joint:数组 (n, 6),(ω, v),各关节的 S q̇:物体 i 相对父物体的 twist,在坐标系 i 中;第 0 行为零。
+        返回:数组 (n, 6),(ω, v),rad/s 与 m/s:物体 i 在坐标系 i 中的 twist;第 0 行为零。""",
+    ),
+    given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
+    returns=(Quantity("V"),),
+    cases=_robots,
+    slips={
+        "inverse-transform": _outward(lambda T, V, V_joint: _transforms(T)[0] @ V + V_joint),
+        "force-for-motion": _outward(lambda T, V, V_joint: _transforms(np.linalg.inv(T))[1] @ V + V_joint),
+        "transpose-for-inverse": _outward(lambda T, V, V_joint: _transforms(T)[0].mT @ V + V_joint),
+        "coupling-dropped": _outward(lambda T, V, V_joint: _uncoupled(_transforms(T)[0].mT) @ V + V_joint),
+        "untransformed": _outward(lambda T, V, V_joint: V + V_joint),
+        "twist-not-carried": lambda parent, T, V_joint: V_joint,
+        "chain-for-tree": lambda parent, T, V_joint: body_twists(_previous(parent), T, V_joint),
+        "swapped-halves": lambda parent, T, V_joint: _halves(body_twists(parent, T, V_joint)),
+    },
+    alike=(frozenset({"force-for-motion", "transpose-for-inverse"}),),  # X*(T⁻¹) is X(T)ᵀ
+)
+
+
+def _halves(rows: Any) -> Any:
+    """Exchange the halves of each row, not the rows."""
+    return np.array([swap(row) for row in rows])
+
+
+WRENCHES = Part(
+    solution=carried_wrenches,
+    rtol=1e-12,
+    doc=Text(
+        """Return the wrench that each joint passes on to its body: Pinocchio's `data.f`.
+
+        parent, T: as in `body_placements`.
+        F: array (n, 6), (τ, f), N m and N: what each body needs by itself, in frame i; row 0 is zero.
+        Returns: array (n, 6): what joint i must bear for body i and all that it carries, in frame i; row 0 is what
+        the ground bears, in the world.""",
+        """返回每个关节传给其物体的 wrench:即 Pinocchio 的 `data.f`。
+
+        parent、T:同 `body_placements`。
+        F:数组 (n, 6),(τ, f),N m 与 N:每个物体自身所需的 wrench,在坐标系 i 中;第 0 行为零。
+        返回:数组 (n, 6):关节 i 为物体 i 及其承载的全部物体所需承担的 wrench,在坐标系 i 中;第 0 行是地面承担的。""",
+    ),
+    given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
+    returns=(Quantity("F"),),
+    cases=_with_wrenches,
+    slips={
+        "force-outward": _inward(lambda T, before, F: before + _transforms(np.linalg.inv(T))[1] @ F),
+        "motion-for-force": _inward(lambda T, before, F: before + _transforms(T)[0] @ F),
+        "coupling-dropped": _inward(lambda T, before, F: before + _uncoupled(_transforms(T)[0]) @ F),
+        "untransformed": _inward(lambda T, before, F: before + F),
+        "children-overwritten": _inward(lambda T, before, F: _transforms(T)[1] @ F),
+        "children-dropped": lambda parent, T, F: F,
+        "force-sign": _inward(lambda T, before, F: before - _transforms(T)[1] @ F),
+        "visited-outward": _inward(lambda T, before, F: before + _transforms(T)[1] @ F, reverse=False),
+        "chain-for-tree": lambda parent, T, F: carried_wrenches(_previous(parent), T, F),
+        "swapped-halves": lambda parent, T, F: _halves(carried_wrenches(parent, T, F)),
+    },
+    properties=(
+        Property(
+            Text(
+                "the ground bears the sum of all wrenches, seen from the world",
+                "地面承担全部 wrench 之和(在世界中表达)",
+            ),
+            lambda answer, parent, T, F: (
+                answer[0] - sum(_transforms(P)[1] @ f for P, f in zip(body_placements(parent, T), F))
+            ),
+        ),
+    ),
+)
