@@ -1,9 +1,11 @@
-"""docs/conventions.md: every block runs, and every column is asked."""
+"""docs/conventions.md and map.md: every block runs, every column is asked, every row is so."""
 
 import ast
+import importlib
 import re
+from functools import reduce
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -13,7 +15,7 @@ import twistwrench as tw
 from .pages import DOCS, Part, cut, names_author_and_licence, run
 from .simulators import LIBRARIES, State, mujoco_answers, ours
 
-PAGES = ("conventions",)
+PAGES = ("conventions", "map")
 HEADING = re.compile(r"^### (\d+)\. (.+)$", re.MULTILINE)
 LONGEST_BLOCK = {"conventions": 20}
 
@@ -228,3 +230,98 @@ def test_the_base_that_is_fixed_counts_in_mujoco_and_drake_only() -> None:
     plant.WeldFrames(plant.world_frame(), plant.GetFrameByName("base"))
     plant.Finalize()
     assert plant.CalcTotalMass(plant.CreateDefaultContext()) == pytest.approx(16.085, rel=1e-12)
+
+
+# ---------------------------------------------------------------- map.md
+
+SOURCE = DOCS.parent / "src" / "twistwrench"
+
+
+class Row(NamedTuple):
+    what: str
+    formula: str
+    call: str
+    file: str
+    line: str
+    pinocchio: str
+
+
+ROWS = [Row(*(cell.strip("`") for cell in row)) for row in tables(page("map")) if row[4].startswith("`")]
+
+
+def stale(row: Row) -> list[str]:
+    """What a row says of this package that is not so."""
+    wrong, (first, *more) = [], row.call.split(".")
+    if any(name.startswith("_") and not name.endswith("__") for name in (first, *more)):
+        wrong.append(f"{row.call} is private")
+    try:
+        start = getattr(tw, first) if first in tw.__all__ else importlib.import_module(f"twistwrench.{first}")
+        reduce(getattr, more, start)
+    except (AttributeError, ImportError):
+        wrong.append(f"no {row.call} in twistwrench")
+    file = SOURCE / row.file
+    if not file.is_file():
+        wrong.append(f"no file {row.file}")
+    elif row.line not in [line.strip() for line in file.read_text(encoding="utf-8").splitlines()]:
+        wrong.append(f"no such line in {row.file}: {row.line}")
+    return wrong
+
+
+def unknown_to_pinocchio(row: Row, pin: Any) -> list[str]:
+    first, *more = row.pinocchio.split(".")
+    try:
+        reduce(getattr, more, {"pin": pin, "data": pin.Data, "model": pin.Model}[first])
+    except AttributeError:
+        return [row.pinocchio]
+    return []
+
+
+def test_every_row_of_the_map_holds() -> None:
+    assert len(ROWS) == 121
+    assert [(row.what, wrong) for row in ROWS if (wrong := stale(row))] == []
+
+
+def test_pinocchio_has_every_name_of_the_map() -> None:
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its names are not checked")
+    named = [row for row in ROWS if row.pinocchio]
+    assert len(named) > 80
+    assert [unknown for row in named for unknown in unknown_to_pinocchio(row, pin)] == []
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"call": "rneaa"}, "no rneaa"),
+        ({"call": "SpatialInertia.weight"}, "no SpatialInertia.weight"),
+        ({"call": "inverse_dynamics._rnea"}, "private"),
+        ({"file": "rnea.py"}, "no file rnea.py"),
+        ({"file": "forward_dynamics.py"}, "no such line in forward_dynamics.py"),
+        ({"line": "tau[i] = np.matvec(S[i], F[i])"}, "no such line in inverse_dynamics.py"),
+    ],
+)
+def test_a_stale_row_is_noticed(change: dict[str, str], said: str) -> None:
+    row = next(row for row in ROWS if row.line.startswith("tau[i] = np.matvec(S[i].mT"))
+    assert stale(row) == []
+    (wrong,) = stale(row._replace(**change))
+    assert said in wrong
+
+
+def test_a_name_that_pinocchio_does_not_have_is_noticed() -> None:
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its names are not checked")
+    for name in ("pin.rneaa", "data.om", "model.parent", "pin.SE3.actions"):
+        assert unknown_to_pinocchio(ROWS[0]._replace(pinocchio=name), pin) == [name]
+
+
+def test_every_public_name_stands_on_the_map() -> None:
+    text = page("map").read_text(encoding="utf-8")
+    named = {name for code in re.findall(r"`([\w.]+)`", text) for name in code.split(".")}
+    assert [name for name in tw.__all__ if name not in named] == []
+    assert [name for name in tw.bridge.__all__ if name.startswith("to_") and name not in named] == []
+
+
+def test_both_languages_map_the_same_rows() -> None:
+    def numbers(path: Path) -> list[list[str]]:
+        return [row[1:] for row in tables(path) if len(row) == 6 and row[2].startswith("`")]
+
+    assert numbers(page("map")) == numbers(page("map", ".zh-CN"))
+    assert len(numbers(page("map"))) == len(ROWS)
