@@ -36,5 +36,5 @@ def run(path: Path, sources: list[str]) -> dict[str, Any]:
 
 
 def names_author_and_licence(path: Path) -> bool:
-    head = path.read_text(encoding="utf-8")[:1500]
+    head = " ".join(path.read_text(encoding="utf-8")[:1500].split())
     return "Pengfei Guo" in head and "CC BY 4.0" in head
