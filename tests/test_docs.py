@@ -1,4 +1,4 @@
-"""docs/conventions.md and map.md: every block runs, every column is asked, every row is so."""
+"""docs/conventions.md, map.md and traps.md: every block runs, every column is asked, every row is so."""
 
 import ast
 import importlib
@@ -15,9 +15,9 @@ import twistwrench as tw
 from .pages import DOCS, Part, cut, names_author_and_licence, run
 from .simulators import LIBRARIES, State, mujoco_answers, ours
 
-PAGES = ("conventions", "map")
+PAGES = ("conventions", "map", "traps")
 HEADING = re.compile(r"^### (\d+)\. (.+)$", re.MULTILINE)
-LONGEST_BLOCK = {"conventions": 20}
+LONGEST_BLOCK = {"conventions": 20, "traps": 10}
 
 
 def page(name: str, language: str = "") -> Path:
@@ -70,6 +70,13 @@ def test_entries_are_numbered_and_each_has_one_short_block_that_asserts(name: st
         assert 3 <= len(lines) <= LONGEST_BLOCK[name], part.heading[0]
         assert max(map(len, lines)) <= 120, part.heading[0]
         assert any(isinstance(node, ast.Assert) for node in ast.walk(ast.parse(block))), part.heading[0]
+
+
+@pytest.mark.parametrize("path", sorted(DOCS.glob("*.md")), ids=lambda path: path.name)
+def test_links_between_pages_lead_somewhere(path: Path) -> None:
+    targets = re.findall(r"\]\((?!https?:)([^)#]+)", path.read_text(encoding="utf-8"))
+    assert targets
+    assert [target for target in targets if not (DOCS / target).exists()] == []
 
 
 # ---------------------------------------------------------------- conventions.md
@@ -325,3 +332,21 @@ def test_both_languages_map_the_same_rows() -> None:
 
     assert numbers(page("map")) == numbers(page("map", ".zh-CN"))
     assert len(numbers(page("map"))) == len(ROWS)
+
+
+# ---------------------------------------------------------------- traps.md
+
+START, TRAPS = numbered("traps")
+ASK_PINOCCHIO = {"pin", "model", "data"}
+
+
+@pytest.mark.parametrize("trap", TRAPS, ids=[f"{t.heading[1]}: {t.heading[2]}" for t in TRAPS])
+def test_the_trap_is_there_as_the_page_shows_it(trap: Part, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a folder of its own, for those that write a file."""
+    monkeypatch.chdir(tmp_path)
+    (block,), (ours, pinocchios) = trap.blocks, START
+    if {node.id for node in ast.walk(ast.parse(block)) if isinstance(node, ast.Name)} & ASK_PINOCCHIO:
+        pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its traps are not shown")
+        run(page("traps"), [ours, pinocchios, block])
+    else:
+        run(page("traps"), [ours, block])
