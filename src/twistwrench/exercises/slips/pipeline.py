@@ -167,6 +167,48 @@ PIPELINE = {
         Text("Go from the last body to the first.", "应从最后一个物体到第一个。"),
         "49.6",
     ),
+    "joint-force-not-passed": Slip(
+        Text(
+            "U D⁻¹ u is not passed on: the parent does not feel what the joint does",
+            "没有传递 U D⁻¹ u:父连杆感受不到关节的作用",
+        ),
+        Text("p_a = p_A + I_a c + U D⁻¹ u has three terms.", "p_a = p_A + I_a c + U D⁻¹ u 有三项。"),
+        "49.7",
+    ),
+    "torques-missing": Slip(
+        Text("Sᵀτ is left out: the motors do nothing", "漏了 Sᵀτ:电机没有作用"),
+        Text(
+            "M q̈ + h = Sᵀτ + J_cᵀλ: motors and contacts stand on the right.",
+            "M q̈ + h = Sᵀτ + J_cᵀλ:右边有电机和接触两项。",
+        ),
+        "49.9",
+    ),
+    "moment-of-one-axis": Slip(
+        Text("only the moment about one axis is balanced", "只平衡了绕一个轴的力矩"),
+        Text(
+            "Neither forward nor sideways may it tip over: one equation for x, one for y.",
+            "前后和左右都不能翻倒:x、y 各一个方程。",
+        ),
+        "49.11",
+    ),
+    "assumed": Slip(
+        Text("nothing is compared: the answer is always zero", "没有做任何比较:结果总是零"),
+        Text("A check that cannot fail checks nothing.", "不可能失败的检验等于没有检验。"),
+        "49.11",
+    ),
+    "not-per-call": Slip(
+        Text("the time of all calls in place of one", "给出的是全部调用的总时间"),
+        Text("Divide by their number, or time each by itself.", "要除以调用次数,或逐次计时。"),
+        "49.11",
+    ),
+    "mean-after-warm-up": Slip(
+        Text("the mean of the times, though the first call is left out", "虽然去掉了首次调用,但仍用了平均时间"),
+        Text(
+            "An interruption may come at any time. Take the median or the shortest.",
+            "中断随时可能发生。应取中位数或最短时间。",
+        ),
+        "49.11",
+    ),
     "error-signed": Slip(
         Text("the largest error is taken without its absolute value", "取最大误差时没有取绝对值"),
         Text("An error of −3 is smaller than 0 but not small.", "误差 −3 小于 0,但并不小。"),

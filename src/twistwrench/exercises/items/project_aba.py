@@ -1,0 +1,134 @@
+"""The project, stage 2: ABA on a tree, and how it goes wrong."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import twistwrench as tw
+
+from ..exercise import Part, Property, Quantity
+from ..text import Text
+from .project_rnea import tree_rnea
+from .project_trees import described, pieces, previous, trees
+
+__all__ = ["ABA", "tree_aba"]
+
+
+def tree_aba(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) -> Any:
+    """Accelerations under joint forces."""
+    n = len(parent)
+    V, A, c, p, U, D, u, qdd = ([np.zeros(6)] * n for _ in range(8))
+    IA, A[0] = list(I), a0
+    for i in range(1, n):
+        V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
+        c[i] = tw.cross_motion(V[i]) @ S[i] @ qd[i]
+        p[i] = tw.cross_force(V[i]) @ I[i] @ V[i]
+    for i in range(n - 1, 0, -1):
+        U[i], u[i] = IA[i] @ S[i], tau[i] - S[i].mT @ p[i]
+        D[i] = np.linalg.inv(S[i].mT @ U[i])
+        Ia = IA[i] - U[i] @ D[i] @ U[i].mT
+        pa = p[i] + Ia @ c[i] + U[i] @ D[i] @ u[i]
+        IA[parent[i]] = IA[parent[i]] + X[i].mT @ Ia @ X[i]
+        p[parent[i]] = p[parent[i]] + X[i].mT @ pa
+    for i in range(1, n):
+        A[i] = X[i] @ A[parent[i]] + c[i]
+        qdd[i] = D[i] @ (u[i] - U[i].mT @ A[i])
+        A[i] = A[i] + S[i] @ qdd[i]
+    return np.concatenate(qdd[1:])
+
+
+class Ways(NamedTuple):
+    """Ways to write ABA, all of them right by default: factors before its terms, and what is done on the way in."""
+
+    gravity: float = 1
+    coriolis: float = 1
+    gyroscopic: float = 1
+    bias: float = 1
+    freed: float = 1
+    bias_of_c: float = 1
+    bias_of_u: float = 1
+    passed: float = 1
+    carried: float = 1
+    own: float = 1
+    inward: Callable[[Any], Any] = lambda X: X.mT
+    congruence: Callable[[Any, Any], Any] = lambda X, I: X.mT @ I @ X
+
+
+def _written(ways: Ways) -> Any:
+    """Write ABA in one of those ways."""
+
+    def wrong(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) -> Any:
+        n = len(parent)
+        V, A, c, p, U, D, u, qdd = ([np.zeros(6)] * n for _ in range(8))
+        IA, A[0] = list(I), ways.gravity * a0
+        for i in range(1, n):
+            V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
+            c[i] = ways.coriolis * tw.cross_motion(V[i]) @ S[i] @ qd[i]
+            p[i] = ways.gyroscopic * tw.cross_force(V[i]) @ I[i] @ V[i]
+        for i in range(n - 1, 0, -1):
+            U[i], u[i] = IA[i] @ S[i], tau[i] - ways.bias * S[i].mT @ p[i]
+            D[i] = np.linalg.inv(S[i].mT @ U[i])
+            Ia = IA[i] - ways.freed * U[i] @ D[i] @ U[i].mT
+            pa = p[i] + ways.bias_of_c * Ia @ c[i] + ways.bias_of_u * U[i] @ D[i] @ u[i]
+            IA[parent[i]] = IA[parent[i]] + ways.passed * ways.congruence(X[i], Ia)
+            p[parent[i]] = p[parent[i]] + ways.passed * ways.inward(X[i]) @ pa
+        for i in range(1, n):
+            A[i] = ways.carried * X[i] @ A[parent[i]] + c[i]
+            qdd[i] = D[i] @ (u[i] - U[i].mT @ A[i])
+            A[i] = A[i] + ways.own * S[i] @ qdd[i]
+        return np.concatenate(qdd[1:])
+
+    return wrong
+
+
+def _loads(rng: Any) -> Any:
+    return [
+        (*lists, pieces(model, rng), pieces(model, rng), np.concatenate([np.zeros(3), -model.gravity]))
+        for model, *lists in trees(rng)
+    ]
+
+
+def _back(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) -> Any:
+    """Return what RNEA makes of the answer, less the torques, small where the accelerations are large."""
+    qdd = np.split(answer, np.cumsum([s.shape[1] for s in S])[:-1])
+    wanted = np.concatenate(tau[1:])
+    return (tree_rnea(parent, S, I, X, qd, qdd, a0) - wanted) / np.abs(answer).max()
+
+
+ABA = Part(
+    solution=tree_aba,
+    rtol=1e-8,
+    doc=described(
+        Text("Return the accelerations under given joint forces, by ABA.", "用 ABA 返回给定关节力下的加速度。"),
+        Text(
+            """qd, tau: lists of n arrays (k,), velocities, rad/s or m/s, and joint forces, N m or N.
+            a0: array (6,), −g as a spatial acceleration of the world: (0, 0, 0, 0, 0, 9.81).
+            Returns: array (nv,), rad/s² and m/s², the joints one after the other.""",
+            """qd、tau:n 个数组 (k,) 的列表:速度,rad/s 或 m/s;关节力,N m 或 N。
+            a0:数组 (6,),把 −g 作为世界的空间加速度:(0, 0, 0, 0, 0, 9.81)。
+            返回:数组 (nv,),rad/s² 与 m/s²,按关节顺序排列。""",
+        ),
+    ),
+    returns=(Quantity("q̈"),),
+    cases=_loads,
+    slips={
+        "gravity-missing": _written(Ways(gravity=0)),
+        "gravity-sign": _written(Ways(gravity=-1)),
+        "coriolis-missing": _written(Ways(coriolis=0)),
+        "coriolis-sign": _written(Ways(coriolis=-1)),
+        "gyroscopic-missing": _written(Ways(gyroscopic=0)),
+        "gyroscopic-sign": _written(Ways(gyroscopic=-1)),
+        "bias-sign": _written(Ways(bias=-1)),
+        "composite-for-articulated": _written(Ways(freed=0)),
+        "articulated-bias": _written(Ways(bias_of_c=0)),
+        "joint-force-not-passed": _written(Ways(bias_of_u=0)),
+        "children-dropped": _written(Ways(passed=0)),
+        "acceleration-not-carried": _written(Ways(carried=0)),
+        "own-acceleration-missing": _written(Ways(own=0)),
+        "force-outward": _written(Ways(inward=lambda X: np.linalg.inv(X).mT)),
+        "inertia-half-rotated": _written(Ways(congruence=lambda X, I: X.mT @ I)),
+        "chain-for-tree": lambda parent, *rest: tree_aba(previous(parent), *rest),
+    },
+    properties=(Property(Text("RNEA with these accelerations gives τ back", "把这些加速度代入 RNEA 应还原 τ"), _back),),
+)

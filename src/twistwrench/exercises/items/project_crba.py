@@ -1,0 +1,118 @@
+"""The project, stage 2: CRBA on a tree, and how it goes wrong."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..exercise import Part, Property, Quantity
+from ..text import Text
+from ..wrong import after
+from .project_rnea import tree_energy
+from .project_trees import described, previous, trees
+
+__all__ = ["CRBA", "tree_crba"]
+
+
+def tree_crba(parent: Any, S: Any, I: Any, X: Any) -> Any:
+    """Mass matrix."""
+    n, end = len(parent), np.cumsum([s.shape[1] for s in S])
+    at = [slice(end[i] - S[i].shape[1], end[i]) for i in range(n)]
+    IC = list(I)
+    for i in range(n - 1, 0, -1):
+        IC[parent[i]] = IC[parent[i]] + X[i].mT @ IC[i] @ X[i]
+    M = np.zeros((end[-1], end[-1]))
+    for i in range(1, n):
+        F, j = IC[i] @ S[i], i
+        M[at[i], at[i]] = S[i].mT @ F
+        while parent[j] > 0:
+            F, j = X[j].mT @ F, parent[j]
+            M[at[j], at[i]] = S[j].mT @ F
+            M[at[i], at[j]] = M[at[j], at[i]].mT
+    return M
+
+
+class Ways(NamedTuple):
+    """Ways to write CRBA, all of them right by default."""
+
+    congruence: Callable[[Any, Any], Any] = lambda X, I: X.mT @ I @ X
+    inward: Callable[[Any], Any] = lambda X: X.mT
+    outward: bool = False
+    stops_at: int = 0
+
+
+def _written(ways: Ways) -> Any:
+    """Write CRBA in one of those ways."""
+
+    def wrong(parent: Any, S: Any, I: Any, X: Any) -> Any:
+        n, end = len(parent), np.cumsum([s.shape[1] for s in S])
+        at = [slice(end[i] - S[i].shape[1], end[i]) for i in range(n)]
+        IC, M = list(I), np.zeros((end[-1], end[-1]))
+        for i in range(1, n) if ways.outward else range(n - 1, 0, -1):
+            IC[parent[i]] = IC[parent[i]] + ways.congruence(X[i], IC[i])
+        for i in range(1, n):
+            F, j = IC[i] @ S[i], i
+            M[at[i], at[i]] = S[i].mT @ F
+            while parent[j] > ways.stops_at:
+                F, j = ways.inward(X[j]) @ F, parent[j]
+                M[at[j], at[i]] = S[j].mT @ F
+                M[at[i], at[j]] = M[at[j], at[i]].mT
+        return M
+
+    return wrong
+
+
+def _blocks_only(parent: Any, S: Any, I: Any, X: Any) -> Any:
+    """Fill the blocks on the diagonal."""
+    M, start = tree_crba(parent, S, I, X), 0
+    kept = np.zeros_like(M)
+    for s in S:
+        at = slice(start, start := start + s.shape[1])
+        kept[at, at] = M[at, at]
+    return kept
+
+
+def _energies(answer: Any, parent: Any, S: Any, I: Any, X: Any) -> Any:
+    """Return ½ q̇ᵀM q̇ less the energy of the bodies, for some q̇."""
+    rates = np.random.default_rng(0).standard_normal((3, len(answer)))
+    cuts = np.cumsum([s.shape[1] for s in S])[:-1]
+    return [qd @ answer @ qd / 2 - tree_energy(parent, S, I, X, np.split(qd, cuts)) for qd in rates]
+
+
+CRBA = Part(
+    solution=tree_crba,
+    doc=described(
+        Text("Return the mass matrix M, full and symmetric, by CRBA.", "用 CRBA 返回质量矩阵 M,完整且对称。"),
+        Text(
+            "Returns: array (nv, nv), kg m², kg m and kg, rows and columns one joint after the other.",
+            "返回:数组 (nv, nv),kg m²、kg m 与 kg,行列按关节顺序排列。",
+        ),
+    ),
+    returns=(Quantity("M"),),
+    cases=lambda rng: [tuple(lists) for _, *lists in trees(rng)],
+    slips={
+        "subtree-left-out": _written(Ways(congruence=lambda X, I: 0 * I)),
+        "inertia-half-rotated": _written(Ways(congruence=lambda X, I: X.mT @ I)),
+        "inertia-like-motion": _written(Ways(congruence=lambda X, I: np.linalg.inv(X) @ I @ X)),
+        "inverse-transform": _written(
+            Ways(
+                congruence=lambda X, I: np.linalg.inv(X).mT @ I @ np.linalg.inv(X), inward=lambda X: np.linalg.inv(X).mT
+            )
+        ),
+        "force-outward": _written(Ways(inward=lambda X: np.linalg.inv(X).mT)),
+        "motion-for-force": _written(Ways(inward=np.linalg.inv)),
+        "visited-outward": _written(Ways(outward=True)),
+        "joints-missing": _written(Ways(stops_at=1)),
+        "off-diagonal-missing": _blocks_only,
+        "chain-for-tree": lambda parent, *rest: tree_crba(previous(parent), *rest),
+        "one-triangle": after(tree_crba, np.triu),
+        "doubled-off-diagonal": after(tree_crba, lambda M: M + M.mT - np.diag(np.diag(M))),
+    },
+    properties=(
+        Property(Text("M is symmetric", "M 对称"), lambda answer, *lists: answer - answer.mT),
+        Property(
+            Text("½ q̇ᵀM q̇ is the energy of all bodies", "½ q̇ᵀM q̇ 等于全部刚体的动能"),
+            _energies,
+        ),
+    ),
+)
