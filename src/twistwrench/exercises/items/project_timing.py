@@ -1,0 +1,105 @@
+"""The project, stage 4, continued: the time of one call, and how it is measured wrong."""
+
+from typing import Any
+
+import numpy as np
+
+from ..exercise import Part, Quantity
+from ..stopwatch import Machine, Task
+from ..text import Text
+
+__all__ = ["TIME", "time_per_call"]
+
+
+def time_per_call(task: Any, calls: Any, clock: Any) -> Any:
+    """Median time of a call, the first one left out."""
+    task()
+    seconds = []
+    for _ in range(calls):
+        start = clock()
+        task()
+        seconds.append(clock() - start)
+    return np.median(seconds)
+
+
+def _machines(rng: Any) -> Any:
+    """Return a task on machines with different faults."""
+    calls = 100
+    machines = [
+        Machine(Text("steady", "稳定")),
+        Machine(Text("slow at the first call", "首次调用较慢"), start=0.1),
+        Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=int(rng.integers(20, 80))),
+    ]
+    return [(Task(machine, float(rng.uniform(1e-5, 1e-3))), calls, machine) for machine in machines]
+
+
+def _timed(function: Any, task: Any, calls: Any, clock: Any) -> Any:
+    """Let the machine begin anew, and give nan for a measurement that has not looked at its clock."""
+    clock.reset()
+    answer = function(task, calls, clock)
+    return answer if answer is ... or clock.readings else np.nan
+
+
+def _seconds(task: Any, calls: Any, clock: Any) -> Any:
+    """Time each of many calls."""
+    seconds = []
+    for _ in range(calls):
+        start = clock()
+        task()
+        seconds.append(clock() - start)
+    return seconds
+
+
+def _block(task: Any, calls: Any, clock: Any) -> Any:
+    """Time all calls at once."""
+    start = clock()
+    for _ in range(calls):
+        task()
+    return clock() - start
+
+
+def _warmed(task: Any, calls: Any, clock: Any) -> Any:
+    task()
+    return np.mean(_seconds(task, calls, clock))
+
+
+def _warmed_block(task: Any, calls: Any, clock: Any) -> Any:
+    task()
+    return _block(task, calls, clock) / calls
+
+
+def _near(answer: Any, task: Any) -> Any:
+    """Return 1 for about the right time: the median and the shortest are both right."""
+    ratio = float(answer) / task.seconds
+    return 1.0 if abs(ratio - 1) < 0.02 else ratio
+
+
+TIME = Part(
+    solution=time_per_call,
+    doc=Text(
+        """Return how long a call takes, measured so that a slow first call or an interruption does not matter.
+
+        task: function without arguments. calls: how often to call it, 100 or so.
+        clock: function without arguments that returns the time in s, as `time.perf_counter` does. Read this clock
+        and no other: the check hands in machines whose speed is known.
+        Returns: a number, s.""",
+        """返回一次调用的耗时;首次调用较慢或中途被打断都不应影响结果。
+
+        task:不带参数的函数。calls:调用次数,例如 100。
+        clock:不带参数、返回当前时间(s)的函数,如 `time.perf_counter`。只能用这个时钟:检验时传入的机器速度已知。
+        返回:一个数,s。""",
+    ),
+    returns=(Quantity("time", unit="s"),),
+    cases=_machines,
+    call=_timed,
+    canonical=lambda answer, task, calls, clock: _near(answer, task),
+    slips={
+        "single-call": lambda task, calls, clock: _seconds(task, 1, clock)[0],
+        "mean-of-times": lambda task, calls, clock: np.mean(_seconds(task, calls, clock)),
+        "mean-after-warm-up": _warmed,
+        "mean-of-blocks": lambda task, calls, clock: _block(task, calls, clock) / calls,
+        "not-per-call": _block,
+        "thousand": lambda task, calls, clock: 1000 * time_per_call(task, calls, clock),
+    },
+    alike=(frozenset({"mean-of-times", "mean-of-blocks"}),),
+)
