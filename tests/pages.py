@@ -8,6 +8,9 @@ DOCS = Path(__file__).resolve().parents[1] / "docs"
 FENCE = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
+NUMBERED = re.compile(r"^### (\d+)\. (.+)$", re.MULTILINE)
+
+
 class Part(NamedTuple):
     heading: re.Match[str]
     text: str
@@ -25,6 +28,15 @@ def cut(path: Path, heading: re.Pattern[str]) -> tuple[list[str], list[Part]]:
     ends = [*(h.start() for h in headings[1:]), len(page)]
     parts = [Part(h, page[h.end() : end], blocks(page, h.end(), end)) for h, end in zip(headings, ends, strict=True)]
     return blocks(page, 0, headings[0].start()), parts
+
+
+def page(name: str, language: str = "") -> Path:
+    return DOCS / f"{name}{language}.md"
+
+
+def numbered(name: str, language: str = "") -> tuple[list[str], list[Part]]:
+    """A page whose entries are called "### 1. Title"."""
+    return cut(page(name, language), NUMBERED)
 
 
 def run(path: Path, sources: list[str]) -> dict[str, Any]:
