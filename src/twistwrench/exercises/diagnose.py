@@ -12,7 +12,7 @@ from .compare import Value, agree, close, pieces, values
 from .exercise import Exercise, Part
 from .phrases import say
 from .relations import describe
-from .slips import SLIPS
+from .slips import SLIPS, Slip
 from .text import Text
 from .wrong import swap
 
@@ -104,14 +104,14 @@ def explain(exercise: Exercise, part: Part, answers: Answers, cases: Cases) -> t
     """
     found = matching_slips(part, answers, cases)
     if found:
-        return found, _named(exercise, found)
+        return found, _named(exercise, part, found)
     pieces_found = slips_by_piece(part, answers, cases)
     if pieces_found:
         names = list(dict.fromkeys(name for found in pieces_found.values() for name in found))
-        return names, _named_by_piece(exercise, pieces_found)
+        return names, _named_by_piece(exercise, part, pieces_found)
     pair = two_slips(part, answers, cases)
     if pair is not None:
-        first, second = (SLIPS[name] for name in pair)
+        first, second = (_slip(exercise, part, name) for name in pair)
         line = say("two slips", first=first.title, second=second.title)
         return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
     structure = _structure(part, answers)
@@ -124,29 +124,36 @@ def explain(exercise: Exercise, part: Part, answers: Answers, cases: Cases) -> t
     return [], [*lines, _where(exercise, exercise.section)]
 
 
-def _named(exercise: Exercise, found: list[str]) -> list[Text]:
-    slips = [SLIPS[name] for name in found]
+def _slip(exercise: Exercise, part: Part, name: str) -> Slip:
+    """Return a slip with the reason that this part gives for it, if it has one of its own."""
+    if name not in part.reasons:
+        return SLIPS[name]
+    return Slip(SLIPS[name].title, part.reasons[name], exercise.section)
+
+
+def _named(exercise: Exercise, part: Part, found: list[str]) -> list[Text]:
+    slips = [_slip(exercise, part, name) for name in found]
     if len(slips) == 1:
         return [say("slip", title=slips[0].title), slips[0].why, _where(exercise, slips[0].section)]
     each = [Text(f"  - {s.title.en}. {s.why.en}", f"  - {s.title.zh}。{s.why.zh}") for s in slips]
     return [say("slips"), *each, _where(exercise, slips[0].section)]
 
 
-def _named_by_piece(exercise: Exercise, found: dict[str, list[str]]) -> list[Text]:
+def _named_by_piece(exercise: Exercise, part: Part, found: dict[str, list[str]]) -> list[Text]:
     """Name the slip in each thing that was returned; each reason once."""
     lines, told, last = [], set(), exercise.section
     for name, slips in found.items():
         titles = [SLIPS[slip].title for slip in slips]
         title = Text(", or ".join(t.en for t in titles), ",或 ".join(t.zh for t in titles))
         lines.append(say("slip in", name=name, title=title))
-        lines += [_indented(SLIPS[slip].why) for slip in slips if slip not in told]
+        lines += [_indented(_slip(exercise, part, slip).why) for slip in slips if slip not in told]
         told.update(slips)
-        last = SLIPS[slips[0]].section
+        last = _slip(exercise, part, slips[0]).section
     return [*lines, _where(exercise, last)]
 
 
 def _where(exercise: Exercise, section: str) -> Text:
-    return say("where", section=section, id=exercise.id)
+    return say("where", section=say("project") if section == "project" else section, id=exercise.id)
 
 
 def _indented(line: Text) -> Text:

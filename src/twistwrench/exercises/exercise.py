@@ -56,6 +56,8 @@ class Part:
         Name of a slip of `slips.SLIPS` to a wrong implementation with the same signature.
     alike : tuple
         Groups of those names that cannot be told apart here: the message then names all of a group.
+    reasons : mapping
+        Why, for slips whose own reason speaks of another situation.
     properties : tuple of Property
         What a right answer fulfils. They explain a wrong answer that is no known slip.
     canonical : callable, optional
@@ -74,6 +76,7 @@ class Part:
     cases: Cases
     slips: Mapping[str, Callable[..., Any]]
     alike: tuple[frozenset[str], ...] = ()
+    reasons: Mapping[str, Text] = field(default_factory=dict)
     properties: tuple[Property, ...] = ()
     canonical: Callable[..., Any] | None = None
     call: Callable[..., Any] | None = None

@@ -156,7 +156,7 @@ def _short(x: Any, language: Language) -> str:
             return f"array {x.shape}"
         return "[" + ", ".join(f"{entry:.3g}" for entry in x) + "]"
     if isinstance(x, list) and any(isinstance(entry, np.ndarray) for entry in x):
-        return f"list of {len(x)} arrays"
+        return say("arrays", n=len(x)).of(language)
     if isinstance(x, float):
         return f"{x:.4g}"
     name = getattr(x, "name", x)

@@ -17,6 +17,8 @@ PHRASES = {
         "Read {section}; ask for a hint: twistwrench exercises hint {id}",
         "参阅 {section};需要提示:twistwrench exercises hint {id}",
     ),
+    "arrays": Text("list of {n} arrays", "{n} 个数组的列表"),
+    "project": Text("the project at the end of the chapter", "章末的累积项目"),
     "no slip": Text("It is none of the known slips. What the comparison shows:", "不属于已知的典型错误。比较结果:"),
     "broken": Text("What a right answer has and yours has not: {text}", "正确答案应满足而你的不满足:{text}"),
     # what kept an answer from being compared
