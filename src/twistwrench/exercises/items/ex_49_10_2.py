@@ -93,7 +93,7 @@ OURS = Part(
     cases=_maps,
     slips={
         "angular-for-linear": lambda A_G, v: A_G[:3] @ v,
-        "joints-missing": lambda A_G, v: A_G[3:, :6] @ v[:6],
+        "joints-left-out": lambda A_G, v: A_G[3:, :6] @ v[:6],
         "pinocchio-velocity": lambda A_G, v: A_G[3:] @ _other_order(v),
     },
 )
@@ -116,7 +116,7 @@ THEIRS = Part(
     cases=_in_pinocchio_order,
     slips={
         "angular-for-linear": lambda A_G, v: A_G[3:] @ v,
-        "joints-missing": lambda A_G, v: A_G[:3, :6] @ v[:6],
+        "joints-left-out": lambda A_G, v: A_G[:3, :6] @ v[:6],
         "pinocchio-velocity": lambda A_G, v: A_G[:3] @ _other_order(v),
     },
 )
@@ -157,6 +157,21 @@ LINKS = Part(
             * tw.forward_kinematics(model, q).placement[1].rotation
             @ np.cross(v[:3], model.inertia[1].com)
         ),
+    },
+    reasons={
+        "base-for-com": Text(
+            "The legs move against the base: m v_G is the sum of all m_i v_i.",
+            "腿相对基座在运动:m v_G 是全部 m_i v_i 之和。",
+        ),
+        "legs-left-out": Text(
+            "Every body has a momentum: sum over all of them.", "每个刚体都有动量:要对全部刚体求和。"
+        ),
+        "local-for-world": Text(
+            "Each velocity is along the axes of its own body: turn it by R before it is added.",
+            "各速度都用自身坐标轴:相加之前要先乘 R。",
+        ),
+        "mass-dropped": Text("Momentum is mass times velocity, body by body.", "动量是质量乘速度,逐个刚体计算。"),
+        "unweighted-mean": Text("A heavy link counts more: Σ m_i v_i.", "重的连杆占的分量更大:Σ m_i v_i。"),
     },
     properties=(
         Property(

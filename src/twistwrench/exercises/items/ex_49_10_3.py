@@ -85,6 +85,9 @@ ACCELERATION = Part(
         "g-ten": _pendulum(lambda pendulum, rate, m, z: 10 / 9.81 * pendulum + rate),
         "g-rounded": _pendulum(lambda pendulum, rate, m, z: 9.8 / 9.81 * pendulum + rate),
     },
+    reasons={
+        "mass-dropped": Text("k̇_y/(m z) is N m/(kg m), that is m/s².", "k̇_y/(m z) 的单位是 N m/(kg m),即 m/s²。"),
+    },
     properties=(
         Property(
             Text(

@@ -54,11 +54,6 @@ def contact_rows(J: Any) -> Any:
     return np.vstack([J_foot[:3] for J_foot in J])
 
 
-def _symmetrised(M: Any) -> Any:
-    """M + Mᵀ − diag(M), as the chapter has it."""
-    return M + M.mT - np.diag(np.diag(M))
-
-
 def _quarters(change: Any) -> Any:
     """Put other things into the quarters of the inertia: m, [c]× and I_c."""
     return lambda m, c, I_c: np.block(change(m * np.eye(3), m * tw.skew(c), I_c, tw.skew(c)))
@@ -122,6 +117,9 @@ RANDOM = Part(
         ),
         "one-sided": lambda lower, upper: (lower, finite_limits(lower, upper)[1]),
     },
+    reasons={
+        "one-sided": Text("The lower limits of a free base are infinite, too.", "自由基座的下限同样是无穷。"),
+    },
 )
 
 MATRIX = Part(
@@ -141,7 +139,7 @@ MATRIX = Part(
     returns=(Quantity("τ", JOINT_SPACE), Quantity("q̈", JOINT_SPACE)),
     cases=_dynamics,
     slips={
-        "doubled-off-diagonal": lambda M, h, a, tau: by_mass_matrix(_symmetrised(M), h, a, tau),
+        "doubled-off-diagonal": lambda M, h, a, tau: by_mass_matrix(2 * M - np.diag(np.diag(M)), h, a, tau),
         "one-triangle": lambda M, h, a, tau: by_mass_matrix(np.triu(M), h, a, tau),
         "bias-for-zero": lambda M, h, a, tau: by_mass_matrix(M, 0 * h, a, tau),
         "bias-sign": lambda M, h, a, tau: by_mass_matrix(M, -h, a, tau),
@@ -224,6 +222,9 @@ VELOCITY = Part(
     slips={
         "angular-for-linear": lambda h_G, m: h_G[3:] / m,
         "mass-dropped": lambda h_G, m: h_G[:3],
+    },
+    reasons={
+        "mass-dropped": Text("A momentum over a mass is a velocity.", "动量除以质量才是速度。"),
     },
 )
 

@@ -67,10 +67,10 @@ COUNT = Part(
     cases=_trees,
     slips={
         "transforms-two": lambda parent: (2 * (len(parent) - 1), count_transforms(parent)[1]),
-        "njoints-for-nv": lambda parent: (3 * len(parent), count_transforms(parent)[1]),
+        "world-as-body": lambda parent: (3 * len(parent), count_transforms(parent)[1]),
         "world-counted": lambda parent: (3 * (len(parent) - 1), sum(_depths(parent))),
         "quadratic-always": lambda parent: (3 * (len(parent) - 1), (len(parent) - 1) * (len(parent) - 2) // 2),
-        "chain-for-tree": lambda parent: (
+        "longest-branch": lambda parent: (
             3 * (len(parent) - 1),
             max(_depths(parent)) * (max(_depths(parent)) - 1) // 2,
         ),

@@ -13,7 +13,7 @@ from ..robots import robot
 from ..text import Text
 from ..wrong import negated, times
 
-__all__ = ["EXERCISE", "foot_loads", "gravity_from_map", "standing_forces"]
+__all__ = ["EXERCISE", "gravity_from_map", "standing_forces", "standing_loads"]
 
 
 def gravity_from_map(A_G: Any) -> Any:
@@ -28,7 +28,7 @@ def standing_forces(g: Any, J_c: Any) -> Any:
     return forces.reshape(-1, 3), tau
 
 
-def foot_loads() -> Any:
+def standing_loads() -> Any:
     """Vertical force on a front and on a rear foot of Go2."""
     model = tw.load("go2")
     q = model.standing()
@@ -37,7 +37,7 @@ def foot_loads() -> Any:
     return forces[0, 2], forces[2, 2]
 
 
-_loads = cache(foot_loads)
+_loads = cache(standing_loads)
 
 
 def _postures(rng: Any) -> Any:
@@ -109,6 +109,12 @@ MAP = Part(
         "g-ten": times(gravity_from_map, 10 / 9.81),
         "g-rounded": times(gravity_from_map, 9.8 / 9.81),
     },
+    reasons={
+        "gravity-sign": Text(
+            "g(q) is what holds the robot: upward at the base, against the weight.",
+            "g(q) 是托住机器人所需的力:在基座处向上,与重力相反。",
+        ),
+    },
     properties=(
         Property(
             Text("the base's part of g has the size of the weight", "g 的基座平动部分等于重力的大小"),
@@ -143,7 +149,20 @@ FORCES = Part(
         "external-sign": _torques(lambda g, feet: g + feet),
         "gravity-missing": _torques(lambda g, feet: -feet),
         "force-sign": lambda g, J_c: (-standing_forces(g, J_c)[0], standing_forces(g, J_c)[1]),
-        "base-missing": lambda g, J_c: (standing_forces(g, J_c)[0], g - J_c.mT @ standing_forces(g, J_c)[0].ravel()),
+        "base-rows-kept": lambda g, J_c: (standing_forces(g, J_c)[0], g - J_c.mT @ standing_forces(g, J_c)[0].ravel()),
+    },
+    reasons={
+        "gravity-missing": Text(
+            "The joint rows hold g_j as well: τ = g_j − J_cjᵀλ.", "关节行中还有 g_j:τ = g_j − J_cjᵀλ。"
+        ),
+        "external-sign": Text(
+            "The joints need not do what the ground does: τ = g_j − J_cjᵀλ.",
+            "地面承担的部分无需关节承担:τ = g_j − J_cjᵀλ。",
+        ),
+        "contact-missing": Text(
+            "That holds the legs of a robot whose base is held. Standing on them takes τ = g_j − J_cjᵀλ.",
+            "那只够托住基座被固定时的腿;站立需要 τ = g_j − J_cjᵀλ。",
+        ),
     },
     properties=(
         Property(
@@ -154,7 +173,7 @@ FORCES = Part(
 )
 
 LOADS = Part(
-    solution=foot_loads,
+    solution=standing_loads,
     doc=Text(
         "Return the vertical forces on a front foot and on a rear foot of Go2 in `model.standing()`: two numbers, N.",
         "返回 Go2 在 `model.standing()` 位形下一只前脚和一只后脚的竖直力:两个数,N。",
@@ -172,6 +191,12 @@ LOADS = Part(
         "force-sign": lambda: tuple(-f for f in _loads()),
         "g-ten": lambda: tuple(10 / 9.81 * f for f in _loads()),
         "g-rounded": lambda: tuple(9.8 / 9.81 * f for f in _loads()),
+    },
+    reasons={
+        "lever-reversed": Text(
+            "The feet that are nearer to the centre of mass carry more: it lies behind the middle.",
+            "离质心近的脚承重更多:质心在中心偏后。",
+        ),
     },
 )
 

@@ -117,6 +117,24 @@ BLOCK = Part(
         "one-triangle": after(base_block, np.triu),
         "doubled-off-diagonal": after(base_block, lambda M: M + M.mT - np.diag(np.diag(M))),
     },
+    reasons={
+        "untransformed": Text(
+            "Inertias add up in one frame only: bring each into the base's frame by `body.transform`.",
+            "只有同一坐标系中的惯量才能相加:先用 `body.transform` 变到基座坐标系。",
+        ),
+        "world-for-local": Text(
+            "T places a body in the world, base @ T in the base. M_bb is seen from the base.",
+            "T 是物体在世界中的位姿,base @ T 是在基座中的位姿;M_bb 是从基座看的。",
+        ),
+        "aligned-for-local": Text(
+            "The point is right, the axes are not: place the bodies in the base, base @ T.",
+            "参考点对,坐标轴不对:应取物体在基座中的位姿 base @ T。",
+        ),
+        "inverse-transform": Text(
+            "base @ T places the body in the base; its inverse places the base in the body.",
+            "base @ T 是物体在基座中的位姿;它的逆是基座在物体中的位姿。",
+        ),
+    },
     properties=(
         Property(Text("it is symmetric", "对称"), lambda answer, model, q: answer - answer.mT),
         Property(
@@ -160,6 +178,9 @@ WHOLE = Part(
         "parallel-axis-all": _moved(lambda I, m, c: I - m * (c @ c) * np.eye(3)),
         "parallel-axis-outer": _moved(lambda I, m, c: I - m * np.outer(c, c)),
         "swapped-halves": before(whole_robot, swap, which=0),
+    },
+    reasons={
+        "mass-dropped": Text("The block holds m [c]×: divide by m.", "块中是 m [c]×:要除以 m。"),
     },
     properties=(
         Property(

@@ -75,7 +75,7 @@ EXERCISE = Exercise(
             slips={
                 "base-let-go": _let_go,
                 "base-block-for-joints": lambda M: M[:6, :6],
-                "selection-first": lambda M: M[:-6, :-6],
+                "base-last": lambda M: M[:-6, :-6],
                 "nq-for-nv": lambda M: M[7:, 7:],
                 "one-triangle": after(held_mass_matrix, np.triu),
                 "doubled-off-diagonal": after(held_mass_matrix, lambda M: M + M.mT - np.diag(np.diag(M))),

@@ -131,6 +131,18 @@ BALANCE = Part(
         "joint-for-frame": _jacobian(frames=CALVES),
         "swapped-halves": swapped(out_of_balance),
     },
+    reasons={
+        "gravity-missing": Text(
+            "At rest h is g(q): the weight is what has to be held.", "静止时 h 就是 g(q):需要托住的正是重力。"
+        ),
+        "gravity-sign": Text(
+            "g(q) is what would hold the robot, so it stands beside M q̈, and Sᵀτ and J_cᵀλ are taken off.",
+            "g(q) 是托住机器人所需的力,与 M q̈ 在同一边;再减去 Sᵀτ 和 J_cᵀλ。",
+        ),
+        "external-sign": Text(
+            "What the ground gives, nobody else need: it is taken off.", "地面提供的力,无需别处再提供:应当减去。"
+        ),
+    },
     properties=(
         Property(
             Text("the base's rows do not know the motors", "基座的六行与电机无关"),
@@ -160,7 +172,7 @@ NET = Part(
         "base-for-com": _about(lambda model, q: q[:3]),
         "lever-reversed": after(net_wrench, lambda F: F * np.repeat([-1, 1], 3)),
         "cross-order": after(net_wrench, lambda F: F * np.repeat([-1, 1], 3)),
-        "moment-dropped": after(net_wrench, lambda F: F * np.repeat([0, 1], 3)),
+        "coupling-dropped": after(net_wrench, lambda F: F * np.repeat([0, 1], 3)),
         "gravity-missing": _weight(lambda model: 0 * model.gravity),
         "weight-upward": _weight(lambda model: -model.mass * model.gravity),
         "mass-for-weight": _weight(lambda model: np.array([0, 0, -model.mass])),
@@ -168,6 +180,19 @@ NET = Part(
         "nominal-mass": _weight(lambda model: 12 * model.gravity),
         "averaged": lambda model, q, forces: net_wrench(model, q, forces / 4),
         "swapped-halves": swapped(net_wrench),
+    },
+    reasons={
+        "gravity-missing": Text(
+            "The weight acts from outside as well: m g, at the centre of mass.", "重力也是外力:m g,作用在质心。"
+        ),
+        "base-for-com": Text(
+            "q[:3] is the base's origin. The moments are about the centre of mass, `tw.center_of_mass`.",
+            "q[:3] 是基座原点;力矩是对质心取的,用 `tw.center_of_mass`。",
+        ),
+        "coupling-dropped": Text(
+            "Each force has a moment about the centre of mass: (p_k − p_G) × f_k.",
+            "每个力对质心都有力矩:(p_k − p_G) × f_k。",
+        ),
     },
     alike=(frozenset({"lever-reversed", "cross-order"}),),
     properties=(

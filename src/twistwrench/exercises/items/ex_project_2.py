@@ -79,11 +79,27 @@ FOOT = Part(
     slips={
         "angular-for-linear": lambda J, R, r: R @ J[:3],
         "joint-for-frame": lambda J, R, r: R @ J[3:],
-        "coupling-sign": lambda J, R, r: R @ (J[3:] + tw.skew(r) @ J[:3]),
+        "cross-order": lambda J, R, r: R @ (J[3:] + tw.skew(r) @ J[:3]),
         "local-for-aligned": lambda J, R, r: J[3:] - tw.skew(r) @ J[:3],
         "rotation-transposed": lambda J, R, r: R.mT @ (J[3:] - tw.skew(r) @ J[:3]),
         "coupling-unrotated": lambda J, R, r: R @ J[3:] - tw.skew(r) @ J[:3],
-        "lever-unrotated": lambda J, R, r: R @ J[3:] - tw.skew(r) @ R @ J[:3],
+    },
+    reasons={
+        "angular-for-linear": Text(
+            "J[:3] is how ω depends on v. The foot's velocity is that of the link's origin, J[3:], and ω × r.",
+            "J[:3] 给出的是 ω;脚的速度是连杆原点速度 J[3:] 加上 ω × r。",
+        ),
+        "joint-for-frame": Text(
+            "J[3:] is the velocity of the link's origin. The foot is r away: add ω × r = −[r]× ω.",
+            "J[3:] 是连杆原点的速度;脚在 r 处,要加上 ω × r = −[r]× ω。",
+        ),
+        "local-for-aligned": Text(
+            "The velocity is along the link's axes still: turn it by R.", "速度仍用连杆坐标轴:要乘 R。"
+        ),
+        "coupling-unrotated": Text(
+            "[r]× J[:3] is along the link's axes as well: R stands before all of it.",
+            "[r]× J[:3] 也用连杆坐标轴:R 要乘整个括号。",
+        ),
     },
 )
 

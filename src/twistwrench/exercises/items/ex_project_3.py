@@ -126,6 +126,15 @@ LAW = Part(
         "lever-reversed": _law(lambda model, q, forces: _wrench(model, q, forces) * np.repeat([-1, 1], 3)),
         "swapped-halves": after(rate_and_wrench, swap),
     },
+    reasons={
+        "gravity-missing": Text(
+            "The weight acts from outside as well: m g, at the centre of mass.", "重力也是外力:m g,作用在质心。"
+        ),
+        "base-for-com": Text(
+            "q[:3] is the base's origin. The moments are about the centre of mass, `tw.center_of_mass`.",
+            "q[:3] 是基座原点;力矩是对质心取的,用 `tw.center_of_mass`。",
+        ),
+    },
     properties=(
         Property(
             Text("the two are equal: Newton's and Euler's law for the whole robot", "两者相等:整机的牛顿–欧拉定律"),
@@ -210,6 +219,10 @@ INTERFACE = Part(
         "momentum-at-origin": _about(lambda q: np.zeros(3)),
         "momentum-at-base": _about(lambda q: q[:3]),
         "swapped-halves": _in_pinocchio_order,
+    },
+    reasons={
+        "gravity-missing": Text("h = C v + g: gravity belongs to it.", "h = C v + g:包含重力。"),
+        "base-missing": Text("h has nv rows, those of the base first.", "h 有 nv 行,基座在前。"),
     },
     properties=(
         Property(

@@ -77,7 +77,7 @@ LOADS = Part(
         "equal-shares": lambda p_G, feet, weight: np.full(len(feet), weight / len(feet)),
         "moment-about-origin": _solved(lambda p_G, feet: np.array([np.ones(len(feet)), feet[:, 0], feet[:, 1]])),
         "moment-of-one-axis": _solved(lambda p_G, feet: _one_side(p_G, feet, 0)),
-        "gravity-sign": times(vertical_loads, -1),
+        "force-sign": times(vertical_loads, -1),
         "mass-for-weight": times(vertical_loads, 1 / 9.81),
         "not-shared": lambda p_G, feet, weight: np.full(len(feet), weight),
     },

@@ -130,5 +130,16 @@ ABA = Part(
         "inertia-half-rotated": _written(Ways(congruence=lambda X, I: X.mT @ I)),
         "chain-for-tree": lambda parent, *rest: tree_aba(previous(parent), *rest),
     },
+    reasons={
+        "bias-sign": Text(
+            "u = τ − Sᵀ p: the joint must overcome the bias force before it accelerates anything.",
+            "u = τ − Sᵀ p:关节先要克服偏置力,余下的才产生加速度。",
+        ),
+        "children-dropped": Text(
+            "Each body feels what hangs on it: pass on I^a and p^a.",
+            "每个物体都感受到挂在它上面的部分:要传递 I^a 和 p^a。",
+        ),
+        "inertia-half-rotated": Text("X[i]ᵀ I^a X[i]: from both sides.", "X[i]ᵀ I^a X[i]:两侧都要乘。"),
+    },
     properties=(Property(Text("RNEA with these accelerations gives τ back", "把这些加速度代入 RNEA 应还原 τ"), _back),),
 )

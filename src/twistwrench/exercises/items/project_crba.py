@@ -108,6 +108,23 @@ CRBA = Part(
         "one-triangle": after(tree_crba, np.triu),
         "doubled-off-diagonal": after(tree_crba, lambda M: M + M.mT - np.diag(np.diag(M))),
     },
+    reasons={
+        "inverse-transform": Text(
+            "X[i] leads outward: inertias come inward by X[i]ᵀ I X[i], wrenches by X[i]ᵀ.",
+            "X[i] 方向向外:惯量用 X[i]ᵀ I X[i] 向内传,wrench 用 X[i]ᵀ。",
+        ),
+        "inertia-like-motion": Text(
+            "Inward it is X[i]ᵀ I X[i]: twists go out by X[i], momenta come back by X[i]ᵀ.",
+            "向内传是 X[i]ᵀ I X[i]:twist 用 X[i] 向外,动量用 X[i]ᵀ 向内。",
+        ),
+        "inertia-half-rotated": Text(
+            "X[i]ᵀ I X[i]: X on the right brings the twist in, Xᵀ on the left brings the momentum back.",
+            "X[i]ᵀ I X[i]:右边的 X 把 twist 变进来,左边的 Xᵀ 把动量变回去。",
+        ),
+        "motion-for-force": Text(
+            "A wrench comes inward by X[i]ᵀ; X[i]⁻¹ is for twists.", "wrench 用 X[i]ᵀ 向内传;X[i]⁻¹ 是用于 twist 的。"
+        ),
+    },
     properties=(
         Property(Text("M is symmetric", "M 对称"), lambda answer, *lists: answer - answer.mT),
         Property(

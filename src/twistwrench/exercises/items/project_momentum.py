@@ -132,6 +132,26 @@ MAP = Part(
         "orbital-missing": _summed(Ways(inertia=lambda body, R, p: _spin(body))),
         "rows-only": _rows,
     },
+    reasons={
+        "untransformed": Text(
+            "I_i J_i is in frame i: X* takes it to the centre of mass.", "I_i J_i 在坐标系 i 中:用 X* 变到质心。"
+        ),
+        "local-for-world": Text(
+            "X* of (R_i, p_i − p_G): its R turns the momentum into the axes of the world.",
+            "X* 用 (R_i, p_i − p_G):其中的 R 把动量变到世界坐标轴。",
+        ),
+        "motion-for-force": Text(
+            "Momenta transform like wrenches: X*, not X.", "动量按 wrench 的方式变换:用 X*,不是 X。"
+        ),
+        "inverse-transform": Text(
+            "(R_i, p_i − p_G) places frame i at the centre of mass: its X* leads there, no inverse needed.",
+            "(R_i, p_i − p_G) 是坐标系 i 在质心坐标系中的位姿,它的 X* 正好变到质心,不需要求逆。",
+        ),
+        "rows-only": Text(
+            "The rows here are (k, l): angular first. Pinocchio has (l, k).",
+            "这里的行是 (k, l):角动量在前;Pinocchio 是 (l, k)。",
+        ),
+    },
     properties=(
         Property(
             Text("its linear rows are m times the Jacobian of the centre of mass", "其线动量行等于 m 乘质心的雅可比"),
@@ -202,6 +222,11 @@ RATE = Part(
         "momentum-at-base": _shifted(lambda q: q[:3]),
         "gravity-in-rate": lambda model, q, v, a: (
             tw.centroidal_momentum_rate(model, q, v, a) - np.concatenate([np.zeros(3), model.mass * model.gravity])
+        ),
+    },
+    reasons={
+        "velocity-for-acceleration": Text(
+            "A_G v is the momentum itself; its rate is A_G a + Ȧ_G v.", "A_G v 是动量本身;其变化率是 A_G a + Ȧ_G v。"
         ),
     },
     properties=(

@@ -128,6 +128,14 @@ CROSS = Part(
         "skew-sign": _crossed(lambda w, v: ([[-w, ZERO], [-v, -w]], [[-w, -v], [ZERO, -w]])),
         "swapped-halves": _crossed(lambda w, v: ([[v, ZERO], [w, v]], [[v, w], [ZERO, v]])),
     },
+    reasons={
+        "coupling-corner": Text(
+            "In V× the block [v]× stands bottom left, in V×* top right.", "V× 中 [v]× 在左下,V×* 中在右上。"
+        ),
+        "coupling-dropped": Text(
+            "v acts as well: [v]× stands beside the two [ω]×.", "v 也起作用:除两个 [ω]× 外还有 [v]×。"
+        ),
+    },
     properties=(
         Property(Text("V× V = 0", "V× V = 0"), lambda answer, V: answer[0] @ V),
         Property(

@@ -133,6 +133,17 @@ RNEA = Part(
             parent, S, I, X, [0 * rate for rate in qd], qdd, a0
         ),
     },
+    reasons={
+        "force-sign": Text(
+            "What the child needs the parent must give in addition: add.", "子物体所需的,父物体要额外提供:应当相加。"
+        ),
+        "velocity-terms-missing": Text(
+            "Without qd the terms V × S q̇ and V ×* I V vanish.", "不用 qd,V × S q̇ 和 V ×* I V 就都没有了。"
+        ),
+        "motion-for-force": Text(
+            "A wrench comes inward by X[i]ᵀ; X[i]⁻¹ is for twists.", "wrench 用 X[i]ᵀ 向内传;X[i]⁻¹ 是用于 twist 的。"
+        ),
+    },
     alike=(frozenset({"children-overwritten", "children-dropped", "visited-outward"}),),  # lost in any case
     properties=(
         Property(
@@ -168,5 +179,14 @@ ENERGY = Part(
         "inverse-transform": lambda parent, S, I, X, qd: tree_energy(parent, S, I, [*map(np.linalg.inv, X)], qd),
         "force-for-motion": lambda parent, S, I, X, qd: tree_energy(parent, S, I, [np.linalg.inv(x).mT for x in X], qd),
         "chain-for-tree": lambda parent, *rest: tree_energy(previous(parent), *rest),
+    },
+    reasons={
+        "untransformed": Text(
+            "V of the parent is in the parent's frame: X[i] brings it into frame i.",
+            "父物体的 V 在父坐标系中:用 X[i] 变到坐标系 i。",
+        ),
+        "inverse-transform": Text(
+            "X[i] already leads from the parent's frame to frame i.", "X[i] 本来就是从父坐标系到坐标系 i。"
+        ),
     },
 )

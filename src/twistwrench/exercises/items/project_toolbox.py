@@ -158,6 +158,11 @@ VECTOR = Part(
         "difference-reversed": _Reversing,
         "kind-lost": _Forgetting,
     },
+    reasons={
+        "swapped-halves": Text(
+            "FᵀV pairs τ with ω and f with v: first half with first half.", "FᵀV 中 τ 与 ω、f 与 v 相配:前半配前半。"
+        ),
+    },
 )
 
 # ---------------------------------------------------------------- placements and transforms
@@ -203,6 +208,9 @@ POSE_OF_BASE = Part(
         "half-angle": _posed(lambda xyzw: tw.exp3(tw.log3(_rotated(xyzw)) / 2)),
         "translation-dropped": lambda q: base_pose(np.concatenate([np.zeros(3), q[3:]])),
     },
+    reasons={
+        "translation-dropped": Text("q[:3] is the position of the base.", "q[:3] 是基座的位置。"),
+    },
     properties=(
         Property(
             Text("R is a rotation: Rᵀ R = 1", "R 是旋转矩阵:Rᵀ R = 1"),
@@ -244,5 +252,8 @@ POSE_OF_URDF = Part(
         "degrees": lambda xyz, rpy: urdf_pose(xyz, np.radians(rpy)),
         "translation-first": _origin(lambda x, y, z: z @ y @ x, lambda R, xyz: R @ xyz),
         "translation-dropped": _origin(lambda x, y, z: z @ y @ x, lambda R, xyz: 0 * xyz),
+    },
+    reasons={
+        "translation-dropped": Text("xyz is the origin's position.", "xyz 是原点的位置。"),
     },
 )

@@ -149,6 +149,15 @@ PLACEMENTS = Part(
         "inverse-transform": after(body_placements, np.linalg.inv),
         "untransformed": lambda parent, T: T,
     },
+    reasons={
+        "untransformed": Text(
+            "T[i] is seen from the parent: multiply by the parent's own placement.",
+            "T[i] 是在父物体中的位姿:要左乘父物体自身的位姿。",
+        ),
+        "translation-dropped": Text(
+            "Each step also moves the origin: p_AC = p_AB + R_AB p_BC.", "每一步原点也在移动:p_AC = p_AB + R_AB p_BC。"
+        ),
+    },
 )
 
 TWISTS = Part(
@@ -218,6 +227,11 @@ WRENCHES = Part(
         "visited-outward": _inward(lambda T, before, F: before + _transforms(T)[1] @ F, reverse=False),
         "chain-for-tree": lambda parent, T, F: carried_wrenches(_previous(parent), T, F),
         "swapped-halves": lambda parent, T, F: _halves(carried_wrenches(parent, T, F)),
+    },
+    reasons={
+        "force-sign": Text(
+            "What the child needs the parent must give in addition: add.", "子物体所需的,父物体要额外提供:应当相加。"
+        ),
     },
     properties=(
         Property(

@@ -184,19 +184,6 @@ ALGEBRA = {
         ),
         "49.2",
     ),
-    "pitch-inverted": Slip(
-        Text("the pitch is upside down", "螺距取了倒数"),
-        Text(
-            "The pitch is advance per turn, ω·v/|ω|²: metres per radian.",
-            "螺距是每弧度前进的距离 ω·v/|ω|²,单位 m/rad。",
-        ),
-        "49.2",
-    ),
-    "point-sign": Slip(
-        Text("the axis point is v × ω/|ω|², on the wrong side", "轴上的点写成了 v × ω/|ω|²,方向反了"),
-        Text("The point of the axis that is nearest to the origin is ω × v/|ω|².", "轴上离原点最近的点是 ω × v/|ω|²。"),
-        "49.2",
-    ),
     "half-missing": Slip(
         Text("a factor ½ is missing", "漏了系数 ½"),
         Text("Kinetic energy is ½ VᵀIV.", "动能是 ½ VᵀIV。"),

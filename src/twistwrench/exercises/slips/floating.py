@@ -62,6 +62,11 @@ FLOATING = {
         ),
         "49.9",
     ),
+    "base-rows-kept": Slip(
+        Text("the six rows of the base are kept among the torques", "力矩中保留了基座的六行"),
+        Text("The base has no motor: τ has nv − 6 entries.", "基座没有电机:τ 有 nv − 6 个分量。"),
+        "49.9",
+    ),
     "joint-rows-for-forces": Slip(
         Text("λ is taken from the joint rows, as if the motors did nothing", "由关节行解 λ,好像电机不出力"),
         Text(
@@ -94,6 +99,11 @@ FLOATING = {
             "R I Rᵀ wants an ω in the axes of the world. The base's ω is in its own, so R acts once, on the result.",
             "R I Rᵀ 要求 ω 用世界坐标轴;基座的 ω 用自身坐标轴,R 只作用一次,把结果变到世界。",
         ),
+        "49.10",
+    ),
+    "joints-left-out": Slip(
+        Text("the columns of the joints are left out", "漏了关节的列"),
+        Text("A leg that swings carries momentum as well: all nv columns.", "摆动的腿也有动量:要用全部 nv 列。"),
         "49.10",
     ),
     "unweighted-mean": Slip(

@@ -60,6 +60,19 @@ PIPELINE = {
         Text("The world has no joint, so no wrench need be carried into it.", "世界没有关节,不需要把力传到那里。"),
         "49.11",
     ),
+    "world-as-body": Slip(
+        Text("the world is counted as a body", "把世界也算作一个刚体"),
+        Text(
+            "parent[0] = −1 is the world's entry: there are len(parent) − 1 bodies.",
+            "parent[0] = −1 是世界:刚体数是 len(parent) − 1。",
+        ),
+        "49.11",
+    ),
+    "longest-branch": Slip(
+        Text("only the longest branch is counted", "只数了最长的一条分支"),
+        Text("Every body walks to the base by itself: add up all depths.", "每个刚体都要走回基座:要把所有深度相加。"),
+        "49.11",
+    ),
     "two-points": Slip(
         Text("only the first and the last point are used", "只用了首尾两个点"),
         Text(
@@ -100,7 +113,7 @@ PIPELINE = {
         "49.11",
     ),
     "equal-shares": Slip(
-        Text("each foot gets a quarter of the weight", "每只脚平分了 1/4 的重力"),
+        Text("every foot gets the same share of the weight", "每只脚平均分担了重力"),
         Text(
             "So it is only if the centre of mass is above the middle of the feet. The moments decide.",
             "只有质心恰在四脚中心上方时才如此;分配由力矩平衡决定。",
