@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from twistwrench import center_of_mass, frame_placement
+from twistwrench import center_of_mass, frame_placement, static_equilibrium
 from twistwrench.robots import catalogue, load, robots
 
 OWN = [robot for robot in robots() if robot.source == "models"]
@@ -150,9 +150,23 @@ def test_humanoid_stands_with_flat_soles_below_its_centre_of_mass():
     model = load("humanoid")
     q = model.standing()
     corners = [name for name in model.frame_names if re.fullmatch(r"(left|right)_sole_(fl|fr|rl|rr)", name)]
+    assert set(model.feet) == set(corners)
     points = np.array([frame_placement(model, q, name).translation for name in corners])
     assert len(points) == 8
     np.testing.assert_allclose(points[:, 2], 0, atol=1e-15)
     com = center_of_mass(model, q)[:2]
     assert (points[:, :2].min(axis=0) < com).all()
     assert (com < points[:, :2].max(axis=0)).all()
+
+
+def test_humanoid_is_held_at_the_corners_of_its_soles():
+    """Force and moment about the world's origin are those of the weight; the soles only push."""
+    model = load("humanoid")
+    q = model.standing()
+    forces = static_equilibrium(model, q).forces
+    points = np.array([frame_placement(model, q, foot).translation for foot in model.feet])
+    weight = np.array([0, 0, 9.81 * model.mass])
+    np.testing.assert_allclose(forces.sum(axis=0), weight, atol=1e-12 * weight[2])
+    moment = np.cross(center_of_mass(model, q), weight)
+    np.testing.assert_allclose(np.cross(points, forces).sum(axis=0), moment, atol=1e-12 * weight[2])
+    assert (forces[:, 2] > 0).all()

@@ -15,7 +15,7 @@ from twistwrench.validate.conditioning import forward_dynamics_bound
 from twistwrench.validate.oracle import Oracle
 from twistwrench.validate.quantity import BOUND
 from twistwrench.validate.run import _context
-from twistwrench.validate.states import random_states
+from twistwrench.validate.states import random_states, sample_frames
 
 PINOCCHIO = importlib.util.find_spec("pinocchio") is not None
 needs_pinocchio = pytest.mark.skipif(not PINOCCHIO, reason="Pinocchio is not installed: the comparison is skipped")
@@ -230,8 +230,13 @@ def test_a_singular_error_that_names_another_joint_or_none_fails():
     assert not j.row(replace(quantity("mass matrix M"), ours=raises("joint 'lower'"))).passed
 
 
+def test_frames_of_both_legs_are_compared():
+    assert {name.partition("_")[0] for name in sample_frames(tw.load("humanoid"), 2)} == {"left", "right"}
+
+
 def test_two_point_feet_hold_nothing():
-    row = judge(tw.load("humanoid")).row(quantity("static equilibrium τ, λ"))
+    on_two_points = replace(tw.load("humanoid"), feet=("left_sole", "right_sole"))
+    row = judge(on_two_points).row(quantity("static equilibrium τ, λ"))
     assert row.passed
     assert row.singular
     assert "no forces at" in row.note

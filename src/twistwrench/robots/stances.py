@@ -1,8 +1,9 @@
 """How the legged robots of the catalogue stand: on which frames, and with which angles.
 
 The height of the base is not here: it is computed, so that the lowest of the feet's frames lies on z = 0.
-(A foot's frame is a point of the foot that its file chose: the sole of a humanoid, the centre of the ball on
-most quadrupeds.)
+(A foot's frame is a point of the foot that its file chose: the middle of the sole of most humanoids, the centre of
+the ball on most quadrupeds. Our humanoid's file has the corners of its soles, and they are its feet: point forces
+there hold it, as two forces in the middles of two soles cannot.)
 """
 
 from __future__ import annotations
@@ -47,6 +48,7 @@ UNITREE = _four("FL FR", "RL RR", "_foot")
 ANYMAL = _four("LF RF", "LH RH", "_FOOT")
 SOLO = _four("FL FR", "HL HR", "_FOOT")
 SOLES = ("l_sole", "r_sole")
+CORNERS = tuple(f"{side}_sole_{corner}" for side in ("left", "right") for corner in ("fl", "fr", "rl", "rr"))
 TALOS = Stance(("left_sole_link", "right_sole_link"), "talos", "half_sitting")
 G1 = Stance(
     ("left_ankle_roll_link", "right_ankle_roll_link"),
@@ -57,7 +59,7 @@ ICUB = Stance(SOLES, "icub", "half_sitting")
 STANCES: dict[str, Stance] = {
     "models/go2": Stance(UNITREE, angles={"thigh_joint": 0.9, "calf_joint": -1.8}),
     "models/humanoid": Stance(
-        ("left_sole", "right_sole"),
+        CORNERS,  # two points bear no moment about the line between them
         angles={
             "hip_pitch": -0.3,
             "knee": 0.6,

@@ -99,7 +99,8 @@ def sample_frames(model: Model, most: int) -> tuple[str, ...]:
     """
     last = {frame.body: name for name, frame in model.frames.items()}
     tips = [last[i] for i in range(1, model.nbodies) if i not in model.parent]
-    return tuple(dict.fromkeys([*model.feet, *_spread(tips, most)]))[:most]
+    feet = _spread(model.feet, most)  # the first four of eight corners are all on one leg
+    return tuple(dict.fromkeys([*feet, *_spread(tips, most)]))[:most]
 
 
 def _spread(names: Sequence[str], most: int) -> Sequence[str]:
