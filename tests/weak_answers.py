@@ -169,4 +169,196 @@ ANSWERS = [
         "the clock that is handed in is not read",
     ),
     Weak("measured_ratio", "return 18 * 18 / 18", "an order of growth is taken for a time"),
+    # 49.8
+    Weak(
+        "base_block",
+        "T = tw.forward_kinematics(model, q).placement\n"
+        "return sum(I.transform(X).matrix() for I, X in zip(model.inertia[1:], T[1:]))",
+        "expressed in the world frame",
+    ),
+    Weak("base_block", "return model.inertia[1].matrix()", "the legs are left out"),
+    Weak("whole_robot", "return np.trace(block) / 6, tw.unskew(block[:3, 3:]), block[:3, :3]", "m [kg]: too"),
+    Weak("mass_matrix_sizes", "return 19, 12", "nq in place of nv"),
+    Weak("held_mass_matrix", "M = M + M.T - np.diag(np.diag(M))\nreturn M[6:, 6:]", "off the diagonal are doubled"),
+    # 49.9
+    Weak(
+        "out_of_balance",
+        "J = np.vstack([tw.frame_jacobian(model, q, foot)[3:] for foot in model.feet])\n"
+        "S = np.hstack([np.zeros((12, 6)), np.eye(12)])\n"
+        "return tw.gravity(model, q) - S.T @ tau - J.T @ forces.ravel()",
+        "the body's own axes in place of the world's",
+    ),
+    Weak("out_of_balance", "return tw.gravity(model, q) - tau - forces.ravel()", "It stopped with ValueError"),
+    Weak(
+        "net_wrench",
+        "F = np.zeros(6)\nfor foot, f in zip(model.feet, forces):\n"
+        "    p = tw.frame_placement(model, q, foot).translation\n    F += np.concatenate([np.cross(p, f), f])\n"
+        "F[5] -= model.mass * 9.81\nreturn F",
+        "the moments are about the world's origin",
+    ),
+    Weak("selection", "return np.eye(nv)[:, 6:]", "S and Sᵀ are exchanged"),
+    Weak("on_all_rows", "return np.concatenate([np.zeros(7), tau])", "nq in place of nv"),
+    Weak(
+        "base_rows",
+        "return M[:6, :6] @ qdd[:6] + h[:6] - J_c[:, :6].T @ forces",
+        "the coupling between base and joints",
+    ),
+    Weak(
+        "complete_motion",
+        "qdd_base = np.linalg.solve(M[:6, :6], J_c[:, :6].T @ forces - h[:6] - M[:6, 6:] @ qdd_joints)\n"
+        "return np.concatenate([qdd_base, qdd_joints]), M[6:, 6:] @ qdd_joints + h[6:] - J_c[:, 6:].T @ forces",
+        "The slip: the acceleration of the base is left out",
+    ),
+    # 49.10
+    Weak("split_map", "A_G = tw.centroidal_map(model, q)\nreturn A_G[:, :7], A_G[:, 7:]", "nq in place of nv"),
+    Weak(
+        "base_columns",
+        "cx = tw.skew(c)\nreturn np.block([[R @ I_G @ R.T, np.zeros((3, 3))], [-m * cx @ R, m * R]])",
+        "ω is turned twice",
+    ),
+    Weak(
+        "base_columns",
+        "cx = tw.skew(c)\nreturn np.block([[R @ (I_G - m * cx @ cx), m * cx @ R], [-m * cx @ R, m * R]])",
+        "the block of rows k (angular), columns v: must be zero",
+    ),
+    Weak("linear_momentum", "return A_G[:3] @ v", "the angular rows in place of the linear ones"),
+    Weak(
+        "momentum_of_links",
+        "motion = tw.forward_kinematics(model, q, v)\nl = np.zeros(3)\n"
+        "for I, T, V in zip(model.inertia, motion.placement, motion.twist):\n    l += I.mass * T.rotation @ V[3:]\n"
+        "return l",
+        "the links' origins in place of their centres of mass",
+    ),
+    Weak(
+        "com_acceleration",
+        "a = 9.81 / p_G[2] * (p_G[:2] - p)\nreturn a + np.array([k_rate[1], -k_rate[0]]) / (m * p_G[2])",
+        "k̇_G has the wrong sign",
+    ),
+    Weak("rate_at_pace", "return s * tw.centroidal_momentum_rate(model, q, v, a)[:3]", "where it counts twice"),
+    # 49.11
+    Weak("finite_limits", "return -np.ones(len(lower)), np.ones(len(upper))", "also those that are finite"),
+    Weak(
+        "by_mass_matrix",
+        "M = M + M.T - np.diag(M.diagonal())\nreturn M @ a + h, np.linalg.solve(M, tau - h)",
+        "the entries off the diagonal are doubled",
+    ),
+    Weak(
+        "pinocchio_inertia",
+        "cx = tw.skew(c)\nI = np.zeros((6, 6))\nI[:3, :3] = I_c - m * cx @ cx\nI[:3, 3:] = m * cx\n"
+        "I[3:, :3] = -m * cx\nI[3:, 3:] = m * np.eye(3)\nreturn I",
+        "(ω, v) and (v, ω) are swapped",
+    ),
+    Weak(
+        "pinocchio_action",
+        "X = np.zeros((6, 6))\nX[:3, :3] = R\nX[3:, :3] = tw.skew(p) @ R\nX[3:, 3:] = R\nreturn X",
+        "(ω, v) and (v, ω) are swapped",
+    ),
+    Weak("com_velocity", "return h_G[3:] / m", "the angular rows in place of the linear ones"),
+    Weak(
+        "contact_rows", "return np.concatenate([j[3:, :] for j in J])", "the angular rows in place of the linear ones"
+    ),
+    Weak("count_transforms", "n = len(parent) - 1\nreturn 2 * n, n * (n - 1) // 2", "The slip in RNEA: two transforms"),
+    Weak(
+        "growth",
+        "return np.log(seconds[-1] / seconds[0]) / np.log(sizes[-1] / sizes[0])",
+        "only the first and the last",
+    ),
+    Weak(
+        "standing_forces",
+        "f = np.linalg.lstsq(J_c.T, g, rcond=None)[0]\nreturn f.reshape(-1, 3), (g - J_c.T @ f)[6:]",
+        "Sᵀτ is left out",
+    ),
+    Weak("standing_forces", "f = np.linalg.lstsq(J_c.T, g, rcond=None)[0]\nreturn f, g[6:]", "the shape (12,)"),
+    Weak("standing_loads", "w = 16.085 * 9.81\nreturn w / 4, w / 4", "the same share"),
+    # the project
+    Weak(
+        "base_pose",
+        "w, x, y, z = q[3:7]\nT = np.eye(4)\nT[:3, 3] = q[:3]\n"
+        "T[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],"
+        "[2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],"
+        "[2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]\nreturn T",
+        "(qw, qx, qy, qz)",
+    ),
+    Weak(
+        "urdf_pose",
+        "T = np.eye(4)\nfor angle, axis in zip(rpy, np.eye(3)):\n    T[:3, :3] = T[:3, :3] @ tw.exp3(angle * axis)\n"
+        "T[:3, 3] = xyz\nreturn T",
+        "the Euler angles are applied in the wrong order",
+    ),
+    Weak(
+        "transforms_of",
+        "X = tw.motion_transform(T[:3, :3], T[:3, 3])\nreturn X, X.T",
+        "Xᵀ taken for X*",
+    ),
+    Weak("cross_operators", "A = tw.cross_motion(V)\nreturn A, A.T", "(V×)ᵀ in place of"),
+    Weak(
+        "body_twists",
+        "V = np.zeros((len(parent), 6))\nfor i in range(1, len(parent)):\n"
+        "    V[i] = transforms(T[i])[0] @ V[parent[i]] + V_joint[i]\nreturn V",
+        "the inverse in place of the transform",
+    ),
+    Weak(
+        "carried_wrenches",
+        "for i in reversed(range(1, len(parent))):\n    F[parent[i]] += transforms(T[i])[1] @ F[i]\nreturn F",
+        "It changes its argument `F`",
+    ),
+    Weak(
+        "tree_rnea",
+        "n = len(parent)\nV, A, F, tau = [np.zeros(6)] * n, [a0] * n, [np.zeros(6)] * n, [None] * n\n"
+        "for i in range(1, n):\n    V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]\n"
+        "    A[i] = X[i] @ A[parent[i]] + S[i] @ qdd[i] + tw.cross_motion(V[i]) @ S[i] @ qd[i]\n"
+        "for i in range(n - 1, 0, -1):\n    F[i] = I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i]\n"
+        "    tau[i] = S[i].T @ F[i]\n    F[parent[i]] = F[parent[i]] + X[i].T @ F[i]\nreturn np.concatenate(tau[1:])",
+        "the forces of the children are overwritten",
+    ),
+    Weak(
+        "tree_crba",
+        "IC = I\nfor i in range(len(parent) - 1, 0, -1):\n"
+        "    IC[parent[i]] = IC[parent[i]] + X[i].T @ IC[i] @ X[i]\nreturn IC[1]",
+        "It changes its argument `I`",
+    ),
+    Weak(
+        "tree_energy", "return sum(v @ (s.T @ i @ s) @ v for s, i, v in zip(S, I, qd)) / 2", "twist is not carried on"
+    ),
+    Weak("rows_of_foot", "return R @ (J[3:] + tw.skew(r) @ J[:3])", "the factors of the cross product are exchanged"),
+    Weak("accelerated", "return np.linalg.inv(M) @ (J_c.T @ forces - h)", "the motors do nothing"),
+    Weak(
+        "own_centroidal_map",
+        "A_G = np.zeros((6, model.nv))\nfor i, T in enumerate(tw.forward_kinematics(model, q).placement):\n    if i:\n"
+        "        J = tw.frame_jacobian(model, q, model.joint_names[i])\n"
+        "        A_G += T.force_transform() @ model.inertia[i].matrix() @ J\nreturn A_G",
+        "the angular momentum is about the world's origin",
+    ),
+    Weak(
+        "momentum_rate",
+        "return tw.centroidal_map(model, q) @ a",
+        "Ȧ_G v is left out of the rate",
+    ),
+    Weak(
+        "rate_and_wrench",
+        "S, J_c = tw.selection_matrix(model), tw.contact_jacobian(model, q, model.feet)\n"
+        "a = acceleration(tw.crba(model, q), tw.nonlinear_effects(model, q, v), S, J_c, tau, forces.ravel())\n"
+        "p = [tw.frame_placement(model, q, foot).translation for foot in model.feet]\n"
+        "F = np.concatenate([np.cross(p - tw.center_of_mass(model, q), forces).sum(0), forces.sum(0)])\n"
+        "return rate(model, q, v, a), F",
+        "The slip: gravity is missing",
+    ),
+    Weak(
+        "get_dynamics",
+        "M = tw.crba(model, q)\nM = M + M.T - np.diag(np.diag(M))\n"
+        "J_c = np.vstack([tw.frame_jacobian(model, q, foot, 'local_world_aligned')[:3] for foot in feet])\n"
+        "return M, tw.gravity(model, q), J_c, tw.centroidal_map(model, q)",
+        "The slip in J_c: the angular rows in place of the linear ones",
+    ),
+    Weak("vertical_loads", "return np.full(len(feet), weight / len(feet))", "the same share of the weight"),
+    Weak(
+        "consistency_error",
+        "return np.max(inverse(model, q, v, forward(model, q, v, tau)) - tau)",
+        "error: ",
+    ),
+    Weak(
+        "time_per_call",
+        "start = clock()\nfor _ in range(calls):\n    task()\nreturn (clock() - start) / calls",
+        "one block of calls for each",
+    ),
 ]
