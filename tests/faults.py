@@ -242,6 +242,7 @@ FAULTS = [
         "foot forces of the wrong sign", "floating_base.py", "tau=(g - J_c.mT @ forces)", "tau=(g + J_c.mT @ forces)"
     ),
     Fault("momentum about the world's origin", "centroidal.py", "T.translation - p_G", "T.translation"),
+    Fault("levers as differences of world coordinates", "centroidal.py", "-first.translation", "0 * first.translation"),
     Fault(
         "momentum rate without V ×* h",
         "centroidal.py",

@@ -15,7 +15,7 @@ from .inertia import cross_force
 from .kinematics import _motion, _placements
 from .model import Model
 from .plucker import SE3
-from .tree import composite_inertias, walk
+from .tree import composite_inertias, joint_placements, walk
 
 __all__ = ["center_of_mass", "centroidal_map", "centroidal_momentum", "centroidal_momentum_rate"]
 
@@ -182,7 +182,20 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
 
 def _to_center_of_mass(model: Model, q: Array) -> list[Array]:
     """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
-    placement = _placements(model, q)
+    placement = _placements_from_first_body(model, q)
     p_G = _center_of_mass(model, placement, q)
-    rotation = [np.broadcast_to(T.rotation, (*q.shape[:-1], 3, 3)) for T in placement]  # the world's has no batch
-    return [SE3._trusted(R, T.translation - p_G).force_transform() for R, T in zip(rotation, placement, strict=True)]
+    return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]
+
+
+def _placements_from_first_body(model: Model, q: Array) -> list[SE3]:
+    """Return the placement of each body, in the world's axes but about the origin of the first body that moves.
+
+    A lever p_i − p_G does not depend on where the robot stands. As the difference of two world coordinates it would
+    lose digits with the distance from the world's origin: 1e-10 of A_G at 1000 km, in float32 0.3 % at 1 km.
+    """
+    T = joint_placements(model, q)
+    first = T[min(1, model.nbodies - 1)]  # the world itself where nothing moves
+    T[0] = SE3._trusted(T[0].rotation, -first.translation)
+    for i in range(1, model.nbodies):
+        T[i] = T[model.parent[i]] @ T[i]
+    return T
