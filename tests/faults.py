@@ -26,7 +26,7 @@ FAULTS = [
     Fault("quaternion: conjugate", "rotation.py", "2 * (w * U + U @ U)", "2 * (-w * U + U @ U)"),
     Fault("roll and yaw swapped", "rotation.py", "(cr, cp, cy), (sr, sp, sy) =", "(cy, cp, cr), (sy, sp, sr) ="),
     Fault("log: whole angle for half of it", "rotation.py", "2 * atan2(n, w)", "atan2(n, w)"),
-    Fault("exp: no ω × v", "exponential.py", "v + B * wv +", "v +"),
+    Fault("exp: no ω × v", "exponential.py", "v + 2 * H * np.cross(H * w, v) +", "v +"),
     Fault("log: sign of ½ ω × p", "exponential.py", "p - wp / 2", "p + wp / 2"),
     # 49.3: Plücker transforms
     Fault(

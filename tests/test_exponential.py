@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from twistwrench._scalars import cosine_defect, sine_defect
+from twistwrench._scalars import cosine_defect, sine_defect_root
 from twistwrench.cross import cross_motion
 from twistwrench.errors import ShapeError
 from twistwrench.exponential import exp6, log6
@@ -142,13 +142,34 @@ def test_coefficients_are_good_to_a_few_units_in_the_last_place_on_both_sides_of
     )
     for k, exact in enumerate(mp.mpf(str(value)) for value in x):
         defects = {
-            sine_defect: (exact - mp.sin(exact)) / exact**3,
+            sine_defect_root: mp.sqrt((exact - mp.sin(exact)) / exact**3),
             cosine_defect: (mp.sin(exact) - exact * mp.cos(exact)) / exact**3,
         }
         for function, truth in defects.items():
             assert abs(mp.mpf(str(function(x)[k])) / truth - 1) <= 8 * mp.mpf(float(eps))
-    assert sine_defect(np.zeros(1, dtype)) == one / 6
+    assert sine_defect_root(np.zeros(1, dtype)) == np.sqrt(one / 6)
     assert cosine_defect(np.zeros(1, dtype)) == one / 3
+
+
+@pytest.mark.parametrize(
+    ("dtype", "angle"),
+    [(np.float64, 1e4), (np.float64, 1e110), (np.float64, 1e160), (np.complex128, 1e300), (np.float32, 1e13),
+     (np.float32, 1e38), (np.complex64, 1e38), (np.longdouble, "1e3000")],
+)  # fmt: skip
+def test_a_body_that_turns_very_far_only_advances_along_its_axis(mp, dtype, angle):
+    if np.finfo(dtype).max < mp.mpf(angle):
+        pytest.skip("longdouble is no wider than float64 on this machine")
+    angle, eps = np.array(angle).astype(dtype), float(np.finfo(dtype).eps)
+    p = exp6(np.array([angle, 0, 0, 3, 1, 0.5], dtype)).translation
+    with mp.workdps(6000):  # sin needs all digits of the angle before the point
+        x = mp.mpf(int(angle.real))
+        s, b = float(mp.sin(x) / x), float(2 * mp.sin(x / 2) ** 2 / x)
+    np.testing.assert_allclose(p, [3, s - 0.5 * b, b + 0.5 * s], rtol=0, atol=8 * eps)
+    # About an axis that no number holds exactly, the angle is off by more than a turn; the advance is not.
+    n = np.array([2, -1, 2], dtype) / 3
+    if angle.real > 1e12:
+        p = exp6(np.concatenate([n * angle / 3, np.array([3, 1, 0.5], dtype)])).translation
+        np.testing.assert_allclose(p, 2 * n, rtol=0, atol=16 * eps)
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 0.6, 1.4, 2.5])

@@ -10,7 +10,7 @@ import numpy as np
 
 from .checks import Array
 
-__all__ = ["atan2", "cosine_defect", "largest", "length", "sinc", "sine_defect", "which"]
+__all__ = ["atan2", "cosine_defect", "largest", "length", "sinc", "sine_defect_root", "which"]
 
 
 def length(x: Array) -> Array:
@@ -28,11 +28,14 @@ def sinc(x: Array) -> Array:
     return np.where(x == 0, 1, np.sin(safe) / safe)
 
 
-def sine_defect(x: Array) -> Array:
-    """Return (x − sin x)/x³, which is 1/6 at 0: its series below 1, where the difference would cancel."""
+def sine_defect_root(x: Array) -> Array:
+    """Return √((x − sin x)/x³), which is √⅙ at 0: its series below 1, where the difference would cancel.
+
+    The root, about 1/x, since the quotient itself is lost where x³ is beyond the largest number.
+    """
     small = np.abs(x.real) < 1
     near, far = np.where(small, x, 0), np.where(small, 1, x)
-    return np.where(small, _series(near, 4, 5) / 6, (far - np.sin(far)) / far**3)
+    return np.where(small, np.sqrt(_series(near, 4, 5) / 6), np.sqrt((far - np.sin(far)) / far) / far)
 
 
 def cosine_defect(x: Array) -> Array:

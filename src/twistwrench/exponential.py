@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._scalars import cosine_defect, length, sinc, sine_defect
+from ._scalars import cosine_defect, length, sinc, sine_defect_root
 from .checks import Array, as_array
 from .plucker import SE3
 from .rotation import exp3, log3
@@ -16,7 +16,8 @@ __all__ = ["exp6", "log6"]
 def exp6(V: ArrayLike) -> SE3:
     """Placement reached in unit time at the constant body twist V (sections 49.2 and 49.3).
 
-    R = exp3(ω) and p = v + B ω×v + C ω×(ω×v), where B = (1 − cos θ)/θ² and C = (θ − sin θ)/θ³.
+    R = exp3(ω) and p = v + B ω×v + C ω×(ω×v), where B = (1 − cos θ)/θ² and C = (θ − sin θ)/θ³. B comes as 2 H²,
+    H = sin ½θ / θ, and H and √C go to one ω each: a product that stays near 1 however fast the turn.
 
     Parameters
     ----------
@@ -41,9 +42,8 @@ def exp6(V: ArrayLike) -> SE3:
     V = as_array(V, "V", 6)
     w, v = V[..., :3], V[..., 3:]
     theta = length(w)[..., None]
-    B, C = sinc(theta / 2) ** 2 / 2, sine_defect(theta)
-    wv = np.cross(w, v)
-    return SE3._trusted(exp3(w), v + B * wv + C * np.cross(w, wv))
+    H, c = sinc(theta / 2) / 2, sine_defect_root(theta) * w
+    return SE3._trusted(exp3(w), v + 2 * H * np.cross(H * w, v) + np.cross(c, np.cross(c, v)))
 
 
 def log6(T: SE3 | ArrayLike) -> Array:
