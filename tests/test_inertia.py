@@ -396,6 +396,18 @@ def test_an_inertia_does_not_change():
             x.com[0] = 1
 
 
+def test_inertias_are_equal_where_their_ten_numbers_are():
+    body = SpatialInertia(2.0, [0, 0, 0.1], np.diag([3, 2, 1]))
+    assert SpatialInertia(2, [0, 0, 0.1], np.diag([3, 2, 1])) == body
+    assert body + SpatialInertia.zero() == body
+    for other in [(1, [0, 0, 0.1], [3, 2, 1]), (2, [0, 0, 0.2], [3, 2, 1]), (2, [0, 0, 0.1], [3, 2, 2])]:
+        assert SpatialInertia(*other[:2], np.diag(other[2])) != body
+    assert (body == body.matrix()) is False
+    assert (SpatialInertia([2, 2], [0, 0, 0.1], np.diag([3, 2, 1])) == body) is False  # one answer, no broadcasting
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(body)
+
+
 def test_an_inertia_shows_itself():
     body = SpatialInertia(2, [0, 0, 1], np.eye(3))
     np.testing.assert_array_equal(eval(repr(body)).matrix(), body.matrix())

@@ -222,6 +222,18 @@ def test_the_room_for_a_last_row_ends_at_the_square_root_of_the_resolution():
         SE3.from_matrix(M)
 
 
+def test_placements_are_equal_where_their_numbers_are():
+    T = SE3(np.eye(3), [1, 2, 3])
+    assert SE3.from_matrix(T.matrix()) == T
+    assert T @ T.inverse() == SE3.identity()
+    assert SE3(np.eye(3), [1, 2, 4]) != T
+    assert SE3(np.diag([1, -1, -1]), [1, 2, 3]) != T
+    assert (T.matrix() == T) is False
+    assert (SE3(np.eye(3), [[1, 2, 3], [1, 2, 3]]) == T) is False  # one answer, and no broadcasting
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(T)
+
+
 def test_a_placement_shows_itself():
     T = SE3(np.eye(3), [1, 2, 3])
     again = eval(repr(T))

@@ -234,6 +234,21 @@ def test_a_frame_survives_what_does_not_change_it():
     assert V.transform(SE3.identity(), frame="world").frame == "world"
 
 
+def test_twists_are_equal_where_numbers_and_frame_are():
+    V = Twist([1, 2, 3, 4, 5, 6], frame="base")
+    assert Twist(V.vector.astype(np.float32), frame="base") == V
+    assert Twist(V.vector) != V
+    assert V != -V
+    assert (V.vector == V) is False
+    assert (Wrench(V.vector, frame="base") == V) is False
+    batch = Twist(np.stack([V.vector, V.vector]), frame="base")
+    assert (batch == V) is False  # one answer, and no broadcasting
+    assert batch == Twist(batch.vector, frame="base")
+    assert batch != Twist([V.vector, -V.vector], frame="base")
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(V)
+
+
 def test_a_twist_keeps_its_own_numbers():
     x = np.ones(6)
     V = Twist(x)

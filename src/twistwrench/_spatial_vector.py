@@ -56,6 +56,11 @@ class SpatialVector:
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> Array:
         return np.array(self._vector, dtype=dtype, copy=copy)
 
+    def __eq__(self, other: object) -> bool:  # by value; like an array, without a hash
+        if type(other) is not type(self):
+            return NotImplemented
+        return self._frame == other._frame and np.array_equal(self._vector, other._vector)
+
     def __add__(self, other: object) -> Self:
         if not isinstance(other, SpatialVector):
             self._refuse(self, "+", other)

@@ -176,6 +176,12 @@ class SpatialInertia:
         mass = np.broadcast_to(self.mass.astype(com.dtype, copy=False), com.shape[:-1])
         return SpatialInertia._trusted(mass, com, (turned + turned.mT) / 2)
 
+    def __eq__(self, other: object) -> bool:  # by value; like an array, without a hash
+        if not isinstance(other, SpatialInertia):
+            return NotImplemented
+        numbers = ("mass", "com", "inertia_at_com")
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in numbers)
+
     def __add__(self, other: SpatialInertia) -> SpatialInertia:
         if not isinstance(other, SpatialInertia):
             raise TypeError(f"SpatialInertia + {type(other).__name__}: only inertias add, once they are in one frame")

@@ -184,6 +184,11 @@ class SE3:
         M[..., :3, :3], M[..., :3, 3], M[..., 3, 3] = self.rotation, self.translation, 1
         return M
 
+    def __eq__(self, other: object) -> bool:  # by value; like an array, without a hash
+        if not isinstance(other, SE3):
+            return NotImplemented
+        return np.array_equal(self.rotation, other.rotation) and np.array_equal(self.translation, other.translation)
+
     def __matmul__(self, other: SE3) -> SE3:
         if not isinstance(other, SE3):
             raise TypeError(

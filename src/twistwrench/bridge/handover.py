@@ -225,15 +225,11 @@ def _frames_here(there: Any) -> dict[str, Frame]:
     frames = {}
     for name, same_name in found.items():
         first = next(iter(same_name.values()))
-        if all(_same(first, other) for other in same_name.values()):
+        if all(other == first for other in same_name.values()):
             frames[name] = first
         else:
             frames |= {f"{kind}:{name}": frame for kind, frame in same_name.items()}
     return frames
-
-
-def _same(a: Frame, b: Frame) -> bool:
-    return a.body == b.body and bool((a.placement.matrix() == b.placement.matrix()).all())
 
 
 def _named(convert: Callable[[Any], Any], value: Any, name: str, what: str) -> Any:
