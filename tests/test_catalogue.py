@@ -142,6 +142,12 @@ def test_yourdfpy_is_imported_only_when_a_file_is_loaded():
     assert done.stdout.split() == ["False", "False"]
 
 
+def test_capitals_do_not_hide_the_name_that_was_meant():
+    assert all(name == name.lower() for name in (robot.name for robot in robots()))
+    with pytest.raises(KeyError, match=r"unknown robot 'GO2'; did you mean 'go2'"):
+        load("GO2")
+
+
 # -------------------------------------------------------------------- how they stand
 
 

@@ -7,11 +7,12 @@ Model 'go2': floating base, 13 moving bodies, nq = 19, nv = 18, 16.085 kg
 from __future__ import annotations
 
 from os import PathLike
+from os.path import exists
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from ..errors import ModelError
-from .catalogue import PREFIX, Catalogue, Robot, find, robots
+from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
 
 if TYPE_CHECKING:  # `import twistwrench` passes here: what the catalogue does not need is imported by `load`
     from numpy.typing import ArrayLike
@@ -86,6 +87,7 @@ def load(
         raise ValueError(f"mimic: expected 'independent' (joints that follow others are not modelled), got {mimic!r}")
     if not isinstance(source, str) or _is_path(source):
         quiet = mimic == "independent"
+        _refuse_folder_before_name(source)
         return load_urdf(Path(source), base=base or "fixed", gravity=gravity, physical=physical, quiet=quiet)
     robot = find(source)
     model = load_urdf(robot.path, base=base or robot.base, gravity=gravity, physical=physical, quiet=True)
@@ -95,7 +97,15 @@ def load(
 
 
 def _is_path(source: str) -> bool:
-    """Whether a string means a file: it has the look of one. A name of the catalogue has not."""
+    """Whether a string means a file: it has the look of one, or it is there and no robot has the name."""
     if source.startswith(PREFIX):
         return False
-    return "/" in source or "\\" in source or source.lower().endswith((".urdf", ".xml", ".xacro", ".srdf", ".sdf"))
+    looks = "/" in source or "\\" in source or source.lower().endswith((".urdf", ".xml", ".xacro", ".srdf", ".sdf"))
+    return looks or (not known(source) and exists(source))
+
+
+def _refuse_folder_before_name(source: str | PathLike[str]) -> None:
+    """Say of ``"./go2"``, where there is no such file, that the robot is called ``"go2"``."""
+    name = Path(source).name
+    if isinstance(source, str) and source != name and known(name) and not exists(source):
+        raise ModelError(f"{source}: no such file; {name!r} without a folder is a robot of the catalogue")

@@ -10,11 +10,11 @@ from html import escape
 from pathlib import Path
 from typing import Literal
 
-from ..errors import ModelError, unknown_name
+from ..errors import ModelError, NameNotFound, unknown_name
 from .stances import STANCES, Stance
 from .table import EXAMPLE_ROBOT_DATA, MODELS, Row
 
-__all__ = ["Catalogue", "Robot", "find", "robots"]
+__all__ = ["Catalogue", "Robot", "find", "known", "robots"]
 
 Source = Literal["models", "example-robot-data"]
 
@@ -144,9 +144,16 @@ def find(name: str) -> Robot:
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown robot 'talos'; did you mean 'talos_left_arm', 'talos_full_v2', ...
     """
-    if name not in _by_name():
-        raise unknown_name("robot", name, (robot.name for robot in robots()))
+    if not known(name):
+        lower = name.lower()  # as all the names are: "GO2" means go2
+        error = unknown_name("robot", lower, (robot.name for robot in robots()))
+        raise NameNotFound(str(error).replace(repr(lower), repr(name), 1))
     return _by_name()[name]
+
+
+def known(name: str) -> bool:
+    """Whether a robot has this name."""
+    return name in _by_name()
 
 
 @cache
