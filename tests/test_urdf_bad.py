@@ -83,7 +83,7 @@ FAULTS = {
     "zero axis": (changed(LIMIT, LIMIT + '<axis xyz="0 0 0"/>'), ["'j'", "axis is zero"]),
     "axis without xyz": (changed(LIMIT, LIMIT + "<axis/>"), ["'j'", "<axis> has no xyz"]),
     "axis of two": (changed(LIMIT, LIMIT + '<axis xyz="0 1"/>'), ["'j'", "<axis xyz='0 1'>", "3 numbers, got 2"]),
-    "planar without axis": (changed(JOINT, PLANAR), ["'j'", "planar", "0 0 1"]),
+    "planar without axis": (changed(JOINT, PLANAR), ["'j'", "planar", "0 0 1", "got no <axis>, which means 1 0 0"]),
     "planar across": (changed(JOINT, PLANAR.replace(LIMIT, '<axis xyz="0 1 0"/>')), ["planar", "[0.0, 1.0, 0.0]"]),
     "planar upside down": (changed(JOINT, PLANAR.replace(LIMIT, '<axis xyz="0 0 -1"/>')), ["planar", "0 0 1"]),
     "two axes": (changed(LIMIT, LIMIT + 2 * '<axis xyz="0 0 1"/>'), ["'j'", "two <axis>"]),
@@ -95,6 +95,19 @@ FAULTS = {
     "lower above the default": (changed('lower="-1" upper="1"', 'lower="1"'), ["lower limit 1.0", "upper limit 0.0"]),
     "negative effort": (changed('effort="1"', 'effort="-1"'), ["'j'", "effort limit is -1.0", "0 or more"]),
     "mimic of nobody": (changed(LIMIT, LIMIT + "<mimic/>"), ["'j'", "<mimic> names no joint"]),
+    # slips of the pen
+    "axs": (changed(LIMIT, LIMIT + '<axs xyz="0 0 1"/>'), ["line 4", "joint 'j'", "<axs>", "did you mean <axis>"]),
+    "inertal": (GOOD.replace("inertial", "inertal"), ["line 2", "link 'a'", "<inertal>", "did you mean <inertial>"]),
+    "orgin": (changed(LIMIT, LIMIT + '<orgin xyz="1 0 0"/>'), ["'j'", "<orgin>", "did you mean <origin>"]),
+    "orgin of a mass": (changed("<inertial>", '<inertial><orgin xyz="1 0 0"/>'), ["link 'a'", "<orgin>", "<origin>"]),
+    "capitals": (changed(LIMIT, LIMIT + '<Axis xyz="0 0 1"/>'), ["'j'", "<Axis>", "did you mean <axis>"]),
+    "xzy": (changed(LIMIT, LIMIT + '<origin xzy="1 0 0"/>'), ["'j'", "attribute 'xzy' of <origin>", "mean 'xyz'"]),
+    "ryp": (changed(LIMIT, LIMIT + '<origin ryp="1 0 0"/>'), ["'j'", "attribute 'ryp' of <origin>", "mean 'rpy'"]),
+    "uper": (changed('upper="1"', 'uper="1"'), ["'j'", "attribute 'uper' of <limit>", "did you mean 'upper'"]),
+    "mimics": (changed(LIMIT, LIMIT + '<mimics joint="k"/>'), ["'j'", "<mimics>", "did you mean <mimic>"]),
+    "jiont": (GOOD.replace("joint", "jiont"), ["line 4", "the robot", "<jiont>", "did you mean <joint>"]),
+    "inertia in a link": (changed(INERTIAL, INERTIAL[27:-11]), ["line 2", "'a'", "<inertia>", "mean <inertial>"]),
+    "quaternion": (changed(LIMIT, LIMIT + '<origin quat_xyzw="0 0 0 1"/>'), ["'j'", "quat_xyzw", "not read", "rpy"]),
     # numbers
     "nan in a limit": (changed('upper="1"', 'upper="nan"'), ["'j'", "<limit upper='nan'>", "not a finite number"]),
     "infinite limit": (changed('effort="1"', 'effort="inf"'), ["'j'", "not a finite number"]),
@@ -164,6 +177,17 @@ def test_fault_is_named(save, text, words):
 def test_faults_do_not_depend_on_the_base(save, base):
     for text, words in FAULTS.values():
         refuse(save(text), *words, base=base)
+
+
+def test_what_drivers_and_simulators_add_is_passed_over(save):
+    extras = '<hardwareInterface/><safety_controller/><dynamics damping="1"/><role/><s:axs xmlns:s="urn:sim"/>'
+    limit = LIMIT.replace("<limit", '<limit gear_velocity="9" command_effort="9"')
+    assert load(save(changed(LIMIT, limit + extras).replace("</robot>", "<gazebo/><sensor/></robot>"))).nv == 1
+
+
+def test_the_place_of_a_fault_in_the_xml_is_said_once(save):
+    message = refuse(save(changed('<parent link="a"/>', "<parent link=a/>")), "line 4, column ", "not well-formed XML")
+    assert message.count("column") == message.count("line 4") == 1
 
 
 # -------------------------------------------------------------------- bodies that cannot exist
@@ -246,8 +270,30 @@ def test_missing_file_is_named(tmp_path):
     refuse(Path("go2"), "go2", "no such file")  # a Path is a path, never a name
 
 
-def test_directory_is_no_file(tmp_path):
+def test_a_null_character_is_in_no_path():
+    refuse("a\0b.urdf", r"'a\x00b.urdf'", "null character")
+    refuse(Path("a\0b"), r"'a\x00b'", "null character")
+
+
+def test_directory_is_no_file(tmp_path, monkeypatch):
     refuse(tmp_path, str(tmp_path), "is a directory")
+    (tmp_path / "folder").mkdir()
+    monkeypatch.chdir(tmp_path)
+    refuse("folder", "folder", "is a directory")
+
+
+def test_a_file_needs_no_ending_and_a_robots_name_is_not_a_file(save, tmp_path, monkeypatch):
+    save(GOOD).rename(tmp_path / "machine")
+    (tmp_path / "pendulum").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert load("machine").nv == 1
+    assert load("pendulum").name == "pendulum"
+
+
+def test_a_path_that_ends_as_a_robot_says_how_to_load_the_robot(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    refuse("./go2", "./go2: no such file", "'go2' without a folder is a robot of the catalogue")
+    refuse("./go3", "no such file")
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")

@@ -58,6 +58,8 @@ def read_robot_xml(path: Path) -> XML:
 
 def _read(path: Path) -> bytes:
     """Return the content of a regular file that is not empty."""
+    if "\0" in str(path):
+        raise ModelError(f"{str(path)!r}: a path holds no null character")
     try:
         if path.is_dir():
             raise ModelError(f"{path}: is a directory, expected a .urdf file")
@@ -81,14 +83,16 @@ def _parse(path: Path, data: bytes) -> XML:
     try:
         return etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
-        reason, line = error.msg or "nothing could be parsed", error.lineno
+        line, column = error.position
+        place = f"line {line}, column {column}"
+        reason = (error.msg or "nothing could be parsed").removesuffix(f", {place}")
     except ValueError as error:
-        reason, line = str(error), 1
+        reason, place = str(error), "line 1"
     if "entity amplification" in reason or "entity reference loop" in reason:
-        raise ModelError(f"{path}, line {line}: {DOCTYPE} ({reason})")
+        raise ModelError(f"{path}, {place}: {DOCTYPE} ({reason})")
     if "depth" in reason.lower():
-        raise ModelError(f"{path}, line {line}: elements are nested deeper than any robot's ({reason})")
-    raise ModelError(f"{path}, line {line}: not well-formed XML: {reason}")
+        raise ModelError(f"{path}, {place}: elements are nested deeper than any robot's ({reason})")
+    raise ModelError(f"{path}, {place}: not well-formed XML: {reason}")
 
 
 def _drop_namespace(root: XML) -> None:

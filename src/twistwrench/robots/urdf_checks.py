@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ..errors import ModelError, unknown_name
 from .reading import XML
+from .urdf_words import check_words
 
 __all__ = ["INERTIA", "JOINT_TYPES", "LIMITS", "check_robot"]
 
@@ -38,6 +39,7 @@ def check_robot(path: Path, root: XML) -> None:
     ModelError
         Naming the file, the line, the link or joint, and what was expected.
     """
+    check_words(path, root)
     links, joints = _named(path, root, "link"), _named(path, root, "joint")
     if not links:
         raise ModelError(f"{path}: the robot has no <link>")
@@ -117,8 +119,9 @@ def _check_axis(path: Path, what: str, joint: XML, kind: str) -> None:
     axis = [1.0, 0.0, 0.0] if element is None else _numbers(path, element, what, "xyz", 3)
     place = _at(path, joint if element is None else element)
     if kind == "planar" and not (axis[0] == axis[1] == 0 < axis[2]):
+        got = "no <axis>, which means 1 0 0" if element is None else str(axis)
         raise ModelError(
-            f"{place}: {what}: a planar joint moves in its x-y plane: expected <axis xyz='0 0 1'/>, got {axis} "
+            f"{place}: {what}: a planar joint moves in its x-y plane: expected <axis xyz='0 0 1'/>, got {got} "
             "(turn the joint's origin instead; Pinocchio ignores this axis)"
         )
     if kind != "floating" and not any(axis):
