@@ -165,6 +165,19 @@ def test_twists_and_wrenches_with_a_type_are_taken():
     assert (bridge.to_pinocchio_force(tw.Wrench(x)) == [3, 4, 5, 0, 1, 2]).all()
 
 
+def test_twists_and_wrenches_that_change_places_are_refused():
+    V, F = tw.Twist(np.arange(6)), tw.Wrench(np.arange(6))
+    with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
+        bridge.to_pinocchio_motion(F)
+    with pytest.raises(TypeError, match="F: expected a Wrench or an array, got a Twist"):
+        bridge.to_pinocchio_force(V)
+    for ours in (V, F, [V, V]):  # in our order: there is nothing to take from Pinocchio's
+        with pytest.raises(TypeError, match=r"V: expected a pin\.Motion or an array, got a (Twist|Wrench), angular"):
+            bridge.from_pinocchio_motion(ours)
+        with pytest.raises(TypeError, match=r"F: expected a pin\.Force or an array, got a (Twist|Wrench), angular"):
+            bridge.from_pinocchio_force(ours)
+
+
 # -------------------------------------------------------------------- every quantity against Pinocchio's
 
 

@@ -3,15 +3,19 @@
 import numpy as np
 import pytest
 
+from twistwrench.cross import cross_force, cross_motion
 from twistwrench.errors import FrameError, ShapeError
 from twistwrench.exponential import exp6
+from twistwrench.inertia import SpatialInertia
 from twistwrench.plucker import SE3
 from twistwrench.rotation import exp3
-from twistwrench.twist import Twist, screw
+from twistwrench.twist import Twist, hat, screw
 from twistwrench.wrench import Wrench, power
 
 SHAPES = [(), (1,), (3, 1, 2), (0,)]
 DTYPES = [np.float32, np.float64, np.longdouble, np.complex64, np.complex128, np.clongdouble]
+
+BODY = SpatialInertia(2.0, [0.1, 0, 0.2], np.diag([3, 2, 2]))
 
 
 def placement(seed):
@@ -129,6 +133,14 @@ def test_power_refuses_anything_but_a_wrench_and_a_twist():
         np.eye(6) @ F
     with pytest.raises(TypeError):
         V @ V
+
+
+@pytest.mark.parametrize("function", [hat, exp6, cross_motion, cross_force, BODY.momentum, BODY.kinetic_energy])
+def test_a_wrench_where_a_twist_belongs_is_refused(function):
+    with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
+        function(Wrench(np.ones(6)))
+    typed, plain = function(Twist(np.ones(6))), function(np.ones(6))
+    assert typed == plain if isinstance(plain, SE3) else (typed == plain).all()
 
 
 def test_power_in_two_frames_is_refused_with_the_expression_and_both_frames():

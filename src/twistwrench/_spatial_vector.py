@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, NoReturn, Self
+from typing import ClassVar, Literal, NoReturn, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, DTypeLike
 from .checks import Array, as_array, as_arrays
 from .errors import FrameError
 
-__all__ = ["SpatialVector", "common_frame", "latex_matrix"]
+__all__ = ["SpatialVector", "as_spatial", "common_frame", "latex_matrix"]
 
 
 class SpatialVector:
@@ -126,6 +126,14 @@ def common_frame(a: SpatialVector, sign: str, b: SpatialVector) -> str | None:
             "bring one into the frame of the other first, with .transform(T, frame=...)"
         )
     return b.frame if a.frame is None else a.frame
+
+
+def as_spatial(value: ArrayLike, name: Literal["V", "F"]) -> Array:
+    """Return the six numbers of an argument V, a Twist, or F, a Wrench; plain arrays pass, the other type does not."""
+    if isinstance(value, SpatialVector) and value._symbol != name:
+        expected = "Twist" if name == "V" else "Wrench"
+        raise TypeError(f"{name}: expected a {expected} or an array, got a {type(value).__name__}")
+    return as_array(value, name, 6)
 
 
 def latex_matrix(rows: Array) -> str:

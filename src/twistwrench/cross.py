@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array, as_array
+from ._spatial_vector import as_spatial
+from .checks import Array
 from .plucker import blocks
 from .rotation import cross_matrix
 
@@ -17,8 +18,8 @@ def cross_motion(V: ArrayLike) -> Array:
 
     Parameters
     ----------
-    V : array_like, shape (..., 6)
-        Twist (ω, v), rad/s and m/s.
+    V : Twist or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s.
 
     Returns
     -------
@@ -28,13 +29,15 @@ def cross_motion(V: ArrayLike) -> Array:
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If `V` is a Wrench.
 
     Examples
     --------
     >>> cross_motion([0, 0, 1, 0, 0, 0]) @ [1, 0, 0, 0, 0, 0]
     array([0., 1., 0., 0., 0., 0.])
     """
-    V = as_array(V, "V", 6)
+    V = as_spatial(V, "V")
     W = cross_matrix(V[..., :3])
     return blocks(W, np.zeros_like(W), cross_matrix(V[..., 3:]), W)
 
@@ -44,8 +47,8 @@ def cross_force(V: ArrayLike) -> Array:
 
     Parameters
     ----------
-    V : array_like, shape (..., 6)
-        Twist (ω, v), rad/s and m/s.
+    V : Twist or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s.
 
     Returns
     -------
@@ -55,6 +58,8 @@ def cross_force(V: ArrayLike) -> Array:
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If `V` is a Wrench.
 
     Examples
     --------

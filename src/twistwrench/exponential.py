@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._scalars import cosine_defect, length, sinc, sine_defect_root
-from .checks import Array, as_array
+from ._spatial_vector import as_spatial
+from .checks import Array
 from .plucker import SE3
 from .rotation import exp3, log3
 
@@ -21,7 +22,7 @@ def exp6(V: ArrayLike) -> SE3:
 
     Parameters
     ----------
-    V : array_like, shape (..., 6)
+    V : Twist or array_like of shape (..., 6)
         (ω, v): rad and m, that is a twist times a time.
 
     Returns
@@ -33,13 +34,15 @@ def exp6(V: ArrayLike) -> SE3:
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If `V` is a Wrench.
 
     Examples
     --------
     >>> exp6([0, 0, 0, 1, 2, 3]).translation
     array([1., 2., 3.])
     """
-    V = as_array(V, "V", 6)
+    V = as_spatial(V, "V")
     w, v = V[..., :3], V[..., 3:]
     theta = length(w)[..., None]
     H, c = sinc(theta / 2) / 2, sine_defect_root(theta) * w

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ._physical import check_physical
 from ._scalars import largest, which
+from ._spatial_vector import as_spatial
 from .checks import Array, as_array, as_arrays, resolution
 from .cross import cross_force, cross_motion
 from .errors import ModelError, ShapeError
@@ -213,6 +214,8 @@ class SpatialInertia:
         ------
         ShapeError
             If the last axis is not 6 long.
+        TypeError
+            If `V` is a Wrench.
 
         Examples
         --------
@@ -240,6 +243,8 @@ class SpatialInertia:
         ------
         ShapeError
             If the last axis is not 6 long.
+        TypeError
+            If `V` is a Wrench.
 
         Examples
         --------
@@ -252,7 +257,7 @@ class SpatialInertia:
 
     def _velocity_of_com(self, V: ArrayLike) -> tuple[Array, Array]:
         """Return ω and the velocity v + ω×c of the centre of mass, over the batch axes of both."""
-        V = as_array(V, "V", 6)
+        V = as_spatial(V, "V")
         v_c = V[..., 3:] + np.cross(V[..., :3], self.com)
         return np.broadcast_to(V[..., :3], v_c.shape), v_c
 

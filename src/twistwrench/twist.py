@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._scalars import largest, length, which
-from ._spatial_vector import SpatialVector
+from ._spatial_vector import SpatialVector, as_spatial
 from .checks import Array, as_array, resolution
 from .errors import ShapeError, SingularError
 from .rotation import cross_matrix, unskew
@@ -50,8 +50,8 @@ def hat(V: ArrayLike) -> Array:
 
     Parameters
     ----------
-    V : array_like, shape (..., 6)
-        Twist (ω, v), rad/s and m/s.
+    V : Twist or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s.
 
     Returns
     -------
@@ -61,6 +61,8 @@ def hat(V: ArrayLike) -> Array:
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If `V` is a Wrench.
 
     Examples
     --------
@@ -70,7 +72,7 @@ def hat(V: ArrayLike) -> Array:
            [ 0.,  0.,  0.,  0.],
            [ 0.,  0.,  0.,  0.]])
     """
-    V = as_array(V, "V", 6)
+    V = as_spatial(V, "V")
     M = np.zeros((*V.shape[:-1], 4, 4), V.dtype)
     M[..., :3, :3], M[..., :3, 3] = cross_matrix(V[..., :3]), V[..., 3:]
     return M

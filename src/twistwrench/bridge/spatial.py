@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .._spatial_vector import SpatialVector, as_spatial
 from ..checks import Array, as_array
 
 __all__ = [
@@ -44,13 +45,15 @@ def to_pinocchio_motion(V: ArrayLike) -> Array:
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If `V` is a Wrench.
 
     Examples
     --------
     >>> to_pinocchio_motion([1, 2, 3, 4, 5, 6])
     array([4., 5., 6., 1., 2., 3.])
     """
-    return as_array(V, "V", 6)[..., HALVES]
+    return as_spatial(V, "V")[..., HALVES]
 
 
 def from_pinocchio_motion(V: Any) -> Array:
@@ -71,7 +74,7 @@ def from_pinocchio_motion(V: Any) -> Array:
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If a ``pin.Force`` came.
+        If a ``pin.Force`` came, or a Twist or Wrench, which is (ω, v) or (τ, f) already.
 
     Examples
     --------
@@ -98,13 +101,15 @@ def to_pinocchio_force(F: ArrayLike) -> Array:
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If `F` is a Twist.
 
     Examples
     --------
     >>> to_pinocchio_force([1, 2, 3, 4, 5, 6])
     array([4., 5., 6., 1., 2., 3.])
     """
-    return as_array(F, "F", 6)[..., HALVES]
+    return as_spatial(F, "F")[..., HALVES]
 
 
 def from_pinocchio_force(F: Any) -> Array:
@@ -125,7 +130,7 @@ def from_pinocchio_force(F: Any) -> Array:
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If a ``pin.Motion`` came.
+        If a ``pin.Motion`` came, or a Twist or Wrench, which is (ω, v) or (τ, f) already.
 
     Examples
     --------
@@ -137,6 +142,8 @@ def from_pinocchio_force(F: Any) -> Array:
 
 def _vectors(value: Any, name: str, kind: str) -> Any:
     """Take the six numbers out of Pinocchio's own type, or out of each of a sequence."""
+    if isinstance(value, SpatialVector):
+        raise TypeError(f"{name}: expected a pin.{kind} or an array, got a {type(value).__name__}, angular part first")
     if hasattr(value, "vector"):
         if type(value).__name__ != kind:
             raise TypeError(f"{name}: expected a pin.{kind} or an array, got a pin.{type(value).__name__}")
