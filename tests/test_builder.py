@@ -235,6 +235,123 @@ def test_names_that_are_taken_or_unknown_are_refused():
         builder.link("base_link", parent="arm")
 
 
+def test_name_of_the_world_is_refused():
+    builder = tw.Builder("names")
+    for add in (
+        lambda: builder.link("universe", parent="base_link"),
+        lambda: builder.link("arm", parent="base_link", joint=tw.Revolute("x"), joint_name="universe"),
+        lambda: tw.Builder("names", root="universe"),
+    ):
+        with pytest.raises(tw.ModelError, match="'universe': the name belongs to the world"):
+            add()
+
+
+@pytest.mark.parametrize("name", [3, None, ["arm"]], ids=str)
+def test_name_that_is_none_is_refused(name):
+    builder = tw.Builder("names")
+    with pytest.raises(TypeError, match="link: expected a name, got"):
+        builder.link(name, parent="base_link")
+    with pytest.raises(tw.NameNotFound, match="parent link: expected a name, got"):
+        builder.link("arm", parent=name)
+    with pytest.raises(TypeError, match="link: expected a name, got"):
+        tw.Builder("names", root=name)
+
+
+def test_frame_name_that_two_want_is_refused():
+    links = [
+        ("elbow", {"parent": "base_link", "joint": tw.Revolute("z"), "joint_name": "shoulder"}),
+        ("arm", {"parent": "elbow", "joint": tw.Revolute("z"), "joint_name": "elbow", "placement": at(1, 0, 0)}),
+        ("link:elbow", {"parent": "arm"}),
+    ]
+    with pytest.raises(tw.ModelError, match="the frame name 'link:elbow' is taken"):
+        build(links)
+
+
+@pytest.mark.parametrize(
+    ("mass", "moments", "message"),
+    [
+        (1.0, [1, 1, 10], "link 'arm': .*triangle inequality"),
+        (1.0, [-1, 1, 1], "link 'arm': .*positive definite"),
+        (0.0, [1, 1, 1], "link 'arm': it moves, and has an inertia but no mass"),
+    ],
+)
+def test_body_that_cannot_exist_is_refused_once_it_is_whole(mass, moments, message):
+    builder = tw.Builder("bad")
+    builder.link("arm", parent="base_link", joint=tw.Revolute("x"))
+    builder.link("hand", parent="arm", inertia=tw.SpatialInertia(mass, [0, 0, 0], np.diag(moments)))
+    with pytest.raises(tw.ModelError, match=message):
+        builder.build()
+    if mass:
+        assert builder.build(physical=False).mass == mass
+    builder.link("ballast", parent="arm", inertia=tw.SpatialInertia(9.0, [0, 0, 0], 9 * np.eye(3)))
+    assert builder.build().mass == mass + 9  # the body is the sum
+
+
+def test_sum_that_overflows_is_refused():
+    far = tw.SE3(np.eye(3), [1e200, 0, 0])
+    links = [("arm", {"parent": "base_link", "joint": tw.Revolute("x")}), ("end", {"parent": "arm", "placement": far,
+             "inertia": lump(1)})]  # fmt: skip
+    with pytest.raises(tw.ModelError, match="joint 'arm': what hangs on it overflows"):
+        build(links)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"joint": tw.Spherical}, "link 'arm': joint: expected a joint .*, got the class Spherical"),
+        ({"joint": "revolute"}, "link 'arm': joint: expected a joint .*, got str 'revolute'"),
+        ({"inertia": 1.0}, "link 'arm': inertia: expected a SpatialInertia, got float"),
+        ({"inertia": np.eye(6)}, "link 'arm': inertia: expected a SpatialInertia, got ndarray"),
+        ({"placement": np.eye(4)}, "link 'arm': placement: expected an SE3, got ndarray"),
+    ],
+    ids=["class", "kind", "mass", "matrix", "placement"],
+)
+def test_argument_of_the_wrong_kind_is_named(arguments, message):
+    with pytest.raises(TypeError, match=message):
+        tw.Builder("bad").link("arm", **({"parent": "base_link", "joint": tw.Revolute("x")} | arguments))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"placement": tw.SE3(np.eye(3), np.zeros((2, 3)))}, "placement: expected a single one, got a batch"),
+        ({"inertia": tw.SpatialInertia([1, 2], np.zeros(3), np.eye(3))}, "inertia: expected a single one, got a batch"),
+        ({"placement": tw.SE3(np.eye(3), [1j, 0, 0])}, "placement: expected real numbers"),
+        ({"inertia": tw.SpatialInertia(1 + 1j, [0, 0, 0], np.eye(3))}, "inertia: expected real numbers"),
+        ({"lower": -1j}, "lower: expected real numbers"),
+    ],
+    ids=["placements", "inertias", "complex placement", "complex inertia", "complex limit"],
+)
+def test_batch_and_complex_number_are_refused(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        tw.Builder("bad").link("arm", **({"parent": "base_link", "joint": tw.Revolute("x")} | arguments))
+
+
+def test_gravity_is_one_real_vector():
+    with pytest.raises(ValueError, match="gravity: expected real numbers, got complex128"):
+        tw.Builder("bad", gravity=[0, 0, 1j])
+    with pytest.raises(tw.ShapeError, match=r"gravity: expected shape \(3,\), got \(2, 3\)"):
+        tw.Builder("bad", gravity=np.zeros((2, 3)))
+
+
+def test_placement_in_single_precision_becomes_a_rotation_in_double():
+    R = tw.exp3(np.array([0.3, -0.8, 0.5], np.float32))
+    assert np.abs(R.mT @ R - np.eye(3)).max() > 1e-9
+    model = build(
+        [("arm", {"parent": "base_link", "joint": tw.Revolute("x"), "placement": tw.SE3(R, np.zeros(3, np.float32))})]
+    )
+    own = model.placement[1].rotation
+    assert np.abs(own.mT @ own - np.eye(3)).max() < 1e-15
+    assert np.abs(own - R).max() < 1e-6
+
+
+def test_builder_says_how_far_it_is():
+    builder = tw.Builder("dog", base="floating")
+    builder.link("leg", parent="base_link", joint=tw.Revolute("x"))
+    builder.link("foot", parent="leg")
+    assert repr(builder) == "<Builder 'dog': floating base, 3 links, 2 joints>"
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -245,6 +362,12 @@ def test_names_that_are_taken_or_unknown_are_refused():
         ({"effort_limit": [1, 2, 3]}, "joint 'hinge': effort_limit: expected shape"),
         ({"armature": -0.1}, "joint 'hinge': armature -0.1 is below zero"),
         ({"armature": np.nan}, "joint 'hinge': armature: is not a number"),
+        ({"armature": np.inf}, "joint 'hinge': armature inf is not finite"),
+        ({"velocity_limit": -1}, "joint 'hinge': velocity_limit -1 is below zero"),
+        ({"effort_limit": -1}, "joint 'hinge': effort_limit -1 is below zero"),
+        ({"lower": -np.inf, "upper": -np.inf}, "joint 'hinge': no number lies between"),
+        ({"lower": np.inf}, "joint 'hinge': no number lies between"),
+        ({"joint": None, "lower": 0.0}, "link 'arm': .* welded on"),
         ({"joint": None, "armature": 0.1}, "link 'arm': .* welded on"),
         ({"joint": None, "lower": -1.0}, "link 'arm': .* welded on"),
         ({"joint": None, "effort_limit": 3.0}, "link 'arm': .* welded on"),

@@ -24,6 +24,8 @@ ORDER = [
         "constants",
         "state",
         "model",
+        "links",
+        "numbering",
         "builder",
         "trees",
         "tree",

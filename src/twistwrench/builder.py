@@ -8,40 +8,25 @@ first, siblings in the order of their joints' names.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array, as_array
+from .checks import Array, as_array, as_constant
 from .errors import ModelError, ShapeError, unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
 from .joint_types import FreeFlyer
-from .model import Frame, Model
+from .links import UNLIMITED, WORLD, Link
+from .model import Model
+from .numbering import Numbered
 from .plucker import SE3
 
 __all__ = ["Builder"]
 
 Base = Literal["fixed", "floating"]
-
-
-@dataclass(frozen=True)
-class _Link:
-    """What `Builder.link` was told."""
-
-    name: str
-    parent: str
-    joint: Joint | None
-    joint_name: str
-    placement: SE3
-    inertia: SpatialInertia
-    lower: Array
-    upper: Array
-    velocity_limit: Array
-    effort_limit: Array
-    armature: Array
 
 
 class Builder:
@@ -63,7 +48,11 @@ class Builder:
     Raises
     ------
     ModelError
-        If `base` is neither.
+        If `base` is neither, or `root` is the world's name.
+    ShapeError, ValueError
+        If `gravity` is not three real numbers.
+    TypeError
+        If `root` or `root_inertia` is none.
 
     Examples
     --------
@@ -89,11 +78,14 @@ class Builder:
             raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
         self._name = name
         self._base = base
-        self._gravity = as_array(gravity, "gravity", 3).astype(np.float64)
-        self._links: dict[str, _Link] = {}
-        flyer = FreeFlyer() if base == "floating" else None
-        inertia, joint_name = root_inertia or SpatialInertia.zero(), "root_joint" if flyer else ""
-        self._add(root, "universe", flyer, joint_name, SE3.identity(), inertia, {}, 0.0)
+        as_array(gravity, "gravity", 3)  # three numbers, finite
+        self._gravity = as_constant(gravity, "gravity")
+        if self._gravity.shape != (3,):
+            raise ShapeError(f"gravity: expected shape (3,), got {self._gravity.shape}")
+        self._links: dict[str, Link] = {}
+        flyer, joint_name = (FreeFlyer(), "root_joint") if base == "floating" else (None, "")
+        inertia = SpatialInertia.zero() if root_inertia is None else root_inertia
+        self._add(Link.checked(root, WORLD, flyer, joint_name, SE3.identity(), inertia, UNLIMITED))
 
     def link(
         self,
@@ -134,55 +126,43 @@ class Builder:
         Raises
         ------
         ModelError
-            A name that is taken, limits that cross, an armature below zero, limits or an armature on a weld.
+            A name that is taken or the world's; limits that cross; a limit of speed or effort, or an armature,
+            below zero; limits or an armature on a weld; complex numbers.
+        ShapeError
+            A batch of placements or inertias, or limits of a wrong shape.
+        TypeError
+            A name, joint, placement or inertia that is none.
         NameNotFound
             If the parent is not known.
         """
-        limits = {"lower": lower, "upper": upper, "velocity_limit": velocity_limit, "effort_limit": effort_limit}
-        if parent not in self._links:
+        if not isinstance(parent, str) or parent not in self._links:
             raise unknown_name("parent link", parent, self._links)
-        self._add(
-            name,
-            parent,
-            joint,
-            joint_name or name,
-            placement or SE3.identity(),
-            inertia or SpatialInertia.zero(),
-            limits,
-            armature,
-        )
+        numbers = {
+            "lower": lower,
+            "upper": upper,
+            "velocity_limit": velocity_limit,
+            "effort_limit": effort_limit,
+            "armature": armature,
+        }
+        placement = SE3.identity() if placement is None else placement
+        inertia = SpatialInertia.zero() if inertia is None else inertia
+        joint_name = name if joint_name is None else joint_name
+        self._add(Link.checked(name, parent, joint, joint_name, placement, inertia, numbers))
 
-    def _add(
-        self,
-        name: str,
-        parent: str,
-        joint: Joint | None,
-        joint_name: str,
-        placement: SE3,
-        inertia: SpatialInertia,
-        limits: Mapping[str, ArrayLike],
-        armature: ArrayLike,
-    ) -> None:
-        if name in self._links:
-            raise ModelError(f"link {name!r}: the name is taken")
-        if joint_name in (other.joint_name for other in self._links.values()):
-            raise ModelError(f"link {name!r}: the joint name {joint_name!r} is taken")
-        nq, nv = (joint.nq, joint.nv) if joint else (0, 0)
-        wide = {"lower": -np.inf, "upper": np.inf, "velocity_limit": np.inf, "effort_limit": np.inf} | dict(limits)
-        sizes = {"lower": nq, "upper": nq, "velocity_limit": nv, "effort_limit": nv}
-        vectors = {key: _vector(wide[key], size, f"joint {joint_name!r}: {key}") for key, size in sizes.items()}
-        if (vectors["lower"] > vectors["upper"]).any():
-            raise ModelError(
-                f"joint {joint_name!r}: lower limit {vectors['lower']} is above upper limit {vectors['upper']}"
-            )
-        rotor = _vector(armature, nv, f"joint {joint_name!r}: armature")
-        if (rotor < 0).any():
-            raise ModelError(f"joint {joint_name!r}: armature {armature!r} is below zero")
-        if joint is None and (np.any(armature) or any(np.isfinite(limit).any() for limit in limits.values())):
-            raise ModelError(f"link {name!r}: limits and armature belong to a joint, and this link is welded on")
-        self._links[name] = _Link(name, parent, joint, joint_name, placement, inertia, **vectors, armature=rotor)
+    def __repr__(self) -> str:
+        joints = sum(link.joint is not None for link in self._links.values())
+        return f"<Builder {self._name!r}: {self._base} base, {len(self._links)} links, {joints} joints>"
 
-    def build(self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = ()) -> Model:
+    def _add(self, link: Link) -> None:
+        if link.name in self._links:
+            raise ModelError(f"link {link.name!r}: the name is taken")
+        if link.joint_name in (other.joint_name for other in self._links.values()):
+            raise ModelError(f"link {link.name!r}: the joint name {link.joint_name!r} is taken")
+        self._links[link.name] = link
+
+    def build(
+        self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = (), physical: bool = True
+    ) -> Model:
         """Make the model.
 
         Parameters
@@ -191,6 +171,9 @@ class Builder:
             Named configurations.
         feet : sequence of str
             The frames on which a legged robot stands.
+        physical : bool
+            Refuse a moving body, welded links merged, that cannot exist (`SpatialInertia.check_physical`).
+            A body without mass may be there all the same, if it has no inertia either.
 
         Returns
         -------
@@ -200,13 +183,18 @@ class Builder:
         ------
         NameNotFound, ShapeError, ValueError
             If a foot is no frame, or a posture is no configuration.
+        ModelError
+            If a body cannot exist, numbers overflow where links are merged, or two frames want one name.
         """
-        tree = _Numbered(self._links)
+        with np.errstate(over="ignore", invalid="ignore"):
+            tree = Numbered(self._links)
+            tree.check_finite()
+        tree.check_bodies(physical)
         moved = tree.moved
         model = Model(
             name=self._name,
             base=self._base,
-            joint_names=("universe", *(link.joint_name for link in moved)),
+            joint_names=(WORLD, *(link.joint_name for link in moved)),
             joints=(None, *(link.joint for link in moved)),
             parent=tuple(tree.parent),
             placement=tuple(tree.placement),
@@ -225,63 +213,6 @@ class Builder:
             model.frame(foot)
         checked = {name: _join([model.state(q)[0]]) for name, q in (postures or {}).items()}
         return replace(model, postures=checked)
-
-
-class _Numbered:
-    """The links in their final order, depth first: bodies numbered, welded links merged."""
-
-    def __init__(self, links: Mapping[str, _Link]) -> None:
-        self.moved: list[_Link] = []
-        self.parent, self.placement, self.inertia = [-1], [SE3.identity()], [SpatialInertia.zero()]
-        found: dict[tuple[str, str], Frame] = {}
-        children: dict[str, list[_Link]] = {name: [] for name in ("universe", *links)}
-        for link in sorted(links.values(), key=lambda link: link.joint_name, reverse=True):
-            children[link.parent].append(link)
-        waiting = [(link, 0, SE3.identity()) for link in children["universe"]]
-        while waiting:  # the last one in is the first one out, hence the reversed order above
-            link, carrier, in_carrier = waiting.pop()
-            carrier, at = self._place(link, carrier, in_carrier @ link.placement)
-            if link.joint is not None or link.parent != "universe":  # a fixed root link hangs on no joint
-                found["joint", link.joint_name] = Frame(carrier, at)
-            found["link", link.name] = Frame(carrier, at)
-            waiting += [(child, carrier, at) for child in children[link.name]]
-        self.frames = _named(found)
-
-    def _place(self, link: _Link, carrier: int, at: SE3) -> tuple[int, SE3]:
-        """Give a moved link its number, or merge a welded one; return the body and where the link is in it."""
-        if link.joint is not None:
-            self.moved.append(link)
-            self.parent.append(carrier)
-            self.placement.append(at)
-            self.inertia.append(link.inertia)
-            carrier, at = len(self.parent) - 1, SE3.identity()
-        elif carrier > 0:  # what is welded to the world never moves
-            self.inertia[carrier] = self.inertia[carrier] + link.inertia.transform(at)
-        return carrier, at
-
-
-def _named(found: Mapping[tuple[str, str], Frame]) -> dict[str, Frame]:
-    """Name the frames of links and joints.
-
-    A link and a joint of one name are one frame where they share the place. Where they do not, neither
-    gets the bare name, so that nobody takes one for the other: ``link:name`` and ``joint:name``.
-    """
-    frames = {}
-    for (kind, name), frame in found.items():
-        other = found.get(("link" if kind == "joint" else "joint", name), frame)
-        same = other.body == frame.body and bool((other.placement.matrix() == frame.placement.matrix()).all())
-        frames[name if same else f"{kind}:{name}"] = frame
-    return frames
-
-
-def _vector(value: ArrayLike, size: int, what: str) -> Array:
-    """Return a float64 vector of `size` entries; a scalar is repeated."""
-    x = np.asarray(value, dtype=np.float64)
-    if x.shape not in ((), (size,)):
-        raise ShapeError(f"{what}: expected shape () or ({size},), got {x.shape}")
-    if np.isnan(x).any():
-        raise ModelError(f"{what}: is not a number")
-    return np.broadcast_to(x, size).copy()
 
 
 def _join(pieces: list[Array]) -> Array:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import ShapeError
 
-__all__ = ["Array", "as_array", "as_arrays", "resolution"]
+__all__ = ["Array", "as_array", "as_arrays", "as_constant", "resolution"]
 
 Array = NDArray[Any]
 
@@ -99,6 +99,21 @@ def as_array(value: ArrayLike, name: str, *tail: int) -> Array:
     twistwrench.errors.ShapeError: omega: expected shape (..., 3), got (2,)
     """
     return as_arrays(**{name: (value, tail)})[0]
+
+
+def as_constant(value: ArrayLike, name: str) -> Array:
+    """Convert a constant of a model to float64: real, of any shape, infinities allowed.
+
+    Examples
+    --------
+    >>> as_constant(1j, "gravity")
+    Traceback (most recent call last):
+    ValueError: gravity: expected real numbers, got complex128
+    """
+    x = _numeric(value, name)
+    if x.dtype.kind == "c":
+        raise ValueError(f"{name}: expected real numbers, got {x.dtype}")
+    return x.astype(np.float64)
 
 
 def _numeric(value: ArrayLike, name: str) -> Array:

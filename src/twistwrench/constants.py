@@ -60,11 +60,11 @@ class Constants:
 def cast(T: SE3, dtype: DTypeLike) -> SE3:
     """Convert a placement to a number type, its rotation orthonormal to that type's precision.
 
-    The model holds it in float64. For a finer type, two steps of Newton's iteration for the nearest
-    rotation, R ← R (3 − RᵀR)/2, remove what float64 could not hold.
+    For a finer type than it has, two steps of Newton's iteration for the nearest rotation,
+    R ← R (3 − RᵀR)/2, remove what the coarser one could not hold.
     """
     R = T.rotation.astype(dtype)
-    if resolution(R.dtype) < resolution(np.float64):
+    if resolution(R.dtype) < resolution(T.rotation.dtype):
         for _ in range(2):
             R = R @ (3 * np.eye(3, dtype=R.dtype) - R.mT @ R) / 2
     return SE3(R, T.translation.astype(dtype))

@@ -27,15 +27,15 @@ class FrameError(ValueError):
     """Two quantities expressed in different frames were combined. The message prints both frames."""
 
 
-def unknown_name(kind: str, name: str, known: Iterable[str]) -> KeyError:
+def unknown_name(kind: str, name: object, known: Iterable[str]) -> NameNotFound:
     """Make the error for a name that is not known, with the nearest known ones.
 
     Parameters
     ----------
     kind : str
         What the name should have named, for example ``"frame"``.
-    name : str
-        The name that came.
+    name : object
+        What came, a string if it is a name at all.
     known : iterable of str
         The names that exist.
 
@@ -52,6 +52,8 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> KeyError:
     """
     import difflib  # only where something went wrong
 
+    if not isinstance(name, str):
+        return NameNotFound(f"{kind}: expected a name, got {type(name).__name__} {name!r}")
     names = list(dict.fromkeys(known))
     near = difflib.get_close_matches(name, names, n=4, cutoff=0.5)
     if near:

@@ -79,9 +79,7 @@ def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, qui
     robot = _through_yourdfpy(root, default_name=path.stem)
     try:
         with np.errstate(over="ignore", invalid="ignore"):
-            model = _build(robot, base, gravity)
-            _check_finite(model)
-        _check_bodies(robot, model, physical)
+            model = _build(robot, base, gravity, physical)
     except ModelError as error:
         raise ModelError(f"{path}: {error}") from None
     return model
@@ -103,7 +101,7 @@ def _through_yourdfpy(root: XML, default_name: str) -> Any:
     return yourdfpy.URDF.load(text, build_scene_graph=False, load_meshes=False).robot
 
 
-def _build(robot: Any, base: Base, gravity: ArrayLike) -> Model:
+def _build(robot: Any, base: Base, gravity: ArrayLike, physical: bool) -> Model:
     """Put the tree together, from the root outwards."""
     links, root = {link.name: link for link in robot.links}, _root(robot)
     builder = Builder(robot.name, base=base, root=root, root_inertia=_inertia(links[root]), gravity=gravity)
@@ -117,7 +115,7 @@ def _build(robot: Any, base: Base, gravity: ArrayLike) -> Model:
             inertia=_inertia(links[joint.child]),
             **_limits(joint),
         )
-    return builder.build()
+    return builder.build(physical=physical)
 
 
 def _root(robot: Any) -> str:
@@ -173,61 +171,6 @@ def _inertia(link: Any) -> SpatialInertia:
         return SpatialInertia.zero()
     about_com = SpatialInertia(link.inertial.mass, np.zeros(3), link.inertial.inertia)
     return about_com.transform(_placement(link.inertial.origin))
-
-
-def _check_finite(model: Model) -> None:
-    """Refuse numbers that are finite in the file and overflow when links are merged."""
-    for i, (inertia, placement) in enumerate(zip(model.inertia, model.placement, strict=True)):
-        if not (np.isfinite(inertia.matrix()).all() and np.isfinite(placement.matrix()).all()):
-            raise ModelError(f"joint {model.joint_names[i]!r}: what hangs on it overflows, or the way to it")
-    for name, frame in model.frames.items():
-        if not np.isfinite(frame.placement.matrix()).all():
-            raise ModelError(f"frame {name!r}: the way to it overflows")
-
-
-# -------------------------------------------------------------------- bodies that can exist
-
-
-def _check_bodies(robot: Any, model: Model, physical: bool) -> None:
-    """Check each moving body, welded links merged: that sum is all that enters the dynamics.
-
-    A single welded link may be a point, or carry an inertia without mass, as in many a real file.
-    """
-    faults = []
-    for joint, links in _welded(robot, model).items():
-        inertia = model.inertia[model.joint_id(joint)]
-        if inertia.mass == 0 and inertia.inertia_at_com.any():
-            raise ModelError(f"link {links[0].name!r}: it moves, and has an inertia but no mass")
-        if physical and inertia.mass > 0 and (fault := _fault(inertia, links)):
-            faults.append(fault)
-    if faults:
-        bodies = "1 moving body" if len(faults) == 1 else f"{len(faults)} moving bodies"
-        listed = "".join(f"\n  {fault}" for fault in faults)
-        raise ModelError(f"{bodies} cannot exist (physical=False loads the robot all the same):{listed}")
-
-
-def _welded(robot: Any, model: Model) -> dict[str, list[Any]]:
-    """List, by the name of the joint that moves them, the links of each moving body, the moved one first."""
-    links = {link.name: link for link in robot.links}
-    root = _root(robot)
-    carrier = {root: "root_joint" if model.base == "floating" else None}
-    for joint in _outwards(robot, root):
-        carrier[joint.child] = joint.name if joint.type != "fixed" else carrier[joint.parent]
-    groups: dict[str, list[Any]] = {}
-    for name, joint in carrier.items():
-        if joint is not None:
-            groups.setdefault(joint, []).append(links[name])
-    return groups
-
-
-def _fault(inertia: SpatialInertia, links: list[Any]) -> str:
-    """Say why a body cannot exist, in the name of the link that it is named after; empty if it can."""
-    try:
-        inertia.check_physical(links[0].name)
-    except ModelError as error:
-        others = ", ".join(repr(link.name) for link in links[1:] if link.inertial is not None)
-        return f"{error}" + (f" (with {others} welded to it)" if others else "")
-    return ""
 
 
 def _warn_of_mimics(path: Path, root: XML) -> None:

@@ -1,0 +1,116 @@
+"""From links to bodies: welded links merged, bodies numbered as Pinocchio does, frames named."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from .errors import ModelError
+from .inertia import SpatialInertia
+from .links import WORLD, Link
+from .model import Frame
+from .plucker import SE3
+
+__all__ = ["Numbered"]
+
+
+class Numbered:
+    """The links in their final order, depth first: bodies numbered, welded links merged.
+
+    Attributes
+    ----------
+    groups : list of list of Link
+        For each body the links that it is made of: the one that its joint moves, then what is welded
+        to it. Entry 0, the world's, is empty.
+    parent, placement, inertia, frames
+        As in `Model`.
+    """
+
+    def __init__(self, links: Mapping[str, Link]) -> None:
+        self.groups: list[list[Link]] = [[]]
+        self.parent, self.placement, self.inertia = [-1], [SE3.identity()], [SpatialInertia.zero()]
+        found: dict[tuple[str, str], Frame] = {}
+        children: dict[str, list[Link]] = {name: [] for name in (WORLD, *links)}
+        for link in sorted(links.values(), key=lambda link: link.joint_name, reverse=True):
+            children[link.parent].append(link)
+        waiting = [(link, 0, SE3.identity()) for link in children[WORLD]]
+        while waiting:  # the last one in is the first one out, hence the reversed order above
+            link, carrier, in_carrier = waiting.pop()
+            carrier, at = self._place(link, carrier, in_carrier @ link.placement)
+            if link.joint is not None or link.parent != WORLD:  # a fixed root link hangs on no joint
+                found["joint", link.joint_name] = Frame(carrier, at)
+            found["link", link.name] = Frame(carrier, at)
+            waiting += [(child, carrier, at) for child in children[link.name]]
+        self.frames = _named(found)
+
+    @property
+    def moved(self) -> list[Link]:
+        """The links that joints move, one for each body."""
+        return [group[0] for group in self.groups[1:]]
+
+    def _place(self, link: Link, carrier: int, at: SE3) -> tuple[int, SE3]:
+        """Give a moved link its number, or merge a welded one; return the body and where the link is in it."""
+        if link.joint is not None:
+            self.groups.append([link])
+            self.parent.append(carrier)
+            self.placement.append(at)
+            self.inertia.append(link.inertia)
+            carrier, at = len(self.parent) - 1, SE3.identity()
+        elif carrier > 0:  # what is welded to the world never moves
+            self.groups[carrier].append(link)
+            self.inertia[carrier] = self.inertia[carrier] + link.inertia.transform(at)
+        return carrier, at
+
+    def check_finite(self) -> None:
+        """Refuse numbers that are finite by themselves and overflow when links are merged."""
+        for link, inertia, placement in zip(self.moved, self.inertia[1:], self.placement[1:], strict=True):
+            if not (np.isfinite(inertia.matrix()).all() and np.isfinite(placement.matrix()).all()):
+                raise ModelError(f"joint {link.joint_name!r}: what hangs on it overflows, or the way to it")
+        for name, frame in self.frames.items():
+            if not np.isfinite(frame.placement.matrix()).all():
+                raise ModelError(f"frame {name!r}: the way to it overflows")
+
+    def check_bodies(self, physical: bool) -> None:
+        """Check each body, welded links merged: that sum is all that enters the dynamics.
+
+        A single welded link may be a point, or carry an inertia without mass, as in many a real file.
+        """
+        faults = []
+        for group, inertia in zip(self.groups[1:], self.inertia[1:], strict=True):
+            if inertia.mass == 0 and inertia.inertia_at_com.any():
+                raise ModelError(f"link {group[0].name!r}: it moves, and has an inertia but no mass")
+            if physical and inertia.mass > 0 and (fault := _fault(inertia, group)):
+                faults.append(fault)
+        if faults:
+            bodies = "1 moving body" if len(faults) == 1 else f"{len(faults)} moving bodies"
+            listed = "".join(f"\n  {fault}" for fault in faults)
+            raise ModelError(f"{bodies} cannot exist (physical=False takes the robot all the same):{listed}")
+
+
+def _fault(inertia: SpatialInertia, group: list[Link]) -> str:
+    """Say why a body cannot exist, in the name of the link that it is named after; empty if it can."""
+    try:
+        inertia.check_physical(group[0].name)
+    except ModelError as error:
+        others = [repr(x.name) for x in group[1:] if x.inertia.mass > 0 or x.inertia.inertia_at_com.any()]
+        return f"{error}" + (f" (with {', '.join(others)} welded to it)" if others else "")
+    return ""
+
+
+def _named(found: Mapping[tuple[str, str], Frame]) -> dict[str, Frame]:
+    """Name the frames of links and joints.
+
+    A link and a joint of one name are one frame where they share the place. Where they do not, neither
+    gets the bare name, so that nobody takes one for the other: ``link:name`` and ``joint:name``.
+    """
+    frames: dict[str, Frame] = {}
+    owner: dict[str, str] = {}
+    for (kind, name), frame in found.items():
+        other = found.get(("link" if kind == "joint" else "joint", name), frame)
+        same = other.body == frame.body and bool((other.placement.matrix() == frame.placement.matrix()).all())
+        full = name if same else f"{kind}:{name}"
+        if owner.setdefault(full, name) != name:  # a link really named link:name
+            raise ModelError(f"{kind} {name!r}: the frame name {full!r} is taken")
+        frames[full] = frame
+    return frames
