@@ -63,6 +63,36 @@ def test_misuse_has_status_2(wrong, capsys):
     assert "usage: twistwrench" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--seed", "-1"], "argument --seed: expected a whole number, 0 or more, got '-1'"),
+        (["--states", "x"], "argument --states: expected a whole number, 1 or more, got 'x'"),
+        (["--truths", "1.5"], "argument --truths: expected a whole number, 1 or more, got '1.5'"),
+        (["--jobs", "2"], "argument --jobs: only with --all"),
+        (["--truths", "9"], "argument --truths: expected at most the number of states, 8, got 9"),
+    ],
+)
+def test_an_option_of_no_effect_is_refused(options, said, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["validate", "pendulum", *options])
+    assert stop.value.code == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert said in err
+
+
+def test_the_version_and_python_dash_m(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["--version"])
+    assert stop.value.code == 0
+    said = capsys.readouterr().out
+    assert said == f"twistwrench {tw.__version__}\n"
+    ran = subprocess.run([sys.executable, "-m", "twistwrench", "--version"], capture_output=True, text=True)
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, said, "")
+    assert subprocess.run([sys.executable, "-m", "twistwrench"], capture_output=True).returncode == 2
+
+
 def test_json_goes_to_stdout_alone(capsys):
     assert main(["validate", "pendulum", "cart_pole", *QUICK, "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -76,7 +106,23 @@ def test_json_goes_to_a_file_beside_the_table(tmp_path, capsys):
     assert main(["validate", "pendulum", *QUICK, "--json", str(file)]) == 0
     assert "29 of 29 rows" in capsys.readouterr().out
     assert json.loads(file.read_text(encoding="utf-8"))["passed"] is True
-    assert main(["validate", "pendulum", *QUICK, "--json", str(tmp_path)]) == 2
+
+
+def test_a_file_that_cannot_be_written_is_noticed_before_the_work(tmp_path, capsys):
+    for path in (tmp_path, tmp_path / "nowhere" / "report.json"):
+        assert main(["validate", "pendulum", *QUICK, "--json", str(path)]) == 2
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert f"--json {path}: " in err
+
+
+def test_a_file_is_neither_emptied_nor_made_before_there_is_something_to_write(tmp_path, capsys):
+    old, new = tmp_path / "old.json", tmp_path / "new.json"
+    old.write_text("kept")
+    for path in (old, new):
+        assert main(["validate", "pendulun", *QUICK, "--json", str(path)]) == 2
+    assert old.read_text() == "kept"
+    assert not new.exists()
 
 
 def test_the_seed_changes_the_states(capsys):

@@ -15,6 +15,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from . import __version__
 from .errors import ModelError, NameNotFound
 from .exercises.commands import register as add_exercises
 
@@ -51,6 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     0
     """
     parser = argparse.ArgumentParser(prog="twistwrench", description="Spatial vector algebra and robot dynamics.")
+    parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for add in COMMANDS:
         add(commands)
@@ -100,17 +102,18 @@ def add_validate(commands: Commands) -> None:
     what.add_argument("robot", nargs="*", default=[], metavar="ROBOT", help="a name of `twistwrench robots` or a URDF")
     what.add_argument("--all", action="store_true", help="every robot on a fixed and on a floating base, a line each")
     parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own (--all: both)")
-    parser.add_argument("--states", type=_positive, default=8, metavar="N", help="random states (8)")
-    parser.add_argument("--truths", type=_positive, metavar="N", help="states with the truth computed (3; --all: 1)")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random states (0)")
+    parser.add_argument("--states", type=_at_least(1), default=8, metavar="N", help="random states (8)")
+    parser.add_argument("--truths", type=_at_least(1), metavar="N", help="states with the truth computed (3; --all: 1)")
+    parser.add_argument("--seed", type=_at_least(0), default=0, metavar="N", help="of the random states (0)")
     parser.add_argument("--json", metavar="FILE", help="write the results as JSON; - for stdout, without the table")
-    parser.add_argument("--jobs", type=_positive, metavar="N", help="processes for --all (as many as processors)")
+    parser.add_argument("--jobs", type=_at_least(1), metavar="N", help="processes for --all (as many as processors)")
     parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
-    parser.set_defaults(run=run_validate)
+    parser.set_defaults(run=run_validate, misuse=parser.error)
 
 
 def run_validate(args: argparse.Namespace) -> int:
     """Validate, print and write."""
+    _check_options(args)
     start = time.perf_counter()
     reports, passed = (_validate_all if args.all else _validate_some)(args)
     if args.json:
@@ -154,15 +157,44 @@ def _validate_all(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool]
     return [outcome.as_dict() for outcome in outcomes], all(outcome.passed for outcome in outcomes)
 
 
+def _check_options(args: argparse.Namespace) -> None:
+    """Refuse, before any work, what would be of no effect or come to nothing at the end."""
+    if args.jobs and not args.all:
+        args.misuse("argument --jobs: only with --all")
+    if args.truths and args.truths > args.states:
+        args.misuse(f"argument --truths: expected at most the number of states, {args.states}, got {args.truths}")
+    if args.json and args.json != "-":
+        _check_writable(Path(args.json))
+
+
+def _check_writable(path: Path) -> None:
+    """Open the file that will be written; leave behind what was there."""
+    new = not path.exists()
+    try:
+        path.open("a").close()
+    except OSError as error:
+        raise OSError(f"--json {path}: {error.strerror}") from None
+    if new:
+        path.unlink()
+
+
 def _shows_bar(args: argparse.Namespace) -> bool:
     return args.progress or sys.stderr.isatty()
 
 
-def _positive(text: str) -> int:
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"expected 1 or more, got {text}")
-    return value
+def _at_least(least: int) -> Callable[[str], int]:
+    """Return what reads a whole number that is not below another."""
+
+    def read(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            value = least - 1
+        if value < least:
+            raise argparse.ArgumentTypeError(f"expected a whole number, {least} or more, got {text!r}")
+        return value
+
+    return read
 
 
 COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_exercises)
