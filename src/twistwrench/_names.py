@@ -34,7 +34,7 @@ from .twist import Screw, Twist, hat, screw, vee
 from .wrench import Wrench, power
 
 if TYPE_CHECKING:
-    from . import exercises
+    from . import exercises, plot
 
 __all__ = [
     "SE3",
@@ -89,6 +89,7 @@ __all__ = [
     "motion_transform",
     "newton_euler_3d",
     "nonlinear_effects",
+    "plot",
     "potential_energy",
     "power",
     "random_tree",
@@ -104,6 +105,6 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name != "exercises":  # nothing else needs them: they come when they are asked for
+    if name not in ("exercises", "plot"):  # nothing else needs them: they come when they are asked for
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return import_module(".exercises", __package__)
+    return import_module(f".{name}", __package__)
