@@ -7,6 +7,7 @@ free-flyers at the base and inside, and each comparison says that it fails witho
 import importlib.util
 import sys
 import types
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -709,6 +710,21 @@ def test_joints_without_a_counterpart_are_all_named():
     for part in ("'wrist' (SphericalZYX)", "'screw' (HX)", "'gantry' (Translation)", "'stack' (Composite)"):
         assert part in str(caught.value)
     assert "'good'" not in str(caught.value)
+
+
+@needs_pinocchio
+def test_joint_of_a_kind_that_pinocchio_lacks_is_refused_by_name():
+    class Helical(tw.Revolute):
+        """A screw."""
+
+    class Ball(tw.Spherical):
+        """A ball."""
+
+    for joint in (Helical("z"), Ball()):
+        model = replace(tw.random_tree(1, rng=0, kinds=[joint.kind]), joints=(None, joint))
+        message = f"joint {model.joint_names[1]!r}: Pinocchio has no {type(joint).__name__}; it has Planar, Spherical"
+        with pytest.raises(tw.ModelError, match=message):
+            bridge.to_pinocchio_model(model)
 
 
 MIMIC = """<robot name="gripper"><link name="palm"/><link name="left"/><link name="right"/>

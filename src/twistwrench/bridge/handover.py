@@ -29,7 +29,11 @@ from .tangent import tangent_order
 
 __all__ = ["from_pinocchio_model", "to_pinocchio_model"]
 
-WITHOUT_AXIS: dict[str, Callable[[], Joint]] = {"Planar": Planar, "Spherical": Spherical, "FreeFlyer": FreeFlyer}
+WITHOUT_AXIS: dict[str, type[Planar] | type[Spherical] | type[FreeFlyer]] = {
+    "Planar": Planar,
+    "Spherical": Spherical,
+    "FreeFlyer": FreeFlyer,
+}
 """What follows ``JointModel`` in Pinocchio's name, and the joint here."""
 
 WITH_AXIS: dict[str, type[Revolute] | type[Prismatic] | type[Continuous]] = {
@@ -70,6 +74,8 @@ def to_pinocchio_model(model: Model) -> Any:
     ------
     ImportError
         If Pinocchio is missing.
+    ModelError
+        If a joint is of a kind that Pinocchio lacks.
 
     Notes
     -----
@@ -93,8 +99,8 @@ def to_pinocchio_model(model: Model) -> Any:
             continue
         qs, vs = model.q_slice[i], model.v_slice[i]
         limits = effort[vs], velocity[vs], model.lower[qs], model.upper[qs]
-        placement = to_pinocchio_se3(model.placement[i])
-        there.addJoint(model.parent[i], _joint_there(pin, joint), placement, model.joint_names[i], *limits)
+        name, placement = model.joint_names[i], to_pinocchio_se3(model.placement[i])
+        there.addJoint(model.parent[i], _joint_there(pin, joint, name), placement, name, *limits)
     there.armature = model.armature[order]
     there.gravity = pin.Motion(model.gravity.copy(), np.zeros(3))
     _frames_there(pin, model, there)
@@ -105,11 +111,16 @@ def to_pinocchio_model(model: Model) -> Any:
     return there
 
 
-def _joint_there(pin: Any, joint: Joint) -> Any:
+def _joint_there(pin: Any, joint: Joint, name: str) -> Any:
     """Return the joint as one of Pinocchio's joint models, the aligned one where there is one."""
-    if not isinstance(joint, Revolute | Prismatic | Continuous):
-        return getattr(pin, "JointModel" + type(joint).__name__)()
-    aligned, unaligned = [name for name, kind in WITH_AXIS.items() if kind is type(joint)]
+    without_axis = [kind for kind, ours in WITHOUT_AXIS.items() if ours is type(joint)]
+    if without_axis:
+        return getattr(pin, "JointModel" + without_axis[0])()
+    with_axis = [kind for kind, ours in WITH_AXIS.items() if ours is type(joint)]
+    if not isinstance(joint, Revolute | Prismatic | Continuous) or not with_axis:
+        known = dict.fromkeys(kind.__name__ for kind in [*WITHOUT_AXIS.values(), *WITH_AXIS.values()])
+        raise ModelError(f"joint {name!r}: Pinocchio has no {type(joint).__name__}; it has {', '.join(known)}")
+    aligned, unaligned = with_axis
     if joint.axis in AXES:
         return getattr(pin, "JointModel" + aligned + AXES[joint.axis])()
     if isinstance(joint, Continuous):  # its constructor takes no axis
