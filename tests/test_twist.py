@@ -285,6 +285,9 @@ def test_batch_axes_and_number_types_are_kept(shape, dtype):
 
 
 def test_complex_step_gives_the_derivative_of_a_screw():
+    odd = Twist(V.vector, frame=r"a b_{c}^2 50%~#1 $x$&\y")
+    shown = r"a\ b\_\{c\}\wedge 2\ 50\%\sim \#1\ \$x\$\&\backslash y"
+    assert odd._repr_latex_() == rf"${{}}^{{\mathrm{{{shown}}}}}\mathbf{{V}} = " + body
     # The pitch ω·v/|ω|² has the derivative (v − 2 h ω)/|ω|² along ω and ω/|ω|² along v.
     V = np.random.default_rng(12).normal(size=6)
     w, v = V[:3], V[3:]

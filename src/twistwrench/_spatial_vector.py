@@ -12,6 +12,11 @@ from .errors import FrameError
 
 __all__ = ["SpatialVector", "as_spatial", "common_frame", "latex_matrix"]
 
+LATEX = str.maketrans(
+    {c: f"\\{c}" for c in "_#%&${} "} | {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", "\n": r"\ "}
+)
+"""How a name is written in a formula: what LaTeX would take for a command of its own is shown as it is."""
+
 
 class SpatialVector:
     """What twists and wrenches share: six numbers, a frame, and a sum that checks both."""
@@ -108,7 +113,7 @@ class SpatialVector:
     def _repr_latex_(self) -> str | None:
         if self._vector.ndim > 1:
             return None
-        name = "" if self._frame is None else self._frame.replace("_", r"\_")
+        name = "" if self._frame is None else self._frame.translate(LATEX)
         frame = rf"{{}}^{{\mathrm{{{name}}}}}" if name else ""
         return rf"${frame}\mathbf{{{self._symbol}}} = {latex_matrix(self._vector[:, None])}$"
 
