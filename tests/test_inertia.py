@@ -189,6 +189,13 @@ def test_inertias_add_as_their_matrices_do():
     np.testing.assert_allclose((a + b).matrix(), a.matrix() + b.matrix(), rtol=0, atol=2e-14)
 
 
+def test_inertias_of_a_list_sum():
+    parts = [SpatialInertia(m, [m, 0, 0], np.eye(3)) for m in (1.0, 2.0, 3.0)]
+    assert sum(parts) == parts[0] + parts[1] + parts[2]
+    with pytest.raises(TypeError, match="only inertias add"):
+        1 + parts[0]
+
+
 def test_two_halves_make_the_whole_rod():
     m, l = 2.0, 1.0
     half = SpatialInertia(m / 2, [0, 0, 0], np.diag([1, 1, 0]) * (m / 2) * (l / 2) ** 2 / 12)

@@ -181,12 +181,31 @@ def test_twists_add_and_scale_like_vectors():
         (2 * Twist(a), 2 * a),
         (Twist(a) * np.float64(3), a * 3),
         (np.array([1.0, 2.0]) * Twist(a), np.stack([a, 2 * a])),
+        (Twist(a) / 3, a / 3),
+        (Twist(a) / np.array([1.0, 3.0]), np.stack([a, a / 3])),
+        (sum([Twist(a), Twist(b)]), a + b),
     ]:
         assert type(got) is Twist
         np.testing.assert_array_equal(got.vector, expected)
         np.testing.assert_array_equal(np.asarray(got), expected)
     np.testing.assert_array_equal(Twist(a).angular, a[:3])
     np.testing.assert_array_equal(Twist(a).linear, a[3:])
+    assert (Twist(a.astype(np.float32)) / 2).vector.dtype == np.float32
+
+
+def test_what_does_not_divide_or_sum_is_refused():
+    V = Twist(np.ones(6))
+    for zero in (0, 0.0, np.array([1.0, 0.0])):
+        with pytest.raises(ZeroDivisionError, match="Twist / 0"):
+            V / zero
+    for wrong in (lambda: V / V, lambda: 1 / V, lambda: V / Wrench(np.ones(6))):
+        with pytest.raises(TypeError):
+            wrong()
+    with pytest.raises(TypeError, match="dual spaces"):
+        sum([V, Wrench(np.ones(6))])
+    for number in (1, 0.0, False):  # nothing but the 0 that sum starts from
+        with pytest.raises(TypeError, match="both sides"):
+            number + V
 
 
 def test_a_twist_and_a_wrench_do_not_add():
@@ -266,6 +285,9 @@ def test_a_twist_shows_its_numbers_and_its_frame():
     body = r"\begin{bmatrix} 0 \\ 0 \\ 0.5 \\ 1 \cdot 10^{-7} \\ 0 \\ -2 \end{bmatrix}$"
     assert V._repr_latex_() == r"${}^{\mathrm{FR\_foot}}\mathbf{V} = " + body
     assert Twist(V.vector)._repr_latex_() == r"$\mathbf{V} = " + body
+    odd = Twist(V.vector, frame=r"a b_{c}^2 50%~#1 $x$&\y")
+    shown = r"a\ b\_\{c\}\wedge 2\ 50\%\sim \#1\ \$x\$\&\backslash y"
+    assert odd._repr_latex_() == rf"${{}}^{{\mathrm{{{shown}}}}}\mathbf{{V}} = " + body
     assert Twist(np.zeros((2, 6)))._repr_latex_() is None
 
 
@@ -285,9 +307,6 @@ def test_batch_axes_and_number_types_are_kept(shape, dtype):
 
 
 def test_complex_step_gives_the_derivative_of_a_screw():
-    odd = Twist(V.vector, frame=r"a b_{c}^2 50%~#1 $x$&\y")
-    shown = r"a\ b\_\{c\}\wedge 2\ 50\%\sim \#1\ \$x\$\&\backslash y"
-    assert odd._repr_latex_() == rf"${{}}^{{\mathrm{{{shown}}}}}\mathbf{{V}} = " + body
     # The pitch ω·v/|ω|² has the derivative (v − 2 h ω)/|ω|² along ω and ω/|ω|² along v.
     V = np.random.default_rng(12).normal(size=6)
     w, v = V[:3], V[3:]

@@ -78,7 +78,9 @@ class SpatialVector:
         frame = common_frame(self, "-", other)
         return type(self)(self._vector - other._vector, frame=frame)
 
-    def __radd__(self, other: object) -> NoReturn:
+    def __radd__(self, other: object) -> Self:
+        if type(other) is int and other == 0:  # where Python's sum starts
+            return self
         self._refuse(other, "+", self)
 
     def __rsub__(self, other: object) -> NoReturn:
@@ -90,13 +92,26 @@ class SpatialVector:
     def __mul__(self, scalar: ArrayLike) -> Self:
         if isinstance(scalar, SpatialVector):
             return NotImplemented
+        s, x = self._with_scalar(scalar)
+        return type(self)(s * x, frame=self._frame)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, scalar: ArrayLike) -> Self:
+        if isinstance(scalar, SpatialVector):
+            return NotImplemented
+        s, x = self._with_scalar(scalar)
+        if not s.all():
+            raise ZeroDivisionError(f"{type(self).__name__} / 0")
+        return type(self)(x / s, frame=self._frame)
+
+    def _with_scalar(self, scalar: ArrayLike) -> tuple[Array, Array]:
+        """Return a scalar, or one per item of a batch, and the six numbers, ready to be multiplied."""
         # A Python number takes the type of the vector: twice a float32 twist is a float32 twist.
         if type(scalar) in (int, float, complex):
             scalar = np.asarray(scalar, np.result_type(self._vector, scalar))
         s, x = as_arrays(scalar=(scalar, ()), vector=(self._vector, (6,)))
-        return type(self)(s[..., None] * x, frame=self._frame)
-
-    __rmul__ = __mul__
+        return s[..., None], x
 
     def __rmatmul__(self, other: object) -> Array:
         mine = type(self).__name__

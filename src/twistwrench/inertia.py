@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -194,7 +193,9 @@ class SpatialInertia:
         D, reduced = cross_matrix(other.com - self.com), (m1 * m2 / nonzero)[..., None, None]
         return SpatialInertia._trusted(m, com, self.inertia_at_com + other.inertia_at_com - reduced * (D @ D))
 
-    def __radd__(self, other: object) -> NoReturn:
+    def __radd__(self, other: object) -> SpatialInertia:
+        if type(other) is int and other == 0:  # where Python's sum starts
+            return self
         raise TypeError(f"{type(other).__name__} + SpatialInertia: only inertias add, once they are in one frame")
 
     def momentum(self, V: ArrayLike) -> Array:
