@@ -351,3 +351,39 @@ def test_standing_posture_is_a_copy():
     GO2.standing()[:] = 0
     assert (GO2.standing() == STAND).all()
     assert GO2.standing()[2] > 0
+
+
+@pytest.mark.parametrize("legs", [1, 3])
+def test_a_massless_base_is_refused_wherever_its_leg_points(legs):
+    # the base can turn and the leg turn back without anything that has inertia moving
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        P = rng.standard_normal((6, 3))
+        rod = tw.SpatialInertia(1.0, P.mean(axis=0), np.trace(np.cov(P.T)) * np.eye(3) - np.cov(P.T))
+        builder = tw.Builder("hopper", base="floating")
+        for k in range(legs):
+            placement = tw.exp6(rng.standard_normal(6) * [1, 1, 1, 3, 3, 3])
+            parent, axis = f"leg{k - 1}" if k else "base_link", rng.standard_normal(3)
+            builder.link(f"leg{k}", parent=parent, joint=tw.Revolute(axis), placement=placement, inertia=rod)
+        model = builder.build()
+        v, tau = rng.standard_normal((2, model.nv))
+        with pytest.raises(tw.SingularError, match="'root_joint': with the joints behind it free"):
+            tw.aba(model, model.random_configuration(rng=rng), v, tau)
+
+
+def test_a_long_chain_in_float32_is_not_called_singular():
+    chain, rest = tw.chain(200), np.zeros(200, np.float32)
+    push = np.ones(200, np.float32)
+    assert np.isfinite(tw.aba(chain, rest, rest, push)).all()
+
+
+def test_a_singular_state_of_a_batch_is_located():
+    # two hinges with one massless link between them: singular where their axes are in line
+    rod = tw.SpatialInertia(1.0, [0.0, 0.1, 0.5], np.diag([0.1, 0.2, 0.25]))
+    builder = tw.Builder("gimbal")
+    builder.link("outer", parent="base_link", joint=tw.Revolute("z"))
+    builder.link("middle", parent="outer", joint=tw.Revolute("x"))
+    builder.link("inner", parent="middle", joint=tw.Revolute("z"), inertia=rod)
+    q, rest = np.array([[0.3, 1.0, 0.2], [0.3, 0.0, 0.2]]), np.zeros(3)
+    with pytest.raises(tw.SingularError, match=r"joint 'outer': .* at index \(1,\)"):
+        tw.aba(builder.build(), q, rest, rest)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._scalars import which
 from .checks import Array, resolution
 from .errors import SingularError
 from .inertia import cross_force, cross_motion
@@ -18,6 +19,9 @@ from .model import Model
 from .tree import Tree, composite_inertias, join, split, walk
 
 __all__ = ["aba"]
+
+ROUNDINGS = 100
+"""An inertia of fewer times the rounding in it counts as none."""
 
 
 def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
@@ -68,7 +72,8 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     q, v, tau, f_ext = model.state(q, v=v, tau=tau, f_ext=external(model, f_ext))
     tree, n = walk(model, q), model.nbodies
     S, X, qd, rotor = tree.S, tree.X, split(model, v), split(model, model.constants(q.dtype).armature)
-    tau, IA, felt = split(model, tau), [*tree.I], inertia_felt(model, tree)
+    refuse_weightless(model, tree)
+    tau, IA, doubt = split(model, tau), [*tree.I], [rounding(I) for I in tree.I]
     V, A, c, pA, U, D_inv, u, qdd = ([np.zeros(6, q.dtype)] * n for _ in range(8))
 
     A[0], qdd[0] = -model.constants(q.dtype).gravity, q[..., :0]  # the world rises
@@ -80,12 +85,15 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     for i in tree.inward:  # pass 2: articulated inertia IA and bias wrench pA
         p = tree.parent[i]
         U[i] = IA[i] @ S[i]
-        D_inv[i] = invert(S[i].mT @ U[i] + _diagonal(rotor[i]), felt[i], model.joint_names[i])
+        D = S[i].mT @ U[i] + _diagonal(rotor[i])
+        D_inv[i] = invert(D, S[i].mT @ doubt[i] @ S[i], model.joint_names[i])
         u[i] = tau[i] - np.matvec(S[i].mT, pA[i])
-        Ia = IA[i] - U[i] @ D_inv[i] @ U[i].mT  # what is felt through the joint: Schur complement
+        given = U[i] @ D_inv[i] @ U[i].mT  # what the joint gives way
+        Ia = IA[i] - given  # what is felt through the joint: Schur complement
         Ia = (Ia + Ia.mT) / 2  # an asymmetry left by rounding would grow from link to link
         pa = pA[i] + np.matvec(Ia, c[i]) + np.matvec(U[i] @ D_inv[i], u[i])
         IA[p] = IA[p] + X[i].mT @ Ia @ X[i]
+        doubt[p] = doubt[p] + passed_on(doubt[i], X[i] - S[i] @ D_inv[i] @ U[i].mT @ X[i], X[i], IA[i], given)
         pA[p] = pA[p] + np.matvec(X[i].mT, pa)
     for i in tree.outward:  # pass 3: accelerations
         A[i] = np.matvec(X[i], A[tree.parent[i]]) + c[i]
@@ -94,33 +102,55 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     return join(qdd)
 
 
-def inertia_felt(model: Model, tree: Tree) -> list[Array]:
-    """Return for each joint the diagonal of Sᵀ I^C S: what it feels when the joints behind are locked.
-
-    It is the diagonal of the mass matrix, and the measure of what a pivot of `aba` has lost. Where
-    it is zero nothing behind the joint has inertia.
-    """
+def refuse_weightless(model: Model, tree: Tree) -> None:
+    """Raise SingularError with the names of all joints behind which nothing has inertia."""
     rotor = split(model, model.constants(tree.I[0].dtype).armature)
     felt = [((IC @ S) * S).sum(axis=-2) + r for IC, S, r in zip(composite_inertias(tree), tree.S, rotor)]
-    massless = [model.joint_names[i] for i in tree.outward if (felt[i].real <= 0).any()]
-    if massless:
-        raise SingularError(f"no inertia behind joint {', '.join(map(repr, massless))}: q̈ is not determined there")
-    return felt
+    names = [model.joint_names[i] for i in tree.outward if (felt[i].real <= 0).any()]
+    if names:
+        raise SingularError(f"no inertia behind joint {', '.join(map(repr, names))}: q̈ is not determined there")
 
 
-def invert(D: Array, felt: Array, name: str) -> Array:
+def rounding(*terms: Array) -> Array:
+    """Return how far rounding may move a sum of inertias, in units of the number type's resolution.
+
+    A diagonal matrix, by which every motion's inertia is bounded: an entry (i, j) of a positive
+    semidefinite term is no larger than the mean of the entries (i, i) and (j, j).
+    """
+    size: Array = sum(np.abs(np.diagonal(term.real, axis1=-2, axis2=-1)) for term in terms)
+    return _diagonal(size)
+
+
+def passed_on(doubt: Array, moved: Array, X: Array, IA: Array, given: Array) -> Array:
+    """Return how far rounding may have moved Xᵀ (IA − given) X, in units of the resolution.
+
+    What moved IA goes inward with it: `moved` takes the parent's motion to what is left of it behind
+    the free joint, 1 − S D⁻¹ Uᵀ after X. To that comes the rounding of the terms of the sum here.
+    """
+    X = np.abs(X.real)
+    here = X.mT @ (np.abs(IA.real) + np.abs(given.real)) @ X
+    inward: Array = moved.real.mT @ doubt @ moved.real + rounding(here)
+    return inward
+
+
+def invert(D: Array, doubt: Array, name: str) -> Array:
     """Return D⁻¹, shape (..., n, n), of the inertia that a joint feels when those behind it are free.
 
+    Where a motion of the joint feels no more than a hundred times what rounding may have moved D by,
+    it feels nothing that could be told from zero: it is one of the motions of the joints behind.
     By Gauss-Jordan without pivoting, which a positive definite D does not need, in any number type.
-    A pivot that has lost all digits against `felt` is zero: the joint's motion is that of others.
     """
     n = D.shape[-1]
+    size = np.abs(np.diagonal(D.real, axis1=-2, axis2=-1)) + np.diagonal(doubt.real, axis1=-2, axis2=-1)
+    unit = np.sqrt(np.where(size == 0, 1, size))
+    scaled = (D.real / unit[..., :, None] / unit[..., None, :]).astype(np.float64)
+    lost = np.asarray((np.linalg.eigvalsh(scaled) < ROUNDINGS * resolution(D.dtype)).any(axis=-1))
+    if lost.any():
+        raise SingularError(f"joint {name!r}: with the joints behind it free it feels no inertia here{which(lost)}")
     D, inverse = D.copy(), np.broadcast_to(np.eye(n, dtype=D.dtype), D.shape).copy()
     for k in range(n):
-        pivot = D[..., k, k]
-        if (pivot.real <= 4 * n * resolution(D.dtype) * felt[..., k].real).any():
-            raise SingularError(f"joint {name!r}: with the joints behind it free it feels no inertia here (entry {k})")
-        inverse[..., k, :], D[..., k, :] = inverse[..., k, :] / pivot[..., None], D[..., k, :] / pivot[..., None]
+        pivot = D[..., k, k, None].copy()
+        inverse[..., k, :], D[..., k, :] = inverse[..., k, :] / pivot, D[..., k, :] / pivot
         for j in set(range(n)) - {k}:
             factor = D[..., j, k, None].copy()
             inverse[..., j, :] = inverse[..., j, :] - factor * inverse[..., k, :]
