@@ -1,6 +1,7 @@
 """The exercises: references pass, every slip is named, and a student's path through a folder works."""
 
 import importlib.resources
+import shlex
 import subprocess
 import sys
 from dataclasses import replace
@@ -437,9 +438,22 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path):
     assert "no function sizes in ex_49_1.py" in Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
 
 
+def test_status_in_the_wrong_folder_says_where_the_exercises_are(tmp_path, capsys, monkeypatch):
+    start(tmp_path / "my answers", language="en")
+    (tmp_path / "my answers" / "notes").mkdir()
+    for folder, other in ((tmp_path, "my answers"), (tmp_path / "my answers" / "notes", "..")):
+        monkeypatch.chdir(folder)
+        assert main(["exercises", "status"]) == 2
+        quoted = shlex.quote(other)
+        assert (
+            f".: no exercises here; there are in {other}: twistwrench exercises status {quoted}\n"
+            in capsys.readouterr().err
+        )
+
+
 def test_commands_refuse_what_they_cannot_do(tmp_path, capsys):
     assert main(["exercises", "status", str(tmp_path)]) == 2
-    assert "no exercises here" in capsys.readouterr().err
+    assert "no exercises here; name the folder that they are in" in capsys.readouterr().err
     assert main(["exercises", "hint", "49.3.9"]) == 2
     assert "did you mean '49.3.3'" in capsys.readouterr().err
     assert main(["exercises", "solution", "49.3.1"]) == 1

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cached_property
 from os import PathLike
+from os.path import isfile  # Path's own raises where the folder may not be read
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -59,8 +61,8 @@ class Workbook:
             If nothing was started there.
         """
         book = cls(folder, language=language)
-        if not any((book.folder / catalogue.file_name(section)).exists() for section in catalogue.SECTIONS):
-            raise ModelError(f"{book.folder}: no exercises here; twistwrench exercises start {book.folder}")
+        if not _started(book.folder):
+            raise ModelError(f"{book.folder}: no exercises here; {_where(book.folder)}")
         return book
 
     # ---------------------------------------------------------------- what is remembered
@@ -217,3 +219,18 @@ def mine(name: str) -> Callable[..., Any]:
 
     function.__name__, function.__doc__ = name, part.doc.en
     return function
+
+
+def _started(folder: Path) -> bool:
+    """Whether a folder holds a student's files."""
+    return any(isfile(folder / catalogue.file_name(section)) for section in catalogue.SECTIONS)
+
+
+def _where(folder: Path) -> str:
+    """Say where the exercises may be, for a student who stands in another folder."""
+    near = [folder / "..", *(sorted(folder.iterdir()) if folder.is_dir() else ())]
+    for other in near:
+        if _started(other):
+            return f"there are in {other}: twistwrench exercises status {shlex.quote(str(other))}"
+    named, new = "twistwrench exercises status DIR", "twistwrench exercises start DIR"
+    return f"name the folder that they are in: {named} (to make one: {new})"
