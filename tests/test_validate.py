@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.robots.catalogue import find
 from twistwrench.trees import random_tree
 from twistwrench.validate import Judge, quantities, sweep, validate
 from twistwrench.validate.conditioning import forward_dynamics_bound
@@ -54,6 +55,18 @@ def test_our_own_robots_pass(robot):
     if PINOCCHIO:
         assert report.loader
         assert all(row.ours_vs_pinocchio < 1e-13 for row in compared)
+
+
+def test_mimic_joints_of_a_file_are_named(tmp_path):
+    text = find("double_pendulum").path.read_text(encoding="utf-8")
+    path = tmp_path / "coupled.urdf"
+    head, joint, tail = text.partition("</joint>")
+    path.write_text(f'{head}<mimic joint="elbow"/>{joint}{tail}', encoding="utf-8")
+    report = validate(path, **QUICK)
+    assert report.passed
+    assert "\nmimic joints, moved on their own: 'shoulder'\n" in str(report)
+    assert report.as_dict()["mimics"] == ("shoulder",)
+    assert "mimic" not in str(validate("double_pendulum", **QUICK))
 
 
 def test_go2_has_a_row_for_every_quantity_of_the_chapter():

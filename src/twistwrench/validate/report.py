@@ -38,6 +38,8 @@ class Report:
     loader : bool
         Whether Pinocchio read the same URDF by itself.
     seconds : float
+    mimics : tuple of str
+        Joints of the URDF that should mimic others, and move on their own.
     """
 
     robot: str
@@ -52,6 +54,7 @@ class Report:
     seed: int | None
     loader: bool
     seconds: float
+    mimics: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -89,6 +92,9 @@ class Report:
             lines.append(f"vs Pin.: Pinocchio {self.pinocchio}, which {reads}")
         if self.mpmath is not None:
             lines.append(f"vs truth: newton_euler_3d in 50 digits, at {self.truths} and wherever the two differ")
+        if self.mimics:
+            more = f" and {len(self.mimics) - 4} more" if len(self.mimics) > 4 else ""
+            lines.append(f"mimic joints, moved on their own: {', '.join(map(repr, self.mimics[:4]))}{more}")
         return [*lines, *self.missing]
 
     def summary(self) -> str:

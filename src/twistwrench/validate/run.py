@@ -14,6 +14,7 @@ from ..errors import NameNotFound
 from ..model import Model
 from ..robots import load
 from ..robots.catalogue import find
+from ..robots.reading import read_robot_xml
 from .measure import Judge
 from .oracle import Oracle
 from .quantities import QUANTITIES
@@ -108,6 +109,7 @@ def validate(
         truths=judge.truths,
         seed=rng if isinstance(rng, int) else None,
         loader=oracle is not None and path is not None,
+        mimics=() if path is None else _mimics(path),
         seconds=time.perf_counter() - start,
     )
 
@@ -123,6 +125,12 @@ def _load(robot: Model | str | PathLike[str], base: Literal["fixed", "floating"]
         return model, find(str(robot)).path
     except NameNotFound:
         return model, Path(robot)
+
+
+def _mimics(path: Path) -> tuple[str, ...]:
+    """Name the joints of a URDF that should follow others and here move on their own."""
+    moved = (joint for joint in read_robot_xml(path).iterfind("joint") if joint.get("type") != "fixed")
+    return tuple(joint.get("name") for joint in moved if joint.find("mimic") is not None)
 
 
 def _oracle(model: Model, path: Path | None) -> Oracle | None:
