@@ -43,11 +43,13 @@ EXERCISE = Exercise(
             doc=Text(
                 """Return nq and nv, counted as Pinocchio counts.
 
-                kinds: list of "revolute", "prismatic", "continuous" (turns without end), "spherical", "free_flyer".
+                kinds: list of "revolute", "prismatic", "continuous" (turns without end), "spherical",
+                "free_flyer".
                 Returns: two whole numbers.""",
                 """按 Pinocchio 的方式返回 nq 和 nv。
 
-                kinds:列表,元素为 "revolute"、"prismatic"、"continuous"(可无限旋转)、"spherical"、"free_flyer"。
+                kinds:列表,元素为 "revolute"、"prismatic"、"continuous"(可无限旋转)、"spherical"、
+                "free_flyer"。
                 返回:两个整数。""",
             ),
             returns=(Quantity("nq"), Quantity("nv")),

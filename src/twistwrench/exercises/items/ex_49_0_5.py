@@ -45,7 +45,8 @@ EXERCISE = Exercise(
                 """Return the moment about the centre of mass and the force on the body.
 
                 m: number, kg. I_c: array (3, 3), kg m², about the centre of mass.
-                omega, alpha: arrays (3,), rad/s and rad/s². a_c: array (3,), m/s², acceleration of the centre of mass.
+                omega, alpha: arrays (3,), rad/s and rad/s². a_c: array (3,), m/s², acceleration of the
+                centre of mass.
                 All at one instant, along the same axes, in an inertial frame.
                 Returns: two arrays (3,), N m and N.""",
                 """返回作用在刚体上、关于质心的力矩和力。

@@ -129,12 +129,15 @@ SPLIT = Part(
 COLUMNS = Part(
     solution=base_columns,
     doc=Text(
-        """Return the base's columns of A_G, from the robot as one rigid body: with still joints it is one.
+        """Return the base's columns of A_G, from the robot as one rigid body: with still joints it is
+        one.
 
         R: array (3, 3), from the base's axes to the world's. m: number, kg, of the whole robot.
         c: array (3,), m, p_G − p_base, in the axes of the world.
-        I_G: array (3, 3), kg m², of the whole robot about its centre of mass, in the axes of the base.
-        Returns: array (6, 6), rows (k, l) along the world's axes, columns (ω, v) of the base along its own.""",
+        I_G: array (3, 3), kg m², of the whole robot about its centre of mass, in the axes of the
+        base.
+        Returns: array (6, 6), rows (k, l) along the world's axes, columns (ω, v) of the base along
+        its own.""",
         """返回 A_G 中基座的列;关节不动时整机是一个刚体,由此构造。
 
         R:数组 (3, 3),从基座坐标轴到世界坐标轴。m:数,kg,整机质量。

@@ -82,7 +82,8 @@ OURS = Part(
     doc=Text(
         """Return the linear momentum l_G, from the centroidal momentum matrix of twistwrench.
 
-        A_G: array (6, nv), as `tw.centroidal_map` gives it: rows (k, l), the base's columns (ω, v). v: array (nv,).
+        A_G: array (6, nv), as `tw.centroidal_map` gives it: rows (k, l), the base's columns (ω, v).
+        v: array (nv,).
         Returns: array (3,), kg m/s, in the axes of the world.""",
         """由 twistwrench 的质心动量矩阵返回线动量 l_G。
 
@@ -103,7 +104,8 @@ THEIRS = Part(
     doc=Text(
         """Return the linear momentum l_G, from the centroidal momentum matrix of Pinocchio.
 
-        A_G: array (6, nv), as `pin.computeCentroidalMap` gives it: rows (l, k), the base's columns (v, ω).
+        A_G: array (6, nv), as `pin.computeCentroidalMap` gives it: rows (l, k), the base's columns
+        (v, ω).
         v: array (nv,), Pinocchio's: the base's entries are (v, ω).
         Returns: array (3,), kg m/s, in the axes of the world.""",
         """由 Pinocchio 的质心动量矩阵返回线动量 l_G。
@@ -127,14 +129,16 @@ LINKS = Part(
         """Return m v_G without A_G: the sum of m_i times the velocity of the centre of mass of link i.
 
         model: with a floating base. q: array (nq,). v: array (nv,).
-        `motion = tw.forward_kinematics(model, q, v)` has, for each body, `motion.placement[i]` in the world and
-        `motion.twist[i]`, (ω, v) in the body's own frame; `model.inertia[i]` has `.mass` and `.com`.
+        `motion = tw.forward_kinematics(model, q, v)` has, for each body, `motion.placement[i]` in
+        the world and `motion.twist[i]`, (ω, v) in the body's own frame; `model.inertia[i]` has
+        `.mass` and `.com`.
         Returns: array (3,), kg m/s, in the axes of the world.""",
         """不用 A_G,返回 m v_G:各连杆质量乘其质心速度之和。
 
         model:浮动基座模型。q:数组 (nq,)。v:数组 (nv,)。
-        `motion = tw.forward_kinematics(model, q, v)` 对每个刚体给出世界中的位姿 `motion.placement[i]` 和
-        `motion.twist[i]`,即自身坐标系中的 (ω, v);`model.inertia[i]` 有 `.mass` 和 `.com`。
+        `motion = tw.forward_kinematics(model, q, v)` 对每个刚体给出世界中的位姿
+        `motion.placement[i]` 和`motion.twist[i]`,即自身坐标系中的 (ω, v);`model.inertia[i]` 有
+        `.mass` 和 `.com`。
         返回:数组 (3,),kg m/s,用世界坐标轴。""",
     ),
     returns=(Quantity("m v_G", unit="kg m/s"),),

@@ -62,9 +62,11 @@ def _rate(model: Any, q: Any, v: Any, a: Any) -> Any:
 ACCELERATION = Part(
     solution=com_acceleration,
     doc=Text(
-        """Return the horizontal acceleration of a centre of mass that stays at its height, with k̇_G not left out.
+        """Return the horizontal acceleration of a centre of mass that stays at its height, with k̇_G
+        not left out.
 
-        p_G: array (3,), m, of the centre of mass; the ground is z = 0. p: array (2,), m, the centre of pressure.
+        p_G: array (3,), m, of the centre of mass; the ground is z = 0. p: array (2,), m, the centre
+        of pressure.
         k_rate: array (2,), N m, x and y of k̇_G. m: number, kg. g is 9.81 m/s².
         Returns: array (2,), m/s². With k_rate = 0 it is the LIPM.""",
         """返回高度不变时质心的水平加速度,不忽略 k̇_G。

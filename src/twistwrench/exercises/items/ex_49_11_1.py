@@ -75,9 +75,10 @@ RANDOM = Part(
     doc=Text(
         """Return limits from which a finite configuration can be drawn.
 
-        lower, upper: arrays (nq,), a model's limits in Pinocchio: infinite for the position of a free base.
-        Returns: arrays (nq,), with −1 where `lower` and +1 where `upper` is not finite, and unchanged elsewhere; for
-        `pin.randomConfiguration(model, lower, upper)`.""",
+        lower, upper: arrays (nq,), a model's limits in Pinocchio: infinite for the position of a
+        free base.
+        Returns: arrays (nq,), with −1 where `lower` and +1 where `upper` is not finite, and
+        unchanged elsewhere; for `pin.randomConfiguration(model, lower, upper)`.""",
         """返回可以抽取有限位形的限位。
 
         lower、upper:数组 (nq,),Pinocchio 模型的限位;自由基座的位置限位是无穷。
@@ -107,12 +108,14 @@ MATRIX = Part(
     doc=Text(
         """Return what rnea and aba must give, computed from M and h (tests 1 and 2).
 
-        M: array (18, 18), as `pin.crba(model, data, q)` returns it in Python. h: array (18,), `pin.rnea` at a = 0.
+        M: array (18, 18), as `pin.crba(model, data, q)` returns it in Python. h: array (18,),
+        `pin.rnea` at a = 0.
         a, tau: arrays (18,). All in Pinocchio's order; it does not matter here.
         Returns: arrays (18,) and (18,): M a + h and M⁻¹ (τ − h).""",
         """由 M 和 h 返回 rnea 与 aba 应给出的结果(测试 1 和 2)。
 
-        M:数组 (18, 18),即 Python 中 `pin.crba(model, data, q)` 的返回值。h:数组 (18,),a = 0 时的 `pin.rnea`。
+        M:数组 (18, 18),即 Python 中 `pin.crba(model, data, q)` 的返回值。h:数组 (18,),a = 0 时的
+        `pin.rnea`。
         a、tau:数组 (18,)。均按 Pinocchio 的顺序,此处无关紧要。
         返回:两个数组 (18,):M a + h 与 M⁻¹ (τ − h)。""",
     ),
@@ -138,7 +141,8 @@ VELOCITY = Part(
     doc=Text(
         """Return the velocity of the centre of mass from Pinocchio's centroidal momentum (test 6).
 
-        h_G: array (6,), `pin.computeCentroidalMomentum(model, data, q, v).vector`. m: number, kg, of the robot.
+        h_G: array (6,), `pin.computeCentroidalMomentum(model, data, q, v).vector`. m: number, kg, of
+        the robot.
         Returns: array (3,), m/s.""",
         """由 Pinocchio 的质心动量返回质心速度(测试 6)。
 
@@ -161,11 +165,13 @@ CONTACTS = Part(
     doc=Text(
         """Return the contact Jacobian of four point contacts from Pinocchio's frame Jacobians (test 7).
 
-        J: array (4, 6, 18), for each foot `pin.getFrameJacobian(model, data, foot, pin.LOCAL_WORLD_ALIGNED)`.
+        J: array (4, 6, 18), for each foot `pin.getFrameJacobian(model, data, foot,
+        pin.LOCAL_WORLD_ALIGNED)`.
         Returns: array (12, 18), m/s per unit of v.""",
         """由 Pinocchio 的 frame 雅可比返回四个点接触的接触雅可比(测试 7)。
 
-        J:数组 (4, 6, 18),每只脚的 `pin.getFrameJacobian(model, data, foot, pin.LOCAL_WORLD_ALIGNED)`。
+        J:数组 (4, 6, 18),每只脚的 `pin.getFrameJacobian(model, data, foot,
+        pin.LOCAL_WORLD_ALIGNED)`。
         返回:数组 (12, 18)。""",
     ),
     returns=(Quantity("J_c", CONTACT_JACOBIAN),),

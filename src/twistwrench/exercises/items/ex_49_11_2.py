@@ -51,17 +51,19 @@ COUNT = Part(
     doc=Text(
         """Return how many six-vectors RNEA and CRBA carry between neighbouring frames.
 
-        parent: tuple of whole numbers, `model.parent`: parent[i] is the body that carries body i, 0 is the world, and
-        parent[0] is −1. No body comes before its parent.
-        Returns: two whole numbers. RNEA: the twist and the acceleration of each body come from its parent (the world
-        counts), and its wrench goes there. CRBA: the wrench F of each body is carried along the bodies on its way to
-        the base, as long as there is a joint to project it on; the composite inertias are not counted.""",
+        parent: tuple of whole numbers, `model.parent`: parent[i] is the body that carries body i, 0
+        is the world, and parent[0] is −1. No body comes before its parent.
+        Returns: two whole numbers. RNEA: the twist and the acceleration of each body come from its
+        parent (the world counts), and its wrench goes there. CRBA: the wrench F of each body is
+        carried along the bodies on its way to the base, as long as there is a joint to project it on;
+        the composite inertias are not counted.""",
         """返回 RNEA 与 CRBA 在相邻坐标系之间变换六维向量的次数。
 
         parent:整数元组,即 `model.parent`:parent[i] 是承载物体 i 的物体,0 是世界,parent[0] 为 −1;
         父物体总排在前面。
         返回:两个整数。RNEA:每个物体的 twist 和加速度来自父物体(世界也算),wrench 传回父物体。
-        CRBA:每个物体的 wrench F 沿通往基座的路径逐个向上变换,直到没有关节可投影为止;复合惯量的变换不计。""",
+        CRBA:每个物体的 wrench F 沿通往基座的路径逐个向上变换,直到没有关节可投影为止;
+        复合惯量的变换不计。""",
     ),
     returns=(Quantity("RNEA"), Quantity("CRBA")),
     cases=_trees,

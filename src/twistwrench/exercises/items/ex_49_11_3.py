@@ -93,7 +93,8 @@ MAP = Part(
     doc=Text(
         """Return g(q), given A_G alone.
 
-        A_G: array (6, nv), rows (k, l): `tw.centroidal_map(model, q)`. Gravity is 9.81 m/s² along −z of the world.
+        A_G: array (6, nv), rows (k, l): `tw.centroidal_map(model, q)`. Gravity is 9.81 m/s² along −z
+        of the world.
         Returns: array (nv,), N m and N.""",
         """只由 A_G 返回 g(q)。
 
@@ -126,13 +127,13 @@ MAP = Part(
 FORCES = Part(
     solution=standing_forces,
     doc=Text(
-        """Return the contact forces and torques that hold a robot at rest. Where many forces would do: those of
-        least norm.
+        """Return the contact forces and torques that hold a robot at rest. Where many forces would do:
+        those of least norm.
 
         g: array (nv,), N m and N, `tw.gravity(model, q)`. J_c: array (3 k, nv), of k feet,
         `tw.contact_jacobian(model, q, model.feet)`. The base comes first.
-        Returns: array (k, 3), N, of the ground on each foot, in the axes of the world; array (nv − 6,), N m,
-        torques.""",
+        Returns: array (k, 3), N, of the ground on each foot, in the axes of the world; array (nv −
+        6,), N m, torques.""",
         """返回使机器人保持静止的接触力和力矩;解不唯一时取范数最小的接触力。
 
         g:数组 (nv,),N m 与 N,即 `tw.gravity(model, q)`。J_c:数组 (3 k, nv),k 只脚,

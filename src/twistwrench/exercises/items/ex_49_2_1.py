@@ -66,7 +66,8 @@ TWIST_OF_FOOT = Part(
         """Return the body twist of FR_foot while only the base turns, about its own z axis.
 
         model: Go2, as `tw.load("go2")` gives it. q: array (19,). omega_z: number, rad/s.
-        `tw.frame_placement(model, q, "base")` places the base in the world; "FR_foot" is another frame.
+        `tw.frame_placement(model, q, "base")` places the base in the world; "FR_foot" is another
+        frame.
         Returns: array (6,), (ω, v), rad/s and m/s, along the axes and at the origin of FR_foot.""",
         """返回基座只绕自身 z 轴转动时 FR_foot 的 body twist。
 

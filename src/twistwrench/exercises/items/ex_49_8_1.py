@@ -80,12 +80,15 @@ def _cases(rng: Any) -> Any:
 BLOCK = Part(
     solution=base_block,
     doc=Text(
-        """Return the base's block of M(q), without M: the inertia of all bodies, moved into the base's frame.
+        """Return the base's block of M(q), without M: the inertia of all bodies, moved into the base's
+        frame.
 
         model: one with a floating base, as `tw.load("go2")`. q: array (nq,).
-        `tw.forward_kinematics(model, q).placement` holds the placement of each body in the world; the base is
-        body 1. `model.inertia` holds the inertia of each body in its own frame; both begin with the world's.
-        Returns: array (6, 6), rows (k, l), columns (ω, v), about the base's origin, in its axes; SI units.""",
+        `tw.forward_kinematics(model, q).placement` holds the placement of each body in the world;
+        the base is body 1. `model.inertia` holds the inertia of each body in its own frame; both
+        begin with the world's.
+        Returns: array (6, 6), rows (k, l), columns (ω, v), about the base's origin, in its axes; SI
+        units.""",
         """不经 M 返回 M(q) 的基座块:把所有刚体的惯量变到基座坐标系再相加。
 
         model:带浮动基座的模型,如 `tw.load("go2")`。q:数组 (nq,)。
@@ -158,11 +161,12 @@ BLOCK = Part(
 WHOLE = Part(
     solution=whole_robot,
     doc=Text(
-        """Return the mass of the robot, its centre of mass, and its inertia about that, as one rigid body.
+        """Return the mass of the robot, its centre of mass, and its inertia about that, as one rigid
+        body.
 
         block: array (6, 6), the base's block of M, rows (k, l), columns (ω, v).
-        Returns: a number m, kg; an array c (3,), m, from the base's origin, in its axes; an array I_c (3, 3),
-        kg m², about the centre of mass.""",
+        Returns: a number m, kg; an array c (3,), m, from the base's origin, in its axes; an array
+        I_c (3, 3), kg m², about the centre of mass.""",
         """返回整机作为一个刚体的质量、质心和关于质心的惯量。
 
         block:数组 (6, 6),M 的基座块,行 (k, l),列 (ω, v)。

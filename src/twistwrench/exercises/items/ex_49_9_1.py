@@ -106,13 +106,15 @@ BALANCE = Part(
 
         model: Go2. q: array (19,). tau: array (12,), N m, of the motors.
         forces: array (4, 3), N, of the ground on each of `model.feet`, in the axes of the world.
-        `tw.selection_matrix(model)`, `tw.contact_jacobian(model, q, model.feet)` and `tw.gravity(model, q)` are there.
+        `tw.selection_matrix(model)`, `tw.contact_jacobian(model, q, model.feet)` and
+        `tw.gravity(model, q)` are there.
         Returns: array (18,), N m and N. It is zero where the robot stays at rest.""",
         """返回静止机器人方程的剩余量:g − Sᵀτ − J_cᵀλ。
 
         model:Go2。q:数组 (19,)。tau:数组 (12,),N m,电机力矩。
         forces:数组 (4, 3),N,地面对 `model.feet` 各脚的力,用世界坐标轴。
-        可用 `tw.selection_matrix(model)`、`tw.contact_jacobian(model, q, model.feet)`、`tw.gravity(model, q)`。
+        可用 `tw.selection_matrix(model)`、`tw.contact_jacobian(model, q, model.feet)`、
+        `tw.gravity(model, q)`。
         返回:数组 (18,),N m 与 N;保持静止时为零。""",
     ),
     returns=(Quantity("g − Sᵀτ − J_cᵀλ", JOINT_SPACE),),
@@ -154,9 +156,11 @@ BALANCE = Part(
 NET = Part(
     solution=net_wrench,
     doc=Text(
-        """Return the wrench of all that acts on the robot from outside: its weight and the ground's forces.
+        """Return the wrench of all that acts on the robot from outside: its weight and the ground's
+        forces.
 
-        model: Go2. q: array (19,). forces: array (4, 3), N, of the ground on each of `model.feet`, in the world's axes.
+        model: Go2. q: array (19,). forces: array (4, 3), N, of the ground on each of `model.feet`,
+        in the world's axes.
         `model.mass` is in kg, `model.gravity` is (0, 0, −9.81) m/s².
         Returns: array (6,), (τ, f), N m and N, about the centre of mass, in the axes of the world.""",
         """返回外界对机器人的全部作用力(重力与地面力)的合 wrench。

@@ -78,7 +78,8 @@ ROWS = Part(
     doc=Text(
         """Return by how much a motion and contact forces miss the base's rows: M_b q̈ + h_b − J_cbᵀλ.
 
-        M: array (18, 18). h: array (18,). J_c: array (12, 18), linear rows of four feet. All of Go2, base first.
+        M: array (18, 18). h: array (18,). J_c: array (12, 18), linear rows of four feet. All of Go2,
+        base first.
         qdd: array (18,), accelerations. forces: array (12,), N, λ: the ground's forces on the feet.
         Returns: array (6,), (τ, f), N m and N. It is zero for what can happen.""",
         """返回给定运动和接触力在基座行中的剩余量:M_b q̈ + h_b − J_cbᵀλ。
@@ -109,10 +110,11 @@ COMPLETE = Part(
     doc=Text(
         """Return what goes with chosen accelerations of the joints and chosen contact forces.
 
-        M: array (18, 18). h: array (18,). J_c: array (12, 18), linear rows of four feet. All of Go2, base first.
+        M: array (18, 18). h: array (18,). J_c: array (12, 18), linear rows of four feet. All of Go2,
+        base first.
         qdd_joints: array (12,), rad/s². forces: array (12,), N, λ: the ground's forces on the feet.
-        Returns: array (18,), all accelerations: the base's are those that its six rows allow; array (12,), N m, the
-        torques of the motors.""",
+        Returns: array (18,), all accelerations: the base's are those that its six rows allow; array
+        (12,), N m, the torques of the motors.""",
         """返回与选定的关节加速度和接触力相容的运动与力矩。
 
         M:数组 (18, 18)。h:数组 (18,)。J_c:数组 (12, 18),四只脚的线速度行。均为 Go2 的,基座在前。

@@ -66,7 +66,8 @@ FOOT = Part(
         """Return the rows of J_c for a foot, out of the Jacobian of the body that carries it.
 
         J: array (6, nv), body Jacobian of the link: its body twist is J v, rows (ω, v).
-        R: array (3, 3), from the link's axes to the world's. r: array (3,), m, the foot in the link's frame.
+        R: array (3, 3), from the link's axes to the world's. r: array (3,), m, the foot in the
+        link's frame.
         Returns: array (3, nv): times v it is the velocity of the foot, m/s, in the axes of the world.""",
         """由承载脚的连杆的雅可比返回该脚在 J_c 中的三行。
 
@@ -108,7 +109,8 @@ EQUATION = Part(
     doc=Text(
         """Return the accelerations of M q̈ + h = Sᵀτ + J_cᵀλ.
 
-        M: array (18, 18). h: array (18,). S: array (12, 18). J_c: array (12, 18). tau: array (12,), N m.
+        M: array (18, 18). h: array (18,). S: array (12, 18). J_c: array (12, 18). tau: array (12,),
+        N m.
         forces: array (12,), N, λ: the ground's forces on the feet.
         Returns: array (18,), rad/s² and m/s².""",
         """由 M q̈ + h = Sᵀτ + J_cᵀλ 返回加速度。

@@ -91,12 +91,14 @@ def _falls(rng: Any) -> Any:
 LAW = Part(
     solution=rate_and_wrench,
     doc=Text(
-        """Return ḣ_G twice: from the motion that torques and contact forces make, and as the wrench from outside.
+        """Return ḣ_G twice: from the motion that torques and contact forces make, and as the wrench
+        from outside.
 
         model: Go2. q: array (19,). v: array (18,). tau: array (12,), N m.
         forces: array (4, 3), N, of the ground on each of `model.feet`, in the axes of the world.
-        Returns: array (6,), ḣ_G = (k̇, l̇) of that motion; array (6,), the wrench (τ, f) of the ground's forces and the
-        weight. Both about the centre of mass, in the axes of the world, N m and N.""",
+        Returns: array (6,), ḣ_G = (k̇, l̇) of that motion; array (6,), the wrench (τ, f) of the
+        ground's forces and the weight. Both about the centre of mass, in the axes of the world, N m
+        and N.""",
         """用两种方法返回 ḣ_G:由力矩和接触力产生的运动计算;作为外力的合 wrench 计算。
 
         model:Go2。q:数组 (19,)。v:数组 (18,)。tau:数组 (12,),N m。
@@ -107,7 +109,7 @@ LAW = Part(
     given="""
         acceleration = mine("accelerated")  # of M, h, S, J_c, tau, forces: the accelerations
         rate = mine("momentum_rate")  # rate(model, q, v, a) is ḣ_G
-    """,
+""",
     returns=(Quantity("ḣ_G", MOMENTUM), Quantity("wrench from outside", WRENCH)),
     cases=lambda rng: [(model, q, v, tau, forces.reshape(4, 3)) for model, q, v, tau, forces in _falls(rng)],
     slips={
@@ -187,13 +189,14 @@ INTERFACE = Part(
 
         model: with a floating base. q: array (nq,). v: array (nv,). feet: tuple of k names of frames.
         Use twistwrench, or your own of stage 2.
-        Returns: arrays (nv, nv), full; (nv,), with gravity and velocity terms; (3 k, nv), linear rows in the axes of
-        the world; (6, nv), rows (k, l). The base's entries are (ω, v).""",
+        Returns: arrays (nv, nv), full; (nv,), with gravity and velocity terms; (3 k, nv), linear
+        rows in the axes of the world; (6, nv), rows (k, l). The base's entries are (ω, v).""",
         """返回 M、h、J_c 和 A_G:后续各章控制器所需的全部量。
 
         model:浮动基座模型。q:数组 (nq,)。v:数组 (nv,)。feet:k 个 frame 名的元组。
         用 twistwrench,或用你在阶段 2 写的。
-        返回:数组 (nv, nv),完整矩阵;(nv,),含重力与速度项;(3 k, nv),线速度行,用世界坐标轴;(6, nv),行 (k, l)。
+        返回:数组 (nv, nv),完整矩阵;(nv,),含重力与速度项;(3 k, nv),线速度行,用世界坐标轴;(6, nv),行
+        (k, l)。
         基座分量为 (ω, v)。""",
     ),
     returns=(

@@ -60,9 +60,11 @@ def _one_side(p_G: Any, feet: Any, k: int) -> Any:
 LOADS = Part(
     solution=vertical_loads,
     doc=Text(
-        """Return the vertical force on each foot of a robot at rest on level ground. Of all that balance: least norm.
+        """Return the vertical force on each foot of a robot at rest on level ground. Of all that
+        balance: least norm.
 
-        p_G: array (3,), m, the centre of mass. feet: array (k, 3), m, the feet, all at one height. Both in the world.
+        p_G: array (3,), m, the centre of mass. feet: array (k, 3), m, the feet, all at one height.
+        Both in the world.
         weight: number, N.
         Returns: array (k,), N, positive upward.""",
         """返回静止在水平地面上的机器人每只脚的竖直力;满足平衡的解中取范数最小者。
@@ -147,15 +149,18 @@ def _compared(measure: Any) -> Any:
 CONSISTENCY = Part(
     solution=consistency_error,
     doc=Text(
-        """Return how far inverse dynamics is from undoing forward dynamics: the largest entry, by size, of what
-        comes back less τ, divided by the largest entry of τ.
+        """Return how far inverse dynamics is from undoing forward dynamics: the largest entry, by size,
+        of what comes back less τ, divided by the largest entry of τ.
 
-        forward: called as `tw.aba(model, q, v, tau)`. inverse: called as `tw.rnea(model, q, v, a)`. One may be faulty.
-        model: with a floating base. q: array (nq,). v, tau: arrays (nv,); the base's entries of tau are zero.
+        forward: called as `tw.aba(model, q, v, tau)`. inverse: called as `tw.rnea(model, q, v, a)`.
+        One may be faulty.
+        model: with a floating base. q: array (nq,). v, tau: arrays (nv,); the base's entries of tau
+        are zero.
         Returns: a number ≥ 0.""",
         """返回逆动力学还原正动力学的误差:还原出的力减 τ 的最大分量(取绝对值),除以 τ 的最大分量。
 
-        forward:按 `tw.aba(model, q, v, tau)` 调用。inverse:按 `tw.rnea(model, q, v, a)` 调用。其中之一可能有错。
+        forward:按 `tw.aba(model, q, v, tau)` 调用。inverse:按 `tw.rnea(model, q, v, a)` 调用。其中之
+        一可能有错。
         model:浮动基座模型。q:数组 (nq,)。v、tau:数组 (nv,),tau 的基座分量为零。
         返回:一个数 ≥ 0。""",
     ),

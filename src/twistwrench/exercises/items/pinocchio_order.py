@@ -41,7 +41,8 @@ INERTIA_MATRIX = Part(
     doc=Text(
         """Return the spatial inertia as `pin.Inertia.matrix()` has it (test 3).
 
-        m: number, kg. c: array (3,), m, the centre of mass (`.lever`). I_c: array (3, 3), kg m², about it (`.inertia`).
+        m: number, kg. c: array (3,), m, the centre of mass (`.lever`). I_c: array (3, 3), kg m²,
+        about it (`.inertia`).
         Returns: array (6, 6), rows (l, k), columns (v, ω): the linear half first.""",
         """按 `pin.Inertia.matrix()` 的排列返回空间惯量(测试 3)。
 

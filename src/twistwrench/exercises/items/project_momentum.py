@@ -100,19 +100,20 @@ def _motions(rng: Any) -> Any:
 MAP = Part(
     solution=own_centroidal_map,
     doc=Text(
-        """Return the centroidal momentum matrix A_G, without `tw.centroidal_map`: the sum of the momenta of all bodies.
+        """Return the centroidal momentum matrix A_G, without `tw.centroidal_map`: the sum of the
+        momenta of all bodies.
 
         model: with a floating base. q: array (nq,).
-        `tw.frame_jacobian(model, q, model.joint_names[i], reference="local")` is the body Jacobian of body i,
-        `model.inertia[i].matrix()` its inertia, `tw.forward_kinematics(model, q).placement[i]` its placement, and
-        `tw.center_of_mass(model, q)` is p_G.
+        `tw.frame_jacobian(model, q, model.joint_names[i], reference="local")` is the body Jacobian
+        of body i, `model.inertia[i].matrix()` its inertia, `tw.forward_kinematics(model,
+        q).placement[i]` its placement, and `tw.center_of_mass(model, q)` is p_G.
         Returns: array (6, nv), rows (k, l), about the centre of mass, in the axes of the world.""",
         """不用 `tw.centroidal_map`,返回质心动量矩阵 A_G:全部刚体动量之和。
 
         model:浮动基座模型。q:数组 (nq,)。
-        `tw.frame_jacobian(model, q, model.joint_names[i], reference="local")` 是物体 i 的 body 雅可比,
-        `model.inertia[i].matrix()` 是其惯量,`tw.forward_kinematics(model, q).placement[i]` 是其位姿,
-        `tw.center_of_mass(model, q)` 是 p_G。
+        `tw.frame_jacobian(model, q, model.joint_names[i], reference="local")` 是物体 i 的 body 雅可
+        比,`model.inertia[i].matrix()` 是其惯量,`tw.forward_kinematics(model, q).placement[i]` 是其位
+        姿,`tw.center_of_mass(model, q)` 是 p_G。
         返回:数组 (6, nv),行 (k, l),对质心取矩,用世界坐标轴。""",
     ),
     returns=(Quantity("A_G", CENTROIDAL_MAP),),
@@ -196,16 +197,18 @@ def _classical(I: Any, V: Any, A: Any) -> Any:
 RATE = Part(
     solution=momentum_rate,
     doc=Text(
-        """Return ḣ_G, the rate of the centroidal momentum in a given motion: the sum of what all bodies need.
+        """Return ḣ_G, the rate of the centroidal momentum in a given motion: the sum of what all bodies
+        need.
 
         model: with a floating base. q: array (nq,). v, a: arrays (nv,).
-        `tw.forward_kinematics(model, q, v, a)` gives, for each body, placements in the world, body twists, and spatial
-        accelerations without gravity.
+        `tw.forward_kinematics(model, q, v, a)` gives, for each body, placements in the world, body
+        twists, and spatial accelerations without gravity.
         Returns: array (6,), (k̇, l̇), N m and N, about the centre of mass, in the axes of the world.""",
         """返回给定运动中质心动量的变化率 ḣ_G:全部刚体所需 wrench 之和。
 
         model:浮动基座模型。q:数组 (nq,)。v、a:数组 (nv,)。
-        `tw.forward_kinematics(model, q, v, a)` 依次给出各物体在世界中的位姿、body twist 和空间加速度(不含重力)。
+        `tw.forward_kinematics(model, q, v, a)` 依次给出各物体在世界中的位姿、body twist 和空间加速度
+        (不含重力)。
         返回:数组 (6,),(k̇, l̇),N m 与 N,对质心取矩,用世界坐标轴。""",
     ),
     returns=(Quantity("ḣ_G", MOMENTUM),),

@@ -160,7 +160,7 @@ ENERGY = Part(
     solution=tree_energy,
     doc=described(
         Text(
-            "Return the kinetic energy, body by body: it is ½ q̇ᵀM q̇, and so checks an M that was made in another way.",
+            "Return the kinetic energy, body by body. It is ½ q̇ᵀM q̇, and so it checks M.",
             "逐个刚体返回动能:它等于 ½ q̇ᵀM q̇,可用来检验用别的方法得到的 M。",
         ),
         Text(

@@ -122,7 +122,8 @@ VECTOR = Part(
 
         kind: "twist" or "wrench". vector: array (6,), (ω, v) or (τ, f).
         a + b and a − b are of the same kind as a and b; two of different kinds raise a TypeError.
-        wrench.power(twist) and twist.power(wrench) are FᵀV, a number, W; two of the same kind raise a TypeError.""",
+        wrench.power(twist) and twist.power(wrench) are FᵀV, a number, W; two of the same kind raise
+        a TypeError.""",
         """一个 twist 或 wrench,知道自己是哪一种。
 
         kind:"twist" 或 "wrench"。vector:数组 (6,),(ω, v) 或 (τ, f)。
@@ -141,7 +142,7 @@ VECTOR = Part(
 
         def power(self, other):
             return ...
-    """,
+""",
     returns=(
         Quantity("(F + G).kind"),
         Quantity("F + G"),
@@ -193,7 +194,8 @@ POSE_OF_BASE = Part(
     doc=Text(
         """Return the placement of a floating base in the world.
 
-        q: array (nq,); the base has the first seven entries, x, y, z in m and the unit quaternion qx, qy, qz, qw.
+        q: array (nq,); the base has the first seven entries, x, y, z in m and the unit quaternion qx,
+        qy, qz, qw.
         Returns: array (4, 4).""",
         """返回浮动基座在世界中的位姿。
 
@@ -237,7 +239,8 @@ POSE_OF_URDF = Part(
     doc=Text(
         """Return the placement that a URDF's <origin xyz="..." rpy="..."/> means.
 
-        xyz: array (3,), m. rpy: array (3,), rad: roll about x, pitch about y, yaw about z, all of them fixed axes.
+        xyz: array (3,), m. rpy: array (3,), rad: roll about x, pitch about y, yaw about z, all of
+        them fixed axes.
         Returns: array (4, 4).""",
         """返回 URDF 中 <origin xyz="..." rpy="..."/> 表示的位姿。
 

@@ -130,7 +130,8 @@ PLACEMENTS = Part(
     doc=Text(
         """Return the placement of each body in the world: Pinocchio's `data.oMi`.
 
-        parent: tuple of n whole numbers: parent[i] carries body i and comes before it; 0 is the world, parent[0] is −1.
+        parent: tuple of n whole numbers: parent[i] carries body i and comes before it; 0 is the
+        world, parent[0] is −1.
         T: array (n, 4, 4): T[i] is the placement of body i in its parent; T[0] is 1.
         Returns: array (n, 4, 4).""",
         """返回每个物体在世界中的位姿:即 Pinocchio 的 `data.oMi`。
@@ -167,7 +168,8 @@ TWISTS = Part(
         """Return the twist of each body: Pinocchio's `data.v`. Twists add up once they are in one frame.
 
         parent, T: as in `body_placements`.
-        V_joint: array (n, 6), (ω, v), S q̇ of each joint: body i against its parent, in frame i; row 0 is zero.
+        V_joint: array (n, 6), (ω, v), S q̇ of each joint: body i against its parent, in frame i; row
+        0 is zero.
         Returns: array (n, 6), (ω, v), rad/s and m/s: the twist of body i in frame i; row 0 is zero.""",
         """返回每个物体的 twist:即 Pinocchio 的 `data.v`。twist 变到同一坐标系后才能相加。
 
@@ -205,13 +207,14 @@ WRENCHES = Part(
 
         parent, T: as in `body_placements`.
         F: array (n, 6), (τ, f), N m and N: what each body needs by itself, in frame i; row 0 is zero.
-        Returns: array (n, 6): what joint i must bear for body i and all that it carries, in frame i; row 0 is what
-        the ground bears, in the world.""",
+        Returns: array (n, 6): what joint i must bear for body i and all that it carries, in frame i;
+        row 0 is what the ground bears, in the world.""",
         """返回每个关节传给其物体的 wrench:即 Pinocchio 的 `data.f`。
 
         parent、T:同 `body_placements`。
         F:数组 (n, 6),(τ, f),N m 与 N:每个物体自身所需的 wrench,在坐标系 i 中;第 0 行为零。
-        返回:数组 (n, 6):关节 i 为物体 i 及其承载的全部物体所需承担的 wrench,在坐标系 i 中;第 0 行是地面承担的。""",
+        返回:数组 (n, 6):关节 i 为物体 i 及其承载的全部物体所需承担的 wrench,在坐标系 i 中;第 0 行是地
+        面承担的。""",
     ),
     given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
     returns=(Quantity("F"),),
