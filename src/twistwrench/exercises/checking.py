@@ -19,6 +19,7 @@ from .judge import Verdict
 from .progress import survey
 from .text import Text
 from .workbook import Workbook
+from .wrapping import wrapped
 
 __all__ = ["SectionFile", "pytest_collect_file", "pytest_configure", "pytest_terminal_summary"]
 
@@ -126,7 +127,8 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
         for exercise in _to_compare(book):
             terminalreporter.section(f"{exercise.id} {exercise.title.of(book.language)}")
             terminalreporter.write_line(COMPARE.fill(id=exercise.id).of(book.language))
-            terminalreporter.write_line("\n" + (exercise.answer or Text("", "")).of(book.language).strip())
+            model = wrapped((exercise.answer or Text("", "")).of(book.language))
+            terminalreporter.write_line("\n" + "\n".join(model))
             book.remember(compared=[*book.state["compared"], exercise.id])
         if not config.option.collectonly:
             terminalreporter.section(str(book.folder))

@@ -22,7 +22,7 @@ addopts = -p twistwrench.exercises.checking --tb=short -q -rN
 """
 
 HEAD = {
-    "en": '''"""Section {section}: {title}.
+    "en": '''"""{title}.
 
 Replace each `...` by your answer and run `pytest {file}` in this folder. Twists are (ω, v), wrenches
 (τ, f), units SI. `twistwrench exercises hint {first}` gives a hint, and the next one when asked again.
@@ -30,7 +30,7 @@ Replace each `...` by your answer and run `pytest {file}` in this folder. Twists
 After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
 """
 ''',
-    "zh": '''"""{section} 节:{title}。
+    "zh": '''"""{title}。
 
 把每个 `...` 换成你的答案,然后在本目录运行 `pytest {file}`。twist 为 (ω, v),wrench 为 (τ, f),
 使用国际单位。`twistwrench exercises hint {first}` 给出一条提示,再次运行给出下一条。
@@ -94,7 +94,7 @@ def solved(section: str, language: Language) -> str:
 
 def _file(section: str, language: Language, *, solve: bool) -> str:
     exercises = catalogue.of_section(section)
-    title, file = catalogue.SECTIONS[section].of(language), catalogue.file_name(section)
+    title, file = _title(section).of(language), catalogue.file_name(section)
     text = HEAD[language].format(section=section, title=title, file=file, first=exercises[0].id) + IMPORTS
     uses = list(dict.fromkeys(name for exercise in exercises for name in exercise.uses))
     text += "from twistwrench.exercises import mine\n"
@@ -103,6 +103,13 @@ def _file(section: str, language: Language, *, solve: bool) -> str:
         origin = {name: catalogue.find_part(name)[0].id for name in uses}
         text += "".join(f'{name} = mine("{name}")  # {origin[name]}: {YOURS.of(language)}\n' for name in uses)
     return text + "".join(_exercise(exercise, language, solve=solve) for exercise in exercises)
+
+
+def _title(section: str) -> Text:
+    title = catalogue.SECTIONS[section]
+    if section == "project":
+        return Text(f"{title.en} at the end of the chapter", f"章末的{title.zh}")
+    return Text(f"Section {section}: {title.en}", f"{section} 节:{title.zh}")
 
 
 def _exercise(exercise: Exercise, language: Language, *, solve: bool) -> str:
