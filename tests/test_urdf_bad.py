@@ -95,6 +95,11 @@ FAULTS = {
     "lower above the default": (changed('lower="-1" upper="1"', 'lower="1"'), ["lower limit 1.0", "upper limit 0.0"]),
     "negative effort": (changed('effort="1"', 'effort="-1"'), ["'j'", "effort limit is -1.0", "0 or more"]),
     "mimic of nobody": (changed(LIMIT, LIMIT + "<mimic/>"), ["'j'", "<mimic> names no joint"]),
+    "mimic of itself": (changed(LIMIT, LIMIT + '<mimic joint="j"/>'), ["line 4", "'j'", "the joint itself"]),
+    "mimic of a stranger": (
+        changed(LIMIT, LIMIT + '<mimic joint="jj"/>'),
+        ["line 4", "'j'", "<mimic>", "unknown joint 'jj'", "did you mean 'j'"],
+    ),
     # slips of the pen
     "axs": (changed(LIMIT, LIMIT + '<axs xyz="0 0 1"/>'), ["line 4", "joint 'j'", "<axs>", "did you mean <axis>"]),
     "inertal": (GOOD.replace("inertial", "inertal"), ["line 2", "link 'a'", "<inertal>", "did you mean <inertial>"]),
@@ -183,6 +188,13 @@ def test_what_drivers_and_simulators_add_is_passed_over(save):
     extras = '<hardwareInterface/><safety_controller/><dynamics damping="1"/><role/><s:axs xmlns:s="urn:sim"/>'
     limit = LIMIT.replace("<limit", '<limit gear_velocity="9" command_effort="9"')
     assert load(save(changed(LIMIT, limit + extras).replace("</robot>", "<gazebo/><sensor/></robot>"))).nv == 1
+
+
+@pytest.mark.parametrize("leader", ["j", "nobody"])
+def test_whom_a_joint_should_follow_is_nothing_to_one_that_moves_on_its_own(save, leader):
+    path = save(changed(LIMIT, LIMIT + f'<mimic joint="{leader}"/>'))
+    refuse(path, "'j'", "<mimic>")
+    assert load(path, mimic="independent").nv == 1
 
 
 def test_the_place_of_a_fault_in_the_xml_is_said_once(save):

@@ -51,7 +51,8 @@ def load(
         Refuse a moving body, welded links merged, that cannot exist: its inertia about the centre of mass must be
         positive definite and obey the triangle inequality. False drops these two conditions and no other.
     mimic : {"independent"}, optional
-        A file with mimic joints is loaded with a warning that names them; "independent" says that you know.
+        A file with mimic joints is loaded with a warning that names them, and refused where one should follow a
+        joint that is not there, or itself; "independent" says that you know, and loads either quietly.
         (The catalogue notes them in its table and does not warn.)
 
     Returns

@@ -19,7 +19,7 @@ from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute
 from ..model import Model
 from ..plucker import SE3
 from .reading import XML, read_robot_xml
-from .urdf_checks import INERTIA, LIMITS, check_robot
+from .urdf_checks import INERTIA, LIMITS, check_mimics, check_robot
 
 __all__ = ["load_urdf"]
 
@@ -61,7 +61,7 @@ def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, qui
     physical : bool
         Refuse bodies that cannot exist.
     quiet : bool
-        Do not warn of joints that should mimic others.
+        Do not warn of joints that should mimic others, nor ask whether there are such others.
 
     Returns
     -------
@@ -75,6 +75,7 @@ def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, qui
     root = read_robot_xml(path)
     check_robot(path, root)
     if not quiet:
+        check_mimics(path, root)
         _warn_of_mimics(path, root)
     robot = _through_yourdfpy(root, default_name=path.stem)
     try:

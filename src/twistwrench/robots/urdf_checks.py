@@ -15,7 +15,7 @@ from ..errors import ModelError, unknown_name
 from .reading import XML
 from .urdf_words import check_words
 
-__all__ = ["INERTIA", "JOINT_TYPES", "LIMITS", "check_robot"]
+__all__ = ["INERTIA", "JOINT_TYPES", "LIMITS", "check_mimics", "check_robot"]
 
 INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 LIMITS = ("lower", "upper", "effort", "velocity")
@@ -48,6 +48,33 @@ def check_robot(path: Path, root: XML) -> None:
     for name, joint in joints.items():
         _check_joint(path, name, joint)
     _check_tree(path, links, joints)
+
+
+def check_mimics(path: Path, root: XML) -> None:
+    """Demand that a joint mimics another one of the robot.
+
+    Parameters
+    ----------
+    path : Path
+        For the messages.
+    root : lxml element
+        The ``<robot>`` element, checked.
+
+    Raises
+    ------
+    ModelError
+        Naming the file, the line and the joint.
+    """
+    joints = [joint.get("name") for joint in root.findall("joint")]
+    for joint in root.findall("joint"):
+        mimic = joint.find("mimic") if joint.get("type") != "fixed" else None
+        if mimic is None:
+            continue
+        leader, what = mimic.get("joint"), f"{_at(path, mimic)}: joint {joint.get('name')!r}: its <mimic>"
+        if leader == joint.get("name"):
+            raise ModelError(f"{what} names the joint itself, expected another one")
+        if leader not in joints:
+            raise ModelError(f"{what}: {unknown_name('joint', leader, joints)}")
 
 
 def _named(path: Path, root: XML, tag: str) -> dict[str, XML]:
