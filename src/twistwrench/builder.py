@@ -78,8 +78,7 @@ class Builder:
             raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
         self._name = name
         self._base = base
-        as_array(gravity, "gravity", 3)  # three numbers, finite
-        self._gravity = as_constant(gravity, "gravity")
+        self._gravity = as_constant(as_array(gravity, "gravity", 3), "gravity")
         if self._gravity.shape != (3,):
             raise ShapeError(f"gravity: expected shape (3,), got {self._gravity.shape}")
         self._links: dict[str, Link] = {}

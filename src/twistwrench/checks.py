@@ -122,8 +122,12 @@ def _numeric(value: ArrayLike, name: str) -> Array:
         x = np.asarray(value)
     except ValueError:
         raise ShapeError(f"{name}: expected a rectangular array, got rows of different lengths") from None
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name}: expected numbers, got a masked array: what should stand where the mask is?")
     if x.dtype.kind in "iufc":
         return x
+    if value is None:
+        raise ValueError(f"{name}: expected numbers, got None")
     hint = " (for mpmath numbers use twistwrench.newton_euler_3d)" if x.dtype == object else ""
     raise ValueError(f"{name}: expected numbers, got an array of {x.dtype}{hint}")
 

@@ -14,6 +14,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import DTypeLike
 
+from ._scalars import which
 from .checks import Array
 from .exponential import exp6, log6
 from .plucker import SE3
@@ -65,15 +66,18 @@ class Joint(ABC):
         part = q[..., self.unit]
         size = np.abs(part.real).max(axis=-1, keepdims=True)
         if (size == 0).any():
-            raise ValueError(f"the entries {self.unit.start}:{self.unit.stop} of its q are all zero: no direction")
+            where = f"{self.unit.start}:{self.unit.stop} of its q are all zero" + which(size[..., 0] == 0)
+            raise ValueError(f"the entries {where}: no direction")
         q[..., self.unit] = unit(part / size)
         return q
 
     def random(self, rng: np.random.Generator, lower: Array, upper: Array) -> Array:
-        """Draw a q: uniform between the limits; without limits a turn in ±π, a length in ±1 m."""
+        """Draw a q, uniform between the limits; where they are wide, see `Model.random_configuration`."""
         span = np.pi if self.kind == "revolute" else 1.0
-        low = np.where(np.isfinite(lower), lower, np.minimum(-span, upper - 2 * span))
-        high = np.where(np.isfinite(upper), upper, np.maximum(span, lower + 2 * span))
+        near_zero = np.clip(0.0, lower + span, upper - span)
+        wide = upper / 2 - lower / 2 > 100 * span  # halved before, so that nothing overflows
+        low = np.where(wide, np.maximum(near_zero - span, lower), lower)
+        high = np.where(wide, np.minimum(near_zero + span, upper), upper)
         q = low + (high - low) * rng.random(self.nq)
         if self.unit is not None:
             part = rng.standard_normal(self.unit.stop - self.unit.start)  # uniform on the sphere

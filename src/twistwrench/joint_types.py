@@ -20,7 +20,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from .checks import Array, as_array
+from .checks import Array, as_array, as_constant
 from .errors import ModelError
 from .joint import GroupJoint, Joint, placement, same_side, turn, unit
 from .plucker import SE3
@@ -43,7 +43,7 @@ class _AxisJoint(Joint):
     def __init__(self, axis: str | ArrayLike) -> None:
         if isinstance(axis, str) and axis not in AXES:
             raise ModelError(f"axis: expected 'x', 'y', 'z' or a vector of 3, got {axis!r}")
-        a = as_array(AXES[axis] if isinstance(axis, str) else axis, "axis", 3).astype(np.float64)
+        a = as_constant(as_array(AXES[axis] if isinstance(axis, str) else axis, "axis", 3), "axis")
         if a.ndim != 1 or not a.any():
             raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
         size = np.abs(a).max()
@@ -67,8 +67,8 @@ class Revolute(_AxisJoint):
 
     Raises
     ------
-    ModelError
-        If the axis is zero or not a vector of three.
+    ModelError, ValueError
+        If the axis is zero or not a real vector of three.
 
     Examples
     --------
@@ -99,8 +99,8 @@ class Prismatic(_AxisJoint):
 
     Raises
     ------
-    ModelError
-        If the axis is zero or not a vector of three.
+    ModelError, ValueError
+        If the axis is zero or not a real vector of three.
 
     Examples
     --------
@@ -129,8 +129,8 @@ class Continuous(_AxisJoint, GroupJoint):
 
     Raises
     ------
-    ModelError
-        If the axis is zero or not a vector of three.
+    ModelError, ValueError
+        If the axis is zero or not a real vector of three.
 
     Examples
     --------

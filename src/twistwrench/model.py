@@ -191,8 +191,9 @@ class Model:
     def random_configuration(self, *, rng: np.random.Generator | int | None = None) -> Array:
         """Draw a configuration, shape (nq,).
 
-        Uniform between the limits; uniform over the turns of a quaternion or a (cos, sin). Where a limit is infinite,
-        a revolute angle lies in ±π and a length in ±1 m (Pinocchio returns infinities there).
+        Uniform between the limits; uniform over the turns of a quaternion or a (cos, sin). A range without end, or
+        one of more than 100 turns or 200 m, is cut to one turn or 2 m of it, as near to 0 as it goes: to ±π or ±1 m
+        where 0 is well inside (Pinocchio returns infinities there).
 
         Parameters
         ----------

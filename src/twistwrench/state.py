@@ -1,16 +1,17 @@
 """The check at the door of every algorithm.
 
-What comes out is finite, of one number type, of the right last axes, broadcast to one batch shape,
-and its quaternions have norm 1: behind this door nothing is checked again.
+What comes out is finite and stays so when multiplied, of one number type, of the right last axes,
+broadcast to one batch shape, and its quaternions have norm 1: behind this door nothing is checked again.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._scalars import which
 from .checks import Array, as_arrays, resolution
 from .errors import ShapeError
 
@@ -31,8 +32,9 @@ def check_state(model: Model, **named: ArrayLike) -> tuple[Array, ...]:
         listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches))
         raise ShapeError(f"batch axes do not broadcast: {listed}") from None
     for name, x in zip(names, arrays):
+        _check_size(x, name)
         if name.startswith("q"):
-            _check_unit(model, x, name)
+            _check_unit(model, x, name, digits=np.asarray(named[name]).dtype)
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
@@ -46,6 +48,7 @@ def check_arrays(model: Model, **named: ArrayLike) -> tuple[Array, ...]:
     for name, value in named.items():
         if name == "f_ext":
             expected[name] = (value, (model.nbodies, 6))
+            _check_world_is_there(model, value)
             continue
         _check_not_swapped(model, name, value)
         expected[name] = (value, (model.nq if name.startswith("q") else model.nv,))
@@ -57,10 +60,7 @@ def _check_not_swapped(model: Model, name: str, value: ArrayLike) -> None:
     (kind, size), (other, came) = ("q", model.nq), ("v", model.nv)
     if not name.startswith("q"):
         (kind, size), (other, came) = (other, came), (kind, size)
-    try:
-        shape = np.shape(value)
-    except ValueError:  # rows of different lengths: as_arrays says so
-        return
+    shape = _shape(value)
     if size != came and shape[-1:] == (came,):
         raise ShapeError(
             f"{name}: expected shape (..., {size}), got {shape}; this looks like n{other}: "
@@ -68,17 +68,45 @@ def _check_not_swapped(model: Model, name: str, value: ArrayLike) -> None:
         )
 
 
-def _check_unit(model: Model, q: Array, name: str) -> None:
-    """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits."""
+def _check_world_is_there(model: Model, f_ext: ArrayLike) -> None:
+    """Say so where the wrenches on the moving bodies came without the world's row."""
+    shape = _shape(f_ext)
+    if shape[-2:] == (model.nbodies - 1, 6):
+        raise ShapeError(f"f_ext: expected shape (..., {model.nbodies}, 6), got {shape}; row 0 is the world's, zero")
+
+
+def _shape(value: ArrayLike) -> tuple[int, ...]:
+    try:
+        return np.shape(value)
+    except ValueError:  # rows of different lengths: as_arrays says so
+        return ()
+
+
+def _check_size(x: Array, name: str) -> None:
+    """Refuse numbers beyond the fifth root of the largest: m (p × ω)² must not overflow."""
+    largest = np.finfo(x.dtype).max ** 0.2
+    huge = np.abs(x) > largest
+    if huge.any():
+        where = tuple(int(k) for k in np.argwhere(huge)[0])
+        limit = np.format_float_scientific(largest, 1)
+        raise ValueError(
+            f"{name}: expected at most {limit}, as products overflow in {x.dtype}, got {x[where]} at {where}"
+        )
+
+
+def _check_unit(model: Model, q: Array, name: str, digits: np.dtype[Any]) -> None:
+    """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it came with."""
+    tolerance = np.sqrt(resolution(digits if digits.kind in "fc" else np.float64))
     for joint, joint_name, s in zip(model.joints, model.joint_names, model.q_slice):
         if joint is None or joint.unit is None:
             continue
         part = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
         norm = np.hypot.reduce(q[..., part].real, axis=-1)
-        bad = np.abs(norm - 1) > np.sqrt(resolution(q.dtype))
+        bad = np.abs(norm - 1) > tolerance
         if bad.any():
             what = "(cos, sin)" if joint.unit.stop - joint.unit.start == 2 else "quaternion"
+            first = float(norm[bad].flat[0])
             raise ValueError(
-                f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm "
-                f"{float(norm[bad].flat[0]):.6g}, expected 1; model.normalize(q) repairs it"
+                f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
+                f"{which(bad)}, which is 1 {first - 1:+.2g}; model.normalize(q) repairs it"
             )
