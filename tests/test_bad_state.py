@@ -202,16 +202,16 @@ def test_unknown_frame_lists_the_nearest_names():
         lambda name: tw.dynamics(GO2, STAND, REST, contacts=[name]),
         GO2.frame,
     ):
-        with pytest.raises(tw.NameNotFound, match=r"frame of 'go2' 'FR_fot'; did you mean 'FR_foot'"):
+        with pytest.raises(tw.NameNotFound, match=r"frame 'FR_fot' of model 'go2'; did you mean 'FR_foot'"):
             function("FR_fot")
     assert issubclass(tw.NameNotFound, KeyError)
     assert issubclass(tw.NameNotFound, ValueError)
 
 
 def test_unknown_joint_and_posture_are_named():
-    with pytest.raises(tw.NameNotFound, match="joint of 'go2' 'FL_calf'; did you mean 'FL_calf_joint'"):
+    with pytest.raises(tw.NameNotFound, match="joint 'FL_calf' of model 'go2'; did you mean 'FL_calf_joint'"):
         GO2.joint_id("FL_calf")
-    with pytest.raises(tw.NameNotFound, match="posture of 'chain of 3' 'standing'"):
+    with pytest.raises(tw.NameNotFound, match="model 'chain of 3' has no standing posture"):
         ARM.standing()
 
 

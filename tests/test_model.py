@@ -176,6 +176,21 @@ def test_copy_with_another_gravity_has_constants_of_its_own():
         moon.gravity[2] = -3.7
 
 
+def test_nothing_that_later_results_depend_on_can_be_changed():
+    model = Recipe(4, seed=2).model
+    constants = model.constants(np.float64)
+    for array in (*constants.S[1:], *constants.I, constants.gravity, constants.armature):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 1.0
+    for mapping in (model.frames, model.postures):
+        with pytest.raises(TypeError, match="does not support item assignment"):
+            mapping["new"] = mapping
+    names = {"tip": model.frame(model.frame_names[-1])}
+    other = replace(model, frames=names)
+    names.clear()
+    assert other.frame_names == ("tip",)
+
+
 def test_arrays_that_a_model_is_made_of_stay_the_callers():
     gravity = np.array([0, 0, -1.62])
     moon = replace(tw.chain(2), gravity=gravity)

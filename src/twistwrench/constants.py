@@ -20,24 +20,24 @@ __all__ = ["Constants", "cast"]
 
 @dataclass(frozen=True, eq=False)
 class Constants:
-    """What the recursions read of a model, in one number type. Entry 0 of each is the world's.
+    """What the recursions read of a model, in one number type, read-only. Entry 0 of each is the world's.
 
     Attributes
     ----------
-    S : list of ndarray, shape (6, nv of joint i)
+    S : tuple of ndarray, shape (6, nv of joint i)
         The joint's motion subspace, in the body's frame.
-    I : list of ndarray, shape (6, 6)
+    I : tuple of ndarray, shape (6, 6)
         The body's spatial inertia, in its frame.
-    placement : list of SE3
+    placement : tuple of SE3
         As `Model.placement`.
     gravity : ndarray, shape (6,)
         The spatial acceleration (0, g) of free fall, in the world.
     armature : ndarray, shape (nv,)
     """
 
-    S: list[Array]
-    I: list[Array]
-    placement: list[SE3]
+    S: tuple[Array, ...]
+    I: tuple[Array, ...]
+    placement: tuple[SE3, ...]
     gravity: Array
     armature: Array
 
@@ -49,12 +49,18 @@ class Constants:
             for i in model.inertia
         ]
         return cls(
-            S=[joint.subspace(dtype) if joint else np.zeros((6, 0), dtype) for joint in model.joints],
-            I=[i.matrix() for i in inertia],
-            placement=[cast(T, dtype) for T in model.placement],
-            gravity=np.concatenate([np.zeros(3), model.gravity]).astype(dtype),
-            armature=model.armature.astype(dtype),
+            S=tuple(_fixed(joint.subspace(dtype) if joint else np.zeros((6, 0), dtype)) for joint in model.joints),
+            I=tuple(_fixed(i.matrix()) for i in inertia),
+            placement=tuple(cast(T, dtype) for T in model.placement),
+            gravity=_fixed(np.concatenate([np.zeros(3), model.gravity]).astype(dtype)),
+            armature=_fixed(model.armature.astype(dtype)),
         )
+
+
+def _fixed(x: Array) -> Array:
+    """Return x, read-only: all later results depend on it."""
+    x.flags.writeable = False
+    return x
 
 
 def cast(T: SE3, dtype: DTypeLike) -> SE3:

@@ -27,7 +27,7 @@ class FrameError(ValueError):
     """Two quantities expressed in different frames were combined. The message prints both frames."""
 
 
-def unknown_name(kind: str, name: object, known: Iterable[str]) -> NameNotFound:
+def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "") -> NameNotFound:
     """Make the error for a name that is not known, with the nearest known ones.
 
     Parameters
@@ -38,6 +38,8 @@ def unknown_name(kind: str, name: object, known: Iterable[str]) -> NameNotFound:
         What came, a string if it is a name at all.
     known : iterable of str
         The names that exist.
+    where : str
+        Which of several sets of names that is, for example ``" of model 'go2'"``.
 
     Returns
     -------
@@ -61,7 +63,7 @@ def unknown_name(kind: str, name: object, known: Iterable[str]) -> NameNotFound:
     else:
         shown = ", ".join(map(repr, names[:12]))
         hint = f"known: {shown}" + (f" and {len(names) - 12} more" if len(names) > 12 else "")
-    return NameNotFound(f"unknown {kind} {name!r}; {hint}")
+    return NameNotFound(f"unknown {kind} {name!r}{where}; {hint}")
 
 
 class NameNotFound(KeyError, ValueError):

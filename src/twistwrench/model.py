@@ -8,9 +8,10 @@ The indices are Pinocchio's joint ids.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass, field, fields
+from functools import cached_property, partial
 from itertools import pairwise
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from numpy.typing import ArrayLike, DTypeLike
 
 from .checks import Array
 from .constants import Constants
-from .errors import unknown_name
+from .errors import NameNotFound, unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
 from .plucker import SE3
@@ -108,6 +109,12 @@ class Model:
             own = np.array(getattr(self, name), np.float64)
             own.flags.writeable = False
             object.__setattr__(self, name, own)
+        for name in ("frames", "postures"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+    def __reduce__(self) -> tuple[partial[Model], tuple[()]]:
+        given = {f.name: getattr(self, f.name) for f in fields(self) if f.init}
+        return partial(Model, **given | {name: dict(given[name]) for name in ("frames", "postures")}), ()
 
     # ---------------------------------------------------------------- sizes and names
 
@@ -148,14 +155,14 @@ class Model:
 
     def frame(self, name: str) -> Frame:
         """Return the frame of this name; raises NameNotFound, with the nearest names, where there is none."""
-        if name not in self.frames:
-            raise unknown_name(f"frame of {self.name!r}", name, self.frames)
+        if not isinstance(name, str) or name not in self.frames:
+            raise unknown_name("frame", name, self.frames, f" of model {self.name!r}")
         return self.frames[name]
 
     def joint_id(self, name: str) -> int:
         """Return the index of the joint of this name, which is also its body's; raises NameNotFound as `frame`."""
         if name not in self.joint_names:
-            raise unknown_name(f"joint of {self.name!r}", name, self.joint_names)
+            raise unknown_name("joint", name, self.joint_names, f" of model {self.name!r}")
         return self.joint_names.index(name)
 
     def support(self, body: int) -> list[int]:
@@ -185,7 +192,7 @@ class Model:
             If the model has none: only the legged robots of the catalogue do.
         """
         if "standing" not in self.postures:
-            raise unknown_name(f"posture of {self.name!r}", "standing", self.postures or ["(none)"])
+            raise NameNotFound(f"model {self.name!r} has no standing posture")
         return self.postures["standing"].copy()
 
     def random_configuration(self, *, rng: np.random.Generator | int | None = None) -> Array:
@@ -201,9 +208,8 @@ class Model:
             Where the randomness comes from.
         """
         rng = np.random.default_rng(rng)
-        parts = [
-            joint.random(rng, self.lower[s], self.upper[s]) for joint, s in zip(self.joints, self.q_slice) if joint
-        ]
+        joints = zip(self.joints, self.q_slice)
+        parts = [joint.random(rng, self.lower[s], self.upper[s]) for joint, s in joints if joint]
         return np.concatenate([np.zeros(0), *parts])
 
     def integrate(self, q: ArrayLike, v_dt: ArrayLike) -> Array:
@@ -241,15 +247,12 @@ class Model:
             If one of them is zero, which has no direction; the message names the joint.
         """
         (q,) = check_arrays(self, q=q)
-        pieces = [q[..., :0]]
-        for i, s in enumerate(self.q_slice):
-            joint = self.joints[i]
-            if joint is None:
-                continue
+        pieces = []
+        for joint, name, s in zip(self.joints, self.joint_names, self.q_slice):
             try:
-                pieces.append(joint.normalize(q[..., s]))
+                pieces.append(joint.normalize(q[..., s]) if joint else q[..., s])
             except ValueError as error:
-                raise ValueError(f"joint {self.joint_names[i]!r} (q[{s.start}:{s.stop}]): {error}") from None
+                raise ValueError(f"joint {name!r} (q[{s.start}:{s.stop}]): {error}") from None
         return np.concatenate(pieces, axis=-1)
 
     def _by_joint(self, function: Callable[[Joint, slice, slice], Array], like: Array) -> Array:

@@ -54,7 +54,7 @@ def walk(model: Model, q: Array) -> Tree:
     """Return what the recursions need of `model` at a checked `q`, in q's number type."""
     constants = model.constants(q.dtype)
     X = [T.inverse().motion_transform() for T in joint_placements(model, q)]
-    return Tree(model.parent, constants.S, constants.I, X)
+    return Tree(model.parent, [*constants.S], [*constants.I], X)
 
 
 def joint_placements(model: Model, q: Array) -> list[SE3]:
