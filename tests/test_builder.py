@@ -424,6 +424,8 @@ def test_chain_has_the_joints_and_the_base_that_were_asked_for(kind):
     "bad",
     [
         {"n": 0},
+        {"n": 2.5},
+        {"n": True},
         {"n": 2, "mass": 0},
         {"n": 2, "length": -1},
         {"n": 2, "mass_ratio": np.nan},
@@ -439,7 +441,14 @@ def test_chain_that_cannot_be_is_refused(bad):
 
 
 def test_random_tree_that_cannot_be_is_refused():
-    for bad in ({"n": 0}, {"n": 3, "branching": 1.5}, {"n": 3, "kinds": []}, {"n": 3, "base": "loose"}):
+    for bad in (
+        {"n": 0},
+        {"n": 2.5},
+        {"n": 3, "kinds": "revolute"},
+        {"n": 3, "branching": 1.5},
+        {"n": 3, "kinds": []},
+        {"n": 3, "base": "loose"},
+    ):
         with pytest.raises(tw.ModelError):
             tw.random_tree(**bad)
     with pytest.raises(tw.NameNotFound, match="kind of joint 'ball'"):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,14 +45,14 @@ def _unactuated(model: Model) -> int:
     return 6 if model.base == "floating" else 0
 
 
-def contact_jacobian(model: Model, q: ArrayLike, contacts: Sequence[str]) -> Array:
+def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Array:
     """Return J_c of point contacts: the velocities of the contact points are J_c v.
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (..., nq)
-    contacts : sequence of str
+    contacts : iterable of str
         The frames at whose origins the robot touches its surroundings.
 
     Returns
@@ -80,11 +80,17 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Sequence[str]) -> Arr
     >>> J_c.shape, int(np.linalg.matrix_rank(J_c))
     ((12, 18), 12)
     """
-    if isinstance(contacts, str):
-        raise ValueError(f"contacts: expected a sequence of frame names, got the string {contacts!r}")
+    names = _names(contacts, "contacts", "frame names")
     (q,) = model.state(q)
-    rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
+    rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in names]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+
+
+def _names(given: Iterable[str], what: str, expected: str) -> tuple[str, ...]:
+    """Return names as a tuple; refuse a string, which is a sequence of letters."""
+    if isinstance(given, str):
+        raise ValueError(f"{what}: expected a sequence of {expected}, got the string {given!r}")
+    return tuple(given)
 
 
 @dataclass(frozen=True)
@@ -97,13 +103,16 @@ class Equilibrium:
         Torques of the actuated joints, N m or N.
     forces : ndarray, shape (k, 3)
         Of the ground on each contact, in the axes of the world, N.
+    contacts : tuple of str
+        The frames of the k contacts, in the order of the rows of `forces`.
     """
 
     tau: Array
     forces: Array
+    contacts: tuple[str, ...]
 
 
-def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | None = None) -> Equilibrium:
+def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | None = None) -> Equilibrium:
     """Return the torques and the contact forces that hold a robot with a floating base at rest.
 
     g(q) = Sᵀ τ + J_cᵀ λ. The six base rows have no τ: they give the contact forces, of all that would
@@ -115,13 +124,13 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | Non
     model : Model
     q : array_like, shape (nq,)
         One configuration, real. The least squares are done in float64 whatever its number type.
-    contacts : sequence of str, optional
+    contacts : iterable of str, optional
         Frames at which the robot touches the ground; `model.feet` unless given.
 
     Returns
     -------
     Equilibrium
-        tau and forces.
+        tau, forces and the names of the contacts.
 
     Raises
     ------
@@ -143,19 +152,19 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Sequence[str] | Non
     >>> held.forces[:, 2].sum().round(3)  # the feet carry the whole weight
     np.float64(157.794)
     """
-    contacts = model.feet if contacts is None else contacts
-    if model.base != "floating" or not len(contacts):
-        raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(contacts)}")
+    names = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    if model.base != "floating" or not names:
+        raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(names)}")
     (q,) = model.state(q)
     if q.ndim != 1 or q.dtype.kind == "c":
         raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
-    g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
+    g, J_c = gravity(model, q), contact_jacobian(model, q, names)
     b = _unactuated(model)
     forces = np.linalg.lstsq(J_c[:, :b].mT.astype(np.float64), g[:b].astype(np.float64))[0].astype(q.dtype)
     left = g[:b] - J_c[:, :b].mT @ forces
     if np.abs(left).max() > np.sqrt(resolution(q.dtype)) * np.abs(g[:b]).max():
-        raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
-    return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3))
+        raise SingularError(f"no forces at {list(names)} balance the weight: (τ, f) = {left} is left over")
+    return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3), contacts=names)
 
 
 @dataclass(frozen=True)
@@ -169,7 +178,7 @@ class Dynamics:
     h : ndarray, shape (..., nv)
         Coriolis, centrifugal and gravity forces.
     J_c : ndarray, shape (..., 3 k, nv)
-        Contact Jacobian, linear rows in the axes of the world.
+        Contact Jacobian, linear rows in the axes of the world; k = 0 where a robot has no contacts.
     A_G : ndarray, shape (..., 6, nv)
         Centroidal momentum matrix, rows (angular, linear).
     """
@@ -185,8 +194,8 @@ def dynamics(
     q: ArrayLike,
     v: ArrayLike,
     *,
-    contacts: Sequence[str] | None = None,
-    want: Collection[str] = ("M", "h", "J_c", "A_G"),
+    contacts: Iterable[str] | None = None,
+    want: Iterable[str] = ("M", "h", "J_c", "A_G"),
 ) -> Dynamics:
     """Return what a whole-body controller needs: M, h, J_c and A_G (the chapter's getDynamics).
 
@@ -195,9 +204,9 @@ def dynamics(
     model : Model
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
-    contacts : sequence of str, optional
+    contacts : iterable of str, optional
         Frames of the point contacts; `model.feet` unless given.
-    want : collection of {"M", "h", "J_c", "A_G"}
+    want : iterable of {"M", "h", "J_c", "A_G"}
         Only these are computed.
 
     Returns
@@ -209,7 +218,7 @@ def dynamics(
     NameNotFound
         If `want` names something else, or the model has no such contact frame.
     ShapeError, ValueError
-        As `Model.state`.
+        As `Model.state`; or if `contacts` or `want` is a single string.
 
     Examples
     --------
@@ -219,15 +228,16 @@ def dynamics(
     >>> d.M.shape, d.J_c.shape, d.h
     ((18, 18), (12, 18), None)
     """
-    contacts = model.feet if contacts is None else contacts
+    names = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    wanted = _names(want, "want", "quantities")
     compute = {
         "M": lambda: crba(model, q),
         "h": lambda: nonlinear_effects(model, q, v),
-        "J_c": lambda: contact_jacobian(model, q, contacts),
+        "J_c": lambda: contact_jacobian(model, q, names),
         "A_G": lambda: centroidal_map(model, q),
     }
-    for name in want:
-        if name not in compute:
+    for name in wanted:
+        if not isinstance(name, str) or name not in compute:
             raise unknown_name("quantity", name, compute)
     model.state(q, v=v)  # also where no wanted quantity depends on v
-    return Dynamics(**{name: compute[name]() for name in want})
+    return Dynamics(**{name: compute[name]() for name in wanted})

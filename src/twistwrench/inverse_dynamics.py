@@ -182,6 +182,7 @@ def external(model: Model, f_ext: ArrayLike | None) -> ArrayLike:
         f_ext = np.asarray(f_ext)
     except ValueError:  # rows of different lengths: `Model.state` says so
         return f_ext
-    if f_ext.shape[-2:] == (model.nbodies, 6) and f_ext[..., 0, :].any():
+    world = f_ext[..., 0, :] if f_ext.shape[-2:] == (model.nbodies, 6) else np.zeros(6)
+    if ((world != 0) & (world == world)).any():  # what is not a number is `Model.state`'s to refuse
         raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
     return f_ext

@@ -46,6 +46,12 @@ class Kinematics(NamedTuple):
     twist: Array | None
     acceleration: Array | None
 
+    def __repr__(self) -> str:
+        batch = self.placement[0].translation.shape[:-1]
+        given = [name for name in ("twist", "acceleration") if getattr(self, name) is not None]
+        of = f" of a batch {batch}" if batch else ""
+        return f"<Kinematics{of}: {', '.join([f'{len(self.placement)} placements', *given])}>"
+
 
 def forward_kinematics(
     model: Model, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None

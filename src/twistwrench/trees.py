@@ -68,7 +68,8 @@ def chain(
     Raises
     ------
     ModelError
-        If `n` is below 1, a number is not positive, or `joint`, `axis` or `base` is not one of the above.
+        If `n` is no whole number of at least 1, another number is not positive, or `joint`, `axis` or `base`
+        is not one of the above.
 
     Examples
     --------
@@ -77,8 +78,7 @@ def chain(
     >>> chain(3, mass_ratio=4.0).mass
     7.0
     """
-    if n < 1:
-        raise ModelError(f"n: expected at least 1 rod, got {n}")
+    _check_count(n)
     for name, value in (("mass", mass), ("length", length), ("mass_ratio", mass_ratio)):
         if not 0 < value < np.inf:
             raise ModelError(f"{name}: expected a positive number, got {value}")
@@ -101,6 +101,12 @@ def chain(
         )
     builder.link("tip", parent=names[-1], placement=below)
     return builder.build()
+
+
+def _check_count(n: int) -> None:
+    """Refuse a number of bodies that is none: 0, 2.5, True."""
+    if not isinstance(n, (int, np.integer)) or isinstance(n, bool) or n < 1:
+        raise ModelError(f"n: expected a whole number of at least 1, got {n!r}")
 
 
 def _rod(mass: float, length: float) -> SpatialInertia:
@@ -144,7 +150,7 @@ def random_tree(
     Raises
     ------
     ModelError
-        If `n` is below 1, `branching` no chance, or `kinds` is empty.
+        If `n` is no whole number of at least 1, `branching` no chance, or `kinds` empty or a string.
     NameNotFound
         If a kind is not known.
 
@@ -158,8 +164,9 @@ def random_tree(
     (-1, 0, 1, 2, 3, 4)
     """
     rng = np.random.default_rng(rng)
-    if n < 1 or not 0 <= branching <= 1 or not len(kinds):
-        raise ModelError(f"expected n ≥ 1, branching from 0 to 1 and some kinds, got {n}, {branching} and {kinds!r}")
+    _check_count(n)
+    if not 0 <= branching <= 1 or isinstance(kinds, str) or not len(kinds):
+        raise ModelError(f"expected branching from 0 to 1 and a list of kinds, got {branching} and {kinds!r}")
     for kind in kinds:
         if kind not in KINDS:
             raise unknown_name("kind of joint", kind, KINDS)
