@@ -319,14 +319,14 @@ def spoilt(change):
     ("change", "en", "zh"),
     [
         (lambda B: -B, "the sign is wrong", "符号相反"),
-        (lambda B: 0 * B, "zero, and must not be", "为零,不应为零"),
+        (lambda B: 0 * B, "zero, and must not be", "为零，不应为零"),
         (lambda B: 0 * B + 1, "other numbers altogether", "数值完全不同"),
         (lambda B: B.mT, "transposed", "被转置"),
         (lambda B: -B.mT, "transposed, and the sign is wrong", "被转置且符号相反"),
         (lambda B: 2 * B, "too large by a factor of 2", "大了 2 倍"),
         (lambda B: B / 1000, "too small by a factor of 1000", "小了 1000 倍"),
-        (lambda B: B[::-1], "the right numbers, in the wrong places", "数值正确,位置不对"),
-        (lambda B: np.abs(B), "the right numbers, some with the wrong sign", "数值正确,部分符号错误"),
+        (lambda B: B[::-1], "the right numbers, in the wrong places", "数值正确，位置不对"),
+        (lambda B: np.abs(B), "the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
         (lambda B: B + 1e-5, "right to ", "只有 "),
         (lambda B: B + np.outer([1, 0, 0], [0, 0, 1]), "wrong in [3, 2], right elsewhere", "错在 [3, 2]"),
     ],
@@ -336,7 +336,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
     assert f"X, the block of rows v, columns ω: {en}" in said
     assert "the rest of X is right" in said
     assert "X*, the" not in said
-    assert f"X,v 行 ω 列的块:{zh}" in message("plucker", spoilt(change), "zh")
+    assert f"X，v 行 ω 列的块：{zh}" in message("plucker", spoilt(change), "zh")
 
 
 @pytest.mark.parametrize(

@@ -23,9 +23,9 @@ from .wrapping import wrapped
 
 __all__ = ["SectionFile", "pytest_collect_file", "pytest_configure", "pytest_terminal_summary"]
 
-TO_DO = Text("to do: {id} {name}", "未做:{id} {name}")
+TO_DO = Text("to do: {id} {name}", "未做：{id} {name}")
 COMPARE = Text(
-    "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照,参考答案:"
+    "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照，参考答案："
 )
 
 BOOKS = pytest.StashKey[dict[str, Workbook]]()

@@ -12,10 +12,10 @@ __all__ = ["register"]
 
 REFUSED = 1
 
-ASK = Text("Show the solution of {id}? A hint may be enough. [y/N] ", "显示 {id} 的解答?也许一条提示就够了。[y/N] ")
+ASK = Text("Show the solution of {id}? A hint may be enough. [y/N] ", "显示 {id} 的解答？也许一条提示就够了。[y/N] ")
 UNASKED = Text(
     "The solution of {id} is shown with --yes; a hint first? twistwrench exercises hint {id}",
-    "加上 --yes 即显示 {id} 的解答;要不要先看提示?twistwrench exercises hint {id}",
+    "加上 --yes 即显示 {id} 的解答；要不要先看提示？twistwrench exercises hint {id}",
 )
 
 

@@ -144,7 +144,7 @@ def _named_by_piece(exercise: Exercise, part: Part, found: dict[str, list[str]])
     lines, told, last = [], set(), exercise.section
     for name, slips in found.items():
         titles = [SLIPS[slip].title for slip in slips]
-        title = Text(", or ".join(t.en for t in titles), ",或 ".join(t.zh for t in titles))
+        title = Text(", or ".join(t.en for t in titles), "，或 ".join(t.zh for t in titles))
         lines.append(say("slip in", name=name, title=title))
         lines += [_indented(_slip(exercise, part, slip).why) for slip in slips if slip not in told]
         told.update(slips)

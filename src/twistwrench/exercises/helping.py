@@ -13,16 +13,16 @@ from .wrapping import wrapped
 __all__ = ["hint", "solution"]
 
 SAY = {
-    "hint": Text("{id} {title}: hint {k} of {n}", "{id} {title}:提示 {k}/{n}"),
+    "hint": Text("{id} {title}: hint {k} of {n}", "{id} {title}：提示 {k}/{n}"),
     "last": Text(
         "That was the last one. The solution: twistwrench exercises solution {id}",
-        "提示已全部给出。查看解答:twistwrench exercises solution {id}",
+        "提示已全部给出。查看解答：twistwrench exercises solution {id}",
     ),
-    "solution": Text("{id} {title}: a solution", "{id} {title}:参考解答"),
-    "model": Text("The model answer:", "参考答案:"),
+    "solution": Text("{id} {title}: a solution", "{id} {title}：参考解答"),
+    "model": Text("The model answer:", "参考答案："),
     "later": Text(
         "The model answer is shown once yours is written: fill in {name}.",
-        "写下你自己的回答(填写 {name})之后才显示参考答案。",
+        "写下你自己的回答（填写 {name}）之后才显示参考答案。",
     ),
 }
 

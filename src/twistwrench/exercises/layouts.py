@@ -73,7 +73,10 @@ _STATE = (
 )
 _FEET = tuple((Text(f"of foot {k}", f"第 {k} 只脚"), slice(3 * k, 3 * k + 3)) for k in range(4))
 _POSE_ROWS = (Text("0 to 2", "0–2"), slice(0, 3)), (Text("3", "3"), slice(3, 4))
-_POSE_COLUMNS = (Text("0 to 2 (rotation)", "0–2(旋转)"), slice(0, 3)), (Text("3 (position)", "3(位置)"), slice(3, 4))
+_POSE_COLUMNS = (
+    (Text("0 to 2 (rotation)", "0–2（旋转）"), slice(0, 3)),
+    (Text("3 (position)", "3（位置）"), slice(3, 4)),
+)
 
 PLAIN = Layout()
 TWIST = Layout((_MOTION,))

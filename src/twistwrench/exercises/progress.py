@@ -22,9 +22,9 @@ SAY = {
     "done": Text("done", "完成"),
     "wrong": Text("wrong", "有误"),
     "total": Text("total", "合计"),
-    "next": Text("Next: {id} {title}, in {file}", "下一题:{id} {title}({file})"),
-    "fix": Text("To mend: {ids}", "待改正:{ids}"),
-    "borrowed": Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现:{names}"),
+    "next": Text("Next: {id} {title}, in {file}", "下一题：{id} {title}（{file}）"),
+    "fix": Text("To mend: {ids}", "待改正：{ids}"),
+    "borrowed": Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现：{names}"),
     "finished": Text("All done.", "全部完成。"),
 }
 

@@ -32,10 +32,10 @@ After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY
 ''',
     "zh": '''"""{title}。
 
-把每个 `...` 换成你的答案,然后在本目录运行 `pytest {file}`。twist 为 (ω, v),wrench 为 (τ, f),
-使用国际单位。`twistwrench exercises hint {first}` 给出一条提示,再次运行给出下一条。
+把每个 `...` 换成你的答案，然后在本目录运行 `pytest {file}`。twist 为 (ω, v)，wrench 为 (τ, f)，
+使用国际单位。`twistwrench exercises hint {first}` 给出一条提示，再次运行给出下一条。
 
-改写自 Robotics Tutorial 第 49 章的练习,作者 Pengfei Guo(CC BY 4.0)。
+改写自 Robotics Tutorial 第 49 章的练习，作者 Pengfei Guo(CC BY 4.0)。
 """
 ''',
 }
@@ -46,8 +46,8 @@ import numpy as np
 import twistwrench as tw
 """
 
-YOURS = Text("yours where it is right, else the reference", "你的实现正确时用你的,否则用参考实现")
-WORDS = Text("In your own words, as a string:", "用自己的话回答,写成字符串:")
+YOURS = Text("yours where it is right, else the reference", "你的实现正确时用你的，否则用参考实现")
+WORDS = Text("In your own words, as a string:", "用自己的话回答，写成字符串：")
 
 
 def start(folder: str | PathLike[str], *, language: Language | None = None) -> tuple[list[Path], list[Path]]:
@@ -109,7 +109,7 @@ def _title(section: str) -> Text:
     title = catalogue.SECTIONS[section]
     if section == "project":
         return Text(f"{title.en} at the end of the chapter", f"章末的{title.zh}")
-    return Text(f"Section {section}: {title.en}", f"{section} 节:{title.zh}")
+    return Text(f"Section {section}: {title.en}", f"{section} 节：{title.zh}")
 
 
 def _exercise(exercise: Exercise, language: Language, *, solve: bool) -> str:

@@ -9,7 +9,7 @@ import unicodedata
 __all__ = ["columns", "hanging", "wrapped"]
 
 WIDTH = 98
-NO_START = "、。,;:!?)】》”’,.;:!?)"
+NO_START = "、。，；：！？）】》”’,.;:!?)"
 
 
 def columns(text: str) -> int:

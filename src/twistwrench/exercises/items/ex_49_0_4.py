@@ -34,8 +34,8 @@ EXERCISE = Exercise(
     text=Text(
         """What do nq and nv mean in Pinocchio, and why do they differ when the model has a free-flyer?
         Count both for any list of joints; a revolute or prismatic joint has one number in q and one in v.""",
-        """Pinocchio 中 nq 和 nv 分别表示什么?为什么含 FreeFlyer 关节的模型中两者不同?
-        对任意一串关节数出 nq 和 nv;转动关节和棱柱关节在 q、v 中各占 1 个数。""",
+        """Pinocchio 中 nq 和 nv 分别表示什么？为什么含 FreeFlyer 关节的模型中两者不同？
+        对任意一串关节数出 nq 和 nv；转动关节和棱柱关节在 q、v 中各占 1 个数。""",
     ),
     parts=(
         Part(
@@ -48,9 +48,9 @@ EXERCISE = Exercise(
                 Returns: two whole numbers.""",
                 """按 Pinocchio 的方式返回 nq 和 nv。
 
-                kinds:列表,元素为 "revolute"、"prismatic"、"continuous"(可无限旋转)、"spherical"、
+                kinds：列表，元素为 "revolute"、"prismatic"、"continuous"（可无限旋转）、"spherical"、
                 "free_flyer"。
-                返回:两个整数。""",
+                返回：两个整数。""",
             ),
             returns=(Quantity("nq"), Quantity("nv")),
             cases=_cases,
@@ -77,12 +77,12 @@ EXERCISE = Exercise(
     hints=(
         Text(
             "v counts the directions in which a joint can move; q the numbers that say where it is.",
-            "v 数的是关节可以运动的方向;q 数的是描述其位置所用的数。",
+            "v 数的是关节可以运动的方向；q 数的是描述其位置所用的数。",
         ),
         Text(
             """A quaternion is four numbers, for three directions. A joint that turns without end is stored as
             (cos, sin), so that q does not jump at 360°.""",
-            """四元数用 4 个数描述 3 个方向。可无限旋转的关节以 (cos, sin) 存储,这样 q 在 360° 处不会跳变。""",
+            """四元数用 4 个数描述 3 个方向。可无限旋转的关节以 (cos, sin) 存储，这样 q 在 360° 处不会跳变。""",
         ),
     ),
     answer=Text(
@@ -90,8 +90,8 @@ EXERCISE = Exercise(
         number of degrees of freedom. A free-flyer has 7 in q (three for the position, four of a unit quaternion) and
         6 in v (ω and v): nq = nv + 1. Positions live on a curved set, velocities in its flat tangent space, so q̇ and v
         are not the same thing, and q is stepped by `integrate`, not by q + v dt.""",
-        """nq 是 q 的分量个数,描述机器人在哪里;nv 是速度 v 的分量个数,也就是自由度数。FreeFlyer 在 q 中占 7 个
-        (位置 3 个,单位四元数 4 个),在 v 中占 6 个(ω 与 v):nq = nv + 1。位形在弯曲的流形上,速度在平直的切空间中,
-        所以 q̇ 与 v 不是一回事;更新 q 要用 `integrate`,而不是 q + v dt。""",
+        """nq 是 q 的分量个数，描述机器人在哪里；nv 是速度 v 的分量个数，也就是自由度数。FreeFlyer 在 q 中占 7 个
+        （位置 3 个，单位四元数 4 个），在 v 中占 6 个（ω 与 v）：nq = nv + 1。位形在弯曲的流形上，
+        速度在平直的切空间中，所以 q̇ 与 v 不是一回事；更新 q 要用 `integrate`，而不是 q + v dt。""",
     ),
 )

@@ -35,7 +35,7 @@ EXERCISE = Exercise(
         """What are the equations of Newton and Euler for a rigid body: which is about translation, which about
         rotation?
         Compute the moment about the centre of mass and the force that a given motion takes.""",
-        """刚体的牛顿-欧拉方程是什么形式?平动部分和转动部分分别是什么?
+        """刚体的牛顿-欧拉方程是什么形式？平动部分和转动部分分别是什么？
         由给定的运动计算关于质心的力矩和所需的力。""",
     ),
     parts=(
@@ -51,10 +51,10 @@ EXERCISE = Exercise(
                 Returns: two arrays (3,), N m and N.""",
                 """返回作用在刚体上、关于质心的力矩和力。
 
-                m:数,kg。I_c:数组 (3, 3),kg m²,关于质心。
-                omega、alpha:数组 (3,),rad/s 与 rad/s²。a_c:数组 (3,),m/s²,质心加速度。
+                m：数，kg。I_c：数组 (3, 3)，kg m²，关于质心。
+                omega、alpha：数组 (3,)，rad/s 与 rad/s²。a_c：数组 (3,)，m/s²，质心加速度。
                 均取同一时刻、同一组坐标轴、惯性系。
-                返回:两个数组 (3,),N m 与 N。""",
+                返回：两个数组 (3,)，N m 与 N。""",
             ),
             returns=(Quantity("τ", unit="N m"), Quantity("f", unit="N")),
             cases=_cases,
@@ -79,7 +79,7 @@ EXERCISE = Exercise(
                 Property(
                     Text(
                         "the power of the moment is the rate of the rotational energy: τ·ω = α·Iω",
-                        "力矩的功率等于转动动能的变化率:τ·ω = α·Iω",
+                        "力矩的功率等于转动动能的变化率：τ·ω = α·Iω",
                     ),
                     lambda answer, m, I_c, omega, alpha, a_c: answer[0] @ omega - alpha @ I_c @ omega,
                 ),
@@ -89,11 +89,11 @@ EXERCISE = Exercise(
     hints=(
         Text(
             "Force is the rate of change of the momentum m v_c, moment that of the angular momentum I_c ω.",
-            "力是动量 m v_c 的变化率,力矩是角动量 I_c ω 的变化率。",
+            "力是动量 m v_c 的变化率，力矩是角动量 I_c ω 的变化率。",
         ),
         Text(
             "I_c turns with the body, so d(I_c ω)/dt has a second term: ω × I_c ω.",
-            "I_c 随刚体转动,所以 d(I_c ω)/dt 还有第二项:ω × I_c ω。",
+            "I_c 随刚体转动，所以 d(I_c ω)/dt 还有第二项：ω × I_c ω。",
         ),
     ),
 )

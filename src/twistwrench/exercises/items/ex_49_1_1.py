@@ -22,16 +22,15 @@ EXERCISE = Exercise(
         "Go2 has 12 joints and a free-flying base. Give nq and nv as Pinocchio counts them, with a quaternion for the "
         "base, and again for a base whose orientation is kept in Euler angles. Then say why Pinocchio uses the "
         "quaternion.",
-        "Go2 有 12 个关节和一个自由浮动的基座。给出 Pinocchio(基座姿态用四元数)中的 nq 和 nv;再给出基座姿态改用欧拉角"
-        "时的 nq 和 nv。"
-        "然后说明 Pinocchio 为什么用四元数。",
+        "Go2 有 12 个关节和一个自由浮动的基座。给出 Pinocchio（基座姿态用四元数）中的 nq 和 nv；"
+        "再给出基座姿态改用欧拉角时的 nq 和 nv。然后说明 Pinocchio 为什么用四元数。",
     ),
     parts=(
         Part(
             solution=sizes,
             doc=Text(
                 "Return nq and nv with a quaternion, then nq and nv with Euler angles: four whole numbers.",
-                "依次返回用四元数时的 nq、nv,用欧拉角时的 nq、nv:四个整数。",
+                "依次返回用四元数时的 nq、nv，用欧拉角时的 nq、nv：四个整数。",
             ),
             returns=(
                 Quantity("nq (quaternion)"),
@@ -52,11 +51,11 @@ EXERCISE = Exercise(
     hints=(
         Text(
             "Count the base's position, its orientation and the joints one by one, first in q and then in v.",
-            "分别数一数基座位置、基座姿态和关节:先数 q,再数 v。",
+            "分别数一数基座位置、基座姿态和关节：先数 q，再数 v。",
         ),
         Text(
             "A quaternion is 4 numbers, an angular velocity always 3. Euler angles are 3.",
-            "四元数是 4 个数,角速度总是 3 个;欧拉角是 3 个。",
+            "四元数是 4 个数，角速度总是 3 个；欧拉角是 3 个。",
         ),
     ),
     answer=Text(
@@ -65,8 +64,7 @@ EXERCISE = Exercise(
         "rates to ω loses rank, and its inverse blows up. A quaternion has no such place. It needs one number more "
         "than "
         "there are degrees of freedom, so nq = nv + 1, and its length must be kept at 1 by integrating on the group.",
-        "三个角无法光滑地覆盖全部旋转:俯仰角为 ±90° 时两个转轴重合,角度变化率到 ω 的映射降秩,其逆发散。四元数没有这种"
-        "奇异点。"
-        "代价是比自由度多一个数(nq = nv + 1),并且必须在群上积分以保持单位长度。",
+        "三个角无法光滑地覆盖全部旋转：俯仰角为 ±90° 时两个转轴重合，角度变化率到 ω 的映射降秩，其逆发散。"
+        "四元数没有这种奇异点。代价是比自由度多一个数（nq = nv + 1），并且必须在群上积分以保持单位长度。",
     ),
 )

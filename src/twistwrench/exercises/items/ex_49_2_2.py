@@ -50,8 +50,8 @@ MATRIX = Part(
         Returns: array (4, 4).""",
         """返回 V = (0, 0, omega_z, v_x, 0, 0) 的 [V]∧。
 
-        omega_z:数,rad/s。v_x:数,m/s。
-        返回:数组 (4, 4)。""",
+        omega_z：数，rad/s。v_x：数，m/s。
+        返回：数组 (4, 4)。""",
     ),
     returns=(Quantity("[V]∧", POSE),),
     cases=_cases,
@@ -64,7 +64,7 @@ MATRIX = Part(
     },
     properties=(
         Property(
-            Text("the last row is zero: [V]∧ is a derivative", "最后一行为零:[V]∧ 是导数"),
+            Text("the last row is zero: [V]∧ is a derivative", "最后一行为零：[V]∧ 是导数"),
             lambda answer, omega_z, v_x: answer[3],
         ),
     ),
@@ -77,10 +77,10 @@ ARC = Part(
 
         omega_z: number, rad/s, not 0. v_x: number, m/s.
         Returns: array (4, 4), lengths in m.""",
-        """返回 t = 1 s 时的位姿 exp([V]∧ t),V = (0, 0, omega_z, v_x, 0, 0),要求精确解。
+        """返回 t = 1 s 时的位姿 exp([V]∧ t)，V = (0, 0, omega_z, v_x, 0, 0)，要求精确解。
 
-        omega_z:数,rad/s,不为 0。v_x:数,m/s。
-        返回:数组 (4, 4),长度单位 m。""",
+        omega_z：数，rad/s，不为 0。v_x：数，m/s。
+        返回：数组 (4, 4)，长度单位 m。""",
     ),
     returns=(Quantity("T", POSE),),
     cases=_cases,
@@ -119,14 +119,14 @@ EXERCISE = Exercise(
         """A body has the constant body twist V = (0, 0, ω_z, v_x, 0, 0): it turns about z while it moves along its own
         x.
         Write down the matrix [V]∧, and the placement exp([V]∧ t) at t = 1, exactly, not as a series.""",
-        """刚体的 body twist 恒为 V = (0, 0, ω_z, v_x, 0, 0):绕 z 轴转动,同时沿自身 x 轴平移。
-        写出矩阵 [V]∧,并求 t = 1 时的位姿 exp([V]∧ t),要求精确解,不要用级数近似。""",
+        """刚体的 body twist 恒为 V = (0, 0, ω_z, v_x, 0, 0)：绕 z 轴转动，同时沿自身 x 轴平移。
+        写出矩阵 [V]∧，并求 t = 1 时的位姿 exp([V]∧ t)，要求精确解，不要用级数近似。""",
     ),
     parts=(MATRIX, ARC),
     hints=(
         Text(
             "Top left of [V]∧ stands [ω]×, in the last column v, below only zeros.",
-            "[V]∧ 的左上是 [ω]×,最后一列是 v,最后一行全为零。",
+            "[V]∧ 的左上是 [ω]×，最后一列是 v，最后一行全为零。",
         ),
         Text(
             "After the time t the body heads along (cos ω_z t, sin ω_z t). Integrate v_x times that from 0 to 1.",
@@ -134,7 +134,7 @@ EXERCISE = Exercise(
         ),
         Text(
             "x = v_x sin ω_z / ω_z and y = v_x (1 − cos ω_z)/ω_z: an arc of radius v_x/ω_z.",
-            "x = v_x sin ω_z / ω_z,y = v_x (1 − cos ω_z)/ω_z:半径为 v_x/ω_z 的圆弧。",
+            "x = v_x sin ω_z / ω_z，y = v_x (1 − cos ω_z)/ω_z：半径为 v_x/ω_z 的圆弧。",
         ),
     ),
 )

@@ -44,9 +44,8 @@ EXERCISE = Exercise(
     text=Text(
         "Frame B has the axes of A, and its origin is at p: T_AB = (1, p). Write down X and X*, which take twists and "
         "wrenches from B to A, and the inverse of X. Check by hand that X X⁻¹ = 1.",
-        "坐标系 B 与 A 的坐标轴平行,原点位于 p:T_AB = (1, p)。写出把 twist 和 wrench 从 B 变到 A 的 X 与 X*,以及 X 的"
-        "逆。"
-        "手算验证 X X⁻¹ = 1。",
+        "坐标系 B 与 A 的坐标轴平行，原点位于 p：T_AB = (1, p)。写出把 twist 和 wrench 从 B 变到 A 的 X 与 X*，"
+        "以及 X 的逆。手算验证 X X⁻¹ = 1。",
     ),
     parts=(
         Part(
@@ -58,8 +57,8 @@ EXERCISE = Exercise(
                 Returns: three arrays (6, 6), in the order (ω, v) and (τ, f).""",
                 """返回位姿 (1, p) 的 X、X⁻¹ 和 X*。
 
-                p:数组 (3,),单位 m,B 的原点在 A 中的位置。
-                返回:三个 (6, 6) 数组,顺序为 (ω, v) 与 (τ, f)。""",
+                p：数组 (3,)，单位 m，B 的原点在 A 中的位置。
+                返回：三个 (6, 6) 数组，顺序为 (ω, v) 与 (τ, f)。""",
             ),
             returns=(
                 Quantity("X", MOTION_TRANSFORM),
@@ -85,7 +84,7 @@ EXERCISE = Exercise(
                 ),
                 Property(
                     Text(
-                        "X*ᵀ X = 1: the power FᵀV is the same in both frames", "X*ᵀ X = 1:功率 FᵀV 在两个坐标系中相同"
+                        "X*ᵀ X = 1: the power FᵀV is the same in both frames", "X*ᵀ X = 1：功率 FᵀV 在两个坐标系中相同"
                     ),
                     lambda answer, p: answer[2].mT @ answer[0] - np.eye(6),
                 ),
@@ -96,11 +95,11 @@ EXERCISE = Exercise(
         Text(
             "Think of a body that turns about the origin of B. Which velocity has the point of it that passes the "
             "origin of A?",
-            "设想一个绕 B 原点转动的刚体:它经过 A 原点的那一点速度是多少?",
+            "设想一个绕 B 原点转动的刚体：它经过 A 原点的那一点速度是多少？",
         ),
         Text(
             "ω is the same in both; v_A = v_B + p × ω. For forces: f is the same, τ_A = τ_B + p × f.",
-            "ω 相同;v_A = v_B + p × ω。对于力:f 相同,τ_A = τ_B + p × f。",
+            "ω 相同；v_A = v_B + p × ω。对于力：f 相同，τ_A = τ_B + p × f。",
         ),
     ),
 )

@@ -44,8 +44,8 @@ EXERCISE = Exercise(
         """Prove that X_AC = X_AB X_BC. First see it happen: compute X_AC from the placement
         T_AC = T_AB T_BC, and again as a product of two X. Then write the proof,
         in words and formulas, into the string.""",
-        """证明 X_AC = X_AB X_BC。先做数值实验:由位姿 T_AC = T_AB T_BC 计算 X_AC,再由两个 X 的乘积计算一次。
-        然后把证明(文字加公式)写进字符串。""",
+        """证明 X_AC = X_AB X_BC。先做数值实验：由位姿 T_AC = T_AB T_BC 计算 X_AC，再由两个 X 的乘积计算一次。
+        然后把证明（文字加公式）写进字符串。""",
     ),
     parts=(
         Part(
@@ -55,10 +55,10 @@ EXERCISE = Exercise(
 
                 R_AB, R_BC: arrays (3, 3). p_AB, p_BC: arrays (3,), m.
                 Returns: two arrays (6, 6). The first must not be computed from the second.""",
-                """用两种方法返回 X_AC:由位姿 T_AB T_BC 计算;由 X_AB X_BC 相乘。
+                """用两种方法返回 X_AC：由位姿 T_AB T_BC 计算；由 X_AB X_BC 相乘。
 
-                R_AB、R_BC:数组 (3, 3)。p_AB、p_BC:数组 (3,),单位 m。
-                返回:两个 (6, 6) 数组。第一个不能由第二个得到。""",
+                R_AB、R_BC：数组 (3, 3)。p_AB、p_BC：数组 (3,)，单位 m。
+                返回：两个 (6, 6) 数组。第一个不能由第二个得到。""",
             ),
             given='X = mine("plucker")  # X(R, p) gives X and X*',
             returns=(
@@ -86,11 +86,11 @@ EXERCISE = Exercise(
     hints=(
         Text(
             "A point of C goes to A through B: x_A = R_AB (R_BC x + p_BC) + p_AB. Read T_AC off.",
-            "C 中的点经 B 变到 A:x_A = R_AB (R_BC x + p_BC) + p_AB。由此读出 T_AC。",
+            "C 中的点经 B 变到 A：x_A = R_AB (R_BC x + p_BC) + p_AB。由此读出 T_AC。",
         ),
         Text(
             "X is defined by what it does: [X_AB V]∧ = T_AB [V]∧ T_AB⁻¹. Apply that twice to any V of frame C.",
-            "X 由作用定义:[X_AB V]∧ = T_AB [V]∧ T_AB⁻¹。对 C 中任意 V 连用两次。",
+            "X 由作用定义：[X_AB V]∧ = T_AB [V]∧ T_AB⁻¹。对 C 中任意 V 连用两次。",
         ),
     ),
     answer=Text(
@@ -99,10 +99,10 @@ EXERCISE = Exercise(
         because (T_AB T_BC)⁻¹ = T_BC⁻¹ T_AB⁻¹. The hat map is one-to-one, and V is any, so the matrices are equal.
         By blocks: bottom left stands [p_AB]× R_AB R_BC + R_AB [p_BC]× R_BC, and R_AB [p_BC]× = [R_AB p_BC]× R_AB
         makes it [p_AB + R_AB p_BC]× R_AC, which is the coupling of T_AC.""",
-        """X_AB 由 [X_AB V]∧ = T_AB [V]∧ T_AB⁻¹ 对任意 V 定义。取 C 中任意 V,则
-        [X_AB X_BC V]∧ = T_AB [X_BC V]∧ T_AB⁻¹ = T_AB T_BC [V]∧ T_BC⁻¹ T_AB⁻¹ = T_AC [V]∧ T_AC⁻¹ = [X_AC V]∧,
-        因为 (T_AB T_BC)⁻¹ = T_BC⁻¹ T_AB⁻¹。∧ 映射是一一的,而 V 任意,所以两矩阵相等。
-        也可按块验证:左下块为 [p_AB]× R_AB R_BC + R_AB [p_BC]× R_BC,由 R_AB [p_BC]× = [R_AB p_BC]× R_AB 得
-        [p_AB + R_AB p_BC]× R_AC,正是 T_AC 的耦合项。""",
+        """X_AB 由 [X_AB V]∧ = T_AB [V]∧ T_AB⁻¹ 对任意 V 定义。取 C 中任意 V，则
+        [X_AB X_BC V]∧ = T_AB [X_BC V]∧ T_AB⁻¹ = T_AB T_BC [V]∧ T_BC⁻¹ T_AB⁻¹ = T_AC [V]∧ T_AC⁻¹ = [X_AC V]∧，
+        因为 (T_AB T_BC)⁻¹ = T_BC⁻¹ T_AB⁻¹。∧ 映射是一一的，而 V 任意，所以两矩阵相等。
+        也可按块验证：左下块为 [p_AB]× R_AB R_BC + R_AB [p_BC]× R_BC，由 R_AB [p_BC]× = [R_AB p_BC]× R_AB 得
+        [p_AB + R_AB p_BC]× R_AC，正是 T_AC 的耦合项。""",
     ),
 )

@@ -89,8 +89,8 @@ REORDERED = Part(
         Returns: array (6, 6).""",
         """返回按本章顺序 (ω, v) 排列的空间惯量矩阵。
 
-        I:数组 (6, 6),由 `pin.Inertia.matrix()` 得到:行和列的顺序都是 (v, ω)。
-        返回:数组 (6, 6)。""",
+        I：数组 (6, 6)，由 `pin.Inertia.matrix()` 得到：行和列的顺序都是 (v, ω)。
+        返回：数组 (6, 6)。""",
     ),
     returns=(Quantity("I", INERTIA),),
     cases=_linear_first,
@@ -117,12 +117,12 @@ OF_BASE = Part(
         `model.inertia` has one entry for each body: `.mass`, kg, `.com`, m, `.inertia_at_com`, kg m².
         build(m, c, I_c) is your `spatial_inertia`.
         Returns: a number, kg, and an array (6, 6), in the order (ω, v).""",
-        """返回基座的质量,以及由十个参数手动构造的空间惯量矩阵。
+        """返回基座的质量，以及由十个参数手动构造的空间惯量矩阵。
 
-        model:`tw.load("go2")` 得到的 Go2,或其他浮动基座机器人。
-        `model.inertia` 中每个刚体有一项:`.mass`(kg)、`.com`(m)、`.inertia_at_com`(kg m²)。
+        model：`tw.load("go2")` 得到的 Go2，或其他浮动基座机器人。
+        `model.inertia` 中每个刚体有一项：`.mass`(kg)、`.com`(m)、`.inertia_at_com`(kg m²)。
         build(m, c, I_c) 就是你的 `spatial_inertia`。
-        返回:一个数(kg),一个数组 (6, 6),顺序 (ω, v)。""",
+        返回：一个数（kg），一个数组 (6, 6)，顺序 (ω, v)。""",
     ),
     given='build = mine("spatial_inertia")',
     returns=(Quantity("m", unit="kg"), Quantity("I", INERTIA)),
@@ -165,26 +165,26 @@ EXERCISE = Exercise(
         `pin.Inertia.matrix()` is in the order (v, ω), so that it must be reordered before it can be compared. With
         twistwrench no reordering is needed. Give the mass as well: it is more than the 6.921 kg that the URDF has for
         the link `base`. Say why, and what would go wrong with the 6.921 kg.""",
-        """取出 Go2 基座的空间惯量矩阵,与由 (m, c, I_c) 手动构造的结果逐元素比较。
+        """取出 Go2 基座的空间惯量矩阵，与由 (m, c, I_c) 手动构造的结果逐元素比较。
 
-        本章取的是 Pinocchio 模型的 body 0,但那是 universe,全为零;基座是 body 1。
-        而且 `pin.Inertia.matrix()` 的顺序是 (v, ω),比较之前要先重排;用 twistwrench 则不必。
-        同时给出基座的质量:它比 URDF 中连杆 `base` 的 6.921 kg 大。请说明原因,以及若用 6.921 kg 会出什么错。""",
+        本章取的是 Pinocchio 模型的 body 0，但那是 universe，全为零；基座是 body 1。
+        而且 `pin.Inertia.matrix()` 的顺序是 (v, ω)，比较之前要先重排；用 twistwrench 则不必。
+        同时给出基座的质量：它比 URDF 中连杆 `base` 的 6.921 kg 大。请说明原因，以及若用 6.921 kg 会出什么错。""",
     ),
     parts=(REORDERED, OF_BASE),
     hints=(
         Text(
             "An inertia takes a twist to a momentum. If both are reordered, rows and columns of the matrix are.",
-            "惯量把 twist 变成动量。两者都重排,矩阵的行和列也都要重排。",
+            "惯量把 twist 变成动量。两者都重排，矩阵的行和列也都要重排。",
         ),
         Text(
             "`I[np.ix_(order, order)]` picks rows and columns at once; order is 3, 4, 5, 0, 1, 2.",
-            "`I[np.ix_(order, order)]` 同时选取行和列,order 为 3, 4, 5, 0, 1, 2。",
+            "`I[np.ix_(order, order)]` 同时选取行和列，order 为 3, 4, 5, 0, 1, 2。",
         ),
         Text(
             "The four hip rotors are joined to the base by fixed joints, 0.089 kg each. What is welded on belongs to "
             "the body that carries it.",
-            "四个髋关节转子(各 0.089 kg)用固定关节装在基座上。焊接在上面的连杆属于承载它的刚体。",
+            "四个髋关节转子（各 0.089 kg）用固定关节装在基座上。焊接在上面的连杆属于承载它的刚体。",
         ),
     ),
     answer=Text(
@@ -193,9 +193,9 @@ EXERCISE = Exercise(
         its own: 6.921 kg + 4 × 0.089 kg = 7.277 kg. The centre of mass and the inertia about it shift with them.
         With the link's own numbers the matrix still looks right: symmetric, positive definite. But RNEA would find a
         weight that is 3.5 N too small. What belongs to a body is whatever moves with it, not one tag of the file.""",
-        """四个髋关节电机的转子(各 0.089 kg)用固定关节装在基座上。固定关节没有自由度,它们与基座作为一个刚体运动,
-        所以 Pinocchio 和 twistwrench 把它们的惯量并入基座:6.921 kg + 4 × 0.089 kg = 7.277 kg,质心和关于质心的惯量也
-        随之改变。若只用该连杆自己的数,矩阵看上去仍然对称正定,但 RNEA 得到的重力会少 3.5 N。
-        属于一个刚体的是随它一起运动的全部,而不是文件中的某一个标签。""",
+        """四个髋关节电机的转子（各 0.089 kg）用固定关节装在基座上。固定关节没有自由度，它们与基座作为一个刚体运动，
+        所以 Pinocchio 和 twistwrench 把它们的惯量并入基座：6.921 kg + 4 × 0.089 kg = 7.277 kg，质心和关于质心的惯量也
+        随之改变。若只用该连杆自己的数，矩阵看上去仍然对称正定，但 RNEA 得到的重力会少 3.5 N。
+        属于一个刚体的是随它一起运动的全部，而不是文件中的某一个标签。""",
     ),
 )

@@ -65,12 +65,12 @@ TWO_WAYS = Part(
         M by CRBA; h = C v + g by RNEA, too, at zero acceleration. `tw.crba(model, q)` and
         `tw.rnea(model, q, v, a)`, or Pinocchio's with `tw.bridge` for the order.
         Returns: two arrays (nv,), the base's six first: N m, then N; then the joints'.""",
-        """用两种方法返回给定运动所需的关节力:用 RNEA,以及用 M a + h。
+        """用两种方法返回给定运动所需的关节力：用 RNEA，以及用 M a + h。
 
-        model:浮动基座机器人。q:数组 (nq,)。v、a:数组 (nv,)。
-        M 由 CRBA 得到;h = C v + g 也由 RNEA 得到,取加速度为零。可用 `tw.crba(model, q)` 与
-        `tw.rnea(model, q, v, a)`,或用 Pinocchio(用 `tw.bridge` 转换顺序)。
-        返回:两个数组 (nv,),先是基座的六个(N m、N),然后是各关节的。""",
+        model：浮动基座机器人。q：数组 (nq,)。v、a：数组 (nv,)。
+        M 由 CRBA 得到；h = C v + g 也由 RNEA 得到，取加速度为零。可用 `tw.crba(model, q)` 与
+        `tw.rnea(model, q, v, a)`，或用 Pinocchio（用 `tw.bridge` 转换顺序）。
+        返回：两个数组 (nv,)，先是基座的六个（N m、N），然后是各关节的。""",
     ),
     returns=(Quantity("τ by RNEA", JOINT_SPACE), Quantity("M a + h", JOINT_SPACE)),
     cases=_motions,
@@ -102,7 +102,7 @@ TWO_WAYS = Part(
             lambda answer, model, q, v, a: answer[0] - answer[1],
         ),
         Property(
-            Text("forward dynamics undoes it: ABA gives a back", "正动力学是其逆:ABA 应还原 a"),
+            Text("forward dynamics undoes it: ABA gives a back", "正动力学是其逆：ABA 应还原 a"),
             lambda answer, model, q, v, a: tw.aba(model, q, v, answer[1]) - a,
         ),
     ),
@@ -118,9 +118,9 @@ COLUMNS = Part(
         Returns: array (nv, nv), full, the base's six rows and columns first, (ω, v).""",
         """只用 RNEA 求出质量矩阵并返回。
 
-        单个关节取单位加速度时,RNEA 给出的几乎就是 M 的一列。只是“几乎”。
-        model:浮动基座机器人。q:数组 (nq,)。`tw.rnea(model, q, v, a)` 就是 RNEA。
-        返回:数组 (nv, nv),完整矩阵,前六行六列属于基座 (ω, v)。""",
+        单个关节取单位加速度时，RNEA 给出的几乎就是 M 的一列。只是“几乎”。
+        model：浮动基座机器人。q：数组 (nq,)。`tw.rnea(model, q, v, a)` 就是 RNEA。
+        返回：数组 (nv, nv)，完整矩阵，前六行六列属于基座 (ω, v)。""",
     ),
     returns=(Quantity("M", MASS_MATRIX),),
     cases=_postures,
@@ -155,10 +155,10 @@ EXERCISE = Exercise(
 
         Then go one step further: RNEA says what any acceleration costs, so it must know M. Get M out of it, without
         CRBA.""",
-        """对随机运动 (q, v, a) 用两种方法计算关节力并比较:用 RNEA 一次算出;用 M a + h,
-        其中 M 由 CRBA 得到,h 由 RNEA 在 a = 0 时得到。本章用 Pinocchio,用 twistwrench 也可以。
+        """对随机运动 (q, v, a) 用两种方法计算关节力并比较：用 RNEA 一次算出；用 M a + h，
+        其中 M 由 CRBA 得到，h 由 RNEA 在 a = 0 时得到。本章用 Pinocchio，用 twistwrench 也可以。
 
-        再进一步:RNEA 能算出任意加速度需要多大的力,所以它“知道” M。不用 CRBA,把 M 从 RNEA 中取出来。""",
+        再进一步：RNEA 能算出任意加速度需要多大的力，所以它“知道” M。不用 CRBA，把 M 从 RNEA 中取出来。""",
     ),
     parts=(TWO_WAYS, COLUMNS),
     hints=(
@@ -168,11 +168,11 @@ EXERCISE = Exercise(
         ),
         Text(
             "h keeps q and v: `tw.rnea(model, q, v, np.zeros(model.nv))`. It holds gravity, once.",
-            "h 中保留 q 和 v:`tw.rnea(model, q, v, np.zeros(model.nv))`,其中已含一次重力。",
+            "h 中保留 q 和 v：`tw.rnea(model, q, v, np.zeros(model.nv))`，其中已含一次重力。",
         ),
         Text(
             "With v = 0 and a = e_k, RNEA gives M e_k + g(q). Take g(q) off: that is RNEA with a = 0.",
-            "取 v = 0、a = e_k,RNEA 给出 M e_k + g(q)。减去 g(q),即 a = 0 时的 RNEA。",
+            "取 v = 0、a = e_k，RNEA 给出 M e_k + g(q)。减去 g(q)，即 a = 0 时的 RNEA。",
         ),
     ),
 )

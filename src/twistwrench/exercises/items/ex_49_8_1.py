@@ -89,12 +89,12 @@ BLOCK = Part(
         begin with the world's.
         Returns: array (6, 6), rows (k, l), columns (ω, v), about the base's origin, in its axes; SI
         units.""",
-        """不经 M 返回 M(q) 的基座块:把所有刚体的惯量变到基座坐标系再相加。
+        """不经 M 返回 M(q) 的基座块：把所有刚体的惯量变到基座坐标系再相加。
 
-        model:带浮动基座的模型,如 `tw.load("go2")`。q:数组 (nq,)。
-        `tw.forward_kinematics(model, q).placement` 是各刚体在世界中的位姿,基座是第 1 个;
+        model：带浮动基座的模型，如 `tw.load("go2")`。q：数组 (nq,)。
+        `tw.forward_kinematics(model, q).placement` 是各刚体在世界中的位姿，基座是第 1 个；
         `model.inertia` 是各刚体在自身坐标系中的惯量。两者的第 0 项都是世界。
-        返回:数组 (6, 6),行 (k, l),列 (ω, v),对基座原点、用基座坐标轴;国际单位。""",
+        返回：数组 (6, 6)，行 (k, l)，列 (ω, v)，对基座原点、用基座坐标轴；国际单位。""",
     ),
     returns=(Quantity("M_bb", INERTIA),),
     cases=_cases,
@@ -123,19 +123,19 @@ BLOCK = Part(
     reasons={
         "untransformed": Text(
             "Inertias add up in one frame only: bring each into the base's frame by `body.transform`.",
-            "只有同一坐标系中的惯量才能相加:先用 `body.transform` 变到基座坐标系。",
+            "只有同一坐标系中的惯量才能相加：先用 `body.transform` 变到基座坐标系。",
         ),
         "world-for-local": Text(
             "T places a body in the world, base @ T in the base. M_bb is seen from the base.",
-            "T 是物体在世界中的位姿,base @ T 是在基座中的位姿;M_bb 是从基座看的。",
+            "T 是物体在世界中的位姿，base @ T 是在基座中的位姿；M_bb 是从基座看的。",
         ),
         "aligned-for-local": Text(
             "The point is right, the axes are not: place the bodies in the base, base @ T.",
-            "参考点对,坐标轴不对:应取物体在基座中的位姿 base @ T。",
+            "参考点对，坐标轴不对：应取物体在基座中的位姿 base @ T。",
         ),
         "inverse-transform": Text(
             "base @ T places the body in the base; its inverse places the base in the body.",
-            "base @ T 是物体在基座中的位姿;它的逆是基座在物体中的位姿。",
+            "base @ T 是物体在基座中的位姿；它的逆是基座在物体中的位姿。",
         ),
     },
     properties=(
@@ -169,8 +169,9 @@ WHOLE = Part(
         I_c (3, 3), kg m², about the centre of mass.""",
         """返回整机作为一个刚体的质量、质心和关于质心的惯量。
 
-        block:数组 (6, 6),M 的基座块,行 (k, l),列 (ω, v)。
-        返回:数 m,kg;数组 c (3,),单位 m,从基座原点量起,用基座坐标轴;数组 I_c (3, 3),kg m²,关于质心。""",
+        block：数组 (6, 6)，M 的基座块，行 (k, l)，列 (ω, v)。
+        返回：数 m，kg；数组 c (3,)，单位 m，从基座原点量起，用基座坐标轴；数组 I_c (3, 3)，kg m²，关
+        于质心。""",
     ),
     returns=(Quantity("m", unit="kg"), Quantity("c", unit="m"), Quantity("I_c", unit="kg m²")),
     cases=lambda rng: [(base_block(*case),) for case in _cases(rng)],
@@ -184,7 +185,7 @@ WHOLE = Part(
         "swapped-halves": before(whole_robot, swap, which=0),
     },
     reasons={
-        "mass-dropped": Text("The block holds m [c]×: divide by m.", "块中是 m [c]×:要除以 m。"),
+        "mass-dropped": Text("The block holds m [c]×: divide by m.", "块中是 m [c]×：要除以 m。"),
     },
     properties=(
         Property(
@@ -206,22 +207,22 @@ EXERCISE = Exercise(
         The chapter gives the answer in its question: the base's inertia depends on the centre of mass. Two things to
         mend. It is not the inertia of the base, and the centre of mass is only one of two reasons. (Pinocchio's
         block has the order (v, ω): m·1 stands at the top left there.)""",
-        """查看 Go2 零位形下 M(q) 左上角的 6 × 6 块 `tw.crba(model, q)[:6, :6]`。不经 M,由各刚体的惯量构造它;
-        再从这个块读出整机的质量、质心和关于质心的惯量,并解释它为什么不是对角的。
+        """查看 Go2 零位形下 M(q) 左上角的 6 × 6 块 `tw.crba(model, q)[:6, :6]`。不经 M，由各刚体的惯量构造它；
+        再从这个块读出整机的质量、质心和关于质心的惯量，并解释它为什么不是对角的。
 
-        本章在题目中已给出答案:基座的惯量与质心位置有关。这里要更正两点:这不是基座的惯量;质心位置也只是两个原因之一。
-        (Pinocchio 的块按 (v, ω) 排列:左上角是 m·1。)""",
+        本章在题目中已给出答案：基座的惯量与质心位置有关。这里要更正两点：这不是基座的惯量；质心位置也只是两个原因之一。
+        （Pinocchio 的块按 (v, ω) 排列：左上角是 m·1。）""",
     ),
     parts=(BLOCK, WHOLE),
     hints=(
         Text(
             "With all joints still, moving the base moves the robot as one rigid body. Which inertia has that body?",
-            "关节都不动、只有基座运动时,整机像一个刚体。这个刚体的惯量是什么?",
+            "关节都不动、只有基座运动时，整机像一个刚体。这个刚体的惯量是什么？",
         ),
         Text(
             """`base = placement[1].inverse()` takes the world to the base; `body.transform(base @ T)` is a body's
             inertia in the base's frame. Inertias in one frame add up.""",
-            """`base = placement[1].inverse()` 把世界变到基座;`body.transform(base @ T)` 是该刚体在基座坐标系中的惯量。
+            """`base = placement[1].inverse()` 把世界变到基座；`body.transform(base @ T)` 是该刚体在基座坐标系中的惯量。
             同一坐标系中的惯量直接相加。""",
         ),
         Text(
@@ -237,10 +238,10 @@ EXERCISE = Exercise(
         linear momentum. This would vanish with another origin. Second the products of inertia: the axes of the base are
         not the principal axes of the whole (0.0017 kg m² between x and z). They stay even where c = 0. The linear part,
         m·1, is diagonal in every posture.""",
-        """关节不动时推动基座,整机像一个刚体一起运动。所以这个块是全部 16.085 kg 关于基座原点的空间惯量,
-        即第 1 个物体的复合惯量 I^C;基座自身只有 7.277 kg。非对角元素有两类:其一是耦合项 m [c]×,
-        因为整机质心不在基座原点(零位形下 c = (8, 0, −28) mm),转动基座会带来线动量,换一个原点它就消失;
-        其二是惯性积:基座坐标轴不是整机的主轴(x、z 之间为 0.0017 kg m²),即使 c = 0 也不为零。
+        """关节不动时推动基座，整机像一个刚体一起运动。所以这个块是全部 16.085 kg 关于基座原点的空间惯量，
+        即第 1 个物体的复合惯量 I^C；基座自身只有 7.277 kg。非对角元素有两类：其一是耦合项 m [c]×，
+        因为整机质心不在基座原点(零位形下 c = (8, 0, −28) mm)，转动基座会带来线动量，换一个原点它就消失；
+        其二是惯性积：基座坐标轴不是整机的主轴（x、z 之间为 0.0017 kg m²），即使 c = 0 也不为零。
         线性部分 m·1 在任何位形下都是对角的。""",
     ),
 )

@@ -41,14 +41,14 @@ EXERCISE = Exercise(
     text=Text(
         """How many rows has M(q) of Go2 with its floating base, and how many if the same URDF is loaded with a fixed
         base? And where in the larger matrix is the smaller one?""",
-        """Go2 带浮动基座时 M(q) 有多少行?用同一个 URDF 但固定基座时又有多少行?小矩阵在大矩阵的什么位置?""",
+        """Go2 带浮动基座时 M(q) 有多少行？用同一个 URDF 但固定基座时又有多少行？小矩阵在大矩阵的什么位置？""",
     ),
     parts=(
         Part(
             solution=mass_matrix_sizes,
             doc=Text(
                 "Return the number of rows of M with a floating base, then with a fixed base: two whole numbers.",
-                "依次返回浮动基座和固定基座时 M 的行数:两个整数。",
+                "依次返回浮动基座和固定基座时 M 的行数：两个整数。",
             ),
             returns=(Quantity("rows (floating)"), Quantity("rows (fixed)")),
             cases=lambda rng: [()],
@@ -67,8 +67,8 @@ EXERCISE = Exercise(
                 Returns: array (nv − 6, nv − 6).""",
                 """返回同一机器人、同一位形但基座被固定时的质量矩阵。
 
-                M:数组 (nv, nv),对称,浮动基座机器人的质量矩阵,基座在前。
-                返回:数组 (nv − 6, nv − 6)。""",
+                M：数组 (nv, nv)，对称，浮动基座机器人的质量矩阵，基座在前。
+                返回：数组 (nv − 6, nv − 6)。""",
             ),
             returns=(Quantity("M (base held)"),),
             cases=_cases,
@@ -95,10 +95,10 @@ EXERCISE = Exercise(
         ),
     ),
     hints=(
-        Text("M has one row for each entry of v, not of q.", "M 的行对应 v 的分量,而不是 q 的分量。"),
+        Text("M has one row for each entry of v, not of q.", "M 的行对应 v 的分量，而不是 q 的分量。"),
         Text(
             "½ vᵀM v is the kinetic energy. What is left of it where the first six entries of v are zero?",
-            "½ vᵀM v 是动能。v 的前六个分量为零时还剩下什么?",
+            "½ vᵀM v 是动能。v 的前六个分量为零时还剩下什么？",
         ),
     ),
 )

@@ -82,11 +82,11 @@ ROWS = Part(
         base first.
         qdd: array (18,), accelerations. forces: array (12,), N, λ: the ground's forces on the feet.
         Returns: array (6,), (τ, f), N m and N. It is zero for what can happen.""",
-        """返回给定运动和接触力在基座行中的剩余量:M_b q̈ + h_b − J_cbᵀλ。
+        """返回给定运动和接触力在基座行中的剩余量：M_b q̈ + h_b − J_cbᵀλ。
 
-        M:数组 (18, 18)。h:数组 (18,)。J_c:数组 (12, 18),四只脚的线速度行。均为 Go2 的,基座在前。
-        qdd:数组 (18,),加速度。forces:数组 (12,),N,λ:地面对脚的力。
-        返回:数组 (6,),(τ, f),N m 与 N;可能发生的运动为零。""",
+        M：数组 (18, 18)。h：数组 (18,)。J_c：数组 (12, 18)，四只脚的线速度行。均为 Go2 的，基座在前。
+        qdd：数组 (18,)，加速度。forces：数组 (12,)，N，λ：地面对脚的力。
+        返回：数组 (6,)，(τ, f)，N m 与 N；可能发生的运动为零。""",
     ),
     returns=(Quantity("M_b q̈ + h_b − J_cbᵀλ", WRENCH),),
     cases=_cases,
@@ -117,9 +117,9 @@ COMPLETE = Part(
         (12,), N m, the torques of the motors.""",
         """返回与选定的关节加速度和接触力相容的运动与力矩。
 
-        M:数组 (18, 18)。h:数组 (18,)。J_c:数组 (12, 18),四只脚的线速度行。均为 Go2 的,基座在前。
-        qdd_joints:数组 (12,),rad/s²。forces:数组 (12,),N,λ:地面对脚的力。
-        返回:数组 (18,),全部加速度,其中基座的由基座六行决定;数组 (12,),N m,电机力矩。""",
+        M：数组 (18, 18)。h：数组 (18,)。J_c：数组 (12, 18)，四只脚的线速度行。均为 Go2 的，基座在前。
+        qdd_joints：数组 (12,)，rad/s²。forces：数组 (12,)，N，λ：地面对脚的力。
+        返回：数组 (18,)，全部加速度，其中基座的由基座六行决定；数组 (12,)，N m，电机力矩。""",
     ),
     returns=(Quantity("q̈", JOINT_SPACE), Quantity("τ", unit="N m")),
     cases=_joints_only,
@@ -160,21 +160,21 @@ EXERCISE = Exercise(
         choose joint accelerations and contact forces at will, and find the base's acceleration and the torques that go
         with them. Explain what is free in such a choice, what is not, and why it is these six rows that are the
         constraint.""",
-        """基座行 M_bb q̈_b + M_bj q̈_j + h_b = J_cbᵀλ 在 WBC 中称为动力学约束:控制器必须找到满足它的 (q̈, τ, λ)。
-        先计算任意一组选择的剩余量;再任意选定关节加速度和接触力,求出与之相容的基座加速度和力矩。
-        解释:这样的选择中什么是自由的,什么不是,为什么恰恰是这六行成为约束。""",
+        """基座行 M_bb q̈_b + M_bj q̈_j + h_b = J_cbᵀλ 在 WBC 中称为动力学约束：控制器必须找到满足它的 (q̈, τ, λ)。
+        先计算任意一组选择的剩余量；再任意选定关节加速度和接触力，求出与之相容的基座加速度和力矩。
+        解释：这样的选择中什么是自由的，什么不是，为什么恰恰是这六行成为约束。""",
     ),
     parts=(ROWS, COMPLETE),
     hints=(
         Text(
             "The first six rows of M multiply all of q̈, not only the base's part.",
-            "M 的前六行乘的是整个 q̈,而不只是基座部分。",
+            "M 的前六行乘的是整个 q̈，而不只是基座部分。",
         ),
         Text(
             "Bring everything known to the right: M_bb q̈_b = J_cbᵀλ − h_b − M_bj q̈_j. M_bb can be inverted.",
-            "把已知项移到右边:M_bb q̈_b = J_cbᵀλ − h_b − M_bj q̈_j;M_bb 可逆。",
+            "把已知项移到右边：M_bb q̈_b = J_cbᵀλ − h_b − M_bj q̈_j；M_bb 可逆。",
         ),
-        Text("With all of q̈ known, the other twelve rows give τ.", "q̈ 全部已知后,其余十二行给出 τ。"),
+        Text("With all of q̈ known, the other twelve rows give τ.", "q̈ 全部已知后，其余十二行给出 τ。"),
     ),
     answer=Text(
         """There are 18 equations. In the twelve of the joints each row has a torque of its own, so that whatever stands
@@ -184,9 +184,9 @@ EXERCISE = Exercise(
         for (q̈, λ) under these six equations, friction and contact conditions, and computes τ afterwards. Of q̈ and λ
         all but six numbers may be chosen. The rows say what Newton and Euler say for the whole robot: the rate of its
         momentum is the wrench of weight and contacts.""",
-        """共有 18 个方程。十二个关节行各有一个自己的力矩,无论其他量是什么,取 τ = M_jb q̈_b + M_jj q̈_j + h_j − J_cjᵀλ
-        即可成立:这些行只是定义 τ,除电机限幅外不构成限制。基座的六行没有 τ,它们把加速度和接触力联系在一起,
-        任何电机都无法弥补其中的差额。所以控制器可以先不求 τ:在这六个方程、摩擦与接触条件下求 (q̈, λ),再算出 τ。
-        q̈ 与 λ 中除六个数外都可任选。这六行就是整机的牛顿–欧拉方程:动量的变化率等于重力与接触力的合 wrench。""",
+        """共有 18 个方程。十二个关节行各有一个自己的力矩，无论其他量是什么，取 τ = M_jb q̈_b + M_jj q̈_j + h_j − J_cjᵀλ
+        即可成立：这些行只是定义 τ，除电机限幅外不构成限制。基座的六行没有 τ，它们把加速度和接触力联系在一起，
+        任何电机都无法弥补其中的差额。所以控制器可以先不求 τ：在这六个方程、摩擦与接触条件下求 (q̈, λ)，再算出 τ。
+        q̈ 与 λ 中除六个数外都可任选。这六行就是整机的牛顿–欧拉方程：动量的变化率等于重力与接触力的合 wrench。""",
     ),
 )

@@ -44,10 +44,11 @@ INERTIA_MATRIX = Part(
         m: number, kg. c: array (3,), m, the centre of mass (`.lever`). I_c: array (3, 3), kg m²,
         about it (`.inertia`).
         Returns: array (6, 6), rows (l, k), columns (v, ω): the linear half first.""",
-        """按 `pin.Inertia.matrix()` 的排列返回空间惯量(测试 3)。
+        """按 `pin.Inertia.matrix()` 的排列返回空间惯量（测试 3）。
 
-        m:数,kg。c:数组 (3,),单位 m,质心(`.lever`)。I_c:数组 (3, 3),kg m²,关于质心(`.inertia`)。
-        返回:数组 (6, 6),行 (l, k),列 (v, ω):线分量在前。""",
+        m：数，kg。c：数组 (3,)，单位 m，质心(`.lever`)。I_c：数组 (3, 3)，kg m²，关于质心
+        (`.inertia`)。
+        返回：数组 (6, 6)，行 (l, k)，列 (v, ω)：线分量在前。""",
     ),
     returns=(Quantity("I", PINOCCHIO_INERTIA),),
     cases=_inertias,
@@ -63,7 +64,7 @@ INERTIA_MATRIX = Part(
     reasons={
         "swapped-halves": Text(
             "That is the order of the chapter, (ω, v). Pinocchio has the linear half first.",
-            "那是本章的顺序 (ω, v);Pinocchio 的线分量在前。",
+            "那是本章的顺序 (ω, v)；Pinocchio 的线分量在前。",
         ),
     },
     properties=(Property(Text("it is symmetric", "对称"), lambda answer, m, c, I_c: answer - answer.mT),),
@@ -76,10 +77,10 @@ ACTION = Part(
 
         R: array (3, 3). p: array (3,), m. The placement of B in A.
         Returns: array (6, 6), from (v, ω) in B to (v, ω) in A: the linear half first.""",
-        """按 `pin.SE3.action` 的排列返回 twist 的变换(测试 4)。
+        """按 `pin.SE3.action` 的排列返回 twist 的变换（测试 4）。
 
-        R:数组 (3, 3)。p:数组 (3,),单位 m。B 在 A 中的位姿。
-        返回:数组 (6, 6),把 B 中的 (v, ω) 变为 A 中的 (v, ω):线分量在前。""",
+        R：数组 (3, 3)。p：数组 (3,)，单位 m。B 在 A 中的位姿。
+        返回：数组 (6, 6)，把 B 中的 (v, ω) 变为 A 中的 (v, ω)：线分量在前。""",
     ),
     returns=(Quantity("X", PINOCCHIO_TRANSFORM),),
     cases=lambda rng: [(tw.exp3(rng.standard_normal(3)), rng.standard_normal(3)) for _ in range(3)],
@@ -95,7 +96,7 @@ ACTION = Part(
     reasons={
         "swapped-halves": Text(
             "That is the order of the chapter, (ω, v). Pinocchio has the linear half first.",
-            "那是本章的顺序 (ω, v);Pinocchio 的线分量在前。",
+            "那是本章的顺序 (ω, v)；Pinocchio 的线分量在前。",
         ),
     },
     alike=(frozenset({"swapped-halves", "force-for-motion"}),),  # X* has [p]× R where X in the other order has it

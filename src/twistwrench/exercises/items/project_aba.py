@@ -105,9 +105,9 @@ ABA = Part(
             """qd, tau: lists of n arrays (k,), velocities, rad/s or m/s, and joint forces, N m or N.
             a0: array (6,), −g as a spatial acceleration of the world: (0, 0, 0, 0, 0, 9.81).
             Returns: array (nv,), rad/s² and m/s², the joints one after the other.""",
-            """qd、tau:n 个数组 (k,) 的列表:速度,rad/s 或 m/s;关节力,N m 或 N。
-            a0:数组 (6,),把 −g 作为世界的空间加速度:(0, 0, 0, 0, 0, 9.81)。
-            返回:数组 (nv,),rad/s² 与 m/s²,按关节顺序排列。""",
+            """qd、tau：n 个数组 (k,) 的列表：速度，rad/s 或 m/s；关节力，N m 或 N。
+            a0：数组 (6,)，把 −g 作为世界的空间加速度：(0, 0, 0, 0, 0, 9.81)。
+            返回：数组 (nv,)，rad/s² 与 m/s²，按关节顺序排列。""",
         ),
     ),
     returns=(Quantity("q̈"),),
@@ -133,13 +133,13 @@ ABA = Part(
     reasons={
         "bias-sign": Text(
             "u = τ − Sᵀ p: the joint must overcome the bias force before it accelerates anything.",
-            "u = τ − Sᵀ p:关节先要克服偏置力,余下的才产生加速度。",
+            "u = τ − Sᵀ p：关节先要克服偏置力，余下的才产生加速度。",
         ),
         "children-dropped": Text(
             "Each body feels what hangs on it: pass on I^a and p^a.",
-            "每个物体都感受到挂在它上面的部分:要传递 I^a 和 p^a。",
+            "每个物体都感受到挂在它上面的部分：要传递 I^a 和 p^a。",
         ),
-        "inertia-half-rotated": Text("X[i]ᵀ I^a X[i]: from both sides.", "X[i]ᵀ I^a X[i]:两侧都要乘。"),
+        "inertia-half-rotated": Text("X[i]ᵀ I^a X[i]: from both sides.", "X[i]ᵀ I^a X[i]：两侧都要乘。"),
     },
     properties=(Property(Text("RNEA with these accelerations gives τ back", "把这些加速度代入 RNEA 应还原 τ"), _back),),
 )

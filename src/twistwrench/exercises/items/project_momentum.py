@@ -108,13 +108,13 @@ MAP = Part(
         of body i, `model.inertia[i].matrix()` its inertia, `tw.forward_kinematics(model,
         q).placement[i]` its placement, and `tw.center_of_mass(model, q)` is p_G.
         Returns: array (6, nv), rows (k, l), about the centre of mass, in the axes of the world.""",
-        """不用 `tw.centroidal_map`,返回质心动量矩阵 A_G:全部刚体动量之和。
+        """不用 `tw.centroidal_map`，返回质心动量矩阵 A_G：全部刚体动量之和。
 
-        model:浮动基座模型。q:数组 (nq,)。
+        model：浮动基座模型。q：数组 (nq,)。
         `tw.frame_jacobian(model, q, model.joint_names[i], reference="local")` 是物体 i 的 body 雅可
-        比,`model.inertia[i].matrix()` 是其惯量,`tw.forward_kinematics(model, q).placement[i]` 是其位
-        姿,`tw.center_of_mass(model, q)` 是 p_G。
-        返回:数组 (6, nv),行 (k, l),对质心取矩,用世界坐标轴。""",
+        比，`model.inertia[i].matrix()` 是其惯量，`tw.forward_kinematics(model, q).placement[i]` 是其
+        位姿，`tw.center_of_mass(model, q)` 是 p_G。
+        返回：数组 (6, nv)，行 (k, l)，对质心取矩，用世界坐标轴。""",
     ),
     returns=(Quantity("A_G", CENTROIDAL_MAP),),
     cases=_postures,
@@ -135,22 +135,22 @@ MAP = Part(
     },
     reasons={
         "untransformed": Text(
-            "I_i J_i is in frame i: X* takes it to the centre of mass.", "I_i J_i 在坐标系 i 中:用 X* 变到质心。"
+            "I_i J_i is in frame i: X* takes it to the centre of mass.", "I_i J_i 在坐标系 i 中：用 X* 变到质心。"
         ),
         "local-for-world": Text(
             "X* of (R_i, p_i − p_G): its R turns the momentum into the axes of the world.",
-            "X* 用 (R_i, p_i − p_G):其中的 R 把动量变到世界坐标轴。",
+            "X* 用 (R_i, p_i − p_G)：其中的 R 把动量变到世界坐标轴。",
         ),
         "motion-for-force": Text(
-            "Momenta transform like wrenches: X*, not X.", "动量按 wrench 的方式变换:用 X*,不是 X。"
+            "Momenta transform like wrenches: X*, not X.", "动量按 wrench 的方式变换：用 X*，不是 X。"
         ),
         "inverse-transform": Text(
             "(R_i, p_i − p_G) places frame i at the centre of mass: its X* leads there, no inverse needed.",
-            "(R_i, p_i − p_G) 是坐标系 i 在质心坐标系中的位姿,它的 X* 正好变到质心,不需要求逆。",
+            "(R_i, p_i − p_G) 是坐标系 i 在质心坐标系中的位姿，它的 X* 正好变到质心，不需要求逆。",
         ),
         "rows-only": Text(
             "The rows here are (k, l): angular first. Pinocchio has (l, k).",
-            "这里的行是 (k, l):角动量在前;Pinocchio 是 (l, k)。",
+            "这里的行是 (k, l)：角动量在前；Pinocchio 是 (l, k)。",
         ),
     },
     properties=(
@@ -204,12 +204,12 @@ RATE = Part(
         `tw.forward_kinematics(model, q, v, a)` gives, for each body, placements in the world, body
         twists, and spatial accelerations without gravity.
         Returns: array (6,), (k̇, l̇), N m and N, about the centre of mass, in the axes of the world.""",
-        """返回给定运动中质心动量的变化率 ḣ_G:全部刚体所需 wrench 之和。
+        """返回给定运动中质心动量的变化率 ḣ_G：全部刚体所需 wrench 之和。
 
-        model:浮动基座模型。q:数组 (nq,)。v、a:数组 (nv,)。
+        model：浮动基座模型。q：数组 (nq,)。v、a：数组 (nv,)。
         `tw.forward_kinematics(model, q, v, a)` 依次给出各物体在世界中的位姿、body twist 和空间加速度
-        (不含重力)。
-        返回:数组 (6,),(k̇, l̇),N m 与 N,对质心取矩,用世界坐标轴。""",
+        （不含重力）。
+        返回：数组 (6,)，(k̇, l̇)，N m 与 N，对质心取矩，用世界坐标轴。""",
     ),
     returns=(Quantity("ḣ_G", MOMENTUM),),
     cases=_motions,
@@ -229,7 +229,7 @@ RATE = Part(
     },
     reasons={
         "velocity-for-acceleration": Text(
-            "A_G v is the momentum itself; its rate is A_G a + Ȧ_G v.", "A_G v 是动量本身;其变化率是 A_G a + Ȧ_G v。"
+            "A_G v is the momentum itself; its rate is A_G a + Ȧ_G v.", "A_G v 是动量本身；其变化率是 A_G a + Ȧ_G v。"
         ),
     },
     properties=(

@@ -124,11 +124,11 @@ VECTOR = Part(
         a + b and a − b are of the same kind as a and b; two of different kinds raise a TypeError.
         wrench.power(twist) and twist.power(wrench) are FᵀV, a number, W; two of the same kind raise
         a TypeError.""",
-        """一个 twist 或 wrench,知道自己是哪一种。
+        """一个 twist 或 wrench，知道自己是哪一种。
 
-        kind:"twist" 或 "wrench"。vector:数组 (6,),(ω, v) 或 (τ, f)。
-        a + b 与 a − b 的种类与 a、b 相同;种类不同时抛出 TypeError。
-        wrench.power(twist) 与 twist.power(wrench) 给出 FᵀV,一个数,W;种类相同时抛出 TypeError。""",
+        kind:"twist" 或 "wrench"。vector：数组 (6,)，(ω, v) 或 (τ, f)。
+        a + b 与 a − b 的种类与 a、b 相同；种类不同时抛出 TypeError。
+        wrench.power(twist) 与 twist.power(wrench) 给出 FᵀV，一个数，W；种类相同时抛出 TypeError。""",
     ),
     given="""
         def __init__(self, kind, vector):
@@ -161,7 +161,7 @@ VECTOR = Part(
     },
     reasons={
         "swapped-halves": Text(
-            "FᵀV pairs τ with ω and f with v: first half with first half.", "FᵀV 中 τ 与 ω、f 与 v 相配:前半配前半。"
+            "FᵀV pairs τ with ω and f with v: first half with first half.", "FᵀV 中 τ 与 ω、f 与 v 相配：前半配前半。"
         ),
     },
 )
@@ -199,8 +199,8 @@ POSE_OF_BASE = Part(
         Returns: array (4, 4).""",
         """返回浮动基座在世界中的位姿。
 
-        q:数组 (nq,);前七个分量属于基座:x、y、z(m)和单位四元数 qx、qy、qz、qw。
-        返回:数组 (4, 4)。""",
+        q：数组 (nq,)；前七个分量属于基座：x、y、z(m)和单位四元数 qx、qy、qz、qw。
+        返回：数组 (4, 4)。""",
     ),
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [(_configuration(rng),) for _ in range(4)],
@@ -215,7 +215,7 @@ POSE_OF_BASE = Part(
     },
     properties=(
         Property(
-            Text("R is a rotation: Rᵀ R = 1", "R 是旋转矩阵:Rᵀ R = 1"),
+            Text("R is a rotation: Rᵀ R = 1", "R 是旋转矩阵：Rᵀ R = 1"),
             lambda answer, q: answer[:3, :3].mT @ answer[:3, :3] - np.eye(3),
         ),
     ),
@@ -244,8 +244,9 @@ POSE_OF_URDF = Part(
         Returns: array (4, 4).""",
         """返回 URDF 中 <origin xyz="..." rpy="..."/> 表示的位姿。
 
-        xyz:数组 (3,),单位 m。rpy:数组 (3,),rad:绕 x 的 roll、绕 y 的 pitch、绕 z 的 yaw,都绕固定轴。
-        返回:数组 (4, 4)。""",
+        xyz：数组 (3,)，单位 m。rpy：数组 (3,)，rad：绕 x 的 roll、绕 y 的 pitch、绕 z 的 yaw，都绕固
+        定轴。
+        返回：数组 (4, 4)。""",
     ),
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [tuple(rng.uniform(-1.2, 1.2, (2, 3))) for _ in range(4)],

@@ -134,11 +134,11 @@ PLACEMENTS = Part(
         world, parent[0] is −1.
         T: array (n, 4, 4): T[i] is the placement of body i in its parent; T[0] is 1.
         Returns: array (n, 4, 4).""",
-        """返回每个物体在世界中的位姿:即 Pinocchio 的 `data.oMi`。
+        """返回每个物体在世界中的位姿：即 Pinocchio 的 `data.oMi`。
 
-        parent:n 个整数的元组:parent[i] 承载物体 i 并排在它前面;0 是世界,parent[0] 为 −1。
-        T:数组 (n, 4, 4):T[i] 是物体 i 在父物体中的位姿,T[0] 为单位阵。
-        返回:数组 (n, 4, 4)。""",
+        parent：n 个整数的元组：parent[i] 承载物体 i 并排在它前面；0 是世界，parent[0] 为 −1。
+        T：数组 (n, 4, 4)：T[i] 是物体 i 在父物体中的位姿，T[0] 为单位阵。
+        返回：数组 (n, 4, 4)。""",
     ),
     returns=(Quantity("oMi"),),
     cases=lambda rng: [(parent, T) for parent, T, _ in _robots(rng)],
@@ -153,10 +153,10 @@ PLACEMENTS = Part(
     reasons={
         "untransformed": Text(
             "T[i] is seen from the parent: multiply by the parent's own placement.",
-            "T[i] 是在父物体中的位姿:要左乘父物体自身的位姿。",
+            "T[i] 是在父物体中的位姿：要左乘父物体自身的位姿。",
         ),
         "translation-dropped": Text(
-            "Each step also moves the origin: p_AC = p_AB + R_AB p_BC.", "每一步原点也在移动:p_AC = p_AB + R_AB p_BC。"
+            "Each step also moves the origin: p_AC = p_AB + R_AB p_BC.", "每一步原点也在移动：p_AC = p_AB + R_AB p_BC。"
         ),
     },
 )
@@ -171,11 +171,12 @@ TWISTS = Part(
         V_joint: array (n, 6), (ω, v), S q̇ of each joint: body i against its parent, in frame i; row
         0 is zero.
         Returns: array (n, 6), (ω, v), rad/s and m/s: the twist of body i in frame i; row 0 is zero.""",
-        """返回每个物体的 twist:即 Pinocchio 的 `data.v`。twist 变到同一坐标系后才能相加。
+        """返回每个物体的 twist：即 Pinocchio 的 `data.v`。twist 变到同一坐标系后才能相加。
 
-        parent、T:同 `body_placements`。
-        V_joint:数组 (n, 6),(ω, v),各关节的 S q̇:物体 i 相对父物体的 twist,在坐标系 i 中;第 0 行为零。
-        返回:数组 (n, 6),(ω, v),rad/s 与 m/s:物体 i 在坐标系 i 中的 twist;第 0 行为零。""",
+        parent、T：同 `body_placements`。
+        V_joint：数组 (n, 6)，(ω, v)，各关节的 S q̇：物体 i 相对父物体的 twist，在坐标系 i 中；第 0 行
+        为零。
+        返回：数组 (n, 6)，(ω, v)，rad/s 与 m/s：物体 i 在坐标系 i 中的 twist；第 0 行为零。""",
     ),
     given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
     returns=(Quantity("V"),),
@@ -209,12 +210,12 @@ WRENCHES = Part(
         F: array (n, 6), (τ, f), N m and N: what each body needs by itself, in frame i; row 0 is zero.
         Returns: array (n, 6): what joint i must bear for body i and all that it carries, in frame i;
         row 0 is what the ground bears, in the world.""",
-        """返回每个关节传给其物体的 wrench:即 Pinocchio 的 `data.f`。
+        """返回每个关节传给其物体的 wrench：即 Pinocchio 的 `data.f`。
 
-        parent、T:同 `body_placements`。
-        F:数组 (n, 6),(τ, f),N m 与 N:每个物体自身所需的 wrench,在坐标系 i 中;第 0 行为零。
-        返回:数组 (n, 6):关节 i 为物体 i 及其承载的全部物体所需承担的 wrench,在坐标系 i 中;第 0 行是地
-        面承担的。""",
+        parent、T：同 `body_placements`。
+        F：数组 (n, 6)，(τ, f)，N m 与 N：每个物体自身所需的 wrench，在坐标系 i 中；第 0 行为零。
+        返回：数组 (n, 6)：关节 i 为物体 i 及其承载的全部物体所需承担的 wrench，在坐标系 i 中；第 0 行
+        是地面承担的。""",
     ),
     given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
     returns=(Quantity("F"),),
@@ -233,14 +234,14 @@ WRENCHES = Part(
     },
     reasons={
         "force-sign": Text(
-            "What the child needs the parent must give in addition: add.", "子物体所需的,父物体要额外提供:应当相加。"
+            "What the child needs the parent must give in addition: add.", "子物体所需的，父物体要额外提供：应当相加。"
         ),
     },
     properties=(
         Property(
             Text(
                 "the ground bears the sum of all wrenches, seen from the world",
-                "地面承担全部 wrench 之和(在世界中表达)",
+                "地面承担全部 wrench 之和（在世界中表达）",
             ),
             lambda answer, parent, T, F: (
                 answer[0] - sum(_transforms(P)[1] @ f for P, f in zip(body_placements(parent, T), F))

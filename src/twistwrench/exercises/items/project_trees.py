@@ -19,10 +19,10 @@ LISTS = Text(
     I[i] (6, 6) is the inertia of body i in frame i; X[i] (6, 6) takes twists from the parent's
     frame to frame i. Entries 0 are the world's. (They come from `tree =
     twistwrench.tree.walk(model, q)`: tree.parent, tree.S, tree.I, tree.X.)""",
-    """parent:n 个整数的元组:parent[i] 承载物体 i 并排在它前面;0 是世界,parent[0] 为 −1。
-    S、I、X:各为 n 个数组的列表。S[i] (6, k) 的每一列对应关节 i 速度的一个分量;I[i] (6, 6) 是物体
-    i 在坐标系 i 中的惯量;X[i] (6, 6) 把 twist 从父坐标系变到坐标系 i。第 0 项属于世界。
-    (它们来自 `tree = twistwrench.tree.walk(model, q)`:tree.parent、tree.S、tree.I、tree.X。)""",
+    """parent：n 个整数的元组：parent[i] 承载物体 i 并排在它前面；0 是世界，parent[0] 为 −1。
+    S、I、X：各为 n 个数组的列表。S[i] (6, k) 的每一列对应关节 i 速度的一个分量；I[i] (6, 6) 是
+    物体 i 在坐标系 i 中的惯量；X[i] (6, 6) 把 twist 从父坐标系变到坐标系 i。第 0 项属于世界。
+    （它们来自 `tree = twistwrench.tree.walk(model, q)`：tree.parent、tree.S、tree.I、tree.X。）""",
 )
 """What `parent`, `S`, `I` and `X` are."""
 
