@@ -80,9 +80,9 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     >>> J_c.shape, int(np.linalg.matrix_rank(J_c))
     ((12, 18), 12)
     """
-    names = _names(contacts, "contacts", "frame names")
+    contacts = _names(contacts, "contacts", "frame names")
     (q,) = model.state(q)
-    rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in names]
+    rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
 
 
@@ -152,19 +152,19 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     >>> held.forces[:, 2].sum().round(3)  # the feet carry the whole weight
     np.float64(157.794)
     """
-    names = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
-    if model.base != "floating" or not names:
-        raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(names)}")
+    contacts = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    if model.base != "floating" or not contacts:
+        raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(contacts)}")
     (q,) = model.state(q)
     if q.ndim != 1 or q.dtype.kind == "c":
         raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
-    g, J_c = gravity(model, q), contact_jacobian(model, q, names)
+    g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
     b = _unactuated(model)
     forces = np.linalg.lstsq(J_c[:, :b].mT.astype(np.float64), g[:b].astype(np.float64))[0].astype(q.dtype)
     left = g[:b] - J_c[:, :b].mT @ forces
     if np.abs(left).max() > np.sqrt(resolution(q.dtype)) * np.abs(g[:b]).max():
-        raise SingularError(f"no forces at {list(names)} balance the weight: (τ, f) = {left} is left over")
-    return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3), contacts=names)
+        raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
+    return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3), contacts=contacts)
 
 
 @dataclass(frozen=True)
@@ -228,16 +228,16 @@ def dynamics(
     >>> d.M.shape, d.J_c.shape, d.h
     ((18, 18), (12, 18), None)
     """
-    names = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
-    wanted = _names(want, "want", "quantities")
+    contacts = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    want = _names(want, "want", "quantities")
     compute = {
         "M": lambda: crba(model, q),
         "h": lambda: nonlinear_effects(model, q, v),
-        "J_c": lambda: contact_jacobian(model, q, names),
+        "J_c": lambda: contact_jacobian(model, q, contacts),
         "A_G": lambda: centroidal_map(model, q),
     }
-    for name in wanted:
+    for name in want:
         if not isinstance(name, str) or name not in compute:
             raise unknown_name("quantity", name, compute)
     model.state(q, v=v)  # also where no wanted quantity depends on v
-    return Dynamics(**{name: compute[name]() for name in wanted})
+    return Dynamics(**{name: compute[name]() for name in want})
