@@ -27,7 +27,7 @@ class Machine:
 
     Examples
     --------
-    >>> machine = Machine（Text（"steady", "稳定"））
+    >>> machine = Machine(Text("steady", "稳定"))
     >>> work = Task(machine, 0.002)
     >>> before = machine()
     >>> work()
