@@ -382,13 +382,12 @@ def test_a_broken_property_is_told_where_no_slip_fits():
 
 @pytest.mark.parametrize("weak", WEAK, ids=lambda weak: weak.name)
 def test_a_weak_answer_gets_a_helpful_message(tmp_path, weak):
-    start(tmp_path, language="en")
     exercise, part = catalogue.find_part(weak.name)
     file = tmp_path / catalogue.file_name(exercise.section)
-    head, _, rest = file.read_text(encoding="utf-8").partition(f"def {weak.name}(")
+    head, _, rest = skeletons.skeleton(exercise.section, "en").partition(f"def {weak.name}(")
     body = "\n".join("    " + line for line in weak.body.split("\n"))
     file.write_text(f"{head}def {weak.name}({rest.replace('    return ...', body, 1)}", encoding="utf-8")
-    verdict = Workbook(tmp_path).verdict(exercise, part)
+    verdict = Workbook(tmp_path, language="en").verdict(exercise, part)
     assert verdict.state == "wrong"
     assert weak.says in " ".join(verdict.message("en").split())
     assert "Traceback" not in verdict.message("en")
