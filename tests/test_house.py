@@ -31,7 +31,16 @@ ORDER = [
         "tree",
         "kinematics",
     ),
-    *("inverse_dynamics", "forward_dynamics", "mass_matrix", "coriolis", "energy", "centroidal", "floating_base"),
+    *(
+        "inverse_dynamics",
+        "forward_dynamics",
+        "mass_matrix",
+        "coriolis",
+        "energy",
+        "floating_base",
+        "centroidal",
+        "whole_body",
+    ),
     *("fast", "bridge", "robots", "plot", "_names", "__init__", "validate", "exercises", "cli", "__main__"),
 ]
 """The chapter's order. A section imports from earlier ones only; a folder is one section."""

@@ -11,14 +11,7 @@ from .cross import cross_force, cross_motion
 from .energy import kinetic_energy, potential_energy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
 from .exponential import exp6, log6
-from .floating_base import (
-    Dynamics,
-    Equilibrium,
-    contact_jacobian,
-    dynamics,
-    selection_matrix,
-    static_equilibrium,
-)
+from .floating_base import Equilibrium, contact_jacobian, selection_matrix, static_equilibrium
 from .forward_dynamics import aba
 from .inertia import SpatialInertia
 from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea
@@ -31,6 +24,7 @@ from .robots import load, robots
 from .rotation import exp3, log3, skew, unskew
 from .trees import chain, random_tree
 from .twist import Screw, Twist, hat, screw, vee
+from .whole_body import Dynamics, dynamics
 from .wrench import Wrench, power
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""The equation of a floating base: M q̈ + h = Sᵀ τ + J_cᵀ λ (49.9), and all of it at once."""
+"""The equation of a floating base: M q̈ + h = Sᵀ τ + J_cᵀ λ (49.9)."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .centroidal import centroidal_map
 from .checks import Array, resolution
-from .errors import ShapeError, SingularError, unknown_name
-from .inverse_dynamics import gravity, nonlinear_effects
+from .errors import ShapeError, SingularError
+from .inverse_dynamics import gravity
 from .kinematics import frame_jacobian
-from .mass_matrix import crba
 from .model import Model
 
-__all__ = ["Dynamics", "Equilibrium", "contact_jacobian", "dynamics", "selection_matrix", "static_equilibrium"]
+__all__ = ["Equilibrium", "contact_jacobian", "names_of", "selection_matrix", "static_equilibrium"]
 
 
 def selection_matrix(model: Model) -> Array:
@@ -80,13 +78,13 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     >>> J_c.shape, int(np.linalg.matrix_rank(J_c))
     ((12, 18), 12)
     """
-    contacts = _names(contacts, "contacts", "frame names")
+    contacts = names_of(contacts, "contacts", "frame names")
     (q,) = model.state(q)
     rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
 
 
-def _names(given: Iterable[str], what: str, expected: str) -> tuple[str, ...]:
+def names_of(given: Iterable[str], what: str, expected: str) -> tuple[str, ...]:
     """Return names as a tuple; refuse a string, which is a sequence of letters."""
     if isinstance(given, str):
         raise ValueError(f"{what}: expected a sequence of {expected}, got the string {given!r}")
@@ -152,7 +150,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     >>> held.forces[:, 2].sum().round(3)  # the feet carry the whole weight
     np.float64(157.794)
     """
-    contacts = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    contacts = names_of(model.feet if contacts is None else contacts, "contacts", "frame names")
     if model.base != "floating" or not contacts:
         raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(contacts)}")
     (q,) = model.state(q)
@@ -165,79 +163,3 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     if np.abs(left).max() > np.sqrt(resolution(q.dtype)) * np.abs(g[:b]).max():
         raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
     return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3), contacts=contacts)
-
-
-@dataclass(frozen=True)
-class Dynamics:
-    """What `dynamics` returns; what was not asked for is None.
-
-    Attributes
-    ----------
-    M : ndarray, shape (..., nv, nv)
-        Mass matrix.
-    h : ndarray, shape (..., nv)
-        Coriolis, centrifugal and gravity forces.
-    J_c : ndarray, shape (..., 3 k, nv)
-        Contact Jacobian, linear rows in the axes of the world; k = 0 where a robot has no contacts.
-    A_G : ndarray, shape (..., 6, nv)
-        Centroidal momentum matrix, rows (angular, linear).
-    """
-
-    M: Array | None = None
-    h: Array | None = None
-    J_c: Array | None = None
-    A_G: Array | None = None
-
-
-def dynamics(
-    model: Model,
-    q: ArrayLike,
-    v: ArrayLike,
-    *,
-    contacts: Iterable[str] | None = None,
-    want: Iterable[str] = ("M", "h", "J_c", "A_G"),
-) -> Dynamics:
-    """Return what a whole-body controller needs: M, h, J_c and A_G (the chapter's getDynamics).
-
-    Parameters
-    ----------
-    model : Model
-    q : array_like, shape (..., nq)
-    v : array_like, shape (..., nv)
-    contacts : iterable of str, optional
-        Frames of the point contacts; `model.feet` unless given.
-    want : iterable of {"M", "h", "J_c", "A_G"}
-        Only these are computed.
-
-    Returns
-    -------
-    Dynamics
-
-    Raises
-    ------
-    NameNotFound
-        If `want` names something else, or the model has no such contact frame.
-    ShapeError, ValueError
-        As `Model.state`; or if `contacts` or `want` is a single string.
-
-    Examples
-    --------
-    >>> import twistwrench as tw
-    >>> model = tw.load("go2")
-    >>> d = tw.dynamics(model, model.standing(), np.zeros(model.nv), want={"M", "J_c"})
-    >>> d.M.shape, d.J_c.shape, d.h
-    ((18, 18), (12, 18), None)
-    """
-    contacts = _names(model.feet if contacts is None else contacts, "contacts", "frame names")
-    want = _names(want, "want", "quantities")
-    compute = {
-        "M": lambda: crba(model, q),
-        "h": lambda: nonlinear_effects(model, q, v),
-        "J_c": lambda: contact_jacobian(model, q, contacts),
-        "A_G": lambda: centroidal_map(model, q),
-    }
-    for name in want:
-        if not isinstance(name, str) or name not in compute:
-            raise unknown_name("quantity", name, compute)
-    model.state(q, v=v)  # also where no wanted quantity depends on v
-    return Dynamics(**{name: compute[name]() for name in want})

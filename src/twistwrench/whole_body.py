@@ -1,0 +1,95 @@
+"""What a whole-body controller asks for, in one call: the chapter's getDynamics (49.11 and the project)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from numpy.typing import ArrayLike
+
+from .centroidal import centroidal_map
+from .checks import Array
+from .errors import unknown_name
+from .floating_base import contact_jacobian, names_of
+from .inverse_dynamics import nonlinear_effects
+from .mass_matrix import crba
+from .model import Model
+
+__all__ = ["Dynamics", "dynamics"]
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """What `dynamics` returns; what was not asked for is None.
+
+    Attributes
+    ----------
+    M : ndarray, shape (..., nv, nv)
+        Mass matrix.
+    h : ndarray, shape (..., nv)
+        Coriolis, centrifugal and gravity forces.
+    J_c : ndarray, shape (..., 3 k, nv)
+        Contact Jacobian, linear rows in the axes of the world; k = 0 where a robot has no contacts.
+    A_G : ndarray, shape (..., 6, nv)
+        Centroidal momentum matrix, rows (angular, linear).
+    """
+
+    M: Array | None = None
+    h: Array | None = None
+    J_c: Array | None = None
+    A_G: Array | None = None
+
+
+def dynamics(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    *,
+    contacts: Iterable[str] | None = None,
+    want: Iterable[str] = ("M", "h", "J_c", "A_G"),
+) -> Dynamics:
+    """Return what a whole-body controller needs: M, h, J_c and A_G (the chapter's getDynamics).
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+    contacts : iterable of str, optional
+        Frames of the point contacts; `model.feet` unless given.
+    want : iterable of {"M", "h", "J_c", "A_G"}
+        Only these are computed.
+
+    Returns
+    -------
+    Dynamics
+
+    Raises
+    ------
+    NameNotFound
+        If `want` names something else, or the model has no such contact frame.
+    ShapeError, ValueError
+        As `Model.state`; or if `contacts` or `want` is a single string.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> d = tw.dynamics(model, model.standing(), np.zeros(model.nv), want={"M", "J_c"})
+    >>> d.M.shape, d.J_c.shape, d.h
+    ((18, 18), (12, 18), None)
+    """
+    contacts = names_of(model.feet if contacts is None else contacts, "contacts", "frame names")
+    want = names_of(want, "want", "quantities")
+    compute = {
+        "M": lambda: crba(model, q),
+        "h": lambda: nonlinear_effects(model, q, v),
+        "J_c": lambda: contact_jacobian(model, q, contacts),
+        "A_G": lambda: centroidal_map(model, q),
+    }
+    for name in want:
+        if not isinstance(name, str) or name not in compute:
+            raise unknown_name("quantity", name, compute)
+    model.state(q, v=v)  # also where no wanted quantity depends on v
+    return Dynamics(**{name: compute[name]() for name in want})
