@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..centroidal import centroidal_map as textbook_centroidal_map
 from ..checks import Array
 from ..errors import unknown_name
-from ..floating_base import Dynamics
+from ..whole_body import Dynamics
 from ..model import Model
 from .contacts import contacts_of
 from .door import admit
