@@ -358,6 +358,31 @@ def test_what_cannot_be_compared_is_said(name, function, says):
     assert says in message(name, function)
 
 
+def test_a_class_is_judged_by_what_it_does():
+    class SpatialVector:
+        def __init__(self, kind, vector):
+            self.kind, self.vector = kind, vector
+
+        def __add__(self, other):
+            return SpatialVector(self.kind, self.vector + other.vector)
+
+        def __sub__(self, other):
+            return SpatialVector(self.kind, self.vector - other.vector)
+
+        def power(self, other):
+            return self.vector @ other.vector
+
+    said = message("SpatialVector", SpatialVector)
+    assert "The slip in V + F refused: a twist and a wrench are added." in said
+    assert "The slip in V.power(W) refused: the power of two things of one kind is taken." in said
+
+    class Unfinished(SpatialVector):
+        def __add__(self, other):
+            return ...
+
+    assert judge(*catalogue.find_part("SpatialVector"), Unfinished).state == "to do"
+
+
 def test_two_slips_at_once_are_both_named():
     plucker = catalogue.find_part("plucker")[1]
     swapped_too = after(plucker.slips["coupling-order"], swap)
