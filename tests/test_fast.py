@@ -17,7 +17,8 @@ WORSE = 4
 """How many times the error of the textbook is allowed."""
 
 FEW = 16
-"""Allowed besides: units of the resolution, of the size of the quantity (of forward dynamics: of its condition)."""
+"""Allowed besides: units of the resolution, of the size of the quantity or of its terms (of forward dynamics: of its
+condition). Over 1300 random trees 7 were needed, and the median errors were smaller than the textbook's."""
 
 BIG_TREE = Recipe(40, seed=1, base="floating")
 
@@ -61,20 +62,24 @@ def truth(model, s, contacts):
 
 def assert_as_good(model, s, contacts, *, few=FEW):
     """No error is above `WORSE` times the textbook's and `few` units of the resolution."""
-    ours, book, true = by(fast, model, s, contacts), by(tw, model, s, contacts), truth(model, s, contacts)
+    one, book, true = by(fast, model, s, contacts), by(tw, model, s, contacts), truth(model, s, contacts)
+    many = by(fast, model, type(s)(*(np.stack([x] * 10) for x in s)), contacts)  # so many that all are done at once
     for name, right in true.items():
-        assert ours[name].shape == book[name].shape
-        assert ours[name].dtype == book[name].dtype == s.q.dtype
-        error, textbook = (largest(slow.as_mpmath(x[name]) - right) for x in (ours, book))
+        assert one[name].shape == book[name].shape == many[name].shape[1:]
+        assert one[name].dtype == many[name].dtype == book[name].dtype == s.q.dtype
+        errors = [largest(slow.as_mpmath(x) - right) for x in (one[name], many[name][3])]
+        error, textbook = max(errors), largest(slow.as_mpmath(book[name]) - right)
         size = largest(right)
-        if name.startswith("h"):  # its terms may cancel
-            size += model.mass * 9.81 + largest(true["M"]) * largest(s.v) ** 2
+        if name.startswith(("h", "rnea")):  # the terms may cancel
+            size += model.mass * 9.81 + largest(true["M"]) * (largest(s.v) ** 2 + largest(s.a) * (name[0] == "r"))
+        if name.startswith("J"):  # a lever arm of about a metre may be turned about itself
+            size += 1
         lost = 1.0
         if name.startswith("aba"):
             h = true["h"] + (true["rnea f_ext"] - true["rnea"] if name.endswith("f_ext") else 0)
             lost = skeel(true["M"], right, s.tau, h)
         bound = WORSE * textbook + few * float(np.finfo(s.q.dtype).eps) * size * lost
-        assert error <= bound, f"{name}: error {error / size:.2g}, the textbook's {textbook / size:.2g}"
+        assert error <= bound, f"{name}: error {error:.2g}, the textbook's {textbook:.2g}, of {size:.2g}"
 
 
 # ---------------------------------------------------------------- the truth
@@ -174,13 +179,15 @@ def test_any_batch_shape_works(batch, base):
 @pytest.mark.parametrize("kind", KINDS)
 def test_any_joint_works_anywhere(kind, base):
     recipe = Recipe(7, seed=5, base=base, kinds=(kind,))
-    assert_same(recipe.model, recipe.state((4,)), list(recipe.model.frame_names))
+    for batch in ((), (12,)):
+        assert_same(recipe.model, recipe.state(batch), list(recipe.model.frame_names))
 
 
 def test_a_joint_on_its_own_works():
     for kind in KINDS:
         recipe = Recipe(1, kinds=(kind,))
-        assert_same(recipe.model, recipe.state((4,)), list(recipe.model.frame_names))
+        for batch in ((), (12,)):
+            assert_same(recipe.model, recipe.state(batch), list(recipe.model.frame_names))
 
 
 def test_two_robots_in_one_model_work():
@@ -191,7 +198,8 @@ def test_two_robots_in_one_model_work():
         builder.link(name, parent="base_link", joint=tw.FreeFlyer(), inertia=rod)
         builder.link(f"{name} arm", parent=name, joint=tw.Revolute([1, 2, 3]), inertia=rod)
     model = builder.build()
-    assert_same(model, random_state(model, rng=0, batch=(3,)), ["left arm", "right", "base_link"])
+    for batch in ((), (12,)):
+        assert_same(model, random_state(model, rng=0, batch=batch), ["left arm", "right", "base_link"])
 
 
 @pytest.mark.parametrize("dtype", [np.complex64, np.complex128, np.clongdouble])
@@ -211,8 +219,9 @@ def test_a_complex_step_gives_the_derivative():
 
 def test_the_mass_matrix_is_symmetric_to_the_last_bit():
     for recipe in (BIG_TREE, Recipe(20, seed=7)):
-        M = fast.crba(recipe.model, recipe.state((5,)).q)
-        assert (M.mT == M).all()
+        for batch in ((), (12,)):
+            M = fast.crba(recipe.model, recipe.state(batch).q)
+            assert (M.mT == M).all()
 
 
 def test_power_is_the_rate_of_energy():
@@ -227,24 +236,30 @@ def test_power_is_the_rate_of_energy():
 # ---------------------------------------------------------------- long chains
 
 
+@pytest.mark.parametrize("count", [1, 10])
 @pytest.mark.parametrize("base", ["fixed", "floating"])
-def test_long_chains_lose_no_digits_against_the_textbook(base):
-    """A thousand links, zigzag and moving; the textbook in long double is the truth."""
+def test_long_chains_lose_no_digits_against_the_textbook(base, count):
+    """Three hundred links, slightly bent and moving; the textbook in long double is the truth."""
     if np.finfo(np.longdouble).eps >= np.finfo(float).eps:
         pytest.skip("long double is double on this platform: there is no truth to compare with")
     model = tw.chain(300, base=base, axis=[1.0, 2.0, -1.0])
     rng = np.random.default_rng(0)
     q = model.integrate(model.neutral(), 0.02 * rng.standard_normal(model.nv))
     v, a = 0.01 * rng.standard_normal((2, model.nv))
-    true = {k: tw_function(tw, k, model, *(x.astype(np.longdouble) for x in (q, v, a))) for k in ("rnea", "aba", "A_G")}
-    for name, right in true.items():
-        ours, book = (tw_function(package, name, model, q, v, a) for package in (fast, tw))
+    exact = [x.astype(np.longdouble) for x in (q, v, a)]
+    many = [np.stack([x] * count) for x in (q, v, a)]
+    for name in ("rnea", "aba", "crba", "centroidal_map"):
+        right, book, ours = (
+            CALLED[name](package, model, *state) for package, state in ((tw, exact), (tw, (q, v, a)), (fast, many))
+        )
         size = float(np.abs(right).max())
-        error, textbook = (float(np.abs(x - right).max()) / size for x in (ours, book))
+        error, textbook = (float(np.abs(x - right).max()) / size for x in (ours[-1], book))
         assert error <= WORSE * textbook + FEW * 2**-52, f"{name}: {error:.2g}, the textbook's {textbook:.2g}"
 
 
-def tw_function(package, name, model, q, v, x):
-    if name == "A_G":
-        return package.centroidal_map(model, q)
-    return getattr(package, name)(model, q, v, x)
+CALLED = {
+    "rnea": lambda package, model, q, v, a: package.rnea(model, q, v, a),
+    "aba": lambda package, model, q, v, a: package.aba(model, q, v, a),
+    "crba": lambda package, model, q, v, a: package.crba(model, q),
+    "centroidal_map": lambda package, model, q, v, a: package.centroidal_map(model, q),
+}

@@ -2,13 +2,16 @@
 
 import gc
 import weakref
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import twistwrench as tw
 from twistwrench import fast
-from twistwrench.fast import many, plan
+from twistwrench.fast import dispatch, many, plan
 
 from .strategies import Recipe, random_state
 
@@ -146,10 +149,10 @@ def test_singular_models_are_refused_in_the_same_words(make):
 
 
 def test_what_is_only_nearly_singular_is_solved():
-    """A rotor of a billionth of the inertia beyond it: too little for the quick check, enough for the textbook."""
+    """What the inner joint feels is its rotor: too little for the quick check, enough for the textbook."""
     rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
     builder = tw.Builder("nearly")
-    builder.link("inner", parent="base_link", joint=tw.Revolute("x"), armature=2e-15)
+    builder.link("inner", parent="base_link", joint=tw.Revolute("x"), armature=5e-14)
     builder.link("outer", parent="inner", joint=tw.Revolute("x"), inertia=rod)
     model, q = builder.build(), np.array([[0.3, 0.4], [0.5, 0.6]])
     np.testing.assert_array_equal(fast.aba(model, q, q, q), tw.aba(model, q, q, q))
@@ -180,7 +183,7 @@ def test_out_is_filled_and_returned(name, order, states, small_chunks):
     shape = (37, *TAILS[name])
     out = {
         "states first": lambda: np.full(shape, np.nan),
-        "states last": lambda: many.empty((37,), TAILS[name], float),
+        "states last": lambda: np.moveaxis(np.full((*TAILS[name], 37), np.nan), -1, 0),
         "every second": lambda: np.full((2 * 37, *TAILS[name]), np.nan)[::2],
     }[order]()
     returned = CALLS[name](fast, GO2, states.q, states.v, out=out)
@@ -196,7 +199,7 @@ def test_out_with_batch_axes_that_cannot_be_one_is_filled():
 
 
 def test_out_of_dynamics_is_filled_where_it_is_given(states):
-    mine = tw.Dynamics(M=np.empty((37, 18, 18)), h=np.empty((37, 18)))
+    mine = tw.Dynamics(M=np.empty((37, 18, 18)), h=np.empty((2, 2)))  # h is not asked for
     d = fast.dynamics(GO2, states.q, states.v, out=mine, want={"M", "A_G"})
     assert d.M is mine.M
     assert d.h is None
@@ -206,11 +209,13 @@ def test_out_of_dynamics_is_filled_where_it_is_given(states):
 
 @pytest.mark.parametrize("out", [np.empty((37, 17)), np.empty((37, 18), np.float32), np.empty((2, 18)), [0.0] * 18])
 def test_an_out_that_does_not_fit_is_refused(out, states):
-    with pytest.raises(tw.ShapeError, match=r"out: expected an array of float64 of shape \(37, 18\)"):
+    with pytest.raises(tw.ShapeError, match=r"out: expected for tau an array of float64 of shape \(37, 18\)"):
         fast.rnea(GO2, states.q, states.v, states.a, out=out)
 
 
-def test_out_may_be_an_input(states):
+@pytest.mark.parametrize("count", [3, 37])
+def test_out_may_be_an_input(states, count):
+    states = type(states)(*(x[:count] for x in states))
     qdd = fast.aba(GO2, states.q, states.v, states.tau)
     tau = states.tau.copy()
     fast.aba(GO2, states.q, states.v, tau, out=tau)
@@ -220,25 +225,89 @@ def test_out_may_be_an_input(states):
 # ---------------------------------------------------------------- how it is spread
 
 
+def assert_equal_to_rounding(x, y):
+    """Sums of three terms are added in another order where a chunk ends."""
+    np.testing.assert_allclose(x, y, rtol=0, atol=1e-14 * np.abs(y).max())
+
+
 @pytest.mark.parametrize("name", CALLS)
-def test_chunks_and_threads_change_nothing(name, states, small_chunks, monkeypatch):
-    one = CALLS[name](fast, GO2, states.q, states.v)
-    two = CALLS[name](fast, GO2, states.q, states.v, workers=2)
+def test_chunks_change_nothing(name, states, small_chunks, monkeypatch):
+    chunks = CALLS[name](fast, GO2, states.q, states.v)
     monkeypatch.setattr(many, "FEWEST", 1000)
-    whole = CALLS[name](fast, GO2, states.q, states.v)
-    np.testing.assert_array_equal(one, two)
-    np.testing.assert_allclose(one, whole, rtol=0, atol=1e-13 * np.abs(whole).max())
+    assert_equal_to_rounding(chunks, CALLS[name](fast, GO2, states.q, states.v))
 
 
-def test_an_error_in_a_thread_is_seen(small_chunks):
-    q = np.full((30, 2), 0.4)
+@pytest.mark.parametrize("name", CALLS)
+@pytest.mark.parametrize("count", [1, 8, 9])
+def test_few_states_and_many_agree(name, count, states, monkeypatch):
+    q, v = states.q[:count], states.v[:count]
+    one_way = CALLS[name](fast, GO2, q, v)
+    monkeypatch.setattr(dispatch, "FEW", 0 if count <= dispatch.FEW else count)
+    other_way = CALLS[name](fast, GO2, q, v)
+    size = 10 if name == "aba" else 1  # the condition of M
+    np.testing.assert_allclose(one_way, other_way, rtol=0, atol=size * 1e-14 * np.abs(other_way).max())
+
+
+def test_two_processes_change_nothing(states):
+    """The call starts them itself."""
+    q, v = np.tile(states.q, (30, 1)), np.tile(states.v, (30, 1))
+    assert_equal_to_rounding(fast.aba(GO2, q, v, v, workers=2), fast.aba(GO2, q, v, v))
+
+
+@pytest.fixture(scope="module")
+def pool():
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        yield pool
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_an_executor_is_used_and_changes_nothing(name, pool, states):
+    q, v = np.tile(states.q, (30, 1)), np.tile(states.v, (30, 1))
+    one = CALLS[name](fast, GO2, q, v)
+    assert_equal_to_rounding(CALLS[name](fast, GO2, q, v, workers=pool), one)
+    out = np.full_like(one, np.nan)
+    assert CALLS[name](fast, GO2, q, v, workers=pool, out=out) is out
+    assert_equal_to_rounding(out, one)
+
+
+def test_out_is_filled_slab_by_slab(pool, states, monkeypatch):
+    monkeypatch.setattr(many, "SLAB", 300)
+    q, v = np.tile(states.q, (30, 1)), np.tile(states.v, (30, 1))
+    d = tw.Dynamics(M=np.empty((1110, 18, 18)))
+    fast.dynamics(GO2, q, v, out=d, want={"M", "h"}, workers=pool)
+    assert_equal_to_rounding(d.M, fast.crba(GO2, q))
+
+
+def test_results_of_processes_outlive_them(states):
+    q = np.tile(states.q, (30, 1))
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        M = fast.crba(GO2, q, workers=pool)
+    part = M[5:7, 3]
+    del M
+    gc.collect()
+    assert_equal_to_rounding(part, fast.crba(GO2, q[5:7])[:, 3])
+
+
+def test_shared_memory_is_given_back(pool, states):
+    """Its names go at once, so that nothing is left behind; the memory goes with the last array on it."""
+    folder = Path("/dev/shm")
+    if not folder.is_dir():
+        pytest.skip("the platform does not show its shared memory")
+    before = set(folder.iterdir())
+    tau = fast.rnea(GO2, np.tile(states.q, (30, 1)), *[np.tile(states.v, (30, 1))] * 2, workers=pool)
+    assert tau.shape == (1110, 18)
+    assert set(folder.iterdir()) <= before
+
+
+def test_an_error_in_a_process_is_seen(pool):
+    q = np.full((1000, 2), 0.4)
     with pytest.raises(tw.SingularError, match="'light'"):
-        fast.aba(massless(), q, q, q, workers=2)
+        fast.aba(massless(), q, q, q, workers=pool)
 
 
 @pytest.mark.parametrize("workers", [0, -1])
 def test_there_must_be_a_worker(workers, states):
-    with pytest.raises(ValueError, match=f"workers: expected 1 or more, got {workers}"):
+    with pytest.raises(ValueError, match=f"workers: expected 1 or more, or an Executor, got {workers}"):
         fast.rnea(GO2, states.q, states.v, states.a, workers=workers)
 
 

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from functools import partial
+from concurrent.futures import Executor
 
 from numpy.typing import ArrayLike
 
-from ..centroidal import centroidal_map as textbook_centroidal_map
 from ..checks import Array
-from ..errors import unknown_name
-from ..whole_body import Dynamics
 from ..model import Model
-from .contacts import contacts_of
-from .door import admit
-from .kernels import forward_dynamics, inverse_dynamics, quantities
-from .many import fill, given_or_empty
+from ..whole_body import Dynamics
+from .dispatch import How, accelerations, parts, torques
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
 
@@ -28,7 +23,7 @@ def rnea(
     f_ext: ArrayLike | None = None,
     *,
     out: Array | None = None,
-    workers: int = 1,
+    workers: int | Executor = 1,
     progress: bool = False,
 ) -> Array:
     """Return what `twistwrench.rnea` does: the joint forces that make a motion happen (49.6).
@@ -39,8 +34,9 @@ def rnea(
         As there.
     out : ndarray, shape (..., nv), optional
         To be filled, of the number type of the result.
-    workers : int
-        Number of threads for many states.
+    workers : int or Executor
+        Number of processes for very many states, or a ``ProcessPoolExecutor``, which spares starting them anew:
+        half a second. As with all of `multiprocessing`, a script needs its ``if __name__ == "__main__":``.
     progress : bool
         Show a bar on stderr.
 
@@ -64,10 +60,7 @@ def rnea(
     >>> np.allclose(tau[0], tw.rnea(model, model.standing(), v[0], v[0]), rtol=0, atol=1e-11)
     True
     """
-    plan, (q, *rest) = admit(model, q, ("v", v), ("a", a), f_ext=f_ext)
-    out = given_or_empty("out", out, q.shape[:-1], (model.nv,), q.dtype)
-    fill(partial(inverse_dynamics, plan), [q, *rest], [out], plan=plan, workers=workers, progress=progress)
-    return out
+    return torques(model, q, v, a, f_ext, How({} if out is None else {"tau": out}, workers, progress))
 
 
 def nonlinear_effects(
@@ -76,7 +69,7 @@ def nonlinear_effects(
     v: ArrayLike,
     *,
     out: Array | None = None,
-    workers: int = 1,
+    workers: int | Executor = 1,
     progress: bool = False,
 ) -> Array:
     """Return what `twistwrench.nonlinear_effects` does: h = C v + g (49.9).
@@ -104,11 +97,13 @@ def nonlinear_effects(
     >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0])  # standing: nothing for the cart
     array([0., 0.])
     """
-    given = {} if out is None else {"h": out}
-    return _compute(model, q, {"v": v}, ("h",), (), given, workers, progress)["h"]
+    how = How({} if out is None else {"h": out}, workers, progress)
+    return parts(model, q, (("v", v),), ("h",), (), how)["h"]
 
 
-def crba(model: Model, q: ArrayLike, *, out: Array | None = None, workers: int = 1, progress: bool = False) -> Array:
+def crba(
+    model: Model, q: ArrayLike, *, out: Array | None = None, workers: int | Executor = 1, progress: bool = False
+) -> Array:
     """Return what `twistwrench.crba` does: the mass matrix (49.8).
 
     Parameters
@@ -135,12 +130,12 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None, workers: int =
     >>> tw.fast.crba(model, [[0.0], [1.0]]).shape
     (2, 1, 1)
     """
-    given = {} if out is None else {"M": out}
-    return _compute(model, q, {}, ("M",), (), given, workers, progress)["M"]
+    how = How({} if out is None else {"M": out}, workers, progress)
+    return parts(model, q, (), ("M",), (), how)["M"]
 
 
 def centroidal_map(
-    model: Model, q: ArrayLike, *, out: Array | None = None, workers: int = 1, progress: bool = False
+    model: Model, q: ArrayLike, *, out: Array | None = None, workers: int | Executor = 1, progress: bool = False
 ) -> Array:
     """Return what `twistwrench.centroidal_map` does: the centroidal momentum matrix (49.10).
 
@@ -170,8 +165,8 @@ def centroidal_map(
     >>> tw.fast.centroidal_map(model, model.standing())[5, 5].round(3)  # the whole mass
     np.float64(16.085)
     """
-    given = {} if out is None else {"A_G": out}
-    return _compute(model, q, {}, ("A_G",), (), given, workers, progress)["A_G"]
+    how = How({} if out is None else {"A_G": out}, workers, progress)
+    return parts(model, q, (), ("A_G",), (), how)["A_G"]
 
 
 def dynamics(
@@ -182,7 +177,7 @@ def dynamics(
     contacts: Sequence[str] | None = None,
     want: Collection[str] = ("M", "h", "J_c", "A_G"),
     out: Dynamics | None = None,
-    workers: int = 1,
+    workers: int | Executor = 1,
     progress: bool = False,
 ) -> Dynamics:
     """Return what `twistwrench.dynamics` does: M, h, J_c and A_G (49.9).
@@ -221,37 +216,7 @@ def dynamics(
     """
     contacts = model.feet if contacts is None else contacts
     given = {} if out is None else {name: x for name, x in vars(out).items() if x is not None}
-    return Dynamics(**_compute(model, q, {"v": v}, want, contacts, given, workers, progress))
-
-
-def _compute(
-    model: Model,
-    q: ArrayLike,
-    rates: dict[str, ArrayLike],
-    want: Collection[str],
-    contacts: Sequence[str],
-    given: dict[str, Array],
-    workers: int,
-    progress: bool,
-) -> dict[str, Array]:
-    """Check, make room and fill it with what is wanted."""
-    nv = model.nv
-    tails = {"M": (nv, nv), "h": (nv,), "J_c": (3 * len(contacts), nv), "A_G": (6, nv)}
-    for name in want:
-        if name not in tails:
-            raise unknown_name("quantity", name, tails)
-    plan, (q, *rest) = admit(model, q, *rates.items())
-    if "A_G" in want and model.mass == 0:
-        textbook_centroidal_map(model, q)  # says what is wrong
-    touching = contacts_of(model, plan, contacts) if "J_c" in want else None
-    results = {
-        name: given_or_empty(f"out.{name}", given.get(name), q.shape[:-1], tail, q.dtype)
-        for name, tail in tails.items()
-        if name in want
-    }
-    kernel = partial(quantities, plan, touching, tuple(results))
-    fill(kernel, [q, *rest], list(results.values()), plan=plan, workers=workers, progress=progress)
-    return results
+    return Dynamics(**parts(model, q, (("v", v),), want, contacts, How(given, workers, progress)))
 
 
 def aba(
@@ -262,7 +227,7 @@ def aba(
     f_ext: ArrayLike | None = None,
     *,
     out: Array | None = None,
-    workers: int = 1,
+    workers: int | Executor = 1,
     progress: bool = False,
 ) -> Array:
     """Return what `twistwrench.aba` does: the acceleration under given joint forces (49.7).
@@ -294,7 +259,4 @@ def aba(
     >>> np.allclose(tw.fast.rnea(model, q, q, qdd), q)
     True
     """
-    plan, (q, *rest) = admit(model, q, ("v", v), ("tau", tau), f_ext=f_ext)
-    out = given_or_empty("out", out, q.shape[:-1], (model.nv,), q.dtype)
-    fill(partial(forward_dynamics, model, plan), [q, *rest], [out], plan=plan, workers=workers, progress=progress)
-    return out
+    return accelerations(model, q, v, tau, f_ext, How({} if out is None else {"qdd": out}, workers, progress))

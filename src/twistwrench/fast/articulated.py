@@ -18,7 +18,12 @@ from .links import Level
 from .plan import Plan
 from .vectors import CYCLE, SYMMETRIC, cross, dot, symmetric_times, times, transposed_times, unfold
 
-__all__ = ["NearlySingular", "accelerations"]
+__all__ = ["NearlySingular", "accelerations", "floors"]
+
+
+DOUBTFUL = 1024
+"""Below so many units of the resolution of a joint's inertia the textbook is asked, which follows each rounding. A
+hundred are what it doubts at least; robots and even long chains are far above a thousand."""
 
 
 class NearlySingular(ArithmeticError):
@@ -83,7 +88,8 @@ def accelerations(
         If a joint may feel no inertia.
     """
     felt, c = _start(plan, frames, inertias, v, f_ext)
-    (floor, base_floor), joints = _floors(plan, frames), []
+    reach = np.sqrt((frames.offset * frames.offset).real.sum(axis=0).max(axis=-1))
+    (floor, base_floor), joints = floors(plan, reach), []
     for level in reversed(plan.levels):  # pass 2
         here, r = felt.at(level), frames.offset[:, level.here]
         joints.append(_free(plan, frames, level, here, tau, floor))
@@ -191,21 +197,20 @@ def _base(plan: Plan, felt: Felt, tau: Array, rising: Array, floor: Array) -> Ar
     return x
 
 
-def _floors(plan: Plan, frames: Frames) -> tuple[Array, Array]:
+def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
     """Return below which D the joints of the links, (1 + n, 1), and of the base, (6, 1), may have lost all digits.
 
-    An upper bound of what it would feel with the joints beyond it locked, 64 times the resolution of it: the
-    textbook's limit is not above that.
+    That is `DOUBTFUL` times the resolution of what they would feel with the joints beyond them locked, or rather of
+    an upper bound of it, from how far the links are from their parents at most: `reach`, shape (1 + n,).
     """
-    reach = np.sqrt((frames.offset * frames.offset).real.sum(axis=0).max(axis=-1))  # longest way to the parent
     mass, first, second = plan.carried[:, 0], plan.first.copy(), plan.second.copy()
     for level in reversed(plan.levels):
         for parents, children in level.inward:
             r, m = reach[children], mass[children]
             second[parents] += second[children] + 2 * r * first[children] + r * r * m
             first[parents] += first[children] + r * m
-    felt = second if plan.turning is None else np.where(plan.turning[:, 0] > 0, second, mass)
+    felt = second.copy() if plan.turning is None else np.where(plan.turning[:, 0] > 0, second, mass)
     felt[1:] += plan.rotor[plan.entry[1:], 0]
     base = np.repeat([second[0], mass[0]], 3) + (plan.rotor[:6, 0] if plan.floats else 0)
-    lost = 64 * resolution(frames.offset.dtype)
+    lost = DOUBTFUL * resolution(mass.dtype)
     return lost * felt[:, None], lost * base[:, None]

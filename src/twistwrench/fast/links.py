@@ -12,7 +12,7 @@ floats, or the world of a fixed base.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -157,12 +157,16 @@ def _numbered(roots: list[Link]) -> list[Link]:
     return order
 
 
-def index(numbers: list[int]) -> Index:
-    """Return numbers as a slice where they are consecutive, as an array where not."""
-    first = numbers[0] if numbers else 0
-    if numbers == list(range(first, first + len(numbers))):
-        return slice(first, first + len(numbers))
-    return np.array(numbers, dtype=np.intp)
+def index(numbers: Sequence[int]) -> Index:
+    """Return numbers as a slice where they go up in equal steps, as an array where not."""
+    first, *rest = numbers or [0]
+    step = max(rest[0] - first, 1) if rest else 1
+    steps = range(first, first + step * len(numbers), step)
+    return (
+        slice(first, steps.stop, None if step == 1 else step)
+        if list(numbers) == list(steps)
+        else np.array(numbers, dtype=np.intp)
+    )
 
 
 def parents_of(links: list[Link]) -> list[int]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any, NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -13,9 +12,6 @@ from ..model import Model
 from .links import Index, Level, Link, Step, base_floats, index, levels_of, links_of, parents_of, steps_of
 
 __all__ = ["Plan", "Seat", "plan_of"]
-
-_PLANS: WeakKeyDictionary[Model, dict[Any, Any]] = WeakKeyDictionary()
-"""The plans of the models that are alive; a plan never refers to its model."""
 
 
 class Seat(NamedTuple):
@@ -126,10 +122,11 @@ class Plan:
 
 def plan_of(model: Model, dtype: np.dtype[Any]) -> Plan:
     """Return the plan of a model for a real number type; made once, forgotten with the model."""
-    plans = _PLANS.setdefault(model, {})
-    if dtype not in plans:
-        plans[dtype] = _make(model, dtype)
-    plan: Plan = plans[dtype]
+    made: dict[Any, Any] = model._constants  # where the model keeps what it makes once per number type
+    key = ("fast", dtype)
+    if key not in made:
+        made[key] = _make(model, dtype)
+    plan: Plan = made[key]
     return plan
 
 

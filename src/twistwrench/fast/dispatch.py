@@ -1,0 +1,160 @@
+"""One state, a few or many: which way each takes.
+
+Up to a few states are done one by one, in double precision whatever comes (`one`); more of them all at once (`many`).
+So are wrenches from outside, long double and complex numbers, however few the states are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from concurrent.futures import Executor
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..centroidal import centroidal_map
+from ..checks import Array
+from ..errors import SingularError, unknown_name
+from ..forward_dynamics import aba
+from ..model import Model
+from .articulated import NearlySingular
+from .contacts import contacts_of
+from .door import PLAIN, admit
+from .kernels import forward_dynamics, inverse_dynamics, quantities
+from .many import Tail, check_fits, check_workers, empty, fill
+from .one import Parts, one_dynamics, one_rnea
+from .one_aba import AbaPlan, make_aba_plan, one_aba
+from .one_plan import OnePlan, Touching, make_one_plan, touching
+from .plan import plan_of
+
+__all__ = ["How", "accelerations", "parts", "torques"]
+
+FEW = 8
+"""Up to so many states are done one by one; beyond, all at once is faster. See benchmarks/README.md."""
+
+REMEMBERED = 32
+"""Sets of contacts that a plan remembers."""
+
+DOUBLE = np.dtype(np.float64)
+
+
+class How(NamedTuple):
+    """How the caller wants it done.
+
+    Attributes
+    ----------
+    given : mapping of str to ndarray
+        Arrays of the caller for some of the results.
+    workers : int or Executor
+    progress : bool
+    """
+
+    given: Mapping[str, Array]
+    workers: int | Executor
+    progress: bool
+
+
+def torques(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None, how: How) -> Array:
+    """Return τ."""
+    plan, states = admit(model, q, ("v", v), ("a", a), f_ext=f_ext)
+    tails = {"tau": (plan.nv,)}
+    if f_ext is None and _are_few(states[0]):
+        return _one_by_one(partial(_one_torques, _one_plan(model)), states, tails, how)["tau"]
+    return fill(partial(inverse_dynamics, plan), states, tails, plan, *how)["tau"]
+
+
+def accelerations(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None, how: How) -> Array:
+    """Return q̈."""
+    plan, states = admit(model, q, ("v", v), ("tau", tau), f_ext=f_ext)
+    tails = {"qdd": (plan.nv,)}
+    try:
+        if f_ext is None and _are_few(states[0]):
+            return _one_by_one(partial(_one_accelerations, model, _aba_plan(model)), states, tails, how)["qdd"]
+        return fill(partial(forward_dynamics, model, plan), states, tails, plan, *how)["qdd"]
+    except SingularError:
+        return aba(model, *states)  # says of all states which
+
+
+def parts(
+    model: Model,
+    q: ArrayLike,
+    rates: tuple[tuple[str, ArrayLike], ...],
+    want: Collection[str],
+    contacts: Sequence[str],
+    how: How,
+) -> Parts:
+    """Return what is wanted of M, h, J_c and A_G, by name; of `rates` only v counts, and only for h."""
+    nv = model.nv
+    tails: dict[str, Tail] = {"M": (nv, nv), "h": (nv,), "J_c": (3 * len(contacts), nv), "A_G": (6, nv)}
+    for name in want:
+        if name not in tails:
+            raise unknown_name("quantity", name, tails)
+    plan, states = admit(model, q, *rates)
+    if "A_G" in want and model.mass == 0:
+        centroidal_map(model, q)  # says what is wrong
+    tails = {name: tail for name, tail in tails.items() if name in want}
+    if _are_few(states[0]):
+        one = _one_plan(model)
+        touched = _touching(model, one, contacts) if "J_c" in want else None
+        return _one_by_one(partial(one_dynamics, one, want, touched), states, tails, how)
+    touched_by_links = contacts_of(model, plan, contacts) if "J_c" in want else None
+    return fill(partial(quantities, plan, touched_by_links, tuple(tails)), states, tails, plan, *how)
+
+
+def _are_few(q: Array) -> bool:
+    return (q.ndim == 1 or q.size <= FEW * q.shape[-1]) and q.dtype in PLAIN
+
+
+def _one_by_one(one: Callable[..., Parts], states: Sequence[Array], tails: Mapping[str, Tail], how: How) -> Parts:
+    """Return the results for a few states: of each, ``one(*state)`` in double precision."""
+    batch, dtype = states[0].shape[:-1], states[0].dtype
+    if not batch and dtype == DOUBLE and not how.given and how.workers == 1:
+        return one(*states)
+    check_workers(how.workers)
+    check_fits(how.given, batch, tails, dtype)
+    states = [x.astype(DOUBLE) for x in states]  # a copy: the caller's array may be one of those to be filled
+    results = {name: how.given.get(name, empty(batch, tail, dtype)) for name, tail in tails.items()}
+    for state in np.ndindex(batch):
+        for name, x in one(*(x[state] for x in states)).items():
+            results[name][state] = x
+    return results
+
+
+def _one_torques(plan: OnePlan, q: Array, v: Array, a: Array) -> Parts:
+    return {"tau": one_rnea(plan, q, v, a)}
+
+
+def _one_accelerations(model: Model, plan: AbaPlan, q: Array, v: Array, tau: Array) -> Parts:
+    try:
+        return {"qdd": one_aba(plan, q, v, tau)}
+    except NearlySingular:
+        return {"qdd": aba(model, q, v, tau)}
+
+
+def _one_plan(model: Model) -> OnePlan:
+    made: dict[Any, Any] = model._constants
+    plan: OnePlan | None = made.get("fast, one")
+    if plan is None:
+        plan = made["fast, one"] = make_one_plan(plan_of(model, DOUBLE))
+    return plan
+
+
+def _aba_plan(model: Model) -> AbaPlan:
+    made: dict[Any, Any] = model._constants
+    plan: AbaPlan | None = made.get("fast, aba")
+    if plan is None:
+        plan = made["fast, aba"] = make_aba_plan(plan_of(model, DOUBLE), _one_plan(model))
+    return plan
+
+
+def _touching(model: Model, plan: OnePlan, contacts: Sequence[str]) -> Touching:
+    """Look up contacts, or remember them."""
+    known, names = plan.known, tuple(contacts)
+    if isinstance(contacts, str) or names not in known:
+        found = touching(plan, contacts_of(model, plan_of(model, DOUBLE), contacts))
+        if len(known) >= REMEMBERED:
+            known.clear()
+        known[names] = found
+    return known[names]

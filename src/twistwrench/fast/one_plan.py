@@ -1,0 +1,295 @@
+"""The plan for one state: constant matrices for products that do all links at once.
+
+The links are those of `plan`, in the order of v: link 0 is the base, and each comes after what carries it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from ..checks import Array
+from .contacts import Contacts
+from .links import Index, index
+from .one_sums import BLOCK, Sums, SumsInBlocks, carried_by, sums_of
+from .plan import Plan, Seat
+from .vectors import CYCLE
+
+__all__ = ["MOMENTUM", "SLIDE", "TURN", "OnePlan", "Touching", "make_one_plan", "touching"]
+
+
+class Touching(NamedTuple):
+    """Points of contact.
+
+    Attributes
+    ----------
+    link : ndarray of int, shape (k,)
+        What carries them.
+    point : ndarray, shape (k, 4, 1)
+        (x, 1) in the link's axes.
+    placed : ndarray, shape (4 k, 16 (1 + n)), or None
+        From the placements of all links to the points; None where it would be large.
+    row, column : ndarray of int, shape (48 k,)
+        Where, in the rotation of the base and in the points, the factors of their products stand.
+    moved : ndarray, shape (3 k, nv)
+        1 where an entry of v moves the contact, 0 elsewhere.
+    """
+
+    link: Array
+    point: Array
+    placed: Array | None
+    row: Array
+    column: Array
+    moved: Array
+
+
+class Doings(NamedTuple):
+    """What the joints do, as one vector: 1, cosines and sines of angles, those of circles, lengths, 0.
+
+    Attributes
+    ----------
+    still : ndarray, shape (m,)
+        The vector to be filled.
+    looks : ndarray of int, shape (n, 3)
+        Which three of it a link looks at: 1, cosine, sine; 1, length, 0; 1, 1, 0.
+    angles : slice or ndarray of int
+        Their entries in q.
+    circles : ndarray of int, shape (2, k)
+        The entries of cosines and of sines.
+    lengths : ndarray of int
+    """
+
+    still: Array
+    looks: Array
+    angles: Index
+    circles: Array
+    lengths: Array
+
+
+@dataclass(frozen=True, eq=False)
+class OnePlan:
+    """Constants of a model for one state, in double precision. 1 + n links, the first of which is the base.
+
+    Attributes
+    ----------
+    base : int
+        How many entries of v are those of a floating base: 6, or 0.
+    doings : Doings
+    local : ndarray, shape (16 n, m) or (n, 16, 3)
+        From what the joints do to the placement of each link in its parent's axes: one matrix, or, where that would
+        be large, a matrix for each link.
+    pose : ndarray, shape (16 (1 + n),)
+        Placements to be filled; that of the base is known.
+    seats : list of (int, Seat, ndarray)
+        Link, seat, and the seat's own placement.
+    chain : list of (links, links)
+        Products T[links] ← T[others] T[links] that lead from placements in the parents to those in the base.
+    twist : ndarray, shape (nv, 16)
+        Twists of unit rates to be filled; those of the base are known.
+    origin, axis : ndarray of int, shape (12 n,)
+        Where, in the placements, the factors of the products p̄ zᵀ stand.
+    sliding : ndarray of int
+        Links without the base that slide.
+    sums : Sums or SumsInBlocks
+    J : ndarray, shape (1 + n, 4, 4)
+        Second moments, first moments and mass: ∫ x̄ x̄ᵀ dm.
+    related : ndarray, shape (nv, nv)
+        1 where the row's link carries the column's, 1/2 in the diagonal blocks of joints, 0 elsewhere.
+    rotor : ndarray, shape (nv,), or None
+    mass : float
+    gravity : ndarray, shape (3,)
+    under : ndarray, shape (3, 3), or None
+        The axes from which the base turns, as columns in those of the world, where they are not the same.
+    new : ndarray of int, shape (1 + n,)
+        The number here of each link of `Plan`.
+    known : dict
+        Contacts that were asked for before.
+    """
+
+    base: int
+    doings: Doings
+    local: Array
+    pose: Array
+    seats: list[tuple[int, Seat, Array]]
+    chain: list[tuple[Index, Index]]
+    twist: Array
+    origin: Array
+    axis: Array
+    sliding: Array
+    sums: Sums | SumsInBlocks
+    J: Array
+    related: Array
+    rotor: Array | None
+    mass: float
+    gravity: Array
+    under: Array | None
+    new: Array
+    known: dict[tuple[str, ...], Touching] = field(default_factory=dict)
+
+
+def _of_products() -> tuple[Array, Array, Array]:
+    """Return `TURN`, `SLIDE` and `MOMENTUM`."""
+    turn, slide = np.zeros((4, 3, 4, 4)), np.zeros((4, 3, 4, 4))
+    for i, j, k in CYCLE:
+        turn[3, k, j, i], turn[3, k, i, j] = 1, -1  # z×
+        turn[j, k, i, 3], turn[k, j, i, 3] = 1, -1  # p × z
+        slide[3, i, i, 3] = 1
+    momentum = np.zeros((6, 16, 3, 4, 4))
+    for i in range(3):
+        momentum[i, :, i, :3] = turn.reshape(4, 3, 16).transpose(2, 1, 0)
+        momentum[3 + i, :, i, :3] = slide.reshape(4, 3, 16).transpose(2, 1, 0)
+    return turn.reshape(12, 16), slide.reshape(12, 16), momentum.reshape(96, 48)
+
+
+TURN, SLIDE, MOMENTUM = _of_products()
+TWISTS = np.concatenate([TURN[9:], SLIDE[9:]])
+"""What makes, of the products of p̄ = (p, 1) and z, the Ŝ of a turn about z through p, and of a slide along z; and,
+of those of the rows of R and c̄, the six Ŝ of turns about, and slides along, the axes of the world through c. The
+last are those Ŝ for R = 1 and c = 0."""
+
+
+def make_one_plan(plan: Plan) -> OnePlan:
+    """Put the constants of a plan in double precision into the order of v, and into matrices."""
+    base, n = 6 if plan.floats else 0, plan.n
+    order = np.argsort(plan.entry)  # old numbers in the new order; the base, with entry -1, stays the first
+    new = np.argsort(order)
+    parent = new[np.array(plan.parent)][order]
+    of = np.concatenate([np.zeros(base, np.intp), np.arange(1, 1 + n)])
+    before, last = (
+        np.concatenate([[end], new[np.arange(1 + n)[links]]])[order]
+        for links, end in ((plan.before, -1), (plan.last, 0))
+    )
+    doings, local = _doings(plan, new), _local(plan)[order[1:] - 1]
+    row, column = np.indices((4, 3)).reshape(2, 12)
+    first = 16 * np.arange(1, 1 + n)[:, None]
+    return OnePlan(
+        base=base,
+        doings=doings,
+        local=_side_by_side(local, doings) if n < BLOCK else local,
+        pose=np.concatenate([np.eye(4).reshape(16), np.zeros(16 * n)]),
+        seats=_seats(plan, new),
+        chain=_chain(parent),
+        twist=np.concatenate([TWISTS[:base], np.zeros((n, 16))]),
+        origin=(first + 4 * row + 3).reshape(12 * n),
+        axis=(first + 4 * column + 2).reshape(12 * n),
+        sliding=np.flatnonzero(plan.turning[order[1:], 0] == 0) if plan.turning is not None else np.zeros(0, np.intp),
+        sums=sums_of(parent, of, before, last),
+        J=_pseudo_inertias(plan)[order],
+        related=_related(carried_by(parent), of, last),
+        rotor=plan.rotor[:, 0] if plan.rotor.any() else None,
+        mass=float(plan.mass.sum()),
+        gravity=plan.gravity[:, 0],
+        under=None if (plan.under == np.eye(3)).all() else plan.under,
+        new=new,
+    )
+
+
+def _doings(plan: Plan, new: Array) -> Doings:
+    """Give all that joints do a place in one vector: 1, cosines and sines of angles, of circles, lengths, 0."""
+    kinds = []
+    for links, entries in (plan.angles, plan.circles, plan.lengths):
+        mine = new[1:][links] - 1
+        kinds.append((np.sort(mine), entries[np.argsort(mine)]))
+    (angles, _), (circles, _), (lengths, _) = kinds
+    columns = [(angles, 1), (angles, 2), (circles, 1), (circles, 2), (lengths, 1)]
+    end = 1 + sum(len(links) for links, _ in columns)
+    looks, place = np.tile([0, 0, end], (plan.n, 1)), 1
+    for links, column in columns:
+        looks[links, column] = place + np.arange(len(links))
+        place += len(links)
+    still = np.zeros(end + 1)
+    still[0] = 1
+    cosines = kinds[1][1]
+    return Doings(still, looks, index(kinds[0][1].tolist()), np.stack([cosines, cosines + 1]), kinds[2][1])
+
+
+def _side_by_side(local: Array, doings: Doings) -> Array:
+    """Return one matrix, shape (16 n, m), for the placements of all links."""
+    out = np.zeros((len(local), 16, len(doings.still)))
+    for mine, matrix, places in zip(out, local, doings.looks):
+        for place, column in zip(places, matrix.mT):
+            mine[:, place] += column
+    return out.reshape(-1, len(doings.still))
+
+
+def _local(plan: Plan) -> Array:
+    """Return placements in the parents' axes for (1, cos, sin), or (1, length, 0), shape (n, 16, 3)."""
+    local = np.zeros((plan.n, 4, 4, 3))
+    x, y, z, offset = plan.fixed.swapaxes(0, 1)
+    local[:, :3, 0, 1], local[:, :3, 0, 2] = x, y
+    local[:, :3, 1, 1], local[:, :3, 1, 2] = y, -x
+    local[:, :3, 2, 0], local[:, :3, 3, 0], local[:, 3, 3, 0] = z, offset, 1
+    slides, _ = plan.lengths
+    local[slides, :3, :2, 0], local[slides, :3, :2, 1] = local[slides, :3, :2, 1], 0
+    local[slides, :3, 3, 1] = z[slides]
+    return local.reshape(plan.n, 16, 3)
+
+
+def _seats(plan: Plan, new: Array) -> list[tuple[int, Seat, Array]]:
+    seats = []
+    for level, of_level in zip(plan.levels, plan.seats):
+        for seat in of_level:
+            number = level.here.start + seat.link
+            own = np.eye(4)
+            own[:3, :3], own[:3, 3] = plan.fixed[number - 1, :3].mT, plan.fixed[number - 1, 3]
+            seats.append((int(new[number]), seat, own))
+    return seats
+
+
+def _chain(parent: Array) -> list[tuple[Index, Index]]:
+    """Return the products that lead from placements in the parents to placements in the base.
+
+    Level by level; or, where there are many levels, in rounds that double the number of joints passed: in the first
+    round each link takes in its parent, in the second its grandparent, which has already taken in its own parent, …
+    """
+    depth = np.zeros(len(parent), np.intp)
+    for i in range(1, len(parent)):
+        depth[i] = depth[parent[i]] + 1
+    if depth.max() <= 4:
+        levels = [np.flatnonzero(depth == d) for d in range(2, depth.max() + 1)]
+        return [(index(level.tolist()), index(parent[level].tolist())) for level in levels]
+    rounds, up, reach = [], parent, 1
+    while reach < depth.max():
+        links = np.flatnonzero(depth > reach)
+        rounds.append((index(links.tolist()), index(up[links].tolist())))
+        up, reach = up[up], 2 * reach
+    return rounds
+
+
+def _related(carried: Array, of: Array, last: Array) -> Array:
+    joint = last[of]
+    return np.where(joint[:, None] == joint, 0.5, carried.mT[np.ix_(of, of)])
+
+
+def _pseudo_inertias(plan: Plan) -> Array:
+    """Return ∫ x̄ x̄ᵀ dm of the links: the second moments are tr(I)/2 − I."""
+    J = np.zeros((1 + plan.n, 4, 4))
+    I, h = plan.inertia[:, :3], plan.inertia[:, 3]
+    J[:, :3, :3] = np.trace(I, axis1=1, axis2=2)[:, None, None] / 2 * np.eye(3) - I
+    J[:, :3, 3] = J[:, 3, :3] = h
+    J[:, 3, 3] = plan.mass[:, 0]
+    return J
+
+
+def touching(one: OnePlan, contacts: Contacts) -> Touching:
+    """Put contacts into the order of v."""
+    k, n1, link = len(contacts.link), len(one.J), one.new[contacts.link]
+    point = np.ones((k, 4, 1))
+    point[:, :3, 0] = contacts.point[..., 0].mT
+    small = k * n1 < 1024
+    placed = np.zeros((k, 4, n1 if small else 0, 4, 4))
+    for row in range(4 if small else 0):
+        placed[range(k), row, link, row] = point[..., 0]
+    contact, i, a, b = np.indices((k, 3, 4, 4)).reshape(4, 48 * k)
+    moved = np.ones((k, len(one.twist)))
+    moved[contacts.still] = 0
+    return Touching(
+        link=link,
+        point=point,
+        placed=placed.reshape(4 * k, -1) if small else None,
+        row=4 * i + a,
+        column=4 * contact + b,
+        moved=np.repeat(moved, 3, axis=0),
+    )
