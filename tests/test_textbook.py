@@ -24,7 +24,7 @@ def at(x, y, z):
 
 def body(mass, com, about_com, axis):
     """A body of which only the moment of inertia about one axis matters."""
-    inertia = 0.4 * about_com * np.eye(3)
+    inertia = 0.6 * about_com * np.eye(3)
     inertia[axis, axis] = about_com
     return tw.SpatialInertia(mass, com, inertia)
 

@@ -83,8 +83,10 @@ def _shape(value: ArrayLike) -> tuple[int, ...]:
 
 
 def _check_size(x: Array, name: str) -> None:
-    """Refuse numbers beyond the fifth root of the largest: m (p × ω)² must not overflow."""
-    largest = np.finfo(x.dtype).max ** 0.2
+    """Refuse numbers that could make m (p × ω)² overflow: with a length p below the fourth root of the
+    largest number, and all rates and forces below its fifth, a tenth of the exponents is left for m.
+    """
+    largest = np.finfo(x.dtype).max ** (1 / 4 if name.startswith("q") else 1 / 5)
     huge = np.abs(x) > largest
     if huge.any():
         where = tuple(int(k) for k in np.argwhere(huge)[0])

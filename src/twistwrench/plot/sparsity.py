@@ -38,7 +38,7 @@ def same_branch(model: Model) -> Array:
     for i in range(1, model.nbodies):
         for j in model.support(i):
             carries[model.v_slice[j], model.v_slice[i]] = True
-    return np.asarray(carries | carries.T)
+    return np.asarray(carries | carries.mT)
 
 
 def mass_matrix(
