@@ -34,6 +34,8 @@ __all__ = ["How", "accelerations", "parts", "torques"]
 FEW = 8
 """Up to so many states are done one by one; beyond, all at once is faster. See benchmarks/README.md."""
 
+QUANTITIES = frozenset({"M", "h", "J_c", "A_G"})
+
 REMEMBERED = 32
 """Sets of contacts that a plan remembers."""
 
@@ -86,18 +88,21 @@ def parts(
     how: How,
 ) -> Parts:
     """Return what is wanted of M, h, J_c and A_G, by name; of `rates` only v counts, and only for h."""
-    nv = model.nv
-    tails: dict[str, Tail] = {"M": (nv, nv), "h": (nv,), "J_c": (3 * len(contacts), nv), "A_G": (6, nv)}
-    for name in want:
-        if name not in tails:
-            raise unknown_name("quantity", name, tails)
+    if not QUANTITIES.issuperset(want):
+        raise unknown_name("quantity", next(name for name in want if name not in QUANTITIES), sorted(QUANTITIES))
     plan, states = admit(model, q, *rates)
-    if "A_G" in want and model.mass == 0:
+    if model.mass == 0 and "A_G" in want:
         centroidal_map(model, q)  # says what is wrong
-    tails = {name: tail for name, tail in tails.items() if name in want}
-    if _are_few(states[0]):
+    few = _are_few(states[0])
+    if few:
         one = _one_plan(model)
         touched = _touching(model, one, contacts) if "J_c" in want else None
+        if states[0].ndim == 1 and _is_plain(states, how):
+            return one_dynamics(one, want, touched, *states)
+    nv = plan.nv
+    tails: dict[str, Tail] = {"M": (nv, nv), "h": (nv,), "J_c": (3 * len(contacts), nv), "A_G": (6, nv)}
+    tails = {name: tail for name, tail in tails.items() if name in want}
+    if few:
         return _one_by_one(partial(one_dynamics, one, want, touched), states, tails, how)
     touched_by_links = contacts_of(model, plan, contacts) if "J_c" in want else None
     return fill(partial(quantities, plan, touched_by_links, tuple(tails)), states, tails, plan, *how)
@@ -107,10 +112,15 @@ def _are_few(q: Array) -> bool:
     return (q.ndim == 1 or q.size <= FEW * q.shape[-1]) and q.dtype in PLAIN
 
 
+def _is_plain(states: Sequence[Array], how: How) -> bool:
+    """Whether the result for one state can be returned as it comes."""
+    return states[0].dtype == DOUBLE and not how.given and how.workers == 1
+
+
 def _one_by_one(one: Callable[..., Parts], states: Sequence[Array], tails: Mapping[str, Tail], how: How) -> Parts:
     """Return the results for a few states: of each, ``one(*state)`` in double precision."""
     batch, dtype = states[0].shape[:-1], states[0].dtype
-    if not batch and dtype == DOUBLE and not how.given and how.workers == 1:
+    if not batch and _is_plain(states, how):
         return one(*states)
     check_workers(how.workers)
     check_fits(how.given, batch, tails, dtype)
@@ -151,10 +161,10 @@ def _aba_plan(model: Model) -> AbaPlan:
 
 def _touching(model: Model, plan: OnePlan, contacts: Sequence[str]) -> Touching:
     """Look up contacts, or remember them."""
-    known, names = plan.known, tuple(contacts)
-    if isinstance(contacts, str) or names not in known:
-        found = touching(plan, contacts_of(model, plan_of(model, DOUBLE), contacts))
-        if len(known) >= REMEMBERED:
-            known.clear()
-        known[names] = found
-    return known[names]
+    known = plan.known.get(tuple(contacts))
+    if known is None or isinstance(contacts, str):
+        known = touching(plan, contacts_of(model, plan_of(model, DOUBLE), contacts))
+        if len(plan.known) >= REMEMBERED:
+            plan.known.clear()
+        plan.known[tuple(contacts)] = known
+    return known

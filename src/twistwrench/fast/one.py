@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..checks import Array
-from .one_plan import MOMENTUM, SLIDE, TURN, Doings, OnePlan, Touching
+from .one_plan import SLIDE, TURN, TWISTS, Doings, OnePlan, Touching
 from .plan import Seat
 from .vectors import rotation
 
@@ -34,7 +34,8 @@ __all__ = ["one_dynamics", "one_rnea", "placements", "turned"]
 
 Parts = dict[str, Array]
 ONES = np.ones(16)
-ROW, COLUMN = np.indices((12, 4)).reshape(2, 48)
+ROW, COLUMN = np.indices((9, 4)).reshape(2, 36)
+UNTURNED = np.eye(3).reshape(9)
 
 
 class Place(NamedTuple):
@@ -46,8 +47,8 @@ class Place(NamedTuple):
         The matrices T.
     twist : ndarray, shape (nv, 16)
         The matrices Ŝ of unit rates, row by row.
-    turn : ndarray, shape (3, 4)
-        The rotation from the axes of the base to those of the world, and a column of zeros.
+    turn : ndarray, shape (9,)
+        The rotation from the axes of the base to those of the world, row by row.
     """
 
     pose: Array
@@ -59,9 +60,9 @@ def place(plan: OnePlan, q: Array) -> Place:
     """Place the links of one state."""
     T, stack = placements(plan, q)
     for links, others in plan.chain:
-        stack[links] = np.matmul(stack[others], stack[links])
+        stack[links] = stack[others] @ stack[links]
     S = plan.twist.copy()
-    products = (T.take(plan.origin) * T.take(plan.axis)).reshape(-1, 12)  # of p̄ and z
+    products = (T[plan.origin] * T[plan.axis]).reshape(-1, 12)  # of p̄ and z
     products.dot(TURN, out=S[plan.base :])
     if plan.sliding.size:
         S[plan.base + plan.sliding] = products[plan.sliding].dot(SLIDE)
@@ -86,8 +87,8 @@ def _done(doings: Doings, q: Array) -> Array:
     """Return what the joints do, `Doings`."""
     done, angles = doings.still.copy(), q[doings.angles]
     n = angles.size
-    np.cos(angles, out=done[1 : n + 1])
-    np.sin(angles, out=done[n + 1 : 2 * n + 1])
+    np.cos(angles, done[1 : n + 1])
+    np.sin(angles, done[n + 1 : 2 * n + 1])
     if 2 * n + 2 < done.size:
         cos_sin, lengths = q[doings.circles], q[doings.lengths]
         cos_sin /= np.sqrt((cos_sin * cos_sin).sum(axis=0))
@@ -110,20 +111,20 @@ def _seated(seat: Seat, q: Array) -> Array:
 
 
 def turned(plan: OnePlan, q: Array) -> Array:
-    """Return the rotation from the axes of the base to those of the world, shape (3, 4)."""
+    """Return the rotation from the axes of the base to those of the world, row by row, shape (9,)."""
     if plan.base == 0:
-        return np.eye(3, 4)
+        return UNTURNED
     x, y, z, w = q[3:7].tolist()  # for so few numbers Python's own are quicker
     s = 2 / (x * x + y * y + z * z + w * w)
     a, b, c = s * x, s * y, s * z
-    R = np.array(
+    R: Array = np.array(
         (
-            (1 - b * y - c * z, a * y - c * w, a * z + b * w, 0.0),
-            (a * y + c * w, 1 - a * x - c * z, b * z - a * w, 0.0),
-            (a * z - b * w, b * z + a * w, 1 - a * x - b * y, 0.0),
+            *(1 - b * y - c * z, a * y - c * w, a * z + b * w),
+            *(a * y + c * w, 1 - a * x - c * z, b * z - a * w),
+            *(a * z - b * w, b * z + a * w, 1 - a * x - b * y),
         )
     )
-    return R if plan.under is None else plan.under @ R
+    return R if plan.under is None else plan.under.dot(R.reshape(3, 3)).reshape(9)
 
 
 def one_rnea(plan: OnePlan, q: Array, v: Array, a: Array) -> Array:
@@ -134,19 +135,19 @@ def one_rnea(plan: OnePlan, q: Array, v: Array, a: Array) -> Array:
 
 def _inertias(plan: OnePlan, at: Place) -> Array:
     """Return the inertias of the links seen from the base: T J Tᵀ."""
-    J: Array = np.matmul(np.matmul(at.pose, plan.J), at.pose.mT)
+    J: Array = at.pose @ plan.J @ at.pose.mT
     return J
 
 
 def forces(plan: OnePlan, at: Place, J: Array, v: Array, a: Array | None = None) -> Array:
     """Return τ for one motion, shape (nv,), from the inertias seen from the base."""
     joint, around = plan.sums.moving(at.twist * v[:, None])
-    B = np.matmul(around, joint)  # (V + V') Ŝq̇
+    B = around @ joint  # (V + V') Ŝq̇
     if a is not None:
         B += plan.sums.moving(at.twist * a[:, None])[0]
-    B[0, :, 3] -= plan.gravity.dot(at.turn)  # the world rises
+    B[0, :3, 3] -= plan.gravity.dot(at.turn.reshape(3, 3))  # the world rises
     B = plan.sums.outward(B.reshape(-1, 16)).reshape(-1, 4, 4)
-    felt = plan.sums.felt(np.matmul(B, J).reshape(-1, 16))
+    felt = plan.sums.felt((B @ J).reshape(-1, 16))
     tau: Array = (at.twist * felt).dot(ONES)
     return tau if a is None or plan.rotor is None else tau + plan.rotor * a
 
@@ -165,28 +166,30 @@ def one_dynamics(
         parts["h"] = forces(plan, at, J, v)
     if "M" in want or "A_G" in want:
         carried = plan.sums.carried(J.reshape(-1, 16)).reshape(-1, 4, 4)
-        momenta = np.matmul(at.twist.reshape(-1, 4, 4), carried[1:]).reshape(-1, 16).mT
+        momenta = (at.twist.reshape(-1, 4, 4) @ carried[1:]).reshape(-1, 16).mT
+        # What joints, or the unit twists of the base, feel of the momenta of unit rates.
+        felt = at.twist.dot(momenta) if "M" in want or plan.base else TWISTS.dot(momenta)
         if "M" in want:
-            parts["M"] = mass_matrix(plan, at, momenta)
+            parts["M"] = mass_matrix(plan, felt)
         if "A_G" in want:
-            parts["A_G"] = centroidal_matrix(at, momenta, carried[0, 3] / plan.mass)
+            of_base = felt[:6] if plan.base else TWISTS.dot(momenta)
+            parts["A_G"] = centroidal_matrix(plan, at, of_base, carried[0, 3])
     return parts
 
 
-def mass_matrix(plan: OnePlan, at: Place, momenta: Array) -> Array:
-    """Return M: what joints feel of the momenta of unit rates, shape (16, nv), of what they carry."""
-    felt: Array = at.twist.dot(momenta)
-    felt *= plan.related
-    M = felt + felt.mT
+def mass_matrix(plan: OnePlan, felt: Array) -> Array:
+    """Return M, from what joints feel of the momenta of unit rates: above the diagonal what they carry, or nothing."""
+    M = felt.take(plan.upper)
+    M *= plan.related
     if plan.rotor is not None:
         M.flat[:: len(M) + 1] += plan.rotor
     return M
 
 
-def centroidal_matrix(at: Place, momenta: Array, com: Array) -> Array:
-    """Return A_G: what turns about, and slides along, the world's axes at the centre of mass (c, 1) feel of them."""
-    axes = MOMENTUM.dot(at.turn.take(ROW) * com.take(COLUMN)).reshape(6, 16)
-    A_G: Array = axes.dot(momenta)
+def centroidal_matrix(plan: OnePlan, at: Place, momentum: Array, moment: Array) -> Array:
+    """Return A_G, from the momenta of unit rates about the origin and in the axes of the base; moment is m (c, 1)."""
+    to_com = plan.to_com.dot(at.turn[ROW] * moment[COLUMN]).reshape(6, 6)
+    A_G: Array = to_com.dot(momentum)
     return A_G
 
 
@@ -195,8 +198,8 @@ def contact_jacobian(at: Place, touching: Touching) -> Array:
     if touching.placed is not None:
         points = touching.placed.dot(at.pose.reshape(-1))
     else:
-        points = np.matmul(at.pose.take(touching.link, axis=0), touching.point)
-    velocity = at.turn.take(touching.row) * points.take(touching.column)
+        points = (at.pose.take(touching.link, axis=0) @ touching.point).reshape(-1)
+    velocity = at.turn[touching.row] * points[touching.column]
     J_c: Array = velocity.reshape(-1, 16).dot(at.twist.mT)
     J_c *= touching.moved
     return J_c

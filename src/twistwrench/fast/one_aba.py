@@ -195,8 +195,7 @@ def _start(aba: AbaPlan, q: Array, v: Array) -> tuple[Array, Array, Array, Array
     Y[:, :6, 6] = np.matmul(cross.take(aba.last, axis=0), moving[:, :6, None])[:, :, 0]
     bias = -np.matmul(cross.mT, np.matmul(I, V6[:, :, None]))[:, :, 0]
     K[:, :6, :6], K[:, :6, 6], K[:, 6, :6] = I, bias, bias
-    a[0] = 0, 0, 0, *-one.gravity.dot(turned(one, q))  # the world rises
-    a[0, 6] = 1
+    a[0] = 0, 0, 0, *-one.gravity.dot(turned(one, q).reshape(3, 3)), 1  # the world rises
     return S, K, Y, a, offset
 
 

@@ -17,7 +17,7 @@ from .one_sums import BLOCK, Sums, SumsInBlocks, carried_by, sums_of
 from .plan import Plan, Seat
 from .vectors import CYCLE
 
-__all__ = ["MOMENTUM", "SLIDE", "TURN", "OnePlan", "Touching", "make_one_plan", "touching"]
+__all__ = ["SLIDE", "TURN", "TWISTS", "OnePlan", "Touching", "make_one_plan", "touching"]
 
 
 class Touching(NamedTuple):
@@ -95,10 +95,13 @@ class OnePlan:
     sums : Sums or SumsInBlocks
     J : ndarray, shape (1 + n, 4, 4)
         Second moments, first moments and mass: ∫ x̄ x̄ᵀ dm.
+    upper : ndarray of int, shape (nv, nv)
+        For each entry of M the flat index of itself, or below the diagonal of its mirror image.
     related : ndarray, shape (nv, nv)
-        1 where the row's link carries the column's, 1/2 in the diagonal blocks of joints, 0 elsewhere.
+        1 where one of row and column carries the other, 0 elsewhere.
     rotor : ndarray, shape (nv,), or None
-    mass : float
+    to_com : ndarray, shape (36, 36)
+        `MOMENTUM` over the mass of the robot.
     gravity : ndarray, shape (3,)
     under : ndarray, shape (3, 3), or None
         The axes from which the base turns, as columns in those of the world, where they are not the same.
@@ -120,9 +123,10 @@ class OnePlan:
     sliding: Array
     sums: Sums | SumsInBlocks
     J: Array
+    upper: Array
     related: Array
     rotor: Array | None
-    mass: float
+    to_com: Array
     gravity: Array
     under: Array | None
     new: Array
@@ -136,18 +140,19 @@ def _of_products() -> tuple[Array, Array, Array]:
         turn[3, k, j, i], turn[3, k, i, j] = 1, -1  # z×
         turn[j, k, i, 3], turn[k, j, i, 3] = 1, -1  # p × z
         slide[3, i, i, 3] = 1
-    momentum = np.zeros((6, 16, 3, 4, 4))
-    for i in range(3):
-        momentum[i, :, i, :3] = turn.reshape(4, 3, 16).transpose(2, 1, 0)
-        momentum[3 + i, :, i, :3] = slide.reshape(4, 3, 16).transpose(2, 1, 0)
-    return turn.reshape(12, 16), slide.reshape(12, 16), momentum.reshape(96, 48)
+    momentum = np.zeros((6, 6, 3, 3, 4))
+    for row in range(3):
+        for i, j, k in CYCLE:
+            momentum[row, i, row, i, 3] = momentum[3 + row, 3 + i, row, i, 3] = 1  # R
+            momentum[row, 3 + j, row, i, k], momentum[row, 3 + i, row, j, k] = 1, -1  # −R c×
+    return turn.reshape(12, 16), slide.reshape(12, 16), momentum.reshape(36, 36)
 
 
 TURN, SLIDE, MOMENTUM = _of_products()
 TWISTS = np.concatenate([TURN[9:], SLIDE[9:]])
 """What makes, of the products of p̄ = (p, 1) and z, the Ŝ of a turn about z through p, and of a slide along z; and,
-of those of the rows of R and c̄, the six Ŝ of turns about, and slides along, the axes of the world through c. The
-last are those Ŝ for R = 1 and c = 0."""
+of those of R and c̄ = (c, 1), the 6 × 6 matrix that takes a momentum to the point c and to the axes of the world. Last
+the Ŝ of turns about, and slides along, the axes of the base."""
 
 
 def make_one_plan(plan: Plan) -> OnePlan:
@@ -162,6 +167,7 @@ def make_one_plan(plan: Plan) -> OnePlan:
         for links, end in ((plan.before, -1), (plan.last, 0))
     )
     doings, local = _doings(plan, new), _local(plan)[order[1:] - 1]
+    carried, entries = carried_by(parent)[np.ix_(of, of)], np.indices((len(of), len(of)))
     row, column = np.indices((4, 3)).reshape(2, 12)
     first = 16 * np.arange(1, 1 + n)[:, None]
     return OnePlan(
@@ -177,9 +183,10 @@ def make_one_plan(plan: Plan) -> OnePlan:
         sliding=np.flatnonzero(plan.turning[order[1:], 0] == 0) if plan.turning is not None else np.zeros(0, np.intp),
         sums=sums_of(parent, of, before, last),
         J=_pseudo_inertias(plan)[order],
-        related=_related(carried_by(parent), of, last),
+        upper=np.minimum(*entries) * len(of) + np.maximum(*entries),
+        related=np.maximum(carried, carried.mT),
         rotor=plan.rotor[:, 0] if plan.rotor.any() else None,
-        mass=float(plan.mass.sum()),
+        to_com=MOMENTUM / plan.mass.sum() if plan.mass.any() else MOMENTUM,
         gravity=plan.gravity[:, 0],
         under=None if (plan.under == np.eye(3)).all() else plan.under,
         new=new,
@@ -258,11 +265,6 @@ def _chain(parent: Array) -> list[tuple[Index, Index]]:
     return rounds
 
 
-def _related(carried: Array, of: Array, last: Array) -> Array:
-    joint = last[of]
-    return np.where(joint[:, None] == joint, 0.5, carried.mT[np.ix_(of, of)])
-
-
 def _pseudo_inertias(plan: Plan) -> Array:
     """Return ∫ x̄ x̄ᵀ dm of the links: the second moments are tr(I)/2 − I."""
     J = np.zeros((1 + plan.n, 4, 4))
@@ -289,7 +291,7 @@ def touching(one: OnePlan, contacts: Contacts) -> Touching:
         link=link,
         point=point,
         placed=placed.reshape(4 * k, -1) if small else None,
-        row=4 * i + a,
+        row=3 * i + a % 3,  # where a = 3 the twist has a row of zeros
         column=4 * contact + b,
         moved=np.repeat(moved, 3, axis=0),
     )
