@@ -105,7 +105,8 @@ def test_manifold_is_pinocchios(recipe):
     moved = model.integrate(q, step)
     assert close(moved, pin.integrate(there, q, bridge.to_pinocchio_tangent(model, step)))
     back = bridge.from_pinocchio_tangent(model, pin.difference(there, q, moved))
-    assert close(back, step, 1e-11)  # Pinocchio's log6 is off by up to 1e-12
+    assert close(back, step, 1e-6)  # Pinocchio's planar difference loses ε/ω²: 1.5e-9 was seen at one small turn
+    assert close(model.difference(q, moved), step)
     assert close(model.normalize(2 * q), pin.normalize(there, 2 * q), 1e-14)
 
 

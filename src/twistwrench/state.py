@@ -83,8 +83,10 @@ def _shape(value: ArrayLike) -> tuple[int, ...]:
 
 
 def _check_size(x: Array, name: str) -> None:
-    """Refuse numbers that could make m (p × ω)² overflow: with a length p below the fourth root of the
-    largest number, and all rates and forces below its fifth, a tenth of the exponents is left for m.
+    """Refuse numbers that could make m (p × ω)² overflow.
+
+    With lengths p below the fourth root of the largest number, and rates and forces below its fifth,
+    a tenth of the exponents is left for m.
     """
     largest = np.finfo(x.dtype).max ** (1 / 4 if name.startswith("q") else 1 / 5)
     huge = np.abs(x) > largest
