@@ -146,7 +146,9 @@ def invert(D: Array, doubt: Array, name: str) -> Array:
     scaled = (D.real / unit[..., :, None] / unit[..., None, :]).astype(np.float64)
     lost = np.asarray((np.linalg.eigvalsh(scaled) < ROUNDINGS * resolution(D.dtype)).any(axis=-1))
     if lost.any():
-        raise SingularError(f"joint {name!r}: with the joints behind it free it feels no inertia here{which(lost)}")
+        raise SingularError(
+            f"joint {name!r}: with the joints behind it free it feels no inertia beyond rounding{which(lost)}"
+        )
     D, inverse = D.copy(), np.broadcast_to(np.eye(n, dtype=D.dtype), D.shape).copy()
     for k in range(n):
         pivot = D[..., k, k, None].copy()
