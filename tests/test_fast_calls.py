@@ -11,7 +11,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import fast
-from twistwrench.fast import dispatch, many, plan
+from twistwrench.fast import dispatch, many, plan, processes
 
 from .strategies import Recipe, random_state
 
@@ -270,12 +270,14 @@ def test_an_executor_is_used_and_changes_nothing(name, pool, states):
     assert_equal_to_rounding(out, one)
 
 
-def test_out_is_filled_slab_by_slab(pool, states, monkeypatch):
-    monkeypatch.setattr(many, "SLAB", 300)
-    q, v = np.tile(states.q, (30, 1)), np.tile(states.v, (30, 1))
-    d = tw.Dynamics(M=np.empty((1110, 18, 18)))
-    fast.dynamics(GO2, q, v, out=d, want={"M", "h"}, workers=pool)
-    assert_equal_to_rounding(d.M, fast.crba(GO2, q))
+@pytest.mark.parametrize("count", [999, 1000])
+def test_slots_are_used_again_and_again(pool, states, small_chunks, monkeypatch, count):
+    """Four slots for a hundred parts, the last of which may be smaller."""
+    monkeypatch.setattr(processes, "SLOT", 1)
+    q, v = np.tile(states.q, (30, 1))[:count], np.tile(states.v, (30, 1))[:count]
+    d = fast.dynamics(GO2, q, v, workers=pool)
+    for ours, right in zip(vars(d).values(), vars(fast.dynamics(GO2, q, v)).values()):
+        assert_equal_to_rounding(ours, right)
 
 
 def test_results_of_processes_outlive_them(states):
@@ -289,7 +291,7 @@ def test_results_of_processes_outlive_them(states):
 
 
 def test_shared_memory_is_given_back(pool, states):
-    """Its names go at once, so that nothing is left behind; the memory goes with the last array on it."""
+    """Its names go with the call, so that nothing is left behind."""
     folder = Path("/dev/shm")
     if not folder.is_dir():
         pytest.skip("the platform does not show its shared memory")

@@ -25,9 +25,6 @@ CACHED = 2**21
 FEWEST = 256
 """States in a chunk at least: with fewer, the calls cost more than the arithmetic."""
 
-SLAB = 2**16
-"""States that several processes do at a time where the results go into arrays of the caller."""
-
 KEPT = 2**25 - 2**16
 """Bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`."""
 
@@ -76,11 +73,12 @@ def fill(
     work = partial(_in_chunks, kernel, size)
     flat = [x.reshape(count, *x.shape[len(batch) :]) for x in states]
     with _bar(count, progress) as advance:
+        columns = [_columns(given.get(name), tail, count, dtype) for name, tail in tails.items()]
         if workers == 1 or count < 2:
-            columns = [_columns(given.get(name), tail, count, dtype) for name, tail in tails.items()]
             work(flat, columns, advance)
         else:
-            columns = _by_processes(work, size, flat, tails, given, workers, advance)
+            with executor(workers) as pool:
+                spread(pool, work, flat, columns, size, advance)
     results = {}
     for (name, tail), column in zip(tails.items(), columns):
         results[name] = given.get(name, _batch_first(column.reshape(*tail, *batch), len(tail)))
@@ -104,29 +102,6 @@ def _in_chunks(
         span = slice(start, min(start + size, count))
         kernel(*(np.ascontiguousarray(_states_last(x[span])) for x in states), *(x[..., span] for x in results))
         advance(span.stop - start)
-
-
-def _by_processes(
-    work: Callable[..., None],
-    size: int,
-    states: list[Array],
-    tails: Mapping[str, Tail],
-    given: Mapping[str, Array],
-    workers: int | Executor,
-    advance: Callable[[int], object],
-) -> list[Array]:
-    """Return the columns, filled; for arrays of the caller slab by slab, so that memory for a slab is enough."""
-    count, dtype = len(states[0]), states[0].dtype
-    with executor(workers) as pool:
-        if not given:
-            return spread(pool, work, states, [(*tail, count) for tail in tails.values()], size, advance)
-        columns = [_columns(given.get(name), tail, count, dtype) for name, tail in tails.items()]
-        for start in range(0, count, SLAB):
-            slab = slice(start, min(start + SLAB, count))
-            shapes = [(*tail, slab.stop - start) for tail in tails.values()]
-            for column, part in zip(columns, spread(pool, work, [x[slab] for x in states], shapes, size, advance)):
-                column[..., slab] = part
-    return columns
 
 
 def _columns(given: Array | None, tail: Tail, count: int, dtype: np.dtype[Any]) -> Array:
