@@ -47,7 +47,7 @@ def _aba(p: Oracle, s: States, *f_ext: Array) -> Array:
 def _is_right_to_refuse(model: Model, s: States, message: str) -> bool:
     """Whether the error names all joints that move nothing; or one that feels no inertia while others are free.
 
-    Or one where M is so nearly singular that rounding may leave q̈ fewer than two digits.
+    Or one where M is so nearly singular that rounding may leave q̈ no digit.
     """
     named = {name for name in model.joint_names if repr(name) in message}
     nothing, lost = without_inertia(model, s)
@@ -57,7 +57,7 @@ def _is_right_to_refuse(model: Model, s: States, message: str) -> bool:
         return True
     qdd = ne.forward_dynamics(model, s.q, s.v, s.tau).astype(np.float64)
     rounded = replace(s, **{key: getattr(s, key).astype(np.float64) for key in ("q", "v", "tau")})
-    return forward_dynamics_bound(model, rounded, qdd) > 0.01
+    return forward_dynamics_bound(model, rounded, qdd) > 1
 
 
 FORWARD_DYNAMICS = (
