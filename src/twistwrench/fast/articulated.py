@@ -88,15 +88,15 @@ def accelerations(
         If a joint may feel no inertia.
     """
     felt, c = _start(plan, frames, inertias, v, f_ext)
-    reach = np.sqrt((frames.offset * frames.offset).real.sum(axis=0).max(axis=-1))
-    (floor, base_floor), joints = floors(plan, reach), []
+    floor, base_floor = _floors(plan, frames)
+    joints = []
     for level in reversed(plan.levels):  # pass 2
         here, r = felt.at(level), frames.offset[:, level.here]
         joints.append(_free(plan, frames, level, here, tau, floor))
         _feel_through(here, joints[-1], Bias(c.angular[:, level.here], c.linear[:, level.here]))
         _move(here, r)
         for parents, children in level.inward:
-            felt.entries[:, parents] += felt.entries[:, children]
+            felt.entries[:, parents] += here.entries[:, children]
     qdd, dw, acc = np.empty_like(v), np.empty_like(felt.n), np.empty_like(felt.n)
     dw[:, 0], acc[:, 0] = 0, base_acceleration(plan, frames, v, None)
     if plan.floats:
@@ -169,9 +169,11 @@ def _move(here: Felt, r: Array) -> None:
 
     With G = H + r×L/2: H + r×L, and A + r×Gᵀ + (r×Gᵀ)ᵀ.
     """
-    rL = cross(r[:, None], unfold(here.L))
-    rG = cross(r[:, None], (here.H + rL / 2).swapaxes(0, 1))
-    here.H[:] += rL
+    half = cross(r[:, None], unfold(here.L))
+    half /= 2
+    here.H[:] += half
+    rG = cross(r[:, None], here.H.swapaxes(0, 1))
+    here.H[:] += half
     for k, (i, j) in enumerate(SYMMETRIC):
         here.A[k] += rG[i, j] + rG[j, i]
     here.n[:] += cross(r, here.f)
@@ -186,15 +188,27 @@ def _base(plan: Plan, felt: Felt, tau: Array, rising: Array, floor: Array) -> Ar
     x = tau[:6].copy()
     x[:3] -= felt.n[:, 0] + times(H, rising)
     x[3:] -= felt.f[:, 0] + times(L, rising)
-    for k in range(6):
-        if not (I[k, k].real > floor[k]).all():
-            raise NearlySingular
-        factor = I[k + 1 :, k] / I[k, k]
-        I[k + 1 :, k + 1 :] -= factor[:, None] * I[k, k + 1 :]
-        x[k + 1 :] -= factor * x[k]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for k in range(5):
+            factor = I[k + 1 :, k] / I[k, k]
+            I[k + 1 :, k + 1 :] -= factor[:, None] * I[k, k + 1 :]
+            x[k + 1 :] -= factor * x[k]
+    pivots = I[range(6), range(6)]
+    if not (pivots.real > floor).all():
+        raise NearlySingular
     for k in reversed(range(6)):
-        x[k] = (x[k] - (I[k, k + 1 :] * x[k + 1 :]).sum(axis=0)) / I[k, k]
+        x[k] = (x[k] - dot(I[k, k + 1 :], x[k + 1 :])) / pivots[k]
     return x
+
+
+def _floors(plan: Plan, frames: Frames) -> tuple[Array, Array]:
+    """Return `floors`, worked out once where they do not depend on the state."""
+    if plan.reach is None:
+        return floors(plan, np.sqrt((frames.offset * frames.offset).real.sum(axis=0).max(axis=-1)))
+    if "floors" not in plan.kept:
+        plan.kept["floors"] = floors(plan, plan.reach)
+    kept: tuple[Array, Array] = plan.kept["floors"]
+    return kept
 
 
 def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
@@ -205,10 +219,10 @@ def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
     """
     mass, first, second = plan.carried[:, 0], plan.first.copy(), plan.second.copy()
     for level in reversed(plan.levels):
+        r, m, near, far = (x[level.here] for x in (reach, mass, first, second))
         for parents, children in level.inward:
-            r, m = reach[children], mass[children]
-            second[parents] += second[children] + 2 * r * first[children] + r * r * m
-            first[parents] += first[children] + r * m
+            second[parents] += (far + 2 * r * near + r * r * m)[children]
+            first[parents] += (near + r * m)[children]
     felt = second.copy() if plan.turning is None else np.where(plan.turning[:, 0] > 0, second, mass)
     felt[1:] += plan.rotor[plan.entry[1:], 0]
     base = np.repeat([second[0], mass[0]], 3) + (plan.rotor[:6, 0] if plan.floats else 0)

@@ -27,10 +27,9 @@ def outward(plan: Plan, x: Array) -> Array:
 def inward(plan: Plan, x: Array, moved: Array | None = None) -> Array:
     """Add to every link what its children have, and what is added by moving that to the link's origin; in place."""
     for level in reversed(plan.levels):
+        coming = x[:, level.here] if moved is None else x[:, level.here] + moved[:, level.here]
         for parents, children in level.inward:
-            x[:, parents] += x[:, children]
-            if moved is not None:
-                x[:, parents] += moved[:, children]
+            x[:, parents] += coming[:, children]
     return x
 
 

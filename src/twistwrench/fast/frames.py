@@ -67,13 +67,12 @@ def frames_of(plan: Plan, q: Array, *, in_world: bool = False) -> Frames:
     cos, sin = _cos_sin(plan, q)
     for level, seats in zip(plan.levels, plan.seats):
         here, k = level.here, slice(level.here.start - 1, level.here.stop - 1)
-        # Row by row of the matrix whose columns are the parent's axes: its axes and the offset before the turn.
-        still = np.matmul(plan.fixed[k], axes[:, :, level.up].transpose(1, 2, 0, 3)).transpose(2, 0, 1, 3)
+        still = np.empty((4, 3, here.stop - here.start, b), q.dtype)  # axes and offset before the joint moves
+        by_component = axes[:, :, level.up].transpose(1, 2, 0, 3), still.transpose(1, 2, 0, 3)
+        np.matmul(plan.fixed[k], by_component[0], out=by_component[1])
         x, y, axes[2, :, here], offset[:, here] = still
-        np.multiply(cos[k], x, out=axes[0, :, here])
-        axes[0, :, here] += sin[k] * y
-        np.multiply(cos[k], y, out=axes[1, :, here])
-        axes[1, :, here] -= sin[k] * x
+        np.add(cos[k] * x, sin[k] * y, out=axes[0, :, here])
+        np.subtract(cos[k] * y, sin[k] * x, out=axes[1, :, here])
         for seat in seats:
             _sit(seat, q, still[:, :, seat.link], axes[:, :, here.start + seat.link], offset[:, here.start + seat.link])
     slides, lengths = plan.lengths
@@ -95,10 +94,12 @@ def _cos_sin(plan: Plan, q: Array) -> tuple[Array, Array]:
     Of an angle by one tangent of its half, which NumPy computes in a quarter of the time that cosine and sine
     take together: cos = (1 − t²)/(1 + t²), sin = 2t/(1 + t²).
     """
-    cos, sin = np.ones((plan.n, q.shape[-1]), q.dtype), np.zeros((plan.n, q.shape[-1]), q.dtype)
     links, angles = plan.angles
     t = np.tan(q[angles] / 2)
     s = 2 / (1 + t * t)
+    if len(angles) == plan.n:
+        return s - 1, s * t
+    cos, sin = np.ones((plan.n, q.shape[-1]), q.dtype), np.zeros((plan.n, q.shape[-1]), q.dtype)
     cos[links], sin[links] = s - 1, s * t
     links, begin = plan.circles
     c, s = q[begin], q[begin + 1]
@@ -126,11 +127,12 @@ def _sit(seat: Seat, q: Array, still: Array, axes: Array, offset: Array) -> None
 def inertias_of(plan: Plan, frames: Frames) -> Inertias:
     """Turn the inertias of the links into the axes of the base: R I Rᵀ and R h."""
     axes = frames.axes
-    half = np.matmul(plan.inertia, axes.transpose(1, 2, 0, 3))  # the rows of I Rᵀ, and h, component by component
+    half = np.empty((3, 4, *axes.shape[2:]), axes.dtype)  # component by component: the rows of I Rᵀ, and R h
+    np.matmul(plan.inertia, axes.transpose(1, 2, 0, 3), out=half.transpose(0, 2, 1, 3))
     about_origin = np.empty((6, *axes.shape[2:]), axes.dtype)
     for out, (i, j) in zip(about_origin, SYMMETRIC):
-        np.einsum("knb,nkb->nb", axes[:, i], half[j, :, :3], out=out)
-    return Inertias(about_origin, half[:, :, 3])
+        np.einsum("knb,knb->nb", axes[:, i], half[j, :3], out=out)
+    return Inertias(about_origin, half[:, 3])
 
 
 def origins_of(plan: Plan, frames: Frames) -> Array:

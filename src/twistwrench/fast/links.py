@@ -68,8 +68,9 @@ class Level(NamedTuple):
         Their numbers.
     up : slice or ndarray
         The numbers of their parents.
-    inward : list of (parents, children)
-        The same in groups in each of which no parent occurs twice: children can be added to their parents.
+    inward : list of (parents, links)
+        The same in groups in each of which no parent occurs twice, so that children can be added to their parents;
+        the links by their place in the level.
     """
 
     here: slice
@@ -186,7 +187,9 @@ def levels_of(links: list[Link]) -> list[Level]:
         groups: dict[int, list[int]] = defaultdict(list)
         for i in here:
             groups[up[: i - here.start].count(parent[i])].append(i)
-        inward = [(index([parent[i] for i in group]), index(group)) for group in groups.values()]
+        inward = [
+            (index([parent[i] for i in group]), index([i - here.start for i in group])) for group in groups.values()
+        ]
         levels.append(Level(slice(here.start, here.stop), slice(0, 1) if d == 1 else index(up), inward))
     return levels
 

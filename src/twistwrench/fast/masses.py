@@ -15,7 +15,7 @@ from .forces import inward
 from .frames import Frames, Inertias
 from .links import Index
 from .plan import Plan
-from .vectors import CYCLE, cross, dot, matrix_product, times, unfold
+from .vectors import CYCLE, cross, dot, matrix_product, symmetric_times, unfold
 
 __all__ = ["Momenta", "centroidal_matrix", "composite", "mass_matrix", "momenta"]
 
@@ -54,7 +54,7 @@ def composite(plan: Plan, frames: Frames, inertias: Inertias) -> Inertias:
 def momenta(plan: Plan, frames: Frames, carried: Inertias) -> Momenta:
     """Return the momenta I S of unit rates, from the inertias that the links carry."""
     h = carried.moment
-    n, f = times(unfold(carried.about_origin), frames.spin), cross(frames.spin, h)
+    n, f = symmetric_times(carried.about_origin, frames.spin), cross(frames.spin, h)
     if frames.slide is not None:
         n += cross(h, frames.slide)
         f += frames.slide * plan.carried
@@ -111,17 +111,14 @@ def _of_base(carried: Inertias) -> tuple[Array, Array]:
 def centroidal_matrix(plan: Plan, frames: Frames, origin: Array, carried: Inertias, momenta: Momenta, A: Array) -> None:
     """Write the centroidal momentum matrix to A, shape (6, nv, b)."""
     e, m, h = plan.entry[1:], plan.carried[0], carried.moment[:, 0]
-    from_com = origin - (h / m)[:, None]
-    A[:3, e] = momenta.angular[:, 1:] + cross(from_com[:, 1:], momenta.linear[:, 1:])
+    com = (h / m)[:, None]
+    A[:3, e] = momenta.angular[:, 1:] + cross(origin[:, 1:] - com, momenta.linear[:, 1:])
     A[3:, e] = momenta.linear[:, 1:]
     if frames.base is None:
         return
-    angular, linear = _of_base(carried)
-    angular += cross(from_com[:, :1], linear)
-    if frames.in_world:  # the base turns about its own axes
-        A[:3, :3], A[3:, :3] = matrix_product(angular, frames.base), matrix_product(linear, frames.base)
-        A[:3, 3:6], A[3:, 3:6] = 0, m * frames.base
-    else:
-        A[:3, :3], A[3:, :3] = angular, linear
-        A[:3, 3:6], A[3:, 3:6] = 0, m * np.eye(3, dtype=h.dtype)[..., None]
+    turns = frames.base if frames.in_world else np.eye(3, dtype=h.dtype)[..., None]
+    linear = cross(turns, h[:, None])  # the base turns about its own axes
+    A[:3, :3], A[3:, :3] = matrix_product(unfold(carried.about_origin[:, 0]), turns) - cross(com, linear), linear
+    A[:3, 3:6], A[3:, 3:6] = 0, m * turns
+    if not frames.in_world:
         A[:3], A[3:] = matrix_product(frames.base, A[:3]), matrix_product(frames.base, A[3:])

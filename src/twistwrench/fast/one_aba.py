@@ -113,9 +113,8 @@ def make_aba_plan(plan: Plan, one: OnePlan) -> AbaPlan:
         S[1:, i, i], S[1:, 3 + i, i] = turns[1:], 1 - turns[1:]
     stages = [_stage(np.sort(one.new[level.here]), parent) for level in plan.levels]
     constant = None
-    if not one.doings.lengths.size and not one.seats:
-        reach = np.concatenate([[0.0], np.sqrt((plan.fixed[:, 3] ** 2).sum(axis=-1))])
-        links, base = floors(plan, reach)
+    if plan.reach is not None:
+        links, base = floors(plan, plan.reach)
         constant = links[order, 0], base[:, 0]
     return AbaPlan(one, stages, parent, last, S, plan.rotor[:, 0], constant, plan)
 

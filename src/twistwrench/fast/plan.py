@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -81,6 +81,10 @@ class Plan:
         In the world.
     under : ndarray, shape (3, 3)
         The axes from which a floating base turns, as columns in those of the world.
+    reach : ndarray, shape (1 + n,), or None
+        How far the links are from their parents; None where that depends on the state.
+    kept : dict
+        For what others work out once.
     """
 
     floats: bool
@@ -110,6 +114,8 @@ class Plan:
     rotor: Array
     gravity: Array
     under: Array
+    reach: Array | None
+    kept: dict[str, Any] = field(default_factory=dict)
 
     def support(self, link: int) -> list[int]:
         """Return the links from `link` towards the base, without the base."""
@@ -137,9 +143,11 @@ def _make(model: Model, dtype: np.dtype[Any]) -> Plan:
     carried = mass.copy()
     for level in reversed(levels):
         for parents, children in level.inward:
-            carried[parents] += carried[children]
+            carried[parents] += carried[level.here][children]
     turning = np.array([[True], *([link.turns] for link in links)])
     ends = {link.joint: link.number for link in links if link.last}
+    fixed = _fixed(model, links).astype(dtype)
+    rigid = all(_kind(model, link.joint) in ("revolute", "continuous") for link in links)
     starts = {link.joint: link.parent.number if link.parent else 0 for link in links if link.first}
     return Plan(
         floats=floats,
@@ -150,7 +158,7 @@ def _make(model: Model, dtype: np.dtype[Any]) -> Plan:
         parent=parents_of(links),
         levels=levels,
         steps=steps_of(links, levels),
-        fixed=_fixed(model, links).astype(dtype),
+        fixed=fixed,
         entry=np.array([-1, *(link.entry for link in links)], np.intp),
         apart=_apart(links),
         turning=None if turning.all() else turning.astype(dtype),
@@ -169,6 +177,7 @@ def _make(model: Model, dtype: np.dtype[Any]) -> Plan:
         rotor=model.armature.astype(dtype)[:, None],
         gravity=model.gravity.astype(dtype)[:, None],
         under=model.constants(np.longdouble).placement[1 if floats else 0].rotation.astype(dtype),
+        reach=np.append(0, np.sqrt((fixed[:, 3] ** 2).sum(axis=-1))).astype(dtype) if rigid else None,
     )
 
 
@@ -229,22 +238,26 @@ def _fixed(model: Model, links: list[Link]) -> Array:
     return rows
 
 
+def _kind(model: Model, i: int) -> str:
+    joint = model.joints[i]
+    return joint.kind if joint is not None else ""
+
+
 def _anywhere(model: Model, i: int) -> bool:
     """Whether joint i turns and shifts in ways that the links do not know: its `Seat` does."""
-    joint = model.joints[i]
-    return joint is not None and joint.kind in ("planar", "spherical", "free_flyer")
+    return _kind(model, i) in ("planar", "spherical", "free_flyer")
 
 
 def _seats(model: Model, links: list[Link], dtype: np.dtype[Any]) -> list[Seat]:
     """Return what is placed freely in a level, by its place in the level."""
     return [
-        Seat(k, joint.kind, model.q_slice[link.joint], link.axes.astype(dtype))
+        Seat(k, _kind(model, link.joint), model.q_slice[link.joint], link.axes.astype(dtype))
         for k, link in enumerate(links)
-        if link.first and _anywhere(model, link.joint) and (joint := model.joints[link.joint]) is not None
+        if link.first and _anywhere(model, link.joint)
     ]
 
 
 def _moved_by(model: Model, links: list[Link], kind: str) -> tuple[Index, Array]:
     """Return which links, without the base, a kind of joint moves, and where their q begins."""
-    mine = [k for k, link in enumerate(links) if (joint := model.joints[link.joint]) and joint.kind == kind]
+    mine = [k for k, link in enumerate(links) if _kind(model, link.joint) == kind]
     return index(mine), np.array([model.q_slice[links[k].joint].start for k in mine], np.intp)

@@ -81,14 +81,22 @@ def unfold(S: Array) -> Array:
     return S[[0, 5, 4, 5, 1, 3, 4, 3, 2]].reshape(3, 3, *S.shape[1:])
 
 
+def _rotation_from_products() -> Array:
+    """Return the matrix from the products of a unit quaternion's entries to its rotation."""
+    out = np.zeros((3, 3, 4, 4))
+    for i, j, k in CYCLE:
+        out[i, i, [3, i, j, k], [3, i, j, k]] = 1, 1, -1, -1
+        out[i, j, i, j] = out[j, i, i, j] = 2
+        out[i, j, k, 3], out[j, i, k, 3] = -2, 2
+    return out.reshape(9, 16)
+
+
+ROTATION = _rotation_from_products()
+
+
 def rotation(quaternion: Array) -> Array:
     """Return the rotation, shape (3, 3, ...), of a quaternion (x, y, z, w), shape (4, ...), of any length."""
-    x, y, z, w = quaternion
-    squares = x * x, y * y, z * z
-    s = 2 / (squares[0] + squares[1] + squares[2] + w * w)
-    R = np.empty((3, 3, *quaternion.shape[1:]), quaternion.dtype)
-    for i, j, k in CYCLE:
-        R[i, i] = 1 - s * (squares[j] + squares[k])
-        ij, kw = quaternion[i] * quaternion[j], quaternion[k] * w
-        R[i, j], R[j, i] = s * (ij - kw), s * (ij + kw)
+    products = (quaternion[:, None] * quaternion).reshape(16, -1)
+    R: Array = np.matmul(ROTATION.astype(products.real.dtype), products).reshape(3, 3, *quaternion.shape[1:])
+    R /= dot(quaternion, quaternion)
     return R
