@@ -1,0 +1,199 @@
+"""Other packages that compute the same from Python, as far as they are installed.
+
+Each is given Go2 as example-robot-data has it, since some of them want every origin written out. Joints are matched
+by name; what is compared with ours before anything is timed are the entries of the joints, which do not depend on
+how a package writes the velocity of the base.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import warnings
+from collections.abc import Callable, Iterator
+from importlib.metadata import version
+from typing import NamedTuple
+
+import numpy as np
+from cases import States
+
+import twistwrench as tw
+
+JOINTS = slice(6, None)
+
+
+class Peer(NamedTuple):
+    """A package, and what of it is timed.
+
+    Attributes
+    ----------
+    name, version : str
+    quantity : str
+    batched : bool
+        Whether one call does many states.
+    base_at_rest : {"body", "world"}
+        Whose linear acceleration of the base is zero in h: the one written in its own axes, or in the world's.
+    prepare : callable
+        Takes states with a batch axis, returns a call that does them all and returns the joints' entries.
+    """
+
+    name: str
+    version: str
+    quantity: str
+    batched: bool
+    base_at_rest: str
+    prepare: Callable[[States], Callable[[], np.ndarray]]
+
+
+def peers(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    """Yield what is installed; what cannot be set up says so and is left out."""
+    for make in (_mujoco, _adam_numpy, _adam_jax, _frax):
+        try:
+            with warnings.catch_warnings(), contextlib.redirect_stderr(io.StringIO()):
+                warnings.simplefilter("ignore")
+                found = list(make(model, urdf))
+        except ImportError as error:
+            print(f"{make.__name__[1:]}: not installed ({error})")
+            continue
+        except Exception as error:  # a package of another make than this was written for
+            print(f"{make.__name__[1:]}: {type(error).__name__}: {error}")
+            continue
+        yield from found
+
+
+def _order(model: tw.Model, theirs: list[str]) -> np.ndarray:
+    """Return for each of their joints its place among ours."""
+    ours = list(model.joint_names[2:])
+    return np.array([ours.index(name) for name in theirs])
+
+
+def _placement(model: tw.Model, q: np.ndarray) -> np.ndarray:
+    """Return the base's placements, shape (n, 4, 4)."""
+    T = tw.forward_kinematics(model, q).placement[1]
+    out = np.zeros((len(q), 4, 4))
+    out[:, :3, :3], out[:, :3, 3], out[:, 3, 3] = T.rotation, T.translation, 1
+    return out
+
+
+def _mujoco(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    import mujoco
+
+    spec = mujoco.MjSpec.from_file(urdf)
+    spec.compiler.fusestatic, spec.compiler.discardvisual = True, True
+    for geom in list(spec.geoms):
+        geom.contype = geom.conaffinity = 0
+    base = spec.worldbody.first_body()
+    base.add_freejoint()
+    there = spec.compile()
+    there.opt.gravity = model.gravity
+    data = mujoco.MjData(there)
+    names = [there.joint(k).name for k in range(1, there.njnt)]
+    order = _order(model, names)
+    back = np.argsort(order)
+    M = np.zeros((there.nv, there.nv))
+
+    def convert(s: States):
+        base = tw.forward_kinematics(model, s.q).placement[1].rotation
+        q = np.concatenate([s.q[:, :3], s.q[:, [6, 3, 4, 5]], s.q[:, 7:][:, order]], axis=-1)
+        v = [np.concatenate([np.matvec(base, x[:, 3:6]), x[:, :3], x[:, 6:][:, order]], axis=-1) for x in (s.v, s.a)]
+        return list(zip(q, *v, strict=True))
+
+    def one_by_one(call):
+        def prepare(s: States):
+            states = convert(s)
+
+            def run():
+                return np.stack([call(*state) for state in states])
+
+            return run
+
+        return prepare
+
+    def crba(q, v, a):
+        data.qpos[:] = q
+        mujoco.mj_kinematics(there, data)
+        mujoco.mj_comPos(there, data)
+        mujoco.mj_crb(there, data)
+        mujoco.mj_fullM(there, data, M)
+        return M[JOINTS, JOINTS][np.ix_(back, back)]
+
+    def bias(q, v, a):
+        data.qpos[:], data.qvel[:] = q, v
+        mujoco.mj_kinematics(there, data)
+        mujoco.mj_comPos(there, data)
+        mujoco.mj_comVel(there, data)
+        mujoco.mj_rne(there, data, 0, data.qfrc_bias)
+        return data.qfrc_bias[JOINTS][back]
+
+    for quantity, call in (("crba", crba), ("h", bias)):
+        yield Peer("MuJoCo", version("mujoco"), quantity, False, "world", one_by_one(call))
+
+
+def _adam(model: tw.Model, kindyn, name: str, batched_jit) -> Iterator[Peer]:
+    import adam
+
+    kindyn.set_frame_velocity_representation(adam.Representations.BODY_FIXED_REPRESENTATION)
+    kindyn.g = kindyn.g * 0 + np.concatenate([model.gravity, np.zeros(3)])
+    calls = {
+        "crba": lambda T, q, V, v: kindyn.mass_matrix(T, q)[..., JOINTS, JOINTS],
+        "h": lambda T, q, V, v: kindyn.bias_force(T, q, V, v)[..., JOINTS],
+    }
+    for quantity, call in calls.items():
+        compiled = batched_jit(call)
+
+        def prepare(s: States, compiled=compiled):
+            arguments = _placement(model, s.q), s.q[:, 7:], np.concatenate([s.v[:, 3:6], s.v[:, :3]], -1), s.v[:, 6:]
+            return lambda: np.asarray(compiled(*arguments))
+
+        yield Peer(name, version("adam-robotics"), quantity, True, "body", prepare)
+
+
+def _adam_numpy(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    from adam.numpy import KinDynComputations
+
+    yield from _adam(model, KinDynComputations(urdf, list(model.joint_names[2:])), "adam (NumPy)", lambda call: call)
+
+
+def _adam_jax(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    import jax
+    from adam.jax import KinDynComputations
+
+    yield from _adam(model, KinDynComputations(urdf, list(model.joint_names[2:])), "adam (JAX)", jax.jit)
+
+
+def _frax(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    import jax
+    from frax.core.robot import Robot
+
+    robot = Robot(urdf, floating_base="quaternion")
+    order = _order(model, list(robot.joint_names[6:]))
+    back = np.argsort(order)
+    calls = {
+        "crba": lambda q, v: robot.mass_matrix(q)[6:, 6:],
+        "h": lambda q, v: robot.nonlinear_bias(q, v)[6:],
+    }
+    for quantity, call in calls.items():
+        compiled = jax.jit(jax.vmap(call))
+
+        def prepare(s: States, compiled=compiled, quantity=quantity):
+            q = np.concatenate([s.q[:, :3], s.q[:, [6, 3, 4, 5]], s.q[:, 7:][:, order]], axis=-1)
+            base = tw.forward_kinematics(model, s.q).placement[1].rotation
+            v = np.concatenate([np.matvec(base, s.v[:, 3:6]), s.v[:, :3], s.v[:, 6:][:, order]], axis=-1)
+
+            def run():
+                x = np.asarray(compiled(q, v))
+                return x[:, back] if quantity == "h" else x[:, back[:, None], back]
+
+            return run
+
+        yield Peer("frax", version("frax"), quantity, True, "world", prepare)
+
+
+def expected(model: tw.Model, peer: Peer, s: States) -> np.ndarray:
+    """Return our joints' entries of what a peer computes."""
+    if peer.quantity == "crba":
+        return tw.fast.crba(model, s.q)[:, JOINTS, JOINTS]
+    a = np.zeros_like(s.v)
+    if peer.base_at_rest == "world":  # the velocity of the origin keeps its direction in the world, not in the body
+        a[:, 3:6] = -np.cross(s.v[:, :3], s.v[:, 3:6])
+    return tw.fast.rnea(model, s.q, s.v, a)[:, JOINTS]

@@ -1,0 +1,192 @@
+"""How fast is `tw.fast`? Everything against Pinocchio called state by state from Python, in one process, in turns.
+
+python benchmarks/speed.py                # all of it, about half an hour; writes to benchmarks/results
+python benchmarks/speed.py --short        # batches of 1000 and one state, a minute; writes nothing
+python benchmarks/speed.py --only links   # one of: one, batch, workers, links, peers
+"""
+
+from __future__ import annotations
+
+# isort: off
+import one_thread  # noqa: F401 - before NumPy
+
+# isort: on
+import argparse
+import csv
+import json
+import os
+import platform
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from importlib.metadata import version
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+from cases import QUANTITIES, ours, pinocchio, random_states
+from clock import race
+
+import twistwrench as tw
+
+RESULTS = Path(__file__).parent / "results"
+BATCHES = (1, 10, 100, 1000, 10_000, 100_000)
+LINKS = (10, 20, 50, 100, 200, 500, 1000)
+REFERENCE = 300
+"""States in a loop of Pinocchio."""
+
+Row = dict[str, object]
+
+
+def one(rounds: int) -> Iterator[Row]:
+    """One state at a time, by the fast way and by the textbook."""
+    model = tw.load("go2")
+    s = random_states(model, REFERENCE)
+    first = s.first(1)
+    for quantity in QUANTITIES:
+        for way, package in (("fast", tw.fast), ("textbook", tw)):
+            call = ours(package, model, quantity, first), 1
+            result = race(call, (pinocchio(model, quantity, s), REFERENCE), rounds=rounds)
+            yield row("one", way, quantity, result, robot=model.name, dtype="float64", batch=1)
+
+
+def batch(rounds: int, batches=BATCHES) -> Iterator[Row]:
+    """Many states in one call."""
+    model = tw.load("go2")
+    s = random_states(model, max(batches))
+    for dtype in (np.float64, np.float32):
+        for quantity in QUANTITIES:
+            reference = pinocchio(model, quantity, s.first(REFERENCE)), REFERENCE
+            for n in batches:
+                call = ours(tw.fast, model, quantity, s.first(n, dtype)), n
+                result = race(call, reference, rounds=rounds if n < 100_000 else 3)
+                yield row("batch", "fast", quantity, result, robot=model.name, dtype=np.dtype(dtype).name, batch=n)
+
+
+def workers(rounds: int, n: int = 200_000) -> Iterator[Row]:
+    """Two processes against one, into arrays that are there; one stands where Pinocchio does elsewhere."""
+    model = tw.load("go2")
+    s = random_states(model, n)
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        for quantity in ("rnea", "crba", "set", "aba"):
+            out = ours(tw.fast, model, quantity, s)()
+            single = ours(tw.fast, model, quantity, s, out=out), n
+            for way, w in (("2 workers kept", pool), ("2 workers started", 2)):
+                double = ours(tw.fast, model, quantity, s, out=out, workers=w), n
+                result = race(double, single, rounds=min(rounds, 5), one_thread=False)
+                yield row("workers", way, quantity, result, robot=model.name, dtype="float64", batch=n)
+
+
+def links(rounds: int) -> Iterator[Row]:
+    """Chains of 10 to 1000 links."""
+    for n in LINKS:
+        model = tw.chain(n)
+        s = random_states(model, 100)
+        for quantity in ("rnea", "aba", "A_G"):
+            reference = pinocchio(model, quantity, s), 100
+            for size in (1, 100):
+                call = ours(tw.fast, model, quantity, s.first(size)), size
+                result = race(call, reference, rounds=min(rounds, 5))
+                yield row("links", "fast", quantity, result, robot=model.name, dtype="float64", batch=size, links=n)
+            if n <= 200:
+                call = ours(tw, model, quantity, s.first(1)), 1
+                result = race(call, reference, rounds=3)
+                yield row("links", "textbook", quantity, result, robot=model.name, dtype="float64", batch=1, links=n)
+
+
+def peers(rounds: int) -> Iterator[Row]:
+    """Other packages, one state and many."""
+    from peers import expected
+    from peers import peers as installed
+
+    from twistwrench.robots.catalogue import find
+
+    model = tw.load("go2")
+    s = random_states(model, 10_000)
+    for peer in installed(model, str(find("example-robot-data/go2").path)):
+        few = type(s)(*(x[:20] for x in s))
+        right = expected(model, peer, few)
+        error = np.abs(peer.prepare(few)() - right).max() / np.abs(right).max()
+        if not error < 1e-9:
+            print(f"{peer.name} {peer.quantity}: differs by {error:.1e}; left out")
+            continue
+        reference = pinocchio(model, peer.quantity, s.first(REFERENCE)), REFERENCE
+        for n in (1, 100, 1000, 10_000) if peer.batched else (1000,):
+            some = type(s)(*(x[:n] for x in s))
+            result = race((peer.prepare(some), n), reference, rounds=min(rounds, 5), one_thread=False)
+            size = n if peer.batched else 1
+            yield row("peers", peer.name, peer.quantity, result, robot=model.name, dtype="float64", batch=size)
+
+
+def row(study: str, way: str, quantity: str, result, **what) -> Row:
+    """Return a row of the table, and print its gist."""
+    made = {"study": study, "way": way, "quantity": quantity, "links": "", **what, **result.row()}
+    place = f"{made['links']} links, " if made["links"] else ""
+    print(
+        f"{study:8} {way:18} {quantity:5} {what['dtype']:8} {place}batch {what['batch']:>7,}: "
+        f"{made['us']:10.2f} µs, {made['ratio']:8.2f} × ({made['ratio_q1']:.2f} to {made['ratio_q3']:.2f}), "
+        f"reference {made['reference_us']:.2f} µs" + f", {made['disturbed']} disturbed" * bool(made["disturbed"]),
+        flush=True,
+    )
+    return made
+
+
+STUDIES = {"one": one, "batch": batch, "workers": workers, "links": links, "peers": peers}
+COLUMNS = (
+    *("study", "way", "quantity", "robot", "dtype", "batch", "links", "us", "us_q1", "us_q3"),
+    *("reference_us", "reference_us_q1", "reference_us_q3", "ratio", "ratio_q1", "ratio_q3", "rounds", "disturbed"),
+)
+
+
+def environment(command: str) -> dict[str, object]:
+    """Return on what this ran."""
+    packages = ("twistwrench", "numpy", "pin", "mujoco", "adam-robotics", "frax", "jax")
+    found = {}
+    for name in packages:
+        try:
+            found[name] = version(name)
+        except ImportError:
+            continue
+    model = [line.split(":")[1].strip() for line in _cpuinfo() if line.startswith("model name")]
+    return {
+        "command": command,
+        "python": platform.python_version(),
+        "packages": found,
+        "processor": model[0] if model else platform.processor(),
+        "cores": os.cpu_count(),
+        "system": platform.system(),
+        "load": os.getloadavg() if hasattr(os, "getloadavg") else None,
+        "date": time.strftime("%Y-%m-%d"),
+    }
+
+
+def _cpuinfo() -> list[str]:
+    path = Path("/proc/cpuinfo")
+    return path.read_text().splitlines() if path.exists() else []
+
+
+def main() -> None:
+    """Run what is asked for; write the rows of a study over those of its last run."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--short", action="store_true", help="one state and batches of 1000; write nothing")
+    parser.add_argument("--only", choices=list(STUDIES), action="append", help="this study; may be repeated")
+    parser.add_argument("--rounds", type=int, default=9, help="of each comparison (9)")
+    args = parser.parse_args()
+    if args.short:
+        for _ in (*one(args.rounds), *batch(args.rounds, (1000,))):
+            pass
+        return
+    RESULTS.mkdir(exist_ok=True)
+    command = " ".join(["python", "benchmarks/speed.py", *sys.argv[1:]])
+    for name in args.only or STUDIES:
+        found = list(STUDIES[name](args.rounds))
+        with (RESULTS / f"{name}.csv").open("w", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS)
+            writer.writeheader()
+            writer.writerows({k: f"{v:.5g}" if isinstance(v, float) else v for k, v in r.items()} for r in found)
+        (RESULTS / f"{name}.json").write_text(json.dumps(environment(command), indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()
