@@ -31,24 +31,25 @@ class Race(NamedTuple):
 
 def race(
     ours: tuple[Callable[[], object], int],
-    theirs: tuple[Callable[[], object], int],
+    theirs: tuple[Callable[[], object], int] | None,
     *,
     rounds: int = 9,
     least: float = 0.02,
     one_thread: bool = True,
 ) -> Race:
-    """Time two calls in turns. Each comes with the number of states that it does.
+    """Time two calls in turns, or one alone. Each comes with the number of states that it does.
 
     Each round calls either for at least `least` seconds. A round in which this process had to wait for the
     processor is thrown away and done again, up to four times as many in all; then it is counted all the same.
     """
-    for call, _ in (ours, theirs):
+    racers = [ours] if theirs is None else [ours, theirs]
+    for call, _ in racers:
         call()  # what is made once is made now
-    repeats = [_repeats(call, least) for call, _ in (ours, theirs)]
+    repeats = [_repeats(call, least) for call, _ in racers]
     kept, spare, disturbed = [], [], 0
     while len(kept) < rounds and len(kept) + len(spare) < 4 * rounds:
         times, quiet = [], True
-        for (call, states), repeat in zip((ours, theirs), repeats, strict=True):
+        for (call, states), repeat in zip(racers, repeats, strict=True):
             wall, busy = time.perf_counter(), time.thread_time()
             for _ in range(repeat):
                 call()
@@ -58,7 +59,7 @@ def race(
         (kept if quiet else spare).append(times)
         disturbed += not quiet
     times = np.array((kept + spare)[:rounds])
-    return Race(times[:, 0], times[:, 1], disturbed)
+    return Race(times[:, 0], times[:, 1] if theirs else np.full(len(times), np.nan), disturbed)
 
 
 def _repeats(call: Callable[[], object], least: float) -> int:

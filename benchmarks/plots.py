@@ -81,7 +81,7 @@ def over_links() -> None:
             name = f"{way}, batch {batch}" + f": slope {steep:.2f}" * (way == "fast")
             line(ax, some, "links", "us", color=color, label=name)
         theirs = [dict(r, us=r["reference_us"], us_q1=r["reference_us_q1"], us_q3=r["reference_us_q3"]) for r in mine]
-        one_each = {r["links"]: r for r in theirs}
+        one_each = {r["links"]: r for r in theirs if r["us"] != "nan"}
         line(ax, list(one_each.values()), "links", "us", color="black", label="Pinocchio, one by one", linestyle="--")
         ax.set(xscale="log", yscale="log", title=f"{quantity}: {QUANTITIES[quantity]}", xlabel="links of a chain")
         ax.grid(alpha=0.3)
