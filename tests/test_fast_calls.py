@@ -222,6 +222,18 @@ def test_out_may_be_an_input(states, count):
     np.testing.assert_array_equal(tau, qdd)
 
 
+@pytest.mark.parametrize("batch", [(), (3,), (12,)])
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_contacts_may_be_none_or_on_the_world(batch, base):
+    model = Recipe(5, seed=1, base=base).model
+    s = random_state(model, rng=0, batch=batch)
+    for contacts in ((), ("base_link",)):  # the latter only where the base is fixed
+        if set(contacts) <= set(model.frame_names):
+            ours, book = (package.dynamics(model, s.q, s.v, contacts=contacts) for package in (fast, tw))
+            assert ours.J_c.shape == book.J_c.shape
+            np.testing.assert_array_equal(ours.J_c, book.J_c)
+
+
 # ---------------------------------------------------------------- how it is spread
 
 
@@ -243,6 +255,7 @@ def test_few_states_and_many_agree(name, count, states, monkeypatch):
     q, v = states.q[:count], states.v[:count]
     one_way = CALLS[name](fast, GO2, q, v)
     monkeypatch.setattr(dispatch, "FEW", 0 if count <= dispatch.FEW else count)
+    monkeypatch.setattr(dispatch, "FEW_ABA", 0 if count <= dispatch.FEW_ABA else count)
     other_way = CALLS[name](fast, GO2, q, v)
     size = 10 if name == "aba" else 1  # the condition of M
     np.testing.assert_allclose(one_way, other_way, rtol=0, atol=size * 1e-14 * np.abs(other_way).max())

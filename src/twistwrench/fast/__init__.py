@@ -16,7 +16,7 @@ back, inertias too, and one addition does for all links at the same distance fro
 
 Each link keeps its own origin: a velocity is that of the link's origin, a moment is about the link's origin, and what
 comes in on the way is a lever arm between neighbours. So no digits are lost, however far the robot is from the
-world's origin, however long it is. (A single frame for all, at the world's origin, loses four digits at 100 m.)
+world's origin and however long it is.
 
 **2. The states come last in memory.** An array of vectors has its axes in the order component, link, state::
 
@@ -31,15 +31,21 @@ A batch is cut into chunks whose arrays stay in the cache. To the caller, batch 
 is returned is a transposed view.
 
 **3. A plan, made once.** Everything that does not depend on the state is worked out beforehand, once per model and
-number type: which links make a level, inertias and offsets turned such that every joint moves about or along its z
-axis, joints with several degrees of freedom cut into one link for each (`links`, `plan`).
+number type: which links make a level; inertias and offsets, turned such that every joint moves about or along its z
+axis; joints with several degrees of freedom, cut into one link for each. So there is one kind of link, and no kinds of
+joint in the algorithms.
 
-The files, in the order in which they are best read: `links` and `plan` (the constants), `vectors`, `frames` (where the
-links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `articulated` (ABA), `many` (chunks),
-`door` (checks), `api`.
+With one state the arithmetic costs nothing and the calls everything. There the same three ideas become products of
+constant matrices with 4 × 4 matrices that hold all links: `one` explains.
 
-Which to take: the textbook to read, for one state now and then, and for derivatives by complex steps; this for batches
-and loops. Long double and complex numbers work here as well, by the same code, though they gain less.
+The files, in the order in which they are best read: `links` and `plan` (the constants); `vectors`, `frames` (where the
+links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `articulated` (ABA), `kernels`, `many`
+(chunks), `processes`; for one state `one_sums`, `one_plan`, `one`, `one_aba`; `door` (checks), `dispatch`, `api`.
+
+Which to take: the textbook to read, for a state now and then, and where an intermediate result is wanted; this for
+batches and loops. Long double and complex numbers work here as well, by the same code, and gain less. Forward dynamics
+that may be singular is handed to the textbook, which follows each rounding and says which joint. How fast it is, and
+what bounds it, is in benchmarks/README.md; more states than one machine holds are in docs/dask.md.
 
 >>> import numpy as np
 >>> import twistwrench as tw

@@ -66,7 +66,7 @@ def contacts_of(model: Model, plan: Plan, names: Sequence[str]) -> Contacts:
 
 def contact_jacobian(plan: Plan, frames: Frames, origin: Array, contacts: Contacts, J: Array) -> None:
     """Write the linear rows of the contacts to J, shape (3 k, nv, b), in the axes of the world."""
-    J = J.reshape(-1, 3, *J.shape[1:])  # a view: the first axis is cut up
+    J = J.reshape(len(contacts.link), 3, *J.shape[1:])  # a view: the first axis is cut up
     point = origin[:, contacts.link] + np.einsum("cikb,ckb->ikb", frames.axes[:, :, contacts.link], contacts.point)
     k, i = contacts.by_links
     columns = cross(frames.spin[:, i], point[:, k] - origin[:, i])

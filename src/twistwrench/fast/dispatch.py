@@ -31,8 +31,8 @@ from .plan import plan_of
 
 __all__ = ["How", "accelerations", "parts", "torques"]
 
-FEW = 8
-"""Up to so many states are done one by one; beyond, all at once is faster. See benchmarks/README.md."""
+FEW, FEW_ABA = 8, 4
+"""Up to so many states are done one by one; with more, all at once is faster (measured with Go2 and a humanoid)."""
 
 QUANTITIES = frozenset({"M", "h", "J_c", "A_G"})
 
@@ -62,7 +62,7 @@ def torques(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: Array
     """Return τ."""
     plan, states = admit(model, q, ("v", v), ("a", a), f_ext=f_ext)
     tails = {"tau": (plan.nv,)}
-    if f_ext is None and _are_few(states[0]):
+    if f_ext is None and _are_few(states[0], FEW):
         return _one_by_one(partial(_one_torques, _one_plan(model)), states, tails, how)["tau"]
     return fill(partial(inverse_dynamics, plan), states, tails, plan, *how)["tau"]
 
@@ -72,7 +72,7 @@ def accelerations(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ex
     plan, states = admit(model, q, ("v", v), ("tau", tau), f_ext=f_ext)
     tails = {"qdd": (plan.nv,)}
     try:
-        if f_ext is None and _are_few(states[0]):
+        if f_ext is None and _are_few(states[0], FEW_ABA):
             return _one_by_one(partial(_one_accelerations, model, _aba_plan(model)), states, tails, how)["qdd"]
         return fill(partial(forward_dynamics, model, plan), states, tails, plan, *how)["qdd"]
     except SingularError:
@@ -93,7 +93,7 @@ def parts(
     plan, states = admit(model, q, *rates)
     if model.mass == 0 and "A_G" in want:
         centroidal_map(model, q)  # says what is wrong
-    few = _are_few(states[0])
+    few = _are_few(states[0], FEW)
     if few:
         one = _one_plan(model)
         touched = _touching(model, one, contacts) if "J_c" in want else None
@@ -108,8 +108,8 @@ def parts(
     return fill(partial(quantities, plan, touched_by_links, tuple(tails)), states, tails, plan, *how)
 
 
-def _are_few(q: Array) -> bool:
-    return (q.ndim == 1 or q.size <= FEW * q.shape[-1]) and q.dtype in PLAIN
+def _are_few(q: Array, few: int) -> bool:
+    return (q.ndim == 1 or q.size <= few * q.shape[-1]) and q.dtype in PLAIN
 
 
 def _is_plain(states: Sequence[Array], how: How) -> bool:

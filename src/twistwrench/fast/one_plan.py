@@ -290,7 +290,7 @@ def touching(one: OnePlan, contacts: Contacts) -> Touching:
     return Touching(
         link=link,
         point=point,
-        placed=placed.reshape(4 * k, -1) if small else None,
+        placed=placed.reshape(4 * k, 16 * n1) if small else None,
         row=3 * i + a % 3,  # where a = 3 the twist has a row of zeros
         column=4 * contact + b,
         moved=np.repeat(moved, 3, axis=0),
