@@ -41,7 +41,9 @@ ORDER = [
         "centroidal",
         "whole_body",
     ),
-    *("fast", "bridge", "robots", "plot", "_names", "__init__", "validate", "exercises", "cli", "__main__"),
+    *("fast", "digits", "tracing"),
+    *("reduction", "contact", "simulation", "motions", "templates", "scene"),
+    *("bridge", "robots", "plot", "viewing", "_names", "__init__", "validate", "study", "exercises", "cli", "__main__"),
 ]
 """The chapter's order. A section imports from earlier ones only; a folder is one section."""
 

@@ -1,0 +1,23 @@
+"""``twistwrench study``: one command a study."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+__all__ = ["STUDIES", "register"]
+
+Commands = Any
+"""What ``add_subparsers`` returns; argparse has no public name for it."""
+
+
+def register(commands: Commands) -> None:
+    """Add ``twistwrench study``, and a command below it for every study."""
+    parser = commands.add_parser("study", help="measure what a digit costs, and where digits are lost")
+    studies = parser.add_subparsers(required=True, metavar="STUDY")
+    for add in STUDIES:
+        add(studies)
+
+
+STUDIES: tuple[Callable[[Commands], None], ...] = ()
+"""Each adds its parser, and names in ``set_defaults(run=...)`` what does the work and returns the exit status."""
