@@ -65,17 +65,20 @@ def batch(rounds: int, batches=BATCHES) -> Iterator[Row]:
 
 
 def workers(rounds: int, n: int = 200_000) -> Iterator[Row]:
-    """Two processes against one, into arrays that are there; one stands where Pinocchio does elsewhere."""
+    """Several processes against one, into arrays that are there; one stands where Pinocchio does elsewhere."""
     model = tw.load("go2")
     s = random_states(model, n)
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        for quantity in ("rnea", "crba", "set", "aba"):
-            out = ours(tw.fast, model, quantity, s)()
-            single = ours(tw.fast, model, quantity, s, out=out), n
-            for way, w in (("2 workers kept", pool), ("2 workers started", 2)):
-                double = ours(tw.fast, model, quantity, s, out=out, workers=w), n
-                result = race(double, single, rounds=min(rounds, 5), one_thread=False)
-                yield row("workers", way, quantity, result, robot=model.name, dtype="float64", batch=n)
+    for count in (2, 4, 8):
+        if count > (os.cpu_count() or 1):
+            return
+        with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
+            for quantity in ("rnea", "crba", "set", "aba"):
+                out = ours(tw.fast, model, quantity, s)()
+                single = ours(tw.fast, model, quantity, s, out=out), n
+                for way, w in ((f"{count} workers kept", pool), (f"{count} workers started", count)):
+                    many = ours(tw.fast, model, quantity, s, out=out, workers=w), n
+                    result = race(many, single, rounds=min(rounds, 5), one_thread=False)
+                    yield row("workers", way, quantity, result, robot=model.name, dtype="float64", batch=n)
 
 
 def links(rounds: int) -> Iterator[Row]:
