@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 from . import bridge, fast, newton_euler_3d
 from .builder import Builder
 from .centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
+from .contact import PointContact, SurfaceContact
 from .coriolis import coriolis_matrix
 from .cross import cross_force, cross_motion
 from .energy import kinetic_energy, potential_energy
@@ -20,6 +21,7 @@ from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacob
 from .mass_matrix import crba
 from .model import Model
 from .plucker import SE3, force_transform, motion_transform
+from .reduction import Reduction, lock_joints
 from .robots import load, robots
 from .rotation import exp3, log3, skew, unskew
 from .trees import chain, random_tree
@@ -42,13 +44,16 @@ __all__ = [
     "ModelError",
     "NameNotFound",
     "Planar",
+    "PointContact",
     "Prismatic",
+    "Reduction",
     "Revolute",
     "Screw",
     "ShapeError",
     "SingularError",
     "SpatialInertia",
     "Spherical",
+    "SurfaceContact",
     "Twist",
     "Wrench",
     "aba",
@@ -78,6 +83,7 @@ __all__ = [
     "joint_wrenches",
     "kinetic_energy",
     "load",
+    "lock_joints",
     "log3",
     "log6",
     "motion_transform",
