@@ -15,9 +15,9 @@ from importlib.metadata import version
 from typing import NamedTuple
 
 import numpy as np
-from cases import States
 
 import twistwrench as tw
+from twistwrench.study.cases import States
 
 JOINTS = slice(6, None)
 

@@ -10,8 +10,9 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from cases import QUANTITIES
 from matplotlib.axes import Axes
+
+from twistwrench.study.cases import QUANTITIES
 
 RESULTS = Path(__file__).parent / "results"
 BLUE, ORANGE, GREEN, GREY, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#7F7F7F", "#CC79A7", "#56B4E9"

@@ -14,10 +14,10 @@ import time
 from pathlib import Path
 
 import numpy as np
-from cases import random_states
 
 import twistwrench as tw
 from twistwrench.fast import dispatch, door, one
+from twistwrench.study.cases import random_states
 
 RESULTS = Path(__file__).parent / "results"
 

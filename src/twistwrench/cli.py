@@ -1,4 +1,4 @@
-"""The command line: ``twistwrench validate``, ``twistwrench robots``, ``twistwrench exercises``.
+"""The command line: ``twistwrench validate``, ``robots``, ``study``, ``exercises``.
 
 A command is a function that adds its parser; it names in ``set_defaults(run=...)`` what does the work
 and returns the exit status. What a command needs it imports there, so that ``--help`` is quick.
@@ -19,6 +19,7 @@ import twistwrench as tw
 
 from .errors import ModelError, NameNotFound
 from .exercises.commands import register as add_exercises
+from .study.commands import register as add_study
 
 if TYPE_CHECKING:
     from .validate import Report
@@ -198,4 +199,4 @@ def _at_least(least: int) -> Callable[[str], int]:
     return read
 
 
-COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_exercises)
+COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_study, add_exercises)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from .speed import add_speed
+
 __all__ = ["STUDIES", "register"]
 
 Commands = Any
@@ -19,5 +21,5 @@ def register(commands: Commands) -> None:
         add(studies)
 
 
-STUDIES: tuple[Callable[[Commands], None], ...] = ()
+STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed,)
 """Each adds its parser, and names in ``set_defaults(run=...)`` what does the work and returns the exit status."""

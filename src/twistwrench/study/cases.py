@@ -1,13 +1,21 @@
-"""What is timed: every quantity by Pinocchio, by the textbook and by the fast way, in the same states."""
+"""What is timed in `speed`: every quantity by Pinocchio, by the textbook and by the fast way, in the same states."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 import twistwrench as tw
+
+from ..checks import Array
+
+__all__ = ["QUANTITIES", "States", "ours", "pinocchio", "random_states"]
+
+Call = Callable[[], object]
 
 QUANTITIES = {
     "rnea": "inverse dynamics",
@@ -22,11 +30,11 @@ QUANTITIES = {
 class States(NamedTuple):
     """A batch: q (n, nq), and v and a (n, nv), in our order."""
 
-    q: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
+    q: Array
+    v: Array
+    a: Array
 
-    def first(self, n: int, dtype=float) -> States:
+    def first(self, n: int, dtype: DTypeLike = float) -> States:
         """Return the first n, in a number type; if n is 1, without a batch axis."""
         parts = (x[:n].astype(dtype) for x in self)
         return States(*(x[0] for x in parts)) if n == 1 else States(*parts)
@@ -42,19 +50,20 @@ def random_states(model: tw.Model, n: int, *, seed: int = 0) -> States:
     return States(*(np.tile(x, (times, 1))[:n] for x in (q, v, a)))
 
 
-def ours(package, model: tw.Model, quantity: str, s: States, **options) -> Callable[[], object]:
+def ours(package: ModuleType, model: tw.Model, quantity: str, s: States, **options: Any) -> Call:
     """Return a call of `tw` or `tw.fast`."""
-    return {
+    calls: dict[str, Call] = {
         "rnea": lambda: package.rnea(model, s.q, s.v, s.a, **options),
         "h": lambda: package.nonlinear_effects(model, s.q, s.v, **options),
         "crba": lambda: package.crba(model, s.q, **options),
         "A_G": lambda: package.centroidal_map(model, s.q, **options),
         "set": lambda: package.dynamics(model, s.q, s.v, **options),
         "aba": lambda: package.aba(model, s.q, s.v, s.a, **options),
-    }[quantity]
+    }
+    return calls[quantity]
 
 
-def pinocchio(model: tw.Model, quantity: str, s: States) -> Callable[[], object]:
+def pinocchio(model: tw.Model, quantity: str, s: States) -> Call:
     """Return a loop of Pinocchio over states with a batch axis, called from Python one by one; nothing is kept."""
     import pinocchio as pin
 
@@ -63,7 +72,7 @@ def pinocchio(model: tw.Model, quantity: str, s: States) -> Callable[[], object]
     v, a = (tw.bridge.to_pinocchio_tangent(model, x) for x in (s.v, s.a))
     states = list(zip(s.q, v, a, strict=True))
 
-    def whole(q, v):
+    def whole(q: Array, v: Array) -> None:
         pin.crba(there, data, q)
         pin.nonLinearEffects(there, data, q, v)
         pin.computeCentroidalMap(there, data, q)
@@ -72,20 +81,19 @@ def pinocchio(model: tw.Model, quantity: str, s: States) -> Callable[[], object]
         for foot in feet:
             pin.getFrameJacobian(there, data, foot, pin.LOCAL_WORLD_ALIGNED)
 
-    def loop(call):
-        def run():
+    def loop(call: Callable[..., object]) -> Call:
+        def run() -> None:
             for q, v, a in states:
                 call(q, v, a)
 
         return run
 
-    return loop(
-        {
-            "rnea": lambda q, v, a: pin.rnea(there, data, q, v, a),
-            "h": lambda q, v, a: pin.nonLinearEffects(there, data, q, v),
-            "crba": lambda q, v, a: pin.crba(there, data, q),
-            "A_G": lambda q, v, a: pin.computeCentroidalMap(there, data, q),
-            "set": lambda q, v, a: whole(q, v),
-            "aba": lambda q, v, a: pin.aba(there, data, q, v, a),
-        }[quantity]
-    )
+    calls: dict[str, Callable[..., object]] = {
+        "rnea": lambda q, v, a: pin.rnea(there, data, q, v, a),
+        "h": lambda q, v, a: pin.nonLinearEffects(there, data, q, v),
+        "crba": lambda q, v, a: pin.crba(there, data, q),
+        "A_G": lambda q, v, a: pin.computeCentroidalMap(there, data, q),
+        "set": lambda q, v, a: whole(q, v),
+        "aba": lambda q, v, a: pin.aba(there, data, q, v, a),
+    }
+    return loop(calls[quantity])
