@@ -1,0 +1,83 @@
+"""Build the site, in English and in Chinese, and check it.
+
+usage:  python docs/build.py             the site, below build/site/html; open index.html there
+        python docs/build.py --check     and every link in it, and pages of both languages in a headless Chromium
+
+Needs `pip install -e ".[docs]"`. Every warning is an error. Nothing is fetched: the site, and building it, work without
+a network. The first build runs the notebooks; later ones run only those of which something has changed.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+from importlib.metadata import files
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from website import beside, browser, interface, links, notebooks, pages
+
+OUT = pages.ROOT / "build" / "site"
+MATHJAX = "tex-svg-full.js"
+
+
+def stage() -> None:
+    """Write what Sphinx reads: a tree of pages for each language, with the same names in both."""
+    trees = {language: OUT / "pages" / language for language in pages.LANGUAGES}
+    notebooks.write_notebooks(trees, OUT / "cache")
+    listings = {"chapter": notebooks.names(), "studies": pages.studies(), "algorithms": beside.names()}
+    listings["project"] = [name for name in ("readme", *pages.PROJECT) if name in pages.pages().values()]
+    for language, tree in trees.items():
+        pages.write_pages(tree, language)
+        pages.write_texts(tree, language, listings)
+        interface.write_interface(tree, language)
+        beside.write_algorithms(tree, language)
+    mathjax = next(f for f in files("sphinx-mathjax-offline") or [] if f.name == MATHJAX)
+    target = OUT / "static" / "mathjax" / MATHJAX
+    pages.write(target, mathjax.read_text(encoding="utf-8"))
+
+
+def sphinx(language: str) -> subprocess.Popen[bytes]:
+    """Start Sphinx for a language; the other one is built at the same time."""
+    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "--keep-going", "-c", "docs"]
+    command += ["-d", f"{OUT}/doctrees/{language}", f"{OUT}/pages/{language}", f"{OUT}/html/{language}"]
+    environment = os.environ | {"SITE_LANGUAGE": language, "SITE_STATIC": str(OUT / "static")}
+    return subprocess.Popen(command, cwd=pages.ROOT, env=environment)
+
+
+def write_door(html: Path) -> None:
+    """Write the page at the top, which leads to the language that the reader's browser asks for."""
+    pages.write(html / "index.html", (Path(__file__).parent / "website" / "door.html").read_text(encoding="utf-8"))
+
+
+def main() -> int:
+    """Build, and check if asked to."""
+    parser = argparse.ArgumentParser(description="Build the site.")
+    parser.add_argument("--check", action="store_true", help="check every link, and open pages in Chromium")
+    check, start = parser.parse_args().check, time.perf_counter()
+
+    def done(what: str) -> None:
+        print(f"{what}: {time.perf_counter() - start:.0f} s", flush=True)
+
+    stage()
+    done("pages and notebooks written")
+    runs = [sphinx(language) for language in pages.LANGUAGES]
+    if sum(run.wait() for run in runs):  # wait for both
+        print("the site was not built: see the warnings above", file=sys.stderr)
+        return 1
+    write_door(OUT / "html")
+    done(f"built {OUT / 'html' / 'index.html'}")
+    if not check:
+        return 0
+    wrong = [*links.check(OUT / "html")]
+    done("links checked")
+    wrong += browser.check(OUT / "html")
+    done("pages opened")
+    print(*wrong, sep="\n")
+    return int(bool(wrong))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,80 @@
+"""Sphinx: the settings of the site, for both languages. docs/build.py writes what it reads and starts it."""
+
+import os
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from website import interface
+
+CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
+
+project = "twistwrench"
+author = "The twistwrench authors"
+copyright = "The twistwrench authors, BSD-3-Clause"
+language = "zh_CN" if CHINESE else "en"
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+]
+templates_path = ["website/templates"]
+html_extra_path: list[str] = []
+exclude_patterns = ["files/**"]
+suppress_warnings = ["myst.strikethrough"]
+
+# ---- pages
+myst_enable_extensions = ["amsmath", "colon_fence", "dollarmath"]
+myst_heading_anchors = 4
+nb_execution_mode = "off"  # docs/build.py has run them: once for both languages
+nb_merge_streams = True
+
+# ---- the interface, from the docstrings
+default_role = "py:obj"
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # the docstrings say more: shape, unit, frame
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+add_module_names = False
+viewcode_line_numbers = True
+
+# ---- how it looks
+html_theme = "pydata_sphinx_theme"
+html_title = "twistwrench"
+html_static_path = ["website/static", os.environ.get("SITE_STATIC", "website/static")]
+html_css_files = ["site.css"]
+html_js_files = ["site.js"]
+html_show_sourcelink = False
+html_copy_source = False
+html_last_updated_fmt = None
+html_context = {
+    "default_mode": "auto",
+    "other_language": "en" if CHINESE else "zh",
+    "other_language_name": "English" if CHINESE else "中文",
+    "other_language_code": "en" if CHINESE else "zh-CN",
+    "other_language_title": "This page in English" if CHINESE else "本页的中文版",
+}
+html_theme_options = {
+    "logo": {"text": "twistwrench"},
+    "navbar_end": ["theme-switcher"],
+    "navbar_persistent": ["search-button-field", "language-switch"],
+    "header_links_before_dropdown": 7,
+    "navigation_with_keys": False,
+    "show_toc_level": 2,
+    "footer_start": ["copyright"],
+    "footer_end": ["theme-version"],
+    "secondary_sidebar_items": ["page-toc"],
+    "search_bar_text": "搜索……" if CHINESE else "Search …",
+}
+mathjax_path = "mathjax/tex-svg-full.js"  # of the site itself: it is read without a network
+mathjax3_config = {"options": {"enableMenu": False}, "svg": {"fontCache": "global"}}
+
+
+def setup(app):
+    """Connect what adds the chapter's formulas to the docstrings."""
+    interface.connect(app, "zh" if CHINESE else "en")

@@ -1,0 +1,104 @@
+"""A page per algorithm: what a step does, its formula, and the lines of the source that do it, side by side.
+
+The words and the formulas are in algorithms/NAME.toml, a step at a time, each with the first of its lines as it stands
+in the source. The lines themselves, and their numbers, are read from the source when the site is built; a step whose
+line is no longer there stops the build, and so does a line that belongs to no step.
+"""
+
+from __future__ import annotations
+
+import ast
+import tomllib
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from . import steps
+from .pages import ROOT, write
+
+FOLDER = Path(__file__).resolve().parent / "algorithms"
+SOURCE = ROOT / "src" / "twistwrench"
+ORDER = ("kinematics", "rnea", "aba", "crba", "centroidal")
+WORDS = {
+    "en": ("What it does", "The source: lines {} to {} of", "Documentation of", "step"),
+    "zh": ("这一步做什么", "源码第 {}–{} 行：", "接口文档：", "步"),
+}
+
+
+class Lines(NamedTuple):
+    """Some lines of a file."""
+
+    first: int  # number of the first line in its file, from 1
+    text: list[str]
+
+
+def names() -> list[str]:
+    """Return the names of the algorithms that have a page, in the chapter's order."""
+    return [name for name in ORDER if (FOLDER / f"{name}.toml").exists()]
+
+
+def read(name: str) -> dict[str, Any]:
+    """Return what algorithms/NAME.toml says."""
+    return tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
+
+
+def body(file: str, function: str) -> Lines:
+    """Return the lines of a function below its docstring."""
+    text = (SOURCE / file).read_text(encoding="utf-8")
+    found = [n for n in ast.parse(text).body if isinstance(n, ast.FunctionDef) and n.name == function]
+    if not found:
+        raise LookupError(f"{file} has no function {function}")
+    statements = found[0].body
+    start = statements[1 if ast.get_docstring(found[0]) is not None else 0].lineno
+    end = statements[-1].end_lineno or start
+    return Lines(start, text.splitlines()[start - 1 : end])
+
+
+def cut(lines: Lines, quotes: list[str], file: str) -> list[Lines]:
+    """Cut the lines of a function where its steps begin; raises LookupError where a step's line is not there."""
+    stripped, starts = [line.strip() for line in lines.text], []
+    for quote in quotes:
+        after = starts[-1] + 1 if starts else 0
+        if quote not in stripped[after:]:
+            raise LookupError(f"{file}: no such line, or not behind the one before it: {quote}")
+        starts.append(stripped.index(quote, after))
+    if starts[0] != 0:
+        raise LookupError(f"{file}: no step holds the line: {stripped[0]}")
+    ends = [*starts[1:], len(stripped)]
+    return [Lines(lines.first + a, lines.text[a:b]) for a, b in zip(starts, ends, strict=True)]
+
+
+def page(name: str, language: str) -> str:
+    """Return the page of an algorithm, as Markdown for MyST."""
+    said, file = read(name), read(name)["file"]
+    lines = body(file, said["function"])
+    parts = cut(lines, [step["line"] for step in said["step"]], file)
+    does, source, documented, _ = WORDS[language]
+    last = lines.first + len(lines.text) - 1
+    call = f"{{py:obj}}`tw.{said['call']} <twistwrench.{said['call']}>`"
+    out = [f"# {said['title'][language]}", said["intro"][language].strip(), f"{documented} {call}."]
+    out.append(f":::::{{container}} beside\n{_head(does, source.format(lines.first, last), file)}")
+    out += [_row(k, step, part, language) for k, (step, part) in enumerate(zip(said["step"], parts, strict=True), 1)]
+    out.append(":::::")
+    out.append(said["outro"][language].strip() if "outro" in said else "")
+    return "\n\n".join([*out, steps.section(said, language)]) + "\n"
+
+
+def _head(does: str, source: str, file: str) -> str:
+    cells = (f":::{{container}} say\n{does}\n:::", f":::{{container}} code\n{source} `{file}`\n:::")
+    return "\n".join(["::::{container} row head", *cells, "::::"])
+
+
+def _row(k: int, step: dict[str, Any], part: Lines, language: str) -> str:
+    text = part.text
+    while text and not text[-1].strip():
+        text = text[:-1]
+    formula = f"\n\n$$\n{step['tex'].strip()}\n$$" if "tex" in step else ""
+    say = f":::{{container}} say\n**{k}.** {step[language].strip()}{formula}\n:::"
+    listing = "\n".join(["```{code-block} python", f":lineno-start: {part.first}", "", *text, "```"])
+    return f"::::{{container}} row\n{say}\n:::{{container}} code\n{listing}\n:::\n::::"
+
+
+def write_algorithms(out: Path, language: str) -> None:
+    """Write the page of every algorithm."""
+    for name in names():
+        write(out / "algorithms" / f"{name}.md", page(name, language))

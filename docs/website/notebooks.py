@@ -1,0 +1,100 @@
+"""The notebooks with their outputs: each run once, for both languages, and again only when its code or ours has changed.
+
+The English one is run; the Chinese one has the same code cells (tests/test_notebooks.py asks for it) and is given the
+outputs. A result is kept under the hash of what it depends on: the code cells, the package's source, its robots, and
+the versions of what draws and computes. (jupyter-cache looks at the code cells alone, and would show old numbers.)
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from importlib.metadata import version
+from pathlib import Path
+from types import ModuleType
+
+import nbformat
+
+from .pages import LANGUAGES, ROOT, write
+
+SLOWEST = 120  # s, a notebook, on a machine that does other things too
+
+
+def builder() -> ModuleType:
+    """Return notebooks/build.py, which knows the notebooks and their order."""
+    spec = importlib.util.spec_from_file_location("notebooks_build", ROOT / "notebooks" / "build.py")
+    if spec is None or spec.loader is None:
+        raise ImportError("notebooks/build.py cannot be imported")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def names() -> list[str]:
+    """Return the names of the notebooks, in the chapter's order."""
+    build = builder()
+    return [build.target(source, "en").stem for source in build.sources()]
+
+
+def common_key() -> str:
+    """Return a hash of everything but the notebook that an output depends on."""
+    digest = hashlib.sha256(sys.version.encode())
+    for package in ("numpy", "matplotlib", "nbclient", "ipykernel"):
+        digest.update(version(package).encode())
+    for path in sorted([*(ROOT / "src").rglob("*.py"), *(ROOT / "models").glob("*.urdf")]):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def key(notebook: nbformat.NotebookNode, common: str) -> str:
+    """Return the hash under which the result of a notebook is kept."""
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    return hashlib.sha256("\0".join([common, *code]).encode()).hexdigest()[:32]
+
+
+def execute(path: Path, kept: Path) -> Path:
+    """Run a notebook in an empty folder and keep the outputs of its code cells."""
+    import tempfile
+
+    from jupyter_client.manager import AsyncKernelManager
+    from nbclient import NotebookClient
+
+    notebook = nbformat.read(path, as_version=4)
+    with tempfile.TemporaryDirectory() as folder:
+        kernel = AsyncKernelManager(kernel_name="python3", transport="ipc")  # a socket of ours, no port of the machine
+        place = {"metadata": {"path": folder}}
+        NotebookClient(notebook, km=kernel, timeout=SLOWEST, resources=place).execute()
+    nbformat.write(notebook, kept)
+    return kept
+
+
+def write_notebooks(out: dict[str, Path], cache: Path) -> None:
+    """Write the notebooks with their outputs into the trees of both languages."""
+    cache.mkdir(parents=True, exist_ok=True)
+    common = common_key()
+    waiting, results = {}, {}
+    for name in names():
+        path = ROOT / "notebooks" / "en" / f"{name}.ipynb"
+        results[name] = cache / f"{name}-{key(nbformat.read(path, as_version=4), common)}.ipynb"
+        if not results[name].exists():
+            waiting[path] = results[name]
+    with ProcessPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
+        list(pool.map(execute, waiting, waiting.values()))
+    for name, kept in results.items():
+        done = nbformat.read(kept, as_version=4)
+        for language in LANGUAGES:
+            own = nbformat.read(ROOT / "notebooks" / language / f"{name}.ipynb", as_version=4)
+            write(out[language] / "chapter" / f"{name}.ipynb", nbformat.writes(with_outputs(own, done)))
+
+
+def with_outputs(notebook: nbformat.NotebookNode, done: nbformat.NotebookNode) -> nbformat.NotebookNode:
+    """Give a notebook the outputs of another with the same code cells."""
+    ours, theirs = ([c for c in n.cells if c.cell_type == "code"] for n in (notebook, done))
+    if [c.source for c in ours] != [c.source for c in theirs]:
+        raise ValueError("the notebooks of the two languages have different code: run notebooks/build.py")
+    for cell, other in zip(ours, theirs, strict=True):
+        cell.outputs, cell.execution_count = other.outputs, other.execution_count
+    return notebook
