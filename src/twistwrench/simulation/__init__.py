@@ -1,0 +1,19 @@
+"""Motion in time: a robot that moves under the forces of a policy, step by step on the configuration manifold.
+
+- `run`: `simulate`, the loop. Start here.
+- `methods`: the methods by name.
+- `explicit`: Euler's methods, midpoint and Runge-Kutta.
+- `variational`: the method that keeps momentum and, over long times, energy.
+- `tangent`: what the exponential map does to rates and momenta.
+- `system`: the forces of the policy, and the acceleration.
+- `divergence`: when a step has gone wrong.
+- `result`: the motion.
+"""
+
+from .divergence import DivergenceError
+from .methods import METHODS, Method
+from .result import Simulation
+from .run import simulate
+from .system import Policy
+
+__all__ = ["METHODS", "DivergenceError", "Method", "Policy", "Simulation", "simulate"]

@@ -1,0 +1,31 @@
+"""When a step has gone wrong, and how that is said."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._scalars import which
+from ..checks import Array
+from ..model import Model
+
+__all__ = ["DivergenceError", "refuse_divergence"]
+
+FARTHEST = 1e6
+"""No joint goes that far in one step, in rad or m."""
+
+
+class DivergenceError(ValueError):
+    """A motion that left all bounds, or a step that could not be solved. The message says when, and which joint."""
+
+
+def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> None:
+    """Raise DivergenceError where an entry of x, a velocity for dt, is not finite or goes beyond all bounds."""
+    bound = min(FARTHEST / dt, float(np.finfo(x.dtype).max ** (1 / 5)) / 2)  # the algorithms take no more
+    wrong = np.asarray(~(np.abs(x) <= bound))
+    if wrong.any():
+        entry = tuple(int(k) for k in np.argwhere(wrong)[0])
+        joint = next(i for i, s in enumerate(model.v_slice) if s.start <= entry[-1] < s.stop)
+        raise DivergenceError(
+            f"the motion diverges: joint {model.joint_names[joint]!r} has {what}[{entry[-1]}] = {float(x[entry]):.3g}"
+            f"{which(np.asarray(wrong.any(axis=-1)))}; a smaller dt or weaker forces?"
+        )

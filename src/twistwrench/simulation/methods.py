@@ -1,0 +1,46 @@
+"""The methods by name: what `simulate` knows, and what each promises."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from ..checks import Array
+from .explicit import EULER, MIDPOINT, RK4, runge_kutta, semi_implicit
+from .system import System
+from .variational import variational
+
+__all__ = ["METHODS", "Method"]
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to make one step.
+
+    Parameters
+    ----------
+    title : str
+    order : int
+        With a dt half as long the error at a given time is 2 to this power times smaller.
+    step : callable
+        From a `System`, t, q and v to the next q and v.
+    keeps : str
+        What it keeps of the laws of mechanics, at any dt.
+    """
+
+    title: str
+    order: int
+    step: Callable[[System, float, Array, Array], tuple[Array, Array]]
+    keeps: str
+
+
+METHODS = {
+    "euler": Method("explicit Euler", 1, partial(runge_kutta, EULER), "nothing: the energy grows"),
+    "semi-implicit": Method("semi-implicit Euler", 1, semi_implicit, "nothing; the energy nearly, where M is constant"),
+    "midpoint": Method("explicit midpoint", 2, partial(runge_kutta, MIDPOINT), "nothing"),
+    "rk4": Method("Runge-Kutta", 4, partial(runge_kutta, RK4), "nothing; the errors are small"),
+    "variational": Method(
+        "variational", 2, variational, "conserved momenta to rounding; the symplectic form, and so nearly the energy"
+    ),
+}

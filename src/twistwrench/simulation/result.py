@@ -1,0 +1,118 @@
+"""What a simulation returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..centroidal import center_of_mass, centroidal_momentum
+from ..checks import Array
+from ..energy import kinetic_energy, potential_energy
+from ..errors import unknown_name
+from ..model import Model
+from .methods import METHODS
+
+__all__ = ["Simulation"]
+
+LABELS = {
+    "energy": "change of the energy [J]",
+    "angular momentum": "change of the angular momentum [kg m²/s]",
+    "q": "q [rad, m]",
+    "v": "v [rad/s, m/s]",
+}
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """A motion, as `simulate` returns it. The n states are those at the start and after each step.
+
+    Attributes
+    ----------
+    model : Model
+    method : str
+        Its name in the registry of methods.
+    t : ndarray, shape (n,)
+        Times, s.
+    q : ndarray, shape (n, ..., nq)
+    v : ndarray, shape (n, ..., nv)
+    evaluations : int
+        How often forces and accelerations were computed.
+    seconds : float
+        How long it took.
+    """
+
+    model: Model
+    method: str
+    t: Array
+    q: Array
+    v: Array
+    evaluations: int
+    seconds: float
+
+    @cached_property
+    def energy(self) -> Array:
+        """Kinetic and potential energy, shape (n, ...), J."""
+        total: Array = kinetic_energy(self.model, self.q, self.v) + potential_energy(self.model, self.q)
+        return total
+
+    @cached_property
+    def momentum(self) -> Array:
+        """Angular and linear momentum (k_G, l_G) at the centre of mass, axes of the world, shape (n, ..., 6)."""
+        return centroidal_momentum(self.model, self.q, self.v)
+
+    @cached_property
+    def momentum_about_origin(self) -> Array:
+        """Angular momentum about the world's origin, and linear momentum, shape (n, ..., 6): k_G + p_G × l_G, l_G."""
+        k, l = self.momentum[..., :3], self.momentum[..., 3:]
+        return np.concatenate([k + np.cross(center_of_mass(self.model, self.q), l), l], axis=-1)
+
+    def __str__(self) -> str:
+        batch = "" if self.q.ndim == 2 else f", a batch of {self.q.shape[1:-1]}"
+        made = f"{len(self.t) - 1} steps to {self.t[-1]:.6g} s{batch}"
+        lines = [f"{self.model.name} by {METHODS[self.method].title}: {made}, {self.evaluations} evaluations"]
+        rows = [("energy", "J", self.energy[..., None])]
+        if self.model.base == "floating":
+            fall = self.model.mass * np.multiply.outer(self.t, self.model.gravity)
+            fall = fall.reshape(len(self.t), *(1,) * (self.q.ndim - 2), 3)
+            rows += [
+                ("angular momentum at the centre of mass", "kg m²/s", self.momentum[..., :3]),
+                ("linear momentum, without the weight's,", "kg m/s", self.momentum[..., 3:] - fall),
+            ]
+        for name, unit, x in rows:
+            change = np.sqrt(((x - x[0]) ** 2).sum(axis=-1))
+            largest, last = (y.max(initial=0) for y in (change, change[-1]))
+            lines.append(f"  {name} changes by at most {largest:.2e} {unit}, in the end by {last:.2e} {unit}")
+        return "\n".join(lines)
+
+    def plot(self, ax: Any = None, *, what: str = "energy") -> Any:
+        """Draw a quantity over time; of a batch, of every item.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+        what : {"energy", "angular momentum", "q", "v"}
+            Of the first two, the change.
+
+        Returns
+        -------
+        matplotlib Axes
+
+        Raises
+        ------
+        NameNotFound
+            If `what` is none of these.
+        """
+        if what not in LABELS:
+            raise unknown_name("quantity", what, LABELS)
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.subplots(figsize=(6.0, 3.5), layout="constrained")[1]
+        drawn = {"energy": self.energy, "angular momentum": self.momentum[..., :3], "q": self.q, "v": self.v}[what]
+        drawn = drawn if what in ("q", "v") else drawn - drawn[0]
+        ax.plot(self.t, drawn.reshape(len(self.t), -1))
+        ax.set(xlabel="time [s]", ylabel=LABELS[what])
+        return ax
