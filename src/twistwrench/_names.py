@@ -30,7 +30,7 @@ from .whole_body import Dynamics, dynamics
 from .wrench import Wrench, power
 
 if TYPE_CHECKING:
-    from . import exercises, plot
+    from . import exercises, motions, plot, templates
 
 __all__ = [
     "SE3",
@@ -87,6 +87,7 @@ __all__ = [
     "log3",
     "log6",
     "motion_transform",
+    "motions",
     "newton_euler_3d",
     "nonlinear_effects",
     "plot",
@@ -99,12 +100,18 @@ __all__ = [
     "selection_matrix",
     "skew",
     "static_equilibrium",
+    "templates",
     "unskew",
     "vee",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    if name not in ("exercises", "plot"):  # nothing else needs them: they come when they are asked for
+    if name not in (
+        "exercises",
+        "motions",
+        "plot",
+        "templates",
+    ):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return import_module(f".{name}", __package__)

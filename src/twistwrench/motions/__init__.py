@@ -1,0 +1,20 @@
+"""Smooth motions of legged robots, to try models on: a slow walk, a trot and a jump (49.10).
+
+The robot's centre of mass, base and feet follow curves that are three times differentiable; positions come by Newton's
+method, velocities and accelerations from the same Jacobian. So v is the rate of q and a that of v to rounding, what
+stands does not move, and in flight the robot falls as it must. The legs' lengths and the times are in units of the
+height of the centre of mass, so that a big robot does what a small one does, more slowly.
+
+=========  ==================================================  =====================================================
+motion     four legs                                           two legs
+=========  ==================================================  =====================================================
+`walk`     a crawl: one foot at a time                         a slow walk
+`trot`     a trot: diagonal pairs, no flight                   a brisk walk: a biped has no diagonals to trot with
+`jump`     forward off all feet, the trunk pitching in flight  the same off both feet
+=========  ==================================================  =====================================================
+"""
+
+from .motion import Motion
+from .performing import MOTIONS, jump, trot, walk
+
+__all__ = ["MOTIONS", "Motion", "jump", "trot", "walk"]

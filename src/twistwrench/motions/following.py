@@ -1,0 +1,145 @@
+"""The states of a robot whose centre of mass, base, feet and other joints follow given curves.
+
+At each of the three levels the same square matrix: the rows are the tasks (centre of mass, feet), the columns what is
+free (the base's position, the joints of the legs). Orientation and the other joints are given.
+
+    position      J δ = what is missing, until nothing is (Newton)
+    velocity      J v = ẋ
+    acceleration  J a = ẍ − J̇ v
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..centroidal import center_of_mass, centroidal_map, centroidal_momentum_rate
+from ..checks import Array
+from ..errors import SingularError
+from ..kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
+from ..rotation import log3
+from .legs import Stand
+from .turning import body_rates
+
+__all__ = ["Goal", "follow", "free_columns", "place", "tasks"]
+
+REFERENCE: Reference = "local_world_aligned"
+
+STEPS = 40
+"""Of Newton's method, which needs about six."""
+
+
+class Goal(NamedTuple):
+    """What a motion asks for at n times. Each is a jet: value, rate and rate of the rate along the first axis.
+
+    Attributes
+    ----------
+    com : ndarray, shape (3, n, 3)
+        Of the centre of mass, in the world.
+    turn : ndarray, shape (3, n, 3)
+        φ: the base stands at R exp3(φ), R being its orientation in the standing posture.
+    steps : ndarray, shape (3, n, legs, 3)
+        How far each foot is from where it stands in the standing posture.
+    joints : ndarray, shape (3, n, nv)
+        How far the joints that belong to no leg are from there. Other entries are not looked at.
+    """
+
+    com: Array
+    turn: Array
+    steps: Array
+    joints: Array
+
+
+def follow(stand: Stand, goal: Goal) -> tuple[Array, Array, Array]:
+    """Return q, v and a of the robot that does what `goal` asks.
+
+    Raises
+    ------
+    SingularError
+        If the legs are too short, or straight.
+    """
+    model = stand.model
+    q = place(stand, goal.com[0], goal.turn[0], goal.steps[0], goal.joints[0])
+    free, J = free_columns(stand), tasks(stand, q)
+    rates = body_rates(goal.turn)
+
+    def given(rate: Array, joints: Array) -> Array:
+        out = joints.copy()
+        out[..., :3], out[..., free] = rate, 0
+        return out
+
+    v, a = given(rates[0], goal.joints[1]), given(rates[1], goal.joints[2])
+    v[..., free] = np.linalg.solve(J[..., free], (_targets(stand, goal, 1) - np.matvec(J, v))[..., None])[..., 0]
+    bias = [
+        centroidal_momentum_rate(model, q, v, np.zeros_like(v))[..., 3:] / model.mass,
+        *(frame_bias_acceleration(model, q, v, leg.frame, REFERENCE)[..., leg.rows] for leg in stand.legs),
+    ]
+    missing = _targets(stand, goal, 2) - np.concatenate(bias, axis=-1) - np.matvec(J, a)
+    a[..., free] = np.linalg.solve(J[..., free], missing[..., None])[..., 0]
+    return q, v, a
+
+
+def place(stand: Stand, com: Array, turn: Array, steps: Array, joints: Array, q: Array | None = None) -> Array:
+    """Return the q in which centre of mass and feet are where they should be: Newton's method, from q or standing.
+
+    Raises
+    ------
+    SingularError
+        If there is none near.
+    """
+    model, free = stand.model, free_columns(stand)
+    shift = joints.copy()
+    shift[..., :3], shift[..., free] = turn, 0
+    start = np.broadcast_to(stand.q, (*turn.shape[:-1], model.nq)).astype(turn.dtype)
+    if q is not None:  # the legs and the place from there
+        start = start.copy()
+        near = model.difference(start, q)
+        shift[..., [c for c in free if c > 5]] = near[..., [c for c in free if c > 5]]
+        start[..., :3] = q[..., :3]
+    q, left = model.integrate(start, shift), 2
+    for _ in range(STEPS):
+        error = _missing(stand, q, com, steps)
+        move = np.zeros((*error.shape[:-1], model.nv), error.dtype)
+        move[..., free] = np.linalg.solve(tasks(stand, q)[..., free], error[..., None])[..., 0]
+        q = model.integrate(q, move)
+        left -= int(np.abs(error.real).max() < 1e-12 * max(1.0, stand.height))  # twice more: the imaginary part
+        if not left:
+            return model.normalize(q)
+    worst = int(np.abs(error.real).max(-1).argmax())
+    raise SingularError(
+        f"{model.name!r}: no posture near the standing one has its feet and its centre of mass where they should be, "
+        f"at sample {worst}: off by {np.abs(error.real).max():.2g} m; are the legs long enough?"
+    )
+
+
+def free_columns(stand: Stand) -> list[int]:
+    """Return the places in v of what is not given: the base's position, and the joints of the legs."""
+    return [3, 4, 5, *(column for leg in stand.legs for column in leg.columns)]
+
+
+def tasks(stand: Stand, q: Array) -> Array:
+    """Return J: the velocities of centre of mass and feet are J v."""
+    com = centroidal_map(stand.model, q)[..., 3:, :] / stand.model.mass
+    feet = [frame_jacobian(stand.model, q, leg.frame, REFERENCE)[..., leg.rows, :] for leg in stand.legs]
+    return np.concatenate([com, *feet], axis=-2)
+
+
+def _missing(stand: Stand, q: Array, com: Array, steps: Array) -> Array:
+    """Return how far centre of mass and feet are from where they should be, in the axes of the world."""
+    out = [com - center_of_mass(stand.model, q)]
+    for k, leg in enumerate(stand.legs):
+        T = frame_placement(stand.model, q, leg.frame)
+        if leg.has_sole:
+            out.append(np.matvec(T.rotation, log3(T.rotation.mT @ leg.rotation)))
+        out.append(leg.position + steps[..., k, :] - T.translation)
+    return np.concatenate(out, axis=-1)
+
+
+def _targets(stand: Stand, goal: Goal, order: int) -> Array:
+    """Return the first (1) or second (2) derivative of what the tasks should be."""
+    out = [goal.com[order]]
+    for k, leg in enumerate(stand.legs):
+        step = goal.steps[order][..., k, :]
+        out += [np.zeros_like(step), step] if leg.has_sole else [step]
+    return np.concatenate(out, axis=-1)

@@ -1,0 +1,172 @@
+"""Walk and trot: a schedule of steps, and the centre of mass that a pendulum says (49.10).
+
+The feet are loaded and unloaded smoothly; the weighted mean of the loaded ones is where the centre of pressure should
+be, inside the support polygon. For a pendulum of constant height the centre of mass of a steady gait then follows in
+closed form, harmonic by harmonic: x_n = p_n / (1 + (n ω)² z / g). What the legs' own momentum does to the centre of
+pressure the plan does not know. The templates say.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..checks import Array
+from ..errors import ModelError
+from ..kinematics import forward_kinematics
+from .curves import Harmonics, hop, stair
+from .following import Goal
+from .legs import Stand
+
+__all__ = ["BRISK_WALK", "CRAWL", "TROT", "WALK", "Gait", "Steps"]
+
+HARMONICS = 9
+SAMPLES = 256
+
+
+@dataclass(frozen=True)
+class Gait:
+    """A steady gait, in units of the height H of the centre of mass and of √(H/g).
+
+    Parameters
+    ----------
+    period : float
+        Of one stride, √(H/g).
+    duty : float
+        The share of the stride for which a foot stands.
+    phases : tuple of float
+        When in the stride each leg comes down: left and right, or front left, front right, rear left, rear right.
+    speed : float
+        √(g H).
+    height : float
+        Of the centre of mass, H.
+    lift, bob : float
+        How high a foot and how far up and down the centre of mass goes, H.
+    swing : float
+        How far the arms swing, rad.
+    """
+
+    period: float
+    duty: float
+    phases: tuple[float, ...]
+    speed: float
+    height: float = 1.0
+    lift: float = 0.15
+    bob: float = 0.0
+    swing: float = 0.0
+
+
+CRAWL = Gait(period=10.0, duty=0.8, phases=(0.25, 0.75, 0.0, 0.5), speed=0.06)
+TROT = Gait(period=2.6, duty=0.58, phases=(0.0, 0.5, 0.5, 0.0), speed=0.4, lift=0.2, bob=0.02)
+WALK = Gait(period=6.0, duty=0.65, phases=(0.0, 0.5), speed=0.1, height=0.94, lift=0.05, swing=0.15)
+BRISK_WALK = Gait(period=3.6, duty=0.58, phases=(0.0, 0.5), speed=0.25, height=0.94, lift=0.07, bob=0.01, swing=0.3)
+
+
+class Steps:
+    """A robot in a gait: what its body parts should do at any time.
+
+    Parameters
+    ----------
+    stand : Stand
+    gait : Gait
+    """
+
+    def __init__(self, stand: Stand, gait: Gait) -> None:
+        self.stand, self.gait = stand, gait
+        self.period = gait.period * stand.unit
+        self.speed = gait.speed * stand.height / stand.unit
+        self.phase = _phases(stand, gait)
+        self.arms = _arms(stand)
+        times = np.arange(SAMPLES) / SAMPLES * self.period
+        w = 2 * np.pi / self.period * np.arange(HARMONICS)
+        gain = 1 / (1 + w**2 * gait.height * stand.unit**2)
+        forward = np.array([self.speed, 0, 0])
+        self.path = Harmonics(forward, self.pressure(times) - times[:, None] * forward, self.period, gain)
+
+    def goal(self, t: Array) -> Goal:
+        """Return what the robot should do at times t, shape (n,)."""
+        com = self.path(t)
+        w = 4 * np.pi / self.period  # it comes down onto each foot or pair of feet: twice a stride
+        bob = self.gait.bob * self.stand.height * np.stack([np.cos(w * t), -w * np.sin(w * t), -(w**2) * np.cos(w * t)])
+        com[..., 2] = bob
+        com[0, ..., 2] += self.stand.com[2] - (1 - self.gait.height) * self.stand.height
+        steps = np.stack([self.step(t, phase) for phase in self.phase], axis=2)
+        return Goal(com, np.zeros_like(com), steps, self._swing(t))
+
+    def step(self, t: Array, phase: float) -> Array:
+        """Return the jet of how far one foot is from where it stands in the standing posture, shape (3, n, 3)."""
+        gait = self.gait
+        turns, u = self._stride(t, phase)
+        pace = 1 / self.period / (1 - gait.duty)
+        s = (u - gait.duty) / (1 - gait.duty)
+        stride = self.speed * self.period
+        x = stride * stair(s, pace)
+        x[0] += stride * (turns + phase + gait.duty / 2)  # below the hip in the middle of its stance
+        return np.stack([x, np.zeros_like(x), gait.lift * self.stand.height * hop(s, pace)], axis=-1)
+
+    def stands(self, t: Array) -> Array:
+        """Return which of the model's feet stand, shape (n, k)."""
+        out = np.zeros((len(t), len(self.stand.model.feet)), bool)
+        for leg, phase in zip(self.stand.legs, self.phase):
+            out[:, leg.feet] = (self._stride(t, phase)[1].real <= self.gait.duty)[:, None]
+        return out
+
+    def pressure(self, t: Array) -> Array:
+        """Return where the centre of pressure should be: the mean of the feet, each as it is loaded, shape (n, 3)."""
+        ramp = min(self.gait.duty - 0.5, 0.25)
+        load, loaded = np.zeros((len(t), 1)), np.zeros((len(t), 3))
+        for leg, phase in zip(self.stand.legs, self.phase):
+            u = self._stride(t, phase)[1]
+            w = (stair(u / ramp, 1)[0] * stair((self.gait.duty - u) / ramp, 1)[0])[:, None]
+            load, loaded = load + w, loaded + w * (leg.center + self.step(t, phase)[0] * [1, 1, 0])
+        return np.asarray(loaded / load)
+
+    def _stride(self, t: Array, phase: float) -> tuple[Array, Array]:
+        """Return how many strides a leg has begun before this one, and how far it is in this one, 0 to 1."""
+        strides = t / self.period - phase
+        turns = np.floor(strides.real)
+        return turns, strides - turns
+
+    def _swing(self, t: Array) -> Array:
+        """Return the jet of the arms, each against the leg of its side, shape (3, n, nv)."""
+        out = np.zeros((3, len(t), self.stand.model.nv), t.dtype)
+        w = 2 * np.pi / self.period
+        for column, sign, left in self.arms:
+            leg = self.phase[int(not left)]
+            angle = w * t - 2 * np.pi * (leg + self.gait.duty / 2)
+            jet = np.stack([-np.sin(angle), -w * np.cos(angle), w**2 * np.sin(angle)])
+            out[..., column] = sign * self.gait.swing * jet
+        return out
+
+
+def _phases(stand: Stand, gait: Gait) -> list[float]:
+    """Return each leg's phase, whatever order the legs come in."""
+    if len(stand.legs) != len(gait.phases):
+        raise ModelError(f"{stand.model.name!r}: expected {len(gait.phases)} legs for this gait, got {len(stand.legs)}")
+    off = [leg.center - stand.com for leg in stand.legs]
+    seats = [2 * int(p[0] < 0) * (len(off) == 4) + int(p[1] < 0) for p in off]
+    return [gait.phases[seat] for seat in seats]
+
+
+def _arms(stand: Stand) -> list[tuple[int, float, bool]]:
+    """Return the joint that swings each arm: its place in v, the sign that swings back, and whether it is the left one.
+
+    The first on its branch that is beside the middle plane, turns about y and is of no leg.
+    """
+    model, T = stand.model, forward_kinematics(stand.model, stand.q).placement
+    legs, found = set(free_columns_of_legs(stand)), list[tuple[int, float, bool]]()
+    taken = set[int]()
+    for i in range(2, model.nbodies):
+        joint, column = model.joints[i], model.v_slice[i].start
+        axis = T[i].rotation @ joint.subspace()[:3, 0] if joint and joint.nv == 1 else np.zeros(3)
+        beside = abs(T[i].translation[1]) > 0.05 * stand.height
+        if column not in legs and beside and abs(axis[1]) > 0.9 and not taken & set(model.support(i)):
+            taken.add(i)
+            found.append((column, float(np.sign(axis[1])), bool(T[i].translation[1] > 0)))
+    return found
+
+
+def free_columns_of_legs(stand: Stand) -> list[int]:
+    """Return the places in v of all joints of legs."""
+    return [column for leg in stand.legs for column in leg.columns]

@@ -1,0 +1,62 @@
+"""The centroidal model: the whole momentum, and nothing about torques (49.10)."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from ..centroidal import centroidal_momentum_rate
+from ..checks import Array
+from .template import Template, full_rate
+
+__all__ = ["Centroidal", "Full"]
+
+
+class Centroidal(Template):
+    """The rate of the whole centroidal momentum, ḣ_G = A_G a + Ȧ_G v: exact, but silent about the joints' torques.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import twistwrench as tw
+    >>> model, rng = tw.load("go2"), np.random.default_rng(0)
+    >>> v, a = rng.standard_normal((2, model.nv))
+    >>> bool(Centroidal.of(model, model.standing()).residual(model.standing(), v, a).relative < 1e-13)
+    True
+    """
+
+    name: ClassVar[str] = "centroidal"
+    assumes: ClassVar[str] = "Nothing; it does not tell the joints' torques."
+
+    def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
+        """Return the whole state."""
+        return q, v, a
+
+    def law(self, *known: Array) -> Array:
+        """Return A_G a + Ȧ_G v."""
+        return centroidal_momentum_rate(self.model, *known)
+
+
+class Full(Template):
+    """The full model: RNEA, whose base rows are ḣ_G less the weight, and whose other rows are the torques.
+
+    What the other templates are compared with.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import twistwrench as tw
+    >>> model, rest = tw.load("go2"), np.zeros(18)
+    >>> bool(np.abs(Full.of(model, model.standing()).rate(model.standing(), rest, rest)).max() < 1e-12)
+    True
+    """
+
+    name: ClassVar[str] = "full"
+    assumes: ClassVar[str] = "Nothing."
+
+    def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
+        """Return the whole state."""
+        return q, v, a
+
+    def law(self, *known: Array) -> Array:
+        """Return the base's rows of RNEA at the centre of mass, and the weight."""
+        return full_rate(self.model, *known)

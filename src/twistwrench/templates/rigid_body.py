@@ -1,0 +1,90 @@
+"""The single rigid body (SRBM): the whole robot turns as its base does (49.10)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array
+from ..model import Model
+from .reading import com_acceleration, locked_inertia
+from .template import Template, checked
+
+__all__ = ["FrozenRigidBody", "RigidBody"]
+
+
+class RigidBody(Template):
+    """One rigid body that turns as the base does, with the inertia that the robot has in each configuration.
+
+    l̇_G = m p̈_G and k̇_G = R (I ω̇ + ω × I ω): R places the base, ω is its angular velocity in its own axes, and I is the
+    inertia about the centre of mass of the robot with its joints locked at q. What the joints' own motion does to the
+    angular momentum is left out.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import twistwrench as tw
+    >>> model, q = tw.load("go2"), tw.load("go2").standing()
+    >>> turning = np.array([1.0, 2, 3, 0, 0, 0, *np.zeros(12)])  # with joints that are still: it is a rigid body
+    >>> bool(RigidBody.of(model, q).residual(q, turning, 5 * turning).relative < 1e-13)
+    True
+    """
+
+    name: ClassVar[str] = "srbm"
+    assumes: ClassVar[str] = "The joints' motion has no angular momentum."
+
+    def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
+        """Return I, R, ω, ω̇ and p̈_G."""
+        return self._inertia(q), *turning(self.model, q, v, a), com_acceleration(self.model, q, v, a)
+
+    def law(self, *known: Array) -> Array:
+        """Return (R (I ω̇ + ω × I ω), m p̈_G)."""
+        I, R, w, w_dot, p_ddot = known
+        k_dot = np.matvec(R, np.matvec(I, w_dot) + np.cross(w, np.matvec(I, w)))
+        return np.concatenate([k_dot, self.model.mass * p_ddot], axis=-1)
+
+    def _inertia(self, q: Array) -> Array:
+        return locked_inertia(self.model, q)
+
+
+@dataclass(frozen=True, eq=False)
+class FrozenRigidBody(RigidBody):
+    """As `RigidBody`, but with the inertia of one configuration, the one the template was made at.
+
+    Attributes
+    ----------
+    inertia : ndarray, shape (3, 3)
+        About the centre of mass, in the base's axes, kg m².
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> FrozenRigidBody.of(model, model.standing()).inertia.diagonal().round(3)
+    array([0.166, 0.501, 0.562])
+    """
+
+    inertia: Array = field(repr=False)
+
+    name: ClassVar[str] = "srbm_frozen"
+    assumes: ClassVar[str] = "The joints' motion has no angular momentum, and does not change the inertia either."
+
+    @classmethod
+    def of(cls, model: Model, q: ArrayLike) -> Self:
+        """Make the template from a model and a configuration: see `Template.of`."""
+        held = checked(model, q)
+        return cls(*held, locked_inertia(model, held[1]))
+
+    def _inertia(self, q: Array) -> Array:
+        return np.broadcast_to(self.inertia.astype(q.dtype), (*q.shape[:-1], 3, 3))
+
+
+def turning(model: Model, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
+    """Return how the base is placed and turns: R, and ω and ω̇ in its own axes."""
+    base = model.joints[1]
+    if base is None:
+        raise RuntimeError("joint 1 is the floating base")
+    return base.transform(q[..., model.q_slice[1]]).rotation, v[..., :3], a[..., :3]
