@@ -1,0 +1,114 @@
+"""What the directions of a set of contacts weigh: one singular value decomposition that all of this folder shares.
+
+With M = L Lᵀ and Y = L⁻¹ Jᵀ the matrix J M⁻¹ Jᵀ is YᵀY: Y holds the rows of J in units of kinetic energy, so that a
+radian and a metre in v count for what they move. Its singular values decide the rank, without squaring them. Every
+row of J must be a velocity in m/s; `levered` sees to that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..checks import Array
+from ..errors import SingularError
+from ..kinematics import frame_placement
+from ..model import Model
+from .types import Contact
+
+__all__ = ["Decomposition", "decompose", "lever", "point_map"]
+
+ROUNDINGS = 100
+"""A singular value of fewer times the rounding in Y counts as zero."""
+
+
+class Decomposition(NamedTuple):
+    """Y = L⁻¹ Jᵀ = U diag(s) Vᵀ, of which only what is above rounding is inverted."""
+
+    L: Array
+    """Lower triangle, shape (..., n, n): M = L Lᵀ."""
+    U: Array
+    """Shape (..., n, k), k = min(n, m)."""
+    s_inv: Array
+    """1/s, and 0 where s is rounding, shape (..., k)."""
+    V: Array
+    """Shape (..., m, k)."""
+
+    @property
+    def rank(self) -> Array:
+        """How many rows of J are independent."""
+        return np.asarray((self.s_inv > 0).sum(axis=-1))
+
+    def respond(self, change: Array) -> tuple[Array, Array]:
+        """Return the least x, in units of √(2 × kinetic energy), and the least λ that bring J a nearest to `change`.
+
+        x = Lᵀ a with M a = Jᵀ λ: Gauss's principle of least constraint.
+        """
+        asked = np.matvec(self.V.mT, change) * self.s_inv
+        return np.matvec(self.U, asked), np.matvec(self.V, asked * self.s_inv)
+
+    def unwhiten(self, x: Array) -> Array:
+        """Return a of x = Lᵀ a."""
+        return np.asarray(np.linalg.solve(self.L.mT, x[..., None])[..., 0])
+
+    def balance(self, b: Array) -> Array:
+        """Return the least λ that brings Jᵀ λ nearest to b, in the metric of M."""
+        white = np.linalg.solve(self.L, b[..., None])[..., 0]
+        least: Array = np.matvec(self.V, np.matvec(self.U.mT, white) * self.s_inv)
+        return least
+
+
+def decompose(M: Array, J: Array) -> Decomposition:
+    """Decompose J M⁻¹ Jᵀ without forming it.
+
+    Rounding in Y comes from J and from the elimination with L, and goes through L⁻¹: a bound for both, entry by entry,
+    is ε |L⁻¹| (|L| |Y| + |Jᵀ|). It scales as Y does, whatever the units of v.
+    """
+    try:
+        L = np.linalg.cholesky(M)
+    except np.linalg.LinAlgError:
+        raise SingularError(
+            "the mass matrix is not positive definite: some joint moves nothing that has inertia"
+        ) from None
+    Y = np.linalg.solve(L, J.mT)
+    U, s, Vt = np.linalg.svd(Y, full_matrices=False)
+    doubt = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
+    noise = np.finfo(np.float64).eps * np.sqrt((doubt**2).sum(axis=(-2, -1)))[..., None]
+    kept = s > ROUNDINGS * noise
+    return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
+
+
+def lever(model: Model, q: Array, contacts: Sequence[Contact]) -> Array:
+    """Return W, shape (..., m, m), for which W J v is in m/s: a turn counts as it moves the points of its contact.
+
+    λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G.
+    """
+    W = np.zeros((*q.shape[:-1], *2 * (sum(c.dim for c in contacts),)))
+    end = 0
+    for c in contacts:
+        turn = _turn(model, q, c)
+        rows, end = slice(end, end + c.dim), end + c.dim
+        W[..., rows, rows] = np.linalg.cholesky(c.spread @ c.spread.mT).mT @ turn.mT
+    return W
+
+
+def point_map(model: Model, q: Array, contacts: Sequence[Contact]) -> Array:
+    """Return P, shape (..., m, 3 k): λ = P f of the forces f at all points, each in its contact's axes."""
+    m, k = sum(c.dim for c in contacts), sum(3 * len(c.points) for c in contacts)
+    P = np.zeros((*q.shape[:-1], m, k))
+    row = column = 0
+    for c in contacts:
+        rows, columns = slice(row, row + c.dim), slice(column, column + 3 * len(c.points))
+        P[..., rows, columns] = _turn(model, q, c) @ c.spread
+        row, column = rows.stop, columns.stop
+    return P
+
+
+def _turn(model: Model, q: Array, contact: Contact) -> Array:
+    """Return the matrix that takes a contact's λ from its own axes to the world's, shape (..., dim, dim)."""
+    R = contact.axes(frame_placement(model, q, contact.frame).rotation)
+    turn = np.zeros((*R.shape[:-2], 6, 6))
+    turn[..., :3, :3] = turn[..., 3:, 3:] = R
+    return turn[..., contact.rows, contact.rows]

@@ -1,0 +1,189 @@
+"""Forward dynamics under contact: M q̈ + h = Sᵀ τ + Jᵀ λ with J q̈ + J̇ v = 0 (49.9).
+
+Among all accelerations that the contacts allow the robot takes the one nearest to that of its free motion, in the
+metric of M (Gauss's principle of least constraint). The pseudo-inverse takes that one step also where rows of J
+depend on each other; a damped (proximal) solve would have to be repeated to reach the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._scalars import which
+from ..checks import Array
+from ..errors import SingularError
+from ..forward_dynamics import aba
+from ..inverse_dynamics import external
+from ..mass_matrix import crba
+from ..model import Model
+from ..plucker import SE3
+from .decomposition import decompose, lever
+from .rows import as_contacts, constraint_bias, constraint_jacobian, contact_errors, per_contact, real_state
+from .types import Contact
+
+__all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
+
+CONTRADICTION = 1e-8
+"""What the contacts cannot be given, relative to the terms of J q̈ + J̇ v; rounding stays far below."""
+
+
+@dataclass(frozen=True)
+class Baumgarte:
+    """A spring and a damper that bring contacts back to their anchors: J q̈ + J̇ v = −2 ζ ω J v − ω² δ.
+
+    Parameters
+    ----------
+    frequency : float
+        ω, above 0, rad/s.
+    anchors : mapping of str to SE3
+        Where the contacts' frames belong, as from `contact_placements`; δ is how far they are from there.
+    damping : float, optional
+        ζ, at least 0; at 1 they come back fastest without overshoot.
+
+    Raises
+    ------
+    ValueError
+        If `frequency` or `damping` is out of bounds.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> feet = [tw.PointContact(foot, 0.6) for foot in model.feet]
+    >>> tw.Baumgarte(20.0, tw.contact_placements(model, model.standing(), feet)).damping
+    1.0
+    """
+
+    frequency: float
+    anchors: Mapping[str, SE3]
+    damping: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 0 < self.frequency < np.inf:
+            raise ValueError(f"frequency: expected a number above 0, got {self.frequency!r}")
+        if not 0 <= self.damping < np.inf:
+            raise ValueError(f"damping: expected a number of at least 0, got {self.damping!r}")
+
+
+@dataclass(frozen=True)
+class ContactDynamics:
+    """What `contact_forward_dynamics` returns.
+
+    Attributes
+    ----------
+    qdd : ndarray, shape (..., nv)
+        q̈, rad/s² or m/s².
+    forces : dict of str to ndarray, shape (..., 3) or (..., 6)
+        λ on the robot, by the contact's frame: f, or (τ, f), at the frame's origin in the axes of the world, N m and
+        N. Of all that give this q̈ the ones of least norm, a sole's counted as the forces at its corners.
+    rank : ndarray of int, shape (...)
+        How many rows of J are independent of each other.
+    redundant : ndarray of int, shape (...)
+        How many are not. Where there are any, `forces` are one choice of many.
+    slip : ndarray, shape (..., m)
+        J v, which a contact that holds has not, in the order of the rows of `constraint_jacobian`.
+    residual : ndarray, shape (..., m)
+        What is left of J q̈ + J̇ v − what was asked, rad/s² and m/s².
+    """
+
+    qdd: Array
+    forces: dict[str, Array]
+    rank: Array
+    redundant: Array
+    slip: Array
+    residual: Array
+
+
+def contact_forward_dynamics(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    tau: ArrayLike,
+    contacts: Iterable[Contact],
+    f_ext: ArrayLike | None = None,
+    *,
+    stabilise: Baumgarte | None = None,
+) -> ContactDynamics:
+    """Return the acceleration of a robot whose contacts hold, and the forces that hold them.
+
+    The contacts stick, and pull where they must: friction is not looked at. They may be redundant (four corners of a
+    box) or singular (straight knees): the rank is decided by the rounding in J M⁻¹ Jᵀ, whatever the units, and of the
+    forces that do the same the least are returned.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v, tau : array_like, shape (..., nv)
+        As `aba`: velocity and joint forces, of which the first six of a floating base are a wrench from outside.
+    contacts : iterable of Contact
+        None at all is the free motion.
+    f_ext : array_like, shape (..., nbodies, 6), optional
+        As `aba`.
+    stabilise : Baumgarte, optional
+        Brings the contacts back to their anchors; without it their accelerations are zero.
+
+    Returns
+    -------
+    ContactDynamics
+        In double precision.
+
+    Raises
+    ------
+    SingularError
+        If the contacts contradict each other, so that no acceleration suits all; or as `aba`.
+    NameNotFound, ShapeError, ValueError
+        As `constraint_jacobian`; complex numbers; an anchor that is missing.
+
+    Notes
+    -----
+    Section 49.9. A velocity with J v ≠ 0 is no error: without `stabilise` it stays as it is, and `slip` tells it.
+
+    Examples
+    --------
+    A Go2 without torques sinks to its knees, on feet that stay where they are:
+
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> rest, feet = np.zeros(model.nv), [tw.PointContact(foot, 0.6) for foot in model.feet]
+    >>> held = tw.contact_forward_dynamics(model, model.standing(), rest, rest, feet)
+    >>> held.qdd[5].round(3), int(held.rank), int(held.redundant)
+    (np.float64(-9.92), 12, 0)
+    """
+    contacts = as_contacts(model, contacts)
+    q, v, tau, f_ext = real_state(model, q, v=v, tau=tau, f_ext=external(model, f_ext))
+    J, W = constraint_jacobian(model, q, contacts), lever(model, q, contacts)
+    slip, bias = np.matvec(J, v), constraint_bias(model, q, v, contacts)
+    target = -bias
+    if stabilise is not None:
+        error = contact_errors(model, q, contacts, stabilise.anchors)
+        target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
+    parts = decompose(crba(model, q), W @ J)
+    qdd = free = aba(model, q, v, tau, f_ext)
+    mu = np.zeros(slip.shape)
+    for _ in range(2):  # the second time takes up what rounding left
+        x, change = parts.respond(np.matvec(W, target - np.matvec(J, qdd)))
+        qdd, mu = qdd + parts.unwhiten(x), mu + change
+    residual = np.matvec(J, qdd) - target
+    terms = np.matvec(np.abs(W @ J), np.abs(free)) + np.abs(np.matvec(W, target))
+    refuse_contradiction(contacts, np.matvec(W, residual), terms)
+    forces = per_contact(contacts, np.matvec(W.mT, mu))
+    return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)
+
+
+def refuse_contradiction(contacts: Sequence[Contact], left: Array, terms: Array) -> None:
+    """Raise SingularError where what is left of the constraint, in m/s², is not small beside its terms."""
+    size = np.abs(left).max(axis=-1, initial=0)
+    wrong = np.asarray(size > CONTRADICTION * terms.max(axis=-1, initial=0))
+    if wrong.any():
+        pieces = per_contact(contacts, left[wrong][0])
+        worst = {frame: float(np.abs(piece).max()) for frame, piece in pieces.items()}
+        least = 0.01 * max(worst.values())
+        missing = ", ".join(f"{frame!r} {miss:.3g} m/s²" for frame, miss in worst.items() if miss > least)
+        raise SingularError(
+            f"the contacts contradict each other{which(wrong)}: no acceleration keeps all still; {missing} is left"
+        )

@@ -1,0 +1,255 @@
+"""Inverse dynamics under contact: which joint forces and contact forces make the robot move as it should (49.9).
+
+The six base rows of M q̈ + h = Sᵀ τ + Jᵀ λ have no τ: they say what the contacts have to do together. Of all forces at
+the touching points that do it the least are chosen, without limits or within the friction cones; τ follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._scalars import which
+from ..checks import Array
+from ..errors import ShapeError, SingularError
+from ..inverse_dynamics import external, rnea
+from ..mass_matrix import crba
+from ..model import Model
+from .decomposition import Decomposition, decompose, point_map
+from .programme import least_breach, least_within
+from .rows import as_contacts, constraint_bias, constraint_jacobian, per_contact, real_state
+from .types import Contact, Pyramid
+
+__all__ = ["ContactForces", "Task", "contact_inverse_dynamics", "friction_inverse_dynamics"]
+
+BALANCED = 1e-8
+"""What the contacts leave over of what the base needs, relative to it; rounding stays far below."""
+
+
+@dataclass(frozen=True)
+class ContactForces:
+    """What `contact_inverse_dynamics` and `friction_inverse_dynamics` return.
+
+    Attributes
+    ----------
+    tau : ndarray, shape (..., nv)
+        Joint forces as `aba` takes them, N m or N; the six of a floating base are zero.
+    forces : dict of str to ndarray, shape (..., 3) or (..., 6)
+        λ on the robot, by the contact's frame: f, or (τ, f), at the frame's origin in the axes of the world, N m and N.
+    binding : tuple of str
+        The limits that the forces lean on, by names; empty where none was asked for.
+    residual : ndarray, shape (..., m)
+        J a + J̇ v, the acceleration that `a` itself asks of the contacts: zero if it keeps them still, rad/s² and m/s².
+    """
+
+    tau: Array
+    forces: dict[str, Array]
+    binding: tuple[str, ...]
+    residual: Array
+
+
+def contact_inverse_dynamics(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    a: ArrayLike,
+    contacts: Iterable[Contact],
+    f_ext: ArrayLike | None = None,
+) -> ContactForces:
+    """Return the joint forces and the least contact forces of a motion: M a + h = Sᵀ τ + Jᵀ λ.
+
+    Forces may pull, and friction is not looked at. With a fixed base the joints do all, and λ = 0 is the least.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v, a : array_like, shape (..., nv)
+    contacts : iterable of Contact
+    f_ext : array_like, shape (..., nbodies, 6), optional
+        Wrench (τ, f) on each body from outside, as `rnea`.
+
+    Returns
+    -------
+    ContactForces
+        In double precision. The forces are the least at the touching points: of a sole, at its corners.
+
+    Raises
+    ------
+    SingularError
+        If no forces at these contacts make the base move so; the message says what is left over.
+    NameNotFound, ShapeError, ValueError
+        As `constraint_jacobian`; complex numbers.
+
+    See Also
+    --------
+    twistwrench.friction_inverse_dynamics : the same within the friction cones.
+
+    Notes
+    -----
+    Section 49.9. Moments and forces are weighed against each other by the inertia of the robot as one rigid body, so
+    that no unit decides the rank.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> rest, feet = np.zeros(model.nv), [tw.PointContact(foot, 0.6) for foot in model.feet]
+    >>> held = tw.contact_inverse_dynamics(model, model.standing(), rest, rest, feet)
+    >>> sum(held.forces.values()).round(3) + 0.0
+    array([  0.   ,   0.   , 157.794])
+    """
+    task = Task.of(model, q, v, a, contacts, f_ext)
+    return task.result(model, task.least, ())
+
+
+def friction_inverse_dynamics(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    a: ArrayLike,
+    contacts: Iterable[Contact],
+    f_ext: ArrayLike | None = None,
+    *,
+    sides: int = 8,
+    pyramid: Pyramid = "inner",
+) -> ContactForces:
+    """Return the joint forces and the least contact forces within the friction cones: a quadratic programme.
+
+    No contact pulls, none slips, and the pressure on a sole stays within it. Needs the extra
+    ``pip install "twistwrench[qp]"``, unless the least forces of all obey anyway.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (nq,)
+        One state.
+    v, a : array_like, shape (nv,)
+    contacts : iterable of Contact
+    f_ext : array_like, shape (nbodies, 6), optional
+    sides : int, optional
+        Of the pyramids that stand for the cones, at least 3. An inner pyramid has its sides at cos(π/sides) of μ: at
+        71 % with 4, at 92 % with 8, at 98 % with 16.
+    pyramid : {"inner", "outer"}, optional
+        Inner: what is found holds. Outer: what is not found does not hold.
+
+    Returns
+    -------
+    ContactForces
+        In double precision.
+
+    Raises
+    ------
+    SingularError
+        If no forces within the limits make the robot move so; the message says which limits stand in the way.
+    ModuleNotFoundError
+        If the solver is not installed.
+    NameNotFound, ShapeError, ValueError
+        As `contact_inverse_dynamics`; a batch; less than 3 sides; a pyramid that is neither.
+
+    Notes
+    -----
+    Sections 49.9 and 49.4.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> a, feet = np.zeros(model.nv), [tw.PointContact(foot, 0.6) for foot in model.feet]
+    >>> a[3] = 5.0  # m/s², forwards
+    >>> push = tw.friction_inverse_dynamics(model, model.standing(), 0 * a, a, feet)
+    >>> bool(push.forces["RL_foot"][0] <= 0.6 * push.forces["RL_foot"][2])
+    True
+    """
+    task = Task.of(model, q, v, a, contacts, f_ext)
+    if task.least.ndim != 1:
+        raise ShapeError(f"q, v, a: expected one state, got a batch of shape {task.least.shape[:-1]}")
+    A, names = limits(task.contacts, sides, pyramid)
+    free = task.free
+    found = least_within(A @ free, -A @ task.least)
+    if found is None:
+        worst = breached(names, least_breach(A @ free, -A @ task.least))
+        raise SingularError(f"cannot: no forces within the limits do this; they would have to break {worst}")
+    z, tight = found
+    binding = tuple(dict.fromkeys(name for name, leans in zip(names, tight) if leans))
+    return task.result(model, task.least + free @ z, binding)
+
+
+def breached(names: Sequence[str], by: Array) -> str:
+    """Say which limits would have to be broken, and by how much, the worst four first."""
+    worst = {names[k]: float(by[k]) for k in np.argsort(by) if by[k] > 0.01 * by.max()}  # of equal names the larger
+    ranked = sorted(worst, key=lambda name: -worst[name])
+    more = f" and {len(ranked) - 4} more" if len(ranked) > 4 else ""
+    return ", ".join(f"{name} by {worst[name]:.3g} N" for name in ranked[:4]) + more
+
+
+def limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> tuple[Array, list[str]]:
+    """Return A with A f ≤ 0 for forces f at all points, each in its contact's axes, and the names of its rows."""
+    blocks = [c.limits(sides, pyramid) for c in contacts]
+    A = np.zeros((sum(len(block) for block in blocks), sum(block.shape[1] for block in blocks)))
+    row = column = 0
+    for block in blocks:
+        A[row : row + block.shape[0], column : column + block.shape[1]] = block
+        row, column = row + block.shape[0], column + block.shape[1]
+    kinds = [*["friction"] * sides, "lift-off"]
+    return A, [f"{kind} at {point}" for c in contacts for point in c.point_names for kind in kinds]
+
+
+@dataclass(frozen=True)
+class Task:
+    """What the contacts have to do together, and the least forces f at their points that do it.
+
+    f has three entries for each point, in the axes of its contact; ``free`` spans what may be added to it.
+    """
+
+    contacts: tuple[Contact, ...]
+    b: Array
+    J: Array
+    P: Array
+    parts: Decomposition
+    least: Array
+    residual: Array
+
+    @classmethod
+    def of(
+        cls,
+        model: Model,
+        q: ArrayLike,
+        v: ArrayLike,
+        a: ArrayLike,
+        contacts: Iterable[Contact],
+        f_ext: ArrayLike | None,
+    ) -> Task:
+        """Set up and solve the base rows; raise SingularError if no forces at these contacts do."""
+        contacts = as_contacts(model, contacts)
+        q, v, a, f_ext = real_state(model, q, v=v, a=a, f_ext=external(model, f_ext))
+        b, J, P = rnea(model, q, v, a, f_ext), constraint_jacobian(model, q, contacts), point_map(model, q, contacts)
+        base = slice(0, 6 if model.base == "floating" else 0)
+        parts = decompose(crba(model, q)[..., base, base], P.mT @ J[..., base])
+        least = parts.balance(b[..., base])
+        left = b[..., base] - np.matvec(J[..., base].mT @ P, least)
+        white, whole = (np.linalg.solve(parts.L, x[..., None])[..., 0] for x in (left, b[..., base]))
+        missed = np.abs(white).max(axis=-1, initial=0) > BALANCED * np.abs(whole).max(axis=-1, initial=0)
+        if np.any(missed):
+            names = [c.frame for c in contacts]
+            raise SingularError(
+                f"no forces at {names} do this{which(np.asarray(missed))}: (τ, f) = {left[missed][0]} is left over"
+            )
+        return cls(contacts, b, J, P, parts, least, np.matvec(J, a) + constraint_bias(model, q, v, contacts))
+
+    @property
+    def free(self) -> Array:
+        """Return the forces that press and do nothing else, orthonormal columns, shape (3 k, ...)."""
+        V = self.parts.V[:, self.parts.s_inv > 0]
+        return np.linalg.qr(V, mode="complete")[0][:, V.shape[1] :]
+
+    def result(self, model: Model, f: Array, binding: tuple[str, ...]) -> ContactForces:
+        """Return joint forces and contact forces of the forces f at the points."""
+        force = np.matvec(self.P, f)
+        tau = self.b - np.matvec(self.J.mT, force)
+        if model.base == "floating":
+            tau[..., :6] = 0
+        return ContactForces(tau, per_contact(self.contacts, force), binding, self.residual)

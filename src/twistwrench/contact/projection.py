@@ -1,0 +1,94 @@
+"""Back to where the contacts hold: a configuration and a velocity that drift has moved away (49.9)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._scalars import which
+from ..checks import Array
+from ..errors import SingularError
+from ..mass_matrix import crba
+from ..model import Model
+from ..plucker import SE3
+from .decomposition import decompose, lever
+from .impacts import impact
+from .rows import as_contacts, constraint_jacobian, contact_errors, per_contact, real_state
+from .types import Contact
+
+__all__ = ["project_state"]
+
+
+def project_state(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    contacts: Iterable[Contact],
+    anchors: Mapping[str, SE3],
+    *,
+    tolerance: float = 1e-12,
+    steps: int = 20,
+) -> tuple[Array, Array]:
+    """Return the nearby q at which the contacts are at their anchors, and the nearest v with which they stay there.
+
+    Newton's method for q, each step the least in the metric of M; then what `impact` does to v.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+    contacts : iterable of Contact
+    anchors : mapping of str to SE3
+        Where the contacts' frames belong, as from `contact_placements`.
+    tolerance : float, optional
+        How far from its anchor a contact may stay, m; a sole's turn counts as it moves its corners.
+    steps : int, optional
+        At most so many.
+
+    Returns
+    -------
+    q : ndarray, shape (..., nq)
+    v : ndarray, shape (..., nv)
+        In double precision.
+
+    Raises
+    ------
+    SingularError
+        If the contacts do not come to their anchors: out of reach, or too far away for Newton's method.
+    NameNotFound, ShapeError, ValueError
+        As `constraint_jacobian`; complex numbers; an anchor that is missing.
+
+    Notes
+    -----
+    Section 49.9. Near a singular posture (straight knees) a target just out of reach has no solution near by, and one
+    just within reach takes more steps.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> feet = [tw.PointContact(foot, 0.6) for foot in model.feet]
+    >>> anchors = tw.contact_placements(model, model.standing(), feet)
+    >>> drifted = model.integrate(model.standing(), np.full(model.nv, 1e-3))
+    >>> q, v = tw.project_state(model, drifted, np.ones(model.nv), feet, anchors)
+    >>> np.abs(tw.constraint_jacobian(model, q, feet) @ v).max() < 1e-12
+    np.True_
+    """
+    contacts = as_contacts(model, contacts)
+    q, v = real_state(model, q, v=v)
+    for _ in range(steps + 1):
+        W = lever(model, q, contacts)
+        error = np.matvec(W, contact_errors(model, q, contacts, anchors))
+        far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
+        if not far.any():
+            return q, impact(model, q, v, contacts).v
+        parts = decompose(crba(model, q), W @ constraint_jacobian(model, q, contacts))
+        q = model.integrate(q, -parts.unwhiten(parts.respond(error)[0]))
+    left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
+    worst = max(left, key=lambda frame: left[frame])
+    raise SingularError(
+        f"the contacts do not come to their anchors in {steps} steps{which(far)}: {worst!r} is {left[worst]:.3g} m away"
+    )

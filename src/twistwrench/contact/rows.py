@@ -1,0 +1,183 @@
+"""The rows of a set of contacts: how fast their frames move, J v, and how that changes, J q̈ + J̇ v (49.9).
+
+All in the axes of the world, at the origin of each contact's frame, in the order of the contacts. J v is then the
+velocity of a point that goes along with the robot, and its rate is that point's classical acceleration: this is
+what vanishes where the point stands still, not the linear half of the spatial acceleration, which is ω × v less.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array
+from ..errors import unknown_name
+from ..kinematics import frame_bias_acceleration, frame_jacobian, frame_placement
+from ..model import Model
+from ..plucker import SE3
+from ..rotation import log3
+from .types import Contact
+
+__all__ = [
+    "as_contacts",
+    "constraint_bias",
+    "constraint_jacobian",
+    "contact_errors",
+    "contact_placements",
+    "per_contact",
+    "real_state",
+]
+
+
+def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> Array:
+    """Return J of contacts of any kind: they hold still where J v = 0.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    contacts : iterable of Contact
+        `PointContact` or `SurfaceContact`.
+
+    Returns
+    -------
+    ndarray, shape (..., m, nv)
+        In the order of the contacts, for each its rows of (ω, v) of its frame, in the axes of the world.
+
+    Raises
+    ------
+    NameNotFound
+        If the model has no such frame.
+    ShapeError, ValueError
+        As `Model.state`; or if something else than contacts came, a frame twice or one that the world carries.
+
+    See Also
+    --------
+    twistwrench.contact_jacobian : the same of point contacts, by the names of their frames.
+
+    Notes
+    -----
+    Section 49.9.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("humanoid")
+    >>> soles = [tw.SurfaceContact(f"{side}_sole", (0.076, 0.0275), 0.6) for side in ("left", "right")]
+    >>> tw.constraint_jacobian(model, model.neutral(), soles).shape
+    (12, 27)
+    """
+    contacts = as_contacts(model, contacts)
+    (q,) = model.state(q)
+    rows = [frame_jacobian(model, q, c.frame, "local_world_aligned")[..., c.rows, :] for c in contacts]
+    return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+
+
+def constraint_bias(model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact]) -> Array:
+    """Return J̇ v of contacts of any kind: their accelerations are J q̈ + J̇ v.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+    contacts : iterable of Contact
+
+    Returns
+    -------
+    ndarray, shape (..., m)
+        In the order of the rows of `constraint_jacobian`: rad/s² and m/s², the linear ones classical.
+
+    Raises
+    ------
+    NameNotFound, ShapeError, ValueError
+        As `constraint_jacobian`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> bob = [tw.PointContact("bob", 0.6)]  # at 1 m, at 2 rad/s: ω² r towards the pivot
+    >>> tw.constraint_bias(tw.load("pendulum"), [0.0], [2.0], bob).round(12)
+    array([0., 0., 4.])
+    """
+    contacts = as_contacts(model, contacts)
+    q, v = model.state(q, v=v)
+    rows = [frame_bias_acceleration(model, q, v, c.frame, "local_world_aligned")[..., c.rows] for c in contacts]
+    return np.concatenate([np.zeros((*q.shape[:-1], 0), q.dtype), *rows], axis=-1)
+
+
+def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> dict[str, SE3]:
+    """Return where the contacts' frames are: the anchors that later states are held against.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    contacts : iterable of Contact
+
+    Returns
+    -------
+    dict of str to SE3
+        By the name of the frame, in the world.
+
+    Raises
+    ------
+    NameNotFound, ShapeError, ValueError
+        As `constraint_jacobian`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> anchors = tw.contact_placements(model, model.standing(), [tw.PointContact("FR_foot", 0.6)])
+    >>> anchors["FR_foot"].translation.round(3) + 0.0
+    array([ 0.193, -0.142,  0.   ])
+    """
+    return {c.frame: frame_placement(model, q, c.frame) for c in as_contacts(model, contacts)}
+
+
+def contact_errors(model: Model, q: Array, contacts: Sequence[Contact], anchors: Mapping[str, SE3]) -> Array:
+    """Return how far the contacts are from their anchors, in the order of the rows of J, rad and m."""
+    for c in contacts:
+        if c.frame not in anchors:
+            raise unknown_name("anchor", c.frame, anchors)
+    parts = [np.zeros((*q.shape[:-1], 0), q.dtype)]
+    for c in contacts:
+        now, then = frame_placement(model, q, c.frame), anchors[c.frame]
+        turned, moved = log3(now.rotation @ then.rotation.mT), now.translation - then.translation
+        parts.append(np.concatenate([turned, moved], axis=-1)[..., c.rows])
+    return np.concatenate(parts, axis=-1)
+
+
+def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
+    """Return contacts as a tuple, each on a frame of its own that the robot carries."""
+    if isinstance(contacts, str | Contact):
+        raise ValueError(f"contacts: expected a sequence of contacts, got the single {contacts!r}")
+    contacts = tuple(contacts)
+    for c in contacts:
+        if not isinstance(c, Contact):
+            hint = f"; PointContact({c!r}, mu) makes one of a frame" if isinstance(c, str) else ""
+            raise ValueError(f"contacts: expected PointContact or SurfaceContact, got {c!r}{hint}")
+        if model.frame(c.frame).body == 0:
+            raise ValueError(f"contact {c.frame!r}: the world carries this frame; it cannot touch anything")
+    frames = [c.frame for c in contacts]
+    twice = [name for name in dict.fromkeys(frames) if frames.count(name) > 1]
+    if twice:
+        raise ValueError(f"contacts: expected one contact on each frame, got more on {twice}")
+    return contacts
+
+
+def per_contact(contacts: Sequence[Contact], rows: Array) -> dict[str, Array]:
+    """Cut what has one entry for each row of J into pieces by the names of the frames."""
+    ends = np.cumsum([c.dim for c in contacts]).tolist()
+    return {c.frame: rows[..., end - c.dim : end] for c, end in zip(contacts, ends)}
+
+
+def real_state(model: Model, q: ArrayLike, **others: ArrayLike) -> tuple[Array, ...]:
+    """Check a state as `Model.state` does, and bring it to double precision: the decompositions know no other."""
+    state = model.state(q, **others)
+    if state[0].dtype.kind == "c":
+        raise ValueError(f"q: expected real numbers in all arguments, got {state[0].dtype}")
+    return tuple(x.astype(np.float64) for x in state)

@@ -1,0 +1,178 @@
+"""A robot at rest on its contacts: whether it can stand there, and how far it is from slipping or tipping (49.9)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from copy import copy
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..centroidal import center_of_mass
+from ..checks import Array
+from ..errors import ShapeError, SingularError
+from ..kinematics import frame_placement
+from ..model import Model
+from .inverse import Task, limits
+from .programme import least_within
+from .rows import as_contacts, real_state
+from .types import Contact, Pyramid
+
+__all__ = ["StanceMargins", "stance_margins"]
+
+PRECISION = 1e-6
+MOST = 2.0**20
+
+
+@dataclass(frozen=True)
+class StanceMargins:
+    """What `stance_margins` returns.
+
+    Attributes
+    ----------
+    stands : bool
+        Whether forces within the limits of the contacts hold the robot.
+    friction_used : float
+        The least multiple of the coefficients of friction with which it would stand: 0 where it needs none, 1 where it
+        is about to slip, infinity where no friction would do.
+    tip : float
+        Distance of the centre of mass, seen along gravity, from the edge of the support polygon, m; negative outside.
+        On ground that is level, or rough enough, the robot tips where it is below zero.
+    reason : str
+        Why it cannot stand; empty where it can.
+    """
+
+    stands: bool
+    friction_used: float
+    tip: float
+    reason: str
+
+
+def stance_margins(
+    model: Model, q: ArrayLike, contacts: Iterable[Contact], *, sides: int = 16, pyramid: Pyramid = "inner"
+) -> StanceMargins:
+    """Return whether a robot can stand in a pose without pulling or slipping, and by which margins.
+
+    The motors are as strong as it takes. Needs the extra ``pip install "twistwrench[qp]"`` unless the least forces of
+    all need no friction.
+
+    Parameters
+    ----------
+    model : Model
+        With a floating base.
+    q : array_like, shape (nq,)
+        One configuration.
+    contacts : iterable of Contact
+        At least one.
+    sides, pyramid : optional
+        As `friction_inverse_dynamics`.
+
+    Returns
+    -------
+    StanceMargins
+        A robot that cannot stand is an answer, not an error.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        If the solver is not installed.
+    NameNotFound, ShapeError, ValueError
+        As `friction_inverse_dynamics`; a fixed base, no contacts or no gravity.
+
+    See Also
+    --------
+    twistwrench.static_equilibrium : the torques and the least forces, which may pull.
+    twistwrench.friction_inverse_dynamics : at rest, the forces of a robot that stands.
+
+    Notes
+    -----
+    Sections 49.9 and 49.4. The least friction is found by halving the interval, to a millionth.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> feet = [tw.PointContact(foot, 0.6) for foot in model.feet]
+    >>> margins = tw.stance_margins(model, model.standing(), feet)
+    >>> margins.stands, margins.friction_used, round(margins.tip, 3)
+    (True, 0.0, 0.142)
+    >>> tw.stance_margins(model, model.standing(), feet[1:]).reason  # without FL
+    ''
+    """
+    contacts = as_contacts(model, contacts)
+    if model.base != "floating" or not contacts or not model.gravity.any():
+        raise ValueError(f"{model.name!r}: expected a floating base, gravity and at least one contact")
+    (q,) = real_state(model, q)
+    if q.ndim != 1:
+        raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
+    tip, rest = tip_distance(model, q, contacts), np.zeros(model.nv)
+    try:
+        used = friction_used(Task.of(model, q, rest, rest, contacts, None), sides, pyramid)
+    except SingularError as error:
+        return StanceMargins(False, np.inf, tip, str(error))
+    reason = ""
+    if used > 1:
+        reason = f"it slips: it would need {used:.3g} times the friction"
+    if used == np.inf:
+        where = f"is {-tip:.3g} m outside the support polygon" if tip < 0 else "is above the support polygon"
+        reason = f"it tips: the centre of mass {where}, and some contact would have to pull"
+    return StanceMargins(used <= 1, used, tip, reason)
+
+
+def friction_used(task: Task, sides: int, pyramid: Pyramid) -> float:
+    """Return the least multiple of the coefficients of friction at which there are forces within the limits."""
+    free = task.free
+
+    def holds(multiple: float) -> bool:
+        A, _ = limits([_with_friction(c, multiple * c.mu) for c in task.contacts], sides, pyramid)
+        return least_within(A @ free, -A @ task.least) is not None
+
+    if holds(0.0):
+        return 0.0
+    low, high = 0.0, 1.0
+    while not holds(high):
+        low, high = high, 2 * high
+        if high > MOST:
+            return np.inf
+    while high - low > PRECISION * high:
+        middle = (low + high) / 2
+        low, high = (low, middle) if holds(middle) else (middle, high)
+    return high
+
+
+def _with_friction(contact: Contact, mu: float) -> Contact:
+    other = copy(contact)
+    object.__setattr__(other, "mu", mu)
+    return other
+
+
+def tip_distance(model: Model, q: Array, contacts: Iterable[Contact]) -> float:
+    """Return how far inside the support polygon the centre of mass is, seen along gravity, m."""
+    G = center_of_mass(model, q)
+    places = [frame_placement(model, q, c.frame) for c in contacts]
+    points = np.concatenate([T.translation + c.points @ c.axes(T.rotation).mT for c, T in zip(contacts, places)])
+    level = np.linalg.svd(model.gravity[None])[2][1:]  # two axes across gravity
+    return inside((points - G) @ level.mT)
+
+
+def inside(points: Array) -> float:
+    """Return how far the origin is inside the smallest convex polygon around points, shape (k, 2); outside, negative.
+
+    An edge is a line through two points that has all others on its left. Outside, the nearest of all lines between two
+    points is an edge.
+    """
+    start, end = np.repeat(points, len(points), 0), np.tile(points, (len(points), 1))
+    along, size = end - start, float(np.abs(points).max())
+    length = np.hypot(*along.mT)
+    start, along, length = (x[length > 1e-12 * size] for x in (start, along, length))
+    if len(length) == 0:  # one point only
+        return -float(np.hypot(*points[0]))
+    left = np.stack([-along[:, 1], along[:, 0]], axis=-1) / length[:, None]
+    origin = -(start * left).sum(axis=-1)  # how far each line has the origin on its left
+    others = points @ left.mT + origin
+    edges = others.min(axis=0) >= -1e-12 * size
+    if origin[edges].min() > 0:
+        return float(origin[edges].min())
+    share = np.clip(-(start * along).sum(axis=-1) / length**2, 0, 1)
+    return -float(np.hypot(*(start + share[:, None] * along).mT).min())
