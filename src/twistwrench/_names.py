@@ -41,6 +41,8 @@ from .plucker import SE3, force_transform, motion_transform
 from .reduction import Reduction, lock_joints
 from .robots import load, robots
 from .rotation import exp3, log3, skew, unskew
+from .scene import Scene
+from .simulation import DivergenceError, Simulation, simulate
 from .trees import chain, random_tree
 from .twist import Screw, Twist, hat, screw, vee
 from .whole_body import Dynamics, dynamics
@@ -56,6 +58,7 @@ __all__ = [
     "ContactDynamics",
     "ContactForces",
     "Continuous",
+    "DivergenceError",
     "Dynamics",
     "Equilibrium",
     "FrameError",
@@ -69,8 +72,10 @@ __all__ = [
     "Prismatic",
     "Reduction",
     "Revolute",
+    "Scene",
     "Screw",
     "ShapeError",
+    "Simulation",
     "SingularError",
     "SpatialInertia",
     "Spherical",
@@ -128,6 +133,7 @@ __all__ = [
     "robots",
     "screw",
     "selection_matrix",
+    "simulate",
     "skew",
     "stance_margins",
     "static_equilibrium",

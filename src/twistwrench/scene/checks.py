@@ -1,0 +1,86 @@
+"""What a scene refuses: contacts and wrenches that cannot be, or could change nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array, as_array, as_constant
+from ..contact import Contact
+from ..errors import ModelError, ShapeError
+from ..model import Model
+
+__all__ = ["SAME_PLACE", "checked_contacts", "checked_wrenches", "expect_movable"]
+
+SAME_PLACE = 1e-9
+"""Two points of a body that are closer than this are one, m."""
+
+
+def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
+    """Return contacts of frames that the model has, each place touched once.
+
+    Raises
+    ------
+    TypeError
+        If one of them is no contact.
+    NameNotFound
+        If the model has no such frame.
+    ModelError
+        If two of them touch at the same place.
+    """
+    if isinstance(contacts, str | Contact):
+        raise TypeError(f"contacts: expected a sequence of contacts, got {contacts!r}")
+    contacts = tuple(contacts)
+    for contact in contacts:
+        if not isinstance(contact, Contact):
+            came = f"{type(contact).__name__} {contact!r}"
+            raise TypeError(f"contacts: expected contacts such as PointContact(frame, mu=0.7), got {came}")
+        model.frame(contact.frame)
+    for one, other in combinations(contacts, 2):
+        here, there = model.frame(one.frame), model.frame(other.frame)
+        apart = np.abs(here.placement.translation - there.placement.translation).max()
+        if here.body == there.body and apart < SAME_PLACE:
+            same = (type(one), _terms(one)) == (type(other), _terms(other))
+            verdict = "the same contact twice" if same else "they contradict each other"
+            raise ModelError(f"contacts {one} and {other} touch at one place of one body: {verdict}")
+    return contacts
+
+
+def _terms(contact: Contact) -> dict[str, object]:
+    return {name: value for name, value in vars(contact).items() if name != "frame"}
+
+
+def checked_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    """Return one wrench for each frame named, in float64.
+
+    Raises
+    ------
+    NameNotFound
+        If the model has no such frame.
+    ShapeError, ValueError
+        If a wrench is not six finite real numbers.
+    """
+    checked = {}
+    for frame, value in wrenches.items():
+        model.frame(frame)
+        wrench = as_constant(as_array(value, f"wrenches[{frame!r}]", 6), f"wrenches[{frame!r}]")
+        if wrench.ndim != 1:
+            raise ShapeError(f"wrenches[{frame!r}]: expected shape (6,), got {wrench.shape}")
+        checked[frame] = wrench
+    return checked
+
+
+def expect_movable(model: Model, frames: Iterable[str], what: str) -> None:
+    """Refuse frames that the scene leaves fixed to the world: no force on them could change anything.
+
+    Raises
+    ------
+    ModelError
+        Names the frame.
+    """
+    for name in frames:
+        if model.frame(name).body == 0:
+            raise ModelError(f"{what} {name!r}: the scene holds this frame fixed to the world; nothing can move it")

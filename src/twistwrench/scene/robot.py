@@ -1,0 +1,42 @@
+"""The whole robot of a scene: its base, its gravity, and where it stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from os import PathLike
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Array, as_array, as_constant
+from ..errors import ModelError, ShapeError
+from ..model import Model
+from ..robots import load
+
+__all__ = ["posture", "whole_robot"]
+
+
+def whole_robot(robot: str | PathLike[str] | Model, base: str | None, gravity: ArrayLike | None) -> Model:
+    """Return the robot with the gravity of the scene, and with a floating base where the scene needs one."""
+    if base not in (None, "fixed", "floating", "planar"):
+        raise ModelError(f"base: expected 'fixed', 'floating' or 'planar', got {base!r}")
+    flies = base in ("floating", "planar")
+    model = robot if isinstance(robot, Model) else load(robot, base="floating" if flies else None)
+    if flies and model.base != "floating":
+        raise ModelError(f"base: {model.name!r} has a fixed base, not a {base} one; load it with base='floating'")
+    if gravity is None:
+        return model
+    g = as_constant(as_array(gravity, "gravity", 3), "gravity")
+    if g.ndim != 1:
+        raise ShapeError(f"gravity: expected shape (3,), got {g.shape}")
+    return replace(model, gravity=g)
+
+
+def posture(model: Model, q: ArrayLike | None) -> Array:
+    """Return where a scene's robot stands: q, or the standing posture, or the neutral one."""
+    if q is None:
+        return model.standing() if "standing" in model.postures else model.neutral()
+    (at,) = model.state(q)
+    if at.ndim != 1 or at.dtype.kind == "c":
+        raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {at.dtype} of shape {at.shape}")
+    return at.astype(np.float64)

@@ -1,0 +1,319 @@
+"""A scene: the smallest model with its contacts and wrenches, what it computes, and what it refuses."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench import fast
+from twistwrench.fast import one
+from twistwrench.joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from twistwrench.scene.once import angular_rows
+
+from .strategies import random_state
+from .truth import largest
+
+SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
+FEET = [tw.PointContact(f"{leg}_foot", mu=0.7) for leg in ("FL", "FR", "RL", "RR")]
+ARMS = ["*_shoulder_*", "*_elbow"]
+EVERYTHING = {"M", "h", "J_c", "A_G"}
+
+
+def close(ours, right, bound=2e-14):
+    assert np.shape(ours) == np.shape(right)
+    assert largest(ours - right) <= bound * largest(right)
+
+
+# ---------------------------------------------------------------- the smallest model
+
+
+def test_the_scene_holds_the_smallest_model_and_keeps_all_frames():
+    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS)
+    full = tw.load("humanoid")
+    assert (scene.full_model.nv, scene.model.nv, scene.model.nbodies) == (27, 19, 15)
+    assert scene.held == tuple(n for n in full.joint_names if "shoulder" in n or "elbow" in n)
+    assert scene.contacts == tuple(SOLES)
+    assert scene.model.frame_names == full.frame_names
+    assert scene.model.mass == pytest.approx(full.mass, rel=1e-15)
+    np.testing.assert_array_equal(scene.q, full.standing())
+    hand = tw.frame_placement(scene.model, scene.model.standing(), "left_hand").matrix()
+    np.testing.assert_allclose(
+        hand, tw.frame_placement(full, full.standing(), "left_hand").matrix(), rtol=0, atol=1e-14
+    )
+
+
+def test_links_that_carry_nothing_are_dropped_unless_something_touches_them():
+    builder = tw.Builder("mast", base="floating", root_inertia=tw.SpatialInertia(1, [0, 0, 0], np.eye(3)))
+    builder.link("mast", parent="base_link", joint=tw.Revolute("z"), inertia=tw.SpatialInertia(1, [0, 0, 1], np.eye(3)))
+    builder.link("camera", parent="mast", joint=tw.Revolute("y"))
+    builder.link("weight", parent="camera", joint=tw.Revolute("x"), inertia=tw.SpatialInertia(1, [0, 0, 1], np.eye(3)))
+    builder.link("flag", parent="mast", joint=tw.Revolute("y"))
+    model = builder.build()
+    scene = tw.Scene(model)
+    assert (scene.idle, scene.model.nv) == (("flag",), 9)
+    assert "flag" in scene.model.frames
+    assert tw.Scene(model, hold=["weight"]).idle == ("flag",)
+    assert tw.Scene(model, contacts=[tw.PointContact("flag", 0.5)]).idle == ()
+    assert tw.Scene(model, wrenches={"flag": [0, 0, 0, 1, 0, 0]}).idle == ()
+    assert "1 joint that carries nothing dropped, nv = 9 of 10" in repr(scene)
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating", "planar"])
+def test_states_go_both_ways_on_every_base(base):
+    scene = tw.Scene("go2", base=base, hold=["F*"])
+    q, v = scene.model.random_configuration(rng=1), np.arange(scene.model.nv) + 1.0
+    Q, V = scene.expand(q, v)
+    assert (Q.shape, V.shape) == ((19,), (18,))
+    np.testing.assert_array_equal(Q[7:13], scene.q[7:13])
+    for ours, right in zip(scene.reduce(Q, V), (q, v), strict=True):
+        np.testing.assert_allclose(ours, right, rtol=0, atol=1e-14)
+    assert scene.actuated.sum() == 6
+    assert f"{base} base" in repr(scene)
+
+
+def test_a_planar_base_slides_and_turns_on_the_floor_as_high_and_tilted_as_it_stood():
+    """Beside the floating robot in the state that belongs to it: placements, twists, energy; M = XᵀM X."""
+    full = tw.load("go2")
+    stood = full.standing()
+    stood[:7] = [1, 2, 0.4, *(np.array([0.1, -0.2, 0.5, 1.0]) / np.sqrt(1.3))]
+    scene = tw.Scene(full, base="planar", q=stood)
+    rest = np.zeros(18)
+    close(scene.expand(*scene.reduce(stood, rest))[0], stood)
+    model = scene.model
+    q, v, a, *_ = random_state(model, rng=3)
+    (Q, V), (_, A) = scene.expand(q, v), scene.expand(q, a)
+    for frame in ("base", "FL_foot"):
+        close(tw.frame_placement(model, q, frame).matrix(), tw.frame_placement(full, Q, frame).matrix())
+        close(tw.frame_jacobian(model, q, frame) @ v, tw.frame_jacobian(full, Q, frame) @ V)
+    close(tw.kinetic_energy(model, q, v), tw.kinetic_energy(full, Q, V))
+    close(tw.potential_energy(model, q), tw.potential_energy(full, Q))
+    columns = np.array([scene.expand(q, unit)[1] for unit in np.eye(15)]).T
+    close(tw.crba(model, q), columns.T @ tw.crba(full, Q) @ columns)
+    close(tw.rnea(model, q, v, a), columns.T @ tw.rnea(full, Q, V, A), 1e-13)
+    assert np.ptp([scene.expand(model.random_configuration(rng=k), v)[0][2] for k in range(5)]) < 1e-15
+
+
+def test_a_base_whose_x_axis_points_up_has_no_heading_and_still_goes_both_ways():
+    full = tw.load("go2")
+    stood = full.standing()
+    stood[3:7] = [0, -np.sqrt(0.5), 0, np.sqrt(0.5)]
+    scene = tw.Scene(full, base="planar", q=stood)
+    close(scene.expand(*scene.reduce(stood, np.ones(18)))[0], stood)
+
+
+def test_a_base_held_where_it_stands_is_fixed_to_the_world():
+    scene = tw.Scene("go2", base="fixed")
+    model = scene.model
+    assert (model.base, model.nv, scene.held) == ("fixed", 12, ())
+    full = scene.full_model
+    q, v, a, *_ = random_state(model, rng=0)
+    (Q, V), (_, A) = scene.expand(q, v), scene.expand(q, a)
+    close(tw.rnea(model, q, v, a), tw.rnea(full, Q, V, A)[6:])
+    named = tw.Scene("go2", hold=["root_joint"])
+    assert (named.model.nv, named.held, "fixed base" in repr(named)) == (12, ("root_joint",), True)
+    assert named.actuated.all()
+
+
+def test_gravity_is_the_scenes():
+    moon = tw.Scene("humanoid", gravity=[0, 0, -1.62], hold=ARMS)
+    q = moon.model.standing()
+    h = moon.dynamics(q, np.zeros(19), want=["h"]).h
+    close(h * 9.81 / 1.62, tw.Scene("humanoid", hold=ARMS).dynamics(q, np.zeros(19), want=["h"]).h)
+    assert moon.full_model.gravity.tolist() == moon.model.gravity.tolist() == [0, 0, -1.62]
+
+
+# ---------------------------------------------------------------- what it computes
+
+
+@pytest.mark.parametrize("batch", [(), (1,), (3, 1, 2), (20,), (0,)])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble, complex])
+def test_dynamics_are_the_textbooks(batch, dtype):
+    mixed = [SOLES[0], tw.PointContact("right_sole", 0.5), tw.PointContact("left_hand", 0.2)]
+    scene = tw.Scene("humanoid", contacts=mixed, hold=["waist_yaw", "right_elbow"])
+    q, v, *_ = random_state(scene.model, rng=4, batch=batch, dtype=dtype)
+    d = scene.dynamics(q, v)
+    right = tw.dynamics(scene.model, q, v)
+    bound = 500 * np.finfo(dtype).eps
+    close(d.J_c, tw.constraint_jacobian(scene.model, q, mixed), bound)
+    for name in ("M", "h", "A_G"):
+        close(getattr(d, name), getattr(right, name), bound)
+    assert {x.dtype for x in vars(d).values()} == {np.dtype(dtype)}
+
+
+def test_wrenches_from_outside_are_in_h():
+    """The load on the hand and the push on the torso, by the virtual power of their world-aligned wrenches."""
+    wrenches = {"left_hand": [0, 0, 0, 0, 0, -20.0], "torso": [3.0, 0, -2.0, 30.0, 0, 0]}
+    scene = tw.Scene("humanoid", contacts=SOLES, hold=["*shoulder*"], wrenches=wrenches)
+    model = scene.model
+    q, v, a, *_ = random_state(model, rng=6)
+    d = scene.dynamics(q, v)
+    push = sum(tw.frame_jacobian(model, q, name, "local_world_aligned").T @ F for name, F in wrenches.items())
+    close(d.h, tw.nonlinear_effects(model, q, v) - push)
+    close(d.J_c, tw.constraint_jacobian(model, q, SOLES))
+    close(d.M @ a + d.h, tw.rnea(model, q, v, a, scene.f_ext(q)))
+    Q, V = scene.expand(q, v)
+    whole = tw.Scene("humanoid", wrenches=wrenches)
+    kept = [*range(6), *np.flatnonzero(np.isin(whole.model.joint_names[2:], model.joint_names[2:])) + 6]
+    close(d.h, whole.dynamics(Q, V, want={"h"}).h[kept])
+    batch = np.stack([q, q])
+    close(scene.dynamics(batch, v, want={"h"}).h[1], d.h)
+    assert scene.f_ext(batch).shape == (2, model.nbodies, 6)
+
+
+def test_angular_rows_are_those_of_the_jacobian():
+    model = tw.random_tree(12, rng=2, base="floating")
+    q = model.random_configuration(rng=2)
+    frames = list(model.frame_names)[::3]
+    right = [tw.frame_jacobian(model, q, name, "local_world_aligned")[:3] for name in frames]
+    np.testing.assert_allclose(angular_rows(model, q, frames), right, rtol=0, atol=1e-14)
+
+
+# ---------------------------------------------------------------- how much work that is
+
+
+@pytest.fixture
+def work(monkeypatch):
+    """Counts the calls of what costs: the parts of `fast` for one state, and each joint's transform."""
+    counts = Counter()
+
+    def counted(name, function):
+        def call(*args, **kwargs):
+            counts[name] += 1
+            return function(*args, **kwargs)
+
+        return call
+
+    for name in ("place", "_inertias", "forces", "mass_matrix", "centroidal_matrix", "contact_jacobian"):
+        monkeypatch.setattr(one, name, counted(name, getattr(one, name)))
+    for kind in (Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical):
+
+        def transform(self, q, before=kind.transform):
+            counts[id(self)] += 1
+            return before(self, q)
+
+        monkeypatch.setattr(kind, "transform", transform)
+    return counts
+
+
+@pytest.mark.parametrize(
+    ("want", "parts"),
+    [
+        ({"J_c"}, {"contact_jacobian"}),
+        ({"M"}, {"_inertias", "mass_matrix"}),
+        ({"h"}, {"_inertias", "forces"}),
+        ({"M", "J_c"}, {"_inertias", "mass_matrix", "contact_jacobian"}),
+        (EVERYTHING, {"_inertias", "mass_matrix", "centroidal_matrix", "forces", "contact_jacobian"}),
+    ],
+)
+def test_only_what_is_wanted_is_computed_and_kinematics_once(work, want, parts):
+    scene = tw.Scene("go2", contacts=FEET, hold=["RR_*"])
+    q, v = scene.model.standing(), np.ones(15)
+    work.clear()
+    d = scene.dynamics(q, v, want=want)
+    assert work == dict.fromkeys({"place", *parts}, 1)
+    assert {name for name, x in vars(d).items() if x is not None} == want
+
+
+def test_held_joints_are_no_work_and_soles_turn_the_joints_on_the_way_once(work):
+    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS, wrenches={"left_foot": [1.0, 0, 0, 0, 0, 0]})
+    model = scene.model
+    q, v = model.standing(), np.ones(19)
+    scene.dynamics(q, v)
+    plan = model._constants["fast, one"]
+    assert len(plan.J) == 1 + 13  # links: the base, six in each leg, the torso with its arms
+    work.clear()
+    scene.dynamics(q, v, want={"M", "J_c"})
+    legs = [id(joint) for joint, name in zip(model.joints, model.joint_names) if joint and name != "waist_yaw"]
+    assert Counter({k: n for k, n in work.items() if isinstance(k, int)}) == dict.fromkeys(legs, 1)
+    assert work["place"] == work["mass_matrix"] == 1
+    assert work["forces"] == 0
+
+
+# ---------------------------------------------------------------- what it refuses
+
+
+@pytest.mark.parametrize(
+    ("given", "error", "said"),
+    [
+        (
+            {"contacts": [tw.PointContact("FL_fot", 0.7)]},
+            tw.NameNotFound,
+            "unknown frame 'FL_fot'.*did you mean 'FL_foot'",
+        ),
+        (
+            {"hold": ["arm_*"]},
+            tw.NameNotFound,
+            r"'arm_\*' fits no joint of 'go2'; its joints are root_",
+        ),
+        ({"wrenches": {"hand": np.zeros(6)}}, tw.NameNotFound, "unknown frame 'hand'"),
+        ({"wrenches": {"base": np.zeros(3)}}, tw.ShapeError, r"wrenches\['base'\]: expected shape"),
+        ({"wrenches": {"base": np.zeros((2, 6))}}, tw.ShapeError, r"wrenches\['base'\]: expected shape \(6,\)"),
+        ({"wrenches": {"base": [0, 0, 0, 0, 0, np.nan]}}, ValueError, r"wrenches\['base'\]: expected finite"),
+        ({"contacts": FEET[:1], "base": "fixed", "hold": ["FL_*"]}, tw.ModelError, "frame 'FL_foot': the scene holds"),
+        ({"base": "fixed", "wrenches": {"base": np.ones(6)}}, tw.ModelError, "wrench on frame 'base': the scene holds"),
+        ({"contacts": [FEET[0], FEET[0]]}, tw.ModelError, "the same contact twice"),
+        ({"contacts": [FEET[0], tw.PointContact("FL_foot", 0.3)]}, tw.ModelError, "contradict each other"),
+        (
+            {"contacts": [FEET[0], tw.SurfaceContact("FL_foot", (0.1, 0.1), 0.7)]},
+            tw.ModelError,
+            "contradict each other",
+        ),
+        (
+            {"contacts": [FEET[0], tw.PointContact("FL_foot", 0.7, normal=(1, 0, 0))]},
+            tw.ModelError,
+            "contradict each other",
+        ),
+        ({"contacts": ["FL_foot"]}, TypeError, "expected contacts such as PointContact"),
+        ({"contacts": FEET[0]}, TypeError, "expected a sequence of contacts"),
+        ({"hold": "RR_*"}, ValueError, "got the string 'RR_"),
+        ({"base": "flying"}, tw.ModelError, "base: expected 'fixed', 'floating' or 'planar', got 'flying'"),
+        ({"base": "fixed", "hold": ["*_joint"]}, tw.ModelError, "nothing is left to move"),
+        ({"gravity": [0, 0]}, tw.ShapeError, "gravity: expected shape"),
+        ({"gravity": np.zeros((2, 3))}, tw.ShapeError, r"gravity: expected shape \(3,\)"),
+        ({"q": np.zeros(18)}, tw.ShapeError, "this looks like nv"),
+        ({"q": np.tile(tw.load("go2").standing(), (2, 1))}, tw.ShapeError, "expected one real configuration"),
+    ],
+)
+def test_a_scene_that_cannot_be_is_refused(given, error, said):
+    with pytest.raises(error, match=said):
+        tw.Scene("go2", **given)
+
+
+def test_friction_below_zero_is_refused_where_the_contact_is_made():
+    with pytest.raises(ValueError, match=r"mu: expected at least 0, got -0\.1"):
+        tw.Scene("go2", contacts=[tw.PointContact("FL_foot", -0.1)])
+
+
+def test_one_place_of_a_body_under_two_names_is_one_place():
+    frames = tw.load("humanoid").frames
+    assert frames["left_sole"].body == frames["left_sole_joint"].body
+    with pytest.raises(tw.ModelError, match="the same contact twice"):
+        tw.Scene("humanoid", contacts=[tw.PointContact("left_sole", 0.7), tw.PointContact("left_sole_joint", 0.7)])
+
+
+def test_a_robot_that_is_none_or_has_no_such_base_is_refused():
+    with pytest.raises(tw.NameNotFound, match="did you mean 'go2'"):
+        tw.Scene("go3")
+    for base in ("floating", "planar"):
+        with pytest.raises(tw.ModelError, match="has a fixed base, not a " + base):
+            tw.Scene(tw.load("planar_arm"), base=base)
+    assert tw.Scene("planar_arm", base="floating").model.nv == 9
+
+
+def test_a_quantity_or_a_state_that_is_none_is_refused():
+    scene = tw.Scene("go2", contacts=FEET, wrenches={"base": [0, 0, 0, 1, 0, 0]})
+    q, v = scene.model.standing(), np.zeros(18)
+    with pytest.raises(tw.NameNotFound, match="unknown quantity 'C'"):
+        scene.dynamics(q, v, want={"M", "C"})
+    with pytest.raises(ValueError, match="got the string 'M'"):
+        scene.dynamics(q, v, want="M")
+    with pytest.raises(tw.ShapeError, match="v: expected shape"):
+        scene.dynamics(q, q)
+    with pytest.raises(tw.ShapeError):
+        scene.reduce(q, q)
+    with pytest.raises(tw.ShapeError):
+        scene.expand(v, v)
+    with pytest.raises(tw.ShapeError):
+        scene.f_ext(v)
+    assert fast.dynamics(scene.model, q, v, want={"M"}).M.shape == (18, 18)
