@@ -41,9 +41,9 @@ ORDER = [
         "centroidal",
         "whole_body",
     ),
-    *("fast", "digits", "tracing", "robots"),
+    *("fast", "digits", "tracing", "robots", "plot"),
     *("reduction", "contact", "simulation", "motions", "templates", "scene"),
-    *("bridge", "plot", "viewing", "_names", "__init__", "validate", "study", "exercises", "cli", "__main__"),
+    *("bridge", "viewing", "_names", "__init__", "validate", "study", "exercises", "cli", "__main__"),
 ]
 """The chapter's order. A section imports from earlier ones only; a folder is one section."""
 
