@@ -45,6 +45,7 @@ from .scene import Scene
 from .simulation import DivergenceError, Simulation, simulate
 from .trees import chain, random_tree
 from .twist import Screw, Twist, hat, screw, vee
+from .viewing import view
 from .whole_body import Dynamics, dynamics
 from .wrench import Wrench, power
 
@@ -140,6 +141,7 @@ __all__ = [
     "templates",
     "unskew",
     "vee",
+    "view",
 ]
 
 

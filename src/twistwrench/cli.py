@@ -20,6 +20,7 @@ import twistwrench as tw
 from .errors import ModelError, NameNotFound
 from .exercises.commands import register as add_exercises
 from .study.commands import register as add_study
+from .viewing.commands import register as add_view
 
 if TYPE_CHECKING:
     from .validate import Report
@@ -199,4 +200,4 @@ def _at_least(least: int) -> Callable[[str], int]:
     return read
 
 
-COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_study, add_exercises)
+COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_view, add_study, add_exercises)
