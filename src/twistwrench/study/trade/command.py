@@ -1,0 +1,53 @@
+"""``twistwrench study trade``: what every way of computing a quantity costs, and how many digits it keeps."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+__all__ = ["add_trade"]
+
+
+def add_trade(studies: Any) -> None:
+    """Add ``twistwrench study trade``."""
+    parser = studies.add_parser(
+        "trade",
+        help="speed against accuracy of every way, in every number type",
+        description="Time every way of computing every quantity, in every number type, for one state and for many, and "
+        "hold it against the truth in 60 digits. Prints tables, and in words which to use for which error.",
+    )
+    parser.add_argument("robot", nargs="?", default="go2", metavar="ROBOT", help="a catalogue name or a URDF (go2)")
+    parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random states (0)")
+    parser.add_argument("--short", action="store_true", help="few states and rounds: to see that all is there")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write everything as JSON")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw error over time: a png, svg or pdf")
+    parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
+    parser.set_defaults(run=run_trade)
+
+
+def run_trade(args: argparse.Namespace) -> int:
+    """Measure, print, write, draw."""
+    from .run import FULL, SHORT, weigh
+
+    for name in ("json", "plot"):
+        _check_folder(name, getattr(args, name))
+    if args.plot:
+        from .picture import check_format, draw
+
+        check_format(args.plot)
+    effort = SHORT if args.short else FULL
+    trade = weigh(args.robot, base=args.base, effort=effort, rng=args.seed, progress=args.progress or None)
+    print(trade)
+    if args.json:
+        args.json.write_text(trade.to_json() + "\n", encoding="utf-8")
+    if args.plot:
+        draw(trade, args.plot)
+    return 0
+
+
+def _check_folder(name: str, path: Path | None) -> None:
+    """Refuse, before a minute of work, what could not be written at its end."""
+    if path is not None and not path.parent.is_dir():
+        raise FileNotFoundError(f"--{name} {path}: there is no folder {path.parent}")

@@ -1,0 +1,87 @@
+"""Which ways are worth taking, and the answer in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from .measure import Point
+
+__all__ = ["TARGETS", "advice", "best", "duration", "front"]
+
+TARGETS = (1e-6, 1e-12, 1e-16)
+"""Errors that somebody may want to stay below."""
+
+
+def front(points: Iterable[Point]) -> list[Point]:
+    """Return the Pareto front: the points to which no other is both as fast and as exact, the fastest first.
+
+    Examples
+    --------
+    >>> def at(seconds, error):
+    ...     return Point("ID", "a way", "float64", 1, error, seconds, seconds, seconds, 1, 0)
+    >>> [p.seconds for p in front([at(1, 1e-6), at(2, 1e-12), at(3, 1e-9)])]
+    [1, 2]
+    """
+    kept: list[Point] = []
+    for point in sorted(points, key=lambda p: (p.seconds, p.error)):
+        if not kept or point.error < kept[-1].error:
+            kept.append(point)
+    return kept
+
+
+def best(points: Iterable[Point], target: float) -> Point | None:
+    """Return the fastest of those whose error is not above the target, None where there is none."""
+    return min((p for p in points if p.error <= target), key=lambda p: p.seconds, default=None)
+
+
+def advice(name: str, points: Sequence[Point]) -> list[str]:
+    """Say in words what to use for which error: for one state at a time, and for many.
+
+    Parameters
+    ----------
+    name : str
+        Of the quantity.
+    points : sequence of Point
+        Its points. A way for one state is also one for many.
+    """
+    many = max(p.states for p in points)
+    lines = [f"{name}:"]
+    for title, some in (("one state", [p for p in points if p.states == 1]), (f"{many} states", points)):
+        said: dict[str, list[str]] = {}
+        for target in TARGETS:
+            said.setdefault(_answer(target, some), []).append(f"{target:.0e}".replace("e-0", "e-"))
+        lines.append(f"  {title}: " + "; ".join(f"for {_listed(t)} {use}" for use, t in said.items()) + ".")
+    return lines
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]] if words[1:] else words)
+
+
+def _answer(target: float, points: Sequence[Point]) -> str:
+    """Say what to use for an error; where that is Pinocchio, also what to use without it."""
+    found = best(points, target)
+    if found is None:
+        return "there is none"
+    if not found.way.startswith("pin."):
+        return f"use {_named(found)}"
+    other = best([p for p in points if not p.way.startswith("pin.")], target)
+    return f"use {_named(found)}, without Pinocchio {_named(other) if other else 'there is none'}"
+
+
+def _named(point: Point) -> str:
+    return f"{point.way} in {point.number} ({duration(point.seconds)})"
+
+
+def duration(seconds: float) -> str:
+    """Write a time in three digits.
+
+    Examples
+    --------
+    >>> duration(1.234e-6), duration(0.05), duration(2.5)
+    ('1.23 µs', '50 ms', '2.5 s')
+    """
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / 1e-9:.3g} ns"

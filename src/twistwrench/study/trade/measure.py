@@ -1,0 +1,189 @@
+"""Errors and times of every way of computing a quantity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from textwrap import shorten
+
+import numpy as np
+
+from ...checks import Array
+from ..clock import Lap, round_robin
+from .quantity import Quantity, Way
+
+__all__ = ["Effort", "LeftOut", "Point", "Unusable", "measure", "relative_error"]
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured.
+
+    Attributes
+    ----------
+    states : int
+        At how many the error is looked at; the worst counts.
+    batch : int
+        How many states are many.
+    rounds : int
+        How often each way is timed.
+    least : float
+        For about how long at a time, s.
+    most : float
+        What has taken so long is timed no more, s.
+    """
+
+    states: int = 5
+    batch: int = 1000
+    rounds: int = 7
+    least: float = 0.005
+    most: float = 0.5
+
+
+@dataclass(frozen=True)
+class Point:
+    """A way in a number type, for one state or many: what it costs and what it keeps.
+
+    Attributes
+    ----------
+    quantity : str
+        Its key.
+    way, number : str
+    states : int
+        In one call.
+    error : float
+        Worst relative error over the states that were looked at, see `relative_error`.
+    seconds, q1, q3 : float
+        For one state: median and quartiles.
+    rounds, disturbed : int
+        How many times were kept, and how many not, because the processor was taken away.
+    """
+
+    quantity: str
+    way: str
+    number: str
+    states: int
+    error: float
+    seconds: float
+    q1: float
+    q3: float
+    rounds: int
+    disturbed: int
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A way that gives no number here, and why."""
+
+    quantity: str
+    way: str
+    number: str
+    states: int
+    why: str
+
+
+class Unusable(ValueError):
+    """A result that is no number, or has nothing to be compared with."""
+
+
+def measure(
+    quantity: Quantity, effort: Effort, tick: Callable[[], object] = lambda: None
+) -> tuple[list[Point], list[LeftOut]]:
+    """Measure every way of computing a quantity, in every number type, one state at a time and many.
+
+    Parameters
+    ----------
+    quantity : Quantity
+    effort : Effort
+    tick : callable
+        Called once for each way in each type, and once for each round of timing.
+
+    Returns
+    -------
+    points, left_out : list
+    """
+    truths = [quantity.truth(i) for i in range(effort.states)]
+    runners: list[tuple[tuple[str, str, int], float, Callable[[], object]]] = []
+    left_out = []
+    for way, number, states in candidates(quantity):
+        label = way.name, number, states
+        try:
+            runners.append((label, *_check(quantity, way, number, states, truths)))
+        except ValueError as error:  # SingularError and LinAlgError are ValueErrors
+            left_out.append(LeftOut(quantity.key, *label, shorten(str(error), 100, placeholder=" …")))
+        tick()
+    laps = round_robin(
+        [call for *_, call in runners], rounds=effort.rounds, least=effort.least, most=effort.most, after_round=tick
+    )
+    points = [_point(quantity.key, label, error, lap) for (label, error, _), lap in zip(runners, laps, strict=True)]
+    return points, left_out
+
+
+def candidates(quantity: Quantity) -> list[tuple[Way, str, int]]:
+    """Return every way with every number type, for one state and for many."""
+    return [
+        (way, number, states)
+        for way in quantity.ways
+        for number in way.numbers
+        for states in ((1, quantity.batch) if way.batches else (1,))
+    ]
+
+
+def _check(
+    quantity: Quantity, way: Way, number: str, states: int, truths: Sequence[Array]
+) -> tuple[float, Callable[[], object]]:
+    """Return the worst error, and the call that is to be timed."""
+
+    def prepare(where: int | slice) -> Callable[[], object]:
+        inputs = way.before(*quantity.inputs(number, where))
+        return lambda: way.compute(*inputs)
+
+    if states == 1:
+        calls = [prepare(i) for i in range(len(truths))]
+        values = [way.after(call()) for call in calls]
+        call = calls[0]
+    else:
+        call = prepare(slice(0, states))
+        values = list(way.after(call()))
+    # A batch may be of fewer states than are looked at.
+    return max(relative_error(x, truth) for x, truth in zip(values, truths, strict=False)), call
+
+
+def relative_error(value: Array, truth: Array) -> float:
+    """Return the largest difference of an entry, over the largest entry of the truth.
+
+    Parameters
+    ----------
+    value : ndarray
+        Of any number type.
+    truth : ndarray of mpmath numbers, of the same shape
+
+    Raises
+    ------
+    Unusable
+        If the value is no number, or the truth is zero.
+
+    Examples
+    --------
+    >>> from twistwrench.newton_euler_3d import as_mpmath
+    >>> relative_error(np.array([1.0, 4.0]), as_mpmath([1.5, 4.0]))
+    0.125
+    """
+    size = abs(truth).max()
+    if size == 0:
+        raise Unusable("the right value is zero: no relative error")
+    if np.shape(value) != truth.shape:
+        raise Unusable(f"expected shape {truth.shape}, got {np.shape(value)}")
+    if value.dtype == object:
+        return float(abs(value - truth).max() / size)
+    if not np.isfinite(value).all():
+        raise Unusable("gives a NaN or an infinity")
+    high = truth.astype(np.float64)  # as two doubles the truth has 32 digits
+    low = (truth - high).astype(np.float64)
+    return float(np.abs(value.astype(np.longdouble) - high - low).max() / np.longdouble(size))
+
+
+def _point(key: str, label: tuple[str, str, int], error: float, lap: Lap) -> Point:
+    seconds = lap.seconds / label[2]
+    q1, median, q3 = (float(x) for x in np.quantile(seconds, [0.25, 0.5, 0.75]))
+    return Point(key, *label, error, median, q1, q3, rounds=len(seconds), disturbed=len(lap.spare))

@@ -1,0 +1,63 @@
+"""The number types of the study: NumPy's three, and decimal digits of mpmath."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ...checks import Array, resolution
+
+__all__ = ["DIGITS", "FLOATS", "HARDWARE", "TRUTH", "convert", "digits", "epsilon", "exactly"]
+
+HARDWARE = ("float32", "float64")
+"""What LAPACK, and with it numpy.linalg, computes in."""
+
+FLOATS = (*HARDWARE, "longdouble") if resolution(np.longdouble) < resolution(np.float64) else HARDWARE
+"""Without long doubles where they are doubles by another name, as on Windows."""
+
+DIGITS = ("20 digits", "50 digits")
+TRUTH = "60 digits"
+"""More than any way has, so that each has an error to show."""
+
+
+@cache
+def digits(number: int) -> Any:
+    """Return an mpmath context of that many digits: of our own, so that nobody else's changes."""
+    from mpmath import MPContext
+
+    context = MPContext()
+    context.dps = number
+    return context
+
+
+def exactly(x: Array, context: Any) -> Array:
+    """Turn doubles into the same numbers of an mpmath context."""
+    return np.asarray(np.frompyfunc(lambda y: context.mpf(float(y)), 1, 1)(x), object)
+
+
+def convert(x: Array, number: str) -> Array:
+    """Turn doubles into a number type of this study.
+
+    Examples
+    --------
+    >>> convert(np.array([0.1]), "float32").dtype
+    dtype('float32')
+    >>> print(convert(np.array([0.1]), "20 digits")[0])
+    0.10000000000000000555
+    """
+    return exactly(x, digits(int(number.split()[0]))) if number.endswith("digits") else x.astype(number)
+
+
+def epsilon(number: str) -> float:
+    """Return the spacing of a type's numbers next to 1.
+
+    Examples
+    --------
+    >>> epsilon("float64"), epsilon("20 digits") < 1e-19
+    (2.220446049250313e-16, True)
+    """
+    if number.endswith("digits"):
+        return float(digits(int(number.split()[0])).eps)
+    return resolution(np.dtype(number))

@@ -1,0 +1,111 @@
+"""Exponential and logarithm of SE(3), and every way of computing them (49.2, 49.3)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import twistwrench as tw
+
+from ... import bridge
+from ...checks import Array
+from .numbers import DIGITS, HARDWARE, TRUTH, convert, digits
+from .quantity import Arrays, Quantity, Way
+
+__all__ = ["pose_quantities"]
+
+
+def pose_quantities(*, states: int, batch: int, rng: np.random.Generator, pinocchio: bool) -> list[Quantity]:
+    """Return exp and log: of random axes, angles uniform in 0 … π, and 1 m times a normal number.
+
+    Parameters
+    ----------
+    states : int
+        At how many the truth is known; the others only take time.
+    batch : int
+    rng : numpy Generator
+    pinocchio : bool
+        Whether it is there.
+    """
+    w, v = rng.standard_normal((2, batch, 3))
+    w *= rng.uniform(0, np.pi, (batch, 1)) / np.sqrt((w * w).sum(axis=-1, keepdims=True))
+    V = np.concatenate([w, v], axis=-1)
+    exact = [_exponential(convert(x, TRUTH)) for x in V[:states]]
+    nearly = tw.exp6(V.astype(np.longdouble)).matrix()
+    nearly[:states] = [_long(x) for x in exact]
+
+    def twists(number: str, where: int | slice) -> Arrays:
+        return (convert(V[where], number),)
+
+    def placements(number: str, where: int | slice) -> Arrays:
+        """Return the truth, rounded once."""
+        if isinstance(where, int) and number in DIGITS:
+            return (np.asarray(np.frompyfunc(digits(int(number[:2])).convert, 1, 1)(exact[where]), object),)
+        return (nearly[where].astype(number),)
+
+    ways = [[*_ours(), *(_pinocchio() if pinocchio else []), *_scipy()][k::2] for k in (0, 1)]
+    return [
+        Quantity("exp", "exponential exp6", twists, lambda i: exact[i], ways[0], batch),
+        Quantity("log", "logarithm log6", placements, lambda i: convert(V[i], TRUTH), ways[1], batch),
+    ]
+
+
+def _ours() -> list[Way]:
+    """Return ways of exp and log in turns, and so below."""
+    return [
+        Way("tw.exp6", tw.exp6, after=lambda T: T.matrix()),
+        Way("tw.log6", tw.log6, before=lambda T: (tw.SE3.from_matrix(T),)),
+        Way("mpmath expm", _exponential, DIGITS, batches=False),
+        Way("mpmath logm", _logarithm, DIGITS, batches=False),
+    ]
+
+
+def _pinocchio() -> list[Way]:
+    pin = bridge.import_pinocchio()
+
+    def motion(V: Array) -> tuple[object]:
+        return (bridge.to_pinocchio_motion(V),)
+
+    def placement(T: Array) -> tuple[object]:
+        return (pin.SE3(T),)
+
+    number = ("float64",)
+    return [
+        Way("pin.exp6", pin.exp6, number, batches=False, before=motion, after=lambda T: np.array(T.homogeneous)),
+        Way("pin.log6", pin.log6, number, batches=False, before=placement, after=bridge.from_pinocchio_motion),
+    ]
+
+
+def _scipy() -> list[Way]:
+    """Return SciPy's, which has placements since 1.16; none without it."""
+    try:
+        from scipy.linalg import expm
+        from scipy.spatial.transform import RigidTransform
+    except ImportError:
+        return []
+    number = ("float64",)
+    return [
+        Way("scipy RigidTransform", RigidTransform.from_exp_coords, number, after=lambda T: T.as_matrix()),
+        Way("scipy RigidTransform", RigidTransform.as_exp_coords, number, before=lambda T: (RigidTransform(T),)),
+        Way("scipy expm", expm, HARDWARE, before=lambda V: (tw.hat(V),)),
+    ]
+
+
+def _long(x: Array) -> Array:
+    """Round mpmath numbers to long doubles."""
+    high = x.astype(np.float64)
+    return high.astype(np.longdouble) + (x - high).astype(np.float64)
+
+
+def _exponential(V: Array) -> Array:
+    """Return the exponential of the 4×4 matrix of a twist of mpmath numbers, with no formula of ours."""
+    x, y, z, *v = V
+    zero, mp = x * 0, x.context
+    hat = mp.matrix([[zero, -z, y, v[0]], [z, zero, -x, v[1]], [-y, x, zero, v[2]], [zero] * 4])
+    return np.array(mp.expm(hat).tolist(), object)
+
+
+def _logarithm(T: Array) -> Array:
+    """Return the twist of a placement of mpmath numbers, by the logarithm of any 4×4 matrix."""
+    mp = T[0, 0].context
+    M = mp.logm(mp.matrix(T.tolist()))
+    return np.array([mp.re(x) for x in (M[2, 1], M[0, 2], M[1, 0], M[0, 3], M[1, 3], M[2, 3])], object)

@@ -1,0 +1,70 @@
+"""What is measured: a quantity, and the ways of computing it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ...checks import Array
+from .numbers import FLOATS
+
+__all__ = ["Arrays", "Inputs", "Quantity", "Way"]
+
+Arrays = tuple[Array, ...]
+Inputs = Callable[[str, int | slice], Arrays]
+"""Of a number type and of which states: what a way is called with."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way of computing a quantity.
+
+    Attributes
+    ----------
+    name : str
+        As the user would write it.
+    compute : callable
+        Of the arrays that `before` returns. This is what is timed.
+    numbers : tuple of str
+        The number types that it can.
+    batches : bool
+        Whether it takes many states in one call.
+    before : callable
+        Of the inputs: what is done with them before the clock starts, as reordering for Pinocchio.
+    after : callable
+        Of what `compute` returned: the value, in the order of this package.
+    """
+
+    name: str
+    compute: Callable[..., Any]
+    numbers: tuple[str, ...] = FLOATS
+    batches: bool = True
+    before: Callable[..., tuple[Any, ...]] = lambda *inputs: inputs
+    after: Callable[[Any], Array] = lambda value: value
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity with all ways of computing it.
+
+    Attributes
+    ----------
+    key : str
+        Short, for the command line and the JSON.
+    name : str
+    inputs : callable
+        See `Inputs`.
+    truth : callable
+        Of the index of a state: the value in 60 digits.
+    ways : sequence of Way
+    batch : int
+        How many states are many.
+    """
+
+    key: str
+    name: str
+    inputs: Inputs
+    truth: Callable[[int], Array]
+    ways: Sequence[Way]
+    batch: int

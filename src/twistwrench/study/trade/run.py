@@ -1,0 +1,162 @@
+"""Measure one robot."""
+
+from __future__ import annotations
+
+import sys
+import time
+from importlib.metadata import PackageNotFoundError, version
+from os import PathLike
+from typing import Literal
+
+import numpy as np
+
+from ...errors import ModelError
+from ...model import Model
+from ...robots import load
+from ...validate.oracle import Oracle
+from ...validate.states import States, random_states
+from .derivatives import derivative
+from .dynamics import WAYS, Robot, Ways
+from .measure import Effort, candidates, measure
+from .numbers import TRUTH, convert
+from .poses import pose_quantities
+from .quantity import Arrays, Inputs, Quantity
+from .report import Trade
+
+__all__ = ["FULL", "SHORT", "weigh"]
+
+FULL = Effort()
+SHORT = Effort(states=2, batch=20, rounds=2, least=1e-4, most=0.05)
+"""To see that all is there. Its times are worth little."""
+
+
+def weigh(
+    robot: Model | str | PathLike[str],
+    *,
+    base: Literal["fixed", "floating"] | None = None,
+    effort: Effort = FULL,
+    rng: int = 0,
+    progress: bool | None = False,
+) -> Trade:
+    """Measure speed against accuracy: every quantity, every way, every number type.
+
+    Parameters
+    ----------
+    robot : Model, str or path
+        A name or a path is loaded as by `twistwrench.load`, without refusing bodies that cannot exist.
+    base : {"fixed", "floating"}, optional
+        For a name or a path: the base to load it with.
+    effort : Effort
+    rng : int
+        Seed of the random states.
+    progress : bool, optional
+        Show a bar on stderr; None: if that is a terminal.
+
+    Returns
+    -------
+    Trade
+        Prints as tables and words.
+
+    Raises
+    ------
+    NameNotFound, ModelError
+        As `twistwrench.load`; or if nothing moves.
+    ImportError
+        If mpmath is not installed, without which there is no truth.
+
+    Examples
+    --------
+    >>> trade = weigh("pendulum", effort=SHORT)
+    >>> len(trade.of("ID"))
+    18
+    """
+    from tqdm import tqdm
+
+    start = time.perf_counter()
+    _ask_for_mpmath()
+    model = robot if isinstance(robot, Model) else load(robot, base=base, physical=False, mimic="independent")
+    if not model.nv:
+        raise ModelError(f"{model.name}: nothing moves: nothing to measure")
+    oracle = _oracle(model)
+    quantities = _quantities(model, oracle, effort, rng)
+    points, left_out = [], []
+    steps = sum(len(candidates(q)) + effort.rounds for q in quantities)
+    hidden = None if progress is None else not progress
+    with tqdm(total=steps, unit="step", leave=False, disable=hidden) as bar:
+        for quantity in quantities:
+            bar.set_description(quantity.key)
+            found, refused = measure(quantity, effort, bar.update)
+            points += found
+            left_out += refused
+    return Trade(
+        robot=model.name if isinstance(robot, Model) else str(robot),
+        description=repr(model).partition(": ")[2],
+        names={q.key: q.name for q in quantities},
+        points=tuple(points),
+        left_out=tuple(left_out),
+        missing=_missing(),
+        versions=_versions(),
+        effort=effort,
+        seconds=time.perf_counter() - start,
+    )
+
+
+def _quantities(model: Model, oracle: Oracle | None, effort: Effort, seed: int) -> list[Quantity]:
+    rng = np.random.default_rng(seed)
+    states = random_states(model, max(effort.batch, effort.states), rng=rng)
+    at = Robot(model, oracle, states.frames[0])
+
+    def quantity(key: str, name: str, of: tuple[str, ...], ways: Ways, batch: int) -> Quantity:
+        inputs = _inputs(model, states, of)
+        truth, every = ways(at)
+        return Quantity(key, name, inputs, lambda i: truth(*inputs(TRUTH, i)), every, batch)
+
+    dynamics = [quantity(key, *of, effort.batch) for key, of in WAYS.items()]
+    # Each derivative asks for nv or more states by itself.
+    slopes = quantity("dID/dq", "derivative ∂τ/∂q", ("q", "v", "a"), derivative, max(2, effort.batch // 10))
+    poses = pose_quantities(states=effort.states, batch=effort.batch, rng=rng, pinocchio=oracle is not None)
+    return [*dynamics, slopes, *poses]
+
+
+def _inputs(model: Model, s: States, of: tuple[str, ...]) -> Inputs:
+    """Return q and others in a number type; quaternions are made unit to the last digit of that type."""
+
+    def inputs(number: str, where: int | slice) -> Arrays:
+        q, *others = (convert(getattr(s, name)[where], number) for name in of)
+        return (q if number.endswith("digits") else model.normalize(q)), *others
+
+    return inputs
+
+
+def _ask_for_mpmath() -> None:
+    try:
+        import mpmath  # noqa: F401
+    except ImportError:
+        raise ImportError('the truth needs mpmath: pip install "twistwrench[validate]"') from None
+
+
+def _oracle(model: Model) -> Oracle | None:
+    try:
+        return Oracle(model, None)
+    except ImportError:
+        return None
+
+
+def _versions() -> dict[str, str]:
+    found = {"python": sys.version.split()[0]}
+    for name in ("twistwrench", "numpy", "mpmath", "gmpy2", "scipy", "pin"):
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def _missing() -> tuple[str, ...]:
+    """Say whose ways are not there."""
+    said = {
+        "pin": "Pinocchio is not installed: its ways are left out (pip install pin; not on Windows)",
+        "scipy": "SciPy is not installed: its ways are left out (pip install scipy)",
+        "gmpy2": "gmpy2 is not installed: mpmath is some times slower without it (pip install gmpy2)",
+    }
+    return tuple(text for name, text in said.items() if name not in _versions())
