@@ -120,7 +120,7 @@ def links(rounds: int) -> Iterator[Row]:
                 calls["textbook", n, 1] = ours(tw, model, quantity, states[n].first(1)), 1
             if n <= 200:  # beyond, its data take gigabytes, and so many chains are kept here at once
                 calls["Pinocchio", n, 1] = pinocchio(model, quantity, states[n]), 100
-        laps = round_robin([call for call, _ in calls.values()], rounds=rounds)
+        laps = round_robin([call for call, _ in calls.values()], rounds=rounds, least=0.05)
         seconds = {key: lap.seconds / n for (key, (_, n)), lap in zip(calls.items(), laps, strict=True)}
         for (way, n, size), mine in seconds.items():
             if way != "Pinocchio":

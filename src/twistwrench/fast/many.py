@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -96,8 +96,7 @@ def _in_chunks(
 ) -> None:
     """Fill results of shape (..., count) from states of shape (count, ...)."""
     count = len(states[0])
-    if count > FEWEST:
-        keep_memory()
+    keep_memory()
     for start in range(0, count, size):
         span = slice(start, min(start + size, count))
         kernel(*(np.ascontiguousarray(_states_last(x[span])) for x in states), *(x[..., span] for x in results))
@@ -138,12 +137,14 @@ def check_fits(given: Mapping[str, object], batch: Tail, tails: Mapping[str, Tai
         raise ShapeError(f"out: expected for {name} an array of {dtype} of shape {shape}, got {came}")
 
 
+@cache
 def keep_memory() -> None:
     """Have the C library keep the memory of arrays that are gone, and not hand it back to the kernel.
 
     glibc hands back what is above a limit, at first 128 KiB, and every page of it that is used again then costs a
     page fault: two thirds of the time of 1000 states. The limit follows the largest block that was ever freed. So
-    a block of the largest size that counts is taken and freed, untouched. Elsewhere this does nothing.
+    a block of the largest size that counts is taken and freed, untouched; once, as the limit never falls. Elsewhere
+    this does nothing.
     """
     np.empty(KEPT, np.uint8)
 
