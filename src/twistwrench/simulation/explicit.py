@@ -31,7 +31,8 @@ def runge_kutta(tableau: Tableau, system: System, t: float, q: Array, v: Array) 
     v_rates: list[Array] = []
     for c, row in zip(nodes, rows):
         u, v_stage = dt * weighted(row, u_rates, v), v + dt * weighted(row, v_rates, v)
-        v_rates.append(system.acceleration(t + c * system.dt, system.integrate(q, u), v_stage))
+        q_stage = system.integrate(q, u) if row else q
+        v_rates.append(system.acceleration(t + c * system.dt, q_stage, v_stage))
         u_rates.append(dexp_inverse(bracket(system.model, u), v_stage))  # u̇, not v
     return system.integrate(q, dt * weighted(weights, u_rates, v)), v + dt * weighted(weights, v_rates, v)
 

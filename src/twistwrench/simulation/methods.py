@@ -11,7 +11,11 @@ from .explicit import EULER, MIDPOINT, RK4, runge_kutta, semi_implicit
 from .system import System
 from .variational import variational
 
-__all__ = ["METHODS", "Method"]
+__all__ = ["METHODS", "Method", "Step"]
+
+
+Step = Callable[[System, float, Array, Array], tuple[Array, Array]]
+"""From a system, t, q and v to the next q and v."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +35,7 @@ class Method:
 
     title: str
     order: int
-    step: Callable[[System, float, Array, Array], tuple[Array, Array]]
+    step: Step
     keeps: str
 
 

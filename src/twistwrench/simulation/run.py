@@ -8,10 +8,11 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..checks import Array
 from ..errors import SingularError, unknown_name
 from ..model import Model
 from .divergence import DivergenceError, refuse_divergence
-from .methods import METHODS
+from .methods import METHODS, Step
 from .result import Simulation
 from .system import Policy, System
 
@@ -100,14 +101,20 @@ def simulate(
     qs, vs = np.empty((count + 1, *q.shape), q.dtype), np.empty((count + 1, *v.shape), v.dtype)
     qs[0], vs[0], start = q, v, perf_counter()
     for k in _bar(count, progress):
-        try:
-            q, v = step(system, k * float(dt), qs[k].copy(), vs[k].copy())
-            refuse_divergence(model, "v", v, dt=system.dt)
-        except (DivergenceError, SingularError) as error:
-            raise type(error)(f"step {k + 1}, from t = {k * float(dt):.6g} s: {error}") from error
-        qs[k + 1], vs[k + 1] = q, v
+        qs[k + 1], vs[k + 1] = _advance(step, system, k, qs[k].copy(), vs[k].copy())
     t = np.arange(count + 1) * float(dt)
     return Simulation(model, method, t, qs, vs, system.evaluations, perf_counter() - start)
+
+
+def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Array, Array]:
+    """Make step k; say when, where something goes wrong."""
+    t = k * system.dt
+    try:
+        q, v = step(system, t, q, v)
+        refuse_divergence(system.model, "v", v, dt=system.dt)
+    except (DivergenceError, SingularError) as error:
+        raise type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}") from error
+    return q, v
 
 
 def _count(dt: float, steps: int | None, duration: float | None) -> int:
