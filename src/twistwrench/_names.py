@@ -26,6 +26,7 @@ from .contact import (
 )
 from .coriolis import coriolis_matrix
 from .cross import cross_force, cross_motion
+from .digits import Accuracy, accuracy
 from .energy import kinetic_energy, potential_energy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
 from .exponential import exp6, log6
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "SE3",
+    "Accuracy",
     "Baumgarte",
     "Builder",
     "ContactDynamics",
@@ -85,6 +87,7 @@ __all__ = [
     "Twist",
     "Wrench",
     "aba",
+    "accuracy",
     "bridge",
     "center_of_mass",
     "centroidal_map",

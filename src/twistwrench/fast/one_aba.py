@@ -216,4 +216,6 @@ def _base(K: Array, tau: Array, rotor: Array, rising: Array, floor: Array) -> Ar
         raise NearlySingular from None
     if not (pivots > floor).all():
         raise NearlySingular
-    return np.linalg.solve(feels, tau - K[:6, 6] - I.dot(rising))
+    unit = np.sqrt(feels.diagonal())  # of the rows: the solver's choice of pivots must not depend on kg and m
+    x: Array = np.linalg.solve(feels / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit
+    return x

@@ -1,0 +1,83 @@
+"""One cell of the grid: every way to every quantity, and how many digits it keeps, or that it refuses."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...digits import accuracy
+from .candidates import ALGORITHMS, Candidate, candidates
+from .robots import Recipe
+from .truth import Truth, truth
+
+__all__ = ["Outcome", "measure"]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one way gave in one cell.
+
+    Attributes
+    ----------
+    algorithm, who : str
+    error : float or None
+        Relative, free of units; None where no number came.
+    refused : str
+        The class and the message of the error instead of a number.
+    bad : str
+        What must not be: a NaN, an infinity, a warning, an error of no class of ours, a number where none is right.
+    estimate : float or None
+        What `twistwrench.accuracy` said before, where it has something to say: infinite where it was sure of nothing.
+    """
+
+    algorithm: str
+    who: str
+    error: float | None = None
+    refused: str = ""
+    bad: str = ""
+    estimate: float | None = None
+
+
+def measure(recipe: Recipe, *, pinocchio: bool) -> list[Outcome]:
+    """Measure all ways to all quantities, in as many digits of truth as ``mpmath.mp.dps`` says."""
+    model, s = recipe.model, recipe.state
+    right = truth(model, s)
+    expected = {bits: _estimates(recipe, dtype) for bits, dtype in (("float32", np.float32), ("textbook", np.float64))}
+    return [
+        _judge(way, right, expected["float32" if way.who == "float32" else "textbook"])
+        for way in candidates(model, s, right.torques, pinocchio=pinocchio)
+    ]
+
+
+def _estimates(recipe: Recipe, dtype: type) -> dict[str, float]:
+    """Return what `accuracy` says, by algorithm; nothing where it refuses the configuration."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            known = accuracy(recipe.model, recipe.state.q.astype(dtype))
+    except ValueError:
+        return {}
+    return {"rnea": float(known.rnea), "aba": float(known.aba), "crba + solve": float(known.crba_solve)}
+
+
+def _judge(way: Candidate, right: Truth, expected: dict[str, float]) -> Outcome:
+    """Call one way, and see what comes."""
+    estimate = expected.get(way.algorithm.partition(",")[0])
+    outcome: dict[str, Any] = {"algorithm": way.algorithm, "who": way.who, "estimate": estimate}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            answer = way.answer()
+    except Warning as warning:
+        return Outcome(**outcome, bad=f"warns: {warning}")
+    except ValueError as error:
+        return Outcome(**outcome, refused=f"{type(error).__name__}: {error}")
+    except Exception as error:
+        return Outcome(**outcome, bad=f"{type(error).__name__}: {error}")
+    if not np.isfinite(answer).all():
+        return Outcome(**outcome, bad="NaN" if np.isnan(answer).any() else "infinite")
+    off = right.error(ALGORITHMS[way.algorithm], answer)
+    return Outcome(**outcome, error=off) if np.isfinite(off) else Outcome(**outcome, bad="a number where none is right")
