@@ -14,11 +14,10 @@ import numpy as np
 
 from ..checks import Array
 from ..errors import SingularError
-from ..kinematics import frame_placement
-from ..model import Model
+from ..plucker import SE3
 from .types import Contact
 
-__all__ = ["Decomposition", "decompose", "lever", "point_map"]
+__all__ = ["Decomposition", "block_diagonal", "decompose", "lever", "point_map"]
 
 ROUNDINGS = 100
 """A singular value of fewer times the rounding in Y counts as zero."""
@@ -80,35 +79,35 @@ def decompose(M: Array, J: Array) -> Decomposition:
     return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
 
 
-def lever(model: Model, q: Array, contacts: Sequence[Contact]) -> Array:
+def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
     """Return W, shape (..., m, m), for which W J v is in m/s: a turn counts as it moves the points of its contact.
 
     λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G.
     """
-    W = np.zeros((*q.shape[:-1], *2 * (sum(c.dim for c in contacts),)))
-    end = 0
-    for c in contacts:
-        turn = _turn(model, q, c)
-        rows, end = slice(end, end + c.dim), end + c.dim
-        W[..., rows, rows] = np.linalg.cholesky(c.spread @ c.spread.mT).mT @ turn.mT
-    return W
+    spreads = [np.linalg.cholesky(c.spread @ c.spread.mT) for c in contacts]
+    return block_diagonal([_turn(c, T) @ G for c, T, G in zip(contacts, at, spreads)]).mT
 
 
-def point_map(model: Model, q: Array, contacts: Sequence[Contact]) -> Array:
+def point_map(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
     """Return P, shape (..., m, 3 k): λ = P f of the forces f at all points, each in its contact's axes."""
-    m, k = sum(c.dim for c in contacts), sum(3 * len(c.points) for c in contacts)
-    P = np.zeros((*q.shape[:-1], m, k))
+    return block_diagonal([_turn(c, T) @ c.spread for c, T in zip(contacts, at)])
+
+
+def block_diagonal(blocks: Sequence[Array]) -> Array:
+    """Return matrices one after the other along the diagonal of one, shape (..., rows, columns)."""
+    batch = blocks[0].shape[:-2] if blocks else ()
+    whole = np.zeros((*batch, sum(B.shape[-2] for B in blocks), sum(B.shape[-1] for B in blocks)))
     row = column = 0
-    for c in contacts:
-        rows, columns = slice(row, row + c.dim), slice(column, column + 3 * len(c.points))
-        P[..., rows, columns] = _turn(model, q, c) @ c.spread
-        row, column = rows.stop, columns.stop
-    return P
+    for B in blocks:
+        below, right = row + B.shape[-2], column + B.shape[-1]
+        whole[..., row:below, column:right] = B
+        row, column = below, right
+    return whole
 
 
-def _turn(model: Model, q: Array, contact: Contact) -> Array:
+def _turn(contact: Contact, at: SE3) -> Array:
     """Return the matrix that takes a contact's λ from its own axes to the world's, shape (..., dim, dim)."""
-    R = contact.axes(frame_placement(model, q, contact.frame).rotation)
+    R = contact.axes(at.rotation)
     turn = np.zeros((*R.shape[:-2], 6, 6))
     turn[..., :3, :3] = turn[..., 3:, 3:] = R
     return turn[..., contact.rows, contact.rows]

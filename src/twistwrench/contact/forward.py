@@ -13,16 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import fast
 from .._scalars import which
 from ..checks import Array
 from ..errors import SingularError
-from ..forward_dynamics import aba
 from ..inverse_dynamics import external
-from ..mass_matrix import crba
 from ..model import Model
 from ..plucker import SE3
 from .decomposition import decompose, lever
-from .rows import as_contacts, constraint_bias, constraint_jacobian, contact_errors, per_contact, real_state
+from .rows import as_contacts, contact_errors, per_contact, real_state, touching
 from .types import Contact
 
 __all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
@@ -156,14 +155,13 @@ def contact_forward_dynamics(
     """
     contacts = as_contacts(model, contacts)
     q, v, tau, f_ext = real_state(model, q, v=v, tau=tau, f_ext=external(model, f_ext))
-    J, W = constraint_jacobian(model, q, contacts), lever(model, q, contacts)
-    slip, bias = np.matvec(J, v), constraint_bias(model, q, v, contacts)
-    target = -bias
+    at, J, bias = touching(model, q, v, contacts)
+    W, slip, target = lever(contacts, at), np.matvec(J, v), -bias
     if stabilise is not None:
-        error = contact_errors(model, q, contacts, stabilise.anchors)
+        error = contact_errors(contacts, at, stabilise.anchors)
         target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
-    parts = decompose(crba(model, q), W @ J)
-    qdd = free = aba(model, q, v, tau, f_ext)
+    qdd = free = fast.aba(model, q, v, tau, f_ext)
+    parts = decompose(fast.crba(model, q), W @ J)
     mu = np.zeros(slip.shape)
     for _ in range(2):  # the second time takes up what rounding left
         x, change = parts.respond(np.matvec(W, target - np.matvec(J, qdd)))

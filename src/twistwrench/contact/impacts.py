@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import fast
 from ..checks import Array
-from ..mass_matrix import crba
 from ..model import Model
 from .decomposition import decompose, lever
-from .rows import as_contacts, constraint_jacobian, per_contact, real_state
+from .rows import as_contacts, per_contact, real_state, touching
 from .types import Contact
 
 __all__ = ["Impact", "impact"]
@@ -93,8 +93,9 @@ def impact(
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
     contacts = as_contacts(model, contacts)
     q, v = real_state(model, q, v=v)
-    J, W = constraint_jacobian(model, q, contacts), lever(model, q, contacts)
-    parts = decompose(crba(model, q), W @ J)
+    at, J, _ = touching(model, q, v, contacts)
+    W = lever(contacts, at)
+    parts = decompose(fast.crba(model, q), W @ J)
     x, mu = parts.respond(np.matvec(W @ J, v))  # what the contacts take out at e = 0, with its sign turned
     return Impact(
         v=v - (1 + restitution) * parts.unwhiten(x),

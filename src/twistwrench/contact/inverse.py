@@ -12,15 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import fast
 from .._scalars import which
 from ..checks import Array
 from ..errors import ShapeError, SingularError
-from ..inverse_dynamics import external, rnea
-from ..mass_matrix import crba
+from ..inverse_dynamics import external
 from ..model import Model
-from .decomposition import Decomposition, decompose, point_map
+from .decomposition import Decomposition, block_diagonal, decompose, point_map
 from .programme import least_breach, least_within
-from .rows import as_contacts, constraint_bias, constraint_jacobian, per_contact, real_state
+from .rows import as_contacts, per_contact, real_state, touching
 from .types import Contact, Pyramid
 
 __all__ = ["ContactForces", "Task", "contact_inverse_dynamics", "friction_inverse_dynamics"]
@@ -188,12 +188,7 @@ def breached(names: Sequence[str], by: Array) -> str:
 
 def limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> tuple[Array, list[str]]:
     """Return A with A f ≤ 0 for forces f at all points, each in its contact's axes, and the names of its rows."""
-    blocks = [c.limits(sides, pyramid) for c in contacts]
-    A = np.zeros((sum(len(block) for block in blocks), sum(block.shape[1] for block in blocks)))
-    row = column = 0
-    for block in blocks:
-        A[row : row + block.shape[0], column : column + block.shape[1]] = block
-        row, column = row + block.shape[0], column + block.shape[1]
+    A = block_diagonal([c.limits(sides, pyramid) for c in contacts])
     kinds = [*["friction"] * sides, "lift-off"]
     return A, [f"{kind} at {point}" for c in contacts for point in c.point_names for kind in kinds]
 
@@ -226,9 +221,10 @@ class Task:
         """Set up and solve the base rows; raise SingularError if no forces at these contacts do."""
         contacts = as_contacts(model, contacts)
         q, v, a, f_ext = real_state(model, q, v=v, a=a, f_ext=external(model, f_ext))
-        b, J, P = rnea(model, q, v, a, f_ext), constraint_jacobian(model, q, contacts), point_map(model, q, contacts)
+        at, J, bias = touching(model, q, v, contacts)
+        b, P = fast.rnea(model, q, v, a, f_ext), point_map(contacts, at)
         base = slice(0, 6 if model.base == "floating" else 0)
-        parts = decompose(crba(model, q)[..., base, base], P.mT @ J[..., base])
+        parts = decompose(fast.crba(model, q)[..., base, base], P.mT @ J[..., base])
         least = parts.balance(b[..., base])
         left = b[..., base] - np.matvec(J[..., base].mT @ P, least)
         white, whole = (np.linalg.solve(parts.L, x[..., None])[..., 0] for x in (left, b[..., base]))
@@ -238,7 +234,7 @@ class Task:
             raise SingularError(
                 f"no forces at {names} do this{which(np.asarray(missed))}: (τ, f) = {left[missed][0]} is left over"
             )
-        return cls(contacts, b, J, P, parts, least, np.matvec(J, a) + constraint_bias(model, q, v, contacts))
+        return cls(contacts, b, J, P, parts, least, np.matvec(J, a) + bias)
 
     @property
     def free(self) -> Array:

@@ -7,15 +7,15 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import fast
 from .._scalars import which
 from ..checks import Array
 from ..errors import SingularError
-from ..mass_matrix import crba
 from ..model import Model
 from ..plucker import SE3
 from .decomposition import decompose, lever
 from .impacts import impact
-from .rows import as_contacts, constraint_jacobian, contact_errors, per_contact, real_state
+from .rows import as_contacts, contact_errors, per_contact, real_state, touching
 from .types import Contact
 
 __all__ = ["project_state"]
@@ -80,12 +80,13 @@ def project_state(
     contacts = as_contacts(model, contacts)
     q, v = real_state(model, q, v=v)
     for _ in range(steps + 1):
-        W = lever(model, q, contacts)
-        error = np.matvec(W, contact_errors(model, q, contacts, anchors))
+        at, J, _ = touching(model, q, v, contacts)
+        W = lever(contacts, at)
+        error = np.matvec(W, contact_errors(contacts, at, anchors))
         far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
         if not far.any():
             return q, impact(model, q, v, contacts).v
-        parts = decompose(crba(model, q), W @ constraint_jacobian(model, q, contacts))
+        parts = decompose(fast.crba(model, q), W @ J)
         q = model.integrate(q, -parts.unwhiten(parts.respond(error)[0]))
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])

@@ -8,19 +8,22 @@ what vanishes where the point stands still, not the linear half of the spatial a
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
+from ..constants import cast
 from ..errors import unknown_name
-from ..kinematics import frame_bias_acceleration, frame_jacobian, frame_placement
+from ..kinematics import forward_kinematics, frame_placement
 from ..model import Model
 from ..plucker import SE3
 from ..rotation import log3
 from .types import Contact
 
 __all__ = [
+    "Touching",
     "as_contacts",
     "constraint_bias",
     "constraint_jacobian",
@@ -28,6 +31,7 @@ __all__ = [
     "contact_placements",
     "per_contact",
     "real_state",
+    "touching",
 ]
 
 
@@ -71,8 +75,7 @@ def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact])
     """
     contacts = as_contacts(model, contacts)
     (q,) = model.state(q)
-    rows = [frame_jacobian(model, q, c.frame, "local_world_aligned")[..., c.rows, :] for c in contacts]
-    return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+    return touching(model, q, np.zeros(model.nv, q.dtype), contacts).J
 
 
 def constraint_bias(model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact]) -> Array:
@@ -104,8 +107,7 @@ def constraint_bias(model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable
     """
     contacts = as_contacts(model, contacts)
     q, v = model.state(q, v=v)
-    rows = [frame_bias_acceleration(model, q, v, c.frame, "local_world_aligned")[..., c.rows] for c in contacts]
-    return np.concatenate([np.zeros((*q.shape[:-1], 0), q.dtype), *rows], axis=-1)
+    return touching(model, q, v, contacts).bias
 
 
 def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> dict[str, SE3]:
@@ -138,16 +140,60 @@ def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) 
     return {c.frame: frame_placement(model, q, c.frame) for c in as_contacts(model, contacts)}
 
 
-def contact_errors(model: Model, q: Array, contacts: Sequence[Contact], anchors: Mapping[str, SE3]) -> Array:
+class Touching(NamedTuple):
+    """Where the contacts' frames are in the world, their J and their J̇ v."""
+
+    placement: list[SE3]
+    J: Array
+    bias: Array
+
+
+def touching(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> Touching:
+    """Return what all contacts do, from one walk along the tree."""
+    bodies, *motion = forward_kinematics(model, q, v, np.zeros_like(v))
+    V, A = (np.asarray(x) for x in motion)
+    place: list[SE3] = []
+    J = [np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)]
+    bias = [np.zeros((*q.shape[:-1], 0), q.dtype)]
+    for c in contacts:
+        body, own = model.frame(c.frame).body, cast(model.frame(c.frame).placement, q.dtype)
+        place.append(bodies[body] @ own)
+        J.append(_jacobian(model, bodies, body, place[-1].translation)[..., c.rows, :])
+        bias.append(_bias(bodies[body], V[..., body, :], A[..., body, :], own.translation)[..., c.rows])
+    return Touching(place, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
+
+
+def _jacobian(model: Model, bodies: Sequence[SE3], body: int, point: Array) -> Array:
+    """Return the rows (ω, v) of a point of a body, all in the world, shape (..., 6, nv)."""
+    J = np.zeros((*point.shape[:-1], 6, model.nv), point.dtype)
+    S = model.constants(point.dtype).S
+    for i in model.support(body):
+        R, p = bodies[i].rotation, bodies[i].translation
+        turn, shift = R @ S[i][:3], R @ S[i][3:]
+        J[..., :3, model.v_slice[i]] = turn
+        J[..., 3:, model.v_slice[i]] = shift + np.cross(turn, (point - p)[..., None], axis=-2)
+    return J
+
+
+def _bias(at: SE3, V: Array, A: Array, arm: Array) -> Array:
+    """Return (α, a) of a point of a body without q̈, in the axes of the world, shape (..., 6).
+
+    From the body's spatial acceleration A: its origin's classical one is ω × v more.
+    """
+    w, alpha = V[..., :3], A[..., :3]
+    a = A[..., 3:] + np.cross(w, V[..., 3:]) + np.cross(alpha, arm) + np.cross(w, np.cross(w, arm))
+    return np.concatenate([np.matvec(at.rotation, alpha), np.matvec(at.rotation, a)], axis=-1)
+
+
+def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Mapping[str, SE3]) -> Array:
     """Return how far the contacts are from their anchors, in the order of the rows of J, rad and m."""
-    for c in contacts:
-        if c.frame not in anchors:
-            raise unknown_name("anchor", c.frame, anchors)
-    parts = [np.zeros((*q.shape[:-1], 0), q.dtype)]
-    for c in contacts:
-        now, then = frame_placement(model, q, c.frame), anchors[c.frame]
-        turned, moved = log3(now.rotation @ then.rotation.mT), now.translation - then.translation
-        parts.append(np.concatenate([turned, moved], axis=-1)[..., c.rows])
+    missing = [c.frame for c in contacts if c.frame not in anchors]
+    if missing:
+        raise unknown_name("anchor", missing[0], anchors)
+    parts = [np.zeros((*now[0].translation.shape[:-1], 0))] if now else [np.zeros(0)]
+    for c, T in zip(contacts, now):
+        turned = log3(T.rotation @ anchors[c.frame].rotation.mT)
+        parts.append(np.concatenate([turned, T.translation - anchors[c.frame].translation], axis=-1)[..., c.rows])
     return np.concatenate(parts, axis=-1)
 
 
