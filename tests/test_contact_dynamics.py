@@ -78,7 +78,7 @@ def stacked(forces) -> np.ndarray:
 # ---------------------------------------------------------------- 50 digits, Pinocchio
 
 
-LONG = (
+LONG = [name for name in CASES if name.endswith(("slip", "knees", "soles, moving", "kinds, moving"))]
     "Go2, feet that slip",
     "Go2, straight knees",
     "humanoid on two soles, moving",

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import fast
 from .._scalars import which
 from ..checks import Array
 from ..errors import SingularError
+from ..fast import aba, crba
 from ..inverse_dynamics import external
 from ..model import Model
 from ..plucker import SE3
@@ -160,8 +160,8 @@ def contact_forward_dynamics(
     if stabilise is not None:
         error = contact_errors(contacts, at, stabilise.anchors)
         target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
-    qdd = free = fast.aba(model, q, v, tau, f_ext)
-    parts = decompose(fast.crba(model, q), W @ J)
+    qdd = free = aba(model, q, v, tau, f_ext)
+    parts = decompose(crba(model, q), W @ J)
     mu = np.zeros(slip.shape)
     for _ in range(2):  # the second time takes up what rounding left
         x, change = parts.respond(np.matvec(W, target - np.matvec(J, qdd)))

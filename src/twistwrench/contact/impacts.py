@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import fast
 from ..checks import Array
+from ..fast import crba
 from ..model import Model
 from .decomposition import decompose, lever
 from .rows import as_contacts, per_contact, real_state, touching
@@ -95,7 +95,7 @@ def impact(
     q, v = real_state(model, q, v=v)
     at, J, _ = touching(model, q, v, contacts)
     W = lever(contacts, at)
-    parts = decompose(fast.crba(model, q), W @ J)
+    parts = decompose(crba(model, q), W @ J)
     x, mu = parts.respond(np.matvec(W @ J, v))  # what the contacts take out at e = 0, with its sign turned
     return Impact(
         v=v - (1 + restitution) * parts.unwhiten(x),

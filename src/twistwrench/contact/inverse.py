@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import fast
 from .._scalars import which
 from ..checks import Array
 from ..errors import ShapeError, SingularError
+from ..fast import crba, rnea
 from ..inverse_dynamics import external
 from ..model import Model
 from .decomposition import Decomposition, block_diagonal, decompose, point_map
@@ -222,9 +222,9 @@ class Task:
         contacts = as_contacts(model, contacts)
         q, v, a, f_ext = real_state(model, q, v=v, a=a, f_ext=external(model, f_ext))
         at, J, bias = touching(model, q, v, contacts)
-        b, P = fast.rnea(model, q, v, a, f_ext), point_map(contacts, at)
+        b, P = rnea(model, q, v, a, f_ext), point_map(contacts, at)
         base = slice(0, 6 if model.base == "floating" else 0)
-        parts = decompose(fast.crba(model, q)[..., base, base], P.mT @ J[..., base])
+        parts = decompose(crba(model, q)[..., base, base], P.mT @ J[..., base])
         least = parts.balance(b[..., base])
         left = b[..., base] - np.matvec(J[..., base].mT @ P, least)
         white, whole = (np.linalg.solve(parts.L, x[..., None])[..., 0] for x in (left, b[..., base]))

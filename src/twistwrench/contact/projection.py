@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import fast
 from .._scalars import which
 from ..checks import Array
 from ..errors import SingularError
+from ..fast import crba
 from ..model import Model
 from ..plucker import SE3
 from .decomposition import decompose, lever
@@ -86,7 +86,7 @@ def project_state(
         far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
         if not far.any():
             return q, impact(model, q, v, contacts).v
-        parts = decompose(fast.crba(model, q), W @ J)
+        parts = decompose(crba(model, q), W @ J)
         q = model.integrate(q, -parts.unwhiten(parts.respond(error)[0]))
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])
