@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import interface
+from website import chinese, interface
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -25,7 +25,7 @@ extensions = [
 templates_path = ["website/templates"]
 html_extra_path: list[str] = []
 exclude_patterns = ["files/**"]
-suppress_warnings = ["myst.strikethrough"]
+suppress_warnings = ["ref.python"]  # a `Motion` in a docstring may be one of several: the first will do
 
 # ---- pages
 myst_enable_extensions = ["amsmath", "colon_fence", "dollarmath"]
@@ -51,7 +51,8 @@ html_css_files = ["site.css"]
 html_js_files = ["site.js"]
 html_show_sourcelink = False
 html_copy_source = False
-html_last_updated_fmt = None
+html_show_search_summary = False  # it would have to fetch the pages, which the file system does not allow
+html_sidebars = {"algorithms/*": [], "index": []}
 html_context = {
     "default_mode": "auto",
     "other_language": "en" if CHINESE else "zh",
@@ -76,5 +77,6 @@ mathjax3_config = {"options": {"enableMenu": False}, "svg": {"fontCache": "globa
 
 
 def setup(app):
-    """Connect what adds the chapter's formulas to the docstrings."""
+    """Connect what adds the chapter's formulas to the docstrings, and the search of the Chinese pages."""
+    app.add_search_language(chinese.PairsOfCharacters)
     interface.connect(app, "zh" if CHINESE else "en")

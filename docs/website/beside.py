@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import ast
 import tomllib
+from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,8 +21,8 @@ FOLDER = Path(__file__).resolve().parent / "algorithms"
 SOURCE = ROOT / "src" / "twistwrench"
 ORDER = ("kinematics", "rnea", "aba", "crba", "centroidal")
 WORDS = {
-    "en": ("What it does", "The source: lines {} to {} of", "Documentation of", "step"),
-    "zh": ("这一步做什么", "源码第 {}–{} 行：", "接口文档：", "步"),
+    "en": ("What it does", "The source: lines {} to {} of", "Documentation of"),
+    "zh": ("这一步做什么", "源码第 {}–{} 行：", "接口文档："),
 }
 
 
@@ -69,23 +71,34 @@ def cut(lines: Lines, quotes: list[str], file: str) -> list[Lines]:
 
 def page(name: str, language: str) -> str:
     """Return the page of an algorithm, as Markdown for MyST."""
-    said, file = read(name), read(name)["file"]
-    lines = body(file, said["function"])
-    parts = cut(lines, [step["line"] for step in said["step"]], file)
-    does, source, documented, _ = WORDS[language]
-    last = lines.first + len(lines.text) - 1
+    said, numbers = read(name), count(1)
     call = f"{{py:obj}}`tw.{said['call']} <twistwrench.{said['call']}>`"
-    out = [f"# {said['title'][language]}", said["intro"][language].strip(), f"{documented} {call}."]
-    out.append(f":::::{{container}} beside\n{_head(does, source.format(lines.first, last), file)}")
-    out += [_row(k, step, part, language) for k, (step, part) in enumerate(zip(said["step"], parts, strict=True), 1)]
-    out.append(":::::")
-    out.append(said["outro"][language].strip() if "outro" in said else "")
+    out = [
+        "---\nhtml_theme.sidebar_secondary.remove: true\n---",
+        f"# {said['title'][language]}",
+        said["intro"][language].strip(),
+        f"{WORDS[language][2]} {call}.",
+    ]
+    for part in said["part"]:
+        out += _table(part, numbers, language)
     return "\n\n".join([*out, steps.section(said, language)]) + "\n"
+
+
+def _table(part: dict[str, Any], numbers: Iterator[int], language: str) -> Iterator[str]:
+    """Yield the rows of one function."""
+    does, source, _ = WORDS[language]
+    lines = body(part["file"], part["function"])
+    pieces = cut(lines, [step["line"] for step in part["step"]], part["file"])
+    yield ":::::{container} beside"
+    yield _head(does, source.format(lines.first, lines.first + len(lines.text) - 1), part["file"])
+    for step, piece in zip(part["step"], pieces, strict=True):
+        yield _row(next(numbers), step, piece, language)
+    yield ":::::"
 
 
 def _head(does: str, source: str, file: str) -> str:
     cells = (f":::{{container}} say\n{does}\n:::", f":::{{container}} code\n{source} `{file}`\n:::")
-    return "\n".join(["::::{container} row head", *cells, "::::"])
+    return "\n".join(["::::{container} step head", *cells, "::::"])
 
 
 def _row(k: int, step: dict[str, Any], part: Lines, language: str) -> str:
@@ -95,7 +108,7 @@ def _row(k: int, step: dict[str, Any], part: Lines, language: str) -> str:
     formula = f"\n\n$$\n{step['tex'].strip()}\n$$" if "tex" in step else ""
     say = f":::{{container}} say\n**{k}.** {step[language].strip()}{formula}\n:::"
     listing = "\n".join(["```{code-block} python", f":lineno-start: {part.first}", "", *text, "```"])
-    return f"::::{{container}} row\n{say}\n:::{{container}} code\n{listing}\n:::\n::::"
+    return f"::::{{container}} step\n{say}\n:::{{container}} code\n{listing}\n:::\n::::"
 
 
 def write_algorithms(out: Path, language: str) -> None:

@@ -1,10 +1,112 @@
-"""Open pages of both languages in a headless Chromium, from the file system, wide and narrow."""
+"""Open pages of both languages in a headless Chromium, from the file system and without a network, wide and narrow.
+
+Asked of each: formulas set and figures shown, nothing on the console, nothing wider than a phone, the language switch
+reached with Tab and its focus seen, and the rules of WCAG 2.1 A and AA that axe-core can judge, light and dark.
+"""
 
 from __future__ import annotations
 
+import os
+import shutil
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
+
+PAGES = ("index", "chapter/49_06_rnea", "algorithms/rnea", "api/inverse_dynamics", "errata", "map")
+WIDE, NARROW = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
+MOST_TABS = 40
+RULES = {"runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"]}}
+
+FORMULAS = """async () => {
+  if (window.MathJax) await MathJax.startup.promise;
+  const left = [...document.querySelectorAll(".math")].filter((e) => !e.querySelector("mjx-container svg"));
+  return [left.length, document.querySelectorAll("mjx-merror, [data-mjx-error]").length];
+}"""
+HIDDEN = "() => [...document.images].filter((i) => !(i.complete && i.naturalWidth)).map((i) => i.getAttribute('src'))"
+TOO_WIDE = "() => document.scrollingElement.scrollWidth - window.innerWidth"
+FOCUS = """() => {
+  const e = document.activeElement, style = getComputedStyle(e);
+  const seen = (style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0) || style.boxShadow !== "none";
+  return [e.classList.contains("language-switch"), seen];
+}"""
+
+
+def chromium() -> str | None:
+    """Return where the Chromium of this machine is; $CHROMIUM names another."""
+    return os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+def missing() -> str | None:
+    """Return why no page can be opened here, or None."""
+    try:
+        import axe_playwright_python  # noqa: F401
+        import playwright  # noqa: F401
+    except ImportError as error:
+        return f"{error.name} is not installed: no page is opened"
+    return None if chromium() else "no chromium on the PATH, and $CHROMIUM is not set: no page is opened"
 
 
 def check(html: Path) -> list[str]:
-    """Return what is wrong with the pages."""
-    return []
+    """Return what is wrong with the pages; says so and returns nothing where there is no Chromium."""
+    if reason := missing():
+        print(reason)
+        return []
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as play:
+        browser = play.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
+        wrong = [f"{at}: {what}" for at, what in _all(browser, html)]
+        browser.close()
+    return wrong
+
+
+def _all(browser: Any, html: Path) -> Iterator[tuple[str, str]]:
+    for language in ("en", "zh"):
+        for size, scheme in ((WIDE, "light"), (NARROW, "dark")):
+            context = browser.new_context(viewport=size, color_scheme=scheme, offline=True)
+            page = context.new_page()
+            for name in PAGES:
+                at = f"{language}/{name} at {size['width']} px, {scheme}"
+                for what in _one(page, (html / language / f"{name}.html").resolve().as_uri()):
+                    yield at, what
+            context.close()
+
+
+def _one(page: Any, address: str) -> Iterator[str]:
+    """Yield what is wrong with one page."""
+    said: list[str] = []
+    page.on("console", lambda message: said.append(message.text) if message.type in ("error", "warning") else None)
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.on("request", lambda request: None if request.url.startswith(("file:", "data:")) else said.append(request.url))
+    page.goto(address, wait_until="load")
+    unset, broken = page.evaluate(FORMULAS)
+    if unset or broken:
+        yield f"{unset} formulas not set, {broken} in error"
+    page.wait_for_timeout(700)  # site.js looks at what scrolls half a second after loading
+    if hidden := page.evaluate(HIDDEN):
+        yield f"figures not shown: {hidden}"
+    if (excess := page.evaluate(TOO_WIDE)) > 0:
+        yield f"{excess} px wider than the window"
+    yield from _reach(page)
+    yield from _accessible(page)
+    yield from dict.fromkeys(f"on the console: {line}" for line in said)
+
+
+def _reach(page: Any) -> Iterator[str]:
+    """Tab from the top to the language switch."""
+    for _ in range(MOST_TABS):
+        page.keyboard.press("Tab")
+        there, seen = page.evaluate(FOCUS)
+        if there:
+            if not seen:
+                yield "the focus on the language switch cannot be seen"
+            return
+    yield f"the language switch is not reached with {MOST_TABS} tabs"
+
+
+def _accessible(page: Any) -> Iterator[str]:
+    from axe_playwright_python.sync_playwright import Axe
+
+    for rule in Axe().run(page, options=RULES).response["violations"]:
+        places = [node["target"][0] for node in rule["nodes"]]
+        yield f"{rule['id']} ({rule['help']}): {len(places)} places, {places[:3]}"

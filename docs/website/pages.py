@@ -67,6 +67,8 @@ def moved(text: str, path: str, name: str, out: Path) -> str:
     def follow(match: re.Match[str]) -> str:
         before, target, fragment = match[1], match[2], match[3] or ""
         goal = os.path.normpath(here / target)
+        if not (ROOT / goal).exists():
+            return match[0]  # for Sphinx to complain of, with the line
         page = page_of(goal)
         if page is None:
             page = _carried(goal, out)
