@@ -79,11 +79,6 @@ def stacked(forces) -> np.ndarray:
 
 
 LONG = [name for name in CASES if name.endswith(("slip", "knees", "soles, moving", "kinds, moving"))]
-    "Go2, feet that slip",
-    "Go2, straight knees",
-    "humanoid on two soles, moving",
-    "a tree of joints of all kinds, moving",
-)
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n in LONG)) for n in CASES])
