@@ -31,12 +31,15 @@ class Method:
         From a `System`, t, q and v to the next q and v.
     keeps : str
         What it keeps of the laws of mechanics, at any dt.
+    contacts : bool
+        Whether it can let contacts stick.
     """
 
     title: str
     order: int
     step: Step
     keeps: str
+    contacts: bool = True
 
 
 METHODS = {
@@ -45,6 +48,10 @@ METHODS = {
     "midpoint": Method("explicit midpoint", 2, partial(runge_kutta, MIDPOINT), "nothing"),
     "rk4": Method("Runge-Kutta", 4, partial(runge_kutta, RK4), "nothing; the errors are small"),
     "variational": Method(
-        "variational", 2, variational, "conserved momenta to rounding; the symplectic form, and so nearly the energy"
+        "variational",
+        2,
+        variational,
+        "conserved momenta to rounding; the symplectic form, and so nearly the energy",
+        contacts=False,
     ),
 }

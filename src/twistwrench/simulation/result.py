@@ -14,6 +14,7 @@ from ..energy import kinetic_energy, potential_energy
 from ..errors import unknown_name
 from ..model import Model
 from .methods import METHODS
+from .system import System
 
 __all__ = ["Simulation"]
 
@@ -31,7 +32,8 @@ class Simulation:
 
     Attributes
     ----------
-    model : Model
+    system : System
+        What moved: model, policy and contacts.
     method : str
         Its name in the registry of methods.
     t : ndarray, shape (n,)
@@ -44,13 +46,18 @@ class Simulation:
         How long it took.
     """
 
-    model: Model
+    system: System
     method: str
     t: Array
     q: Array
     v: Array
     evaluations: int
     seconds: float
+
+    @property
+    def model(self) -> Model:
+        """The model that moved; of a scene the smallest one."""
+        return self.system.model
 
     @cached_property
     def energy(self) -> Array:
@@ -68,6 +75,15 @@ class Simulation:
         """Angular momentum about the world's origin, and linear momentum, shape (n, ..., 6): k_G + p_G × l_G, l_G."""
         k, l = self.momentum[..., :3], self.momentum[..., 3:]
         return np.concatenate([k + np.cross(center_of_mass(self.model, self.q), l), l], axis=-1)
+
+    @cached_property
+    def contact_forces(self) -> dict[str, Array]:
+        """Forces on the robot by the contact's frame, axes of the world, each (n, ..., 3) or (n, ..., 6) as (τ, f).
+
+        Computed when they are first asked for: the policy is asked once more at every state.
+        """
+        states = [self.system.held(float(t), q, v) for t, q, v in zip(self.t, self.q, self.v)]
+        return {frame: np.stack([s.forces[frame] for s in states]) for frame in states[0].forces}
 
     def __str__(self) -> str:
         batch = "" if self.q.ndim == 2 else f", a batch of {self.q.shape[1:-1]}"

@@ -9,18 +9,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
+from ..contact import Contact
 from ..errors import SingularError, unknown_name
 from ..model import Model
 from .divergence import DivergenceError, refuse_divergence
 from .methods import METHODS, Step
 from .result import Simulation
-from .system import Policy, System
+from .system import Policy, SceneLike, System, model_of
 
 __all__ = ["simulate"]
 
 
 def simulate(
-    model: Model,
+    robot: Model | SceneLike,
     q: ArrayLike,
     v: ArrayLike,
     *,
@@ -28,16 +29,19 @@ def simulate(
     steps: int | None = None,
     duration: float | None = None,
     tau: Policy | ArrayLike | None = None,
+    contacts: Iterable[Contact] = (),
     method: str = "rk4",
     progress: bool = False,
 ) -> Simulation:
     """Let a robot move from a state, and return its motion.
 
-    There is no collision detection: a robot falls through the floor.
+    There is no collision detection: a robot without contacts falls through the floor. Contacts stick where they are at
+    t = 0, all the time: none opens, closes or slips, and they pull where they must. `Simulation.contact_forces` tells.
 
     Parameters
     ----------
-    model : Model
+    robot : Model or Scene
+        Of a scene the smallest model, its contacts and its wrenches.
     q : array_like, shape (..., nq)
         Configuration at t = 0. Leading axes are as many motions, side by side.
     v : array_like, shape (..., nv)
@@ -51,9 +55,13 @@ def simulate(
     tau : callable or array_like, shape (..., nv), optional
         Joint forces as `aba` takes them: a policy ``(t, q, v) -> tau``, which is asked wherever the method looks at
         the forces, or constant ones. None unless given.
+    contacts : iterable of Contact, optional
+        `PointContact` or `SurfaceContact`, besides those of a scene. After each step the state goes back to where they
+        hold (`project_state`). Computed in double precision.
     method : {"euler", "semi-implicit", "midpoint", "rk4", "variational"}
         In the order of their error, of order 1, 1, 2, 4 and 2 in dt. "variational" holds the energy over
-        long times and keeps the momenta that have a conservation law; it solves an equation in each step.
+        long times and keeps the momenta that have a conservation law; it solves an equation in each step, and takes
+        no contacts.
     progress : bool
         Whether to show a progress bar.
 
@@ -68,12 +76,13 @@ def simulate(
         If the motion leaves all bounds, or the equation of a variational step cannot be solved. Says when, and in
         which joint.
     SingularError
-        As `aba`, with the time.
+        As `aba` and `contact_forward_dynamics`, with the time.
     NameNotFound
-        If there is no such method.
+        If there is no such method, or no frame of a contact.
     ShapeError, ValueError
         As `Model.state`; if `tau` is or returns anything but finite forces of that shape; if dt is not positive; if
-        not one of `steps` and `duration` is given; if numbers are complex.
+        not one of `steps` and `duration` is given; if numbers are complex; if a contact moves at t = 0; if a
+        variational method is asked for contacts.
 
     Notes
     -----
@@ -94,23 +103,27 @@ def simulate(
     if method not in METHODS:
         raise unknown_name("method", method, METHODS)
     count = _count(dt, steps, duration)
-    q, v = model.state(q, v=v)
+    q, v = model_of(robot).state(q, v=v)
     if q.dtype.kind == "c":
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
-    system, step = System(model, tau, v, float(dt)), METHODS[method].step
+    system, step = System(robot, contacts, tau, q, v, float(dt)), METHODS[method].step
+    if system.contacts:
+        if not METHODS[method].contacts:
+            raise ValueError(f"method: {method!r} takes no contacts, and there are {len(system.contacts)}")
+        q, v = q.astype(np.float64), v.astype(np.float64)
     qs, vs = np.empty((count + 1, *q.shape), q.dtype), np.empty((count + 1, *v.shape), v.dtype)
     qs[0], vs[0], start = q, v, perf_counter()
     for k in _bar(count, progress):
         qs[k + 1], vs[k + 1] = _advance(step, system, k, qs[k].copy(), vs[k].copy())
     t = np.arange(count + 1) * float(dt)
-    return Simulation(model, method, t, qs, vs, system.evaluations, perf_counter() - start)
+    return Simulation(system, method, t, qs, vs, system.evaluations, perf_counter() - start)
 
 
 def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Array, Array]:
     """Make step k; say when, where something goes wrong."""
     t = k * system.dt
     try:
-        q, v = step(system, t, q, v)
+        q, v = system.settle(*step(system, t, q, v))
         refuse_divergence(system.model, "v", v, dt=system.dt)
     except (DivergenceError, SingularError) as error:
         raise type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}") from error

@@ -1,34 +1,58 @@
-"""What a method asks of the mechanics: the forces of the policy, and the acceleration that follows."""
+"""What a method asks of the mechanics: the forces of the policy, the contacts, and the acceleration that follows."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array
+from ..contact import (
+    Contact,
+    ContactDynamics,
+    constraint_jacobian,
+    contact_forward_dynamics,
+    contact_placements,
+    project_state,
+)
 from ..errors import ShapeError
-from ..fast import aba
+from ..fast import aba, rnea
 from ..model import Model
 from .divergence import refuse_divergence
 
-__all__ = ["Policy", "System"]
+__all__ = ["Policy", "SceneLike", "System", "model_of"]
 
 Policy = Callable[[float, Array, Array], ArrayLike]
 """From time, q (..., nq) and v (..., nv) to joint forces (..., nv)."""
 
+STILL = 1e-9
+"""How fast a contact that sticks may move at the start, relative to the fastest motion."""
+
+
+class SceneLike(Protocol):
+    """What `simulate` asks of a scene."""
+
+    model: Model
+    contacts: tuple[Contact, ...]
+
+    def f_ext(self, q: ArrayLike) -> Array:
+        """Return the wrenches on the bodies in a configuration, shape (..., nbodies, 6)."""
+
 
 class System:
-    """A model that moves under a policy.
+    """A model that moves under a policy, wrenches and contacts.
 
     Parameters
     ----------
-    model : Model
+    robot : Model or SceneLike
+    contacts : iterable of Contact
+        They stick where they are in q; a scene has its own.
     tau : callable, array_like or None
         As in `simulate`.
-    v : ndarray, shape (..., nv)
-        A velocity, for the shape and the number type of all that follow.
+    q, v : ndarray, shapes (..., nq) and (..., nv)
+        The state at the start.
     dt : float
         Duration of a step, s.
 
@@ -38,26 +62,59 @@ class System:
         How often forces were asked for.
     """
 
-    def __init__(self, model: Model, tau: Policy | ArrayLike | None, v: Array, dt: float) -> None:
-        self.model, self.dt, self.evaluations = model, dt, 0
+    def __init__(
+        self,
+        robot: Model | SceneLike,
+        contacts: Iterable[Contact],
+        tau: Policy | ArrayLike | None,
+        q: Array,
+        v: Array,
+        dt: float,
+    ) -> None:
+        self.model = model = model_of(robot)
+        self.contacts = (*contacts, *(() if isinstance(robot, Model) else robot.contacts))
+        self.push = None if isinstance(robot, Model) else robot.f_ext
+        self.dt, self.evaluations = dt, 0
+        self.anchors = contact_placements(model, q, self.contacts)
         self._policy = tau if callable(tau) else None
         constant = np.zeros_like(v) if tau is None or callable(tau) else self._checked("tau", tau, v)
         self._constant = np.broadcast_to(constant, v.shape)
+        self._refuse_slip(q, v)
 
     def force(self, t: float, q: Array, v: Array) -> Array:
-        """Return the joint forces of the policy in a state, shape (..., nv)."""
+        """Return what policy and wrenches from outside do to the joints in a state: τ + Σ Jᵀ f, shape (..., nv)."""
         self.evaluations += 1
-        if self._policy is None:
-            return self._constant
-        for x in (q, v):
-            x.flags.writeable = False  # a policy cannot change the state behind our back
-        tau = self._checked("tau(t, q, v)", self._policy(t, q, v), v, f" at t = {t:.6g}")
-        return np.broadcast_to(tau, v.shape)
+        tau = self._constant
+        if self._policy is not None:
+            for x in (q, v):
+                x.flags.writeable = False  # a policy cannot change the state behind our back
+            tau = self._checked("tau(t, q, v)", self._policy(t, q, v), v, f" at t = {t:.6g}")
+        if self.push is None:
+            return np.broadcast_to(tau, v.shape)
+        rest = np.zeros_like(v)
+        return tau + rnea(self.model, q, rest, rest) - rnea(self.model, q, rest, rest, self.push(q))
 
     def acceleration(self, t: float, q: Array, v: Array) -> Array:
         """Return the acceleration in a state, shape (..., nv) (49.7)."""
         refuse_divergence(self.model, "v", v, dt=self.dt)
-        return aba(self.model, q, v, self.force(t, q, v))
+        return self.held(t, q, v).qdd if self.contacts else aba(self.model, q, v, self.force(t, q, v))
+
+    def held(self, t: float, q: Array, v: Array) -> ContactDynamics:
+        """Return acceleration and contact forces in a state (49.9)."""
+        return contact_forward_dynamics(self.model, q, v, self.force(t, q, v), self.contacts)
+
+    def settle(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """Return the state near by in which the contacts are where they stick, and still."""
+        return project_state(self.model, q, v, self.contacts, self.anchors) if self.contacts else (q, v)
+
+    def _refuse_slip(self, q: Array, v: Array) -> None:
+        for contact in self.contacts:
+            slip = np.abs(np.matvec(constraint_jacobian(self.model, q, [contact]), v)).max()
+            if slip > STILL * max(np.abs(v).max(), 1):
+                raise ValueError(
+                    f"v: contact {contact.frame!r} sticks, but moves at t = 0 (up to {slip:.3g} m/s or rad/s); "
+                    "twistwrench.impact gives the velocity after it has closed"
+                )
 
     def integrate(self, q: Array, u: Array) -> Array:
         """Return q ⊕ u."""
@@ -78,3 +135,8 @@ class System:
                 hint = "; the six entries of the floating base come first: zeros, as it has no motor"
             raise ShapeError(f"{name}: expected shape {v.shape}, got {checked.shape}{when}{hint}")
         return checked.astype(v.dtype, copy=False)
+
+
+def model_of(robot: Model | SceneLike) -> Model:
+    """Return the model of a scene, or the model itself."""
+    return robot if isinstance(robot, Model) else robot.model
