@@ -16,5 +16,6 @@ motion     four legs                                           two legs
 
 from .motion import Motion
 from .performing import MOTIONS, jump, trot, walk
+from .support import Ground, ground
 
-__all__ = ["MOTIONS", "Motion", "jump", "trot", "walk"]
+__all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "trot", "walk"]

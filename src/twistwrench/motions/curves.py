@@ -7,16 +7,19 @@ and take complex times, so that a complex step differentiates what is made of th
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import ArrayLike
 
 from ..checks import Array
 
-__all__ = ["Harmonics", "Polynomials", "between", "hop", "stair"]
+__all__ = ["Harmonics", "Pieces", "between", "hop", "stair"]
 
-SMOOTH_STEP = np.polynomial.Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
+SMOOTH_STEP = Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
 """From 0 to 1 within the unit of time, with three derivatives zero at both ends."""
-BUMP = 256 * np.polynomial.Polynomial([0, 0, 0, 0, 1]) * np.polynomial.Polynomial([1, -1]) ** 4
+BUMP = 256 * Polynomial([0, 0, 0, 0, 1]) * Polynomial([1, -1]) ** 4
 """From 0 to 1 and back within the unit of time, with three derivatives zero at both ends."""
 
 
@@ -30,65 +33,58 @@ def hop(s: Array, rate: float) -> Array:
     return _unit_jet(BUMP, s, rate)
 
 
-def _unit_jet(p: np.polynomial.Polynomial, s: Array, rate: float) -> Array:
+def _unit_jet(p: Polynomial, s: Array, rate: float) -> Array:
     inside = np.where(s.real <= 0, 0, np.where(s.real >= 1, 1, s))
     return np.stack([p(inside), rate * p.deriv()(inside), rate**2 * p.deriv(2)(inside)])
 
 
-def between(start: Sequence[float], end: Sequence[float], duration: float, area: float | None = None) -> Array:
-    """Return the polynomial that has given derivatives at both ends of an interval, and a given integral.
+def between(
+    start: Sequence[float], end: Sequence[float], interval: tuple[float, float], area: float | None = None
+) -> Polynomial:
+    """Return the polynomial that has given derivatives at both ends of an interval, and a given integral over it.
 
     Parameters
     ----------
     start, end : sequence of float
-        Value, first derivative and so on, at 0 and at `duration`.
-    duration : float
+        Value, first derivative and so on.
+    interval : (float, float)
+        Where it begins and ends.
     area : float, optional
         Its integral over the interval, if that matters.
-
-    Returns
-    -------
-    ndarray
-        Coefficients, the lowest first.
     """
-    rows, values = [], [*start, *end]
-    degree = len(values) + (area is not None)
-    powers = np.polynomial.Polynomial
-    basis = [powers.basis(k) for k in range(degree)]
-    for at, given in ((0.0, start), (1.0, end)):  # in the unit of time: well conditioned
-        rows += [[p.deriv(k)(at) if k else p(at) for p in basis] for k in range(len(given))]
+    duration = interval[1] - interval[0]
+    degree = len(start) + len(end) + (area is not None)
+    basis = [Polynomial.basis(k) for k in range(degree)]  # in the unit of time: well conditioned
+    rows = [[p.deriv(k)(at) for p in basis] for at, given in ((0.0, start), (1.0, end)) for k in range(len(given))]
     values = [x * duration**k for given in (start, end) for k, x in enumerate(given)]
     if area is not None:
         rows.append([p.integ()(1.0) for p in basis])
         values.append(area / duration)
-    scaled = np.linalg.solve(np.array(rows), np.array(values))
-    return np.asarray(scaled / duration ** np.arange(degree))
+    return Polynomial(np.linalg.solve(np.array(rows), np.array(values)), domain=interval, window=(0, 1))
 
 
-class Polynomials:
-    """A curve in pieces, each a polynomial in the time since the piece began.
+class Pieces:
+    """A curve in pieces, each given by a polynomial for every coordinate.
 
     Parameters
     ----------
-    breaks : sequence of float, length n + 1
+    breaks : array_like, shape (n + 1,)
         Where the pieces begin, and where the last one ends, s.
-    pieces : sequence of ndarray, shape (degree + 1, dim), length n
-        Coefficients, the lowest first.
+    pieces : sequence of sequences of polynomials, n times dim
+        Of `numpy.polynomial`, in absolute time.
     """
 
-    def __init__(self, breaks: Sequence[float], pieces: Sequence[Array]) -> None:
-        self.breaks, self.pieces = np.asarray(breaks), list(pieces)
+    def __init__(self, breaks: ArrayLike, pieces: Sequence[Sequence[Any]]) -> None:
+        self.breaks, self.pieces = np.asarray(breaks), pieces
 
     def __call__(self, t: Array) -> Array:
         """Return the jet at times t, shape (3, n, dim)."""
-        piece = np.clip(np.searchsorted(self.breaks, t.real, side="right") - 1, 0, len(self.pieces) - 1)
-        out = np.zeros((3, len(t), self.pieces[0].shape[1]), t.dtype)
-        for k, coefficients in enumerate(self.pieces):
-            here = piece == k
-            since = t[here] - self.breaks[k]
-            for order in range(3):
-                derivative = np.polynomial.polynomial.polyder(coefficients, order)
-                out[order, here] = np.polynomial.polynomial.polyval(since, derivative).mT
+        at = np.clip(np.searchsorted(self.breaks, t.real, side="right") - 1, 0, len(self.pieces) - 1)
+        out = np.zeros((3, len(t), len(self.pieces[0])), t.dtype)
+        for k, piece in enumerate(self.pieces):
+            here = at == k
+            for dim, p in enumerate(piece):
+                out[:, here, dim] = p(t[here]), p.deriv()(t[here]), p.deriv(2)(t[here])
         return out
 
 

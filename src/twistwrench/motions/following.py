@@ -14,20 +14,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..centroidal import center_of_mass, centroidal_map, centroidal_momentum_rate
+from ..centroidal import center_of_mass, centroidal_momentum_rate
 from ..checks import Array
 from ..errors import SingularError
+from ..fast import centroidal_map
 from ..kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
 from ..rotation import log3
 from .legs import Stand
 from .turning import body_rates
 
-__all__ = ["Goal", "follow", "free_columns", "place", "tasks"]
+__all__ = ["Goal", "follow", "free_columns", "nearer", "place", "tasks", "turned"]
 
 REFERENCE: Reference = "local_world_aligned"
 
 STEPS = 40
 """Of Newton's method, which needs about six."""
+LONGEST_STEP = 0.4
+"""Of them, rad: a longer one may bend a knee that is nearly straight the wrong way."""
 
 
 class Goal(NamedTuple):
@@ -60,7 +63,7 @@ def follow(stand: Stand, goal: Goal) -> tuple[Array, Array, Array]:
         If the legs are too short, or straight.
     """
     model = stand.model
-    q = place(stand, goal.com[0], goal.turn[0], goal.steps[0], goal.joints[0])
+    q = place(stand, goal)
     free, J = free_columns(stand), tasks(stand, q)
     rates = body_rates(goal.turn)
 
@@ -80,37 +83,45 @@ def follow(stand: Stand, goal: Goal) -> tuple[Array, Array, Array]:
     return q, v, a
 
 
-def place(stand: Stand, com: Array, turn: Array, steps: Array, joints: Array, q: Array | None = None) -> Array:
-    """Return the q in which centre of mass and feet are where they should be: Newton's method, from q or standing.
+def place(stand: Stand, goal: Goal) -> Array:
+    """Return the q in which centre of mass and feet are where they should be: Newton's method, from standing.
 
     Raises
     ------
     SingularError
         If there is none near.
     """
-    model, free = stand.model, free_columns(stand)
-    shift = joints.copy()
-    shift[..., :3], shift[..., free] = turn, 0
-    start = np.broadcast_to(stand.q, (*turn.shape[:-1], model.nq)).astype(turn.dtype)
-    if q is not None:  # the legs and the place from there
-        start = start.copy()
-        near = model.difference(start, q)
-        shift[..., [c for c in free if c > 5]] = near[..., [c for c in free if c > 5]]
-        start[..., :3] = q[..., :3]
-    q, left = model.integrate(start, shift), 2
+    q, left = turned(stand, goal, np.broadcast_to(stand.q, (*goal.turn[0].shape[:-1], stand.model.nq))), 2
     for _ in range(STEPS):
-        error = _missing(stand, q, com, steps)
-        move = np.zeros((*error.shape[:-1], model.nv), error.dtype)
-        move[..., free] = np.linalg.solve(tasks(stand, q)[..., free], error[..., None])[..., 0]
-        q = model.integrate(q, move)
-        left -= int(np.abs(error.real).max() < 1e-12 * max(1.0, stand.height))  # twice more: the imaginary part
+        q, error = nearer(stand, goal, q)
+        left -= int(error.max() < 1e-12 * max(1.0, stand.height))  # twice more: the imaginary part
         if not left:
-            return model.normalize(q)
-    worst = int(np.abs(error.real).max(-1).argmax())
+            return q
     raise SingularError(
-        f"{model.name!r}: no posture near the standing one has its feet and its centre of mass where they should be, "
-        f"at sample {worst}: off by {np.abs(error.real).max():.2g} m; are the legs long enough?"
+        f"{stand.model.name!r}: no posture near the standing one has its feet and its centre of mass where they should "
+        f"be, at sample {int(error.argmax())}: off by {error.max():.2g} m; are the legs long enough?"
     )
+
+
+def turned(stand: Stand, goal: Goal, q: Array) -> Array:
+    """Return q with the base turned as it should be, and the joints that are of no leg where they should be."""
+    model, free = stand.model, free_columns(stand)
+    shift = goal.joints[0].copy()
+    shift[..., :3], shift[..., free] = goal.turn[0], 0
+    out = model.integrate(np.broadcast_to(stand.q, (*shift.shape[:-1], model.nq)).astype(shift.dtype), shift)
+    kept = [0, 1, 2, *(entry for leg in stand.legs for entry in leg.entries)]
+    out[..., kept] = q[..., kept]
+    return out
+
+
+def nearer(stand: Stand, goal: Goal, q: Array) -> tuple[Array, Array]:
+    """Take one step of Newton's method from q; return where it leads, and how far off q itself was."""
+    error = _missing(stand, q, goal)
+    move = np.zeros((*error.shape[:-1], stand.model.nv), error.dtype)
+    free = free_columns(stand)
+    move[..., free] = np.linalg.solve(tasks(stand, q)[..., free], error[..., None])[..., 0]
+    far = np.abs(move.real).max(axis=-1, keepdims=True) / LONGEST_STEP
+    return stand.model.integrate(q, move / np.maximum(far, 1)), np.abs(error.real).max(axis=-1)
 
 
 def free_columns(stand: Stand) -> list[int]:
@@ -125,14 +136,14 @@ def tasks(stand: Stand, q: Array) -> Array:
     return np.concatenate([com, *feet], axis=-2)
 
 
-def _missing(stand: Stand, q: Array, com: Array, steps: Array) -> Array:
+def _missing(stand: Stand, q: Array, goal: Goal) -> Array:
     """Return how far centre of mass and feet are from where they should be, in the axes of the world."""
-    out = [com - center_of_mass(stand.model, q)]
+    out = [goal.com[0] - center_of_mass(stand.model, q)]
     for k, leg in enumerate(stand.legs):
         T = frame_placement(stand.model, q, leg.frame)
         if leg.has_sole:
             out.append(np.matvec(T.rotation, log3(T.rotation.mT @ leg.rotation)))
-        out.append(leg.position + steps[..., k, :] - T.translation)
+        out.append(leg.position + goal.steps[0][..., k, :] - T.translation)
     return np.concatenate(out, axis=-1)
 
 

@@ -21,7 +21,7 @@ from .legs import Stand
 
 __all__ = ["BRISK_WALK", "CRAWL", "TROT", "WALK", "Gait", "Steps"]
 
-HARMONICS = 9
+HARMONICS = 13
 SAMPLES = 256
 
 
@@ -35,6 +35,8 @@ class Gait:
         Of one stride, √(H/g).
     duty : float
         The share of the stride for which a foot stands.
+    ramp : float
+        The share of the stride in which a foot is loaded, and in which it is unloaded again.
     phases : tuple of float
         When in the stride each leg comes down: left and right, or front left, front right, rear left, rear right.
     speed : float
@@ -45,22 +47,29 @@ class Gait:
         How high a foot and how far up and down the centre of mass goes, H.
     swing : float
         How far the arms swing, rad.
+    turn : tuple of float
+        How far the base rolls and yaws once in a stride and pitches twice, rad: roll, pitch, yaw.
     """
 
     period: float
     duty: float
+    ramp: float
     phases: tuple[float, ...]
     speed: float
     height: float = 1.0
     lift: float = 0.15
     bob: float = 0.0
     swing: float = 0.0
+    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
-CRAWL = Gait(period=10.0, duty=0.8, phases=(0.25, 0.75, 0.0, 0.5), speed=0.06)
-TROT = Gait(period=2.6, duty=0.58, phases=(0.0, 0.5, 0.5, 0.0), speed=0.4, lift=0.2, bob=0.02)
-WALK = Gait(period=6.0, duty=0.65, phases=(0.0, 0.5), speed=0.1, height=0.94, lift=0.05, swing=0.15)
-BRISK_WALK = Gait(period=3.6, duty=0.58, phases=(0.0, 0.5), speed=0.25, height=0.94, lift=0.07, bob=0.01, swing=0.3)
+LEFT_RIGHT = (0.0, 0.5)
+CRAWL = Gait(14.0, 0.8, 0.1, phases=(0.25, 0.75, 0.0, 0.5), speed=0.045, turn=(0.02, 0.0, 0.0))
+TROT = Gait(2.6, 0.58, 0.08, phases=(0.0, 0.5, 0.5, 0.0), speed=0.4, lift=0.2, bob=0.02, turn=(0.02, 0.02, 0.02))
+WALK = Gait(7.0, 0.65, 0.15, LEFT_RIGHT, speed=0.08, height=0.94, lift=0.05, swing=0.1, turn=(0.02, 0.0, 0.04))
+BRISK_WALK = Gait(
+    4.4, 0.6, 0.1, LEFT_RIGHT, speed=0.14, height=0.93, lift=0.04, bob=0.01, swing=0.25, turn=(0.02, 0.0, 0.08)
+)
 
 
 class Steps:
@@ -87,12 +96,11 @@ class Steps:
     def goal(self, t: Array) -> Goal:
         """Return what the robot should do at times t, shape (n,)."""
         com = self.path(t)
-        w = 4 * np.pi / self.period  # it comes down onto each foot or pair of feet: twice a stride
-        bob = self.gait.bob * self.stand.height * np.stack([np.cos(w * t), -w * np.sin(w * t), -(w**2) * np.cos(w * t)])
-        com[..., 2] = bob
+        com[..., 2] = self.gait.bob * self.stand.height * self._cosine(t, 2)  # twice: onto each foot or pair of feet
         com[0, ..., 2] += self.stand.com[2] - (1 - self.gait.height) * self.stand.height
+        turn = np.stack([size * self._cosine(t, n) for size, n in zip(self.gait.turn, (1, 2, 1))], axis=-1)
         steps = np.stack([self.step(t, phase) for phase in self.phase], axis=2)
-        return Goal(com, np.zeros_like(com), steps, self._swing(t))
+        return Goal(com, turn, steps, self._swing(t))
 
     def step(self, t: Array, phase: float) -> Array:
         """Return the jet of how far one foot is from where it stands in the standing posture, shape (3, n, 3)."""
@@ -114,11 +122,11 @@ class Steps:
 
     def pressure(self, t: Array) -> Array:
         """Return where the centre of pressure should be: the mean of the feet, each as it is loaded, shape (n, 3)."""
-        ramp = min(self.gait.duty - 0.5, 0.25)
         load, loaded = np.zeros((len(t), 1)), np.zeros((len(t), 3))
         for leg, phase in zip(self.stand.legs, self.phase):
             u = self._stride(t, phase)[1]
-            w = (stair(u / ramp, 1)[0] * stair((self.gait.duty - u) / ramp, 1)[0])[:, None]
+            on, off = stair(u / self.gait.ramp, 1)[0], stair((self.gait.duty - u) / self.gait.ramp, 1)[0]
+            w = (on * off)[:, None]
             load, loaded = load + w, loaded + w * (leg.center + self.step(t, phase)[0] * [1, 1, 0])
         return np.asarray(loaded / load)
 
@@ -131,13 +139,16 @@ class Steps:
     def _swing(self, t: Array) -> Array:
         """Return the jet of the arms, each against the leg of its side, shape (3, n, nv)."""
         out = np.zeros((3, len(t), self.stand.model.nv), t.dtype)
-        w = 2 * np.pi / self.period
         for column, sign, left in self.arms:
             leg = self.phase[int(not left)]
-            angle = w * t - 2 * np.pi * (leg + self.gait.duty / 2)
-            jet = np.stack([-np.sin(angle), -w * np.cos(angle), w**2 * np.sin(angle)])
-            out[..., column] = sign * self.gait.swing * jet
+            late = leg + self.gait.duty / 2 - 0.25  # cos(· + π/2) = −sin: back when the leg is ahead
+            out[..., column] = sign * self.gait.swing * self._cosine(t - late * self.period, 1)
         return out
+
+    def _cosine(self, t: Array, times: int) -> Array:
+        """Return the jet of a cosine that many times a stride, shape (3, n)."""
+        w = 2 * np.pi * times / self.period
+        return np.stack([np.cos(w * t), -w * np.sin(w * t), -(w**2) * np.cos(w * t)])
 
 
 def _phases(stand: Stand, gait: Gait) -> list[float]:
@@ -155,7 +166,7 @@ def _arms(stand: Stand) -> list[tuple[int, float, bool]]:
     The first on its branch that is beside the middle plane, turns about y and is of no leg.
     """
     model, T = stand.model, forward_kinematics(stand.model, stand.q).placement
-    legs, found = set(free_columns_of_legs(stand)), list[tuple[int, float, bool]]()
+    legs, found = {column for leg in stand.legs for column in leg.columns}, list[tuple[int, float, bool]]()
     taken = set[int]()
     for i in range(2, model.nbodies):
         joint, column = model.joints[i], model.v_slice[i].start
@@ -165,8 +176,3 @@ def _arms(stand: Stand) -> list[tuple[int, float, bool]]:
             taken.add(i)
             found.append((column, float(np.sign(axis[1])), bool(T[i].translation[1] > 0)))
     return found
-
-
-def free_columns_of_legs(stand: Stand) -> list[int]:
-    """Return the places in v of all joints of legs."""
-    return [column for leg in stand.legs for column in leg.columns]

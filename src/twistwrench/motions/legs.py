@@ -27,6 +27,8 @@ class Leg:
         Which of `Model.feet` are on this leg.
     columns : tuple of int
         Its joints' places in v. Three place a point foot, six a sole.
+    entries : tuple of int
+        Their places in q.
     position : ndarray, shape (3,)
         Of the frame in the world, m.
     rotation : ndarray, shape (3, 3)
@@ -38,6 +40,7 @@ class Leg:
     frame: str
     feet: tuple[int, ...]
     columns: tuple[int, ...]
+    entries: tuple[int, ...]
     position: Array
     rotation: Array
     center: Array
@@ -107,11 +110,12 @@ def stand(model: Model) -> Stand:
 
 def _leg(model: Model, q: Array, body: int) -> Leg:
     feet = tuple(k for k, foot in enumerate(model.feet) if model.frame(foot).body == body)
-    path = reversed(model.support(body)[:-1])
+    path = model.support(body)[-2::-1]
     columns = tuple(c for i in path for c in range(model.v_slice[i].start, model.v_slice[i].stop))
+    entries = tuple(c for i in path for c in range(model.q_slice[i].start, model.q_slice[i].stop))
     if len(columns) not in (3, 6):
         expected = "expected a leg of 3 joints (a point foot) or 6 (a sole)"
         raise ModelError(f"{model.name!r}: {expected}, got {len(columns)} to {model.feet[feet[0]]!r}")
     placed = [frame_placement(model, q, model.feet[k]) for k in feet]
     center = np.mean([T.translation for T in placed], axis=0)
-    return Leg(model.feet[feet[0]], feet, columns, placed[0].translation, placed[0].rotation, center)
+    return Leg(model.feet[feet[0]], feet, columns, entries, placed[0].translation, placed[0].rotation, center)

@@ -1,0 +1,176 @@
+"""A jump that a robot could make: in flight only gravity acts.
+
+The centre of mass pushes off, falls and lands along polynomials. So does the angular momentum k_G, which is constant in
+flight; it is prescribed, and how the base turns follows from it. At every time the velocities of the tasks and k_G give
+ω: a differential equation for the orientation, solved by collocation at Chebyshev points, all of them at once, again
+and again until nothing changes (Picard).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+
+from ..checks import Array
+from ..errors import SingularError
+from ..fast import centroidal_map
+from .curves import Pieces, between, hop, stair
+from .following import Goal, free_columns, nearer, place, tasks, turned
+from .legs import Stand
+from .turning import turning_jacobian
+
+__all__ = ["FOUR_LEGS", "TWO_LEGS", "Jump", "Leap"]
+
+NODES = 24
+"""Collocation points in each part of a phase."""
+PARTS = 2
+ROUNDS = 40
+"""Of Picard's iteration, which needs about ten."""
+
+
+@dataclass(frozen=True)
+class Jump:
+    """A jump, in units of the height H of the centre of mass, of √(g H) and of rad.
+
+    Parameters
+    ----------
+    crouch, off : float
+        Heights of the centre of mass before the jump and at take-off, H.
+    rise : float
+        How much higher it flies, H.
+    ahead : float
+        How far it flies, H.
+    pitch : float
+        How far a rigid robot would turn in flight, nose down, rad.
+    tuck : float
+        How much the legs are drawn up at the top, H.
+    """
+
+    crouch: float
+    off: float
+    rise: float
+    ahead: float = 0.3
+    pitch: float = 0.15
+    tuck: float = 0.05
+
+
+FOUR_LEGS = Jump(crouch=0.85, off=1.05, rise=0.15)
+TWO_LEGS = Jump(crouch=0.82, off=0.88, rise=0.04, ahead=0.03, pitch=0.02, tuck=0.0)
+
+
+class Leap:
+    """A robot in a jump: what its body parts should do at any time.
+
+    Parameters
+    ----------
+    stand : Stand
+    jump : Jump
+    """
+
+    def __init__(self, stand: Stand, jump: Jump) -> None:
+        self.stand, self.jump = stand, jump
+        g, H = stand.height / stand.unit**2, stand.height
+        up = float(np.sqrt(2 * g * jump.rise * H))
+        self.push, self.flight = 2.2 * (jump.off - jump.crouch) * H / up, 2 * up / g  # 2.2: the force stays positive
+        self.breaks = np.cumsum([0, self.push, self.flight, self.push])
+        before, flying, after = ((self.breaks[k], self.breaks[k + 1]) for k in range(3))
+
+        ahead = jump.ahead * H / self.flight  # speed
+        leaves, lands = ahead * self.push / 2, ahead * self.push / 2 + jump.ahead * H
+        self.distance = leaves + lands
+        low, high = (stand.com[2] + (share - 1) * H for share in (jump.crouch, jump.off))
+        x0, y0 = stand.com[:2]
+        x = [
+            between([x0, 0, 0, 0], [x0 + leaves, ahead, 0, 0], before),
+            between([x0 + leaves], [x0 + lands], flying),
+            between([x0 + lands, ahead, 0, 0], [x0 + self.distance, 0, 0, 0], after),
+        ]
+        z = [
+            between([low, 0, 0, 0], [high, up, -g, 0], before),
+            between([high, up], [high], flying),
+            between([high, -up, -g, 0], [low, 0, 0, 0], after),
+        ]
+        y = [between([y0], [y0], span) for span in (before, flying, after)]
+        self.com = Pieces(self.breaks, list(zip(x, y, z)))
+        self.momentum = self._momentum([before, flying, after])
+        self.turn = self._turn()
+
+    def goal(self, t: Array) -> Goal:
+        """Return what the robot should do at times t, shape (n,)."""
+        return self._goal(t, self.turn(t))
+
+    def stands(self, t: Array) -> Array:
+        """Return which of the model's feet stand, shape (n, k): all or none."""
+        flies = (t.real > self.breaks[1]) & (t.real < self.breaks[2])
+        return np.repeat(~flies[:, None], len(self.stand.model.feet), axis=1)
+
+    def _goal(self, t: Array, turn: Array) -> Goal:
+        pace, H = 1 / self.flight, self.stand.height
+        s = (t - self.breaks[1]) * pace
+        up = (self.jump.rise + self.jump.tuck) * H * hop(s, pace)
+        step = np.stack([self.distance * stair(s, pace), np.zeros_like(up), up], axis=-1)
+        steps = np.repeat(step[:, :, None], len(self.stand.legs), axis=2)
+        return Goal(self.com(t), turn, steps, np.zeros((3, len(t), self.stand.model.nv), t.dtype))
+
+    def _momentum(self, spans: list[tuple[float, float]]) -> Pieces:
+        """Return k_G: about y constant in flight, and in all as much nose up as nose down, so that it lands level."""
+        I_y = centroidal_map(self.stand.model, self.stand.q)[1, 1]
+        k = float(I_y) * self.jump.pitch / self.flight
+        zero, held = between([0.0], [0.0], spans[0]), k * self.flight
+        about_y = [
+            between([0, 0, 0], [k, 0, 0], spans[0], area=-held / 2),
+            between([k], [k], spans[1]),
+            between([k, 0, 0], [0, 0, 0], spans[2], area=-held / 2),
+        ]
+        return Pieces(self.breaks, [(zero, p, zero) for p in about_y])
+
+    def _turn(self) -> Pieces:
+        """Return φ(t): solve J(φ) φ̇ = ω, where ω is what the momentum and the tasks make it in the posture with that φ.
+
+        Raises
+        ------
+        SingularError
+            If the iteration does not come to rest.
+        """
+        breaks = np.concatenate([np.linspace(*span, PARTS, endpoint=False) for span in pairwise(self.breaks)])
+        spans = list(pairwise([*breaks, self.breaks[-1]]))
+        points = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
+        t = np.concatenate([(a + b) / 2 + (b - a) / 2 * points for a, b in spans])
+        goal = self._goal(t, np.zeros((3, len(t), 3)))
+        q = place(self.stand, goal)
+        for _ in range(ROUNDS):
+            phi = goal.turn[0]
+            rate = np.linalg.solve(turning_jacobian(phi), self._angular_velocity(t, q, goal)[..., None])[..., 0]
+            turn = _integral(spans, t, rate)
+            goal = goal._replace(turn=turn(t))
+            q, error = nearer(self.stand, goal, turned(self.stand, goal, q))  # one step: it converges with φ
+            if max(np.abs(goal.turn[0] - phi).max(), error.max()) < 1e-13:
+                return turn
+        raise SingularError(
+            f"{self.stand.model.name!r}: no turning of the base found that has the momentum of the jump"
+        )
+
+    def _angular_velocity(self, t: Array, q: Array, goal: Goal) -> Array:
+        """Return ω, in the base's axes, at which the robot has the momentum and its feet the velocities they should."""
+        model, free = self.stand.model, free_columns(self.stand)
+        A_G = centroidal_map(model, q)[..., :3, :]
+        J = np.concatenate([A_G, tasks(self.stand, q)], axis=-2)[..., [0, 1, 2, *free]]
+        feet = [
+            np.concatenate([np.zeros_like(step), step] if leg.has_sole else [step], axis=-1)
+            for leg, step in zip(self.stand.legs, np.moveaxis(goal.steps[1], -2, 0))
+        ]
+        wanted = np.concatenate([self.momentum(t)[0], goal.com[1], *feet], axis=-1)
+        return np.asarray(np.linalg.solve(J, wanted[..., None])[..., :3, 0])
+
+
+def _integral(spans: list[tuple[float, float]], t: Array, rate: Array) -> Pieces:
+    """Return the integral of what has the values `rate` at the times t, as many of them in each span."""
+    pieces, value = list[list[Chebyshev]](), np.zeros(rate.shape[1])
+    for span, times, rates in zip(spans, t.reshape(len(spans), -1), rate.reshape(len(spans), -1, rate.shape[1])):
+        fits = [Chebyshev.fit(times, x, len(times) - 1, domain=span) for x in rates.mT]
+        pieces.append([fit.integ(lbnd=span[0], k=float(x)) for fit, x in zip(fits, value)])
+        value = np.array([p(span[1]) for p in pieces[-1]])
+    return Pieces([span[0] for span in spans] + [spans[-1][1]], pieces)

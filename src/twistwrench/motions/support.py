@@ -1,0 +1,102 @@
+"""What the ground must do for a motion, and whether it can: friction and centre of pressure (49.9, 49.10)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..centroidal import center_of_mass, centroidal_momentum_rate
+from ..checks import Array
+from ..errors import ModelError
+from ..kinematics import frame_placement
+from ..model import Model
+from .motion import Motion
+
+__all__ = ["Ground", "ground"]
+
+LOADED = 1e-6
+"""Share of the weight above which the ground counts as loaded."""
+DIRECTIONS = 360
+"""In which the support polygon is measured: its distance is right to 4e-5 of itself."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """What `ground` returns, for n states, of which l load the ground.
+
+    Attributes
+    ----------
+    wrench : ndarray, shape (n, 6)
+        All that the ground does, at the centre of mass, in the axes of the world, N m and N: ḣ_G less the weight.
+    loaded : ndarray of bool, shape (n,)
+        Whether the ground is pushed.
+    friction : ndarray, shape (l,)
+        Force along the ground over force across it: the coefficient of friction that the motion needs at least.
+    center_of_pressure : ndarray, shape (l, 3)
+        Where on the ground no moment along it is left, m.
+    margin : ndarray, shape (l,)
+        How deep the centre of pressure lies inside the polygon of the frames of the standing feet, m; negative
+        outside. Of a robot on one foot, or two points, the polygon has no inside: compare with the size of its soles.
+    """
+
+    wrench: Array
+    loaded: Array
+    friction: Array
+    center_of_pressure: Array
+    margin: Array
+
+
+def ground(model: Model, motion: Motion) -> Ground:
+    """Return what the ground must do for a motion.
+
+    Necessary, not sufficient: that the forces can be shared out among the feet, each inside its own friction cone, is
+    not looked at, nor the moment about the vertical.
+
+    Parameters
+    ----------
+    model : Model
+        Of the robot, with gravity along −z.
+    motion : Motion
+
+    Returns
+    -------
+    Ground
+
+    Raises
+    ------
+    ModelError
+        If gravity does not pull along −z.
+    ShapeError, ValueError, SingularError
+        As `twistwrench.centroidal_momentum_rate`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> needed = ground(model, tw.motions.walk(model, samples=50))
+    >>> bool(needed.loaded.all()), bool(needed.friction.max() < 0.1), bool(needed.margin.min() > 0.01)
+    (True, True, True)
+    """
+    if not (model.gravity[2] < 0 and not model.gravity[:2].any()):
+        raise ModelError(f"{model.name!r}: expected gravity along -z, got {model.gravity.tolist()}")
+    wrench = centroidal_momentum_rate(model, motion.q, motion.v, motion.a)
+    wrench[:, 3:] -= model.mass * model.gravity
+    loaded = (wrench[:, 5] > LOADED * model.mass * -model.gravity[2]) & motion.contacts.any(axis=1)
+    n, f = wrench[loaded, :3], wrench[loaded, 3:]
+    p_G = center_of_mass(model, motion.q[loaded])
+    feet = np.stack([frame_placement(model, motion.q[loaded], foot).translation for foot in motion.feet], axis=1)
+    stands = motion.contacts[loaded]
+    level = np.where(stands, feet[..., 2], np.inf).min(axis=1)
+    down = level - p_G[:, 2]
+    c = p_G + np.stack([(down * f[:, 0] - n[:, 1]) / f[:, 2], (down * f[:, 1] + n[:, 0]) / f[:, 2], down], axis=1)
+    friction = np.sqrt(f[:, 0] ** 2 + f[:, 1] ** 2) / f[:, 2]
+    return Ground(wrench, loaded, friction, c, _depth(c[:, :2], feet[..., :2], stands))
+
+
+def _depth(point: Array, corners: Array, valid: Array) -> Array:
+    """Return how deep points lie in the hulls of the valid corners: what is ahead, least over all directions."""
+    angle = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+    u = np.stack([np.cos(angle), np.sin(angle)])
+    reach = np.where(valid[..., None], corners @ u, -np.inf).max(axis=1)
+    return np.asarray((reach - point @ u).min(axis=1))
