@@ -1,15 +1,18 @@
 """A scene: the smallest model with its contacts and wrenches, what it computes, and what it refuses."""
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench import fast
+from twistwrench import fast, motions
 from twistwrench.fast import one
 from twistwrench.joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from twistwrench.scene.costs import limbs
 from twistwrench.scene.once import angular_rows
+from twistwrench.templates import TEMPLATES
 
 from .strategies import random_state
 from .truth import largest
@@ -110,9 +113,13 @@ def test_a_base_held_where_it_stands_is_fixed_to_the_world():
     q, v, a, *_ = random_state(model, rng=0)
     (Q, V), (_, A) = scene.expand(q, v), scene.expand(q, a)
     close(tw.rnea(model, q, v, a), tw.rnea(full, Q, V, A)[6:])
-    named = tw.Scene("go2", hold=["root_joint"])
-    assert (named.model.nv, named.held, "fixed base" in repr(named)) == (12, ("root_joint",), True)
-    assert named.actuated.all()
+    assert scene.actuated.all()
+
+
+def test_a_pattern_that_fits_all_joints_leaves_the_base_what_it_is():
+    scene = tw.Scene("go2", hold=["*_joint"])
+    assert (scene.model.nbodies, scene.model.nv, len(scene.held)) == (2, 6, 12)
+    close(scene.model.inertia[1].matrix(), tw.crba(scene.full_model, scene.q)[:6, :6])
 
 
 def test_gravity_is_the_scenes():
@@ -230,6 +237,103 @@ def test_held_joints_are_no_work_and_soles_turn_the_joints_on_the_way_once(work)
     assert work["forces"] == 0
 
 
+# ---------------------------------------------------------------- whether it can stand
+
+
+def test_a_robot_stands_within_its_polygon_and_its_friction_cones():
+    tilt = tw.load("go2").standing()
+    tilt[3:7] = [0, np.sin(0.3), 0, np.cos(0.3)]  # the trunk and the slope under it, by 0.6 rad
+
+    def slope(mu):
+        normal = (np.sin(0.6), 0, np.cos(0.6))
+        return [tw.PointContact(foot.frame, mu, normal=normal) for foot in FEET]
+
+    assert tw.Scene("go2", contacts=FEET).can_stand()
+    assert str(tw.Scene("go2", contacts=FEET).can_stand()) == "it stands"
+    assert tw.Scene("go2", contacts=slope(0.75)).can_stand(tilt)  # tan 0.6 = 0.68, the pyramid keeps 0.98 of μ
+    slips = tw.Scene("go2", contacts=slope(0.65)).can_stand(tilt)
+    assert not slips
+    assert str(slips).startswith("cannot stand: it slips: it would need 1.07 times the friction")
+    tips = tw.Scene("humanoid", contacts=SOLES[:1], hold=ARMS).can_stand()
+    assert "the centre of mass is 0.02 m outside the support polygon" in str(tips)
+    pair = tw.Scene("go2", contacts=[FEET[0], FEET[3]]).can_stand()
+    assert "no forces at ['FL_foot', 'RR_foot'] do this" in str(pair)
+
+
+def test_a_pose_beyond_the_limits_is_none():
+    scene = tw.Scene("go2", contacts=FEET)
+    q = scene.model.standing()
+    q[9] = 0.5
+    assert "joint 'FL_calf_joint' is at [0.5], outside its limits [-2.723] to [-0.838]" in str(scene.can_stand(q))
+
+
+def weakened(limits: dict[str, float]) -> tw.Model:
+    """Go2 with weaker motors: the limit of each joint named, N m."""
+    model = tw.load("go2")
+    effort = model.effort_limit.copy()
+    for name, limit in limits.items():
+        effort[model.v_slice[model.joint_id(name)]] = limit
+    return replace(model, effort_limit=effort)
+
+
+def test_on_three_smooth_feet_the_torques_are_what_they_are_and_a_motor_is_strong_enough_or_not():
+    """Three vertical forces follow from the weight alone, so the knee needs one torque."""
+    smooth = [tw.PointContact(foot.frame, 0.0) for foot in FEET[1:]]
+    model = tw.load("go2")
+    p, G = (np.array([tw.frame_placement(model, model.standing(), f.frame).translation for f in smooth]), None)
+    G = tw.center_of_mass(model, model.standing())
+    f = np.linalg.solve(np.stack([np.ones(3), *p[:, :2].T]), 9.81 * model.mass * np.array([1, *G[:2]]))
+    J = np.stack([tw.contact_jacobian(model, model.standing(), [c.frame])[2] for c in smooth])
+    tau = tw.gravity(model, model.standing()) - J.T @ f
+    np.testing.assert_allclose(tau[:6], 0, rtol=0, atol=1e-11)
+    knee = "RL_calf_joint"
+    need = abs(float(tau[model.v_slice[model.joint_id(knee)]][0]))
+    assert tw.Scene(weakened({knee: 1.001 * need}), contacts=smooth).can_stand()
+    weak = tw.Scene(weakened({knee: 0.999 * need}), contacts=smooth).can_stand()
+    assert f"that of {knee!r} would have to hold {need:.3g}" in str(weak)
+
+
+def test_weak_motors_are_spared_where_other_forces_do():
+    """The smallest limit of all four knees with which it stands, by a linear programme and a second solver."""
+    optimize = pytest.importorskip("scipy.optimize", reason="scipy is not installed: there is no second solver")
+    model = tw.load("go2")
+    q, rest, knees = model.standing(), np.zeros(18), [f"{leg}_calf_joint" for leg in ("FL", "FR", "RL", "RR")]
+    J, g, k = tw.constraint_jacobian(model, q, FEET), tw.gravity(model, q), [model.joint_id(name) + 4 for name in knees]
+    corners = np.pi / 8 * np.arange(16)
+    pyramid = np.stack([np.cos(corners), np.sin(corners), np.full(16, -0.7 * np.cos(np.pi / 16))], axis=-1)
+    cones = np.pad(np.kron(np.eye(4), pyramid), ((0, 0), (0, 1)))  # f, and last the largest torque t
+    torques = [np.column_stack([sign * -J[:, k].T, -np.ones(4)]) for sign in (1, -1)]  # ±(g − Jᵀ f) ≤ t
+    found = optimize.linprog(
+        np.eye(13)[12],
+        A_ub=np.concatenate([cones, *torques]),
+        b_ub=np.concatenate([np.zeros(64), -g[k], g[k]]),
+        A_eq=np.pad(J[:, :6].T, ((0, 0), (0, 1))),
+        b_eq=g[:6],
+        bounds=(None, None),
+    )
+    least = tw.friction_inverse_dynamics(model, q, rest, rest, FEET).tau[k]
+    assert 0.1 < 1.001 * found.fun < 0.995 * abs(least).max()
+    assert tw.Scene(weakened(dict.fromkeys(knees, 1.001 * found.fun)), contacts=FEET).can_stand()
+    assert not tw.Scene(weakened(dict.fromkeys(knees, 0.999 * found.fun)), contacts=FEET).can_stand()
+
+
+def test_what_pushes_the_robot_counts():
+    feet = {"contacts": FEET}
+    assert tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, -400.0]}).can_stand()
+    heavy = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, -4000.0]}).can_stand()
+    assert "no forces at the contacts spare the motors" in str(heavy)
+    pushed = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 300.0, 0, 0]}).can_stand()
+    assert "no forces within the limits do this; they would have to break lift-off at" in str(pushed)
+    lifted = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, 160.0]})  # more than its weight of 157.8 N
+    assert not lifted.can_stand()
+
+
+@pytest.mark.parametrize("given", [{"base": "fixed", "contacts": FEET}, {}, {"contacts": FEET, "gravity": [0, 0, 0]}])
+def test_to_stand_takes_a_floating_base_gravity_and_contacts(given):
+    with pytest.raises(ValueError, match="takes a floating base, gravity and at least one contact"):
+        tw.Scene("go2", **given).can_stand()
+
+
 # ---------------------------------------------------------------- what it refuses
 
 
@@ -268,6 +372,7 @@ def test_held_joints_are_no_work_and_soles_turn_the_joints_on_the_way_once(work)
         ({"contacts": FEET[0]}, TypeError, "expected a sequence of contacts"),
         ({"hold": "RR_*"}, ValueError, "got the string 'RR_"),
         ({"base": "flying"}, tw.ModelError, "base: expected 'fixed', 'floating' or 'planar', got 'flying'"),
+        ({"hold": ["root_*"]}, tw.ModelError, "hold: 'root_joint' is the floating base; base='fixed' holds it"),
         ({"base": "fixed", "hold": ["*_joint"]}, tw.ModelError, "nothing is left to move"),
         ({"gravity": [0, 0]}, tw.ShapeError, "gravity: expected shape"),
         ({"gravity": np.zeros((2, 3))}, tw.ShapeError, r"gravity: expected shape \(3,\)"),
@@ -317,3 +422,115 @@ def test_a_quantity_or_a_state_that_is_none_is_refused():
     with pytest.raises(tw.ShapeError):
         scene.f_ext(v)
     assert fast.dynamics(scene.model, q, v, want={"M"}).M.shape == (18, 18)
+
+
+# ---------------------------------------------------------------- what it costs to leave something out
+
+
+@pytest.fixture(scope="module")
+def walking():
+    """A humanoid of the catalogue of this package, its arms swinging as it walks."""
+    model = tw.load("humanoid")
+    return model, motions.walk(model, samples=24)
+
+
+def test_the_cheapest_is_the_quickest_within_the_tolerance(walking):
+    model, motion = walking
+    scene = tw.Scene(model, contacts=SOLES, hold=ARMS)
+    found = scene.cheapest(0.02, motion)
+    inside = [option for option in found.options if option.worst <= 0.02]
+    assert found.best is inside[0]
+    assert [o.seconds for o in found.options] == sorted(o.seconds for o in found.options)
+    assert {o.name for o in found.options} == {
+        *TEMPLATES,
+        "hold waist_yaw",
+        "hold left_shoulder_pitch",
+        "hold right_shoulder_pitch",
+        "this scene",
+    }
+    worst = {o.name: o.worst for o in found.options}
+    assert worst["full"] == 0
+    assert worst["centroidal"] < 1e-14
+    assert worst["hold left_shoulder_pitch"] < worst["this scene"] < worst["srbm_frozen"]
+    assert replace(found, tolerance=0.0).best.name == "full"
+    assert replace(found, tolerance=np.inf).best is found.options[0]
+
+
+def test_the_residuals_are_those_of_the_whole_robots_dynamics(walking):
+    """Of a template as it says itself; of held arms by finite differences of both momenta."""
+    model, motion = walking
+    found = {o.name: o for o in tw.Scene(model, hold=ARMS).cheapest(0.02, motion).options}
+    template = TEMPLATES["srbm"].of(model, motion.q[0])
+    np.testing.assert_array_equal(found["srbm"].residual, template.residual(motion.q, motion.v, motion.a).relative)
+    small = tw.lock_joints(model, ARMS, motion.q[0])
+    size = template.residual(motion.q[0], motion.v[0], motion.a[0])
+
+    def missed(k, h=1e-5):
+        rate = np.zeros(6)
+        for sign in (1, -1):
+            dv = sign * h * motion.v[k] + h * h / 2 * motion.a[k]
+            q, v = model.integrate(motion.q[k], dv), motion.v[k] + sign * h * motion.a[k]
+            held = tw.centroidal_momentum(small.model, *small.reduce(q, v))
+            rate += sign * (held - tw.centroidal_momentum(model, q, v)) / (2 * h)
+        return np.sqrt((rate[3:] ** 2).sum() + (rate[:3] ** 2).sum() / size.length**2) / size.weight
+
+    for k in (3, 11, 20):
+        assert found["this scene"].residual[k] == pytest.approx(missed(k), rel=1e-5)
+
+
+def test_held_joints_that_are_still_cost_nothing(walking):
+    model, motion = walking
+    arms = [k for k, name in enumerate(model.joint_names) if "shoulder" in name or "elbow" in name]
+    q, v, a = motion.q.copy(), motion.v.copy(), motion.a.copy()
+    for k in arms:
+        q[:, model.q_slice[k]] = q[0, model.q_slice[k]]
+        v[:, model.v_slice[k]] = a[:, model.v_slice[k]] = 0
+    still = replace(motion, q=q, v=v, a=a)
+    found = {o.name: o for o in tw.Scene(model).cheapest(1e-12, still, groups={"arms": ARMS}).options}
+    assert set(found) == {*TEMPLATES, "hold arms"}
+    assert found["hold arms"].worst < 1e-14
+    assert found["hold arms"].leaves_out == "The motion of 8 of 21 joints."
+
+
+def test_the_table_and_the_picture_show_every_option_and_the_choice(walking):
+    figure = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed: the picture is not made")
+    model, motion = walking
+    found = tw.Scene(model, contacts=SOLES).cheapest(0.02, motion)
+    lines = str(found).splitlines()
+    assert lines[0] == "walk: wrench missed, as a share of the weight; tolerance 2.0e-02"
+    assert len(lines) == 2 + len(found.options)
+    assert [line.split()[1] for line in lines if line.startswith("→")] == [found.best.name.split()[0]]
+    assert sum(" > " in line for line in lines) == sum(o.worst > 0.02 for o in found.options)
+    ax = figure.Figure().add_subplot()
+    assert found.plot(ax) is ax
+    ends = sorted(bar.get_x() + bar.get_width() for bar in ax.patches)
+    np.testing.assert_allclose(ends, [1e6 * o.seconds for o in found.options], rtol=1e-12)
+    assert [label.get_text() for label in ax.get_yticklabels()] == [o.name for o in found.options]
+
+
+def test_limbs_are_what_touches_nothing():
+    humanoid, talos = tw.load("humanoid"), limbs(tw.load("humanoid"), [])
+    assert list(limbs(humanoid, ["left_hand", *humanoid.feet])) == ["right_shoulder_pitch"]
+    assert set(talos) >= {"left_hip_yaw", "right_hip_yaw", "waist_yaw"}
+    assert limbs(tw.load("go2"), tw.load("go2").feet) == {}
+
+
+@pytest.mark.parametrize(
+    ("given", "tolerance", "said"),
+    [
+        ({"base": "planar"}, 0.1, "templates need a floating base, and this scene has a planar one"),
+        ({}, -0.1, "tolerance: expected a share of the weight, 0 or more, got -0.1"),
+        ({}, np.nan, "tolerance: expected"),
+    ],
+)
+def test_a_question_that_is_none_is_refused(walking, given, tolerance, said):
+    with pytest.raises(ValueError, match=said):
+        tw.Scene(walking[0], **given).cheapest(tolerance, walking[1])
+
+
+def test_groups_and_motions_that_do_not_fit_are_refused(walking):
+    model, motion = walking
+    with pytest.raises(tw.NameNotFound, match="fits no joint"):
+        tw.Scene(model).cheapest(0.1, motion, groups={"tail": ["tail_*"]})
+    with pytest.raises(tw.ShapeError):
+        tw.Scene("go2").cheapest(0.1, motion)

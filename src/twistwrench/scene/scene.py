@@ -1,33 +1,27 @@
-"""The scene: a robot, what holds it, what pushes it; and the smallest model that has all this."""
+"""The scene: a robot, what holds it, what pushes it; and what can be asked of the smallest model that has all this."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from os import PathLike
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
-from ..contact import Contact
-from ..errors import ModelError
 from ..floating_base import names_of
 from ..kinematics import frame_placement
-from ..model import Model
-from ..reduction import idle_joints, lock_joints, matching_joints
+from ..motions import Motion
 from ..whole_body import Dynamics
-from .checks import checked_contacts, checked_wrenches, expect_movable
-from .floor import OnTheFloor
+from .costs import Costs, costs, limbs
 from .once import scene_dynamics
-from .robot import posture, whole_robot
+from .robot import posture
+from .smallest import SmallestModel
+from .standing import Standing, standing
 
 __all__ = ["Scene"]
 
-Base = Literal["fixed", "floating", "planar"]
 
-
-class Scene:
+class Scene(SmallestModel):
     """A robot with what holds it and what pushes it, and the smallest model that says the same.
 
     Joints that are held are locked where they stand and their bodies merged; joints that carry nothing are dropped;
@@ -43,7 +37,8 @@ class Scene:
     contacts : iterable of Contact
         `PointContact` or `SurfaceContact`.
     hold : iterable of str
-        Joints that stand still, by name or pattern: ``"arm_*"`` is every joint whose name begins so.
+        Joints that stand still, by name or pattern: ``"arm_*"`` is every joint whose name begins so. A floating base
+        is none of them.
     q : array_like, shape (nq of the whole robot,), optional
         Where they stand; the standing posture, or where there is none the neutral one, unless given.
     gravity : array_like, shape (3,), optional
@@ -71,8 +66,8 @@ class Scene:
     NameNotFound
         A robot, a joint or pattern, or a frame that is not known; the message lists what is.
     ModelError
-        A base that is none of the three or cannot be had; a contact or a wrench on a frame that the scene holds fixed
-        to the world; two contacts at one place; nothing left to move.
+        A base that is none of the three or cannot be had, or that `hold` names; a contact or a wrench on a frame that
+        the scene holds fixed to the world; two contacts at one place; nothing left to move.
     ShapeError, ValueError
         Numbers that are none, or of a wrong shape; friction below zero (`PointContact` says so).
     TypeError
@@ -89,86 +84,6 @@ class Scene:
     >>> d.M.shape, d.J_c.shape, d.h
     ((19, 19), (12, 19), None)
     """
-
-    def __init__(
-        self,
-        robot: str | PathLike[str] | Model,
-        *,
-        base: Base | None = None,
-        contacts: Iterable[Contact] = (),
-        hold: Iterable[str] = (),
-        q: ArrayLike | None = None,
-        gravity: ArrayLike | None = None,
-        wrenches: Mapping[str, ArrayLike] | None = None,
-    ) -> None:
-        self.full_model = full = whole_robot(robot, base, gravity)
-        self.q = posture(full, q)
-        self.contacts = checked_contacts(full, contacts)
-        self.wrenches = checked_wrenches(full, wrenches or {})
-        self.held = matching_joints(full, hold)
-        self._base = "fixed" if "root_joint" in self.held else base or full.base
-        self._floor = OnTheFloor.of(full, self.q) if base == "planar" else None
-        before = self._floor.model if self._floor else full
-        at = self._floor.reduce(self.q, np.zeros(full.nv))[0] if self._floor else self.q
-        locked = {*self.held, *(["root_joint"] if (self._base, full.base) == ("fixed", "floating") else [])}
-        touched = [*(contact.frame for contact in self.contacts), *self.wrenches]
-        self.idle = idle_joints(lock_joints(before, locked, at).model, touched)
-        self._reduction = lock_joints(before, {*locked, *self.idle}, at)
-        self.model = self._reduction.model
-        if self.model.nv == 0:
-            raise ModelError(f"{full.name!r}: the scene holds every joint, and nothing is left to move")
-        expect_movable(self.model, (contact.frame for contact in self.contacts), "contact on frame")
-        expect_movable(self.model, self.wrenches, "wrench on frame")
-
-    # ---------------------------------------------------------------- the way between the whole robot and the model
-
-    def reduce(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
-        """Return the state of `model` that belongs to one of `full_model`.
-
-        What the held joints do there is dropped, whether they stand still or not; with a planar base also height,
-        tilt and their rates. Accelerations go the way of velocities.
-
-        Parameters
-        ----------
-        q : array_like, shape (..., nq of full_model)
-        v : array_like, shape (..., nv of full_model)
-
-        Returns
-        -------
-        (ndarray, ndarray), shapes (..., nq) and (..., nv)
-
-        Raises
-        ------
-        ShapeError, ValueError
-            As `Model.state`.
-        """
-        q, v = self.full_model.state(q, v=v)
-        return self._reduction.reduce(*(self._floor.reduce(q, v) if self._floor else (q, v)))
-
-    def expand(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
-        """Return the state of `full_model` that belongs to one of `model`: what is held stands still.
-
-        Parameters
-        ----------
-        q : array_like, shape (..., nq)
-        v : array_like, shape (..., nv)
-
-        Returns
-        -------
-        (ndarray, ndarray), shapes (..., nq of full_model) and (..., nv of full_model)
-
-        Raises
-        ------
-        ShapeError, ValueError
-            As `Model.state`.
-        """
-        q, v = self._reduction.expand(q, v)
-        return self._floor.expand(q, v) if self._floor else (q, v)
-
-    @property
-    def actuated(self) -> Array:
-        """Which entries of v have a motor, bool of shape (nv,): all but those of a floating or planar base."""
-        return np.arange(self.model.nv) >= {"floating": 6, "planar": 3, "fixed": 0}[self._base]
 
     # ---------------------------------------------------------------- what a controller asks for
 
@@ -221,14 +136,95 @@ class Scene:
             f[..., at.body, :] += np.matvec(at.placement.force_transform(), turned)
         return f
 
-    def __repr__(self) -> str:
-        said = [f"{self._base} base"]
-        for names, one, several in (
-            (self.contacts, "contact", "contacts"),
-            (self.wrenches, "wrench", "wrenches"),
-            (self.held, "joint held", "joints held"),
-            (self.idle, "joint that carries nothing dropped", "joints that carry nothing dropped"),
-        ):
-            if names:
-                said.append(f"{len(names)} {one if len(names) == 1 else several}")
-        return f"<Scene {self.full_model.name!r}: {', '.join(said)}, nv = {self.model.nv} of {self.full_model.nv}>"
+    # ---------------------------------------------------------------- whether it is possible, and what may be left out
+
+    def can_stand(self, q: ArrayLike | None = None) -> Standing:
+        """Return whether the robot can be at rest in a pose, and if not, why.
+
+        It can if no joint is beyond its limits, if forces within the friction cones of the contacts (as pyramids of 16
+        sides inside them) hold it against its weight and the scene's wrenches, and if some of these forces leave no
+        motor more than its limit.
+
+        Parameters
+        ----------
+        q : array_like, shape (nq,), optional
+            Of `model`; where the scene's own q puts it unless given.
+
+        Returns
+        -------
+        Standing
+            True or False in a condition; printed, it says why not.
+
+        Raises
+        ------
+        ValueError
+            If the base does not float, there are no contacts, or there is no gravity.
+        ModuleNotFoundError
+            If the solver is not installed: ``pip install "twistwrench[qp]"``.
+        ShapeError
+            As `Model.state`.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> feet = [tw.PointContact(f"{leg}_foot", mu=0.7) for leg in ("FL", "FR", "RL", "RR")]
+        >>> print(tw.Scene("go2", contacts=feet).can_stand())
+        it stands
+        >>> print(tw.Scene("go2", contacts=feet[2:]).can_stand())
+        cannot stand: ...
+        """
+        if self._base != "floating" or not self.contacts or not self.model.gravity.any():
+            raise ValueError(f"{self!r}: to stand takes a floating base, gravity and at least one contact")
+        q = self.reduce(self.q, np.zeros(self.full_model.nv))[0] if q is None else posture(self.model, q)
+        return standing(self.model, q, self.contacts, self.f_ext(q))
+
+    def cheapest(self, tolerance: float, motion: Motion, *, groups: Mapping[str, Iterable[str]] | None = None) -> Costs:
+        """Return what each smaller model of the robot costs over a motion, and the quickest that is exact enough.
+
+        Compared are the templates of 49.10, the full model, and the full model with groups of joints held where the
+        motion begins. The residual is the wrench ḣ_G that a model misses, force and moment together, as a share of the
+        weight; the time is that of the model's law for one state of the motion, with all states done at once and its
+        own few variables (p̈_G, ω, …) known, by the textbook's functions.
+
+        Parameters
+        ----------
+        tolerance : float
+            The largest residual allowed, for example 0.05 for one twentieth of the weight.
+        motion : Motion
+            Of the whole robot, `full_model`: `twistwrench.motions` makes some.
+        groups : mapping of str to iterable of str, optional
+            Names or patterns of joints to be held, by a name for each group; the limbs that touch nothing, each with
+            all beyond it, unless given. What the scene itself holds is a group of its own.
+
+        Returns
+        -------
+        Costs
+            Print it for the table; ``.plot()`` draws it; ``.best`` is the choice.
+
+        Raises
+        ------
+        ValueError
+            If the tolerance is below zero, or the base does not float.
+        NameNotFound, ShapeError
+            As `lock_joints` and `Model.state`.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> from twistwrench import motions
+        >>> go2 = tw.load("go2")
+        >>> scene = tw.Scene(go2, contacts=[tw.PointContact(foot, mu=0.7) for foot in go2.feet])
+        >>> scene.cheapest(0.3, motions.walk(go2, samples=50)).best.tells_torques
+        False
+        >>> scene.cheapest(0.0, motions.walk(go2, samples=50)).best.name
+        'full'
+        """
+        if self._base != "floating":
+            raise ValueError(f"cheapest: templates need a floating base, and this scene has a {self._base} one")
+        self.full_model.state(motion.q, v=motion.v, a=motion.a)  # says so where it is another robot's
+        feet = [contact.frame for contact in self.contacts] or motion.feet
+        groups = limbs(self.full_model, feet) if groups is None else groups
+        held = {f"hold {name}": joints for name, joints in groups.items()}
+        if self.held or self.idle:
+            held["this scene"] = [*self.held, *self.idle]
+        return costs(self.full_model, motion, tolerance, held)

@@ -1,0 +1,92 @@
+"""Can it stand? Limits of the joints, forces at the contacts, motors: what fails is said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..checks import Array
+from ..contact import Contact, stance_margins
+from ..contact.inverse import Task, friction_inverse_dynamics, limits
+from ..contact.programme import least_within
+from ..errors import SingularError
+from ..model import Model
+
+__all__ = ["Standing", "standing"]
+
+OUTSIDE = 1e-9
+"""How far beyond a limit a joint may be for rounding, rad or m."""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """What `Scene.can_stand` returns. True where the robot stands; printed, it says why not.
+
+    Attributes
+    ----------
+    reasons : tuple of str
+        Why it cannot; empty where it can.
+    """
+
+    reasons: tuple[str, ...]
+
+    def __bool__(self) -> bool:
+        return not self.reasons
+
+    def __str__(self) -> str:
+        return "it stands" if self else "cannot stand: " + "; ".join(self.reasons)
+
+
+def standing(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> Standing:
+    """Do what `Scene.can_stand` says."""
+    reasons = outside_limits(model, q)
+    if f_ext.any():
+        rest = np.zeros(model.nv)
+        try:
+            friction_inverse_dynamics(model, q, rest, rest, contacts, f_ext, sides=16)
+            fails = ""
+        except SingularError as error:
+            fails = str(error).removeprefix("cannot: ")
+    else:
+        fails = stance_margins(model, q, contacts).reason
+    if not fails:
+        fails = weak_motors(model, q, contacts, f_ext)
+    return Standing((*reasons, *([fails] if fails else [])))
+
+
+def outside_limits(model: Model, q: Array) -> list[str]:
+    """Name the joints that a pose bends beyond their limits."""
+    beyond = np.maximum(q - model.upper, model.lower - q) > OUTSIDE
+    return [
+        f"joint {name!r} is at {q[s].round(3).tolist()}, outside its limits {model.lower[s].round(3).tolist()} "
+        f"to {model.upper[s].round(3).tolist()}"
+        for name, s in zip(model.joint_names, model.q_slice)
+        if beyond[s].any()
+    ]
+
+
+def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> str:
+    """Say which motors are too weak, whatever forces within the friction cones the contacts choose; or nothing.
+
+    τ = b − Jᵀ P f, with the forces f = f₀ + N z at the touching points, of which z is free to press or to relieve.
+    """
+    rest, motors = np.zeros(model.nv), np.arange(6, model.nv)
+    strong = model.effort_limit[motors]
+    task = Task.of(model, q, rest, rest, contacts, f_ext)
+    A, _ = limits(task.contacts, 16, "inner")
+    with_motor = np.isfinite(strong)
+    B, limit = (task.J.mT @ task.P)[motors][with_motor], strong[with_motor]
+    b = task.b[motors][with_motor] - B @ task.least
+    rows = np.concatenate([A, -B, B]) @ task.free
+    room = np.concatenate([-A @ task.least, limit - b, limit + b])
+    if least_within(rows, room) is not None:
+        return ""
+    tau = friction_inverse_dynamics(model, q, rest, rest, contacts, f_ext, sides=16).tau[motors]
+    names = [name for name, s in zip(model.joint_names[2:], model.v_slice[2:]) for _ in range(s.stop - s.start)]
+    worst = max(np.flatnonzero(with_motor), key=lambda k: abs(tau[k]) - strong[k])
+    return (
+        f"no forces at the contacts spare the motors: with the least ones that of {names[worst]!r} would have to hold "
+        f"{abs(tau[worst]):.3g}, and its limit is {strong[worst]:.3g}"
+    )
