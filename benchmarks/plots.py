@@ -1,32 +1,23 @@
-"""Draw the results of speed.py: `python benchmarks/plots.py` writes results/batch.png and results/links.png."""
+"""Draw the results of speed.py, results/batch.png and results/links.png, and put its tables into the pages.
+
+python benchmarks/plots.py
+"""
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 import matplotlib as mpl
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
-import numpy as np
 from matplotlib.axes import Axes
+from tables import Row, growth, rows
 
 from twistwrench.study.cases import QUANTITIES
 
 RESULTS = Path(__file__).parent / "results"
 BLUE, ORANGE, GREEN, GREY, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#7F7F7F", "#CC79A7", "#56B4E9"
-
-Row = dict[str, str]
-
-
-def rows(study: str) -> list[Row]:
-    """Read the rows of a study; none where it was not run."""
-    path = RESULTS / f"{study}.csv"
-    if not path.exists():
-        return []
-    with path.open() as file:
-        return list(csv.DictReader(file))
 
 
 def line(ax: Axes, found: list[Row], x: str, y: str, **style) -> None:
@@ -52,8 +43,8 @@ def over_batches() -> None:
     figure, axes = plt.subplots(2, 3, figsize=(11, 6.4), sharex=True, sharey=True, constrained_layout=True)
     for ax, (quantity, meaning) in zip(axes.flat, QUANTITIES.items(), strict=True):
         mine = [r for r in ours if r["quantity"] == quantity]
-        line(ax, [r for r in mine if r["dtype"] == "float64"], "batch", "ratio", color=BLUE, label="fast, float64")
-        line(ax, [r for r in mine if r["dtype"] == "float32"], "batch", "ratio", color=ORANGE, label="fast, float32")
+        line(ax, [r for r in mine if r["dtype"] == "float64"], "batch", "ratio", color=BLUE, label="tw.fast, float64")
+        line(ax, [r for r in mine if r["dtype"] == "float32"], "batch", "ratio", color=ORANGE, label="tw.fast, float32")
         for name, color in (("adam (NumPy)", GREEN), ("adam (JAX)", PURPLE), ("frax", SKY), ("MuJoCo", GREY)):
             theirs = [r for r in others if r["quantity"] == quantity and r["way"] == name]
             line(ax, theirs, "batch", "ratio", color=color, label=name, linestyle="--")
@@ -67,7 +58,7 @@ def over_batches() -> None:
     handles, labels = axes.flat[2].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=6, frameon=False)
     figure.suptitle("Go2, one thread; Pinocchio called state by state from Python is 1")
-    figure.savefig(RESULTS / "batch.png", dpi=130)
+    figure.savefig(RESULTS / "batch.png", dpi=100)
 
 
 def over_links() -> None:
@@ -78,7 +69,7 @@ def over_links() -> None:
         mine = [r for r in found if r["quantity"] == quantity]
         for way, batch, color in (("fast", "1", BLUE), ("fast", "100", ORANGE), ("textbook", "1", GREY)):
             some = [r for r in mine if r["way"] == way and r["batch"] == batch]
-            steep = slope([r for r in some if float(r["links"]) >= 50])
+            steep = growth(quantity, batch) if way == "fast" else 0
             name = f"{way}, batch {batch}" + f": slope {steep:.2f}" * (way == "fast")
             line(ax, some, "links", "us", color=color, label=name)
         theirs = [dict(r, us=r["reference_us"], us_q1=r["reference_us_q1"], us_q3=r["reference_us_q3"]) for r in mine]
@@ -87,16 +78,8 @@ def over_links() -> None:
         ax.set(xscale="log", yscale="log", title=f"{quantity}: {QUANTITIES[quantity]}", xlabel="links of a chain")
         ax.grid(alpha=0.3)
         ax.legend(fontsize=8, frameon=False)
-    axes[0].set_ylabel("µs per state")
-    figure.savefig(RESULTS / "links.png", dpi=130)
-
-
-def slope(found: list[Row]) -> float:
-    """Fit the power of the number of links with which the time grows."""
-    if len(found) < 2:
-        return float("nan")
-    x, y = (np.log([float(r[key]) for r in found]) for key in ("links", "us"))
-    return float(np.polyfit(x, y, 1)[0])
+    axes[0].set(ylabel="µs per state", ylim=(0.15, None))  # room for the legends
+    figure.savefig(RESULTS / "links.png", dpi=100)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,8 @@
 """`twistwrench study speed`: what it times is what it says, and what it prints."""
 
+import importlib
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -47,3 +50,13 @@ def test_without_pinocchio_times_stand_alone():
     assert "Pinocchio is not installed" in text
     assert "~12.3" in text
     assert "other things to do" in text
+
+
+@pytest.mark.parametrize("name", ["README.md", "README.zh-CN.md"])
+def test_the_tables_of_the_page_are_those_of_the_results(name, monkeypatch):
+    folder = Path(__file__).parents[1] / "benchmarks"
+    monkeypatch.syspath_prepend(str(folder))
+    tables = importlib.import_module("tables")
+    page = (folder / name).read_text(encoding="utf-8")
+    assert tables.fill(page) == page
+    assert page.count("<!-- table") == len(tables.tables())

@@ -1,0 +1,87 @@
+"""Put the results of speed.py as tables into README.md and README.zh-CN.md: `python benchmarks/tables.py`."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).parent
+PAGES = (HERE / "README.md", HERE / "README.zh-CN.md")
+
+Row = dict[str, str]
+
+
+def rows(study: str) -> list[Row]:
+    """Read the rows of a study; none where it was not run."""
+    path = HERE / "results" / f"{study}.csv"
+    if not path.exists():
+        return []
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+def table(cells: Iterable[tuple[str, str, str]]) -> str:
+    """Return a table from (line, column, text), in the order in which lines and columns come first."""
+    text = {(line, column): cell for line, column, cell in cells}
+    lines, columns = (list(dict.fromkeys(key[k] for key in text)) for k in (0, 1))
+    head = ["| | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    body = [f"| {line} | " + " | ".join(text.get((line, column), "") for column in columns) + " |" for line in lines]
+    return "\n".join(head + body)
+
+
+def ratio(r: Row) -> str:
+    """Return median and quartiles."""
+    return f"{number(r['ratio'])} ({number(r['ratio_q1'])} … {number(r['ratio_q3'])})"
+
+
+def number(text: str) -> str:
+    """Return three digits."""
+    value = float(text)
+    return f"{value:.3g}" if value < 1000 else f"{round(value, -int(np.log10(value)) + 2):.0f}"
+
+
+def slope(found: list[Row]) -> float:
+    """Fit the power of the number of links with which the time grows."""
+    if len(found) < 2:
+        return float("nan")
+    x, y = (np.log([float(r[key]) for r in found]) for key in ("links", "us"))
+    return float(np.polyfit(x, y, 1)[0])
+
+
+def growth(quantity: str, batch: str) -> float:
+    """Return the slope from 50 links on."""
+    found = [r for r in rows("links") if (r["way"], r["quantity"], r["batch"]) == ("fast", quantity, batch)]
+    return slope([r for r in found if int(r["links"]) >= 50])
+
+
+def tables() -> dict[str, str]:
+    """Return all tables by name."""
+    batches = [r for r in rows("batch") if int(r["batch"]) >= 100]
+    return {
+        "one": table(
+            (r["quantity"], f"`{WAYS[r['way']]}`", f"{number(r['us'])} µs, {ratio(r)}") for r in rows("one")
+        ),
+        "batch": table((r["quantity"], f"{r['dtype']}, {int(r['batch']):,}", ratio(r)) for r in batches),
+        "workers": table((r["quantity"], f"`{r['way']}`", f"{1 / float(r['ratio']):.2f} ×") for r in rows("workers")),
+        "links": table((q, f"batch {b}", f"{growth(q, b):.2f}") for q in ("rnea", "aba", "A_G") for b in ("1", "100")),
+        "peers": table((f"{r['way']}, {r['quantity']}", f"{int(r['batch']):,}", ratio(r)) for r in rows("peers")),
+        "profile": table((r["stage"], "µs", f"{float(r['us']):.1f}") for r in rows("profile_one")),
+    }
+
+
+WAYS = {"fast": "tw.fast", "textbook": "tw"}
+
+
+def fill(page: str) -> str:
+    """Return a page with its tables made anew, each after a line ``<!-- table: NAME -->``."""
+    made = tables()
+    return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{made[found[2]]}\n", page)
+
+
+if __name__ == "__main__":
+    for page in PAGES:
+        page.write_text(fill(page.read_text(encoding="utf-8")), encoding="utf-8")
