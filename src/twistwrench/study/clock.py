@@ -60,7 +60,7 @@ def race(
     spare: list[list[float]] = []
     while len(kept) < rounds and len(kept) + len(spare) < PATIENCE * rounds:
         stretches = [_stretch(call, repeat) for (call, _), repeat in zip(racers, repeats, strict=True)]
-        quiet = not one_thread or all(quiet for _, quiet in stretches)
+        quiet = not one_thread or all(_undisturbed(*stretch) for stretch in stretches)
         (kept if quiet else spare).append([t / states for (t, _), (_, states) in zip(stretches, racers, strict=True)])
     times = np.array((kept + spare)[:rounds])
     return Race(times[:, 0], times[:, 1] if theirs else np.full(len(times), np.nan), len(spare))
@@ -78,14 +78,17 @@ class Lap:
 
     @property
     def seconds(self) -> Array:
-        """The undisturbed stretches; disturbed ones where there is no other."""
+        """The undisturbed stretches; where there is none, the time on the processor of the disturbed ones."""
         return np.array(self.kept or self.spare)
 
     def run(self) -> None:
         """Time one stretch."""
-        seconds, quiet = _stretch(self.call, self.repeat)
-        (self.kept if quiet else self.spare).append(seconds)
-        self.spent += seconds * self.repeat
+        wall, busy = _stretch(self.call, self.repeat)
+        if _undisturbed(wall, busy):
+            self.kept.append(wall)
+        else:
+            self.spare.append(busy)
+        self.spent += wall * self.repeat
 
     def wants_more(self, rounds: int, most: float) -> bool:
         """Whether there are too few good stretches yet, and time to spend."""
@@ -135,13 +138,17 @@ def round_robin(
     return laps
 
 
-def _stretch(call: Call, repeat: int) -> tuple[float, bool]:
-    """Return seconds per call, and whether the processor was ours all the time."""
+def _stretch(call: Call, repeat: int) -> tuple[float, float]:
+    """Return seconds per call: on the wall, and on the processor."""
     wall, busy = time.perf_counter(), time.thread_time()
     for _ in range(repeat):
         call()
     wall, busy = time.perf_counter() - wall, time.thread_time() - busy
-    return wall / repeat, busy > UNDISTURBED * wall
+    return wall / repeat, busy / repeat
+
+
+def _undisturbed(wall: float, busy: float) -> bool:
+    return busy > UNDISTURBED * wall
 
 
 def _repeats(call: Call, least: float) -> int:

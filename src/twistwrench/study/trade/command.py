@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from .run import FULL, KEYS, SHORT, weigh
+
 __all__ = ["add_trade"]
 
 
@@ -19,6 +21,7 @@ def add_trade(studies: Any) -> None:
     )
     parser.add_argument("robot", nargs="?", default="go2", metavar="ROBOT", help="a catalogue name or a URDF (go2)")
     parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own")
+    parser.add_argument("--only", action="append", default=[], metavar="KEY", help=f"of {', '.join(KEYS)}; repeatable")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random states (0)")
     parser.add_argument("--short", action="store_true", help="few states and rounds: to see that all is there")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write everything as JSON")
@@ -29,8 +32,6 @@ def add_trade(studies: Any) -> None:
 
 def run_trade(args: argparse.Namespace) -> int:
     """Measure, print, write, draw."""
-    from .run import FULL, SHORT, weigh
-
     for name in ("json", "plot"):
         _check_folder(name, getattr(args, name))
     if args.plot:
@@ -38,7 +39,8 @@ def run_trade(args: argparse.Namespace) -> int:
 
         check_format(args.plot)
     effort = SHORT if args.short else FULL
-    trade = weigh(args.robot, base=args.base, effort=effort, rng=args.seed, progress=args.progress or None)
+    progress = True if args.progress else None
+    trade = weigh(args.robot, base=args.base, only=args.only, effort=effort, rng=args.seed, progress=progress)
     print(trade)
     if args.json:
         args.json.write_text(trade.to_json() + "\n", encoding="utf-8")

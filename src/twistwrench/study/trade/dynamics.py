@@ -20,7 +20,7 @@ from ...validate.oracle import Oracle
 from .numbers import DIGITS, FLOATS, HARDWARE
 from .quantity import Way
 
-__all__ = ["WAYS", "Robot", "Truth", "Ways"]
+__all__ = ["REFERENCE", "WAYS", "Robot", "Truth", "Ways"]
 
 REFERENCE: Reference = "local_world_aligned"
 """Of J̇ v: there it is the acceleration of a point, which does not vanish where only one joint turns."""

@@ -36,7 +36,7 @@ class Effort:
     states: int = 5
     batch: int = 1000
     rounds: int = 7
-    least: float = 0.005
+    least: float = 0.003
     most: float = 0.5
 
 
@@ -55,8 +55,11 @@ class Point:
         Worst relative error over the states that were looked at, see `relative_error`.
     seconds, q1, q3 : float
         For one state: median and quartiles.
-    rounds, disturbed : int
-        How many times were kept, and how many not, because the processor was taken away.
+    rounds : int
+        How many times were kept.
+    quiet : bool
+        Whether they are those of stretches in which the processor was not taken away; where there was none, what
+        counts is the time on the processor.
     """
 
     quantity: str
@@ -68,7 +71,7 @@ class Point:
     q1: float
     q3: float
     rounds: int
-    disturbed: int
+    quiet: bool
 
 
 @dataclass(frozen=True)
@@ -102,7 +105,10 @@ def measure(
     -------
     points, left_out : list
     """
-    truths = [quantity.truth(i) for i in range(effort.states)]
+    try:
+        truths = _truths(quantity, effort.states)
+    except ValueError as error:  # SingularError is one
+        return [], [LeftOut(quantity.key, "all ways", "all numbers", 0, _short(error))]
     runners: list[tuple[tuple[str, str, int], float, Callable[[], object]]] = []
     left_out = []
     for way, number, states in candidates(quantity):
@@ -110,13 +116,24 @@ def measure(
         try:
             runners.append((label, *_check(quantity, way, number, states, truths)))
         except ValueError as error:  # SingularError and LinAlgError are ValueErrors
-            left_out.append(LeftOut(quantity.key, *label, shorten(str(error), 100, placeholder=" …")))
+            left_out.append(LeftOut(quantity.key, *label, _short(error)))
         tick()
     laps = round_robin(
         [call for *_, call in runners], rounds=effort.rounds, least=effort.least, most=effort.most, after_round=tick
     )
     points = [_point(quantity.key, label, error, lap) for (label, error, _), lap in zip(runners, laps, strict=True)]
     return points, left_out
+
+
+def _truths(quantity: Quantity, states: int) -> list[Array]:
+    truths = [quantity.truth(i) for i in range(states)]
+    if not all((truth != 0).any() for truth in truths):
+        raise Unusable("the right value is zero: no error is relative to it")
+    return truths
+
+
+def _short(error: ValueError) -> str:
+    return shorten(str(error), 100, placeholder=" …")
 
 
 def candidates(quantity: Quantity) -> list[tuple[Way, str, int]]:
@@ -161,7 +178,7 @@ def relative_error(value: Array, truth: Array) -> float:
     Raises
     ------
     Unusable
-        If the value is no number, or the truth is zero.
+        If the value is no number, or of another shape.
 
     Examples
     --------
@@ -169,11 +186,9 @@ def relative_error(value: Array, truth: Array) -> float:
     >>> relative_error(np.array([1.0, 4.0]), as_mpmath([1.5, 4.0]))
     0.125
     """
-    size = abs(truth).max()
-    if size == 0:
-        raise Unusable("the right value is zero: no relative error")
     if np.shape(value) != truth.shape:
         raise Unusable(f"expected shape {truth.shape}, got {np.shape(value)}")
+    size = abs(truth).max()
     if value.dtype == object:
         return float(abs(value - truth).max() / size)
     if not np.isfinite(value).all():
@@ -186,4 +201,4 @@ def relative_error(value: Array, truth: Array) -> float:
 def _point(key: str, label: tuple[str, str, int], error: float, lap: Lap) -> Point:
     seconds = lap.seconds / label[2]
     q1, median, q3 = (float(x) for x in np.quantile(seconds, [0.25, 0.5, 0.75]))
-    return Point(key, *label, error, median, q1, q3, rounds=len(seconds), disturbed=len(lap.spare))
+    return Point(key, *label, error, median, q1, q3, rounds=len(seconds), quiet=bool(lap.kept))

@@ -9,38 +9,40 @@ import twistwrench as tw
 from ... import bridge
 from ...checks import Array
 from .numbers import DIGITS, HARDWARE, TRUTH, convert, digits
-from .quantity import Arrays, Quantity, Way
+from .quantity import Arrays, Quantity, Way, repeated
 
 __all__ = ["pose_quantities"]
 
 
-def pose_quantities(*, states: int, batch: int, rng: np.random.Generator, pinocchio: bool) -> list[Quantity]:
+def pose_quantities(
+    drawn: int, states: int, *, batch: int, rng: np.random.Generator, pinocchio: bool
+) -> list[Quantity]:
     """Return exp and log: of random axes, angles uniform in 0 … π, and 1 m times a normal number.
 
     Parameters
     ----------
-    states : int
-        At how many the truth is known; the others only take time.
+    drawn, states : int
+        How many are drawn, and at how many the truth is known; the others only take time.
     batch : int
     rng : numpy Generator
     pinocchio : bool
         Whether it is there.
     """
-    w, v = rng.standard_normal((2, batch, 3))
-    w *= rng.uniform(0, np.pi, (batch, 1)) / np.sqrt((w * w).sum(axis=-1, keepdims=True))
+    w, v = rng.standard_normal((2, drawn, 3))
+    w *= rng.uniform(0, np.pi, (drawn, 1)) / np.sqrt((w * w).sum(axis=-1, keepdims=True))
     V = np.concatenate([w, v], axis=-1)
     exact = [_exponential(convert(x, TRUTH)) for x in V[:states]]
     nearly = tw.exp6(V.astype(np.longdouble)).matrix()
     nearly[:states] = [_long(x) for x in exact]
 
     def twists(number: str, where: int | slice) -> Arrays:
-        return (convert(V[where], number),)
+        return (convert(repeated(V, where), number),)
 
     def placements(number: str, where: int | slice) -> Arrays:
         """Return the truth, rounded once."""
         if isinstance(where, int) and number in DIGITS:
             return (np.asarray(np.frompyfunc(digits(int(number[:2])).convert, 1, 1)(exact[where]), object),)
-        return (nearly[where].astype(number),)
+        return (repeated(nearly, where).astype(number),)
 
     ways = [[*_ours(), *(_pinocchio() if pinocchio else []), *_scipy()][k::2] for k in (0, 1)]
     return [

@@ -6,14 +6,29 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ...checks import Array
 from .numbers import FLOATS
 
-__all__ = ["Arrays", "Inputs", "Quantity", "Way"]
+__all__ = ["Arrays", "Inputs", "Quantity", "Way", "repeated"]
 
 Arrays = tuple[Array, ...]
 Inputs = Callable[[str, int | slice], Arrays]
 """Of a number type and of which states: what a way is called with."""
+
+
+def repeated(x: Array, where: int | slice) -> Array:
+    """Return one entry, or the first so many, over and over if there are not so many.
+
+    Examples
+    --------
+    >>> repeated(np.array([1, 2, 3]), slice(0, 5))
+    array([1, 2, 3, 1, 2])
+    """
+    if isinstance(where, int):
+        return np.asarray(x[where])
+    return np.asarray(x[np.arange(where.stop) % len(x)])
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ...validate.report import number, pad
-from .front import advice, duration, front
+from .choice import advice, duration, front
 from .measure import Effort, LeftOut, Point
 
 __all__ = ["Trade"]
@@ -68,6 +68,8 @@ class Trade:
             *self.missing,
         ]
         tables = [line for key in self.names for line in self._table(key)]
+        if not all(p.quiet for p in self.points):
+            tables += ["", "~ the machine had other things to do: time on the processor, not on the wall"]
         return "\n".join([*head, *tables, "", self.words(), "", f"{self.seconds:.0f} s"])
 
     def _table(self, key: str) -> list[str]:
@@ -76,10 +78,19 @@ class Trade:
         for p in sorted(self.of(key), key=lambda p: (p.states, p.seconds)):
             marks = "●" if p in one else "", "●" if p in many else ""
             quartiles = f"{duration(p.q1)} – {duration(p.q3)}"
-            cells = p.way, p.number, str(p.states), duration(p.seconds), quartiles, number(p.error)
+            cells = (
+                p.way,
+                p.number,
+                str(p.states),
+                "~" * (not p.quiet) + duration(p.seconds),
+                quartiles,
+                number(p.error),
+            )
             lines.append(_laid_out((*marks, *cells)))
         lost = [x for x in self.left_out if x.quantity == key]
-        return lines + [f"    {x.way}, {x.number}, states: {x.states}: left out: {x.why}" for x in lost]
+        return lines + [
+            f"    left out: {x.way}, {x.number}{', a batch' if x.states > 1 else ''}: {x.why}" for x in lost
+        ]
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything in JSON's own types, with the fronts and the words."""

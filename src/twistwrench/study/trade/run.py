@@ -4,27 +4,35 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Collection
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike
 from typing import Literal
 
 import numpy as np
 
-from ...errors import ModelError
+import twistwrench as tw
+
+from ...errors import ModelError, unknown_name
 from ...model import Model
 from ...robots import load
 from ...validate.oracle import Oracle
 from ...validate.states import States, random_states
 from .derivatives import derivative
-from .dynamics import WAYS, Robot, Ways
+from .dynamics import REFERENCE, WAYS, Robot, Ways
 from .measure import Effort, candidates, measure
 from .numbers import TRUTH, convert
 from .poses import pose_quantities
-from .quantity import Arrays, Inputs, Quantity
+from .quantity import Arrays, Inputs, Quantity, repeated
 from .report import Trade
 
-__all__ = ["FULL", "SHORT", "weigh"]
+__all__ = ["FULL", "KEYS", "SHORT", "weigh"]
 
+DRAWN = 50
+"""So many random states; more are the same ones again."""
+
+SLOPE = "dID/dq"
+KEYS = (*WAYS, SLOPE, "exp", "log")
 FULL = Effort()
 SHORT = Effort(states=2, batch=20, rounds=2, least=1e-4, most=0.05)
 """To see that all is there. Its times are worth little."""
@@ -34,6 +42,7 @@ def weigh(
     robot: Model | str | PathLike[str],
     *,
     base: Literal["fixed", "floating"] | None = None,
+    only: Collection[str] = (),
     effort: Effort = FULL,
     rng: int = 0,
     progress: bool | None = False,
@@ -46,6 +55,8 @@ def weigh(
         A name or a path is loaded as by `twistwrench.load`, without refusing bodies that cannot exist.
     base : {"fixed", "floating"}, optional
         For a name or a path: the base to load it with.
+    only : collection of str
+        The quantities to measure, of `KEYS`; all unless given.
     effort : Effort
     rng : int
         Seed of the random states.
@@ -60,25 +71,28 @@ def weigh(
     Raises
     ------
     NameNotFound, ModelError
-        As `twistwrench.load`; or if nothing moves.
+        As `twistwrench.load`; or if a quantity is unknown or nothing moves.
     ImportError
         If mpmath is not installed, without which there is no truth.
 
     Examples
     --------
-    >>> trade = weigh("pendulum", effort=SHORT)
-    >>> len(trade.of("ID"))
-    18
+    >>> trade = weigh("pendulum", only=["ID"], effort=SHORT)
+    >>> {p.number for p in trade.points} >= {"float32", "float64", "50 digits"}
+    True
     """
     from tqdm import tqdm
 
     start = time.perf_counter()
+    for key in only:
+        if key not in KEYS:
+            raise unknown_name("quantity", key, KEYS)
     _ask_for_mpmath()
     model = robot if isinstance(robot, Model) else load(robot, base=base, physical=False, mimic="independent")
     if not model.nv:
         raise ModelError(f"{model.name}: nothing moves: nothing to measure")
     oracle = _oracle(model)
-    quantities = _quantities(model, oracle, effort, rng)
+    quantities = [q for q in _quantities(model, oracle, effort, rng) if not only or q.key in only]
     points, left_out = [], []
     steps = sum(len(candidates(q)) + effort.rounds for q in quantities)
     hidden = None if progress is None else not progress
@@ -102,9 +116,10 @@ def weigh(
 
 
 def _quantities(model: Model, oracle: Oracle | None, effort: Effort, seed: int) -> list[Quantity]:
+    """Return all quantities. The same states are drawn for every effort, and repeated to make a batch."""
     rng = np.random.default_rng(seed)
-    states = random_states(model, max(effort.batch, effort.states), rng=rng)
-    at = Robot(model, oracle, states.frames[0])
+    states = random_states(model, DRAWN, rng=rng)
+    at = Robot(model, oracle, _moving_frame(model, states))
 
     def quantity(key: str, name: str, of: tuple[str, ...], ways: Ways, batch: int) -> Quantity:
         inputs = _inputs(model, states, of)
@@ -113,16 +128,23 @@ def _quantities(model: Model, oracle: Oracle | None, effort: Effort, seed: int) 
 
     dynamics = [quantity(key, *of, effort.batch) for key, of in WAYS.items()]
     # Each derivative asks for nv or more states by itself.
-    slopes = quantity("dID/dq", "derivative ∂τ/∂q", ("q", "v", "a"), derivative, max(2, effort.batch // 10))
-    poses = pose_quantities(states=effort.states, batch=effort.batch, rng=rng, pinocchio=oracle is not None)
+    slopes = quantity(SLOPE, "derivative ∂τ/∂q", ("q", "v", "a"), derivative, max(2, effort.batch // 10))
+    poses = pose_quantities(DRAWN, effort.states, batch=effort.batch, rng=rng, pinocchio=oracle is not None)
     return [*dynamics, slopes, *poses]
+
+
+def _moving_frame(model: Model, s: States) -> str:
+    """Return a frame whose J̇ v is not zero, as it is on an axis that does not move; a foot if there is one."""
+    names = (*s.frames, *model.frame_names)
+    moving = (name for name in names if tw.frame_bias_acceleration(model, s.q[0], s.v[0], name, REFERENCE).any())
+    return next(moving, names[0])
 
 
 def _inputs(model: Model, s: States, of: tuple[str, ...]) -> Inputs:
     """Return q and others in a number type; quaternions are made unit to the last digit of that type."""
 
     def inputs(number: str, where: int | slice) -> Arrays:
-        q, *others = (convert(getattr(s, name)[where], number) for name in of)
+        q, *others = (convert(repeated(getattr(s, name), where), number) for name in of)
         return (q if number.endswith("digits") else model.normalize(q)), *others
 
     return inputs

@@ -18,7 +18,7 @@ def front(points: Iterable[Point]) -> list[Point]:
     Examples
     --------
     >>> def at(seconds, error):
-    ...     return Point("ID", "a way", "float64", 1, error, seconds, seconds, seconds, 1, 0)
+    ...     return Point("ID", "a way", "float64", 1, error, seconds, seconds, seconds, 1, True)
     >>> [p.seconds for p in front([at(1, 1e-6), at(2, 1e-12), at(3, 1e-9)])]
     [1, 2]
     """
