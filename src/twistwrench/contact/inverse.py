@@ -231,8 +231,9 @@ class Task:
         missed = np.abs(white).max(axis=-1, initial=0) > BALANCED * np.abs(whole).max(axis=-1, initial=0)
         if np.any(missed):
             names = [c.frame for c in contacts]
+            over = ", ".join(f"{x:.3g}" for x in left[missed][0])
             raise SingularError(
-                f"no forces at {names} do this{which(np.asarray(missed))}: (τ, f) = {left[missed][0]} is left over"
+                f"no forces at {names} do this{which(np.asarray(missed))}: (τ, f) = ({over}) is left over"
             )
         return cls(contacts, b, J, P, parts, least, np.matvec(J, a) + bias)
 

@@ -110,7 +110,7 @@ def stance_margins(
     try:
         used = friction_used(Task.of(model, q, rest, rest, contacts, None), sides, pyramid)
     except SingularError as error:
-        return StanceMargins(False, np.inf, tip, str(error))
+        return StanceMargins(False, np.inf, tip, f"it falls: {error}")
     reason = ""
     if used > 1:
         reason = f"it slips: it would need {used:.3g} times the friction"
@@ -167,7 +167,7 @@ def inside(points: Array) -> float:
     length = np.hypot(*along.mT)
     start, along, length = (x[length > 1e-12 * size] for x in (start, along, length))
     if len(length) == 0:  # one point only
-        return -float(np.hypot(*points[0]))
+        return 0.0 - float(np.hypot(*points[0]))
     left = np.stack([-along[:, 1], along[:, 0]], axis=-1) / length[:, None]
     origin = -(start * left).sum(axis=-1)  # how far each line has the origin on its left
     others = points @ left.mT + origin
@@ -175,4 +175,4 @@ def inside(points: Array) -> float:
     if origin[edges].min() > 0:
         return float(origin[edges].min())
     share = np.clip(-(start * along).sum(axis=-1) / length**2, 0, 1)
-    return -float(np.hypot(*(start + share[:, None] * along).mT).min())
+    return 0.0 - float(np.hypot(*(start + share[:, None] * along).mT).min())
