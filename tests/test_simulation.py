@@ -127,7 +127,7 @@ def test_the_order_is_the_one_of_theory(exact, method):
 @pytest.mark.parametrize("exact", [pendulum, symmetric_top, asymmetric_top], ids=lambda f: f.__name__)
 def test_runge_kutta_reaches_the_closed_form(exact):
     exact = exact()
-    assert exact.error(tw.simulate(exact.model, exact.q, exact.v, dt=exact.T / 300, steps=300)) < 3e-11
+    assert exact.error(tw.simulate(exact.model, exact.q, exact.v, dt=exact.T / 200, steps=200)) < 1.5e-10
 
 
 def test_a_body_that_slides_under_a_constant_force_is_where_galilei_says():
@@ -152,7 +152,7 @@ def test_the_momentum_of_a_robot_that_floats_freely_is_kept_to_rounding(seed):
     model = floating_without_gravity(Recipe(4, seed=seed, base="floating").model)
     q, v = tumble(model, seed)
     h = {
-        m: tw.simulate(model, q, v, dt=0.02, steps=30, method=m).momentum_about_origin
+        m: tw.simulate(model, q, v, dt=0.02, steps=15, method=m).momentum_about_origin
         for m in ("variational", "midpoint")
     }
     changed = {m: np.abs(x - x[0]).max() / np.abs(x[0]).max() for m, x in h.items()}
@@ -162,7 +162,7 @@ def test_the_momentum_of_a_robot_that_floats_freely_is_kept_to_rounding(seed):
 
 def test_with_gravity_the_momentum_about_the_vertical_and_the_horizontal_one_are_kept():
     model = Recipe(4, seed=1, base="floating").model
-    h = tw.simulate(model, *tumble(model), dt=0.02, steps=30, method="variational").momentum_about_origin
+    h = tw.simulate(model, *tumble(model), dt=0.02, steps=15, method="variational").momentum_about_origin
     changed = np.abs(h - h[0]).max(axis=0)
     kept = [2, 3, 4]  # k_z, l_x, l_y
     assert changed[kept].max() < 1e-12 * np.abs(h[0]).max()
@@ -170,9 +170,9 @@ def test_with_gravity_the_momentum_about_the_vertical_and_the_horizontal_one_are
 
 
 def test_the_energy_of_the_variational_method_swings_and_does_not_drift():
-    """Over 100 swings its error stays that of the first five; that of Runge-Kutta grows with time."""
+    """Over 40 swings its error stays that of the first five; that of Runge-Kutta grows with time."""
     model = tw.load("pendulum")
-    e = {m: tw.simulate(model, [2.0], [0.0], dt=0.2, steps=1500, method=m).energy for m in ("variational", "rk4")}
+    e = {m: tw.simulate(model, [2.0], [0.0], dt=0.2, steps=600, method=m).energy for m in ("variational", "rk4")}
     error = {m: np.abs(x - x[0]) for m, x in e.items()}
     first, last = (error["variational"][part].max() for part in (slice(0, 75), slice(-75, None)))
     assert last < 1.01 * first
@@ -181,10 +181,10 @@ def test_the_energy_of_the_variational_method_swings_and_does_not_drift():
 
 def test_the_energy_of_a_tumbling_body_is_held_over_long_times():
     model, v = body(1.0, 2.0, 3.0), np.array([0.1, 2.0, 0.1, 0.0, 0.0, 0.0])  # about the unstable axis
-    energy = tw.simulate(model, model.neutral(), v, dt=0.2, steps=300, method="variational").energy
+    energy = tw.simulate(model, model.neutral(), v, dt=0.3, steps=150, method="variational").energy
     error = np.abs(energy - energy[0])
-    assert error[-100:].max() < 1.05 * error[:100].max()
-    assert error.max() < 0.01 * energy[0]
+    assert error[-50:].max() < 1.05 * error[:50].max()
+    assert error.max() < 0.02 * energy[0]
 
 
 def test_the_variational_step_is_symplectic():
@@ -320,7 +320,7 @@ def test_a_tree_of_balls_moves_as_3d_mechanics_and_dop853_say(method):
     ).y[:, -1]
     q_end, v_end = model.normalize(x[: model.nq]), x[model.nq :]
     errors = []
-    for n in (20, 40):
+    for n in (10, 20):
         s = tw.simulate(model, q, v, dt=T / n, steps=n, tau=tau, method=method)
         errors.append(max(np.abs(model.difference(q_end, s.q[-1])).max(), np.abs(s.v[-1] - v_end).max()))
     assert abs(np.log2(errors[0] / errors[1]) - ORDERS[method]) < 0.1, errors
