@@ -9,6 +9,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..model import Model
 from ..plucker import SE3
 from ..robots.catalogue import PREFIX, find, known
@@ -60,11 +62,12 @@ def shapes(model: Model, source: str | PathLike[str] | None) -> list[Shape]:
     if path is None:
         return []
     looks = [link for link in _links(path) if link.visuals]
-    if not {link.name for link in looks} <= set(model.frames):
-        return []
+    frames = {link.name: f"link:{link.name}" if f"link:{link.name}" in model.frames else link.name for link in looks}
+    if not set(frames.values()) <= set(model.frames):
+        return []  # other links than the model's
     found, missing = [], []
     for link in looks:
-        frame = model.frames[link.name]
+        frame = model.frames[frames[link.name]]
         for visual in link.visuals:
             mesh = _mesh(visual.geometry, path)
             if mesh is None:
@@ -74,9 +77,8 @@ def shapes(model: Model, source: str | PathLike[str] | None) -> list[Shape]:
             origin = SE3.identity() if visual.origin is None else SE3.from_matrix(visual.origin)
             found.append(Shape(frame.body, frame.placement @ origin, mesh))
     if missing:
-        warnings.warn(
-            f"{path}: no mesh for {', '.join(dict.fromkeys(missing))}: file missing", UserWarning, stacklevel=2
-        )
+        names = ", ".join(dict.fromkeys(missing))
+        warnings.warn(f"{path}: the mesh files of these links are missing: {names}", UserWarning, stacklevel=2)
     return found
 
 
@@ -120,7 +122,13 @@ def _mesh(geometry: Any, urdf: Path) -> Any:
     file = _file(geometry.mesh.filename, urdf)
     if file is None:
         return None
-    mesh: Any = trimesh.load_mesh(file)
+    scene = trimesh.load_scene(file)
+    for part in scene.geometry.values():
+        if part.visual.kind == "texture":  # colours at the corners in place of a picture, which may weigh 20 MB
+            colours = np.asarray(part.visual.material.to_color(part.visual.uv))
+            colours = np.broadcast_to(colours, (len(part.vertices), 4))
+            part.visual = trimesh.visual.ColorVisuals(part, vertex_colors=colours)
+    mesh: Any = scene.to_mesh()
     if geometry.mesh.scale is not None:
         mesh.apply_scale(geometry.mesh.scale)
     return mesh
