@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import fast
 from .checks import Array, resolution
+from .fast import crba
 from .model import Model
 
 __all__ = ["Accuracy", "accuracy"]
@@ -116,7 +116,7 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
 
 def _least_felt(model: Model, q: Array) -> tuple[Array, Array]:
     """Return the least eigenvalue of M scaled to a diagonal of ones, and its eigenvector: which motion that is."""
-    M = fast.crba(model, q)
+    M = crba(model, q)
     own = np.diagonal(M, axis1=-2, axis2=-1)
     unit = np.sqrt(np.where(own > 0, own, 1))  # what moves nothing keeps its zero
     values, vectors = np.linalg.eigh(M / unit[..., :, None] / unit[..., None, :])
