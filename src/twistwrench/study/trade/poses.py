@@ -41,7 +41,8 @@ def pose_quantities(
     def placements(number: str, where: int | slice) -> Arrays:
         """Return the truth, rounded once."""
         if isinstance(where, int) and number in DIGITS:
-            return (np.asarray(np.frompyfunc(digits(int(number[:2])).convert, 1, 1)(exact[where]), object),)
+            context = digits(int(number.split()[0]))
+            return (np.asarray(np.frompyfunc(lambda x: +context.convert(x), 1, 1)(exact[where]), object),)
         return (repeated(nearly, where).astype(number),)
 
     ways = [[*_ours(), *(_pinocchio() if pinocchio else []), *_scipy()][k::2] for k in (0, 1)]
