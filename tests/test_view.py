@@ -1,0 +1,368 @@
+"""What `tw.view` shows: the right places, the right forces, and a page that needs nothing from outside."""
+
+import re
+import shutil
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench import motions, plot
+from twistwrench.cli import main
+from twistwrench.rotation import quaternion_to_rotation
+from twistwrench.viewing.shapes import shapes
+from twistwrench.viewing.stage import build
+from twistwrench.viewing.subject import subject
+
+pytest.importorskip("matplotlib", reason="matplotlib is not installed: the pictures are not checked")
+from matplotlib.figure import Figure
+
+GO2 = tw.load("go2")
+SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
+
+
+@pytest.fixture
+def space():
+    return Figure().add_subplot(projection="3d")
+
+
+def curve(line):
+    return np.stack(line.get_data_3d(), axis=-1)
+
+
+# ---------------------------------------------------------------- what is seen
+
+
+@pytest.mark.parametrize("seen", [subject("go2"), subject(tw.Scene("humanoid", contacts=SOLES))], ids=["feet", "soles"])
+def test_the_forces_at_rest_carry_the_weight_and_turn_nothing(seen):
+    """At the centre of pressure a sole's force stands for its wrench, but for the moment about the normal."""
+    forces, weight = seen.forces(), seen.model.mass * 9.81
+    np.testing.assert_allclose(forces.vectors.sum(axis=0), [0, 0, weight], atol=1e-9)
+    arms = forces.at - tw.center_of_mass(seen.model, seen.q)
+    np.testing.assert_allclose(np.cross(arms, forces.vectors).sum(axis=0)[:2], 0, atol=1e-9)
+
+
+def test_two_points_cannot_hold_a_humanoid_and_no_force_is_shown(space):
+    assert subject("humanoid", contacts=["left_sole", "right_sole"]).forces() is None
+    tw.view("humanoid", contacts=["left_sole", "right_sole"], ax=space)
+    assert not space.texts
+
+
+def test_a_sole_supports_with_its_corners():
+    seen = subject("humanoid", contacts=SOLES)
+    T = tw.frame_placement(seen.model, seen.q, "left_sole")
+    np.testing.assert_allclose(seen.support()[:4], T.act(SOLES[0].points), atol=1e-15)
+
+
+def test_only_the_feet_that_stand_support_a_motion():
+    trot = motions.trot(GO2, samples=16)
+    seen = subject(GO2, trot)
+    assert [len(seen.at(k).support()) for k in range(16)] == trot.contacts.sum(axis=1).tolist()
+    assert 0 < trot.contacts.sum() < trot.contacts.size
+    np.testing.assert_array_equal(seen.t, trot.t)
+
+
+def test_forces_that_were_given_say_which_feet_stand():
+    f = np.zeros((4, 3))
+    f[1] = [0, 0, 7.0]
+    seen = subject(GO2, forces=f)
+    np.testing.assert_allclose(seen.support(), [tw.frame_placement(GO2, seen.q, GO2.feet[1]).translation], atol=1e-15)
+    assert seen.texts(seen.forces()) == ["", "7.0 N", "", ""]
+
+
+def test_forces_on_one_body_are_summed_up_once():
+    seen = subject("humanoid")
+    texts = [text for text in seen.texts(seen.forces()) if text]
+    assert texts == ["Σ 98.1 N", "Σ 98.1 N"]
+
+
+# ---------------------------------------------------------------- the figure
+
+
+def test_the_figure_shows_frames_centre_of_mass_polygon_and_forces_in_their_places(space):
+    q = GO2.standing()
+    assert tw.view(GO2, q, ax=space) is space
+    assert space.get_legend_handles_labels()[1] == ["centre of mass", "support polygon", "force of the ground"]
+    lines = [curve(line) for line in space.lines]
+    joints = tw.forward_kinematics(GO2, q).placement[1:]
+    triads = [curve(line) for line in space.lines if line.get_color() in plot.XYZ]
+    assert len(triads) == 3 * 13
+    np.testing.assert_allclose([line[0] for line in triads[::3]], [T.translation for T in joints], atol=1e-12)
+    com = tw.center_of_mass(GO2, q)
+    assert any(len(line) == 1 and np.allclose(line, com, atol=1e-12) for line in lines)
+    feet = np.array([tw.frame_placement(GO2, q, foot).translation for foot in GO2.feet])
+    assert any(len(line) == 5 and np.allclose(line[:4], plot.hull(feet), atol=1e-12) for line in lines)
+
+
+def test_frames_that_are_asked_for_are_the_only_ones_and_carry_their_names(space):
+    tw.view("planar_arm", frames=[], ax=space)
+    without = len(space.lines)
+    tw.view("planar_arm", frames=[tw.load("planar_arm").frame_names[-1]], ax=space)
+    assert len(space.lines) == 2 * without + 3
+    assert [text.get_text().strip() for text in space.texts] == [tw.load("planar_arm").frame_names[-1]]
+
+
+def test_without_axes_a_figure_is_made_which_a_notebook_shows():
+    import matplotlib.pyplot as plt
+
+    try:
+        ax = tw.view("pendulum")
+        assert plt.gcf() is ax.figure
+    finally:
+        plt.close("all")
+
+
+# ---------------------------------------------------------------- the stage in the browser
+
+
+class Stage:
+    """Takes down what is put up."""
+
+    def __init__(self):
+        self.nodes = {}
+
+    def set_up_direction(self, direction):
+        self.up = direction
+
+    def __getattr__(self, add):
+        def put_up(name, *args, **look):
+            self.nodes[name] = SimpleNamespace(args=args, **look)
+            return self.nodes[name]
+
+        return put_up
+
+
+def turned(wxyz, vector):
+    return quaternion_to_rotation(np.roll(wxyz, -1, axis=-1)) @ vector
+
+
+def test_sticks_on_the_stage_lie_where_the_figure_draws_them():
+    pytest.importorskip("trimesh")
+    stage, seen = Stage(), subject("go2")
+    move = build(stage, seen, [], None)
+    for q in (seen.q, GO2.random_configuration(rng=0)):
+        move(seen.moved(q))
+        rods, lines = stage.nodes["/rods"], plot.sticks(GO2, q)
+        halves = turned(rods.batched_wxyzs, [0, 0, 1]) * rods.batched_scales[:, 2:] / 2
+        np.testing.assert_allclose(rods.batched_positions - halves, lines[:, 0], atol=1e-12)
+        np.testing.assert_allclose(rods.batched_positions + halves, lines[:, 1], atol=1e-12)
+        np.testing.assert_allclose(stage.nodes["/centre_of_mass"].position, tw.center_of_mass(GO2, q), atol=1e-12)
+        T = tw.forward_kinematics(GO2, q).placement[1:]
+        axes = stage.nodes["/frames"].points
+        np.testing.assert_allclose(axes[::3, 0], [t.translation for t in T], atol=1e-6)  # float32 for the browser
+        direction = (axes[:, 1] - axes[:, 0]).reshape(-1, 3, 3)
+        direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+        np.testing.assert_allclose(direction, [t.rotation.mT for t in T], atol=1e-5)
+
+
+def test_a_rod_that_points_straight_down_is_turned_by_half_a_turn():
+    pytest.importorskip("trimesh")
+    stage = Stage()
+    build(stage, subject("pendulum", [0.0]), [], None)
+    np.testing.assert_allclose(turned(stage.nodes["/rods"].batched_wxyzs[-1], [0, 0, 1]), [0, 0, -1], atol=1e-12)
+
+
+def test_bodies_with_meshes_stand_where_kinematics_says():
+    stage, seen = Stage(), subject("go2")
+    found = shapes(GO2, "go2")
+    if not found:
+        pytest.skip("example-robot-data is not installed: no meshes")
+    q = GO2.random_configuration(rng=1)
+    build(stage, seen, found, None)(seen.moved(q))
+    T = tw.forward_kinematics(GO2, q).placement
+    for shape in found:
+        node = stage.nodes[f"/bodies/{shape.body}"]
+        np.testing.assert_allclose(node.position, T[shape.body].translation, atol=1e-12)
+        np.testing.assert_allclose(turned(node.wxyz, np.eye(3)), T[shape.body].rotation, atol=1e-12)
+    lowest = min((T[s.body] @ s.placement).act(s.mesh.vertices)[:, 2].min() for s in found)
+    feet = min(tw.frame_placement(GO2, q, foot).translation[2] for foot in GO2.feet)
+    assert lowest < feet  # the frame of a foot is the middle of its ball
+    ball = [s for s in found if s.body == GO2.frame("FL_foot").body][-1]
+    np.testing.assert_allclose(
+        ball.placement.act(ball.mesh.bounds.mean(axis=0)), GO2.frame("FL_foot").placement.translation, atol=0.01
+    )
+
+
+URDF = """<robot name="box"><link name="base"><visual><geometry><box size="1 2 3"/></geometry></visual></link>
+<link name="arm"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><origin xyz="0 0 0.5"/><geometry><mesh filename="{}" scale="2 2 2"/></geometry>
+<material name="m"><color rgba="1 0 0 1"/></material></visual></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>"""
+
+
+@pytest.mark.parametrize("name", ["ball.stl", "package://mine/ball.stl", "package://other/ball.stl"])
+def test_a_mesh_is_found_beside_the_urdf_and_in_packages_around_it(name, tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    trimesh.creation.icosphere(radius=0.5).export(folder / "ball.stl")
+    path = folder / "robot.urdf"
+    path.write_text(URDF.format(name), encoding="utf-8")
+    box, ball = shapes(tw.load(path), path)
+    assert (box.body, ball.body) == (0, 1)
+    np.testing.assert_allclose(box.mesh.extents, [1, 2, 3])
+    np.testing.assert_allclose(ball.mesh.extents, [2, 2, 2], atol=0.02)
+    np.testing.assert_allclose(ball.placement.translation, [0, 0, 0.5])
+    assert ball.mesh.visual.face_colors[0].tolist() == [255, 0, 0, 255]
+
+
+@pytest.mark.parametrize("name", ["gone.stl", "http://example.org/ball.stl"])
+def test_a_mesh_that_is_not_here_is_said_and_not_fetched(name, tmp_path):
+    path = tmp_path / "robot.urdf"
+    path.write_text(URDF.format(name), encoding="utf-8")
+    with pytest.warns(UserWarning, match="mesh files of these links are missing: arm"):
+        assert len(shapes(tw.load(path), path)) == 1
+
+
+def test_meshes_of_another_robot_are_not_put_on(tmp_path):
+    path = tmp_path / "robot.urdf"
+    path.write_text(URDF.format("gone.stl"), encoding="utf-8")
+    assert shapes(GO2, path) == []
+    assert shapes(GO2, None) == []
+    assert shapes(tw.load("planar_arm"), "planar_arm") == []
+
+
+# ---------------------------------------------------------------- the page
+
+
+@pytest.fixture
+def browser():
+    pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
+    opened = []
+
+    def open_(*args, **options):
+        opened.append(tw.view(*args, backend="browser", **options))
+        return opened[-1]
+
+    yield open_
+    for page in opened:
+        page.stop()
+
+
+def test_a_page_stands_alone(browser, tmp_path):
+    page = browser("double_pendulum", meshes=False)
+    page.update([0.3, -0.2])
+    page.save(tmp_path / "page.html")
+    html = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "__VISER_EMBED_DATA__" in html
+    assert not re.findall(r'<(?:script|link|img)[^>]*(?:src|href)="?https?:', html)
+    assert len(html) < 1_000_000
+    assert "<iframe" in page._repr_html_()
+    with pytest.raises(tw.ShapeError, match="expected one configuration"):
+        page.update([[0.3, -0.2]])
+
+
+def test_the_page_of_a_motion_is_longer_and_one_of_a_state_has_a_slider_for_each_joint(browser):
+    model = tw.load("double_pendulum")
+    still = browser(model, [0.1, 0.2])
+    sliders = [handle.label for handle in still._server.gui._gui_input_handle_from_uuid.values()]
+    assert sliders == list(model.joint_names[1:])
+    moving = browser(model, np.random.default_rng(0).uniform(-1, 1, (40, 2)), t=np.arange(40) / 20)
+    assert len(moving.html()) > len(still.html()) + 1000
+
+
+def test_the_page_is_served_to_this_machine_only(browser):
+    from urllib.request import urlopen
+
+    page = browser("pendulum")
+    assert page.url.startswith("http://127.0.0.1:")
+    with urlopen(page.url, timeout=10) as answer:
+        assert b"<!doctype html>" in answer.read(100)
+
+
+def test_without_viser_the_message_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "viser", None)
+    with pytest.raises(ModuleNotFoundError, match=r'pip install "twistwrench\[view\]"'):
+        tw.view("pendulum", backend="browser")
+
+
+@pytest.mark.slow
+def test_a_real_browser_draws_the_page(tmp_path, browser):
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        pytest.skip("no Chromium here: the page is not drawn")
+    image = pytest.importorskip("PIL.Image")
+    browser("go2", meshes=False).save(tmp_path / "go2.html")
+    flags = "--headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader"
+    shot = tmp_path / "go2.png"
+    where = [f"--user-data-dir={tmp_path}", f"--screenshot={shot}", (tmp_path / "go2.html").as_uri()]
+    quick = ["--window-size=500,400", "--virtual-time-budget=3000"]
+    subprocess.run([chromium, *flags.split(), *quick, *where], capture_output=True, timeout=300, check=True)
+    pixels = np.asarray(image.open(shot).convert("RGB")).reshape(-1, 3).astype(int)
+    sky = (pixels[:, 2] - pixels[:, 0] > 20).mean()  # the support polygon and the z axes
+    assert 0.005 < sky < 0.5
+
+
+# ---------------------------------------------------------------- what cannot be shown
+
+
+@pytest.mark.parametrize(
+    ("arguments", "options", "error", "said"),
+    [
+        (["go2"], {"backend": "vtk"}, tw.NameNotFound, "unknown backend 'vtk'; known: 'matplotlib', 'browser'"),
+        (["gogo2"], {}, tw.NameNotFound, "unknown robot 'gogo2'"),
+        ([GO2.nv], {}, TypeError, "robot: expected a name, a path, a Model, a Scene or a Simulation, got int"),
+        (["go2", np.zeros(18)], {}, tw.ShapeError, "q: expected shape (..., 19), got (18,)"),
+        (["go2", np.tile(GO2.standing(), (2, 2, 1))], {}, tw.ShapeError, "or (n, 19) for a motion, got (2, 2, 19)"),
+        (["go2", np.tile(GO2.standing(), (2, 1))], {}, tw.ShapeError, "matplotlib plays no motion"),
+        (["pendulum", [0.1j]], {}, ValueError, "q: expected real numbers"),
+        (["go2"], {"frames": ["FL_fot"]}, tw.NameNotFound, "unknown frame 'FL_fot'"),
+        (["go2"], {"contacts": ["FL_fot"]}, tw.NameNotFound, "unknown frame 'FL_fot'"),
+        (["go2"], {"contacts": "FL_foot"}, ValueError, "['FL_foot'] is one"),
+        (["go2"], {"forces": np.zeros((3, 3))}, tw.ShapeError, "forces: expected shape (..., 4, 3), got (3, 3)"),
+        (["go2"], {"forces": np.zeros((2, 4, 3))}, tw.ShapeError, "forces: expected shape (4, 3), got (2, 4, 3)"),
+        (["go2"], {"t": [0.0]}, ValueError, "t: a single configuration has no times"),
+        (
+            ["pendulum", [[0.0], [1.0]]],
+            {"t": [1.0, 0.0], "backend": "browser"},
+            ValueError,
+            "t: expected times that grow",
+        ),
+        (["pendulum", [[0.0], [1.0]]], {"t": [1.0], "backend": "browser"}, tw.ShapeError, "t: expected shape (..., 2)"),
+        (["go2"], {"meshes": False}, ValueError, "meshes: matplotlib draws none"),
+        (["go2"], {"ax": 1, "backend": "browser"}, ValueError, "ax: means nothing in the browser"),
+    ],
+)
+def test_what_cannot_be_shown_is_said(arguments, options, error, said):
+    with pytest.raises(error, match=re.escape(said)):
+        tw.view(*arguments, **options)
+
+
+# ---------------------------------------------------------------- the command line
+
+
+def test_the_command_writes_a_picture(tmp_path):
+    assert main(["view", "go2", "--output", str(tmp_path / "go2.png")]) == 0
+    assert (tmp_path / "go2.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_command_takes_postures_frames_contacts_and_a_base(tmp_path, monkeypatch):
+    seen = {}
+    monkeypatch.setattr("twistwrench.viewing.showing.view", lambda *args, **how: seen.update(args=args, **how))
+    monkeypatch.setattr(Figure, "savefig", lambda *args, **how: None)
+    words = "view go2 --base fixed --frame base --frame FL_foot --contact FL_foot --output x.svg"
+    assert main([*words.split(), "--posture", "standing"]) == 0
+    model, q = seen["args"]
+    assert (model.base, seen["frames"], seen["contacts"]) == ("fixed", ["base", "FL_foot"], ["FL_foot"])
+    np.testing.assert_array_equal(q, model.postures["standing"])
+
+
+def test_the_command_writes_a_page(tmp_path):
+    pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
+    assert main(["view", "pendulum", "--output", str(tmp_path / "p.html")]) == 0
+    assert "__VISER_EMBED_DATA__" in (tmp_path / "p.html").read_text(encoding="utf-8")
+
+
+def test_the_command_says_what_it_cannot_do(tmp_path, capsys, monkeypatch):
+    with pytest.raises(SystemExit):
+        main(["view", "go2", "--output", "go2.gif"])
+    assert "expected a name in .png, .svg, .pdf or .html, got go2.gif" in capsys.readouterr().err
+    assert main(["view", "go2", "--posture", "lying", "--output", str(tmp_path / "x.png")]) == 2
+    assert "unknown posture 'lying' of 'go2'; known: 'standing'" in capsys.readouterr().err
+    monkeypatch.setattr("matplotlib.pyplot.get_backend", lambda: "agg")
+    assert main(["view", "go2"]) == 2
+    assert "--output FILE writes a picture" in capsys.readouterr().err
