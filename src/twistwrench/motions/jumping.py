@@ -26,7 +26,7 @@ __all__ = ["FOUR_LEGS", "TWO_LEGS", "Jump", "Leap"]
 
 NODES = 24
 """Collocation points in each part of a phase."""
-PARTS = 2
+PARTS = 3
 ROUNDS = 40
 """Of Picard's iteration, which needs about ten."""
 

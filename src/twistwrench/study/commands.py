@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .speed import add_speed
+from .templates import add_templates
 from .trade.command import add_trade
 
 __all__ = ["STUDIES", "register"]
@@ -22,5 +23,5 @@ def register(commands: Commands) -> None:
         add(studies)
 
 
-STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed, add_trade)
+STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed, add_trade, add_templates)
 """Each adds its parser, and names in ``set_defaults(run=...)`` what does the work and returns the exit status."""
