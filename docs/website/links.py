@@ -41,7 +41,11 @@ class Page(HTMLParser):
 
 def check(html: Path) -> Iterator[str]:
     """Yield each link that leads nowhere, and each thing that would have to be fetched from elsewhere."""
-    pages = {path.resolve(): Page(path.read_text(encoding="utf-8")) for path in sorted(html.rglob("*.html"))}
+    pages = {
+        path.resolve(): Page(path.read_text(encoding="utf-8"))
+        for path in sorted(html.rglob("*.html"))
+        if "_static" not in path.parts
+    }
     for path, page in pages.items():
         name = path.relative_to(html.resolve()).as_posix()
         for target in {*page.links, *page.fetched}:
