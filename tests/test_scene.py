@@ -1,5 +1,6 @@
 """A scene: the smallest model with its contacts and wrenches, what it computes, and what it refuses."""
 
+import re
 from collections import Counter
 from dataclasses import replace
 
@@ -14,11 +15,13 @@ from twistwrench.scene.costs import limbs
 from twistwrench.scene.once import angular_rows
 from twistwrench.templates import TEMPLATES
 
+from .pages import blocks, names_author_and_licence, page, run
 from .strategies import random_state
 from .truth import largest
 
 SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
 FEET = [tw.PointContact(f"{leg}_foot", mu=0.7) for leg in ("FL", "FR", "RL", "RR")]
+PAGES = [page("scenes", language) for language in ("", ".zh-CN")]
 ARMS = ["*_shoulder_*", "*_elbow"]
 EVERYTHING = {"M", "h", "J_c", "A_G"}
 
@@ -534,3 +537,20 @@ def test_groups_and_motions_that_do_not_fit_are_refused(walking):
         tw.Scene(model).cheapest(0.1, motion, groups={"tail": ["tail_*"]})
     with pytest.raises(tw.ShapeError):
         tw.Scene("go2").cheapest(0.1, motion)
+
+
+# ---------------------------------------------------------------- its page
+
+
+def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
+    english, chinese = PAGES
+    sources, twins = (blocks(path.read_text(encoding="utf-8"), 0, 10**6) for path in (english, chinese))
+    assert len(sources) == 5
+    assert [block.strip("\n") for block in sources] == [block.strip("\n") for block in twins]
+    rows = ([line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("| ")] for path in PAGES)
+    ours, theirs = ([re.findall(r"\d[\d.e-]*", row) for row in of_page] for of_page in rows)
+    assert ours == theirs
+    assert sum(map(bool, ours)) >= 10
+    assert repr(run(english, sources)["scene"]) in english.read_text(encoding="utf-8")
+    assert names_author_and_licence(english)
+    assert names_author_and_licence(chinese)
