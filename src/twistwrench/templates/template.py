@@ -93,8 +93,10 @@ class Template(ABC):
         ------
         ValueError
             If the base is fixed.
-        ShapeError, SingularError, ValueError
-            As `Model.state` and `center_of_mass`; or if q is a batch or complex.
+        SingularError
+            If nothing that moves has mass.
+        ShapeError, ValueError
+            As `Model.state`; or if q is a batch or complex.
         """
         return cls(*checked(model, q))
 
@@ -154,6 +156,8 @@ def checked(model: Model, q: ArrayLike) -> tuple[Model, Array, float, float]:
     (q,) = model.state(q)
     if q.ndim != 1 or q.dtype.kind == "c":
         raise ValueError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
+    if model.mass == 0:
+        raise SingularError(f"{model.name!r}: nothing that moves has mass")
     weight = model.mass * float(np.sqrt((model.gravity**2).sum()))
     length = float(np.sqrt(np.trace(locked_inertia(model, q)) / 2 / model.mass))
     return model, q, weight, length
@@ -172,8 +176,10 @@ def full_rate(model: Model, q: Array, v: Array, a: Array) -> Array:
     -------
     ndarray, shape (..., 6)
     """
-    p_G, base = center_of_mass(model, q), model.joints[1].transform(q[..., model.q_slice[1]])  # type: ignore[union-attr]
-    to_G = SE3._trusted(base.rotation, base.translation - p_G).force_transform()
+    at_origin = q.copy()
+    at_origin[..., :3] = 0  # where the robot stands does not matter, and far away would cost digits
+    base = model.joints[1].transform(at_origin[..., model.q_slice[1]])  # type: ignore[union-attr]
+    to_G = SE3._trusted(base.rotation, -center_of_mass(model, at_origin)).force_transform()
     g = (model.mass * model.gravity).astype(q.dtype)
     rate: Array = np.matvec(to_G, rnea(model, q, v, a)[..., :6]) + np.concatenate([np.zeros_like(g), g])
     return rate
