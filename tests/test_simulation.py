@@ -122,20 +122,13 @@ def test_the_order_is_the_one_of_theory(exact, method):
     ]
     assert abs(np.log2(errors[0] / errors[1]) - order) < 0.1, errors
     assert METHODS[method].order == order
-
-
-@pytest.mark.parametrize("exact", [pendulum, symmetric_top, asymmetric_top], ids=lambda f: f.__name__)
-def test_runge_kutta_reaches_the_closed_form(exact):
-    exact = exact()
-    assert exact.error(tw.simulate(exact.model, exact.q, exact.v, dt=exact.T / 200, steps=200)) < 1.5e-10
+    assert errors[1] < {1: 0.01, 2: 5e-4, 4: 5e-7}[order]
 
 
 def test_a_body_that_slides_under_a_constant_force_is_where_galilei_says():
-    model = tw.load("cart_pole")
     motion = tw.simulate(tw.chain(1, joint="prismatic", axis="x"), [0.0], [1.0], dt=0.125, steps=8, tau=[3.0])
     assert motion.q[-1, 0] == pytest.approx(1.0 + 3.0 / 2, rel=1e-14)  # 1 kg
     assert motion.v[-1, 0] == pytest.approx(4.0, rel=1e-14)
-    assert model.nv == 2
 
 
 # ---------------------------------------------------------------- what mechanics keeps

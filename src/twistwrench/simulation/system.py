@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Iterable
 from typing import Protocol
 
@@ -37,6 +38,7 @@ class SceneLike(Protocol):
     model: Model
     contacts: tuple[Contact, ...]
 
+    @abstractmethod
     def f_ext(self, q: ArrayLike) -> Array:
         """Return the wrenches on the bodies in a configuration, shape (..., nbodies, 6)."""
 
