@@ -79,6 +79,32 @@ def test_go2_has_a_row_for_every_quantity_of_the_chapter():
 
 
 @needs_pinocchio
+@pytest.mark.parametrize("robot", ["go2", "planar_arm"])
+def test_the_fast_way_passes_its_rows(robot):
+    report = validate(robot, states=3, truths=2, fast=True)
+    assert report.passed
+    assert [row.quantity for row in report.rows if not row.quantity.startswith("J")] == [
+        *("inverse dynamics", "inverse dynamics, f_ext", "forward dynamics", "forward dynamics, f_ext"),
+        *("mass matrix M", "h = C v + g", "centroidal map A_G"),
+    ]
+
+
+@pytest.mark.parametrize(("state", "few"), [("alone", True), ("in a batch", False)])
+def test_an_error_of_the_fast_way_fails_its_row(monkeypatch, state, few):
+    """Alone or in a batch, with one entry off by 1e-10 of its size."""
+    crba = tw.fast.crba
+
+    def off(model, q):
+        M = crba(model, q).copy()
+        if (q.ndim == 1) == few:
+            M[..., 0, 0] *= 1 + 1e-10
+        return M
+
+    monkeypatch.setattr(tw.fast, "crba", off)
+    report = validate("pendulum", states=3, truths=1, fast=True)
+    assert [row.quantity for row in report.failed] == ["mass matrix M"]
+
+
 def test_a_tree_with_every_kind_of_joint_passes_by_way_of_the_bridge():
     report = validate(random_tree(8, rng=3), **QUICK)
     assert report.passed, report

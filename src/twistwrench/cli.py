@@ -105,6 +105,7 @@ def add_validate(commands: Commands) -> None:
     what.add_argument("robot", nargs="*", default=[], metavar="ROBOT", help="a name of `twistwrench robots` or a URDF")
     what.add_argument("--all", action="store_true", help="every robot on a fixed and on a floating base, a line each")
     parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own (--all: both)")
+    parser.add_argument("--fast", action="store_true", help="hold what tw.fast computes: the rows that it has")
     parser.add_argument("--states", type=_at_least(1), default=8, metavar="N", help="random states (8)")
     parser.add_argument("--truths", type=_at_least(1), metavar="N", help="states with the truth computed (3; --all: 1)")
     parser.add_argument("--seed", type=_at_least(0), default=0, metavar="N", help="of the random states (0)")
@@ -134,7 +135,13 @@ def _validate_some(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool
     reports: list[Report] = []
     for name in args.robot or ["go2"]:
         report = validate(
-            name, base=args.base, states=args.states, truths=args.truths or 3, rng=args.seed, progress=_shows_bar(args)
+            name,
+            base=args.base,
+            states=args.states,
+            truths=args.truths or 3,
+            rng=args.seed,
+            fast=args.fast,
+            progress=_shows_bar(args),
         )
         if args.json != "-":
             print("\n" * bool(reports) + str(report))
@@ -150,7 +157,9 @@ def _validate_all(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool]
 
     start, outcomes = time.perf_counter(), []
     which = sweep.every_robot(args.base)
-    found = sweep.sweep(which, jobs=args.jobs, states=args.states, truths=args.truths or 1, seed=args.seed)
+    found = sweep.sweep(
+        which, jobs=args.jobs, states=args.states, truths=args.truths or 1, seed=args.seed, fast=args.fast
+    )
     say: Callable[[str], None] = tqdm.write if args.json != "-" else lambda text: None  # stdout is for the JSON
     say(sweep.header())
     for outcome in tqdm(found, total=len(which), unit="robot", disable=not _shows_bar(args), leave=False):

@@ -41,8 +41,8 @@ class States:
     def __len__(self) -> int:
         return len(self.q)
 
-    def __getitem__(self, i: int) -> States:
-        """Return one state."""
+    def __getitem__(self, i: int | Array) -> States:
+        """Return one state, or those of several indices."""
         return States(**{key: array[i] for key, array in self._arrays().items()}, frames=self.frames)
 
     def exact(self, context: Any) -> States:

@@ -48,7 +48,13 @@ def every_robot(base: Base | None = None) -> list[tuple[str, Base]]:
 
 
 def sweep(
-    which: Sequence[tuple[str, Base]], *, jobs: int | None = None, states: int = 8, truths: int = 1, seed: int = 0
+    which: Sequence[tuple[str, Base]],
+    *,
+    jobs: int | None = None,
+    states: int = 8,
+    truths: int = 1,
+    seed: int = 0,
+    fast: bool = False,
 ) -> Iterator[Outcome]:
     """Validate robots, several at a time, each with two frames.
 
@@ -57,8 +63,8 @@ def sweep(
     which : sequence of (name, base)
     jobs : int, optional
         Number of processes; as many as there are processors unless given.
-    states, truths, seed
-        As `validate`'s states, truths and rng.
+    states, truths, seed, fast
+        As `validate`'s states, truths, rng and fast.
 
     Yields
     ------
@@ -68,11 +74,11 @@ def sweep(
     jobs = min(jobs or os.cpu_count() or 1, len(which) or 1)
     if jobs == 1:
         for name, base in which:
-            yield _outcome(name, base, states, truths, seed)
+            yield _outcome(name, base, states, truths, seed, fast)
         return
     # Spawned, not forked: a fork copies locks of the BLAS's threads in whatever state they are.
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        running = [pool.submit(_outcome, name, base, states, truths, seed) for name, base in which]
+        running = [pool.submit(_outcome, name, base, states, truths, seed, fast) for name, base in which]
         try:
             for future in running:
                 yield future.result()
@@ -80,9 +86,10 @@ def sweep(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _outcome(name: str, base: Base, states: int, truths: int, seed: int) -> Outcome:
+def _outcome(name: str, base: Base, states: int, truths: int, seed: int, fast: bool) -> Outcome:
     try:
-        return Outcome(name, base, validate(name, base=base, states=states, truths=truths, frames=2, rng=seed))
+        report = validate(name, base=base, states=states, truths=truths, frames=2, rng=seed, fast=fast)
+        return Outcome(name, base, report)
     except Exception as error:  # the other robots are worth seeing all the same
         return Outcome(name, base, None, f"{type(error).__name__}: {error}")
 

@@ -1,0 +1,47 @@
+"""The rows that `twistwrench.fast` has, computed by it: all else about them stays as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from .. import fast
+from ..checks import Array
+from ..model import Model
+from .quantities import QUANTITIES
+from .states import States
+
+__all__ = ["FAST"]
+
+Ours = Callable[[Model, States], Array]
+
+AT_ONCE = 16
+"""States of a batch at least: fewer would be done one by one."""
+
+
+def _both_ways(call: Ours) -> Ours:
+    """Return what does the first state alone, and the others in a batch."""
+
+    def ours(model: Model, s: States) -> Array:
+        repeated = s[np.resize(np.arange(len(s)), max(AT_ONCE, len(s)))]
+        out = call(model, repeated)[: len(s)].copy()
+        out[0] = call(model, s[0])
+        return out
+
+    return ours
+
+
+CALLS: dict[str, Ours] = {
+    "inverse dynamics": lambda m, s: fast.rnea(m, s.q, s.v, s.a),
+    "inverse dynamics, f_ext": lambda m, s: fast.rnea(m, s.q, s.v, s.a, s.f_ext),
+    "forward dynamics": lambda m, s: fast.aba(m, s.q, s.v, s.tau),
+    "forward dynamics, f_ext": lambda m, s: fast.aba(m, s.q, s.v, s.tau, s.f_ext),
+    "mass matrix M": lambda m, s: fast.crba(m, s.q),
+    "J_c of the feet": lambda m, s: np.asarray(fast.dynamics(m, s.q, s.v, want={"J_c"}).J_c),
+    "h = C v + g": lambda m, s: fast.nonlinear_effects(m, s.q, s.v),
+    "centroidal map A_G": lambda m, s: fast.centroidal_map(m, s.q),
+}
+
+FAST = tuple(replace(row, ours=_both_ways(CALLS[row.name])) for row in QUANTITIES if row.name in CALLS)
