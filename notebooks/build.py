@@ -39,6 +39,7 @@ NAMES = {
     "49_09": "49_09_floating_base",
     "49_10": "49_10_centroidal",
     "49_11": "49_11_pinocchio",
+    "scenes": "scenes",
 }
 """What the notebook of each source is called."""
 METADATA = {

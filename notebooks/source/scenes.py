@@ -1,0 +1,217 @@
+# %% [markdown] lang="en"
+# # Scenes: model only what is needed
+#
+# A humanoid that stands with its arms still needs no equations for its arms. This notebook locks joints, compares the
+# smaller robot with the whole one, looks at what it costs when the arms move after all, asks whether the robot can
+# stand, and picks the cheapest model of a walk.
+# %% [markdown] lang="zh"
+# # 场景:只为需要的东西建模
+#
+# 人形机器人站着不动手臂时,方程里不需要手臂。这个笔记本先锁住关节,把小机器人与整个机器人比较,再看手臂其实在动时代价多大,
+# 然后问机器人站不站得住,最后为一段行走选出够用的模型里最便宜的。
+# %%
+import time
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import twistwrench as tw
+from twistwrench import motions
+from twistwrench.plot import COLOURS
+
+full = tw.load("humanoid")
+soles = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
+arms = ["*_shoulder_*", "*_elbow"]
+rng = np.random.default_rng(49)
+# %% [markdown] lang="en"
+# ## Locking a joint adds two inertias
+#
+# Bodies between which nothing moves are one body. Lock the left elbow at 0.7 rad: the forearm is welded to the upper
+# arm, and in one frame inertias add (49.5):
+#
+# $$\hat I_{\text{arm}} = \hat I_{\text{upper}} + X^{*}\, \hat I_{\text{forearm}}\, X^{-1}.$$
+#
+# `SpatialInertia.transform` does the change of frame, here with the placement of the forearm at that angle.
+# %% [markdown] lang="zh"
+# ## 锁住一个关节就是把两个惯量相加
+#
+# 彼此不动的刚体就是一个刚体。把左肘锁在 0.7 rad:前臂焊在上臂上,在同一个坐标系里惯量可以相加(49.5):
+#
+# $$\hat I_{\text{arm}} = \hat I_{\text{upper}} + X^{*}\, \hat I_{\text{forearm}}\, X^{-1}.$$
+#
+# `SpatialInertia.transform` 完成换坐标系,这里用的是前臂在这个角度上的位姿。
+# %%
+q_bent = full.standing()
+elbow = full.joint_id("left_elbow")
+q_bent[full.q_slice[elbow]] = 0.7
+bent = tw.lock_joints(full, ["left_elbow"], q_bent)
+
+in_upper = full.placement[elbow] @ full.joints[elbow].transform(np.array([0.7]))
+by_hand = full.inertia[elbow - 1] + full.inertia[elbow].transform(in_upper)
+upper = bent.model.joint_id("left_shoulder_yaw")
+assert np.allclose(bent.model.inertia[upper].matrix(), by_hand.matrix(), rtol=1e-14, atol=1e-16)
+assert bent.model.mass == full.mass
+print(full)
+print(bent.model)
+# %% [markdown] lang="en"
+# ## A scene, and the smallest model that has it
+#
+# A scene locks what is held, drops joints that carry nothing, and keeps contacts, frames, limits and rotors. Its model
+# has the equations of the whole robot with still arms: the rows and columns of $M$ that are left, the same torques, the
+# same momentum.
+# %% [markdown] lang="zh"
+# ## 场景与最小模型
+#
+# 场景锁住不动的关节,去掉什么也不带的关节,保留接触、坐标系、限位和转子惯量。它的模型就是手臂不动时整个机器人的方程:
+# $M$ 中留下的行和列,同样的力矩,同样的动量。
+# %%
+scene = tw.Scene(full, contacts=soles, hold=arms)
+print(scene)
+model, kept = scene.model, tw.lock_joints(full, arms, full.standing()).kept_v
+q = model.integrate(model.standing(), 0.3 * rng.uniform(-1, 1, model.nv) * scene.actuated)
+v, a = rng.standard_normal((2, model.nv))
+(Q, V), (_, A) = scene.expand(q, v), scene.expand(q, a)
+
+d = scene.dynamics(q, v, want={"M", "J_c"})
+assert d.h is None
+assert d.J_c.shape == (12, 19)
+pairs = {
+    "M": (d.M, tw.crba(full, Q)[np.ix_(kept, kept)]),
+    "tau": (tw.rnea(model, q, v, a), tw.rnea(full, Q, V, A)[kept]),
+    "A_G": (tw.centroidal_map(model, q), tw.centroidal_map(full, Q)[:, kept]),
+    "J_c": (d.J_c, tw.constraint_jacobian(full, Q, soles)[:, kept]),
+}
+for name, (small, whole) in pairs.items():
+    error = np.abs(small - whole).max() / np.abs(whole).max()
+    print(f"{name:4} {error:.0e}")
+    assert error < 1e-13
+# %% [markdown] lang="en"
+# The time saved is a matter of how many joints are gone. One call after the other, the quickest of many.
+# %% [markdown] lang="zh"
+# 省多少时间,取决于去掉了多少关节。两者轮流计时,各取多次中最快的一次。
+# %%
+times = np.empty((30, 2))
+for row in times:
+    for k, (robot, state) in enumerate(((model, (q, v, a)), (full, (Q, V, A)))):
+        start = time.perf_counter()
+        tw.rnea(robot, *state)
+        row[k] = time.perf_counter() - start
+saved = times.min(axis=0)[1] / times.min(axis=0)[0]
+print(f"nv {full.nv} over {model.nv}: rnea takes {saved:.2f} times as long")
+assert saved > 1
+# %% [markdown] lang="en"
+# ## What if the arms move after all?
+#
+# Give the held joints the speed $r$, and compare the legs' torques. The error has a part that grows as $r$, Coriolis
+# forces between the arms' motion and that of the rest, and one that grows as $r^2$, the arms' own centrifugal forces. It
+# is polynomial of degree two in $r$, exactly: $h$ is quadratic in the velocities.
+# %% [markdown] lang="zh"
+# ## 手臂其实在动呢?
+#
+# 让锁住的关节以速度 $r$ 转动,比较腿部力矩。误差有一部分与 $r$ 成正比,是手臂与其余部分之间的科里奥利力;另一部分与 $r^2$ 成正比,
+# 是手臂自身的离心力。因为 $h$ 是速度的二次函数,误差恰好是 $r$ 的二次多项式。
+# %%
+held = np.setdiff1d(np.arange(full.nv), kept)
+sway = np.zeros(full.nv)
+sway[held] = rng.choice([-1.0, 1.0], held.size)
+
+
+def missed(rate):
+    """Return the error of the legs' torques."""
+    moving = tw.nonlinear_effects(full, Q, V + rate * sway)[kept]
+    return (moving - tw.nonlinear_effects(model, q, v))[6:]
+
+
+linear = (missed(1.0) - missed(-1.0)) / 2
+quadratic = (missed(1.0) + missed(-1.0)) / 2
+assert np.abs(missed(0.0)).max() < 1e-13
+for rate in (0.1, 1.0, 3.0):
+    assert np.allclose(missed(rate), linear * rate + quadratic * rate**2, rtol=0, atol=1e-12)
+    print(f"{rate:3} rad/s: {np.abs(missed(rate)).max():.2g} N m")
+
+rates = np.geomspace(0.03, 10, 30)
+ax = plt.figure(figsize=(6, 3.5), layout="constrained").add_subplot()
+ax.loglog(rates, [np.abs(missed(r)).max() for r in rates], color=COLOURS["blue"], label="error")
+ax.loglog(rates, [np.abs(linear * r).max() for r in rates], "--", color=COLOURS["orange"], label="part ~ r")
+ax.loglog(rates, [np.abs(quadratic * r**2).max() for r in rates], ":", color=COLOURS["vermilion"], label="part ~ r²")
+ax.set(xlabel="speed of the held joints [rad/s]", ylabel="largest error of a torque [N m]")
+ax.legend()
+plt.show()
+# %% [markdown] lang="en"
+# ## Can it stand?
+#
+# On both soles, yes. On one sole without moving over it, no. And under a heavy load on the torso the knees give up:
+# a wrench on a frame is part of the scene, constant, in the axes of the world.
+# %% [markdown] lang="zh"
+# ## 站得住吗?
+#
+# 两只脚着地,站得住。只剩一只脚而身体不移过去,站不住。躯干上压很重的东西,膝关节的电机先撑不住:
+# 作用在坐标系上的外力是场景的一部分,恒定,沿世界坐标轴。
+# %%
+one_leg = tw.Scene(full, contacts=soles[:1], hold=arms)
+for robot in (scene, one_leg):
+    print(robot.can_stand())
+assert scene.can_stand()
+assert not one_leg.can_stand()
+
+
+def carrying(newtons):
+    """Return the scene with a load on the torso."""
+    return tw.Scene(full, contacts=soles, hold=arms, wrenches={"torso": [0, 0, 0, 0, 0, -newtons]})
+
+
+loads = [newtons for newtons in range(0, 3001, 100) if carrying(newtons).can_stand()]
+print(f"it bears {loads[-1]} N on its torso, and then:", carrying(loads[-1] + 100).can_stand())
+assert loads == list(range(0, loads[-1] + 1, 100))
+assert 0 < loads[-1] < 3000
+# %% [markdown] lang="en"
+# ## Bad scenes are refused
+# %% [markdown] lang="zh"
+# ## 有问题的场景会被拒绝
+# %%
+bad = {
+    "no such frame": lambda: tw.Scene("go2", contacts=[tw.PointContact("FL_fot", 0.7)]),
+    "no such joint": lambda: tw.Scene("go2", hold=["arm_*"]),
+    "friction below zero": lambda: tw.PointContact("FL_foot", -0.1),
+    "contradiction": lambda: tw.Scene("go2", contacts=[tw.PointContact("FL_foot", mu) for mu in (0.7, 0.3)]),
+    "held to the world": lambda: tw.Scene(
+        "go2", base="fixed", hold=["FL_*"], contacts=[tw.PointContact("FL_foot", 0.7)]
+    ),
+}
+said = {}
+for name, make in bad.items():
+    try:
+        make()
+    except ValueError as error:
+        said[name] = str(error)
+        print(f"{name}: {error}\n")
+assert set(said) == set(bad)
+assert "did you mean 'FL_foot'" in said["no such frame"]
+# %% [markdown] lang="en"
+# ## The cheapest model that will do
+#
+# Holding the arms is one way to leave something out; the templates of 49.10 leave out more. Over a walk with swinging
+# arms `cheapest` asks of each what it misses of the wrench $\dot h_G$ that ground and weight must exert, as a share of
+# the weight, and how long it takes. The quickest one inside the tolerance is the choice.
+# %% [markdown] lang="zh"
+# ## 够用的模型里最便宜的
+#
+# 锁住手臂是一种省法,49.10 的模板省得更多。在一段摆臂行走上,`cheapest` 问每个模型两件事:地面与重力要施加的 $\dot h_G$ 它漏掉多少(占体重的比例),
+# 以及算一次要多久。误差在容许范围之内、用时最短的就是选择。
+# %%
+walk = motions.walk(full, samples=60)
+found = scene.cheapest(0.02, walk)
+print(found)
+found.plot()
+plt.show()
+worst = {option.name: option.worst for option in found.options}
+assert worst["full"] == 0
+assert worst["centroidal"] < 1e-13
+assert worst["this scene"] < worst["srbm_frozen"]
+assert found.best.worst <= 0.02
+assert all(option.seconds >= found.best.seconds for option in found.options if option.worst <= 0.02)
+# %% [markdown] lang="en"
+# In the table, the templates miss the momentum of the legs, and no shape of one rigid body brings it back. A robot that
+# holds its arms still misses only the swing of the arms, and tells the torques of the legs as well.
+# %% [markdown] lang="zh"
+# 从表中可以看到:模板漏掉的是腿的动量,单个刚体取什么形状都补不回来。手臂不动的机器人漏掉的只有摆臂,而且还能给出腿部力矩。
