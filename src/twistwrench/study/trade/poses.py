@@ -58,7 +58,7 @@ def _ours() -> list[Way]:
         Way("tw.exp6", tw.exp6, after=lambda T: T.matrix()),
         Way("tw.log6", tw.log6, before=lambda T: (tw.SE3.from_matrix(T),)),
         Way("mpmath expm", _exponential, DIGITS, batches=False),
-        Way("mpmath logm", _logarithm, DIGITS, batches=False),
+        Way("mpmath, axis and angle", _logarithm, DIGITS, batches=False),
     ]
 
 
@@ -108,7 +108,14 @@ def _exponential(V: Array) -> Array:
 
 
 def _logarithm(T: Array) -> Array:
-    """Return the twist of a placement of mpmath numbers, by the logarithm of any 4×4 matrix."""
+    """Return the twist of a placement of mpmath numbers: axis and angle of R, and the v that leads to p.
+
+    p is linear in v: its columns are the p of twists (ω, e_k). mpmath's own ``logm`` leaves the branch near π.
+    """
     mp = T[0, 0].context
-    M = mp.logm(mp.matrix(T.tolist()))
-    return np.array([mp.re(x) for x in (M[2, 1], M[0, 2], M[1, 0], M[0, 3], M[1, 3], M[2, 3])], object)
+    sine = np.array([T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1]]) / 2
+    size = mp.sqrt((sine * sine).sum())
+    w = sine * (mp.atan2(size, (T[0, 0] + T[1, 1] + T[2, 2] - 1) / 2) / size)
+    columns = [_exponential(np.append(w, e * T[3, 3]))[:3, 3] for e in np.eye(3, dtype=int)]
+    v = mp.lu_solve(mp.matrix(np.stack(columns, axis=1).tolist()), mp.matrix(T[:3, 3].tolist()))
+    return np.append(w, list(v))

@@ -1,0 +1,137 @@
+"""What docs/trade.md shows: two runs of ``twistwrench study trade``, their pictures, and its tables.
+
+python benchmarks/trade.py            # run both studies, three minutes; writes to results/ and docs/pictures/
+python benchmarks/trade.py --tables   # only make the tables anew from results/
+"""
+
+from __future__ import annotations
+
+# isort: off
+import one_thread  # noqa: F401 - before NumPy
+
+# isort: on
+import argparse
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from tables import table
+
+import twistwrench as tw
+from twistwrench.plot.style import COLOURS
+from twistwrench.study.trade import Point, weigh
+from twistwrench.study.trade.choice import TARGETS, best, duration
+from twistwrench.study.trade.picture import draw
+from twistwrench.validate.report import number
+
+HERE = Path(__file__).parent
+DOCS = HERE.parent / "docs"
+PAGES = (DOCS / "trade.md", DOCS / "trade.zh-CN.md")
+ROBOTS = ("go2", "humanoid")
+
+
+def points(robot: str) -> list[Point]:
+    """Return the points of a run."""
+    found = json.loads((HERE / "results" / f"trade_{robot}.json").read_text(encoding="utf-8"))
+    return [Point(**point) for point in found["points"]]
+
+
+def tables() -> dict[str, str]:
+    """Return all tables by name. A cell is a time for one state, or that and an error."""
+    go2 = points("go2")
+    return {
+        "one": table(_answers([p for p in go2 if p.states == 1])),
+        "alone": table(_answers([p for p in go2 if p.states == 1 and not p.way.startswith("pin.")])),
+        "many": table(_answers(go2)),
+        "numbers": table(_cells(go2, "ID")),
+        "forward": table(_cells(go2, "FD")),
+        "derivative": table(_cells(go2, "dID/dq")),
+        "exp": table(_cells(go2, "exp")),
+        "log": table(_cells(go2, "log")),
+        "humanoid": table(_answers(points("humanoid"))),
+        "heavier": table(_cells(points("humanoid"), "FD")),
+    }
+
+
+def _answers(some: list[Point]) -> Iterator[tuple[str, str, str]]:
+    """Yield for each quantity and each error the fastest way that stays below."""
+    for key in dict.fromkeys(p.quantity for p in some):
+        for target in TARGETS:
+            found = best([p for p in some if p.quantity == key], target)
+            cell = f"`{found.way}`, {found.number}, {_time(found)}" if found else "–"
+            yield f"`{key}`", f"{target:.0e}".replace("e-0", "e-"), cell
+
+
+def _cells(some: list[Point], key: str) -> Iterator[tuple[str, str, str]]:
+    """Yield time and error of each way of a quantity, a line for one state and another for many."""
+    for p in some:
+        if p.quantity == key:
+            yield f"`{p.way}`, {p.states}", p.number, f"{_time(p)}, {number(p.error)}"
+
+
+def _time(p: Point) -> str:
+    return "~" * (not p.quiet) + duration(p.seconds)
+
+
+def fill(page: str) -> str:
+    """Return a page with its tables made anew, each after a line ``<!-- table: NAME -->``."""
+    made = tables()
+    return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{made[found[2]]}\n", page)
+
+
+def draw_steps(path: Path) -> None:
+    """Draw the error of a derivative over the step, in double precision: forward, central, complex."""
+    from matplotlib.figure import Figure
+
+    model = tw.load("go2")
+    rng = np.random.default_rng(0)
+    q, unit = model.random_configuration(rng=rng), np.eye(model.nv)
+    v, a = rng.standard_normal((2, model.nv))
+
+    def tau(q: np.ndarray) -> np.ndarray:
+        return tw.fast.rnea(model, q, v, a)
+
+    longer = model.normalize(q.astype(np.longdouble))
+    exact = tau(model.integrate(longer, 1e-100j * unit.astype(np.longdouble))).imag / 1e-100
+
+    def forward(h: float) -> np.ndarray:
+        return (tau(model.integrate(q, h * unit)) - tau(q)) / h
+
+    def central(h: float) -> np.ndarray:
+        return (tau(model.integrate(q, h * unit)) - tau(model.integrate(q, -h * unit))) / (2 * h)
+
+    def imaginary(h: float) -> np.ndarray:
+        return tau(model.integrate(q, 1j * h * unit)).imag / h
+
+    ways = {"forward difference": (forward, "v", "sky"), "central difference": (central, "^", "orange")}
+    ways["complex step"] = (imaginary, "o", "vermilion")
+    ax = (figure := Figure(figsize=(7, 4), layout="constrained")).add_subplot()
+    for name, (way, marker, colour) in ways.items():
+        largest = 4 if way is imaginary else 1  # what leaves the rotations by more is refused
+        steps = 10.0 ** -np.arange(largest, 18, 0.25)
+        errors = [np.abs(way(h) - exact).max() / np.abs(exact).max() for h in steps]
+        ax.loglog(steps, errors, marker + "-", color=COLOURS[colour], markersize=4, label=name)
+    ax.set(xlabel="step h", ylabel="relative error of ∂τ/∂q", title="go2, float64: what a step costs", xlim=(1, 1e-18))
+    ax.grid(alpha=0.3)
+    ax.legend()
+    figure.savefig(path, dpi=100)
+
+
+def main() -> None:
+    """Run what is asked for."""
+    parser = argparse.ArgumentParser(description="Make the numbers, the pictures and the tables of docs/trade.md.")
+    parser.add_argument("--tables", action="store_true", help="only the tables, from results/")
+    if not parser.parse_args().tables:
+        for robot in ROBOTS:
+            trade = weigh(robot, progress=None)
+            (HERE / "results" / f"trade_{robot}.json").write_text(trade.to_json() + "\n", encoding="utf-8")
+            draw(trade, DOCS / "pictures" / f"trade_{robot}.png")
+        draw_steps(DOCS / "pictures" / "trade_steps.png")
+    for page in PAGES:
+        page.write_text(fill(page.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
