@@ -120,6 +120,16 @@ def test_a_fixed_base_needs_no_contact_forces():
     assert error(need.tau, tw.rnea(arm, q, v, a)) < 1e-14
 
 
+def test_a_robot_that_falls_freely_needs_no_forces():
+    q, v = GO2.standing(), np.random.default_rng(4).standard_normal(18)
+    falling = tw.aba(GO2, q, v, REST)
+    for ask in (tw.contact_inverse_dynamics, tw.friction_inverse_dynamics):
+        for contacts in (FEET, FEET[:2], []):
+            need = ask(GO2, q, v, falling, contacts)
+            assert np.abs(need.tau).max() < 1e-12
+            assert all(np.abs(force).max() < 1e-12 for force in need.forces.values())
+
+
 def test_what_two_feet_cannot_hold_is_told():
     with pytest.raises(tw.SingularError, match=r"no forces at \['FL_foot', 'FR_foot'\] do this: .* is left over"):
         tw.contact_inverse_dynamics(GO2, GO2.standing(), REST, REST, FEET[:2])
@@ -167,7 +177,7 @@ def test_forces_are_the_least_within_the_limits(model, q, a, contacts, sides, py
     task = Task.of(model, q, v, a, contacts, None)
     A, names = limits(contacts, sides, pyramid)
     free = task.free
-    z, _ = least_within(A @ free, -A @ task.least)
+    z, _ = least_within(A @ free, -A @ task.least, task.size)
     f = task.least + free @ z
     assert error(stacked(need.forces), task.P @ f) < 1e-15
     assert (A @ f).max() < 1e-9 * weight

@@ -58,6 +58,10 @@ class Decomposition(NamedTuple):
         least: Array = np.matvec(self.V, np.matvec(self.U.mT, white) * self.s_inv)
         return least
 
+    def size(self, b: Array) -> Array:
+        """Return how large b is in the metric of M, whatever its units."""
+        return np.asarray(np.abs(np.linalg.solve(self.L, b[..., None])).max(axis=(-2, -1), initial=0))
+
 
 def decompose(M: Array, J: Array) -> Decomposition:
     """Decompose J M⁻¹ Jᵀ without forming it.

@@ -169,9 +169,9 @@ def friction_inverse_dynamics(
         raise ShapeError(f"q, v, a: expected one state, got a batch of shape {task.least.shape[:-1]}")
     A, names = limits(task.contacts, sides, pyramid)
     free = task.free
-    found = least_within(A @ free, -A @ task.least)
+    found = least_within(A @ free, -A @ task.least, task.size)
     if found is None:
-        worst = breached(names, least_breach(A @ free, -A @ task.least))
+        worst = breached(names, least_breach(A @ free, -A @ task.least, task.size))
         raise SingularError(f"cannot: no forces within the limits do this; they would have to break {worst}")
     z, tight = found
     binding = tuple(dict.fromkeys(name for name, leans in zip(names, tight) if leans))
@@ -197,7 +197,8 @@ def limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> tuple[A
 class Task:
     """What the contacts have to do together, and the least forces f at their points that do it.
 
-    f has three entries for each point, in the axes of its contact; ``free`` spans what may be added to it.
+    f has three entries for each point, in the axes of its contact; ``free`` spans what may be added to it, and
+    ``size`` is how large such forces are, those of the weight among them, N.
     """
 
     contacts: tuple[Contact, ...]
@@ -206,6 +207,7 @@ class Task:
     P: Array
     parts: Decomposition
     least: Array
+    size: float
     residual: Array
 
     @classmethod
@@ -226,16 +228,16 @@ class Task:
         base = slice(0, 6 if model.base == "floating" else 0)
         parts = decompose(crba(model, q)[..., base, base], P.mT @ J[..., base])
         least = parts.balance(b[..., base])
+        weight = rnea(model, q, v, 0 * a, f_ext)[..., base]
         left = b[..., base] - np.matvec(J[..., base].mT @ P, least)
-        white, whole = (np.linalg.solve(parts.L, x[..., None])[..., 0] for x in (left, b[..., base]))
-        missed = np.abs(white).max(axis=-1, initial=0) > BALANCED * np.abs(whole).max(axis=-1, initial=0)
-        if np.any(missed):
+        off, *terms = (parts.size(x) for x in (left, b[..., base], weight))
+        missed = np.asarray(off > BALANCED * np.maximum(*terms))
+        if missed.any():
             names = [c.frame for c in contacts]
             over = ", ".join(f"{x:.3g}" for x in left[missed][0])
-            raise SingularError(
-                f"no forces at {names} do this{which(np.asarray(missed))}: (τ, f) = ({over}) is left over"
-            )
-        return cls(contacts, b, J, P, parts, least, np.matvec(J, a) + bias)
+            raise SingularError(f"no forces at {names} do this{which(missed)}: (τ, f) = ({over}) is left over")
+        size = max(float(np.abs(f).max(initial=0)) for f in (least, parts.balance(weight)))
+        return cls(contacts, b, J, P, parts, least, size, np.matvec(J, a) + bias)
 
     @property
     def free(self) -> Array:

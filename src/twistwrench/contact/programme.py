@@ -15,20 +15,22 @@ from ..checks import Array
 __all__ = ["least_breach", "least_within"]
 
 FEASIBLE = 1e-10
-"""How far a limit may be overstepped, relative to the largest number in b."""
+"""How far a limit may be overstepped, relative to the size of the numbers in b."""
 
 SOLVED, INFEASIBLE = 1, -1
 
 
-def least_within(A: Array, b: Array) -> tuple[Array, Array] | None:
-    """Return the z of least norm with A z ≤ b, and which rows it leans on; None if there is no such z."""
-    size = float(np.abs(b).max(initial=0))
-    if (b >= 0).all():
+def least_within(A: Array, b: Array, size: float) -> tuple[Array, Array] | None:
+    """Return the z of least norm with A z ≤ b, and which rows it leans on; None if there is no such z.
+
+    `size` is what counts as large among the numbers of b.
+    """
+    if (b >= -FEASIBLE * size).all():
         return np.zeros(A.shape[1]), np.zeros(len(b), bool)
-    solver, n = _solver(), A.shape[1]
+    n = A.shape[1]
     if n == 0:
         return None
-    z, _, flag, info = solver.solve(np.eye(n), np.zeros(n), np.ascontiguousarray(A), b / size, primal_tol=FEASIBLE)
+    z, _, flag, info = _solver().solve(np.eye(n), np.zeros(n), np.ascontiguousarray(A), b / size, primal_tol=FEASIBLE)
     if flag == INFEASIBLE:
         return None
     if flag != SOLVED:
@@ -36,9 +38,9 @@ def least_within(A: Array, b: Array) -> tuple[Array, Array] | None:
     return size * z, info["lam"] > 0
 
 
-def least_breach(A: Array, b: Array) -> Array:
+def least_breach(A: Array, b: Array, size: float) -> Array:
     """Return by how much each row of A z ≤ b is broken where the sum of the squares of that is least."""
-    size, (m, n) = float(np.abs(b).max(initial=0)), A.shape
+    m, n = A.shape
     weights = np.concatenate([np.full(n, 1e-4), np.ones(m)])  # of z next to nothing, so that it is free
     both = np.concatenate([A, -np.eye(m)], axis=1) / weights
     x, *_ = _solver().solve(np.eye(n + m), np.zeros(n + m), both, b / size, primal_tol=FEASIBLE)

@@ -126,7 +126,7 @@ def friction_used(task: Task, sides: int, pyramid: Pyramid) -> float:
 
     def holds(multiple: float) -> bool:
         A, _ = limits([_with_friction(c, multiple * c.mu) for c in task.contacts], sides, pyramid)
-        return least_within(A @ free, -A @ task.least) is not None
+        return least_within(A @ free, -A @ task.least, task.size) is not None
 
     if holds(0.0):
         return 0.0
