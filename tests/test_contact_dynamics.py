@@ -424,3 +424,25 @@ def test_a_stabilisation_out_of_bounds_is_refused(frequency, damping):
 def test_the_truth_is_50_digits():
     v = np.zeros(6)
     assert isinstance(kkt(BOX, BOX.neutral(), v, v, BOX_CORNERS[:3]).qdd[0], type(slow.as_mpmath(np.ones(1))[0]))
+
+
+# ---------------------------------------------------------------- the catalogue
+
+WALKERS = ["g1", "talos_reduced", "solo12", "solo8", "hyq", "anymal_c", "centauro", "bolt", "talos_full_v2"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", WALKERS)
+def test_both_equations_hold_on_robots_of_the_catalogue_wherever_they_are(name):
+    if name not in [robot.name for robot in tw.robots()]:
+        pytest.skip("example-robot-data is not installed")
+    model = tw.load(name)
+    for contacts in (points(model.feet), [tw.SurfaceContact(foot, (0.1, 0.05), 0.6) for foot in model.feet]):
+        for q in (model.standing(), model.neutral(), model.random_configuration(rng=RNG)):
+            rest, tau = np.zeros(model.nv), motors(model, RNG)
+            got = tw.contact_forward_dynamics(model, q, rest, tau, contacts)
+            push = tw.constraint_jacobian(model, q, contacts).T @ stacked(got.forces)
+            left = tw.rnea(model, q, rest, got.qdd) - tau - push
+            assert np.abs(left).max() < 1e-10 * np.abs(push).max()
+            assert np.abs(got.residual).max() < 1e-10
+            assert got.rank + got.redundant == sum(c.dim for c in contacts)
