@@ -1,10 +1,9 @@
-"""From a URDF to a `Model`: the file is checked here, parsed by yourdfpy and put together by `Builder`."""
+"""From a URDF to a `Model`: the file is checked, read, and put together by `Builder`."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
-from io import BytesIO
 from pathlib import Path
 from typing import Any, Literal
 
@@ -12,41 +11,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..builder import Builder
+from ..checks import Array
 from ..errors import ModelError
 from ..inertia import SpatialInertia
 from ..joint import Joint
 from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute
 from ..model import Model
 from ..plucker import SE3
+from ..rotation import rpy_to_rotation
 from .reading import XML, read_robot_xml
-from .urdf_checks import INERTIA, LIMITS, check_mimics, check_robot
+from .urdf_checks import INERTIA, check_mimics, check_robot
 
 __all__ = ["load_urdf"]
 
 Base = Literal["fixed", "floating"]
-
-KEPT = {
-    "link": ("name",),
-    "inertial": (),
-    "mass": ("value",),
-    "inertia": INERTIA,
-    "joint": ("name", "type"),
-    "origin": ("xyz", "rpy"),
-    "parent": ("link",),
-    "child": ("link",),
-    "axis": ("xyz",),
-    "limit": LIMITS,
-}
-"""The elements, and their attributes, that yourdfpy gets to see. Meshes are not among them: none is looked for."""
-
-INSIDE = {
-    "robot": ("link", "joint"),
-    "link": ("inertial",),
-    "inertial": ("origin", "mass", "inertia"),
-    "joint": ("origin", "parent", "child", "axis", "limit"),
-    "fixed": ("origin", "parent", "child"),
-}
-"""Which of them stand inside which. An axis or a limit means nothing on a fixed joint."""
 
 
 def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, quiet: bool) -> Model:
@@ -77,101 +55,94 @@ def load_urdf(path: Path, *, base: Base, gravity: ArrayLike, physical: bool, qui
     if not quiet:
         check_mimics(path, root)
         _warn_of_mimics(path, root)
-    robot = _through_yourdfpy(root, default_name=path.stem)
     try:
         with np.errstate(over="ignore", invalid="ignore"):
-            model = _build(robot, base, gravity, physical)
+            model = _build(root, root.get("name") or path.stem, base, gravity, physical)
     except ModelError as error:
         raise ModelError(f"{path}: {error}") from None
     return model
 
 
-def _through_yourdfpy(root: XML, default_name: str) -> Any:
-    """Hand yourdfpy the checked part of the file; return its `Robot` of links and joints."""
-    import yourdfpy
-    from lxml import etree
-
-    plain = etree.Element("robot", name=root.get("name") or default_name)
-    waiting = [(root, plain, INSIDE["robot"])]
-    for element, copy, tags in waiting:  # grows as it is walked
-        for child in element.iterchildren(*tags):
-            attributes = {key: child.get(key) for key in KEPT[child.tag] if child.get(key) is not None}
-            inside = INSIDE.get("fixed" if child.get("type") == "fixed" else child.tag, ())
-            waiting.append((child, etree.SubElement(copy, child.tag, attributes), inside))
-    text = BytesIO(etree.tostring(plain, encoding="utf-8"))
-    return yourdfpy.URDF.load(text, build_scene_graph=False, load_meshes=False).robot
-
-
-def _build(robot: Any, base: Base, gravity: ArrayLike, physical: bool) -> Model:
-    """Put the tree together, from the root outwards."""
-    links, root = {link.name: link for link in robot.links}, _root(robot)
-    builder = Builder(robot.name, base=base, root=root, root_inertia=_inertia(links[root]), gravity=gravity)
-    for joint in _outwards(robot, root):
+def _build(root: XML, name: str, base: Base, gravity: ArrayLike, physical: bool) -> Model:
+    """Put the tree together, from the root outwards. What is read here has been checked."""
+    links = {link.get("name"): link for link in root.findall("link")}
+    joints = root.findall("joint")
+    first = next(iter(links.keys() - {joint.find("child").get("link") for joint in joints}))
+    builder = Builder(name, base=base, root=first, root_inertia=_inertia(links[first]), gravity=gravity)
+    for joint in _outwards(joints, first):
+        child = joint.find("child").get("link")
         builder.link(
-            joint.child,
-            parent=joint.parent,
+            child,
+            parent=joint.find("parent").get("link"),
             joint=_joint(joint),
-            joint_name=joint.name,
-            placement=_placement(joint.origin),
-            inertia=_inertia(links[joint.child]),
+            joint_name=joint.get("name"),
+            placement=_placement(joint.find("origin")),
+            inertia=_inertia(links[child]),
             **_limits(joint),
         )
     return builder.build(physical=physical)
 
 
-def _root(robot: Any) -> str:
-    carried = {joint.child for joint in robot.joints}
-    return next(str(link.name) for link in robot.links if link.name not in carried)
-
-
-def _outwards(robot: Any, root: str) -> Iterator[Any]:
+def _outwards(joints: list[XML], root: str) -> Iterator[XML]:
     """Yield the joints of a tree, each after the one that carries it."""
-    leaving: dict[str, list[Any]] = {}
-    for joint in robot.joints:
-        leaving.setdefault(joint.parent, []).append(joint)
+    leaving: dict[str, list[XML]] = {}
+    for joint in joints:
+        leaving.setdefault(joint.find("parent").get("link"), []).append(joint)
     reached = [root]
     for link in reached:  # grows as it is walked
         for joint in leaving.get(link, ()):
-            reached.append(joint.child)
+            reached.append(joint.find("child").get("link"))
             yield joint
 
 
-def _joint(joint: Any) -> Joint | None:
-    match joint.type:
+def _joint(joint: XML) -> Joint | None:
+    axis = _numbers(joint.find("axis"), "xyz", "1 0 0")
+    match joint.get("type"):
         case "revolute":
-            return Revolute(joint.axis)
+            return Revolute(axis)
         case "continuous":
-            return Continuous(joint.axis)
+            return Continuous(axis)
         case "prismatic":
-            return Prismatic(joint.axis)
+            return Prismatic(axis)
         case "planar":
             return Planar()
         case "floating":
             return FreeFlyer()
-    return None  # fixed
+    return None  # fixed: an axis or a limit means nothing there
 
 
-def _limits(joint: Any) -> dict[str, Any]:
+def _limits(joint: XML) -> dict[str, Any]:
     """Return the limits of a joint. Only revolute and prismatic joints have an end of their range."""
-    limit = joint.limit
-    if joint.type == "fixed" or limit is None:
+    limit, kind = joint.find("limit"), joint.get("type")
+    if kind == "fixed" or limit is None:
         return {}
-    limits = {"velocity_limit": limit.velocity, "effort_limit": limit.effort}
-    if joint.type in ("revolute", "prismatic"):
-        limits |= {"lower": limit.lower or 0.0, "upper": limit.upper or 0.0}  # URDF: 0 when not given
+    limits = {"velocity_limit": float(limit.get("velocity")), "effort_limit": float(limit.get("effort"))}
+    if kind in ("revolute", "prismatic"):
+        limits |= {key: float(limit.get(key, "0")) for key in ("lower", "upper")}  # URDF: 0 when not given
     return limits
 
 
-def _placement(origin: Any) -> SE3:
-    return SE3.identity() if origin is None else SE3.from_matrix(origin)
+def _placement(origin: XML | None) -> SE3:
+    if origin is None:
+        return SE3.identity()
+    return SE3(rpy_to_rotation(_numbers(origin, "rpy", "0 0 0")), _numbers(origin, "xyz", "0 0 0"))
 
 
-def _inertia(link: Any) -> SpatialInertia:
+def _inertia(link: XML) -> SpatialInertia:
     """Return a link's inertia in its own frame: its <origin> may turn the axes of <inertia> as well."""
-    if link.inertial is None:
+    inertial = link.find("inertial")
+    if inertial is None:
         return SpatialInertia.zero()
-    about_com = SpatialInertia(link.inertial.mass, np.zeros(3), link.inertial.inertia)
-    return about_com.transform(_placement(link.inertial.origin))
+    xx, xy, xz, yy, yz, zz = (float(inertial.find("inertia").get(key)) for key in INERTIA)
+    moments = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    about_com = SpatialInertia(float(inertial.find("mass").get("value")), np.zeros(3), moments)
+    return about_com.transform(_placement(inertial.find("origin")))
+
+
+def _numbers(element: XML | None, key: str, default: str) -> Array:
+    """Read the numbers of an attribute; `default` is what URDF means where it, or its element, is missing."""
+    text = default if element is None else element.get(key, default)
+    return np.array([float(word) for word in text.split()])
 
 
 def _warn_of_mimics(path: Path, root: XML) -> None:

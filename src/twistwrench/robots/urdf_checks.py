@@ -15,7 +15,7 @@ from ..errors import ModelError, unknown_name
 from .reading import XML
 from .urdf_words import check_words
 
-__all__ = ["INERTIA", "JOINT_TYPES", "LIMITS", "check_mimics", "check_robot"]
+__all__ = ["INERTIA", "JOINT_TYPES", "check_mimics", "check_robot"]
 
 INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 LIMITS = ("lower", "upper", "effort", "velocity")
