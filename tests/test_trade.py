@@ -1,8 +1,10 @@
 """``twistwrench study trade``: fronts of made-up points, errors of every way, words that name what is there."""
 
+import importlib
 import json
 import re
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,12 +12,16 @@ import pytest
 import twistwrench as tw
 from twistwrench.cli import main
 
+from .pages import blocks, page, run
+
 pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
 
 from twistwrench.study.trade import KEYS, SHORT, Effort, LeftOut, Point, Trade, weigh
 from twistwrench.study.trade.choice import advice, front
 from twistwrench.study.trade.measure import relative_error
 from twistwrench.study.trade.numbers import convert, epsilon
+from twistwrench.study.trade.run import DRAWN
+from twistwrench.validate.states import random_states
 
 QUICK = Effort(states=2, batch=3, rounds=1, least=0, most=0)
 """Only the errors are looked at."""
@@ -261,6 +267,33 @@ def test_what_cannot_be_done_is_said_before_anything_is_measured(wrong, said, ca
     assert said in err
 
 
+@pytest.mark.parametrize("wrong", [["--seed", "-1"], ["--seed", "x"], ["--base", "flying"], ["--fast"]])
+def test_misuse_has_status_2(wrong, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["study", "trade", "pendulum", *wrong])
+    assert stop.value.code == 2
+    assert wrong[-1] in capsys.readouterr().err
+
+
+def test_a_model_has_its_base_already():
+    with pytest.raises(ValueError, match=r"base: a Model has its base \(fixed\) already, got 'floating'"):
+        weigh(tw.load("pendulum"), base="floating")
+
+
+@pytest.mark.parametrize("name", ["states", "batch", "rounds"])
+def test_an_effort_of_nothing_is_refused(name):
+    with pytest.raises(ValueError, match=f"{name}: expected 1 or more, got 0"):
+        Effort(**{name: 0})
+
+
+def test_the_base_and_the_seed_count():
+    fixed, floating = (weigh("pendulum", base=b, only=["M"], effort=QUICK) for b in ("fixed", "floating"))
+    assert "fixed base" in fixed.description
+    assert "floating base" in floating.description
+    errors = [[p.error for p in weigh("cart_pole", only=["ID"], effort=QUICK, rng=seed).points] for seed in (1, 1, 2)]
+    assert errors[0] == errors[1] != errors[2]
+
+
 def test_a_robot_that_does_not_move_is_refused():
     with pytest.raises(tw.ModelError, match="nothing moves"):
         weigh(tw.Builder("stone").build())
@@ -270,3 +303,80 @@ def test_without_mpmath_there_is_no_truth(monkeypatch, capsys):
     monkeypatch.setitem(__import__("sys").modules, "mpmath", None)
     assert main(["study", "trade", "pendulum", "--short"]) == 2
     assert 'pip install "twistwrench[validate]"' in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------- docs/trade.md
+
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+REPRODUCED = 4
+"""Factor between a rounding error here and the same on another machine, with another BLAS."""
+
+
+@pytest.fixture
+def maker(monkeypatch):
+    """benchmarks/trade.py, which makes the page's tables."""
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    return importlib.import_module("trade")
+
+
+@pytest.mark.parametrize("language", ["", ".zh-CN"])
+def test_the_tables_of_the_page_are_those_of_the_results(maker, language):
+    text = page("trade", language).read_text(encoding="utf-8")
+    assert maker.fill(text) == text
+    assert set(re.findall(r"<!-- table: (\w+) -->", text)) == set(maker.tables())
+
+
+def check_errors(maker, keys: list[str], robot: str = "go2") -> None:
+    """The errors of the run that is kept are found again: none is worse, and few are better."""
+    kept = {(p.quantity, p.way, p.number, p.states == 1): p.error for p in maker.points(robot)}
+    found = weigh(robot, only=keys, effort=Effort(states=5, batch=5, rounds=1, least=0, most=0)).points
+    ratio = np.array([p.error / kept[p.quantity, p.way, p.number, p.states == 1] for p in found])
+    assert len(ratio) > 10 * len(keys)
+    assert [(p, r) for p, r in zip(found, ratio, strict=True) if r > REPRODUCED] == []
+    assert np.mean(ratio < 1 / REPRODUCED) < 0.1
+
+
+def test_the_errors_on_the_page_are_found_again(maker):
+    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its errors are not found again")
+    check_errors(maker, ["ID", "exp"])
+
+
+@pytest.mark.slow
+def test_all_errors_on_the_page_are_found_again(maker):
+    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its errors are not found again")
+    check_errors(maker, [key for key in KEYS if key not in ("ID", "exp")])
+
+
+@pytest.mark.slow
+def test_the_errors_of_the_humanoid_are_found_again(maker):
+    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its errors are not found again")
+    check_errors(maker, ["FD"], "humanoid")
+
+
+@pytest.mark.parametrize(("robot", "low", "high"), [("go2", 5e3, 7e3), ("humanoid", 1e5, 9e5)])
+def test_the_condition_numbers_on_the_page(robot, low, high):
+    model = tw.load(robot)
+    states = random_states(model, DRAWN, rng=np.random.default_rng(0))
+    found = np.linalg.cond(tw.crba(model, states.q[:5]))
+    assert found.min() == pytest.approx(low, rel=0.5)
+    assert found.max() == pytest.approx(high, rel=0.1)
+
+
+def test_the_humanoid_keeps_more_digits_by_aba_than_by_its_mass_matrix(maker):
+    """What the page concludes from its table: in double precision and in single."""
+    errors = {(p.way, p.number): p.error for p in maker.points("humanoid") if p.quantity == "FD" and p.states == 1}
+    for number in ("float32", "float64"):
+        solved = [e for (way, kind), e in errors.items() if "Cholesky" in way and kind == number]
+        assert min(solved) > 4 * errors["tw.aba", number]
+
+
+@pytest.mark.parametrize("language", ["", ".zh-CN"])
+def test_the_code_of_the_page_runs(language):
+    path = page("trade", language)
+    text = path.read_text(encoding="utf-8")
+    code = blocks(text, 0, len(text))
+    assert len(code) == 1
+    assert run(path, code)["best"] == 1e-8
+    assert re.findall(r"^```\w+\n.*?^```", text, re.MULTILINE | re.DOTALL) == re.findall(
+        r"^```\w+\n.*?^```", page("trade").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    )

@@ -22,7 +22,7 @@ def add_trade(studies: Any) -> None:
     parser.add_argument("robot", nargs="?", default="go2", metavar="ROBOT", help="a catalogue name or a URDF (go2)")
     parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own")
     parser.add_argument("--only", action="append", default=[], metavar="KEY", help=f"of {', '.join(KEYS)}; repeatable")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random states (0)")
+    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of the random states (0)")
     parser.add_argument("--short", action="store_true", help="few states and rounds: to see that all is there")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write everything as JSON")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="draw error over time: a png, svg or pdf")
@@ -47,6 +47,12 @@ def run_trade(args: argparse.Namespace) -> int:
     if args.plot:
         draw(trade, args.plot)
     return 0
+
+
+def _seed(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"expected a whole number, 0 or more, got {text!r}")
+    return int(text)
 
 
 def _check_folder(name: str, path: Path | None) -> None:

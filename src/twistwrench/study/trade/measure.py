@@ -39,6 +39,11 @@ class Effort:
     least: float = 0.003
     most: float = 0.5
 
+    def __post_init__(self) -> None:
+        for name in ("states", "batch", "rounds"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"{name}: expected 1 or more, got {getattr(self, name)}")
+
 
 @dataclass(frozen=True)
 class Point:

@@ -74,6 +74,8 @@ def weigh(
         As `twistwrench.load`; or if a quantity is unknown or nothing moves.
     ImportError
         If mpmath is not installed, without which there is no truth.
+    ValueError
+        If a base is named for a `Model`, which has one.
 
     Examples
     --------
@@ -88,7 +90,7 @@ def weigh(
         if key not in KEYS:
             raise unknown_name("quantity", key, KEYS)
     _ask_for_mpmath()
-    model = robot if isinstance(robot, Model) else load(robot, base=base, physical=False, mimic="independent")
+    model = _load(robot, base)
     if not model.nv:
         raise ModelError(f"{model.name}: nothing moves: nothing to measure")
     oracle = _oracle(model)
@@ -113,6 +115,14 @@ def weigh(
         effort=effort,
         seconds=time.perf_counter() - start,
     )
+
+
+def _load(robot: Model | str | PathLike[str], base: Literal["fixed", "floating"] | None) -> Model:
+    if not isinstance(robot, Model):
+        return load(robot, base=base, physical=False, mimic="independent")
+    if base is not None:
+        raise ValueError(f"base: a Model has its base ({robot.base}) already, got {base!r}")
+    return robot
 
 
 def _quantities(model: Model, oracle: Oracle | None, effort: Effort, seed: int) -> list[Quantity]:
