@@ -44,6 +44,7 @@ from .robots import load, robots
 from .rotation import exp3, log3, skew, unskew
 from .scene import Scene
 from .simulation import DivergenceError, Simulation, simulate
+from .tracing import Trace, trace
 from .trees import chain, random_tree
 from .twist import Screw, Twist, hat, screw, vee
 from .viewing import view
@@ -84,6 +85,7 @@ __all__ = [
     "Spherical",
     "StanceMargins",
     "SurfaceContact",
+    "Trace",
     "Twist",
     "Wrench",
     "aba",
@@ -142,6 +144,7 @@ __all__ = [
     "stance_margins",
     "static_equilibrium",
     "templates",
+    "trace",
     "unskew",
     "vee",
     "view",

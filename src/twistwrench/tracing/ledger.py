@@ -1,0 +1,112 @@
+"""A body's account: its own, what its children passed on, the sum, and what it passed on to its parent."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..checks import Array
+from ..errors import unknown_name
+from ..model import Model
+from .observer import Step
+
+__all__ = ["Account", "Row", "Trace"]
+
+
+@dataclass(frozen=True)
+class Account:
+    """What goes inward along the tree, in the frame of the body that holds it.
+
+    Attributes
+    ----------
+    own : ndarray
+        Before any child passed something on.
+    received : dict of int to ndarray
+        By the child.
+    total : ndarray
+    passed : ndarray or None
+        To the parent, in the parent's frame; the world passes nothing on.
+    """
+
+    own: Array
+    received: Mapping[int, Array]
+    total: Array
+    passed: Array | None
+
+
+@dataclass(frozen=True)
+class Row:
+    """What happened at a body.
+
+    Attributes
+    ----------
+    body : int
+    name : str
+        Of its joint.
+    parent : int
+    values : dict of str to ndarray
+        By the name of the variable in the source, in the order in which they were found.
+    accounts : dict of str to Account
+        By the name of the variable that adds up.
+    """
+
+    body: int
+    name: str
+    parent: int
+    values: Mapping[str, Array]
+    accounts: Mapping[str, Account]
+
+
+@dataclass(frozen=True, repr=False)
+class Trace:
+    """What each body received and passed on; made by `twistwrench.trace`, prints as a table.
+
+    Attributes
+    ----------
+    algorithm : {"rnea", "aba", "crba"}
+    model : Model
+    result : ndarray
+        What the algorithm returned.
+    rows : tuple of Row
+        For each body, the world first.
+    steps : tuple of Step
+        Every line of the source that gave a variable a value, in the order in which it was run.
+    """
+
+    algorithm: str
+    model: Model
+    result: Array
+    rows: tuple[Row, ...]
+    steps: tuple[Step, ...]
+
+    def row(self, body: int | str) -> Row:
+        """Return the row of a body, by its number or by the name of its joint; raises NameNotFound, IndexError."""
+        return self.rows[body if isinstance(body, int) else self.model.joint_id(body)]
+
+    def __getitem__(self, name: str) -> list[Any]:
+        """Return a variable of all bodies: its value, or the total of what adds up; None where there is none."""
+        found = [row.accounts[name].total if name in row.accounts else row.values.get(name) for row in self.rows]
+        if all(value is None for value in found):
+            known = {known: None for row in self.rows for known in (*row.values, *row.accounts)}
+            raise unknown_name("variable", name, known, f" of {self.algorithm}")
+        return found
+
+    def tree(self) -> str:
+        """Return the tree of the bodies, with what each passed on to its parent, as text."""
+        from .printing import tree
+
+        return tree(self)
+
+    def __str__(self) -> str:
+        from .printing import table
+
+        return table(self)
+
+    def __repr__(self) -> str:
+        return f"<Trace: {self.algorithm} of {self.model.name!r}, {len(self.rows) - 1} bodies, {len(self.steps)} steps>"
+
+    def _repr_html_(self) -> str:
+        from .printing import html
+
+        return html(self)

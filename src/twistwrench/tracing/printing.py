@@ -1,0 +1,143 @@
+"""A trace as text, as a tree and as HTML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+import numpy as np
+
+from ..checks import Array
+from .ledger import Row, Trace
+
+__all__ = ["html", "table", "tree"]
+
+UNITS = {
+    "V": "rad/s, m/s",
+    "A": "rad/s², m/s²",
+    "c": "rad/s², m/s²",
+    "F": "N m, N",
+    "pA": "N m, N",
+    "tau": "N m, N",
+    "u": "N m, N",
+    "IA": "kg m², kg",
+    "IC": "kg m², kg",
+    "U": "kg m², kg m",
+    "D": "kg m², kg",
+    "M": "kg m², kg m, kg",
+    "qdd": "rad/s², m/s²",
+}
+
+FIRST = {"rnea": ("V", "A"), "aba": ("V", "c"), "crba": ()}
+"""What is found before anything is passed inward; the other values follow the accounts."""
+
+TITLES = {
+    "rnea": "what each body received, and passed on to its parent: wrenches",
+    "aba": "what each body received, and passed on to its parent: articulated inertias and bias wrenches",
+    "crba": "what each body received, and passed on to its parent: composite inertias",
+}
+
+Line = tuple[str, list[str], str]
+"""What it is, its numbers, their unit."""
+
+
+def table(trace: Trace) -> str:
+    """Return a trace as text: below each body its values, and its accounts as own + received = total, → passed on."""
+    blocks = [f"{trace.algorithm} of {trace.model.name!r}: {TITLES[trace.algorithm]} (angular, linear)"]
+    for row in trace.rows:
+        lines = [_heading(row)]
+        for what, cells, unit in _lines(trace.algorithm, row):
+            lines.append(f"  {what:<24}{''.join(f'{cell:>11}' for cell in cells):<66}  {unit}")
+        blocks.append("\n".join(line.rstrip() for line in lines))
+    return "\n\n".join(blocks)
+
+
+def html(trace: Trace) -> str:
+    """Return a trace as a table of HTML."""
+    rows = []
+    for row in trace.rows:
+        rows.append(f'<tr><th colspan="8" style="text-align:left">{escape(_heading(row))}</th></tr>')
+        for what, cells, unit in _lines(trace.algorithm, row):
+            numbers = "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "<td></td>" * (6 - len(cells))
+            rows.append(f'<tr><td style="text-align:left">{escape(what)}</td>{numbers}<td>{escape(unit)}</td></tr>')
+    title = f"{trace.algorithm} of {trace.model.name}: {TITLES[trace.algorithm]} (angular, linear)"
+    return f"<table><caption>{escape(title)}</caption>{''.join(rows)}</table>"
+
+
+def tree(trace: Trace) -> str:
+    """Return the bodies as a tree, with what each passes on to its parent."""
+    lines = [trace.rows[0].name]
+    children = [[row for row in trace.rows if row.parent == i] for i in range(len(trace.rows))]
+
+    def grow(i: int, indent: str) -> None:
+        for row in children[i]:
+            last = row is children[i][-1]
+            lines.append(f"{indent}{'└─ ' if last else '├─ '}{row.body} {row.name}\t{_passes(trace.algorithm, row)}")
+            grow(row.body, indent + ("   " if last else "│  "))
+
+    grow(0, "")
+    width = max(len(line.partition("\t")[0]) for line in lines) + 2
+    return "\n".join(f"{name:<{width}}{text}".rstrip() for name, _, text in (line.partition("\t") for line in lines))
+
+
+def _passes(algorithm: str, row: Row) -> str:
+    """Say in a line what a body passes on, and what its joint does or feels."""
+    account, *_ = row.accounts.values()
+    if account.passed is None:
+        return ""
+    if algorithm == "rnea":
+        moment, force = _norm(account.passed[:3]), _norm(account.passed[3:])
+        return f"{moment} N m, {force} N to {row.parent}; tau = {_few(row.values['tau'])}"
+    mass = _number(np.trace(account.passed[3:, 3:]) / 3)
+    if algorithm == "aba":
+        felt = _few(np.diagonal(row.values["D"]))
+        return f"{mass} kg (mean of three directions) to {row.parent}; D = {felt}; qdd = {_few(row.values['qdd'])}"
+    own = f"M[{row.body}, {row.body}]"
+    return f"{mass} kg to {row.parent}; {own} = {_few(np.diagonal(row.values[own]))}"
+
+
+def _heading(row: Row) -> str:
+    return f"{row.body} {row.name}" + (f", on {row.parent}" if row.parent >= 0 else "")
+
+
+def _lines(algorithm: str, row: Row) -> Iterator[Line]:
+    first = [name for name in row.values if name in FIRST[algorithm]]
+    for name in first:
+        yield from _numbers(name, name, row.values[name])
+    for name, account in row.accounts.items():
+        if not account.received:
+            yield from _numbers(name, name, account.total)
+        else:
+            yield from _numbers(f"{name}: its own", name, account.own)
+            for child, part in account.received.items():
+                yield from _numbers(f"  + from {child}", name, part)
+            yield from _numbers(f"  = {name}", name, account.total)
+        if account.passed is not None:
+            yield from _numbers(f"  → to {row.parent}", name, account.passed)
+    for name in (name for name in row.values if name not in first):
+        yield from _numbers(name, name, row.values[name])
+
+
+def _numbers(what: str, name: str, x: Array) -> Iterator[Line]:
+    """Yield a vector or a matrix: of a square one the diagonal, of another the columns."""
+    unit = UNITS["U" if name.startswith("F in") else name.partition("[")[0]]  # a wrench per unit of acceleration
+    if x.ndim == 1:
+        yield what, [_number(entry) for entry in x], unit
+    elif x.shape[0] == x.shape[1] > 1:
+        yield f"{what}, diagonal", [_number(entry) for entry in np.diagonal(x)], unit
+    else:
+        for k, column in enumerate(x.mT):
+            yield what if x.shape[1] == 1 else f"{what}, column {k}", [_number(entry) for entry in column], unit
+
+
+def _number(x: float) -> str:
+    """Four digits; what rounding left of nothing is 0."""
+    return f"{x:.4g}" if abs(x) > 1e-12 else "0"
+
+
+def _few(x: Array) -> str:
+    return ", ".join(map(_number, x))
+
+
+def _norm(x: Array) -> str:
+    return _number(float(np.sqrt((x * x).sum())))
