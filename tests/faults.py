@@ -252,6 +252,23 @@ FAULTS = [
     Fault("own inertia for the composite one in A_G", "centroidal.py", "IC = composite_inertias(tree)", "IC = tree.I"),
     Fault("potential energy of the wrong sign", "energy.py", "weight = -model", "weight = model"),
     Fault("kinetic energy not halved", "energy.py", "return twice / 2", "return twice"),
+    # 49.9: contact
+    Fault(
+        "contact: spatial acceleration for the classical one",
+        "contact/rows.py",
+        "a = A[..., 3:] + np.cross(w, V[..., 3:]) +",
+        "a = A[..., 3:] +",
+    ),
+    Fault("contact: a sole's moments without their lever", "contact/forward.py", "np.matvec(W.mT, mu)", "mu"),
+    Fault(
+        "impact: restitution that slows down",
+        "contact/impacts.py",
+        "v=v - (1 + restitution)",
+        "v=v - (1 - restitution)",
+    ),
+    Fault(
+        "friction: a cone that opens downwards", "contact/types.py", "np.full(sides, -slope)", "np.full(sides, slope)"
+    ),
     # 49.1: the truth itself
     Fault(
         "3-D: velocity of a point without its lever",
@@ -279,5 +296,25 @@ FAULTS = [
         "newton_euler_3d/bodies.py",
         "inertia=R @ number.array(given.inertia_at_com) @ R.mT",
         "inertia=number.array(given.inertia_at_com)",
+    ),
+    # motion in time
+    Fault("Munthe-Kaas: sign of ½ [u, v]", "simulation/tangent.py", "v + first / 2 +", "v - first / 2 +"),
+    Fault(
+        "Runge-Kutta: second stage counted once, not twice",
+        "simulation/explicit.py",
+        "(1 / 6, 1 / 3, 1 / 3, 1 / 6))",
+        "(1 / 6, 1 / 6, 1 / 3, 1 / 6))",
+    ),
+    Fault(
+        "∂L/∂q with the body's twist, not its carrier's",
+        "simulation/variational.py",
+        "np.matvec(cross_force(carrier[i]), h[i])",
+        "np.matvec(cross_force(V[i]), h[i])",
+    ),
+    Fault(
+        "variational: momentum carried the wrong way",
+        "simulation/variational.py",
+        "P0 = exp_transposed(ad, self.p0)",
+        "P0 = exp_transposed(-ad, self.p0)",
     ),
 ]

@@ -27,7 +27,11 @@ PHYSICS_AND_ORACLES = [
     "test_plucker.py",
     "test_inertia.py",
     "test_urdf.py",
+    "test_simulation.py",
     "test_newton_euler_3d.py",
+    "test_contact_dynamics.py",
+    "test_contact_impacts.py",
+    "test_contact_friction.py",
 ]
 
 
