@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 from ..checks import Array
 from ..contact import Contact
 from ..fast import dynamics
+from ..fast.frames import frames_of
+from ..fast.plan import plan_of
 from ..model import Model
 from ..whole_body import Dynamics
 
@@ -29,7 +31,7 @@ def scene_dynamics(
     touched = [contact.frame for contact in contacts] if "J_c" in want else []
     pushed = list(wrenches) if "h" in want else []
     d = dynamics(model, q, v, contacts=touched + pushed, want={*want, "J_c"} if pushed else set(want))
-    if d.J_c is None:
+    if d.J_c is None or not (pushed or any(contact.rows.start < 3 for contact in contacts)):
         return d
     (q,) = model.state(q)
     linear = d.J_c.reshape(*q.shape[:-1], len(touched) + len(pushed), 3, model.nv)
@@ -40,11 +42,14 @@ def scene_dynamics(
 
 def contact_rows(model: Model, contacts: Sequence[Contact], q: Array, linear: Array) -> Array:
     """Return J_c from the linear rows of its contacts, shape (..., k, 3, nv): of each the rows that it holds."""
-    six = np.concatenate([np.zeros_like(linear), linear], axis=-2)
     turning = [k for k, contact in enumerate(contacts) if contact.rows.start < 3]
-    six[..., turning, :3, :] = angular_rows(model, q, [contacts[k].frame for k in turning])
-    rows = [six[..., k, contact.rows, :] for k, contact in enumerate(contacts)]
-    return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+    angular = dict(zip(turning, np.moveaxis(angular_rows(model, q, [contacts[k].frame for k in turning]), -3, 0)))
+    rows = [np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)]
+    for k, contact in enumerate(contacts):
+        moves = linear[..., k, :, :]
+        six = np.concatenate([angular.get(k, moves), moves], axis=-2)  # where nothing turns, its rows are not taken
+        rows.append(six[..., contact.rows, :])
+    return np.concatenate(rows, axis=-2)
 
 
 def without(model: Model, wrenches: Mapping[str, Array], q: Array, h: Array, linear: Array) -> Array:
@@ -61,7 +66,7 @@ def without(model: Model, wrenches: Mapping[str, Array], q: Array, h: Array, lin
 def angular_rows(model: Model, q: Array, frames: Sequence[str]) -> Array:
     """Return for each frame the map from v to its angular velocity in the axes of the world.
 
-    Only rotations are needed, and only of the joints on the way to these frames; each of them once.
+    The column of a joint that turns is its axis; that of one that slides, or is not on the way to the frame, is zero.
 
     Parameters
     ----------
@@ -74,15 +79,16 @@ def angular_rows(model: Model, q: Array, frames: Sequence[str]) -> Array:
     -------
     ndarray, shape (..., k, 3, nv)
     """
-    constants = model.constants(q.dtype)
-    supports = [model.support(model.frame(name).body) for name in frames]
-    turned = {0: np.eye(3, dtype=q.dtype)}
     W = np.zeros((*q.shape[:-1], len(frames), 3, model.nv), q.dtype)
-    for i in sorted({i for support in supports for i in support}):  # the carrier comes before what it carries
-        joint = model.joints[i]
-        moved = joint.transform(q[..., model.q_slice[i]]).rotation  # type: ignore[union-attr]
-        turned[i] = turned[model.parent[i]] @ constants.placement[i].rotation @ moved
-        for k, support in enumerate(supports):
-            if i in support:
-                W[..., k, :, model.v_slice[i]] = turned[i] @ constants.S[i][:3]
+    if not frames:
+        return W
+    plan = plan_of(model, q.real.dtype)
+    placed = frames_of(plan, q.reshape(-1, model.nq).mT, in_world=True)
+    carriers = {body: link for link, body, _ in plan.bodies}
+    for k, name in enumerate(frames):
+        body = model.frame(name).body
+        way = plan.support(carriers.get(body, 0))
+        W[..., k, :, plan.entry[way]] = placed.spin[:, way].transpose(1, 2, 0).reshape(len(way), *q.shape[:-1], 3)
+        if placed.base is not None and body > 0:
+            W[..., k, :, :3] = placed.base.transpose(2, 0, 1).reshape(*q.shape[:-1], 3, 3)
     return W

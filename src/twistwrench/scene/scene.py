@@ -90,8 +90,8 @@ class Scene(SmallestModel):
     def dynamics(self, q: ArrayLike, v: ArrayLike, *, want: Iterable[str] = ("M", "h", "J_c", "A_G")) -> Dynamics:
         """Return what is wanted of M q̈ + h = Sᵀ τ + J_cᵀ λ, and nothing else.
 
-        All of it from one placement of the links (`fast.dynamics`); the angular rows of a sole, or of a moment, take
-        the rotations on the way to it once more.
+        All of it from one placement of the links (`fast.dynamics`); the angular rows of a sole, or of a moment, take a
+        second one.
 
         Parameters
         ----------

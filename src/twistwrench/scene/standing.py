@@ -81,7 +81,7 @@ def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Arra
     b = task.b[motors][with_motor] - B @ task.least
     rows = np.concatenate([A, -B, B]) @ task.free
     room = np.concatenate([-A @ task.least, limit - b, limit + b])
-    if least_within(rows, room) is not None:
+    if least_within(rows, room, task.size) is not None:
         return ""
     tau = friction_inverse_dynamics(model, q, rest, rest, contacts, f_ext, sides=16).tau[motors]
     names = [name for name, s in zip(model.joint_names[2:], model.v_slice[2:]) for _ in range(s.stop - s.start)]
