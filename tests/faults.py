@@ -269,6 +269,26 @@ FAULTS = [
     Fault(
         "friction: a cone that opens downwards", "contact/types.py", "np.full(sides, -slope)", "np.full(sides, slope)"
     ),
+    # scenes: held joints
+    Fault(
+        "held body added in its own frame",
+        "reduction.py",
+        "merged[body] = merged[body] + inertia.transform(T)",
+        "merged[body] = merged[body] + inertia",
+    ),
+    Fault(
+        "held body where the joint is neutral",
+        "reduction.py",
+        "in_carrier[p] @ relative[i])",
+        "in_carrier[p] @ model.placement[i])",
+    ),
+    Fault(
+        "wrench from outside added to h",
+        "scene/once.py",
+        "h = h - np.matvec(angular",
+        "h = h + np.matvec(angular",
+    ),
+    Fault("planar base: slides swapped", "scene/floor.py", "FLOOR_IN_FLYER = [3, 4, 2]", "FLOOR_IN_FLYER = [4, 3, 2]"),
     # 49.1: the truth itself
     Fault(
         "3-D: velocity of a point without its lever",

@@ -32,6 +32,8 @@ PHYSICS_AND_ORACLES = [
     "test_contact_dynamics.py",
     "test_contact_impacts.py",
     "test_contact_friction.py",
+    "test_reduction.py",
+    "test_scene.py",
 ]
 
 

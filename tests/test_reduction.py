@@ -129,7 +129,7 @@ def test_in_two_steps_as_in_one(recipe, first, second):
         np.testing.assert_allclose(frame.placement.matrix(), other.placement.matrix(), rtol=0, atol=1e-13)
 
 
-@examples(25)
+@examples(12)
 @given(recipes(20), st.integers(0, 2**20))
 def test_the_small_model_of_any_tree_is_the_full_one_with_still_joints(recipe, chosen):
     full, (q, v, a, *_) = recipe.model, recipe.state()
