@@ -208,6 +208,15 @@ def test_jacobian_and_bias_are_derivatives_of_the_contacts_placements(model, con
     assert np.allclose(J @ v, expected, rtol=0, atol=1e-13 * max(np.abs(expected).max(), 1))
 
 
+def test_jacobian_and_bias_are_those_of_the_frames():
+    q, v = TREE.random_configuration(rng=RNG), RNG.standard_normal(TREE.nv)
+    J, bias = tw.constraint_jacobian(TREE, q, HANDS), tw.constraint_bias(TREE, q, v, HANDS)
+    frames = [tw.frame_jacobian(TREE, q, c.frame, "local_world_aligned")[c.rows] for c in HANDS]
+    rates = [tw.frame_bias_acceleration(TREE, q, v, c.frame, "local_world_aligned")[c.rows] for c in HANDS]
+    assert error(J.ravel(), np.concatenate(frames).ravel()) < 1e-13
+    assert error(bias, np.concatenate(rates)) < 1e-13
+
+
 @pytest.mark.parametrize("name", [name for name in CASES if "moving" in name])
 def test_contacts_that_hold_do_no_work(name):
     model, q, v, tau, contacts, _ = state(name)
@@ -272,6 +281,21 @@ def test_nothing_depends_on_where_the_world_has_its_origin_and_its_x_axis():
     for frame, force in here.forces.items():
         turned = np.r_[T.rotation @ force[:3], T.rotation @ force[3:]]
         assert np.allclose(there.forces[frame], turned, rtol=0, atol=1e-11 * np.abs(force).max())
+
+
+@pytest.mark.parametrize("far", [0.0, 1e6])
+@pytest.mark.parametrize(
+    ("model", "q", "contacts", "rank"),
+    [(BOX, BOX.neutral(), BOX_CORNERS, 6), (GO2, straight(plumb=True), FEET, 11)],
+    ids=["box", "Go2"],
+)
+def test_the_rank_is_the_same_however_the_robot_lies_and_however_far_away(model, q, contacts, rank, far):
+    for _ in range(8):
+        moved = model.integrate(q, np.r_[RNG.standard_normal(3), np.zeros(model.nv - 3)])
+        moved[:3] += far * RNG.standard_normal(3)
+        got = tw.contact_forward_dynamics(model, moved, np.zeros(model.nv), motors(model, RNG), contacts)
+        assert got.rank == rank
+        assert np.abs(got.residual).max() < 1e-12
 
 
 @pytest.mark.parametrize("exponent", [-6, 6])

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from scipy.optimize import linprog
 
 import twistwrench as tw
+from twistwrench.contact import Contact
 
 from .touching import BOX, FEET, GO2, SOLE
 
@@ -86,6 +89,68 @@ def test_the_moment_about_the_normal_is_limited_as_the_docstring_says():
     carried = np.vstack([G[[0, 1, 3, 4, 5]], *(np.eye(12)[[k]] for k in (2, 5, 8))])  # evenly, and nothing sideways
     most = -linprog(-G[2], A, np.zeros(len(A)), carried, [0, 0, 0, 0, 4, 1, 1, 1], (None, None)).fun
     assert np.isclose(most, 0.5 * np.hypot(0.1, 0.04) * 4, rtol=2e-3)  # the pyramid's sides are at 0.9988 of μ
+
+
+# ---------------------------------------------------------------- kinds that are added later
+
+
+@dataclass(frozen=True)
+class RoundSole(Contact):
+    """A disc, by points around its rim."""
+
+    frame: str
+    radius: float
+    mu: float
+    rows = slice(0, 6)
+
+    def axes(self, rotation):
+        return rotation
+
+    @property
+    def points(self):
+        angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+        return self.radius * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1)
+
+    @property
+    def point_names(self):
+        return tuple(f"rim {k} of {self.frame!r}" for k in range(12))
+
+
+@dataclass(frozen=True)
+class Grasp(Contact):
+    """A hand around a bar: it bears any wrench."""
+
+    frame: str
+    mu: float = 0.0
+    rows = slice(0, 6)
+    points = np.array([[0.02, 0, 0], [-0.02, 0, 0.03], [0, 0, -0.03]])
+    point_names = ("thumb", "finger", "palm")
+
+    def axes(self, rotation):
+        return rotation
+
+    def limits(self, sides, pyramid):
+        return np.zeros((0, 9))
+
+    def limit_names(self, sides):
+        return []
+
+
+def test_a_new_kind_needs_rows_axes_and_points_only():
+    rest, on_disc = np.zeros(6), [RoundSole("fl", 0.3, 0.6)]
+    held = tw.contact_forward_dynamics(BOX, BOX.neutral(), rest, rest, on_disc)
+    weight = BOX.mass * 9.81
+    assert np.allclose(held.forces["fl"][3:], [0, 0, weight], rtol=0, atol=1e-12)
+    assert np.allclose(held.forces["fl"][:3], [-0.2 * weight, 0.3 * weight, 0], rtol=0, atol=1e-12)
+    assert not tw.stance_margins(BOX, BOX.neutral(), on_disc).stands  # the centre is 0.36 m away
+    assert tw.stance_margins(BOX, BOX.neutral(), [RoundSole("fl", 0.4, 0.6)]).stands
+
+
+def test_a_grasp_bears_what_no_foot_can():
+    rest = np.zeros(6)
+    hanging = tw.friction_inverse_dynamics(BOX, BOX.neutral(), rest, rest, [Grasp("fl")])
+    assert np.allclose(hanging.forces["fl"][3:], [0, 0, BOX.mass * 9.81], rtol=0, atol=1e-11)
+    assert hanging.binding == ()
 
 
 # ---------------------------------------------------------------- what is refused

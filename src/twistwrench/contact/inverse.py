@@ -189,8 +189,7 @@ def breached(names: Sequence[str], by: Array) -> str:
 def limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> tuple[Array, list[str]]:
     """Return A with A f ≤ 0 for forces f at all points, each in its contact's axes, and the names of its rows."""
     A = block_diagonal([c.limits(sides, pyramid) for c in contacts])
-    kinds = [*["friction"] * sides, "lift-off"]
-    return A, [f"{kind} at {point}" for c in contacts for point in c.point_names for kind in kinds]
+    return A, [name for c in contacts for name in c.limit_names(sides)]
 
 
 @dataclass(frozen=True)

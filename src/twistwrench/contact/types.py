@@ -105,6 +105,10 @@ class Contact(ABC):
         one = np.stack([np.cos(angle), np.sin(angle), np.full(sides, -slope)], axis=-1)
         return np.kron(np.eye(len(self.points)), np.concatenate([one, [[0.0, 0.0, -1.0]]]))
 
+    def limit_names(self, sides: int) -> list[str]:
+        """Return what the rows of `limits` are called in messages, one for each."""
+        return [f"{kind} at {point}" for point in self.point_names for kind in (*["friction"] * sides, "lift-off")]
+
 
 @dataclass(frozen=True)
 class PointContact(Contact):
