@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,8 @@ import pytest
 import twistwrench as tw
 from twistwrench.simulation import METHODS
 
+from .pages import blocks, page
+from .pages import run as run_page
 from .strategies import Recipe
 
 PENDULUM = tw.load("pendulum")
@@ -289,3 +292,33 @@ def test_a_singular_state_is_refused_with_the_time():
     model = builder.build()
     with pytest.raises(tw.SingularError, match=r"step 1, from t = 0 s: .*'rod"):
         tw.simulate(model, [0.0], [0.0], dt=0.1, steps=1)
+
+
+# ---------------------------------------------------------------- the page
+
+
+def test_both_pages_have_the_same_code_and_the_same_numbers():
+    def code(path):
+        text = path.read_text(encoding="utf-8")
+        return [block.strip() for block in blocks(text, 0, len(text))]
+
+    def numbers(path):
+        rows = [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+        return [re.findall(r"`[^`]+`|[\d.]+(?:e[-+]\d+)?", row) for row in rows]
+
+    english, chinese = (page("simulation", language) for language in ("", ".zh-CN"))
+    uncommented = [[re.sub(r"#.*", "", block) for block in code(path)] for path in (english, chinese)]
+    assert uncommented[0] == uncommented[1]
+    assert len(uncommented[0]) == 4
+    assert numbers(english) == numbers(chinese)
+
+
+def test_the_code_of_the_page_runs():
+    text = page("simulation").read_text(encoding="utf-8")
+    run_page(page("simulation"), blocks(text, 0, len(text)))
+
+
+def test_the_table_of_the_page_names_the_methods_with_their_orders():
+    text = page("simulation").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `([\w-]+)` \| (\d) \|", text, re.MULTILINE)
+    assert [(name, int(order)) for name, order in rows] == [(name, m.order) for name, m in METHODS.items()]

@@ -1,0 +1,190 @@
+"""The numbers and pictures of docs/simulation.md: what each method of `tw.simulate` loses, over dt and over its cost.
+
+usage:  python docs/pictures/simulation.py        (some five minutes; needs matplotlib)
+"""
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+
+import twistwrench as tw
+from twistwrench.plot import COLOURS, axes_2d
+from twistwrench.simulation import METHODS, Simulation
+
+HERE = Path(__file__).parent
+LOOK = {
+    "euler": ("grey", "v"),
+    "semi-implicit": ("orange", "s"),
+    "midpoint": ("green", "^"),
+    "rk4": ("blue", "o"),
+    "variational": ("vermilion", "D"),
+}
+
+
+class Example(NamedTuple):
+    """A motion, and by what its error is told."""
+
+    title: str
+    model: tw.Model
+    q: np.ndarray
+    v: np.ndarray
+    duration: float
+    steps: Sequence[float]
+    label: str
+    error: Callable[[Simulation], float]
+    tau: Callable[..., np.ndarray] | None = None
+    contacts: Iterable[tw.PointContact] = ()
+
+    def run(self, method: str, dt: float) -> Simulation:
+        """Simulate."""
+        start = {"dt": dt, "duration": self.duration, "tau": self.tau, "contacts": self.contacts}
+        return tw.simulate(self.model, self.q, self.v, method=method, **start)  # type: ignore[arg-type]
+
+
+def energy_drift(scale: float) -> Callable[[Simulation], float]:
+    """Return the largest change of the energy, as a share of a scale."""
+    return lambda s: float(np.abs(s.energy - s.energy[0]).max()) / scale
+
+
+def pendulum() -> Example:
+    """Let go at 2 rad, for 10 s."""
+    model = tw.load("pendulum")
+    scale = float(tw.potential_energy(model, [2.0]) - tw.potential_energy(model, [0.0]))
+    return Example(
+        "pendulum", model, np.array([2.0]), np.zeros(1), 10.0, STEPS, "energy drift / its swing", energy_drift(scale)
+    )
+
+
+def double_pendulum() -> Example:
+    """Let go at 1 and 0.5 rad, for 10 s."""
+    model, q = tw.load("double_pendulum"), np.array([1.0, 0.5])
+    scale = float(tw.potential_energy(model, q) - tw.potential_energy(model, [0.0, 0.0]))
+    return Example(
+        "double pendulum", model, q, np.zeros(2), 10.0, STEPS, "energy drift / its swing", energy_drift(scale)
+    )
+
+
+def tumbling_body() -> Example:
+    """Turn a body about its middle axis, so that it tumbles, for 10 s, without weight."""
+    inertia = tw.SpatialInertia(2.0, np.zeros(3), np.diag([1.0, 2.0, 3.0]))
+    model = tw.Builder("body", base="floating", root_inertia=inertia, gravity=np.zeros(3)).build()
+    v = np.array([0.1, 2.0, 0.1, 0.0, 0.0, 0.0])
+    scale = float(tw.kinetic_energy(model, model.neutral(), v))
+    return Example(
+        "tumbling body", model, model.neutral(), v, 10.0, STEPS, "energy drift / energy", energy_drift(scale)
+    )
+
+
+def standing_go2() -> Example:
+    """Push a Go2 on four feet, whose motors hold its posture by springs and dampers, for 0.4 s."""
+    model = tw.load("go2")
+    posture, feet = model.standing(), [tw.PointContact(foot, 0.6) for foot in model.feet]
+    hold = tw.static_equilibrium(model, posture).tau
+
+    def policy(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        tau = np.zeros(model.nv)
+        tau[6:] = hold - 60.0 * (q[7:] - posture[7:]) - 1.0 * v[6:]
+        return tau
+
+    v = tw.impact(model, posture, np.array([0, 0, 0, 0.5, 0.3] + 13 * [0.0]), feet).v
+    start = {"dt": 0.000625, "duration": 0.4, "tau": policy, "contacts": feet}
+    exact = tw.simulate(model, posture, v, **start).q[-1]  # type: ignore[arg-type]
+
+    def error(s: Simulation) -> float:
+        return float(np.abs(s.q[-1, :3] - exact[:3]).max())
+
+    steps = (0.02, 0.01, 0.005, 0.0025)
+    return Example(
+        "Go2 on its feet", model, posture, v, 0.4, steps, "error of the base's place [m]", error, policy, feet
+    )
+
+
+STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
+
+
+def measure(example: Example) -> dict[str, list[tuple[float, float, float]]]:
+    """Return for each method (dt, processor time for a second of motion, error), and print it as rows of a table."""
+    found: dict[str, list[tuple[float, float, float]]] = {}
+    for name, method in METHODS.items():
+        if example.contacts and not method.contacts:
+            continue
+        for dt in example.steps:
+            start = time.process_time()
+            try:
+                s = example.run(name, dt)
+            except (tw.DivergenceError, tw.SingularError):
+                continue
+            spent = (time.process_time() - start) / example.duration
+            found.setdefault(name, []).append((dt, spent, example.error(s)))
+        shown = {dt: f"{error:.1e}" for dt, _, error in found.get(name, [])}
+        cells = [shown.get(dt, "diverges") for dt in example.steps]
+        print(f"| {example.title} | `{name}` | {' | '.join(cells)} |", flush=True)
+    return found
+
+
+def draw(examples: list[Example], results: list[dict[str, list[tuple[float, float, float]]]], column: int) -> Any:
+    """Draw the error of each example over dt (column 0) or over the processor time (column 1)."""
+    import matplotlib.pyplot as plt
+    from matplotlib.ticker import LogLocator, NullLocator
+
+    figure, axes = plt.subplots(2, 2, figsize=(8.5, 6.6), layout="constrained")
+    for ax, example, result in zip(axes.flat, examples, results, strict=True):
+        for name, rows in result.items():
+            colour, marker = LOOK[name]
+            x, y = [row[column] for row in rows], [max(row[2], 1e-16) for row in rows]
+            ax.loglog(x, y, marker=marker, color=COLOURS[colour], label=name, markersize=5)
+        ax.set(title=example.title, ylabel=example.label)
+        ax.set_xlabel(("dt [s]", "processor time for 1 s of motion [s]")[column])
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.xaxis.set_minor_locator(NullLocator())
+        ax.grid(alpha=0.3)
+    handles, labels = axes.flat[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=5)
+    return figure
+
+
+def long_run() -> None:
+    """Draw the energy of a pendulum over 100 swings at a dt of 0.2 s."""
+    model, ax = tw.load("pendulum"), axes_2d(size=(7.0, 3.4))
+    for name, alpha in (("semi-implicit", 0.4), ("rk4", 1.0), ("variational", 1.0)):
+        s = tw.simulate(model, [2.0], [0.0], dt=0.2, steps=1500, method=name)
+        change = s.energy - s.energy[0]
+        ax.plot(s.t, change, color=COLOURS[LOOK[name][0]], label=name, linewidth=1.0, alpha=alpha)
+        part = len(change) // 10
+        first, last = np.abs(change[:part]).max(), np.abs(change[-part:]).max()
+        print(f"| `{name}` | {first:.2g} | {last:.2g} |", flush=True)
+    ax.set(xlabel="time [s]", ylabel="change of the energy [J]", title="pendulum, dt = 0.2 s", ylim=(-7.5, 7.5))
+    ax.grid(alpha=0.3)
+    ax.legend(loc="upper center", ncols=3)
+    ax.figure.savefig(HERE / "simulation_long.png", dpi=110)
+
+
+def kept_momentum() -> None:
+    """Print how well each method keeps the angular momentum about the origin of a robot that tumbles without weight."""
+    scene = tw.Scene("go2", gravity=[0, 0, 0])
+    v = np.random.default_rng(0).standard_normal(scene.model.nv)
+    for name in METHODS:
+        s = tw.simulate(scene, scene.model.standing(), v, dt=0.01, steps=100, method=name)
+        h = s.momentum_about_origin[:, :3]
+        change = np.abs(h - h[0]).max() / np.abs(h[0]).max()
+        print(f"| `{name}` | {change:.1e} | {s.evaluations / 100:.1f} |", flush=True)
+
+
+def main() -> None:
+    """Print all tables and write all pictures."""
+    mpl.use("agg")
+    kept_momentum()
+    long_run()
+    examples = [pendulum(), double_pendulum(), tumbling_body(), standing_go2()]
+    results = [measure(example) for example in examples]
+    for column, name in enumerate(("simulation_drift", "simulation_cost")):
+        draw(examples, results, column).savefig(HERE / f"{name}.png", dpi=110)
+
+
+if __name__ == "__main__":
+    main()
