@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -22,6 +23,7 @@ from twistwrench.templates import (
 )
 from twistwrench.templates.reading import com_acceleration, locked_inertia
 
+from .pages import blocks, page, run
 from .strategies import BATCHES
 from .test_floating_base import on_bodies
 
@@ -337,3 +339,52 @@ def test_a_robot_without_mass_has_no_template():
     model = tw.Builder("ghost", base="floating").build()
     with pytest.raises(tw.SingularError, match="has mass"):
         PointMass.of(model, model.neutral())
+
+
+# ---------------------------------------------------------------- the page
+
+PAGES = [page("templates", language) for language in ("", ".zh-CN")]
+
+
+def code_of(path):
+    text = path.read_text(encoding="utf-8")
+    return blocks(text, 0, len(text))
+
+
+def test_the_page_runs():
+    run(PAGES[0], code_of(PAGES[0]))
+
+
+def test_both_languages_have_the_same_code_and_the_same_numbers():
+    code, twin = ([re.sub(r" *#.*", "", b).strip() for b in code_of(path)] for path in PAGES)
+    assert code == twin
+    numbers, others = (re.findall(r"^\|.*\d.*\|$", path.read_text(encoding="utf-8"), re.MULTILINE) for path in PAGES)
+    assert [re.findall(r"[\d.e-]+\d", row) for row in numbers] == [re.findall(r"[\d.e-]+\d", row) for row in others]
+
+
+def test_the_page_names_every_template():
+    for path in PAGES:
+        rows = re.findall(r"^\| `(\w+)` \| `(\w+)` \|", path.read_text(encoding="utf-8"), re.MULTILINE)
+        assert dict(rows) == {name: kind.__name__ for name, kind in TEMPLATES.items()}
+
+
+@pytest.mark.slow
+def test_the_numbers_of_the_page_are_still_there():
+    """Of the robots that are here: rms and largest of every template, and the largest k̇_G over the weight."""
+    text = PAGES[0].read_text(encoding="utf-8")
+    label = {"Go2": "go2", "Solo12": "solo12", "Talos": "talos_reduced", "G1": "g1"}
+    rows = re.findall(r"^\| ?(Go2|Solo12|Talos|G1|) ?\| (walk|trot|jump) \|(.*)\|$", text, re.MULTILINE)
+    assert len(rows) == 12
+    name = ""
+    for robot, kind, cells in rows:
+        name = label[robot] if robot else name
+        try:
+            model = tw.load(name)
+        except tw.NameNotFound:
+            continue
+        m = tw.motions.MOTIONS[kind](model)
+        for template, cell in zip(list(TEMPLATES)[:4], cells.split("|"), strict=False):
+            relative = TEMPLATES[template].of(model, model.standing()).residual(m.q, m.v, m.a).relative
+            rms, largest = (float(x) for x in re.findall(r"[\d.]+", cell))
+            assert np.sqrt((relative**2).mean()) == pytest.approx(rms, rel=0.06), (name, kind, template)
+            assert relative.max() == pytest.approx(largest, rel=0.06), (name, kind, template)
