@@ -17,7 +17,6 @@ from .._scalars import which
 from ..checks import Array
 from ..errors import SingularError
 from ..fast import aba, crba
-from ..inverse_dynamics import external
 from ..model import Model
 from ..plucker import SE3
 from .decomposition import decompose, lever
@@ -154,13 +153,13 @@ def contact_forward_dynamics(
     (np.float64(-9.92), 12, 0)
     """
     contacts = as_contacts(model, contacts)
-    q, v, tau, f_ext = real_state(model, q, v=v, tau=tau, f_ext=external(model, f_ext))
+    q, v, tau, *pushed = real_state(model, q, f_ext, v=v, tau=tau)
     at, J, bias = touching(model, q, v, contacts)
     W, slip, target = lever(contacts, at), np.matvec(J, v), -bias
     if stabilise is not None:
         error = contact_errors(contacts, at, stabilise.anchors)
         target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
-    qdd = free = aba(model, q, v, tau, f_ext)
+    qdd = free = aba(model, q, v, tau, *pushed)
     parts = decompose(crba(model, q), W @ J)
     mu = np.zeros(slip.shape)
     for _ in range(2):  # the second time takes up what rounding left

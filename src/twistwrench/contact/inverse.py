@@ -16,7 +16,6 @@ from .._scalars import which
 from ..checks import Array
 from ..errors import ShapeError, SingularError
 from ..fast import crba, rnea
-from ..inverse_dynamics import external
 from ..model import Model
 from .decomposition import Decomposition, block_diagonal, decompose, point_map
 from .programme import least_breach, least_within
@@ -221,13 +220,13 @@ class Task:
     ) -> Task:
         """Set up and solve the base rows; raise SingularError if no forces at these contacts do."""
         contacts = as_contacts(model, contacts)
-        q, v, a, f_ext = real_state(model, q, v=v, a=a, f_ext=external(model, f_ext))
+        q, v, a, *pushed = real_state(model, q, f_ext, v=v, a=a)
         at, J, bias = touching(model, q, v, contacts)
-        b, P = rnea(model, q, v, a, f_ext), point_map(contacts, at)
+        b, P = rnea(model, q, v, a, *pushed), point_map(contacts, at)
         base = slice(0, 6 if model.base == "floating" else 0)
         parts = decompose(crba(model, q)[..., base, base], P.mT @ J[..., base])
         least = parts.balance(b[..., base])
-        weight = rnea(model, q, v, 0 * a, f_ext)[..., base]
+        weight = rnea(model, q, v, 0 * a, *pushed)[..., base]
         left = b[..., base] - np.matvec(J[..., base].mT @ P, least)
         off, *terms = (parts.size(x) for x in (left, b[..., base], weight))
         missed = np.asarray(off > BALANCED * np.maximum(*terms))

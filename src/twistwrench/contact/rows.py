@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from ..checks import Array
 from ..constants import cast
 from ..errors import unknown_name
+from ..inverse_dynamics import external
 from ..kinematics import forward_kinematics, frame_placement
 from ..model import Model
 from ..plucker import SE3
@@ -227,8 +228,13 @@ def per_contact(contacts: Sequence[Contact], rows: Array) -> dict[str, Array]:
     return {c.frame: rows[..., end - c.dim : end] for c, end in zip(contacts, ends)}
 
 
-def real_state(model: Model, q: ArrayLike, **others: ArrayLike) -> tuple[Array, ...]:
-    """Check a state as `Model.state` does, and bring it to double precision: the decompositions know no other."""
+def real_state(model: Model, q: ArrayLike, f_ext: ArrayLike | None = None, **others: ArrayLike) -> tuple[Array, ...]:
+    """Check a state as `Model.state` does, and bring it to double precision: the decompositions know no other.
+
+    In the order q, the others, and f_ext where there is one.
+    """
+    if f_ext is not None:
+        others["f_ext"] = external(model, f_ext)
     state = model.state(q, **others)
     if state[0].dtype.kind == "c":
         raise ValueError(f"q: expected real numbers in all arguments, got {state[0].dtype}")
