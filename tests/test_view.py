@@ -158,6 +158,18 @@ def test_sticks_on_the_stage_lie_where_the_figure_draws_them():
         np.testing.assert_allclose(direction, [t.rotation.mT for t in T], atol=1e-5)
 
 
+def test_two_feet_on_the_ground_are_joined_by_a_line():
+    pytest.importorskip("trimesh")
+    stage, trot = Stage(), motions.trot(GO2, samples=16)
+    k = next(k for k in range(16) if trot.contacts[k].sum() == 2)
+    seen = subject(GO2, trot)
+    build(stage, seen, [], None)(seen.at(k))
+    edges = stage.nodes["/support/edges"].points
+    lengths = np.linalg.norm(edges[:, 1] - edges[:, 0], axis=-1)
+    apart = np.linalg.norm(np.subtract(*seen.at(k).support()))
+    np.testing.assert_allclose(np.sort(lengths), [0, 0, apart, apart], rtol=1e-5)
+
+
 def test_a_rod_that_points_straight_down_is_turned_by_half_a_turn():
     pytest.importorskip("trimesh")
     stage = Stage()

@@ -173,6 +173,7 @@ def _support(scene: Any, seen: Subject) -> Mover:
     fan = np.array([(0, k, k + 1) for k in range(1, n - 1)], dtype=np.uint32).reshape(-1, 3)
     look: dict[str, Any] = {"color": _rgb("sky"), "opacity": 0.5, "side": "double", "cast_shadow": False}
     plate = scene.add_mesh_simple("/support", np.zeros((n, 3), np.float32), fan, **look)
+    edges = scene.add_line_segments("/support/edges", np.zeros((n, 2, 3)), _rgb("blue"), thickness=above)
     plumb = scene.add_line_segments("/plumb", np.zeros((1, 2, 3)), _rgb("purple"), thickness=above)
 
     def move(seen: Subject) -> None:
@@ -183,7 +184,9 @@ def _support(scene: Any, seen: Subject) -> Mover:
             c, floor = center_of_mass(seen.model, seen.q), corners[:, 2].mean()
             plumb.points = np.array([[c, [c[0], c[1], floor]]], np.float32)
             corners[:, 2] += above
-            plate.vertices = corners[np.minimum(np.arange(n), len(corners) - 1)].astype(np.float32)
+            corners = corners[np.minimum(np.arange(n), len(corners) - 1)]  # as many as there may be at most
+            plate.vertices = corners.astype(np.float32)
+            edges.points = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1).astype(np.float32)
 
     return move
 
