@@ -1,5 +1,6 @@
 """A scene: the smallest model with its contacts and wrenches, what it computes, and what it refuses."""
 
+import importlib.util
 import re
 from collections import Counter
 from dataclasses import replace
@@ -16,7 +17,7 @@ from twistwrench.scene.costs import limbs
 from twistwrench.scene.once import angular_rows
 from twistwrench.templates import TEMPLATES
 
-from .pages import blocks, names_author_and_licence, page, run
+from .pages import DOCS, blocks, names_author_and_licence, page, run
 from .strategies import random_state
 from .truth import largest
 
@@ -564,3 +565,30 @@ def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
     assert repr(run(english, sources)["scene"]) in english.read_text(encoding="utf-8")
     assert names_author_and_licence(english)
     assert names_author_and_licence(chinese)
+
+
+@pytest.mark.slow
+def test_the_tables_of_the_page_are_what_its_command_finds():
+    """The errors; times are of the day."""
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the command of the page is not run")
+    if "talos_reduced" not in [robot.name for robot in tw.robots()]:
+        pytest.skip("example-robot-data is not installed: the tables of the page are not made again")
+    path = DOCS / "pictures" / "scenes.py"
+    spec = importlib.util.spec_from_file_location("scenes", path)
+    command = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(command)
+    text, talos = PAGES[0].read_text(encoding="utf-8"), tw.load("talos_reduced")
+    scene = tw.Scene(talos, hold=command.HOLD)
+    moving = command.Moving(scene)
+    for rate in command.RATES[1:]:
+        row = re.search(rf"^\| {rate:g} \|(.*)\|$", text, re.MULTILINE)[1].split("|")
+        said = [float(x.strip(" %")) / (100 if "%" in x else 1) for x in row]
+        found = [f(x) for x in moving.errors(rate) for f in (np.median, np.max)]
+        np.testing.assert_allclose(said, found, rtol=0.06)
+    found = {o.name: o for o in scene.cheapest(0.01, motions.walk(talos)).options}
+    rows = re.findall(r"^[ →] (\w[\w ]*?) +(\S+e-\d+) +(\S+e-\d+) ", text, re.MULTILINE)
+    assert {row[0] for row in rows} == set(found) - {"full"}
+    for name, median, worst in rows:
+        option = found[name]
+        got = np.array([np.median(option.residual), option.worst])
+        np.testing.assert_allclose([float(median), float(worst)], got, rtol=0.05, atol=2e-15)

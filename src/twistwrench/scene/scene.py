@@ -205,6 +205,8 @@ class Scene(SmallestModel):
         ------
         ValueError
             If the tolerance is below zero, or the base does not float.
+        SingularError
+            If there is no gravity, and so no weight to compare with.
         NameNotFound, ShapeError
             As `lock_joints` and `Model.state`.
 
