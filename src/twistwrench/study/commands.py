@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from .extremes.command import add_extremes
 from .speed import add_speed
 from .templates import add_templates
 from .trade.command import add_trade
@@ -23,5 +24,5 @@ def register(commands: Commands) -> None:
         add(studies)
 
 
-STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed, add_trade, add_templates)
+STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed, add_trade, add_templates, add_extremes)
 """Each adds its parser, and names in ``set_defaults(run=...)`` what does the work and returns the exit status."""

@@ -11,7 +11,7 @@ import numpy as np
 import twistwrench as tw
 
 from ... import bridge
-from ...checks import Array
+from ...checks import Array, resolution
 from ...errors import SingularError
 from ...model import Model
 from .robots import State
@@ -70,22 +70,27 @@ def _solved(by: Any, model: Model, s: State, tau: Array) -> Array:
 
 
 def solve(M: Array, b: Array) -> Array:
-    """Return M⁻¹ b by Cholesky's M = L Lᵀ, the units of its rows divided out.
+    """Return M⁻¹ b, the units of the rows divided out, by elimination from the tips to the base: M = Lᵀ D L.
 
     Raises
     ------
     SingularError
-        If rounding has left M no positive definite matrix.
+        If rounding has left M not positive definite.
     """
-    diagonal = np.diagonal(M)
-    if (diagonal <= 0).any():
+    own, n = np.diagonal(M), len(b)
+    if (own <= 0).any():
         raise SingularError("M: a joint moves nothing that has inertia")
-    unit = np.sqrt(diagonal)
-    try:
-        L = np.linalg.cholesky(M / unit[:, None] / unit)
-    except np.linalg.LinAlgError:
-        raise SingularError("M: not positive definite, to rounding") from None
-    return np.asarray(np.linalg.solve(L.mT, np.linalg.solve(L, b / unit)) / unit)
+    unit = np.sqrt(own)
+    left, x, ratio = M / unit[:, None] / unit, b / unit, np.zeros_like(M)
+    for k in reversed(range(n)):  # the pivot is what joint k feels with those behind it free
+        if left[k, k] <= n * resolution(M.dtype):
+            raise SingularError("M: not positive definite, to rounding")
+        ratio[k, :k] = left[k, :k] / left[k, k]
+        left[:k, :k] -= np.outer(left[k, :k], ratio[k, :k])
+        x[:k] -= ratio[k, :k] * x[k]
+    for k in range(n):
+        x[k] = x[k] / left[k, k] - ratio[k, :k] @ x[:k]
+    return np.asarray(x / unit)
 
 
 def _pinocchios(model: Model, s: State, torques: Torques) -> Iterator[Candidate]:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...digits import accuracy
+from ...errors import ModelError
 from .candidates import ALGORITHMS, Candidate, candidates
 from .robots import Recipe
 from .truth import Truth, truth
@@ -23,6 +24,7 @@ class Outcome:
     Attributes
     ----------
     algorithm, who : str
+        As `candidates.ALGORITHMS` and `candidates.CANDIDATES` name them.
     error : float or None
         Relative, free of units; None where no number came.
     refused : str
@@ -41,15 +43,24 @@ class Outcome:
     estimate: float | None = None
 
 
-def measure(recipe: Recipe, *, pinocchio: bool) -> list[Outcome]:
-    """Measure all ways to all quantities, in as many digits of truth as ``mpmath.mp.dps`` says."""
-    model, s = recipe.model, recipe.state
-    right = truth(model, s)
-    expected = {bits: _estimates(recipe, dtype) for bits, dtype in (("float32", np.float32), ("textbook", np.float64))}
-    return [
-        _judge(way, right, expected["float32" if way.who == "float32" else "textbook"])
-        for way in candidates(model, s, right.torques, pinocchio=pinocchio)
-    ]
+def measure(recipe: Recipe, *, pinocchio: bool, digits: int = 50) -> list[Outcome]:
+    """Measure all ways to all quantities, against a truth of so many digits.
+
+    A robot that cannot exist is refused before any of them is asked.
+    """
+    import mpmath
+
+    try:
+        model, s = recipe.model, recipe.state
+    except ModelError as error:
+        return [Outcome(name, "textbook", refused=f"ModelError: {error}") for name in ALGORITHMS]
+    with mpmath.workdps(digits):
+        right = truth(model, s)
+        expected = {"float32": _estimates(recipe, np.float32), "double": _estimates(recipe, np.float64)}
+        return [
+            _judge(way, right, expected["float32" if way.who == "float32" else "double"])
+            for way in candidates(model, s, right.torques, pinocchio=pinocchio)
+        ]
 
 
 def _estimates(recipe: Recipe, dtype: type) -> dict[str, float]:

@@ -1,0 +1,77 @@
+"""``twistwrench study extremes``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+__all__ = ["add_extremes"]
+
+FAILED = 1
+
+
+def add_extremes(studies: Any) -> None:
+    """Add ``twistwrench study extremes``."""
+    parser = studies.add_parser(
+        "extremes",
+        help="where digits are lost: one thing at its limit at a time, and every two of them",
+        description="Hold every algorithm against the truth in 50 digits where robots and states are extreme, "
+        "and count the digits kept. Exit status 1 where a way of ours gives a NaN, a warning, or a number where "
+        "none is right.",
+    )
+    parser.add_argument("--full", action="store_true", help="all ends of all pairs, and robots of 1000 bodies")
+    parser.add_argument(
+        "--cells",
+        metavar="FILE",
+        help="where each cell is kept as it is done; a study goes on from there (extremes.jsonl)",
+    )
+    parser.add_argument("--json", metavar="FILE", help="write what was counted as JSON")
+    parser.add_argument("--pictures", metavar="FOLDER", help="draw the map of every algorithm into a folder")
+    parser.add_argument(
+        "--angles", type=int, default=10_000, metavar="N", help="of exp and log; 0 leaves them out (10000)"
+    )
+    parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
+    parser.set_defaults(run=run_extremes)
+
+
+def run_extremes(args: argparse.Namespace) -> int:
+    """Measure, print, write and draw."""
+    from . import report
+    from .grid import cells
+    from .rotations import rotations
+    from .run import run
+
+    kept = Path(args.cells or "extremes.jsonl") if args.full or args.cells else None
+    found = run(cells(full=args.full), kept, pinocchio=_pinocchio(), progress=args.progress or sys.stderr.isatty())
+    print(report.table(found))
+    turns = rotations(args.angles) if args.angles else []
+    print("\n".join(["", *report.turns(turns)]) if turns else "", end="\n" if turns else "")
+    if args.json:
+        _write(Path(args.json), report.as_dict(found) | {"exp and log": [turn._asdict() for turn in turns]})
+    if args.pictures:
+        from .picture import save
+
+        print("\n".join(str(path) for path in save(found, Path(args.pictures))))
+    wrong = report.bad(found)
+    for cell, outcome in wrong:
+        print(f"{cell}: {outcome.algorithm} by {outcome.who}: {outcome.bad}", file=sys.stderr)
+    return FAILED if wrong else 0
+
+
+def _pinocchio() -> bool:
+    """Whether Pinocchio is there; the study is worth running without."""
+    from ...bridge import import_pinocchio
+
+    try:
+        import_pinocchio()
+    except ImportError as error:
+        print(f"{error}: it has no column", file=sys.stderr)
+        return False
+    return True
+
+
+def _write(path: Path, found: dict[str, Any]) -> None:
+    path.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -1,0 +1,101 @@
+"""The grid measured cell by cell; what is done is on file, and not done again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from .cell import Outcome, measure
+from .robots import Recipe
+
+__all__ = ["Cell", "read", "run"]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell and what came of it."""
+
+    recipe: Recipe
+    outcomes: tuple[Outcome, ...]
+
+    def __str__(self) -> str:
+        """Say what is not as usual."""
+        return ", ".join(f"{name} {x if isinstance(x, bool) else f'{x:g}'}" for name, x in self.recipe.changed.items())
+
+    def as_line(self) -> str:
+        """Return it as a line of JSON: what is not as usual in the robot, then what every way gave."""
+        return json.dumps({"cell": self.recipe.changed, "outcomes": [_short(o) for o in self.outcomes]})
+
+    @classmethod
+    def from_line(cls, line: str) -> Cell:
+        """Read a line of `as_line`."""
+        found = json.loads(line)
+        return cls(Recipe(**found["cell"]), tuple(_whole(**o) for o in found["outcomes"]))
+
+
+def _short(outcome: Outcome) -> dict[str, Any]:
+    """Return what there is to say of an outcome; an estimate without end as a word, which JSON has no number for."""
+    found = {name: x for name, x in asdict(outcome).items() if x not in (None, "")}
+    return found | ({"estimate": "inf"} if found.get("estimate") == float("inf") else {})
+
+
+def _whole(estimate: float | str | None = None, **others: Any) -> Outcome:
+    """Return the outcome that `_short` shortened."""
+    return Outcome(estimate=None if estimate is None else float(estimate), **others)
+
+
+def read(path: Path) -> list[Cell]:
+    """Return the cells on file. The last line may have been cut off where the study was stopped: it is left out."""
+    cells = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
+        try:
+            cells.append(Cell.from_line(line))
+        except (ValueError, TypeError, KeyError):
+            continue
+    return cells
+
+
+def run(recipes: Sequence[Recipe], path: Path | None, *, pinocchio: bool, progress: bool) -> list[Cell]:
+    """Measure what is not yet on file, write it there as it comes, and return all cells in the order of the recipes.
+
+    Parameters
+    ----------
+    recipes : sequence of Recipe
+    path : Path, optional
+        Of the file, a cell a line.
+    pinocchio : bool
+        Whether Pinocchio is asked as well.
+    progress : bool
+        Whether a bar is shown on stderr.
+    """
+    from tqdm import tqdm
+
+    known = {cell.recipe: cell for cell in (read(path) if path else [])}
+    missing = [recipe for recipe in recipes if recipe not in known]
+    bar = tqdm(
+        missing, "extremes", len(recipes), unit="cell", disable=not progress, initial=len(recipes) - len(missing)
+    )
+    for cell in _kept(_measured(bar, pinocchio=pinocchio), path, known.values()):
+        known[cell.recipe] = cell
+    return [known[recipe] for recipe in recipes]
+
+
+def _measured(recipes: Iterable[Recipe], *, pinocchio: bool) -> Iterator[Cell]:
+    for recipe in recipes:
+        yield Cell(recipe, tuple(measure(recipe, pinocchio=pinocchio)))
+
+
+def _kept(cells: Iterable[Cell], path: Path | None, known: Iterable[Cell]) -> Iterator[Cell]:
+    """Write each cell before it is passed on, behind those that are known: a line that was cut off goes."""
+    if path is None:
+        yield from cells
+        return
+    path.write_text("".join(cell.as_line() + "\n" for cell in known), encoding="utf-8")
+    with path.open("a", encoding="utf-8") as file:
+        for cell in cells:
+            file.write(cell.as_line() + "\n")
+            file.flush()
+            yield cell
