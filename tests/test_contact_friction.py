@@ -241,7 +241,7 @@ def test_cannot_comes_with_the_limits_that_stand_in_the_way():
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"sides": 2}, "sides: expected at least 3, got 2"),
+        ({"sides": 2}, "sides: expected a whole number, at least 3, got 2"),
         ({"pyramid": "round"}, "pyramid: expected 'inner' or 'outer', got 'round'"),
         ({"q": np.stack([GO2.standing()] * 2)}, r"q, v, a: expected one state, got a batch of shape \(2,\)"),
         ({"a": np.zeros(12)}, r"a: expected shape \(..., 18\)"),

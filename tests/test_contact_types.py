@@ -168,7 +168,8 @@ def test_a_grasp_bears_what_no_foot_can():
         (lambda: tw.PointContact("foot", 0.5, (0, 1)), "'foot': normal: expected shape"),
         (lambda: tw.SurfaceContact("sole", (0.1, 0.0), 0.5), "'sole': half_size: expected lengths above 0"),
         (lambda: tw.SurfaceContact("sole", 0.1, 0.5), "'sole': half_size: expected shape"),
-        (lambda: SURFACE.limits(2, "inner"), "sides: expected at least 3, got 2"),
+        (lambda: SURFACE.limits(2, "inner"), "sides: expected a whole number, at least 3, got 2"),
+        (lambda: SURFACE.limits(4.5, "inner"), "sides: expected a whole number, at least 3, got 4.5"),
         (lambda: SURFACE.limits(4, "middle"), "pyramid: expected 'inner' or 'outer', got 'middle'"),
     ],
 )

@@ -2,7 +2,7 @@
 
 With M = L Lᵀ and Y = L⁻¹ Jᵀ the matrix J M⁻¹ Jᵀ is YᵀY: Y holds the rows of J in units of kinetic energy, so that a
 radian and a metre in v count for what they move. Its singular values decide the rank, without squaring them. Every
-row of J must be a velocity in m/s; `levered` sees to that.
+row of J must be a velocity in m/s; `lever` sees to that.
 """
 
 from __future__ import annotations

@@ -94,10 +94,10 @@ class Contact(ABC):
         Raises
         ------
         ValueError
-            If there are less than 3 sides, or the pyramid is neither.
+            If `sides` is no whole number from 3, or the pyramid is neither.
         """
-        if sides < 3:
-            raise ValueError(f"sides: expected at least 3, got {sides}")
+        if not isinstance(sides, int | np.integer) or sides < 3:
+            raise ValueError(f"sides: expected a whole number, at least 3, got {sides!r}")
         if pyramid not in ("inner", "outer"):
             raise ValueError(f"pyramid: expected 'inner' or 'outer', got {pyramid!r}")
         slope = self.mu * (np.cos(np.pi / sides) if pyramid == "inner" else 1.0)
