@@ -56,7 +56,7 @@ def rates(model: tw.Model, motion: Motion, ax: Any) -> None:
     weight = model.mass * np.sqrt((model.gravity**2).sum())
     for k, (name, colour) in enumerate(zip("xyz", XYZ)):
         ax.plot(motion.t, 1e3 * rate[:, k] / weight, color=colour, label=name)
-    largest = 1e3 * np.abs(rate).max() / weight
+    largest = 1e3 * np.sqrt((rate**2).sum(axis=1)).max() / weight
     ax.text(0.97, 0.93, f"largest {largest:.0f} mm", ha="right", va="top", transform=ax.transAxes, fontsize=8)
     if _flight(motion, ax):
         ax.text(0.5, 0.05, "flight", ha="center", transform=ax.transAxes, fontsize=8)
