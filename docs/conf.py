@@ -52,7 +52,7 @@ html_js_files = ["site.js"]
 html_show_sourcelink = False
 html_copy_source = False
 html_show_search_summary = False  # it would have to fetch the pages, which the file system does not allow
-html_sidebars = {"algorithms/*": [], "index": []}
+html_sidebars = {"**": ["sidebar-nav-bs"], "index": []}
 html_context = {
     "default_mode": "auto",
     "other_language": "en" if CHINESE else "zh",

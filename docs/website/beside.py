@@ -74,7 +74,7 @@ def page(name: str, language: str) -> str:
     said, numbers = read(name), count(1)
     call = f"{{py:obj}}`tw.{said['call']} <twistwrench.{said['call']}>`"
     out = [
-        "---\nhtml_theme.sidebar_secondary.remove: true\n---",
+        "---\nhtml_theme.sidebar_primary.remove: true\nhtml_theme.sidebar_secondary.remove: true\n---",
         f"# {said['title'][language]}",
         said["intro"][language].strip(),
         f"{WORDS[language][2]} {call}.",

@@ -73,9 +73,9 @@ def _language(html: Path, language: str) -> list[str]:
             context = browser.new_context(viewport=size, color_scheme=scheme, offline=True)
             for name in PAGES:
                 page = context.new_page()
-                found = [*_looks(page, html / language / f"{name}.html"), *_reach(page)]
+                found = [*looks(page, html / language / f"{name}.html"), *reach(page)]
                 if (language, scheme) in AXE:
-                    found += _accessible(page, name)
+                    found += accessible(page, name)
                 wrong += [f"{language}/{name} at {size['width']} px, {scheme}: {what}" for what in found]
                 page.close()
             context.close()
@@ -83,7 +83,7 @@ def _language(html: Path, language: str) -> list[str]:
     return wrong
 
 
-def _looks(page: Any, file: Path) -> Iterator[str]:
+def looks(page: Any, file: Path) -> Iterator[str]:
     """Open a page, and yield what can be seen to be wrong, and what it says on the console."""
     said: list[str] = []
     page.on("console", lambda message: said.append(message.text) if message.type in ("error", "warning") else None)
@@ -101,7 +101,7 @@ def _looks(page: Any, file: Path) -> Iterator[str]:
     yield from dict.fromkeys(f"on the console: {line}" for line in said)
 
 
-def _reach(page: Any) -> Iterator[str]:
+def reach(page: Any) -> Iterator[str]:
     """Tab from the top to the language switch."""
     for _ in range(MOST_TABS):
         page.keyboard.press("Tab")
@@ -113,7 +113,8 @@ def _reach(page: Any) -> Iterator[str]:
     yield f"the language switch is not reached with {MOST_TABS} tabs"
 
 
-def _accessible(page: Any, name: str) -> Iterator[str]:
+def accessible(page: Any, name: str) -> Iterator[str]:
+    """Ask axe-core, and yield the rules that are broken and where."""
     from axe_playwright_python.sync_playwright import Axe
 
     context = {"exclude": [["pre"]]} if name == "errata" else None

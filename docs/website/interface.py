@@ -21,6 +21,8 @@ from .pages import ROOT, SUFFIX, contents, write
 
 PACKAGES = ("newton_euler_3d", "fast", "bridge", "plot", "validate", "exercises")
 """Sections that are used by their own name, as in tw.fast.rnea."""
+FIRST = ("model", "joint_types", "builder", "trees", "robots", "errors")
+"""Of the sections without a number those that come first; the others follow by name."""
 LATER = {"en": "Models, tools and errors", "zh": "模型、工具与异常"}
 TITLE = {"en": "Interface", "zh": "接口"}
 INTRO = {
@@ -79,7 +81,8 @@ def by_section() -> dict[str, list[str]]:
             owners.setdefault(value.__module__.split(".")[1], []).append(name)
     for package in dict.fromkeys([*PACKAGES, *(n for n in tw.__all__ if isinstance(getattr(tw, n), ModuleType))]):
         owners[package] = [f"{package}.{name}" for name in getattr(_module(package), "__all__", [])]
-    return {section: sorted(names, key=_place) for section, names in owners.items() if names}
+    order = [*at, *FIRST, *sorted(owners)]
+    return {s: sorted(owners[s], key=_place) for s in sorted(owners, key=order.index) if owners[s]}
 
 
 def _place(name: str) -> tuple[str, int]:
