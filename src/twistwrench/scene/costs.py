@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -111,41 +111,50 @@ class Costs:
         return draw(self, ax)
 
 
+class Candidate(NamedTuple):
+    """A model to be tried, and the states of the motion as it knows them."""
+
+    name: str
+    leaves_out: str
+    template: Template
+    state: tuple[Array, Array, Array]
+
+
 def costs(model: Model, motion: Motion, tolerance: float, groups: Mapping[str, Iterable[str]]) -> Costs:
     """Do what `Scene.cheapest` says, for a model with a floating base."""
     if not tolerance >= 0:
         raise ValueError(f"tolerance: expected a share of the weight, 0 or more, got {tolerance!r}")
     q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
     true, size = full_rate(model, q, v, a), Full.of(model, q[0])
-    left_out: list[str] = []
-    templates: list[Template] = []
-    states: list[tuple[Array, ...]] = []
-    for kind in TEMPLATES.values():
-        templates.append(kind.of(model, q[0]))
-        left_out.append(kind.assumes)
-        states.append((q, v, a))
-    names = list(TEMPLATES)
-    for name, joints in groups.items():
-        small = lock_joints(model, joints, q[0])
-        templates.append(Full.of(small.model, q[0][small.kept_q]))
-        left_out.append(f"The motion of {len(small.held)} of {model.nbodies - 2} joints.")
-        states.append((q[..., small.kept_q], v[..., small.kept_v], a[..., small.kept_v]))
-        names.append(name)
-    known = [template.read(*state) for template, state in zip(templates, states)]
-    seconds = _times([_law(template, state[0], x) for template, state, x in zip(templates, states, known)])
-    errors = [template.law(*x) - true for template, x in zip(templates, known)]
-    residuals = [Residual(e[..., :3], e[..., 3:], size.weight, size.length).relative for e in errors]
-    options = [
-        Option(name, out, isinstance(template, Full), residual, each / len(q))
-        for name, out, template, residual, each in zip(names, left_out, templates, residuals, seconds)
-    ]
+    tried = candidates(model, q, v, a, groups)
+    known = [one.template.read(*one.state) for one in tried]
+    seconds = _times([_law(one, x) for one, x in zip(tried, known)])
+    options = []
+    for one, x, time_for_all in zip(tried, known, seconds):
+        e = one.template.law(*x) - true
+        residual = Residual(e[..., :3], e[..., 3:], size.weight, size.length).relative
+        options.append(
+            Option(one.name, one.leaves_out, isinstance(one.template, Full), residual, time_for_all / len(q))
+        )
     return Costs(motion.name, float(tolerance), tuple(sorted(options, key=lambda option: option.seconds)))
 
 
-def _law(template: Template, q: Array, known: tuple[Array, ...]) -> Callable[[], Array]:
+def candidates(model: Model, q: Array, v: Array, a: Array, groups: Mapping[str, Iterable[str]]) -> list[Candidate]:
+    """Return the templates, and the full model with each group of joints held where the motion begins."""
+    tried = [Candidate(name, kind.assumes, kind.of(model, q[0]), (q, v, a)) for name, kind in TEMPLATES.items()]
+    for name, joints in groups.items():
+        small = lock_joints(model, joints, q[0])
+        leaves_out = f"The motion of {len(small.held)} of {model.nbodies - 2} joints."
+        state = (q[..., small.kept_q], v[..., small.kept_v], a[..., small.kept_v])
+        tried.append(Candidate(name, leaves_out, Full.of(small.model, state[0][0]), state))
+    return tried
+
+
+def _law(one: Candidate, known: tuple[Array, ...]) -> Callable[[], Array]:
     """Return what has to be computed for a state: the law, and before it an inertia that depends on the joints."""
+    template = one.template
     if type(template) is RigidBody:
-        return lambda: template.law(locked_inertia(template.model, q), *known[1:])
+        return lambda: template.law(locked_inertia(template.model, one.state[0]), *known[1:])
     return partial(template.law, *known)
 
 
