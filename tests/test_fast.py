@@ -130,6 +130,20 @@ def test_so_they_are_where_the_base_stands_a_thousand_kilometres_away(base):
     assert_as_good(model, random_state(model, rng=1), ["three"])
 
 
+@pytest.mark.parametrize("off", [1e-2, 1e-3, 1e-5])
+def test_so_they_are_near_gimbal_lock(off):
+    """Three turns at one point, nothing but the last with inertia, the middle one almost a right angle."""
+    builder = tw.Builder("gimbal", base="fixed")
+    rod = tw.SpatialInertia(1.0, [0.1, 0.2, 0.3], np.diag([0.2, 0.3, 0.4]))
+    for parent, name, axis in (("base_link", "outer", "x"), ("outer", "middle", "y"), ("middle", "rod", "z")):
+        body = rod if name == "rod" else tw.SpatialInertia.zero()
+        builder.link(name, parent=parent, joint=tw.Revolute(axis), inertia=body)
+    model = builder.build()
+    s = random_state(model, rng=0)
+    s.q[1] = np.pi / 2 - off
+    assert_as_good(model, s, ["rod"])
+
+
 # ---------------------------------------------------------------- Pinocchio
 
 

@@ -7,6 +7,7 @@ are kept as six entries each: what rounding leaves of their symmetry would grow 
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -19,11 +20,6 @@ from .plan import Plan
 from .vectors import CYCLE, SYMMETRIC, cross, dot, symmetric_times, times, transposed_times, unfold
 
 __all__ = ["NearlySingular", "accelerations", "floors"]
-
-
-DOUBTFUL = 1024
-"""Below so many units of the resolution of a joint's inertia the textbook is asked, which follows each rounding. A
-hundred are what it doubts at least; robots and even long chains are far above a thousand."""
 
 
 class NearlySingular(ArithmeticError):
@@ -212,10 +208,12 @@ def _floors(plan: Plan, frames: Frames) -> tuple[Array, Array]:
 
 
 def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
-    """Return below which D the joints of the links, (1 + n, 1), and of the base, (6, 1), may have lost all digits.
+    """Return below which D the joints of the links, (1 + n, 1), and of the base, (6, 1), are the textbook's.
 
-    That is `DOUBTFUL` times the resolution of what they would feel with the joints beyond them locked, or rather of
-    an upper bound of it, from how far the links are from their parents at most: `reach`, shape (1 + n,).
+    That is where a joint feels a millionth of what it feels with the joints beyond it locked, or so little that half
+    of the digits go. There the textbook is asked, which follows each rounding, and which loses less: in the axes of
+    the joints many terms are zero, in those of the base they only cancel. What is felt with the joints locked is
+    bounded by how far the links are from their parents at most: `reach`, shape (1 + n,).
     """
     mass, first, second = plan.carried[:, 0], plan.first.copy(), plan.second.copy()
     for level in reversed(plan.levels):
@@ -226,5 +224,5 @@ def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
     felt = second.copy() if plan.turning is None else np.where(plan.turning[:, 0] > 0, second, mass)
     felt[1:] += plan.rotor[plan.entry[1:], 0]
     base = np.repeat([second[0], mass[0]], 3) + (plan.rotor[:6, 0] if plan.floats else 0)
-    lost = DOUBTFUL * resolution(mass.dtype)
+    lost = max(1e-6, math.sqrt(resolution(mass.dtype)))
     return lost * felt[:, None], lost * base[:, None]
