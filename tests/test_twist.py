@@ -291,6 +291,29 @@ def test_a_twist_shows_its_numbers_and_its_frame():
     assert Twist(np.zeros((2, 6)))._repr_latex_() is None
 
 
+@pytest.mark.parametrize("angular", [9e-16, -9e-16, 1e-300, 0.0])
+def test_a_rotation_that_is_no_longer_than_its_noise_is_none(angular):
+    """Both sides of the threshold, which the infinite pitch tells."""
+    V = [0, 0, angular, 0, 2, 0]
+    for s in (
+        screw(V, noise=1e-15),
+        screw(Twist(V), noise=1e-15),
+        screw([0, 2, 0, 0, 0, angular], of="wrench", noise=1e-15),
+    ):
+        assert s.pitch == np.inf
+        assert s.magnitude == 2
+        np.testing.assert_array_equal(s.point, 0)
+    turning = screw([0, 0, 1.1e-15, 0, 2, 0], noise=1e-15)
+    assert turning.magnitude == 1.1e-15
+    assert turning.pitch == 0
+
+
+@pytest.mark.parametrize("noise", [-1.0, np.nan])
+def test_a_noise_that_is_none_is_refused(noise):
+    with pytest.raises(ValueError, match="noise: expected"):
+        screw([0, 0, 1, 0, 0, 0], noise=noise)
+
+
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("dtype", DTYPES)
 def test_batch_axes_and_number_types_are_kept(shape, dtype):

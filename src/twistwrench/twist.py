@@ -109,7 +109,7 @@ def vee(M: ArrayLike) -> Array:
     return np.concatenate([unskew(M[..., :3, :3]), M[..., :3, 3]], axis=-1)
 
 
-def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None = None) -> Screw:
+def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None = None, noise: float = 0.0) -> Screw:
     """Axis, point, pitch and magnitude of a twist or a wrench (sections 49.2 and 49.4).
 
     Of a twist: axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|², magnitude |ω|. Without rotation the axis is v/|v|, the
@@ -123,6 +123,10 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
         (ω, v), rad/s and m/s, or (τ, f), N m and N.
     of : {"twist", "wrench"}, optional
         What a plain array is; a twist where it is not said. A Twist or a Wrench knows.
+    noise : float
+        By how much ω may be wrong, rad/s, or f, N. Where it is no longer than that, there is none: what is left is a
+        translation or a couple, and the infinite pitch says so. ω that came out of sums of terms of 1 rad/s is
+        wrong by some 1e-16.
 
     Returns
     -------
@@ -138,27 +142,34 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     TypeError
         If `of` contradicts the type of `x`.
     ValueError
-        If `of` is neither.
+        If `of` is neither, or `noise` below zero.
 
     Examples
     --------
     >>> screw([0, 0, 2, 0, -2, 1])
     Screw(axis=array([0., 0., 1.]), point=array([ 1.,  0., -0.]), pitch=array(0.5), magnitude=array(2.))
+    >>> V = np.array([0, 0, 0.1 + 0.2 - 0.3, 0, 1, 0])  # the rotation is all rounding
+    >>> screw(V).pitch, screw(V, noise=1e-15).pitch
+    (array(0.), array(inf))
     """
+    if not noise >= 0:
+        raise ValueError(f"noise: expected a number that is not below zero, got {noise}")
     if isinstance(x, SpatialVector):
         kind, (line, free) = type(x).__name__.lower(), x._line_and_free()
         if of not in (None, kind):
             raise TypeError(f"screw: of={of!r}, but x is a {type(x).__name__}")
-        return _screw(line, free, kind)
+        return _screw(line, free, kind, noise)
     if of not in (None, "twist", "wrench"):
         raise ValueError(f"of: expected 'twist' or 'wrench', got {of!r}")
     V = as_array(x, "x", 6)
-    return _screw(V[..., 3:], V[..., :3], "wrench") if of == "wrench" else _screw(V[..., :3], V[..., 3:], "twist")
+    if of == "wrench":
+        return _screw(V[..., 3:], V[..., :3], "wrench", noise)
+    return _screw(V[..., :3], V[..., 3:], "twist", noise)
 
 
-def _screw(line: Array, free: Array, kind: str) -> Screw:
+def _screw(line: Array, free: Array, kind: str, noise: float) -> Screw:
     """Screw of (ω, v) or of (f, τ): first the part that acts along a line, then the part that depends on the point."""
-    without = (line.real == 0).all(-1)[..., None]
+    without = np.asarray(length(line).real <= noise)[..., None]
     along = np.where(without, free, line)
     magnitude = length(along)[..., None]
     nothing = np.asarray(magnitude.real == 0)[..., 0]
