@@ -78,10 +78,10 @@ LONG = 100
 
 
 def cells(*, full: bool) -> list[Recipe]:
-    """Return the cells, the usual robot first, each once."""
+    """Return the cells, the usual robot first and long ones last, each once."""
     alone = [of_value(name, x) for name, values in DIMENSIONS.items() for x in values]
     pairs = [recipe for first, second in combinations(ENDS, 2) for recipe in of_pair(first, second, full=full)]
-    every = dict.fromkeys([Recipe(), *alone, *pairs])
+    every = sorted(dict.fromkeys([Recipe(), *alone, *pairs]), key=lambda recipe: recipe.bodies > LONG)
     return [recipe for recipe in every if full or recipe.bodies <= LONG]
 
 
