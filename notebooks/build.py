@@ -40,6 +40,7 @@ NAMES = {
     "49_10": "49_10_centroidal",
     "49_11": "49_11_pinocchio",
     "scenes": "scenes",
+    "templates": "templates",
 }
 """What the notebook of each source is called."""
 METADATA = {
