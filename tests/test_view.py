@@ -17,6 +17,8 @@ from twistwrench.viewing.shapes import shapes
 from twistwrench.viewing.stage import build
 from twistwrench.viewing.subject import subject
 
+from .pages import FENCE, names_author_and_licence, page, run
+
 pytest.importorskip("matplotlib", reason="matplotlib is not installed: the pictures are not checked")
 from matplotlib.figure import Figure
 
@@ -251,21 +253,21 @@ def browser():
         return opened[-1]
 
     yield open_
-    for page in opened:
-        page.stop()
+    for each in opened:
+        each.stop()
 
 
 def test_a_page_stands_alone(browser, tmp_path):
-    page = browser("double_pendulum", meshes=False)
-    page.update([0.3, -0.2])
-    page.save(tmp_path / "page.html")
+    shown = browser("double_pendulum", meshes=False)
+    shown.update([0.3, -0.2])
+    shown.save(tmp_path / "page.html")
     html = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "__VISER_EMBED_DATA__" in html
     assert not re.findall(r'<(?:script|link|img)[^>]*(?:src|href)="?https?:', html)
     assert len(html) < 1_000_000
-    assert "<iframe" in page._repr_html_()
+    assert "<iframe" in shown._repr_html_()
     with pytest.raises(tw.ShapeError, match="expected one configuration"):
-        page.update([[0.3, -0.2]])
+        shown.update([[0.3, -0.2]])
 
 
 def test_the_page_of_a_motion_is_longer_and_one_of_a_state_has_a_slider_for_each_joint(browser):
@@ -280,9 +282,9 @@ def test_the_page_of_a_motion_is_longer_and_one_of_a_state_has_a_slider_for_each
 def test_the_page_is_served_to_this_machine_only(browser):
     from urllib.request import urlopen
 
-    page = browser("pendulum")
-    assert page.url.startswith("http://127.0.0.1:")
-    with urlopen(page.url, timeout=10) as answer:
+    shown = browser("pendulum")
+    assert shown.url.startswith("http://127.0.0.1:")
+    with urlopen(shown.url, timeout=10) as answer:
         assert b"<!doctype html>" in answer.read(100)
 
 
@@ -378,3 +380,34 @@ def test_the_command_says_what_it_cannot_do(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("matplotlib.pyplot.get_backend", lambda: "agg")
     assert main(["view", "go2"]) == 2
     assert "--output FILE writes a picture" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------- docs/view.md
+
+
+def test_the_part_of_the_page_that_needs_a_browser_runs_too(tmp_path, monkeypatch):
+    pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
+    monkeypatch.chdir(tmp_path)
+    (code,) = re.findall(r"^```py\n(.*?)^```$", page("view").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    model = tw.load("go2")
+    exec(code, {"tw": tw, "trot": motions.trot(model, samples=4)})
+    assert (tmp_path / "trot.html").stat().st_size > 500_000
+
+
+def test_the_page_runs_prints_what_it_shows_and_is_the_same_in_both_languages(capsys):
+    import matplotlib.pyplot as plt
+
+    texts = [page("view", language).read_text(encoding="utf-8") for language in ("", ".zh-CN")]
+    code, twin = ([re.sub(r" *#.*", "", block) for block in FENCE.findall(text)] for text in texts)
+    assert code == twin
+    try:
+        trace = run(page("view"), FENCE.findall(texts[0]))["trace"]
+    finally:
+        plt.close("all")
+    for text in texts:
+        tree, account = re.findall(r"^```text\n(.*?)\n```$", text, re.MULTILINE | re.DOTALL)
+        assert trace.tree() == tree
+        assert account in str(trace)
+        assert re.findall(r"!\[.+\]\(pictures/view_(\w+).png\)", text) == ["go2", "soles", "page", "trot"]
+    assert capsys.readouterr().out == trace.tree() + "\n"
+    assert all(names_author_and_licence(page("view", language)) for language in ("", ".zh-CN"))
