@@ -34,6 +34,8 @@ PHYSICS_AND_ORACLES = [
     "test_contact_friction.py",
     "test_reduction.py",
     "test_scene.py",
+    "test_templates.py",
+    "test_motions.py",
 ]
 
 
