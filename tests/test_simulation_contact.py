@@ -110,6 +110,16 @@ def test_a_robot_that_no_motor_moves_keeps_its_energy_on_feet_that_do_no_work():
     assert error[1] < error[0] / 8
 
 
+def test_contacts_are_computed_in_double_precision():
+    model, policy, feet = standing_go2()
+    q = model.standing()
+    q[3:7] = rotation_to_quaternion(tw.exp3([0.1, 0.2, 0.3]))
+    s = tw.simulate(model, q.astype(np.float32), np.zeros(18, np.float32), dt=0.005, steps=2, tau=policy, contacts=feet)
+    assert s.q.dtype == s.v.dtype == np.float64
+    at = tw.frame_placement(model, s.q, "FL_foot").translation
+    assert np.abs(at - at[0]).max() < 1e-12
+
+
 # ---------------------------------------------------------------- scenes
 
 

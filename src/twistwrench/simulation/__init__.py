@@ -5,9 +5,10 @@
 - `explicit`: Euler's methods, midpoint and Runge-Kutta.
 - `variational`: the method that keeps momentum and, over long times, energy.
 - `tangent`: what the exponential map does to rates and momenta.
-- `system`: the forces of the policy, and the acceleration.
+- `system`: the forces of the policy, the contacts, and the acceleration.
 - `divergence`: when a step has gone wrong.
 - `result`: the motion.
+- `scene_like`: what is asked of a scene.
 """
 
 from .divergence import DivergenceError

@@ -15,7 +15,8 @@ from ..model import Model
 from .divergence import DivergenceError, refuse_divergence
 from .methods import METHODS, Step
 from .result import Simulation
-from .system import Policy, SceneLike, System, model_of
+from .scene_like import SceneLike, parts
+from .system import Policy, System
 
 __all__ = ["simulate"]
 
@@ -59,9 +60,8 @@ def simulate(
         `PointContact` or `SurfaceContact`, besides those of a scene. After each step the state goes back to where they
         hold (`project_state`). Computed in double precision.
     method : {"euler", "semi-implicit", "midpoint", "rk4", "variational"}
-        In the order of their error, of order 1, 1, 2, 4 and 2 in dt. "variational" holds the energy over
-        long times and keeps the momenta that have a conservation law; it solves an equation in each step, and takes
-        no contacts.
+        Of order 1, 1, 2, 4 and 2 in dt. "variational" holds the energy over long times and keeps the momenta that
+        have a conservation law; it solves an equation in each step, and takes no contacts.
     progress : bool
         Whether to show a progress bar.
 
@@ -103,14 +103,16 @@ def simulate(
     if method not in METHODS:
         raise unknown_name("method", method, METHODS)
     count = _count(dt, steps, duration)
-    q, v = model_of(robot).state(q, v=v)
+    model, own, push = parts(robot)
+    contacts = (*own, *contacts)
+    q, v = model.state(q, v=v)
     if q.dtype.kind == "c":
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
-    system, step = System(robot, contacts, tau, q, v, float(dt)), METHODS[method].step
-    if system.contacts:
+    if contacts:
         if not METHODS[method].contacts:
-            raise ValueError(f"method: {method!r} takes no contacts, and there are {len(system.contacts)}")
-        q, v = q.astype(np.float64), v.astype(np.float64)
+            raise ValueError(f"method: {method!r} takes no contacts, and there are {len(contacts)}")
+        q, v = model.normalize(q.astype(np.float64)), v.astype(np.float64)
+    system, step = System(model, contacts, push, tau, q, v, float(dt)), METHODS[method].step
     qs, vs = np.empty((count + 1, *q.shape), q.dtype), np.empty((count + 1, *v.shape), v.dtype)
     qs[0], vs[0], start = q, v, perf_counter()
     for k in _bar(count, progress):

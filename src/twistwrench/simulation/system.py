@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Callable, Iterable
-from typing import Protocol
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,24 +21,16 @@ from ..fast import aba, rnea
 from ..model import Model
 from .divergence import refuse_divergence
 
-__all__ = ["Policy", "SceneLike", "System", "model_of"]
+__all__ = ["Policy", "Push", "System"]
 
 Policy = Callable[[float, Array, Array], ArrayLike]
 """From time, q (..., nq) and v (..., nv) to joint forces (..., nv)."""
 
+Push = Callable[[Array], Array]
+"""From q (..., nq) to wrenches on the bodies (..., nbodies, 6)."""
+
 STILL = 1e-9
 """How fast a contact that sticks may move at the start, relative to the fastest motion."""
-
-
-class SceneLike(Protocol):
-    """What `simulate` asks of a scene."""
-
-    model: Model
-    contacts: tuple[Contact, ...]
-
-    @abstractmethod
-    def f_ext(self, q: ArrayLike) -> Array:
-        """Return the wrenches on the bodies in a configuration, shape (..., nbodies, 6)."""
 
 
 class System:
@@ -48,9 +38,11 @@ class System:
 
     Parameters
     ----------
-    robot : Model or SceneLike
-    contacts : iterable of Contact
-        They stick where they are in q; a scene has its own.
+    model : Model
+    contacts : tuple of Contact
+        They stick where they are in q.
+    push : callable, optional
+        From q to wrenches on the bodies from outside, shape (..., nbodies, 6).
     tau : callable, array_like or None
         As in `simulate`.
     q, v : ndarray, shapes (..., nq) and (..., nv)
@@ -66,18 +58,16 @@ class System:
 
     def __init__(
         self,
-        robot: Model | SceneLike,
-        contacts: Iterable[Contact],
+        model: Model,
+        contacts: tuple[Contact, ...],
+        push: Push | None,
         tau: Policy | ArrayLike | None,
         q: Array,
         v: Array,
         dt: float,
     ) -> None:
-        self.model = model = model_of(robot)
-        self.contacts = (*contacts, *(() if isinstance(robot, Model) else robot.contacts))
-        self.push = None if isinstance(robot, Model) else robot.f_ext
-        self.dt, self.evaluations = dt, 0
-        self.anchors = contact_placements(model, q, self.contacts)
+        self.model, self.contacts, self.push, self.dt, self.evaluations = model, contacts, push, dt, 0
+        self.anchors = contact_placements(model, q, contacts)
         self._policy = tau if callable(tau) else None
         constant = np.zeros_like(v) if tau is None or callable(tau) else self._checked("tau", tau, v)
         self._constant = np.broadcast_to(constant, v.shape)
@@ -109,6 +99,11 @@ class System:
         """Return the state near by in which the contacts are where they stick, and still."""
         return project_state(self.model, q, v, self.contacts, self.anchors) if self.contacts else (q, v)
 
+    def integrate(self, q: Array, u: Array) -> Array:
+        """Return q ⊕ u."""
+        refuse_divergence(self.model, "v dt", u)
+        return self.model.integrate(q, u)
+
     def _refuse_slip(self, q: Array, v: Array) -> None:
         for contact in self.contacts:
             slip = np.abs(np.matvec(constraint_jacobian(self.model, q, [contact]), v)).max()
@@ -117,11 +112,6 @@ class System:
                     f"v: contact {contact.frame!r} sticks, but moves at t = 0 (up to {slip:.3g} m/s or rad/s); "
                     "twistwrench.impact gives the velocity after it has closed"
                 )
-
-    def integrate(self, q: Array, u: Array) -> Array:
-        """Return q ⊕ u."""
-        refuse_divergence(self.model, "v dt", u)
-        return self.model.integrate(q, u)
 
     def _checked(self, name: str, tau: ArrayLike, v: Array, when: str = "") -> Array:
         """Return joint forces in the number type of v, or say what is wrong with them."""
@@ -137,8 +127,3 @@ class System:
                 hint = "; the six entries of the floating base come first: zeros, as it has no motor"
             raise ShapeError(f"{name}: expected shape {v.shape}, got {checked.shape}{when}{hint}")
         return checked.astype(v.dtype, copy=False)
-
-
-def model_of(robot: Model | SceneLike) -> Model:
-    """Return the model of a scene, or the model itself."""
-    return robot if isinstance(robot, Model) else robot.model

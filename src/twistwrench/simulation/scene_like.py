@@ -1,0 +1,31 @@
+"""What `simulate` asks of a scene, which comes later in the order of the sections."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Protocol
+
+from numpy.typing import ArrayLike
+
+from ..checks import Array
+from ..contact import Contact
+from ..model import Model
+from .system import Push
+
+__all__ = ["SceneLike", "parts"]
+
+
+class SceneLike(Protocol):
+    """A model with contacts, and wrenches from outside."""
+
+    model: Model
+    contacts: tuple[Contact, ...]
+
+    @abstractmethod
+    def f_ext(self, q: ArrayLike) -> Array:
+        """Return the wrenches on the bodies in a configuration, shape (..., nbodies, 6)."""
+
+
+def parts(robot: Model | SceneLike) -> tuple[Model, tuple[Contact, ...], Push | None]:
+    """Return the model, the contacts and the wrenches of a scene; a model alone has but itself."""
+    return (robot, (), None) if isinstance(robot, Model) else (robot.model, robot.contacts, robot.f_ext)
