@@ -10,6 +10,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
+from twistwrench.cli import main
 from twistwrench.templates import (
     TEMPLATES,
     Centroidal,
@@ -388,3 +389,23 @@ def test_the_numbers_of_the_page_are_still_there():
             rms, largest = (float(x) for x in re.findall(r"[\d.]+", cell))
             assert np.sqrt((relative**2).mean()) == pytest.approx(rms, rel=0.06), (name, kind, template)
             assert relative.max() == pytest.approx(largest, rel=0.06), (name, kind, template)
+
+
+# ---------------------------------------------------------------- the study
+
+
+@pytest.mark.slow
+def test_the_study_prints_its_table_and_draws(tmp_path, capsys):
+    picture = tmp_path / "templates.png"
+    assert main(["study", "templates", "go2", "--samples", "20", "--plot", str(picture)]) == 0
+    printed = capsys.readouterr().out
+    rows = re.findall(r"^(walk|trot|jump) +(\w+) +([\d.e-]+) \(", printed, re.MULTILINE)
+    assert [row[:2] for row in rows] == [(kind, name) for kind in ("walk", "trot", "jump") for name in TEMPLATES]
+    assert max(float(rms) for _, name, rms in rows if name in ("centroidal", "full")) < 1e-14
+    assert "60 % of the time" in printed  # a jump is loaded for less
+    assert picture.stat().st_size > 20_000
+
+
+def test_the_study_says_which_robot_is_not_known(capsys):
+    assert main(["study", "templates", "go3"]) == 2
+    assert "unknown robot 'go3'" in capsys.readouterr().err
