@@ -13,12 +13,15 @@ from .model import Model
 
 __all__ = ["Accuracy", "accuracy"]
 
-SUMMED, DIVIDED = 8, 4
-"""So many times the bare formulas, of inverse and of forward dynamics: what errors stay below in every cell of
-``twistwrench study extremes``."""
+SUMMED, DIVIDED = 24, 4
+"""So many times the bare formulas, of inverse and of forward dynamics. Less would do for the textbook; with these the
+errors of `twistwrench.fast` are below as well, in ``twistwrench study extremes`` and in random trees."""
 
 SHARE = 0.05
 """A joint with less of a motion's energy than this is not named."""
+
+NAMED = 4
+"""So many joints are named in print."""
 
 PLENTY = 1e-3
 """Where a motion feels more than this part of the inertia of its joints, there is nothing to be said about it."""
@@ -64,7 +67,8 @@ class Accuracy:
         felt = float(self.felt.min(initial=1))
         if felt > PLENTY:
             return said
-        names = ", ".join(map(repr, self.weak))
+        more = len(self.weak) - NAMED
+        names = ", ".join(map(repr, self.weak[:NAMED])) + (f" and {more} more" if more > 0 else "")
         return f"{said}\nMoved against each other, {names} feel {felt:.1e} of the inertia that they feel one by one."
 
 
@@ -91,26 +95,27 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
     -----
     Inverse dynamics only adds: its error grows with the root of the number of joints on the longest way to a tip.
     Forward dynamics divides by M, and what counts is the least eigenvalue λ of D^-½ M D^-½, where D is M's diagonal:
-    the error is about the resolution over λ. The condition number of M itself misleads: it is large already where
-    units or masses differ, which costs nothing. For the worst torques `aba` loses as much as a solver does.
+    about the resolution over λ is lost, besides the error of the bias forces. The condition number of M itself
+    misleads: it is large already where units or masses differ, which costs nothing. For the worst torques `aba` loses
+    as much as a solver does.
 
     Examples
     --------
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
     >>> print(tw.accuracy(model, model.standing()))
-    rnea keeps 14 of 16 digits, aba 14, crba + solve 14.
+    rnea keeps 13 of 16 digits, aba 13, crba + solve 13.
     >>> model = tw.chain(6, mass_ratio=1e6)
     >>> print(tw.accuracy(model, np.full(6, 0.1)))
-    rnea keeps 14 of 16 digits, aba 8, crba + solve 8.
+    rnea keeps 13 of 16 digits, aba 8, crba + solve 8.
     Moved against each other, 'rod_02', 'rod_03', 'rod_01' feel ... of the inertia that they feel one by one.
     """
     (q,) = model.state(q)
     eps, depth = resolution(q.dtype), max(len(model.support(i)) for i in range(model.nbodies))
     felt, motion = _least_felt(model, model.normalize(q.real.astype(np.float64)))
     certain = felt - model.nv * resolution(np.float64)  # as far as the eigenvalue itself is
-    forward = np.where(certain > 0, DIVIDED * eps / np.where(certain > 0, certain, 1), np.inf)
     sums = np.full(felt.shape, SUMMED * eps * np.sqrt(depth))
+    forward = sums + np.where(certain > 0, DIVIDED * eps / np.where(certain > 0, certain, 1), np.inf)
     return Accuracy(sums, forward, forward.copy(), felt, _most_moved(model, felt, motion), eps)
 
 
