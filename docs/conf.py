@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import chinese, interface
+from website import beside, chinese, interface
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -52,7 +52,7 @@ html_js_files = ["site.js"]
 html_show_sourcelink = False
 html_copy_source = False
 html_show_search_summary = False  # it would have to fetch the pages, which the file system does not allow
-html_sidebars = {"**": ["sidebar-nav-bs"], "index": []}
+html_sidebars = {"**": ["sidebar-nav-bs"], "index": []} | {f"algorithms/{name}": [] for name in beside.names()}
 html_context = {
     "default_mode": "auto",
     "other_language": "en" if CHINESE else "zh",

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import steps
-from .pages import ROOT, write
+from .pages import LINE_END, ROOT, write
 
 FOLDER = Path(__file__).resolve().parent / "algorithms"
 SOURCE = ROOT / "src" / "twistwrench"
@@ -74,9 +74,9 @@ def page(name: str, language: str) -> str:
     said, numbers = read(name), count(1)
     call = f"{{py:obj}}`tw.{said['call']} <twistwrench.{said['call']}>`"
     out = [
-        "---\nhtml_theme.sidebar_primary.remove: true\nhtml_theme.sidebar_secondary.remove: true\n---",
+        "---\nhtml_theme.sidebar_secondary.remove: true\n---",
         f"# {said['title'][language]}",
-        said["intro"][language].strip(),
+        LINE_END.sub(r"\1", said["intro"][language].strip()) if language == "zh" else said["intro"][language].strip(),
         f"{WORDS[language][2]} {call}.",
     ]
     for part in said["part"]:

@@ -121,8 +121,9 @@ def write_interface(out: Path, language: str) -> None:
     for number in [*numbered, ""]:
         mine = [section for section in owners if at.get(section, "") == number]
         rows.append(f"## {number or LATER[language]}")
-        rows.append("| {} | {} |\n|---|---|".format(*HEAD[language]))
-        rows[-1] += "".join(f"\n{_row(name)}" for section in mine for name in owners[section])
+        table = ["| {} | {} |\n|---|---|".format(*HEAD[language])]
+        table += [_row(name) for section in mine for name in owners[section]]
+        rows.append("\n".join([":::{container} names", "", *table, ":::"]))
     rows.append(contents(list(owners), hidden=True))
     write(out / "api" / "index.md", "\n\n".join(rows) + "\n")
 
