@@ -329,7 +329,7 @@ def test_the_tables_of_the_page_are_those_of_the_results(maker, language):
 def check_errors(maker, keys: list[str], robot: str = "go2") -> None:
     """The errors of the run that is kept are found again: none is worse, and few are better."""
     kept = {(p.quantity, p.way, p.number, p.states == 1): p.error for p in maker.points(robot)}
-    found = weigh(robot, only=keys, effort=Effort(states=5, batch=5, rounds=1, least=0, most=0)).points
+    found = weigh(robot, only=keys, effort=Effort(rounds=1, least=0, most=0)).points
     ratio = np.array([p.error / kept[p.quantity, p.way, p.number, p.states == 1] for p in found])
     assert len(ratio) > 10 * len(keys)
     assert [(p, r) for p, r in zip(found, ratio, strict=True) if r > REPRODUCED] == []
