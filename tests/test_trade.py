@@ -3,7 +3,8 @@
 import importlib
 import json
 import re
-from itertools import pairwise
+import sys
+from itertools import cycle, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.cli import main
+from twistwrench.study import clock
 
 from .pages import blocks, page, run
 
@@ -201,6 +203,56 @@ def test_a_quantity_that_is_zero_has_no_relative_error_and_is_left_out():
     assert "the right value is zero" in str(trade)
 
 
+# ---------------------------------------------------------------- the clock
+
+
+class Processor:
+    """A clock for the wall and one for the processor, and work that takes known times on either."""
+
+    def __init__(self, monkeypatch):
+        self.wall = self.busy = 0.0
+        monkeypatch.setattr(clock.time, "perf_counter", lambda: self.wall)
+        monkeypatch.setattr(clock.time, "thread_time", lambda: self.busy)
+
+    def work(self, busy: float, waits: tuple[float, ...] = (0.0,)):
+        """A call that takes `busy` seconds, and waits for the processor besides: so long, in turns."""
+        turns = cycle(waits)
+
+        def call():
+            self.busy += busy
+            self.wall += busy + next(turns)
+
+        return call
+
+
+def test_the_clock_counts_stretches_that_nothing_disturbed(monkeypatch):
+    cpu = Processor(monkeypatch)
+    quiet, torn = clock.round_robin([cpu.work(1), cpu.work(2, (0, 0, 5))], rounds=3, least=0, most=100)
+    assert quiet.seconds.tolist() == [1, 1, 1]
+    assert torn.seconds.tolist() == [2, 2, 2]
+    assert torn.spare == [2]
+
+
+def test_where_every_stretch_is_disturbed_the_time_on_the_processor_counts(monkeypatch):
+    (lap,) = clock.round_robin([Processor(monkeypatch).work(2, (3,))], rounds=2, least=0, most=100)
+    assert lap.kept == []
+    assert set(lap.seconds) == {2}
+
+
+def test_a_call_that_has_used_its_time_gets_no_more_stretches_and_each_gets_one(monkeypatch):
+    cpu = Processor(monkeypatch)
+    slow, quick = clock.round_robin([cpu.work(4), cpu.work(1)], rounds=9, least=0, most=5)
+    assert len(slow.seconds) == 2
+    assert len(quick.seconds) == 5
+    (once,) = clock.round_robin([cpu.work(4)], rounds=9, least=0, most=0)
+    assert len(once.seconds) == 1
+
+
+def test_the_quickest_call_says_how_many_make_a_stretch(monkeypatch):
+    (lap,) = clock.round_robin([Processor(monkeypatch).work(1, (60, 0, 0))], rounds=1, least=8, most=100)
+    assert lap.repeat == 8
+
+
 # ---------------------------------------------------------------- what is written
 
 
@@ -299,8 +351,20 @@ def test_a_robot_that_does_not_move_is_refused():
         weigh(tw.Builder("stone").build())
 
 
+def test_without_pinocchio_and_scipy_their_ways_are_left_out_and_a_line_says_so(monkeypatch):
+    for name in ("pinocchio", "scipy", "scipy.linalg", "scipy.spatial.transform"):
+        monkeypatch.setitem(sys.modules, name, None)
+    trade = weigh("pendulum", only=["FD", "exp"], effort=QUICK)
+    assert {p.way.split()[0] for p in trade.points} == {"tw.aba", "tw.fast.aba", "tw.fast", "tw.crba", "tw.exp6"} | {
+        "newton_euler_3d",
+        "mpmath",
+    }
+    assert "Pinocchio is not installed: its ways are left out" in str(trade)
+    assert "SciPy is not installed: its ways are left out" in str(trade)
+
+
 def test_without_mpmath_there_is_no_truth(monkeypatch, capsys):
-    monkeypatch.setitem(__import__("sys").modules, "mpmath", None)
+    monkeypatch.setitem(sys.modules, "mpmath", None)
     assert main(["study", "trade", "pendulum", "--short"]) == 2
     assert 'pip install "twistwrench[validate]"' in capsys.readouterr().err
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Collection
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike
 from typing import Literal
@@ -161,10 +162,8 @@ def _inputs(model: Model, s: States, of: tuple[str, ...]) -> Inputs:
 
 
 def _ask_for_mpmath() -> None:
-    try:
-        import mpmath  # noqa: F401
-    except ImportError:
-        raise ImportError('the truth needs mpmath: pip install "twistwrench[validate]"') from None
+    if not _is_there("mpmath"):
+        raise ImportError('the truth needs mpmath: pip install "twistwrench[validate]"')
 
 
 def _oracle(model: Model) -> Oracle | None:
@@ -187,8 +186,16 @@ def _versions() -> dict[str, str]:
 def _missing() -> tuple[str, ...]:
     """Say whose ways are not there."""
     said = {
-        "pin": "Pinocchio is not installed: its ways are left out (pip install pin; not on Windows)",
+        "pinocchio": "Pinocchio is not installed: its ways are left out (pip install pin; not on Windows)",
         "scipy": "SciPy is not installed: its ways are left out (pip install scipy)",
         "gmpy2": "gmpy2 is not installed: mpmath is some times slower without it (pip install gmpy2)",
     }
-    return tuple(text for name, text in said.items() if name not in _versions())
+    return tuple(text for name, text in said.items() if not _is_there(name))
+
+
+def _is_there(name: str) -> bool:
+    try:
+        import_module(name)
+    except ImportError:
+        return False
+    return True
