@@ -10,7 +10,7 @@ import pytest
 from numpy.polynomial import Polynomial
 
 import twistwrench as tw
-from twistwrench.motions import MOTIONS, Motion, ground
+from twistwrench.motions import MOTIONS, Motion, ground, limits_broken
 from twistwrench.motions.curves import Harmonics, Pieces, between, hop, stair
 from twistwrench.motions.following import follow
 from twistwrench.motions.gaits import CRAWL, TROT, WALK, Steps
@@ -79,6 +79,7 @@ def test_feet_that_stand_do_not_move(name, kind):
 @every
 def test_joints_keep_their_limits(name, kind):
     model, m = robot(name), motion(name, kind)
+    assert limits_broken(model, m) == {}
     assert ((model.lower <= m.q) & (m.q <= model.upper)).all()
     assert (np.abs(m.v) <= model.velocity_limit).all()
 
@@ -316,6 +317,27 @@ def test_steps_that_are_too_long_are_refused():
     steps = Steps(standing, replace(CRAWL, speed=0.5))
     with pytest.raises(tw.SingularError, match=r"'go2': no posture .* are the legs long enough"):
         follow(standing, steps.goal(np.linspace(0, steps.period, 20)))
+
+
+def test_a_straight_leg_is_refused():
+    model = robot("humanoid")
+    straight = np.where(np.abs(model.standing()) > 0.2, 0, model.standing())  # hips, knees and ankles
+    straight[[2, 6]] = model.standing()[[2, 6]]
+    with pytest.raises(tw.SingularError, match="a leg is straight"):
+        tw.motions.jump(replace(model, postures={"standing": straight}), samples=5)
+
+
+def test_a_joint_beyond_its_limits_is_named():
+    model, m = robot("go2"), motion("go2", "walk")
+    name, entry, place = (
+        "FL_calf_joint",
+        *(at[model.joint_id("FL_calf_joint")].start for at in (model.q_slice, model.v_slice)),
+    )
+    upper, fastest = model.upper.copy(), model.velocity_limit.copy()
+    upper[entry], fastest[place] = m.q[:, entry].max() - 0.1, np.abs(m.v[:, place]).max() / 1.5
+    beyond, share = limits_broken(replace(model, upper=upper, velocity_limit=fastest), m)[name]
+    assert beyond == pytest.approx(0.1)
+    assert share == pytest.approx(1.5)
 
 
 def test_a_motion_has_at_least_two_samples():

@@ -14,8 +14,9 @@ motion     four legs                                           two legs
 =========  ==================================================  =====================================================
 """
 
+from .limits import limits_broken
 from .motion import Motion
 from .performing import MOTIONS, jump, trot, walk
 from .support import Ground, ground
 
-__all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "trot", "walk"]
+__all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "limits_broken", "trot", "walk"]

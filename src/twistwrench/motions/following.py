@@ -23,7 +23,7 @@ from ..rotation import log3
 from .legs import Stand
 from .turning import body_rates
 
-__all__ = ["Goal", "follow", "free_columns", "nearer", "place", "tasks", "turned"]
+__all__ = ["Goal", "follow", "free_columns", "nearer", "place", "solve", "tasks", "turned"]
 
 REFERENCE: Reference = "local_world_aligned"
 
@@ -73,13 +73,13 @@ def follow(stand: Stand, goal: Goal) -> tuple[Array, Array, Array]:
         return out
 
     v, a = given(rates[0], goal.joints[1]), given(rates[1], goal.joints[2])
-    v[..., free] = np.linalg.solve(J[..., free], (_targets(stand, goal, 1) - np.matvec(J, v))[..., None])[..., 0]
+    v[..., free] = solve(stand, J[..., free], _targets(stand, goal, 1) - np.matvec(J, v))
     bias = [
         centroidal_momentum_rate(model, q, v, np.zeros_like(v))[..., 3:] / model.mass,
         *(frame_bias_acceleration(model, q, v, leg.frame, REFERENCE)[..., leg.rows] for leg in stand.legs),
     ]
     missing = _targets(stand, goal, 2) - np.concatenate(bias, axis=-1) - np.matvec(J, a)
-    a[..., free] = np.linalg.solve(J[..., free], missing[..., None])[..., 0]
+    a[..., free] = solve(stand, J[..., free], missing)
     return q, v, a
 
 
@@ -119,9 +119,23 @@ def nearer(stand: Stand, goal: Goal, q: Array) -> tuple[Array, Array]:
     error = _missing(stand, q, goal)
     move = np.zeros((*error.shape[:-1], stand.model.nv), error.dtype)
     free = free_columns(stand)
-    move[..., free] = np.linalg.solve(tasks(stand, q)[..., free], error[..., None])[..., 0]
+    move[..., free] = solve(stand, tasks(stand, q)[..., free], error)
     far = np.abs(move.real).max(axis=-1, keepdims=True) / LONGEST_STEP
     return stand.model.integrate(q, move / np.maximum(far, 1)), np.abs(error.real).max(axis=-1)
+
+
+def solve(stand: Stand, J: Array, wanted: Array) -> Array:
+    """Return the x with J x = wanted, shape (..., n).
+
+    Raises
+    ------
+    SingularError
+        If there is none, as with a straight leg.
+    """
+    try:
+        return np.asarray(np.linalg.solve(J, wanted[..., None])[..., 0])
+    except np.linalg.LinAlgError:
+        raise SingularError(f"{stand.model.name!r}: a leg is straight, or otherwise cannot do what it should") from None
 
 
 def free_columns(stand: Stand) -> list[int]:

@@ -18,7 +18,7 @@ from ..checks import Array
 from ..errors import SingularError
 from ..fast import centroidal_map
 from .curves import Pieces, between, hop, stair
-from .following import Goal, free_columns, nearer, place, tasks, turned
+from .following import Goal, free_columns, nearer, place, solve, tasks, turned
 from .legs import Stand
 from .turning import turning_jacobian
 
@@ -163,7 +163,7 @@ class Leap:
             for leg, step in zip(self.stand.legs, np.moveaxis(goal.steps[1], -2, 0))
         ]
         wanted = np.concatenate([self.momentum(t)[0], goal.com[1], *feet], axis=-1)
-        return np.asarray(np.linalg.solve(J, wanted[..., None])[..., :3, 0])
+        return solve(self.stand, J, wanted)[..., :3]
 
 
 def _integral(spans: list[tuple[float, float]], t: Array, rate: Array) -> Pieces:

@@ -181,9 +181,11 @@ def _table(robot: str, model: tw.Model, motions: Sequence[Motion], found: Sequen
 def _needs(model: tw.Model, motion: Motion) -> str:
     """Say what the ground must do for a motion."""
     needed = tw.motions.ground(model, motion)
+    broken = tw.motions.limits_broken(model, motion)
+    limits = f"        beyond the limits of {len(broken)} joints: {', '.join(broken)}\n" if broken else ""
     worst = 1e3 * float(needed.margin.min())
     return (
         f"        the ground: loaded for {100 * needed.loaded.mean():.0f} % of the time, friction of at least "
         f"{needed.friction.max():.2f}, centre of pressure at worst {abs(worst):.0f} mm "
-        f"{'inside' if worst > 0 else 'outside'} the polygon of the feet's frames\n"
+        f"{'inside' if worst > 0 else 'outside'} the polygon of the feet's frames\n{limits}"
     )

@@ -1,0 +1,43 @@
+"""Whether a motion keeps the limits of the joints."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model import Model
+from .motion import Motion
+
+__all__ = ["limits_broken"]
+
+
+def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]]:
+    """Return the joints that a motion takes beyond their limits; empty where it keeps them all.
+
+    A motion is made for the shape of a robot, without a look at its limits.
+
+    Parameters
+    ----------
+    model : Model
+    motion : Motion
+
+    Returns
+    -------
+    dict of str to (float, float)
+        By the joint's name: how far q goes beyond its limits (rad or m; 0 where it does not), and the largest speed as
+        a share of the velocity limit. A velocity limit of 0 is none.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> limits_broken(model, tw.motions.trot(model))
+    {}
+    """
+    beyond = np.maximum(np.maximum(model.lower - motion.q, motion.q - model.upper), 0).max(axis=0)
+    limit = np.where(model.velocity_limit > 0, model.velocity_limit, np.inf)
+    share = (np.abs(motion.v) / limit).max(axis=0)
+    found = {}
+    for name, joint, qs, vs in zip(model.joint_names, model.joints, model.q_slice, model.v_slice):
+        if joint and (beyond[qs].any() or share[vs].max() > 1):
+            found[name] = (float(beyond[qs].max()), float(share[vs].max()))
+    return found
