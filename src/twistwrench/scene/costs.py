@@ -19,10 +19,10 @@ from ..model import Model
 from ..motions import Motion
 from ..reduction import lock_joints
 from ..templates import TEMPLATES, Residual
-from ..templates.momentum import Full
 from ..templates.reading import locked_inertia
 from ..templates.rigid_body import RigidBody
 from ..templates.template import Template, full_rate
+from ..templates.whole import Full
 
 __all__ = ["Costs", "Option", "costs", "limbs"]
 

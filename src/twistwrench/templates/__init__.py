@@ -31,11 +31,13 @@ centroidal   3.1e-16
 full         0.0e+00
 """
 
-from .momentum import Centroidal, Full
+from .frozen_body import FrozenRigidBody
+from .momentum import Centroidal
 from .pendulum import LinearPendulum
 from .point_mass import PointMass
-from .rigid_body import FrozenRigidBody, RigidBody
+from .rigid_body import RigidBody
 from .template import Residual, Template
+from .whole import Full
 
 __all__ = [
     "TEMPLATES",

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 from ..centroidal import centroidal_momentum_rate
 from ..checks import Array
-from .template import Template, full_rate
+from .template import Template
 
-__all__ = ["Centroidal", "Full"]
+__all__ = ["Centroidal"]
 
 
 class Centroidal(Template):
@@ -34,29 +34,3 @@ class Centroidal(Template):
     def law(self, *known: Array) -> Array:
         """Return A_G a + Ȧ_G v."""
         return centroidal_momentum_rate(self.model, *known)
-
-
-class Full(Template):
-    """The full model: RNEA, whose base rows are ḣ_G less the weight, and whose other rows are the torques.
-
-    What the other templates are compared with.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import twistwrench as tw
-    >>> model, rest = tw.load("go2"), np.zeros(18)
-    >>> bool(np.abs(Full.of(model, model.standing()).rate(model.standing(), rest, rest)).max() < 1e-12)
-    True
-    """
-
-    name: ClassVar[str] = "full"
-    assumes: ClassVar[str] = "Nothing."
-
-    def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
-        """Return the whole state."""
-        return q, v, a
-
-    def law(self, *known: Array) -> Array:
-        """Return the base's rows of RNEA at the centre of mass, and the weight."""
-        return full_rate(self.model, *known)
