@@ -9,6 +9,7 @@ a network. The first build runs the notebooks; later ones run only those of whic
 
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -25,7 +26,9 @@ MATHJAX = "tex-svg-full.js"
 
 def stage() -> None:
     """Write what Sphinx reads: a tree of pages for each language, with the same names in both."""
-    trees = {language: OUT / "pages" / language for language in pages.LANGUAGES}
+    new = OUT / "new"
+    shutil.rmtree(new, ignore_errors=True)
+    trees = {language: new / language for language in pages.LANGUAGES}
     notebooks.write_notebooks(trees, OUT / "cache")
     listings = {"chapter": notebooks.names(), "studies": pages.studies(), "algorithms": beside.names()}
     listings["project"] = [name for name in ("readme", *pages.PROJECT) if name in pages.pages().values()]
@@ -37,6 +40,11 @@ def stage() -> None:
     mathjax = next(f for f in files("sphinx-mathjax-offline") or [] if f.name == MATHJAX)
     target = OUT / "static" / "mathjax" / MATHJAX
     pages.write(target, mathjax.read_text(encoding="utf-8"))
+    gone = pages.replace(OUT / "pages", new)
+    shutil.rmtree(new)
+    if gone:  # a page is gone, and what was built from it goes too
+        shutil.rmtree(OUT / "html", ignore_errors=True)
+        shutil.rmtree(OUT / "doctrees", ignore_errors=True)
 
 
 def sphinx(language: str) -> subprocess.Popen[bytes]:

@@ -114,6 +114,25 @@ def test_a_page_without_a_chinese_file_says_so(tmp_path, monkeypatch):
     assert "本页只有英文" in (tmp_path / "models.md").read_text(encoding="utf-8")
 
 
+def test_only_what_differs_is_touched_and_what_is_gone_goes(tmp_path):
+    old, new = tmp_path / "old", tmp_path / "new"
+    for tree, files in (
+        (old, {"same": "1", "other": "1", "gone": "1"}),
+        (new, {"same": "1", "other": "2", "a/b": "3"}),
+    ):
+        for name, text in files.items():
+            pages.write(tree / name, text)
+    before = (old / "same").stat()
+    assert pages.replace(old, new)
+    assert {p.relative_to(old).as_posix(): p.read_text() for p in old.rglob("*") if p.is_file()} == {
+        "same": "1",
+        "other": "2",
+        "a/b": "3",
+    }
+    assert (old / "same").stat().st_ino == before.st_ino
+    assert not pages.replace(old, old)
+
+
 def test_chinese_is_found_by_pairs_of_characters():
     pytest.importorskip("sphinx", reason="Sphinx is not installed: the site's search is not checked")
     from website.chinese import PairsOfCharacters

@@ -145,7 +145,19 @@ def contents(names: list[str], hidden: bool = False) -> str:
 
 
 def write(path: Path, text: str) -> None:
-    """Write a file where it has changed, so that only what changed is built again."""
+    """Write a file, and the folders above it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
-        path.write_text(text, encoding="utf-8", newline="\n")
+    path.write_text(text, encoding="utf-8", newline="\n")
+
+
+def replace(old: Path, new: Path) -> bool:
+    """Put the files of a tree in the place of another, touching only what differs; return whether any went."""
+    there = {path.relative_to(old) for path in old.rglob("*") if path.is_file()}
+    coming = {path.relative_to(new) for path in new.rglob("*") if path.is_file()}
+    for name in coming:
+        if name not in there or (old / name).read_bytes() != (new / name).read_bytes():
+            (old / name).parent.mkdir(parents=True, exist_ok=True)
+            (new / name).replace(old / name)
+    for name in there - coming:
+        (old / name).unlink()
+    return bool(there - coming)
