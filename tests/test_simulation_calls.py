@@ -153,6 +153,7 @@ def test_progress_is_shown_where_asked_for(capsys):
 
 def test_the_summary_says_what_was_done_and_what_changed():
     text = str(run())
+    assert text == repr(run())
     assert "double_pendulum by Runge-Kutta: 3 steps to 0.03 s, 12 evaluations" in text
     assert "energy changes by at most" in text
     assert "momentum" not in text  # the world holds its base

@@ -26,7 +26,7 @@ LABELS = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Simulation:
     """A motion, as `simulate` returns it. The n states are those at the start and after each step.
 
@@ -85,7 +85,7 @@ class Simulation:
         states = [self.system.held(float(t), q, v) for t, q, v in zip(self.t, self.q, self.v)]
         return {frame: np.stack([s.forces[frame] for s in states]) for frame in states[0].forces}
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         batch = "" if self.q.ndim == 2 else f", a batch of {self.q.shape[1:-1]}"
         made = f"{len(self.t) - 1} steps to {self.t[-1]:.6g} s{batch}"
         lines = [f"{self.model.name} by {METHODS[self.method].title}: {made}, {self.evaluations} evaluations"]
