@@ -140,8 +140,9 @@ class Steps:
         """Return the jet of the arms, each against the leg of its side, shape (3, n, nv)."""
         out = np.zeros((3, len(t), self.stand.model.nv), t.dtype)
         for column, sign, left in self.arms:
-            leg = self.phase[int(not left)]
-            late = leg + self.gait.duty / 2 - 0.25  # cos(· + π/2) = −sin: back when the leg is ahead
+            late = (
+                self.gait.phases[int(not left)] + self.gait.duty / 2 - 0.25
+            )  # cos(· + π/2) = −sin: back when the leg is ahead
             out[..., column] = sign * self.gait.swing * self._cosine(t - late * self.period, 1)
         return out
 
