@@ -142,7 +142,7 @@ class Steps:
         for column, sign, left in self.arms:
             late = (
                 self.gait.phases[int(not left)] + self.gait.duty / 2 - 0.25
-            )  # cos(· + π/2) = −sin: back when the leg is ahead
+            )  # cos(· + π/2) = −sin: back when it is ahead
             out[..., column] = sign * self.gait.swing * self._cosine(t - late * self.period, 1)
         return out
 

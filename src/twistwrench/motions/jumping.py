@@ -116,7 +116,7 @@ class Leap:
         return Goal(self.com(t), turn, steps, np.zeros((3, len(t), self.stand.model.nv), t.dtype))
 
     def _momentum(self, spans: list[tuple[float, float]]) -> Pieces:
-        """Return k_G: about y constant in flight, and in all as much nose up as nose down, so that it ends nearly level."""
+        """Return k_G: about y, constant in flight; as much nose up as nose down, so that it ends nearly level."""
         I_y = centroidal_map(self.stand.model, self.stand.q)[1, 1]
         k = float(I_y) * self.jump.pitch / self.flight
         zero, held = between([0.0], [0.0], spans[0]), k * self.flight
