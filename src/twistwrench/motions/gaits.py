@@ -140,9 +140,7 @@ class Steps:
         """Return the jet of the arms, each against the leg of its side, shape (3, n, nv)."""
         out = np.zeros((3, len(t), self.stand.model.nv), t.dtype)
         for column, sign, left in self.arms:
-            late = (
-                self.gait.phases[int(not left)] + self.gait.duty / 2 - 0.25
-            )  # cos(· + π/2) = −sin: back when it is ahead
+            late = self.gait.phases[int(not left)] + self.gait.duty / 2 - 0.25  # cos(· + π/2): back when it is ahead
             out[..., column] = sign * self.gait.swing * self._cosine(t - late * self.period, 1)
         return out
 
