@@ -1,9 +1,11 @@
 """What `tw.view` shows: the right places, the right forces, and a page that needs nothing from outside."""
 
+import contextlib
 import re
 import shutil
 import subprocess
 import sys
+import time
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,6 +15,7 @@ import twistwrench as tw
 from twistwrench import motions, plot
 from twistwrench.cli import main
 from twistwrench.rotation import quaternion_to_rotation
+from twistwrench.viewing.controls import add_joints, add_time
 from twistwrench.viewing.shapes import shapes
 from twistwrench.viewing.stage import build
 from twistwrench.viewing.subject import subject
@@ -309,6 +312,78 @@ def test_a_real_browser_draws_the_page(tmp_path, browser):
     pixels = np.asarray(image.open(shot).convert("RGB")).reshape(-1, 3).astype(int)
     sky = (pixels[:, 2] - pixels[:, 0] > 20).mean()  # the support polygon and the z axes
     assert 0.005 < sky < 0.5
+
+
+# ---------------------------------------------------------------- sliders
+
+
+class Controls:
+    """Takes down what is added; `set` does what a hand in the browser does."""
+
+    def __init__(self):
+        self.handles = {}
+
+    def add_folder(self, label, expand_by_default):
+        return contextlib.nullcontext()
+
+    def add_slider(self, label, low, high, step, value):
+        assert low <= value <= high
+        assert 0 < step < high - low
+        return self._add(label, value=value, range=(low, high))
+
+    def add_checkbox(self, label, initial_value):
+        return self._add(label, value=initial_value)
+
+    def _add(self, label, **look):
+        handle = self.handles[label] = SimpleNamespace(**look)
+        handle.on_update = lambda callback: setattr(handle, "callback", callback)
+        return handle
+
+    def set(self, label, value):
+        handle = self.handles[label]
+        handle.value = value
+        handle.callback(SimpleNamespace(target=handle))
+
+
+def test_sliders_move_the_joints_that_have_an_angle_within_their_limits():
+    gui, shown = Controls(), []
+    add_joints(gui, subject("go2"), shown.append)
+    assert list(gui.handles) == list(GO2.joint_names[2:])  # not the free-flyer
+    low, high = gui.handles["FL_calf_joint"].range
+    at = GO2.q_slice[GO2.joint_id("FL_calf_joint")].start
+    assert (low, high) == (GO2.lower[at], GO2.upper[at])
+    gui.set("FL_calf_joint", -1.0)
+    gui.set("RR_hip_joint", 0.25)
+    (moved,) = np.nonzero(shown[-1] != GO2.standing())
+    assert moved.tolist() == [at, GO2.q_slice[GO2.joint_id("RR_hip_joint")].start]
+    assert shown[-1][moved].tolist() == [-1.0, 0.25]
+    assert shown[0][at] == -1.0
+    assert len({id(q) for q in shown}) == 2
+
+
+def test_a_joint_without_limits_has_a_turn_and_one_outside_them_still_a_slider():
+    gui = Controls()
+    add_joints(gui, subject(tw.chain(1), [5.0]), lambda q: None)
+    (slider,) = gui.handles.values()
+    assert slider.range == (-np.pi, 5.0)
+
+
+def test_the_slider_of_time_shows_what_was_then_and_plays_from_the_start_again():
+    gui, shown, t = Controls(), [], np.array([0.0, 0.1, 0.4])
+    runs = add_time(gui, t, shown.append)
+    for now in (0.0, 0.05, 0.1, 0.39, 0.4):
+        gui.set("time [s]", now)
+    assert shown == [0, 0, 1, 1, 2]
+    gui.set("play", True)
+    slider, places = gui.handles["time [s]"], set()
+    end = time.monotonic() + 20
+    while len(places) < 4 and time.monotonic() < end:
+        places.add(slider.value)
+        time.sleep(0.01)
+    runs.value = False
+    assert len(places) >= 4
+    assert min(places) < 0.4
+    assert max(places) <= 0.4
 
 
 # ---------------------------------------------------------------- what cannot be shown

@@ -45,8 +45,7 @@ class Browser:
         gui.configure_theme(show_logo=False, show_share_button=False)
         if seen.t is None:
             add_joints(gui, seen, self.update)
-        elif len(seen.t) > 1:
-            add_time(gui, seen.t, lambda k: self._move(seen.at(k)))
+        self._plays = None if seen.t is None or len(seen.t) < 2 else add_time(gui, seen.t, self._show)
 
     def update(self, q: ArrayLike) -> None:
         """Show another configuration, shape (nq,).
@@ -63,7 +62,7 @@ class Browser:
         recorder = self._server.get_scene_serializer()
         if (t := self._seen.t) is not None:
             for k, wait in enumerate(np.diff(t, append=t[-1])):
-                self._move(self._seen.at(k))
+                self._show(k)
                 recorder.insert_sleep(float(wait))
         return str(recorder.as_html())
 
@@ -73,6 +72,8 @@ class Browser:
 
     def stop(self) -> None:
         """Serve the page no longer."""
+        if self._plays is not None:
+            self._plays.value = False
         with redirect_stdout(StringIO()):
             self._server.stop()
 
@@ -81,6 +82,9 @@ class Browser:
 
     def _repr_html_(self) -> str:
         return f'<iframe srcdoc="{escape(self.html())}" style="width:100%;height:480px;border:0"></iframe>'
+
+    def _show(self, k: int) -> None:
+        self._move(self._seen.at(k))
 
     def _aim(self, seen: Subject) -> None:
         """Look at the robot from the front right, as the figure does."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -50,7 +51,7 @@ def add_joints(gui: Any, seen: Subject, show: Callable[[Array], None]) -> None:
                 gui.add_slider(name, low, high, (high - low) / 1000, now).on_update(follow(s))
 
 
-def add_time(gui: Any, t: Array, show: Callable[[int], None]) -> None:
+def add_time(gui: Any, t: Array, show: Callable[[int], None]) -> Any:
     """Add a slider for the time, and a box that lets it run.
 
     Parameters
@@ -60,6 +61,11 @@ def add_time(gui: Any, t: Array, show: Callable[[int], None]) -> None:
         Times of the configurations, s.
     show : callable
         Shows configuration k.
+
+    Returns
+    -------
+    viser.GuiCheckboxHandle
+        The box: while its value is true, it plays.
     """
     first, last = float(t[0]), float(t[-1])
     slider = gui.add_slider("time [s]", first, last, (last - first) / 1000, first)
@@ -68,11 +74,16 @@ def add_time(gui: Any, t: Array, show: Callable[[int], None]) -> None:
     def moved(event: Any) -> None:
         show(int(np.searchsorted(t, event.target.value, side="right")) - 1)
 
-    def run(event: Any) -> None:
-        while event.target.value:
+    def play() -> None:
+        while runs.value:
             later = slider.value + 1 / PICTURES
             slider.value = later if later <= last else first
             time.sleep(1 / PICTURES)
 
+    def run(event: Any) -> None:
+        if event.target.value:
+            threading.Thread(target=play, daemon=True).start()  # ends with the process, at the latest
+
     slider.on_update(moved)
     runs.on_update(run)
+    return runs
