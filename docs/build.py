@@ -18,7 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import beside, browser, interface, links, notebooks, pages
+from website import beside, browser, chapter, interface, links, notebooks, pages
 
 OUT = pages.ROOT / "build" / "site"
 MATHJAX = "tex-svg-full.js"
@@ -30,11 +30,12 @@ def stage() -> None:
     shutil.rmtree(new, ignore_errors=True)
     trees = {language: new / language for language in pages.LANGUAGES}
     notebooks.write_notebooks(trees, OUT / "cache")
-    listings = {"chapter": notebooks.names(), "studies": pages.studies(), "algorithms": beside.names()}
+    listings = {"studies": pages.studies(), "algorithms": beside.names()}
     listings["project"] = [name for name in ("readme", *pages.PROJECT) if name in pages.pages().values()]
     for language, tree in trees.items():
         pages.write_pages(tree, language)
         pages.write_texts(tree, language, listings)
+        chapter.write_chapter(tree, language)
         interface.write_interface(tree, language)
         beside.write_algorithms(tree, language)
     mathjax = next(f for f in files("sphinx-mathjax-offline") or [] if f.name == MATHJAX)

@@ -79,9 +79,7 @@ def test_both_languages_have_a_page_with_the_same_links(name):
 
 
 def test_links_between_files_become_links_between_pages(tmp_path):
-    text = (
-        "[简体中文](README.zh-CN.md)\n\n[a](docs/map.md#x) [b](notebooks/en/00_first.ipynb) [c](https://d.org/e.md)\n"
-    )
+    text = "[简体中文](README.zh-CN.md) · [README](README.md)\n\n[a](docs/map.md#x) [b](notebooks/en/00_first.ipynb) [c](https://d.org/e.md)\n"
     text += "```sh\n[f](docs/map.md)\n```\n[g](LICENSE) [h](docs/no.md)\n"
     moved = pages.moved(text, "README.md", "readme", tmp_path)
     assert moved == (

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import steps
-from .pages import LINE_END, ROOT, write
+from .pages import ROOT, joined, write
 
 FOLDER = Path(__file__).resolve().parent / "algorithms"
 SOURCE = ROOT / "src" / "twistwrench"
@@ -76,7 +76,7 @@ def page(name: str, language: str) -> str:
     out = [
         "---\nhtml_theme.sidebar_secondary.remove: true\n---",
         f"# {said['title'][language]}",
-        LINE_END.sub(r"\1", said["intro"][language].strip()) if language == "zh" else said["intro"][language].strip(),
+        joined(said["intro"][language].strip(), language),
         f"{WORDS[language][2]} {call}.",
     ]
     for part in said["part"]:

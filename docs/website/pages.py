@@ -30,7 +30,7 @@ ONE_BY_ONE = {
 
 FENCE = re.compile(r"^(`{3,}|~{3,}).*?^\1`*$\n?", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"(\]\(|<img src=\"|<source srcset=\")(?![a-z]+:|#)([^)\s\"#]+)(#[^)\s\"]*)?")
-TO_THE_TWIN = re.compile(r"^\[(简体中文|English|中文)\]\([^)]+\)\n+", re.MULTILINE)
+TO_THE_TWIN = re.compile(r"^(?:\[(?:简体中文|English|中文|README)\]\([^)]+\)(?: · )?)+\n+", re.MULTILINE)
 LINE_END = re.compile(r"^(?!#)(.*[\u4e00-\u9fff，。；：、！？）》”])\n(?=[\u4e00-\u9fff（《“`])", re.MULTILINE)
 """Where a line of Chinese ends and no blank may show."""
 NO_TWIN = "\n\n:::{note}\n本页只有英文。\n:::\n"
@@ -80,7 +80,7 @@ def moved(text: str, path: str, name: str, out: Path) -> str:
     if not any(re.search(r"^## ", part, re.MULTILINE) for fenced, part in pieces if not fenced):
         pieces = [(f, part if f else re.sub(r"^### ", "## ", part, flags=re.MULTILINE)) for f, part in pieces]
     if path.endswith(f"{SUFFIX['zh']}.md"):
-        pieces = [(f, part if f else LINE_END.sub(r"\1", part)) for f, part in pieces]
+        pieces = [(f, part if f else joined(part, "zh")) for f, part in pieces]
     return "".join(part for _, part in pieces)
 
 
@@ -106,6 +106,11 @@ def _carried(path: str, out: Path) -> str:
     (out / target).parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(source, out / target)
     return target
+
+
+def joined(text: str, language: str) -> str:
+    """Return a text whose lines of Chinese follow each other without a blank."""
+    return LINE_END.sub(r"\1", text) if language == "zh" else text
 
 
 def cut(text: str) -> Iterator[tuple[bool, str]]:
@@ -134,7 +139,7 @@ def write_texts(out: Path, language: str, listings: dict[str, list[str]]) -> Non
             continue
         name = path.stem.removesuffix(SUFFIX["zh"]).replace("__", "/")
         text = path.read_text(encoding="utf-8").replace("<!-- fifteen lines -->", lines[0])
-        text = "".join(part if f or language == "en" else LINE_END.sub(r"\1", part) for f, part in cut(text))
+        text = "".join(part if f else joined(part, language) for f, part in cut(text))
         text = re.sub(r"<!-- (hidden )?pages: (\w+) -->", lambda m: contents(listings[m[2]], bool(m[1])), text)
         write(out / f"{name}.md", text)
 
