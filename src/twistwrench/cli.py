@@ -1,4 +1,4 @@
-"""The command line: ``twistwrench validate``, ``robots``, ``study``, ``exercises``.
+"""The command line: ``twistwrench validate``, ``robots``, ``view``, ``study``, ``exercises``.
 
 A command is a function that adds its parser; it names in ``set_defaults(run=...)`` what does the work
 and returns the exit status. What a command needs it imports there, so that ``--help`` is quick.

@@ -18,7 +18,7 @@ from .shapes import Shape
 from .stage import build
 from .subject import Subject
 
-__all__ = ["Browser"]
+__all__ = ["Browser", "import_viser"]
 
 
 class Browser:
@@ -34,7 +34,7 @@ class Browser:
     """
 
     def __init__(self, seen: Subject, shapes: list[Shape], frames: Collection[str] | None) -> None:
-        viser = _viser()
+        viser = import_viser()
         self._seen = seen
         with redirect_stdout(StringIO()):  # viser greets
             self._server = viser.ViserServer(host="127.0.0.1", label=seen.model.name, verbose=False)
@@ -94,7 +94,7 @@ class Browser:
         camera.fov = np.pi / 4
 
 
-def _viser() -> Any:
+def import_viser() -> Any:
     """Import viser, or say how it is had."""
     try:
         import viser

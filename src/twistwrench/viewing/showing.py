@@ -109,8 +109,9 @@ def view(
 def _in_browser(
     robot: Any, seen: Subject, frames: Collection[str] | None, meshes: str | PathLike[str] | bool
 ) -> Browser:
-    from .browser import Browser
+    from .browser import Browser, import_viser
     from .shapes import shapes
 
+    import_viser()  # what is missing is said before any mesh is looked for
     asked_for = robot if isinstance(robot, str | PathLike) else seen.model.name
     return Browser(seen, shapes(seen.model, asked_for if meshes is True else meshes or None), frames)
