@@ -319,6 +319,12 @@ def test_equilibrium_that_does_not_exist_is_refused():
         tw.static_equilibrium(GO2, STAND, [])
 
 
+@pytest.mark.parametrize("q", [np.stack([STAND] * 2), STAND + 0j], ids=["batch", "complex"])
+def test_equilibrium_is_asked_of_one_real_configuration(q):
+    with pytest.raises(tw.ShapeError, match=rf"^q: expected one real configuration, shape \(19,\), got {q.dtype} of"):
+        tw.static_equilibrium(GO2, q)
+
+
 def test_model_without_joints_has_nothing_to_say():
     model = tw.Builder("rock").build()
     empty = np.zeros(0)
