@@ -116,13 +116,13 @@ def free_flight(model, T, R0, w0, R, w, speed) -> Exact:
 @pytest.mark.parametrize("exact", [pendulum, symmetric_top, asymmetric_top], ids=lambda f: f.__name__)
 def test_the_order_is_the_one_of_theory(exact, method):
     exact, order = exact(), ORDERS[method]
-    steps = {1: (80, 160), 2: (25, 50), 4: (12, 24)}[order]
+    steps = {1: (40, 80), 2: (20, 40), 4: (12, 24)}[order]
     errors = [
         exact.error(tw.simulate(exact.model, exact.q, exact.v, dt=exact.T / n, steps=n, method=method)) for n in steps
     ]
     assert abs(np.log2(errors[0] / errors[1]) - order) < 0.1, errors
     assert METHODS[method].order == order
-    assert errors[1] < {1: 0.01, 2: 5e-4, 4: 5e-7}[order]
+    assert errors[1] < {1: 0.02, 2: 1e-3, 4: 5e-7}[order]
 
 
 def test_a_body_that_slides_under_a_constant_force_is_where_galilei_says():
@@ -172,6 +172,7 @@ def test_the_energy_of_the_variational_method_swings_and_does_not_drift():
     assert error["rk4"][-75:].max() > 5 * error["rk4"][:75].max()
 
 
+@pytest.mark.slow
 def test_the_energy_of_a_tumbling_body_is_held_over_long_times():
     model, v = body(1.0, 2.0, 3.0), np.array([0.1, 2.0, 0.1, 0.0, 0.0, 0.0])  # about the unstable axis
     energy = tw.simulate(model, model.neutral(), v, dt=0.3, steps=150, method="variational").energy
