@@ -51,6 +51,14 @@ def test_every_number_type_is_right_on_larger_trees(dtype, recipe):
     check_against_the_truth(recipe, dtype)
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.longdouble, np.complex64, np.complex128, np.clongdouble])
+@pytest.mark.parametrize("recipe", TREES, ids=str)
+def test_no_quantity_leaves_the_number_type_on_its_way(recipe, dtype):
+    one, batch = (textbook(recipe.model, recipe.state(b, dtype), recipe.frame()) for b in ((), (2,)))
+    others = {name: x.dtype for x_of in (one, batch) for name, x in x_of.items() if x.dtype != dtype}
+    assert others == {}
+
+
 @needs_long_double
 def test_long_double_gains_what_double_has_not():
     # The check above would pass a recursion that goes through double somewhere, were its bound not this fine.
