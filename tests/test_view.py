@@ -227,6 +227,22 @@ def test_a_mesh_is_found_beside_the_urdf_and_in_packages_around_it(name, tmp_pat
     assert ball.mesh.visual.face_colors[0].tolist() == [255, 0, 0, 255]
 
 
+def test_meshes_keep_the_colours_of_their_materials_with_a_picture_or_without(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    image = pytest.importorskip("PIL.Image")
+    image.new("RGB", (4, 4), (0, 128, 255)).save(tmp_path / "blue.png")
+    corners, faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n", "usemtl m\nf 1/1 2/2 3/3\n"
+    for name, material in {"plain": "Kd 1 0 0", "picture": "map_Kd blue.png"}.items():
+        (tmp_path / f"{name}.obj").write_text(f"mtllib {name}.mtl\n{corners}{faces}", encoding="utf-8")
+        (tmp_path / f"{name}.mtl").write_text(f"newmtl m\n{material}\n", encoding="utf-8")
+        path = tmp_path / f"{name}.urdf"
+        path.write_text(URDF.format(f"{name}.obj"), encoding="utf-8")
+        mesh = shapes(tw.load(path), path)[1].mesh
+        assert isinstance(mesh.visual, trimesh.visual.ColorVisuals)
+        expected = [255, 0, 0, 255] if name == "plain" else [0, 128, 255, 255]
+        assert mesh.visual.vertex_colors.tolist() == 3 * [expected]
+
+
 @pytest.mark.parametrize("name", ["gone.stl", "http://example.org/ball.stl"])
 def test_a_mesh_that_is_not_here_is_said_and_not_fetched(name, tmp_path):
     path = tmp_path / "robot.urdf"

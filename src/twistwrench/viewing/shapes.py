@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
@@ -65,11 +67,11 @@ def shapes(model: Model, source: str | PathLike[str] | None) -> list[Shape]:
     frames = {link.name: f"link:{link.name}" if f"link:{link.name}" in model.frames else link.name for link in looks}
     if not set(frames.values()) <= set(model.frames):
         return []  # other links than the model's
-    found, missing = [], []
+    found, missing, read = [], [], cache(_read)  # four legs have one file
     for link in looks:
         frame = model.frames[frames[link.name]]
         for visual in link.visuals:
-            mesh = _mesh(visual.geometry, path)
+            mesh = _mesh(visual.geometry, path, read)
             if mesh is None:
                 missing.append(link.name)
                 continue
@@ -109,7 +111,7 @@ def _links(path: Path) -> list[Any]:
     return list(yourdfpy.URDF.load(text, build_scene_graph=False, load_meshes=False).robot.links)
 
 
-def _mesh(geometry: Any, urdf: Path) -> Any:
+def _mesh(geometry: Any, urdf: Path, read: Callable[[Path], Any]) -> Any:
     """Return a geometry as one mesh; None where its file is missing."""
     import trimesh
 
@@ -122,16 +124,25 @@ def _mesh(geometry: Any, urdf: Path) -> Any:
     file = _file(geometry.mesh.filename, urdf)
     if file is None:
         return None
-    scene = trimesh.load_scene(file)
-    for part in scene.geometry.values():
-        if part.visual.kind == "texture":  # colours at the corners in place of a picture, which may weigh 20 MB
-            colours = np.asarray(part.visual.material.to_color(part.visual.uv))
-            colours = np.broadcast_to(colours, (len(part.vertices), 4))
-            part.visual = trimesh.visual.ColorVisuals(part, vertex_colors=colours)
-    mesh: Any = scene.to_mesh()
+    mesh = read(file).copy()
     if geometry.mesh.scale is not None:
         mesh.apply_scale(geometry.mesh.scale)
     return mesh
+
+
+def _read(file: Path) -> Any:
+    """Read a file as one mesh, with colours at its corners in place of a picture, which may weigh 20 MB."""
+    import trimesh
+
+    scene = trimesh.load_scene(file)
+    for part in scene.geometry.values():
+        if part.visual.kind == "texture":
+            paint, uv = part.visual.material, part.visual.uv
+            found = None if uv is None else paint.to_color(uv)  # None without a picture
+            colours = np.asarray(paint.main_color if found is None else found)
+            colours = np.broadcast_to(colours, (len(part.vertices), 4))
+            part.visual = trimesh.visual.ColorVisuals(part, vertex_colors=colours)
+    return scene.to_mesh()
 
 
 def _file(name: str, urdf: Path) -> Path | None:
