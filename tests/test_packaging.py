@@ -158,6 +158,33 @@ def test_importing_costs_at_most_one_and_a_half_times_numpy():
     assert min(ours) <= 1.5 * min(numpy)
 
 
+BARE = """
+import sys
+
+class Refuse:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in {optional}:
+            raise ModuleNotFoundError(name)
+
+sys.meta_path.insert(0, Refuse())
+import numpy as np, twistwrench as tw
+for robot in tw.robots():
+    if robot.source == "models":
+        model = tw.load(robot.name)
+        rest = np.zeros(model.nv)
+        q = model.neutral()
+        error = tw.aba(model, q, rest, tw.rnea(model, q, rest, rest + 1)) - 1
+        print(robot.name, np.abs(error).max() < 1e-9, tw.fast.crba(model, q).shape)
+"""
+
+
+def test_numpy_lxml_and_tqdm_are_enough_to_compute_with_the_robots_that_come_along():
+    optional = {*HEAVY, "viser", "daqp", "dask", "jax", "PIL"} - {"lxml", "tqdm"}
+    lines = python(BARE.replace("{optional}", repr(optional))).splitlines()
+    assert len(lines) == len(MODELS)
+    assert all(line.split()[1] == "True" for line in lines)
+
+
 # ---------------------------------------------------------------- what comes with it
 
 

@@ -81,8 +81,12 @@ def by_section() -> dict[str, list[str]]:
             owners.setdefault(value.__module__.split(".")[1], []).append(name)
     for package in dict.fromkeys([*PACKAGES, *(n for n in tw.__all__ if isinstance(getattr(tw, n), ModuleType))]):
         owners[package] = [f"{package}.{name}" for name in getattr(_module(package), "__all__", [])]
-    order = [*at, *FIRST, *sorted(owners)]
+    order = [*sorted(at, key=lambda section: _number(at[section])), *FIRST, *sorted(owners)]
     return {s: sorted(owners[s], key=_place) for s in sorted(owners, key=order.index) if owners[s]}
+
+
+def _number(section: str) -> int:
+    return int(section.partition(".")[2])
 
 
 def _place(name: str) -> tuple[str, int]:
@@ -117,7 +121,7 @@ def write_interface(out: Path, language: str) -> None:
     for section, names in owners.items():
         write(out / "api" / f"{section}.md", _page(section, names, at.get(section, "")))
     rows = [f"# {TITLE[language]}", INTRO[language]]
-    numbered = sorted({at[s] for s in owners if s in at}, key=lambda number: int(number.partition(".")[2]))
+    numbered = sorted({at[s] for s in owners if s in at}, key=_number)
     for number in [*numbered, ""]:
         mine = [section for section in owners if at.get(section, "") == number]
         rows.append(f"## {number or LATER[language]}")
@@ -148,7 +152,11 @@ def _entry(name: str) -> str:
     value = _value(name)
     if not inspect.isclass(value):
         return f".. autofunction:: twistwrench.{name}" if callable(value) else _constant(name)
-    options = [":members:"] + [":inherited-members:"] * (not issubclass(value, BaseException))
+    options = [":members:"]
+    if issubclass(value, tuple):  # the docstring describes the fields; what every tuple can do is not ours
+        options.append(f":exclude-members: {', '.join(value._fields)}")
+    elif not issubclass(value, BaseException):
+        options.append(":inherited-members:")
     return "\n   ".join([f".. autoclass:: twistwrench.{name}", *options])
 
 
