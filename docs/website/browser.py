@@ -1,9 +1,9 @@
 """Open pages of both languages in a headless Chromium, from the file system and without a network, wide and narrow.
 
 Asked of each: formulas set and figures shown, nothing on the console, nothing wider than a phone, the language switch
-reached with Tab and its focus seen. What axe-core can judge of WCAG 2.1 A and AA is asked of the English pages as they
-are wide and light, and of the Chinese ones as they are narrow and dark; in the long page of errata not of the code,
-whose colours are those of the other pages.
+reached with Tab and its focus seen. And of the search: the section that is looked for is found. What axe-core can judge
+of WCAG 2.1 A and AA is asked of the English pages as they are wide and light, and of the Chinese ones as they are narrow
+and dark; in the long page of errata not of the code, whose colours are those of the other pages.
 """
 
 from __future__ import annotations
@@ -15,11 +15,13 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from .pages import LANGUAGES
 
 PAGES = ("index", "chapter/49_06_rnea", "algorithms/rnea", "api/inverse_dynamics", "errata", "conventions")
 WIDE, NARROW = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
+SOUGHT = {"en": "mass matrix", "zh": "质量矩阵"}
 AXE = (("en", "light"), ("zh", "dark"))
 MOST_TABS = 40
 RULES = {"runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"]}}
@@ -78,6 +80,7 @@ def _language(html: Path, language: str) -> list[str]:
                     found += accessible(page, name)
                 wrong += [f"{language}/{name} at {size['width']} px, {scheme}: {what}" for what in found]
                 page.close()
+            wrong += [f"{language}/search at {size['width']} px: {what}" for what in search(context, html, language)]
             context.close()
         browser.close()
     return wrong
@@ -99,6 +102,23 @@ def looks(page: Any, file: Path) -> Iterator[str]:
     if (excess := page.evaluate(TOO_WIDE)) > 0:
         yield f"{excess} px wider than the window"
     yield from dict.fromkeys(f"on the console: {line}" for line in said)
+
+
+def search(context: Any, html: Path, language: str) -> Iterator[str]:
+    """Look something up, and yield what is wrong with what was found."""
+    from playwright.sync_api import TimeoutError as NothingFound
+
+    page = context.new_page()
+    page.goto(f"{(html / language / 'search.html').resolve().as_uri()}?q={quote(SOUGHT[language])}")
+    found = page.locator("#search-results li a")
+    try:
+        found.first.wait_for(timeout=10_000)
+    except NothingFound:
+        yield f"nothing found for {SOUGHT[language]}"
+    else:
+        if not any("crba" in (link.get_attribute("href") or "") for link in found.all()):
+            yield f"{SOUGHT[language]}: the section on it is not among what was found"
+    page.close()
 
 
 def reach(page: Any) -> Iterator[str]:
