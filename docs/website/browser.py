@@ -2,8 +2,8 @@
 
 Asked of each: formulas set and figures shown, nothing on the console, nothing wider than a phone, the language switch
 reached with Tab and its focus seen. And of the search: the section that is looked for is found. What axe-core can judge
-of WCAG 2.1 A and AA is asked of the English pages as they are wide and light, and of the Chinese ones as they are narrow
-and dark; in the long page of errata not of the code, whose colours are those of the other pages.
+of WCAG 2.1 A and AA is asked of the English pages, wide and light, and of the Chinese ones, narrow and dark; in
+the long page of errata not of the code, whose colours are those of the other pages.
 """
 
 from __future__ import annotations
