@@ -1,7 +1,9 @@
 """The extremes: closed forms, no silent bad cell, a study that goes on where it stopped."""
 
 import json
+import re
 from dataclasses import replace
+from functools import lru_cache
 
 import mpmath
 import numpy as np
@@ -17,6 +19,9 @@ from twistwrench.study.extremes.robots import Recipe
 from twistwrench.study.extremes.rotations import rotations
 from twistwrench.study.extremes.run import Cell, read
 from twistwrench.study.extremes.truth import accelerations, truth
+
+from .pages import DOCS, numbered, page
+from .pages import run as run_page
 
 EPS = 2.0**-52
 
@@ -62,9 +67,9 @@ def test_a_heavy_rotor_takes_a_torque_alone():
 # ---------------------------------------------------------------- the truth and the measure
 
 
-@pytest.mark.parametrize("recipe", [Recipe(mass_ratio=1e9, speed=1e8), Recipe(light=1e-9, parallel=1e-6, length=1e-9)])
-def test_fifty_digits_are_enough(recipe):
+def test_fifty_digits_are_enough():
     """Twice as many change no error by a thousandth."""
+    recipe = Recipe(mass_ratio=1e9, speed=1e8, light=1e-9, parallel=1e-6, length=1e-9)
     fifty, hundred = (measure(recipe, pinocchio=False, digits=digits) for digits in (50, 100))
     for one, other in zip(fifty, hundred, strict=True):
         assert (one.refused, one.bad) == (other.refused, other.bad)
@@ -91,11 +96,16 @@ def test_an_error_is_what_is_wrong_of_the_terms():
     assert 1e-7 < right.error("pushed", qdd * (1 + 1e-6)) <= 1.001e-6
 
 
+@lru_cache
+def usual_errors():
+    return {(o.algorithm, o.who): o.error for o in measure(Recipe(), pinocchio=False)}
+
+
 @pytest.mark.parametrize("unit", ["length", "mass", "time"])
 @pytest.mark.parametrize("scale", [2.0**-30, 2.0**30], ids=["1e-9", "1e9"])
 def test_the_same_robot_in_other_units_loses_nothing(unit, scale):
     """Not a bit: by powers of two, of which 2**30 is about 1e9, rounding is the same."""
-    usual = {(o.algorithm, o.who): o.error for o in measure(Recipe(), pinocchio=False)}
+    usual = usual_errors()
     for o in measure(Recipe(**{unit: scale}), pinocchio=False):
         assert not o.bad
         if o.who == "float32" and o.refused:  # products would overflow
@@ -254,7 +264,7 @@ def test_the_command_fails_where_a_cell_is_bad(monkeypatch, capsys):
 
 
 def test_exp_and_log_are_good_to_2e_15_for_every_angle():
-    worst = {t.function: max(t.near_zero, t.near_pi) for t in rotations(300) if t.library == "twistwrench"}
+    worst = {t.function: max(t.near_zero, t.near_pi) for t in rotations(200) if t.library == "twistwrench"}
     assert set(worst) == {"exp3", "log3", "exp6", "log6"}
     assert max(worst.values()) < 2e-15
 
@@ -268,3 +278,42 @@ def test_the_truth_of_a_quarter_turn_is_a_closed_form():
     right = [[0, -1, 0, 1], [1, 0, 0, 1], [0, 0, 1, 1], [0, 0, 0, 1]]  # a quarter of a circle of radius 1, climbing
     assert (abs(T - np.array(right)) < 1e-45).all()
     assert (abs(_log(_exp(V)) - V) < 1e-45).all()
+
+
+# ---------------------------------------------------------------- the page
+
+PAGES = [page("extremes", language) for language in ("", ".zh-CN")]
+
+
+@pytest.mark.filterwarnings("error")
+def test_every_block_of_the_page_runs(capsys):
+    first, parts = numbered("extremes")
+    run_page(PAGES[0], [*first, *(block for part in parts for block in part.blocks)])
+    said, shown = capsys.readouterr().out, parts[-1].blocks[-1]
+    assert [f"# {line}" in shown for line in said.splitlines()] == [True, True]
+
+
+def test_both_languages_have_the_same_sections_and_the_same_code():
+    (first, parts), (other, twins) = numbered("extremes"), numbered("extremes", ".zh-CN")
+    code, twin = (
+        [b.strip("\n") for b in [*f, *(b for p in ps for b in p.blocks)]] for f, ps in ((first, parts), (other, twins))
+    )
+    assert code == twin
+    assert [part.heading[1] for part in parts] == [part.heading[1] for part in twins]
+    for part in parts:
+        assert any("assert " in block for block in part.blocks), part.heading[0]
+
+
+def test_the_maps_are_there_and_small():
+    pictures = {path: path.stat().st_size for path in (DOCS / "pictures").glob("extremes_*.png")}
+    assert {path.name for path in pictures} == {f"extremes_{name}.png" for name in picture.NAMES.values()}
+    assert max(pictures.values()) < 150_000
+    for at in PAGES:
+        text = at.read_text(encoding="utf-8")
+        assert [path.name for path in pictures if f"pictures/{path.name}" not in text] == []
+
+
+def test_both_languages_have_the_same_numbers_in_their_tables():
+    numbers = [re.findall(r"\d[\d.e-]*", "".join(re.findall(r"^\|.*$", at.read_text("utf-8"), re.M))) for at in PAGES]
+    assert len(numbers[0]) > 30
+    assert numbers[0] == numbers[1]

@@ -149,7 +149,9 @@ def _paint(ax: Any, square: Square, colours: Any) -> None:
     corner = square.column, square.row
     ax.add_patch(Rectangle(corner, 1, 1, facecolor=face, edgecolor=edge, hatch=hatch, linewidth=0.5))
     dark = digits is not None and digits < DIGITS * 0.6
-    style = {"ha": "center", "va": "center", "fontsize": 5, "color": "white" if dark else "black"}
+    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 5, "color": "white" if dark else "black"}
+    if refused and digits is None and square.text:
+        style["bbox"] = {"facecolor": "white", "linewidth": 0, "pad": 0.5}
     ax.text(square.column + 0.5, square.row + 0.5, square.text, **style)
 
 
