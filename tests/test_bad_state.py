@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.forward_dynamics import invert
 
 GO2 = tw.load("go2")
 ARM = tw.chain(3)
@@ -272,12 +273,12 @@ def test_rotor_is_inertia_enough():
     assert tw.aba(builder.build(), [0.0], [1.0], [2.0]) == [4.0]
 
 
-def gimbal():
+def gimbal(unit=1.0):
     """Two rings without mass and a rotor, about z, y and z: locked where the middle angle is zero."""
     builder = tw.Builder("gimbal")
     builder.link("outer", parent="base_link", joint=tw.Revolute("z"))
     builder.link("inner", parent="outer", joint=tw.Revolute("y"))
-    disc = tw.SpatialInertia(1.0, [0, 0, 0], np.diag([0.1, 0.1, 0.2]))
+    disc = tw.SpatialInertia(unit, [0, 0, 0], unit * np.diag([0.1, 0.1, 0.2]))
     builder.link("disc", parent="inner", joint=tw.Revolute("z"), inertia=disc)
     return builder.build()
 
@@ -290,6 +291,18 @@ def test_gimbal_lock_of_massless_rings_is_singular(middle, dtype):
     q = np.array([0.3, middle, -0.2], dtype)
     with pytest.raises(tw.SingularError, match="joint 'outer': with the joints behind it free it feels no inertia"):
         tw.aba(gimbal(), q, np.zeros(3, dtype), np.ones(3, dtype))
+
+
+@pytest.mark.parametrize("unit", [2.0**-60, 2.0**60])
+def test_gimbal_lock_does_not_depend_on_the_unit_of_mass(unit):
+    with pytest.raises(tw.SingularError, match="joint 'outer'"):
+        tw.aba(gimbal(unit), [0.3, 1e-9, -0.2], np.zeros(3), np.ones(3))
+
+
+def test_a_joint_that_feels_nothing_at_all_is_refused_before_anything_is_divided_by_it():
+    feels = np.array([[[1.0]], [[0.0]]])
+    with pytest.raises(tw.SingularError, match=r"joint 'elbow': .* at index \(1,\)"):
+        invert(feels, feels, "elbow")
 
 
 def test_one_locked_gimbal_in_a_batch_is_enough():

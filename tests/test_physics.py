@@ -102,6 +102,17 @@ def test_bias_is_gravity_plus_a_square_of_velocity(recipe):
     assert not tw.gravity(weightless, s.q).any()
 
 
+@pytest.mark.parametrize("unit", [2.0**-60, 2.0**60])
+@trees
+@several
+def test_acceleration_does_not_depend_on_the_unit_of_mass(unit, recipe):
+    model, s = recipe.model, recipe.state()
+    inertia = tuple(tw.SpatialInertia(unit * I.mass, I.com, unit * I.inertia_at_com) for I in model.inertia)
+    scaled = replace(model, inertia=inertia, armature=unit * model.armature)
+    a = tw.aba(scaled, s.q, s.v, unit * s.tau, unit * s.f_ext)
+    assert (a == tw.aba(model, s.q, s.v, s.tau, s.f_ext)).all()  # a power of two: to the last bit
+
+
 # ---------------------------------------------------------------- energy
 
 
