@@ -136,7 +136,7 @@ def test_conda_installs_example_robot_data_without_cmeel(monkeypatch, tmp_path):
 
 
 def test_a_robot_is_read_with_lxml_alone_and_only_when_it_is_asked_for():
-    """A reader of meshes would pull in trimesh, scipy and some thirty other packages, 290 MB."""
+    """A reader of meshes would pull in trimesh, scipy and some thirty other packages, 266 MB."""
     show = "print('lxml' in sys.modules, *{'yourdfpy', 'trimesh', 'scipy'} & {*sys.modules})"
     code = f"import sys, twistwrench as tw; tw.robots(); {show}; tw.load('go2'); {show}"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
