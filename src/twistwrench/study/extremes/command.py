@@ -31,10 +31,17 @@ def add_extremes(studies: Any) -> None:
     parser.add_argument("--json", metavar="FILE", help="write what was counted as JSON")
     parser.add_argument("--pictures", metavar="FOLDER", help="draw the map of every algorithm into a folder")
     parser.add_argument(
-        "--angles", type=int, default=10_000, metavar="N", help="of exp and log; 0 leaves them out (10000)"
+        "--angles", type=_count, default=10_000, metavar="N", help="of exp and log; 0 leaves them out (10000)"
     )
     parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
     parser.set_defaults(run=run_extremes)
+
+
+def _count(text: str) -> int:
+    """Read how many angles: none, or one near 0 and one near π at least."""
+    if not text.isdecimal() or text == "1":
+        raise argparse.ArgumentTypeError(f"expected 0, or a whole number from 2, got {text!r}")
+    return int(text)
 
 
 def run_extremes(args: argparse.Namespace) -> int:
@@ -45,9 +52,10 @@ def run_extremes(args: argparse.Namespace) -> int:
     from .run import run
 
     kept = Path(args.cells or "extremes.jsonl") if args.full or args.cells else None
-    found = run(cells(full=args.full), kept, pinocchio=_pinocchio(), progress=args.progress or sys.stderr.isatty())
+    bar = args.progress or sys.stderr.isatty()
+    found = run(cells(full=args.full), kept, pinocchio=_pinocchio(), progress=bar)
     print(report.table(found))
-    turns = rotations(args.angles) if args.angles else []
+    turns = rotations(args.angles, progress=bar) if args.angles else []
     print("\n".join(["", *report.turns(turns)]) if turns else "", end="\n" if turns else "")
     if args.json:
         _write(Path(args.json), report.as_dict(found) | {"exp and log": [turn._asdict() for turn in turns]})

@@ -19,6 +19,9 @@ __all__ = ["Turns", "rotations"]
 SERIES = 1e-10
 """Below this angle two terms of a series have more than 40 digits."""
 
+PART = 250
+"""So many angles at once: between them the bar moves."""
+
 Way = Callable[[Array], Array]
 
 
@@ -39,24 +42,45 @@ class Turns(NamedTuple):
     near_pi: float
 
 
-def rotations(count: int = 10_000, *, rng: int = 0) -> list[Turns]:
-    """Measure so many angles, half of them from 1e-300 to 1 and half from π − 1 to π − 1e-14, spread in log scale."""
-    import mpmath
+def rotations(count: int = 10_000, *, rng: int = 0, progress: bool = False) -> list[Turns]:
+    """Measure so many angles, half of them from 1e-300 to 1 and half from π − 1 to π − 1e-14, spread in log scale.
+
+    Parameters
+    ----------
+    count : int
+    rng : int
+        Of the axes and of v.
+    progress : bool
+        Whether a bar is shown on stderr.
+    """
+    from tqdm import tqdm
 
     draw, half = np.random.default_rng(rng), count // 2
     small = 10.0 ** np.concatenate([np.linspace(-300, -20, half // 5), np.linspace(-20, 0, half - half // 5)])
     angles = np.concatenate([small, np.pi - 10.0 ** np.linspace(-14, 0, count - half)])
     axis, v = draw.standard_normal((2, count, 3))
-    V = np.concatenate([angles[:, None] * axis / np.linalg.norm(axis, axis=-1)[:, None], v], axis=-1)
+    V = np.concatenate([angles[:, None] * axis / np.hypot.reduce(axis, axis=-1)[:, None], v], axis=-1)
+    ways, parts = _ways(), np.split(V, range(PART, count, PART))
+    bar = tqdm(parts, "exp and log", unit_scale=PART, unit="angle", disable=not progress)
+    errors = np.concatenate([_errors(ways, part) for part in bar], axis=-1)
+    worst = zip(errors[:, :half].max(axis=-1), errors[:, half:].max(axis=-1))
+    return [Turns(function, library, float(a), float(b)) for (function, library, _), (a, b) in zip(ways, worst)]
+
+
+def _errors(ways: list[tuple[str, str, Way]], V: Array) -> Array:
+    """Return the error of every way at every twist, shape (ways, n)."""
+    import mpmath
+
     with mpmath.workdps(50):
         placed = _exp(ne.as_mpmath(V))
         T = placed.astype(np.float64)
         turned = _log(ne.as_mpmath(T))
-        found = []
-        for function, library, way in _ways():
-            off = _exp_error(way(V), placed, V) if function.startswith("exp") else _log_error(way(T), turned)
-            found.append(Turns(function, library, float(off[:half].max()), float(off[half:].max())))
-    return found
+        return np.stack(
+            [
+                _exp_error(way(V), placed, V) if function.startswith("exp") else _log_error(way(T), turned)
+                for function, _, way in ways
+            ]
+        )
 
 
 def _ways() -> list[tuple[str, str, Way]]:
