@@ -11,7 +11,7 @@ import pytest
 from twistwrench import ModelError, center_of_mass, frame_placement
 from twistwrench.robots import catalogue, load, robots
 from twistwrench.robots.reading import read_robot_xml
-from twistwrench.robots.srdf import read_states, with_stance
+from twistwrench.robots.srdf import read_states, with_stance, with_states
 from twistwrench.robots.stances import STANCES, Stance
 
 FOLDER = catalogue.example_robot_data_folder()
@@ -214,3 +214,14 @@ def test_broken_srdf_is_an_error(tmp_path):
     path.write_text('<robot name="r">\n<group_state name="s"><joint name="j" value="up"/></group_state></robot>')
     with pytest.raises(ModelError, match="line 2: a value in this posture"):
         read_states(path)
+
+
+def test_posture_of_another_joint_is_an_error():
+    with pytest.raises(ModelError, match=r"'shoulder': expected 1 numbers, got \[1.0, 2.0\]"):
+        with_states(load("double_pendulum"), {"home": {"shoulder": [1.0, 2.0]}})
+
+
+def test_without_example_robot_data_there_is_no_folder_of_it(monkeypatch, tmp_path):
+    monkeypatch.setattr(sys, "path", [])
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    assert catalogue.example_robot_data_folder() is None

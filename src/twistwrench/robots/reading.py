@@ -86,8 +86,6 @@ def _parse(path: Path, data: bytes) -> XML:
         line, column = error.position
         place = f"line {line}, column {column}"
         reason = (error.msg or "nothing could be parsed").removesuffix(f", {place}")
-    except ValueError as error:
-        reason, place = str(error), "line 1"
     if "entity amplification" in reason or "entity reference loop" in reason:
         raise ModelError(f"{path}, {place}: {DOCTYPE} ({reason})")
     if "depth" in reason.lower():
