@@ -362,4 +362,18 @@ FAULTS = [
         "np.eye(3) - B(square) * K",
         "np.eye(3) + B(square) * K",
     ),
+    # digits
+    Fault(
+        "condition of M with its units",
+        "digits.py",
+        "eigh(M / unit[..., :, None] / unit[..., None, :])",
+        "eigh(M / np.trace(M, axis1=-2, axis2=-1)[..., None, None])",
+    ),
+    Fault("condition for its inverse", "digits.py", "DIVIDED * eps / np.where(", "DIVIDED * eps * np.where("),
+    Fault(
+        "solve in kg and m",
+        "fast/one_aba.py",
+        "np.linalg.solve(feels / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit",
+        "np.linalg.solve(feels, tau - K[:6, 6] - I.dot(rising))",
+    ),
 ]
