@@ -3,6 +3,7 @@
 import gc
 import weakref
 from concurrent.futures import ProcessPoolExecutor
+from itertools import permutations
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -193,9 +194,10 @@ def test_out_is_filled_and_returned(name, order, states, small_chunks):
     np.testing.assert_array_equal(out, CALLS[name](fast, GO2, states.q, states.v))
 
 
-def test_out_with_batch_axes_that_cannot_be_one_is_filled():
-    s = random_state(GO2, rng=0, batch=(3, 4))
-    out = np.full((3, 8, 18), np.nan)[:, ::2]
+@pytest.mark.parametrize("count", [4, 40])
+def test_out_with_batch_axes_that_cannot_be_one_is_filled(count):
+    s = random_state(GO2, rng=0, batch=(3, count))
+    out = np.full((3, 2 * count, 18), np.nan)[:, ::2]
     assert fast.rnea(GO2, s.q, s.v, s.a, out=out) is out
     np.testing.assert_array_equal(out, fast.rnea(GO2, s.q, s.v, s.a))
 
@@ -384,3 +386,11 @@ def test_every_link_has_its_parent_before_it():
         made = plan.plan_of(model, np.dtype(float))
         assert sorted(made.entry[1:]) == list(range(model.nv))
         assert all(parent < link for link, parent in enumerate(made.parent[1:], start=1))
+
+
+def test_more_sets_of_contacts_than_are_remembered_are_right():
+    for contacts in list(permutations(GO2.feet)) + list(permutations(GO2.feet, 2)):
+        np.testing.assert_array_equal(
+            fast.dynamics(GO2, Q, V, contacts=contacts, want={"J_c"}).J_c,
+            np.concatenate([fast.dynamics(GO2, Q, V, contacts=[foot], want={"J_c"}).J_c for foot in contacts]),
+        )
