@@ -29,7 +29,8 @@ else:
     def __getattr__(name: str) -> Any:
         names = import_module("._names", __name__)
         if name != "__all__" and name not in names.__all__:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+            message = f"module {__name__!r} has no attribute {name!r}"
+            raise AttributeError(message, name=name, obj=import_module(__name__))  # with both, Python names the nearest
         value = globals()[name] = getattr(names, name)
         return value
 

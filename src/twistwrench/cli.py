@@ -59,6 +59,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for add in COMMANDS:
         add(commands)
+    if not (sys.argv[1:] if argv is None else argv):
+        parser.print_help(sys.stderr)
+        parser.exit(MISUSED)
     args = parser.parse_args(argv)
     try:
         return int(args.run(args))
@@ -68,8 +71,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except (NameNotFound, ModelError, ImportError, OSError) as error:
-        print(f"twistwrench: {error}", file=sys.stderr)
+        print(f"twistwrench: {_said(error)}", file=sys.stderr)
         return MISUSED
+
+
+def _said(error: Exception) -> str:
+    """Return the message; of a bare import that failed, what brings the package."""
+    if isinstance(error, ModuleNotFoundError) and error.msg == "No module named 'matplotlib'":
+        from .plot.style import NO_MATPLOTLIB
+
+        return NO_MATPLOTLIB
+    return str(error)
 
 
 # -------------------------------------------------------------------- robots

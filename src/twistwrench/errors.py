@@ -55,15 +55,23 @@ def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "")
     import difflib  # only where something went wrong
 
     if not isinstance(name, str):
-        return NameNotFound(f"{kind}: expected a name, got {type(name).__name__} {name!r}")
+        return NameNotFound(f"{kind}: expected a name, got {_typed(name)}")
     names = list(dict.fromkeys(known))
-    near = difflib.get_close_matches(name, names, n=4, cutoff=0.5)
-    if near:
+    longer = sorted((k for k in names if name and k.lower().startswith(name.lower())), key=len)
+    shorter = [k for k in names if len(k) > 2 and k.lower() in name.lower()]
+    near = longer + (difflib.get_close_matches(name, names, n=4, cutoff=0.5) or shorter)
+    if near := list(dict.fromkeys(near))[:4]:
         hint = "did you mean " + ", ".join(map(repr, near)) + "?"
     else:
         shown = ", ".join(map(repr, names[:12]))
         hint = f"known: {shown}" + (f" and {len(names) - 12} more" if len(names) > 12 else "")
     return NameNotFound(f"unknown {kind} {name!r}{where}; {hint}")
+
+
+def _typed(value: object) -> str:
+    """Return the type and the value, once where the value says its type itself."""
+    kind, text = type(value).__name__, repr(value)
+    return text if text.startswith(kind) else f"{kind} {text}"
 
 
 class NameNotFound(KeyError, ValueError):

@@ -151,8 +151,13 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     np.float64(157.794)
     """
     contacts = names_of(model.feet if contacts is None else contacts, "contacts", "frame names")
-    if model.base != "floating" or not contacts:
-        raise ValueError(f"{model.name!r}: expected a floating base and at least one contact, got {list(contacts)}")
+    if model.base != "floating":
+        raise ValueError(
+            f"{model.name!r}: expected a floating base, got a {model.base} one, which holds the robot; "
+            'twistwrench.load(..., base="floating") makes it float, and gravity(model, q) are the torques as it is'
+        )
+    if not contacts:
+        raise ValueError(f"{model.name!r}: expected at least one contact, got none")
     (q,) = model.state(q)
     if q.ndim != 1 or q.dtype.kind == "c":
         raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")

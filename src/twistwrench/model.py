@@ -192,7 +192,7 @@ class Model:
             If the model has none: only the legged robots of the catalogue do.
         """
         if "standing" not in self.postures:
-            raise NameNotFound(f"model {self.name!r} has no standing posture")
+            raise NameNotFound(f"model {self.name!r} has no standing posture; there is neutral()")
         return self.postures["standing"].copy()
 
     def random_configuration(self, *, rng: np.random.Generator | int | None = None) -> Array:

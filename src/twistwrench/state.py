@@ -56,7 +56,7 @@ def check_arrays(model: Model, **named: ArrayLike) -> tuple[Array, ...]:
 
 
 def _check_not_swapped(model: Model, name: str, value: ArrayLike) -> None:
-    """Say so where a v came for a q, or a q for a v."""
+    """Say so where a v came for a q, a q for a v, the joints without the base, or a column for a row."""
     (kind, size), (other, came) = ("q", model.nq), ("v", model.nv)
     if not name.startswith("q"):
         (kind, size), (other, came) = (other, came), (kind, size)
@@ -65,6 +65,16 @@ def _check_not_swapped(model: Model, name: str, value: ArrayLike) -> None:
         raise ShapeError(
             f"{name}: expected shape (..., {size}), got {shape}; this looks like n{other}: "
             f"{kind} has n{kind} = {size}, {other} has n{other} = {came}"
+        )
+    base = size - 7 if kind == "q" else size - 6
+    if model.base == "floating" and shape[-1:] == (base,):
+        raise ShapeError(
+            f"{name}: expected shape (..., {size}), got {shape}; "
+            f"the {size - base} entries of the floating base come before those of the joints"
+        )
+    if len(shape) == 2 and shape[0] == size != shape[1]:
+        raise ShapeError(
+            f"{name}: expected shape (..., {size}), got {shape}; the axis of length {size} must be the last"
         )
 
 
@@ -110,7 +120,9 @@ def _check_unit(model: Model, q: Array, name: str, digits: np.dtype[Any]) -> Non
         if bad.any():
             what = "(cos, sin)" if joint.unit.stop - joint.unit.start == 2 else "quaternion"
             first = float(norm[bad].flat[0])
+            close = f"which is 1 {first - 1:+.2g}" if abs(first - 1) < 1e-5 else "expected 1"
+            mend = "normalize(q) repairs it" if first else "neutral() has the one that turns nothing"
             raise ValueError(
                 f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
-                f"{which(bad)}, which is 1 {first - 1:+.2g}; model.normalize(q) repairs it"
+                f"{which(bad)}, {close}; model.{mend}"
             )

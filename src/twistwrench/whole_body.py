@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .centroidal import centroidal_map
@@ -18,7 +19,7 @@ from .model import Model
 __all__ = ["Dynamics", "dynamics"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Dynamics:
     """What `dynamics` returns; what was not asked for is None.
 
@@ -38,6 +39,10 @@ class Dynamics:
     h: Array | None = None
     J_c: Array | None = None
     A_G: Array | None = None
+
+    def __repr__(self) -> str:
+        shapes = {f.name: np.shape(x) for f in fields(self) if (x := getattr(self, f.name)) is not None}
+        return f"Dynamics({', '.join(f'{name}: {shape}' for name, shape in shapes.items())})"
 
 
 def dynamics(

@@ -17,6 +17,7 @@ UNASKED = Text(
     "The solution of {id} is shown with --yes; a hint first? twistwrench exercises hint {id}",
     "加上 --yes 即显示 {id} 的解答；要不要先看提示？twistwrench exercises hint {id}",
 )
+NO_PYTEST = Text("pytest is not installed here: pip install pytest", "此处没有安装 pytest：pip install pytest")
 
 
 def register(commands: Any) -> None:
@@ -48,6 +49,7 @@ def _action(actions: Any, name: str, help: str, run: Any) -> Any:
 def run_start(args: argparse.Namespace) -> int:
     """Write the skeletons."""
     import shlex
+    from importlib.util import find_spec
 
     from .skeletons import start
     from .workbook import Workbook
@@ -57,7 +59,9 @@ def run_start(args: argparse.Namespace) -> int:
     for label, paths in ((Text("new", "新增"), new), (Text("kept as it is", "保持不变"), kept)):
         for path in paths:
             print(f"{path}: {label.of(language)}")
-    print(f"\ncd {shlex.quote(args.dir)} && pytest")
+    print(f"\ncd {shlex.quote(args.dir)} && python -m pytest")
+    if find_spec("pytest") is None:
+        print(NO_PYTEST.of(language))
     return 0
 
 

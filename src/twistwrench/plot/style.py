@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import as_array
 
-__all__ = ["COLOURS", "XYZ", "axes_2d", "axes_3d", "fit"]
+__all__ = ["COLOURS", "NO_MATPLOTLIB", "XYZ", "axes_2d", "axes_3d", "fit"]
 
 COLOURS = {
     "black": "#000000",
@@ -26,6 +26,8 @@ COLOURS = {
 
 XYZ = (COLOURS["vermilion"], COLOURS["green"], COLOURS["blue"])
 """Of the axes x, y, z of a frame."""
+
+NO_MATPLOTLIB = 'a picture needs matplotlib: pip install "twistwrench[plot]"'
 
 
 def axes_2d(ax: Any = None, *, size: tuple[float, float] = (6.0, 3.5)) -> Any:
@@ -48,11 +50,7 @@ def axes_2d(ax: Any = None, *, size: tuple[float, float] = (6.0, 3.5)) -> Any:
     >>> axes_2d(ax) is ax
     True
     """
-    if ax is not None:
-        return ax
-    import matplotlib.pyplot as plt
-
-    return plt.subplots(figsize=size, layout="constrained")[1]
+    return ax if ax is not None else _pyplot().subplots(figsize=size, layout="constrained")[1]
 
 
 def axes_3d(ax: Any = None, *, size: tuple[float, float] = (6.5, 5.0)) -> Any:
@@ -80,14 +78,21 @@ def axes_3d(ax: Any = None, *, size: tuple[float, float] = (6.5, 5.0)) -> Any:
     'z [m]'
     """
     if ax is None:
-        import matplotlib.pyplot as plt
-
-        ax = plt.figure(figsize=size, layout="constrained").add_subplot(projection="3d")
+        ax = _pyplot().figure(figsize=size, layout="constrained").add_subplot(projection="3d")
         ax.view_init(elev=20, azim=-60)
     if not hasattr(ax, "get_zlabel"):
         raise TypeError(f"ax: expected axes with projection='3d', got {type(ax).__name__}")
     ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
     return ax
+
+
+def _pyplot() -> Any:
+    """Return matplotlib.pyplot, or say how to get it."""
+    try:
+        import matplotlib.pyplot as plt
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(NO_MATPLOTLIB, name=error.name) from None
+    return plt
 
 
 def fit(ax: Any, points: ArrayLike | None = None) -> Any:
@@ -121,9 +126,10 @@ def fit(ax: Any, points: ArrayLike | None = None) -> Any:
         p = as_array(points, "points", 3).reshape(-1, 3)
         ax.auto_scale_xyz(p[:, 0], p[:, 1], p[:, 2], had_data=ax.has_data())
     ax.set_aspect("equal")
-    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-        low, high = axis.get_view_interval()
-        axis.set_major_locator(_few_ticks(high - low))
+    axes = (ax.xaxis, ax.yaxis, ax.zaxis)
+    spans = [np.ptp(axis.get_view_interval()) for axis in axes]
+    for axis, span in zip(axes, spans):
+        axis.set_major_locator(_few_ticks(max(span, max(spans) / 4)))  # a flat robot's axis has no room for more
     return ax
 
 

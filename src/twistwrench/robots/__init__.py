@@ -68,6 +68,8 @@ def load(
         If the file is missing or broken: the message names file, line, link or joint, and what was expected.
     ValueError
         If `mimic` asks for joints that follow others.
+    TypeError
+        If `source` is neither a name nor a path.
 
     Examples
     --------
@@ -86,6 +88,8 @@ def load(
         raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
     if mimic not in (None, "independent"):
         raise ValueError(f"mimic: expected 'independent' (joints that follow others are not modelled), got {mimic!r}")
+    if not isinstance(source, str | PathLike):
+        raise TypeError(f"source: expected a name or a path, got {type(source).__name__} {source!r}")
     if not isinstance(source, str) or _is_path(source):
         quiet = mimic == "independent"
         _refuse_folder_before_name(source)

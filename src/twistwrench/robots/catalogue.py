@@ -147,7 +147,9 @@ def find(name: str) -> Robot:
     if not known(name):
         lower = name.lower()  # as all the names are: "GO2" means go2
         error = unknown_name("robot", lower, (robot.name for robot in robots()))
-        raise NameNotFound(str(error).replace(repr(lower), repr(name), 1))
+        said = str(error).replace(repr(lower), repr(name), 1)
+        file = f"; its file would be {name + '.urdf'!r}" if Path(f"{name}.urdf").is_file() else ""
+        raise NameNotFound(said + file)
     return _by_name()[name]
 
 

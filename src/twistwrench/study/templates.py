@@ -16,6 +16,7 @@ import twistwrench as tw
 from ..motions import MOTIONS, Motion
 from ..templates import TEMPLATES
 from .clock import round_robin
+from .trade.picture import check_format
 
 __all__ = ["ROBOTS", "Loss", "add_templates", "losses"]
 
@@ -134,6 +135,8 @@ def run_templates(args: argparse.Namespace) -> int:
     """Print a table for each robot, and draw the first."""
     from tqdm import tqdm
 
+    if args.plot is not None:
+        check_format(args.plot)
     drawn = args.plot is None
     for robot in args.robot:
         try:
@@ -157,12 +160,12 @@ def run_templates(args: argparse.Namespace) -> int:
 
 
 def _table(robot: str, model: tw.Model, motions: Sequence[Motion], found: Sequence[Loss]) -> str:
-    head = ("relative", "moment, N m", "/ weight, mm", "force, N", "µs/state", "× full", "law alone, × full")
+    head = ("relative", "moment, N m", "shift, mm", "force, N", "µs/state", "× full", "law × full")
     lines = [
         f"{robot}, nv = {model.nv}, {model.mass:.3g} kg: what is left out of ḣ_G, root mean square over the states",
-        "relative to the weight (largest); moment / weight: how far it moves the centre of pressure",
+        "relative to the weight (largest); shift = moment / weight: how far it moves the centre of pressure",
         "",
-        f"{'motion':8}{'template':14}{head[0]:>19}" + "".join(f"{title:>{len(title) + 3}}" for title in head[1:]),
+        f"{'motion':7}{'template':11}{head[0]:>18}" + "".join(f"{title:>{len(title) + 2}}" for title in head[1:]),
     ]
     for motion in motions:
         for r in found:
@@ -170,8 +173,8 @@ def _table(robot: str, model: tw.Model, motions: Sequence[Motion], found: Sequen
                 share = f"{r.rms:.2g} ({r.largest:.2g})"
                 numbers = [f"{x:.2g}" for x in (r.moment, 1e3 * r.shift, r.force)]
                 numbers += ["~" * r.disturbed + f"{r.us:.3g}", f"{r.ratio:.2f}", f"{r.law_ratio:.3f}"]
-                cells = "".join(f"{x:>{len(title) + 3}}" for x, title in zip(numbers, head[1:]))
-                lines.append(f"{r.motion:8}{r.template:14}{share:>19}{cells}")
+                cells = "".join(f"{x:>{len(title) + 2}}" for x, title in zip(numbers, head[1:]))
+                lines.append(f"{r.motion:7}{r.template:11}{share:>18}{cells}")
         lines.append(_needs(model, motion))
     if any(r.disturbed for r in found):
         lines.append("~ the machine had other things to do in every round: run it again when it has not")
@@ -186,6 +189,6 @@ def _needs(model: tw.Model, motion: Motion) -> str:
     worst = 1e3 * float(needed.margin.min())
     return (
         f"        the ground: loaded for {100 * needed.loaded.mean():.0f} % of the time, friction of at least "
-        f"{needed.friction.max():.2f}, centre of pressure at worst {abs(worst):.0f} mm "
+        f"{needed.friction.max():.2f},\n        centre of pressure at worst {abs(worst):.0f} mm "
         f"{'inside' if worst > 0 else 'outside'} the polygon of the feet's frames\n{limits}"
     )

@@ -8,7 +8,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from ...plot.style import COLOURS
+from ...plot.style import COLOURS, NO_MATPLOTLIB
 from .measure import Point
 from .report import Trade
 
@@ -37,7 +37,7 @@ def check_format(path: Path) -> None:
     if path.suffix not in FORMATS:
         raise OSError(f"--plot {path}: expected a file that ends with one of {', '.join(FORMATS)}")
     if find_spec("matplotlib") is None:
-        raise ImportError('a picture needs matplotlib: pip install "twistwrench[plot]"')
+        raise ImportError(NO_MATPLOTLIB)
 
 
 def draw(trade: Trade, path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import textwrap
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -14,6 +15,8 @@ __all__ = ["Trade"]
 
 HEADER = ("", "", "way", "number", "states", "time a state", "quartiles", "error")
 WIDTHS = (1, 1, 42, 10, 6, 12, 19, 8)
+LINE = 100
+"""Letters in a line of words."""
 
 
 @dataclass(frozen=True)
@@ -56,15 +59,19 @@ class Trade:
     def words(self) -> str:
         """Return the answer: for which error which way."""
         lines = [line for key, name in self.names.items() if self.of(key) for line in advice(name, self.of(key))]
-        return "\n".join(["The fastest way whose error is not above", *lines])
+        return "\n".join(["The fastest way whose error is not above", *map(_wrapped, lines)])
 
     def __str__(self) -> str:
         head = [
             f"{self.robot}: {self.description}",
-            f"error: largest difference from the truth in 60 digits, over its largest entry; the worst of "
-            f"{self.effort.states} states",
-            "time: median of rounds in turns; ● in the first column: no other way for one state is both as fast and "
-            "as exact, in the second: none for many",
+            _wrapped(
+                f"error: largest difference from the truth in 60 digits, over its largest entry; the worst of "
+                f"{self.effort.states} states"
+            ),
+            _wrapped(
+                "time: median of rounds in turns; ● in the first column: no other way for one state is both as fast "
+                "and as exact, in the second: none for many"
+            ),
             *self.missing,
         ]
         tables = [line for key in self.names for line in self._table(key)]
@@ -113,6 +120,12 @@ class Trade:
             lines = ",\n".join("    " + json.dumps(x, ensure_ascii=False, allow_nan=False) for x in values)
             text = text[:-2] + f',\n  "{key}": [\n{lines}\n  ]\n}}'
         return text
+
+
+def _wrapped(line: str) -> str:
+    """Return a line cut to the width of a table, as words are."""
+    rest = "    " if line.startswith(" ") else ""
+    return textwrap.fill(line, LINE, subsequent_indent=rest, break_on_hyphens=False, break_long_words=False)
 
 
 def _laid_out(cells: tuple[str, ...]) -> str:
