@@ -151,6 +151,21 @@ def test_singular_models_are_refused_in_the_same_words(make):
     np.testing.assert_allclose(fast.crba(model, q), tw.crba(model, q), rtol=0, atol=1e-15)
 
 
+@pytest.mark.parametrize("batch", [(), (60,)], ids=str)
+def test_a_massless_base_is_refused_in_the_same_words(batch):
+    """The base can turn and its leg turn back without anything that has inertia moving."""
+    rod = tw.SpatialInertia(1.0, [0.1, 0.2, 0.5], np.diag([0.1, 0.2, 0.25]))
+    builder = tw.Builder("hopper", base="floating")
+    builder.link("leg", parent="base_link", joint=tw.Revolute([1, 2, 3]), inertia=rod)
+    model = builder.build()
+    s = random_state(model, rng=0, batch=batch)
+    with pytest.raises(tw.SingularError, match="'root_joint': with the joints behind it free") as textbook:
+        tw.aba(model, s.q, s.v, s.tau)
+    with pytest.raises(tw.SingularError) as ours:
+        fast.aba(model, s.q, s.v, s.tau)
+    assert str(ours.value) == str(textbook.value)
+
+
 def test_what_is_only_nearly_singular_is_solved():
     """What the inner joint feels is its rotor: too little for the quick check, enough for the textbook."""
     rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
