@@ -12,7 +12,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as ne
 from twistwrench.cli import main
-from twistwrench.study.extremes import grid, picture, report, run
+from twistwrench.study.extremes import candidates, grid, picture, report, run
 from twistwrench.study.extremes.cell import Outcome, measure
 from twistwrench.study.extremes.grid import DIMENSIONS, ENDS, cells, of_pair, of_value
 from twistwrench.study.extremes.robots import Recipe
@@ -164,6 +164,19 @@ def test_no_cell_is_silently_bad():
 @pytest.mark.slow
 def test_no_fourth_cell_of_the_short_form_is_silently_bad():
     nothing_is_silent(cells(full=False)[::4])
+
+
+def test_pinocchio_is_not_asked_for_robots_that_it_has_no_room_for(monkeypatch):
+    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: it is not asked at all")
+    model, s = Recipe(bodies=2).model, Recipe(bodies=2).state
+    torques = {"steered": s.a, "pushed": s.a}
+    assert "pinocchio" in {way.who for way in candidates.candidates(model, s, torques, pinocchio=True)}
+    monkeypatch.setattr(candidates, "LONGEST", 6)
+    assert {way.who for way in candidates.candidates(model, s, torques, pinocchio=True)} == {
+        "textbook",
+        "fast",
+        "float32",
+    }
 
 
 def test_what_must_not_be_is_noticed(monkeypatch):
