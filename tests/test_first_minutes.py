@@ -12,6 +12,7 @@ import twistwrench as tw
 from twistwrench.cli import main
 from twistwrench.study.cases import QUANTITIES
 from twistwrench.study.speed import Speed, table
+from twistwrench.study.trade import SHORT, weigh
 
 GO2 = tw.load("go2")
 PENDULUM = tw.load("pendulum")
@@ -141,3 +142,9 @@ def test_the_table_of_speeds_fits_into_a_hundred_columns():
         ["fast", "fast"],
         ["Pinocchio", "textbook", "fast", "1000", "states", "1000", "float32"],
     ]
+
+
+def test_the_tables_and_words_of_a_trade_fit_into_a_hundred_columns():
+    pytest.importorskip("mpmath", reason="the truth is computed by mpmath")
+    text = str(weigh("pendulum", only=["FD"], effort=SHORT))
+    assert max(map(len, text.splitlines())) <= 100

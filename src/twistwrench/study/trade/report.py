@@ -13,8 +13,8 @@ from .measure import Effort, LeftOut, Point
 
 __all__ = ["Trade"]
 
-HEADER = ("", "", "way", "number", "states", "time a state", "quartiles", "error")
-WIDTHS = (1, 1, 42, 10, 6, 12, 19, 8)
+HEADER = ("", "", "way", "number", "states", "time", "quartiles", "error")
+WIDTHS = (1, 1, 42, 10, 6, 8, 17, 8)
 LINE = 100
 """Letters in a line of words."""
 
@@ -69,8 +69,8 @@ class Trade:
                 f"{self.effort.states} states"
             ),
             _wrapped(
-                "time: median of rounds in turns; ● in the first column: no other way for one state is both as fast "
-                "and as exact, in the second: none for many"
+                "time: for a state, median of rounds in turns; ● in the first column: no other way for one state is "
+                "both as fast and as exact, in the second: none for many"
             ),
             *self.missing,
         ]
