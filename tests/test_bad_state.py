@@ -346,6 +346,9 @@ def test_model_without_joints_has_nothing_to_say():
     assert tw.aba(model, empty, empty, empty).shape == (0,)
     assert tw.crba(model, empty).shape == (0, 0)
     assert tw.kinetic_energy(model, empty, empty) == 0
+    for function, arguments in ((tw.center_of_mass, 1), (tw.centroidal_map, 1), (tw.centroidal_momentum_rate, 3)):
+        with pytest.raises(tw.SingularError, match="centre of mass of 'rock': nothing that moves has mass"):
+            function(model, *[empty] * arguments)
     assert tw.frame_placement(model, empty, "base_link").translation.tolist() == [0, 0, 0]
     assert tw.frame_jacobian(model, empty, "base_link").shape == (6, 0)
 

@@ -55,9 +55,9 @@ def test_spatial_twist_is_the_rate_of_the_placement_seen_from_the_world():
 def test_a_matrix_outside_se3_is_refused():
     with pytest.raises(ShapeError, match="skew-symmetric"):
         vee(np.diag([1.0, 0, 0, 0]))
-    with pytest.raises(ShapeError, match="last row of zeros, got up to 1"):
+    with pytest.raises(ShapeError, match="^M: expected a last row of zeros, got up to 1"):
         vee(exp6([0, 0, 1, 0, 0, 0]).matrix())
-    with pytest.raises(ShapeError, match=r"expected shape \(\.\.\., 4, 4\), got \(3, 3\)"):
+    with pytest.raises(ShapeError, match=r"^M: expected shape \(\.\.\., 4, 4\), got \(3, 3\)"):
         vee(np.zeros((3, 3)))
 
 
@@ -144,6 +144,11 @@ def test_screws_of_a_batch_may_mix_turns_and_translations():
     for k in range(2):
         for mine, alone in zip(s, screw(V[k]), strict=True):
             np.testing.assert_array_equal(mine[k], alone)
+
+
+def test_an_axis_beyond_all_numbers_is_placed_in_its_batch():
+    with pytest.raises(SingularError, match=r"further away than numbers reach at index \(1,\)"):
+        screw([[0, 0, 1, 0, 0, 0], [1e-300, 0, 0, 0, 1e300, 0]])
 
 
 def test_a_twist_of_zero_has_no_screw():
