@@ -55,7 +55,7 @@ def test_spatial_twist_is_the_rate_of_the_placement_seen_from_the_world():
 def test_a_matrix_outside_se3_is_refused():
     with pytest.raises(ShapeError, match="skew-symmetric"):
         vee(np.diag([1.0, 0, 0, 0]))
-    with pytest.raises(ShapeError, match="^M: expected a last row of zeros, got up to 1"):
+    with pytest.raises(ShapeError, match=r"^M: expected a last row of zeros, got up to 1"):
         vee(exp6([0, 0, 1, 0, 0, 0]).matrix())
     with pytest.raises(ShapeError, match=r"^M: expected shape \(\.\.\., 4, 4\), got \(3, 3\)"):
         vee(np.zeros((3, 3)))
