@@ -486,3 +486,17 @@ def test_commands_refuse_what_they_cannot_do(tmp_path, capsys):
     assert "def translation_transforms(p):" in capsys.readouterr().out
     assert main(["exercises", "list", "--language", "zh"]) == 0
     assert "纯平移" in capsys.readouterr().out
+
+
+def test_a_hint_is_printed(tmp_path, capsys):
+    start(tmp_path, language="en")
+    assert main(["exercises", "hint", "49.3.1", "--dir", str(tmp_path)]) == 0
+    assert capsys.readouterr().out.strip()
+
+
+@pytest.mark.parametrize(("answer", "status"), [("y", 0), ("", 1)])
+def test_a_solution_is_shown_to_who_is_sure(answer, status, monkeypatch, capsys):
+    monkeypatch.setattr(sys.stdin, "isatty", lambda: True)
+    monkeypatch.setattr("builtins.input", lambda question: answer)
+    assert main(["exercises", "solution", "49.3.1"]) == status
+    assert ("def translation_transforms(p):" in capsys.readouterr().out) == (status == 0)
