@@ -157,6 +157,8 @@ def test_rotation_and_translation_broadcast():
     assert T.rotation.shape == (2, 3, 3)
     assert (T @ SE3(np.broadcast_to(np.eye(3), (5, 1, 3, 3)), np.zeros(3))).translation.shape == (5, 2, 3)
     assert T.act(np.zeros((4, 1, 3))).shape == (4, 2, 3)
+    with pytest.raises(ShapeError, match=r"^point: expected shape \(\.\.\., 3\), got \(2,\)"):
+        SE3.identity().act([1, 2])
     with pytest.raises(ShapeError, match=r"batch axes \(2,\) and \(4, 3\) do not broadcast"):
         SE3(np.broadcast_to(np.eye(3), (2, 3, 3)), np.zeros((4, 3, 3)))
 
