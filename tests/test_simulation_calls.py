@@ -328,3 +328,8 @@ def test_the_table_of_the_page_names_the_methods_with_their_orders():
     text = page("simulation").read_text(encoding="utf-8")
     rows = re.findall(r"^\| `([\w-]+)` \| (\d) \|", text, re.MULTILINE)
     assert [(name, int(order)) for name, order in rows] == [(name, m.order) for name, m in METHODS.items()]
+
+
+def test_a_name_is_no_robot_yet():
+    with pytest.raises(TypeError, match="expected a Model, as tw.load returns, or a Scene, got the str 'pendulum'"):
+        tw.simulate("pendulum", [0.0], [0.0], dt=0.01, steps=1)

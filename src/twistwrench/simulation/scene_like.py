@@ -28,4 +28,8 @@ class SceneLike(Protocol):
 
 def parts(robot: Model | SceneLike) -> tuple[Model, tuple[Contact, ...], Push | None]:
     """Return the model, the contacts and the wrenches of a scene; a model alone has but itself."""
-    return (robot, (), None) if isinstance(robot, Model) else (robot.model, robot.contacts, robot.f_ext)
+    if isinstance(robot, Model):
+        return robot, (), None
+    if not hasattr(robot, "model"):
+        raise TypeError(f"expected a Model, as tw.load returns, or a Scene, got the {type(robot).__name__} {robot!r}")
+    return robot.model, robot.contacts, robot.f_ext
