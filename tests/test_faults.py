@@ -36,7 +36,11 @@ PHYSICS_AND_ORACLES = [
     "test_scene.py",
     "test_templates.py",
     "test_motions.py",
+    "test_accuracy.py",
+    "test_extremes.py",
 ]
+TESTED_BY = {"digits": "accuracy", "fast": "extremes"}
+"""Sections whose tests go by another name."""
 
 
 def run_on_copy(folder: Path, fault: Fault | None) -> subprocess.CompletedProcess[str]:
@@ -46,7 +50,9 @@ def run_on_copy(folder: Path, fault: Fault | None) -> subprocess.CompletedProces
     if fault:
         file = package / fault.file
         file.write_text(file.read_text(encoding="utf-8").replace(fault.right, fault.wrong), encoding="utf-8")
-    tests = [str(ROOT / "tests" / name) for name in PHYSICS_AND_ORACLES]
+    section = fault.file.split("/")[0].removesuffix(".py") if fault else ""
+    nearest_first = sorted(PHYSICS_AND_ORACLES, key=lambda name: TESTED_BY.get(section, section) not in name)
+    tests = [str(ROOT / "tests" / name) for name in nearest_first]
     options = ["-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "-p", "no:xdist"]
     return subprocess.run(
         [sys.executable, "-m", "pytest", "-o", "addopts=--import-mode=importlib", *options, *tests],
