@@ -118,7 +118,7 @@ def links(rounds: int) -> Iterator[Row]:
                 calls["fast", n, size] = ours(tw.fast, model, quantity, states[n].first(size)), size
             if n <= 200:
                 calls["textbook", n, 1] = ours(tw, model, quantity, states[n].first(1)), 1
-            if n <= 200:  # beyond, its data take gigabytes, and so many chains are kept here at once
+                # Beyond, its data take gigabytes, and so many chains are kept here at once.
                 calls["Pinocchio", n, 1] = pinocchio(model, quantity, states[n]), 100
         laps = round_robin([call for call, _ in calls.values()], rounds=rounds, least=0.05)
         seconds = {key: lap.seconds / n for (key, (_, n)), lap in zip(calls.items(), laps, strict=True)}

@@ -12,7 +12,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import fast
-from twistwrench.fast import dispatch, many, plan, processes
+from twistwrench.fast import dispatch, many, plan
 
 from .strategies import Recipe, random_state
 
@@ -303,9 +303,8 @@ def test_an_executor_is_used_and_changes_nothing(name, pool, states):
 
 
 @pytest.mark.parametrize("count", [999, 1000])
-def test_slots_are_used_again_and_again(pool, states, small_chunks, monkeypatch, count):
+def test_slots_are_used_again_and_again(pool, states, small_chunks, count):
     """Four slots for a hundred parts, the last of which may be smaller."""
-    monkeypatch.setattr(processes, "SLOT", 1)
     q, v = np.tile(states.q, (30, 1))[:count], np.tile(states.v, (30, 1))[:count]
     d = fast.dynamics(GO2, q, v, workers=pool)
     for ours, right in zip(vars(d).values(), vars(fast.dynamics(GO2, q, v)).values()):

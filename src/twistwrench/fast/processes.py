@@ -28,13 +28,9 @@ from ..checks import Array
 
 __all__ = ["executor", "spread"]
 
-SLOT = 2**24
-"""Bytes of a slot, if it is not a single chunk or eight of them: a task costs some 0.2 ms besides what it computes."""
-
 REMEMBERED = 16
 """Slots that a worker keeps open."""
 
-Shapes = Sequence[tuple[int, ...]]
 Work = Callable[[list[Array], list[Array]], None]
 
 

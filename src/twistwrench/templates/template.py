@@ -145,7 +145,8 @@ class Template(ABC):
         ShapeError, ValueError
             As `Model.state`.
         """
-        error = self.rate(q, v, a) - full_rate(self.model, *self.model.state(q, v=v, a=a))
+        q, v, a = self.model.state(q, v=v, a=a)
+        error = self.law(*self.read(q, v, a)) - full_rate(self.model, q, v, a)
         return Residual(error[..., :3], error[..., 3:], self.weight, self.length)
 
 
