@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.clock import round_robin
 from twistwrench.study.cases import QUANTITIES, ours, random_states
-from twistwrench.study.clock import round_robin
 from twistwrench.study.speed import Speed, speed, table
 
 HUMANOID = tw.load("humanoid")

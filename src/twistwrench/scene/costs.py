@@ -6,8 +6,7 @@ to happen, ḣ_G. The templates of 49.10 answer no other; a robot with held join
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
@@ -15,12 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..checks import Array
+from ..clock import round_robin
 from ..model import Model
 from ..motions import Motion
 from ..reduction import lock_joints
 from ..templates import TEMPLATES, Residual
-from ..templates.reading import locked_inertia
-from ..templates.rigid_body import RigidBody
 from ..templates.template import Template, full_rate
 from ..templates.whole import Full
 
@@ -128,14 +126,13 @@ def costs(model: Model, motion: Motion, tolerance: float, groups: Mapping[str, I
     true, size = full_rate(model, q, v, a), Full.of(model, q[0])
     tried = candidates(model, q, v, a, groups)
     known = [one.template.read(*one.state) for one in tried]
-    seconds = _times([_law(one, x) for one, x in zip(tried, known)])
+    laps = round_robin([partial(one.template.law, *x) for one, x in zip(tried, known)], rounds=7, least=0)
     options = []
-    for one, x, time_for_all in zip(tried, known, seconds):
+    for one, x, lap in zip(tried, known, laps):
         e = one.template.law(*x) - true
         residual = Residual(e[..., :3], e[..., 3:], size.weight, size.length).relative
-        options.append(
-            Option(one.name, one.leaves_out, isinstance(one.template, Full), residual, time_for_all / len(q))
-        )
+        seconds = float(lap.seconds.min()) / len(q)
+        options.append(Option(one.name, one.leaves_out, isinstance(one.template, Full), residual, seconds))
     return Costs(motion.name, float(tolerance), tuple(sorted(options, key=lambda option: option.seconds)))
 
 
@@ -148,14 +145,6 @@ def candidates(model: Model, q: Array, v: Array, a: Array, groups: Mapping[str, 
         state = (q[..., small.kept_q], v[..., small.kept_v], a[..., small.kept_v])
         tried.append(Candidate(name, leaves_out, Full.of(small.model, state[0][0]), state))
     return tried
-
-
-def _law(one: Candidate, known: tuple[Array, ...]) -> Callable[[], Array]:
-    """Return what has to be computed for a state: the law, and before it an inertia that depends on the joints."""
-    template = one.template
-    if type(template) is RigidBody:
-        return lambda: template.law(locked_inertia(template.model, one.state[0]), *known[1:])
-    return partial(template.law, *known)
 
 
 def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
@@ -188,16 +177,3 @@ def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
     ]
     beyond = {head: [i for i in range(1, model.nbodies) if head in model.support(i)] for head in heads}
     return {model.joint_names[head]: tuple(model.joint_names[i] for i in bodies) for head, bodies in beyond.items()}
-
-
-def _times(calls: list[Callable[[], object]], rounds: int = 7) -> list[float]:
-    """Return the shortest time of each call, s; in turns, so that what else the machine does falls on all alike."""
-    for call in calls:
-        call()
-    measured = np.empty((rounds, len(calls)))
-    for row in measured:
-        for k, call in enumerate(calls):
-            start = time.perf_counter()
-            call()
-            row[k] = time.perf_counter() - start
-    return [float(x) for x in measured.min(axis=0)]

@@ -15,8 +15,8 @@ import numpy as np
 
 import twistwrench as tw
 
+from ..clock import round_robin
 from .cases import QUANTITIES, ours, pinocchio, random_states
-from .clock import round_robin
 
 __all__ = ["Speed", "add_speed", "speed"]
 

@@ -13,9 +13,9 @@ import numpy as np
 
 import twistwrench as tw
 
+from ..clock import round_robin
 from ..motions import MOTIONS, Motion
 from ..templates import TEMPLATES
-from .clock import round_robin
 from .trade.picture import check_format
 
 __all__ = ["ROBOTS", "Loss", "add_templates", "losses"]

@@ -35,12 +35,13 @@ class RigidBody(Template):
     assumes: ClassVar[str] = "The joints' motion has no angular momentum."
 
     def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
-        """Return I, R, ω, ω̇ and p̈_G."""
-        return self._inertia(q), *turning(self.model, q, v, a), com_acceleration(self.model, q, v, a)
+        """Return q, R, ω, ω̇ and p̈_G."""
+        return q, *turning(self.model, q, v, a), com_acceleration(self.model, q, v, a)
 
     def law(self, *known: Array) -> Array:
         """Return (R (I ω̇ + ω × I ω), m p̈_G)."""
-        I, R, w, w_dot, p_ddot = known
+        q, R, w, w_dot, p_ddot = known
+        I = self._inertia(q)
         k_dot = np.matvec(R, np.matvec(I, w_dot) + np.cross(w, np.matvec(I, w)))
         return np.concatenate([k_dot, self.model.mass * p_ddot], axis=-1)
 

@@ -9,7 +9,7 @@ from textwrap import shorten
 import numpy as np
 
 from ...checks import Array
-from ..clock import Lap, round_robin
+from ...clock import Lap, round_robin
 from .quantity import Quantity, Way
 
 __all__ = ["Effort", "LeftOut", "Point", "Unusable", "measure", "relative_error"]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from .checks import Array
 
 __all__ = ["Lap", "Race", "race", "round_robin"]
 
