@@ -121,12 +121,13 @@ def links(rounds: int) -> Iterator[Row]:
                 # Beyond, its data take gigabytes, and so many chains are kept here at once.
                 calls["Pinocchio", n, 1] = pinocchio(model, quantity, states[n]), 100
         laps = round_robin([call for call, _ in calls.values()], rounds=rounds, least=0.05)
-        seconds = {key: lap.seconds / n for (key, (_, n)), lap in zip(calls.items(), laps, strict=True)}
-        for (way, n, size), mine in seconds.items():
+        ran = dict(zip(calls, laps, strict=True))
+        for (way, n, size), lap in ran.items():
             if way != "Pinocchio":
-                theirs = seconds.get(("Pinocchio", n, 1), np.full(1, np.nan))
+                mine = lap.seconds / size
+                theirs = ran["Pinocchio", n, 1].seconds / 100 if n <= 200 else np.full(1, np.nan)
                 some = min(len(mine), len(theirs)) if n <= 200 else len(mine)
-                result = Race(mine[:some], np.resize(theirs, some), 0)
+                result = Race(mine[:some], np.resize(theirs, some), len(lap.spare))
                 yield row("links", way, quantity, result, robot=f"chain_{n}", dtype="float64", batch=size, links=n)
 
 
