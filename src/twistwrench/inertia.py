@@ -77,7 +77,7 @@ class SpatialInertia:
 
     def _set(self, mass: Array, com: Array, inertia_at_com: Array) -> None:
         for name, x in (("mass", mass), ("com", com), ("inertia_at_com", inertia_at_com)):
-            x.flags.writeable = False
+            x.setflags(write=False)
             object.__setattr__(self, name, x)
 
     @classmethod
@@ -150,7 +150,7 @@ class SpatialInertia:
         array([1., 1., 1., 2., 2., 2.])
         """
         m, C = self.mass[..., None, None], cross_matrix(self.com)
-        return blocks(self.inertia_at_com - m * (C @ C), m * C, -m * C, m * np.eye(3, dtype=C.dtype))
+        return blocks(self.inertia_at_com - m * (C @ C), m * C, -m * C, m * np.eye(3))
 
     def transform(self, T: SE3) -> SpatialInertia:
         """Return the same body's inertia in another frame: I_A = X* I_B X⁻¹.
@@ -173,7 +173,7 @@ class SpatialInertia:
         """
         turned = T.rotation @ self.inertia_at_com @ T.rotation.mT
         com = T.act(self.com)
-        mass = np.broadcast_to(self.mass.astype(com.dtype, copy=False), com.shape[:-1])
+        mass = np.broadcast_to(self.mass.astype(com.dtype), com.shape[:-1])
         return SpatialInertia._trusted(mass, com, (turned + turned.mT) / 2)
 
     def __eq__(self, other: object) -> bool:  # by value; like an array, without a hash
