@@ -262,6 +262,22 @@ def test_a_rotor_or_a_needed_frame_keeps_a_joint():
     assert idle_joints(model, ["camera"]) == ("lens",)
 
 
+def test_the_name_of_a_joint_is_no_pattern():
+    rod = tw.SpatialInertia(1, [0, 0, -0.5], np.diag([0.1, 0.1, 0.01]))
+    builder = tw.Builder("names that look like patterns")
+    for name, parent, inertia in (("a", "base_link", rod), ("b[1]", "a", rod), ("a*", "b[1]", None), ("ab", "a*", rod)):
+        builder.link(name, parent=parent, joint=tw.Revolute("y"), inertia=inertia)
+    builder.link("c*", parent="a", joint=tw.Revolute("y"))
+    builder.link("cc", parent="a", joint=tw.Revolute("y"), inertia=rod)
+    model = builder.build()
+    assert tw.lock_joints(model, ["b[1]"], model.neutral()).held == ("b[1]",)
+    assert tw.lock_joints(model, ["a*"], model.neutral()).held == ("a*",)
+    assert tw.lock_joints(model, ["a?", "b*"], model.neutral()).held == ("b[1]", "a*", "ab")
+    scene = tw.Scene(model)  # what carries nothing is dropped by its name
+    assert scene.idle == ("c*",)
+    assert set(scene.model.joint_names) == {"universe", "a", "b[1]", "a*", "ab", "cc"}
+
+
 # ---------------------------------------------------------------- what is wrong is said
 
 

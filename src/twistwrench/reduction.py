@@ -107,7 +107,8 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
     ----------
     model : Model
     joints : iterable of str
-        Names of joints, or patterns: ``"arm_*"`` is every joint whose name begins so.
+        Names of joints, or patterns: ``"arm_*"`` is every joint whose name begins so. What is the name of a joint is
+        no pattern.
     q : array_like, shape (nq,)
         Where they are held; the entries of the other joints have no influence.
 
@@ -193,7 +194,8 @@ def matching_joints(model: Model, patterns: Iterable[str]) -> tuple[str, ...]:
     for pattern in names_of(patterns, "joints", "names or patterns"):
         if not isinstance(pattern, str):
             raise NameNotFound(f"joints: expected names or patterns, got {type(pattern).__name__} {pattern!r}")
-        fits = {name for name in names if fnmatchcase(name, pattern)}
+        exact = pattern in names  # a name may hold what is a sign of patterns elsewhere: "arm[1]"
+        fits = {pattern} if exact else {name for name in names if fnmatchcase(name, pattern)}
         if not fits:
             raise NameNotFound(f"{pattern!r} fits no joint of {model.name!r}; its joints are {', '.join(names)}")
         held |= fits

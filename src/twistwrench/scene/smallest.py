@@ -55,7 +55,7 @@ class SmallestModel:
         self._reduction = lock_joints(before, {*locked, *self.idle}, at)
         self.model = self._reduction.model
         if self.model.nv == 0:
-            raise ModelError(f"{full.name!r}: the scene holds every joint, and nothing is left to move")
+            raise ModelError(f"{full.name!r}: nothing is left to move; every joint is held, or carries nothing")
         expect_movable(self.model, (contact.frame for contact in self.contacts), "contact on frame")
         expect_movable(self.model, self.wrenches, "wrench on frame")
 
