@@ -13,7 +13,8 @@ whose language it names; an English cell is followed by the Chinese one that say
     # %%
     v[2] = 0.5
 
-In the Chinese text, commas and the like may be typed half as wide as Chinese has them, and a line may end anywhere.
+In the Chinese text, commas, brackets, quotation marks and the like may be typed as English has them, and a line may
+end anywhere.
 """
 
 import argparse
@@ -51,8 +52,11 @@ METADATA = {
 HAN = "\u4e00-\u9fff"
 LINE_END = rf"[{HAN},;:?!、。]\n[{HAN}]|[,;:?!、。]\n([A-Za-z]|\*\*|\$(?!\$)|`(?!``))"
 """Where a line ends and no blank may show."""
-HALF_WIDTH = rf"((?<=[{HAN}])|(?<=[{HAN}]\)))[,;:?!] ?|[,;:?!](?=[{HAN}])"
-FULL_WIDTH = {ord(mark): ord(mark) + 0xFEE0 for mark in ",;:?!"}
+HALF_WIDTH = rf"(?<=[{HAN}）])[,;:?!] ?|[,;:?!](?=[{HAN}])|(?<=[`$])[,;:](?=[`$]|\n)"
+FULL_WIDTH = {ord(mark): ord(mark) + 0xFEE0 for mark in "(),;:?!"}
+NOT_WORDS = r"`[^`]+`|\$\$[^$]+\$\$|\$[^$]+\$|\]\([^)]*\)"
+QUOTES = rf'{NOT_WORDS}|"([^"]*)"'
+BRACKETS = rf"{NOT_WORDS}| ?\((?:{NOT_WORDS}|\([^()`$]*\)|[^()`$])*\) ?"
 
 
 def sources() -> list[Path]:
@@ -89,7 +93,18 @@ def chinese(text: str) -> str:
             lines[-1] += line.lstrip()
         else:
             lines.append(line)
-    return re.sub(HALF_WIDTH, lambda mark: mark[0].strip().translate(FULL_WIDTH), "\n".join(lines))
+    text = re.sub(QUOTES, lambda found: f"“{found[1]}”" if found[1] else found[0], "\n".join(lines))
+    text = re.sub(BRACKETS, _brackets, text)
+    return re.sub(HALF_WIDTH, lambda mark: mark[0].strip().translate(FULL_WIDTH), text)
+
+
+def _brackets(found: re.Match[str]) -> str:
+    """Widen brackets that hold Chinese, or stand right behind it; others, code and formulas stay as they are."""
+    text, words = found[0], re.sub(NOT_WORDS, "", found[0])
+    behind = text[0] == "(" and re.match(f"[{HAN}]", found.string[found.start() - 1])
+    if words.strip()[:1] != "(" or not (behind or re.search(f"[{HAN}]", words)):
+        return text
+    return f"（{text.strip()[1:-1]}）"
 
 
 def build(source: Path, language: str) -> str:

@@ -35,7 +35,7 @@ v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
 # %% [markdown] lang="zh"
 # ## 一个运动,两种 twist
 #
-# 设 $T(t)$ 是刚体在世界中的位姿。它的导数 $\dot T$ 是 4 × 4 矩阵,从一边或另一边乘上 $T^{-1}$,就得到 twist:
+# 设 $T(t)$ 是刚体在世界中的位姿。它的导数 $\dot T$ 是 4 × 4 矩阵,从一边或另一边乘上 $T^{-1}$,就得到 twist：
 #
 # $$[\boldsymbol V_{body}] = T^{-1}\dot T, \qquad [\boldsymbol V_{spatial}] = \dot T\, T^{-1}.$$
 #

@@ -7,7 +7,7 @@
 # %% [markdown] lang="zh"
 # # 49.3 Plücker 变换矩阵
 #
-# 49.1 的四条规则可以合成两个矩阵:$X$ 变换 twist,$X^*$ 变换 wrench。这个笔记本分六步推导 $X$,每一步都用数字核对,
+# 49.1 的四条规则可以合成两个矩阵:$X$ 变换 twist，$X^*$ 变换 wrench。这个笔记本分六步推导 $X$,每一步都用数字核对,
 # 再看看矩阵的分块结构,并说明为什么 $X^*$ 是 $X^{-T}$ 而不是 $X^T$。
 # %%
 import matplotlib.pyplot as plt
