@@ -46,7 +46,7 @@ INERTIA_MATRIX = Part(
         Returns: array (6, 6), rows (l, k), columns (v, ω): the linear half first.""",
         """按 `pin.Inertia.matrix()` 的排列返回空间惯量（测试 3）。
 
-        m：数，kg。c：数组 (3,)，单位 m，质心(`.lever`)。I_c：数组 (3, 3)，kg m²，关于质心
+        m：数，kg。c：数组 (3,)，单位 m，质心（`.lever`）。I_c：数组 (3, 3)，kg m²，关于质心
         (`.inertia`)。
         返回：数组 (6, 6)，行 (l, k)，列 (v, ω)：线分量在前。""",
     ),

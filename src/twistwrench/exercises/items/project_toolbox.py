@@ -199,7 +199,7 @@ POSE_OF_BASE = Part(
         Returns: array (4, 4).""",
         """返回浮动基座在世界中的位姿。
 
-        q：数组 (nq,)；前七个分量属于基座：x、y、z(m)和单位四元数 qx、qy、qz、qw。
+        q：数组 (nq,)；前七个分量属于基座：x、y、z (m) 和单位四元数 qx、qy、qz、qw。
         返回：数组 (4, 4)。""",
     ),
     returns=(Quantity("T", POSE),),

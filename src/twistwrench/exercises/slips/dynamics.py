@@ -157,7 +157,7 @@ DYNAMICS = {
         Text("S and Sᵀ are exchanged", "S 与 Sᵀ 弄反"),
         Text(
             "S (n × nv) picks the joints out of v; Sᵀ puts torques back, with six zeros above.",
-            "S(n × nv)从 v 中取出关节；Sᵀ 把力矩放回，上面补六个零。",
+            "S (n × nv) 从 v 中取出关节；Sᵀ 把力矩放回，上面补六个零。",
         ),
         "49.9",
     ),
