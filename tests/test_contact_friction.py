@@ -283,6 +283,14 @@ def test_a_block_on_a_slope_needs_the_tangent_of_the_slope(slope, sides, pyramid
     assert np.isclose(margins.tip, 0.2 * np.cos(slope) - 0.1 * np.sin(slope), rtol=1e-12)
 
 
+@pytest.mark.parametrize("mu", [0.0, 1e-6])
+def test_a_block_on_a_smooth_slope_slips_and_does_not_tip(mu):
+    margins = tw.stance_margins(*block(0.1, (0.4, 0.4, 0.2), mu=mu))
+    assert not margins.stands
+    assert margins.tip > 0.1
+    assert margins.reason.removeprefix("it slips: it would need ").startswith("1.02e+05 times" if mu else "friction wh")
+
+
 @pytest.mark.parametrize(("slope", "stands"), [(0.49, True), (0.51, False)])
 def test_a_tall_block_tips_where_its_centre_passes_the_lower_edge(slope, stands):
     height = 0.2 / np.tan(0.5)  # tips at 0.5 rad

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -108,15 +108,17 @@ def stance_margins(
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
     tip, rest = tip_distance(model, q, contacts), np.zeros(model.nv)
     try:
-        used = friction_used(Task.of(model, q, rest, rest, contacts, None), sides, pyramid)
+        task = Task.of(model, q, rest, rest, contacts, None)
     except SingularError as error:
         return StanceMargins(False, np.inf, tip, f"it falls: {error}")
-    reason = ""
-    if used > 1:
-        reason = f"it slips: it would need {used:.3g} times the friction"
-    if used == np.inf:
+    used, reason = friction_used(task, sides, pyramid), ""
+    if used == np.inf and friction_used(_rough(task), sides, pyramid) < np.inf:
+        reason = "it slips: it would need friction where there is none"
+    elif used == np.inf:
         where = f"is {-tip:.3g} m outside the support polygon" if tip < 0 else "is above the support polygon"
         reason = f"it tips: the centre of mass {where}, and some contact would have to pull"
+    elif used > 1:
+        reason = f"it slips: it would need {used:.3g} times the friction"
     return StanceMargins(used <= 1, used, tip, reason)
 
 
@@ -139,6 +141,11 @@ def friction_used(task: Task, sides: int, pyramid: Pyramid) -> float:
         middle = (low + high) / 2
         low, high = (low, middle) if holds(middle) else (middle, high)
     return high
+
+
+def _rough(task: Task) -> Task:
+    """Return the task with some friction at every contact: no multiple of none is any."""
+    return replace(task, contacts=tuple(_with_friction(c, 1.0) for c in task.contacts))
 
 
 def _with_friction(contact: Contact, mu: float) -> Contact:
