@@ -120,6 +120,13 @@ def test_contacts_are_computed_in_double_precision():
     assert np.abs(at - at[0]).max() < 1e-12
 
 
+def test_no_states_at_all_move_nowhere():
+    model, _, feet = standing_go2()
+    s = tw.simulate(model, np.zeros((0, 19)), np.zeros((0, 18)), dt=0.01, steps=2, contacts=feet)
+    assert s.q.shape == (3, 0, 19)
+    assert s.contact_forces["FL_foot"].shape == (3, 0, 3)
+
+
 # ---------------------------------------------------------------- scenes
 
 

@@ -106,8 +106,8 @@ class System:
 
     def _refuse_slip(self, q: Array, v: Array) -> None:
         for contact in self.contacts:
-            slip = np.abs(np.matvec(constraint_jacobian(self.model, q, [contact]), v)).max()
-            if slip > STILL * max(np.abs(v).max(), 1):
+            slip = np.abs(np.matvec(constraint_jacobian(self.model, q, [contact]), v)).max(initial=0)
+            if slip > STILL * np.abs(v).max(initial=1):
                 raise ValueError(
                     f"v: contact {contact.frame!r} sticks, but moves at t = 0 (up to {slip:.3g} m/s or rad/s); "
                     "twistwrench.impact gives the velocity after it has closed"
