@@ -748,6 +748,8 @@ def test_what_is_no_number_is_refused(mpmath):
         newton_euler_3d.nonlinear_effects(model, [mpmath.mpf(1)], [None])
     with pytest.raises(ValueError, match="q: expected numbers"):
         newton_euler_3d.gravity(model, ["high"])
+    with pytest.raises(ValueError, match="q: expected numbers, got a masked array"):
+        newton_euler_3d.gravity(model, np.ma.array([0.5], mask=[True]))
 
 
 def test_a_wrench_on_the_world_is_refused():

@@ -192,7 +192,7 @@ def _common(came: dict[str, Array]) -> tuple[Arithmetic, dict[str, Array]]:
 
 def _as_array(value: ArrayLike, name: str) -> Array:
     try:
-        return np.asarray(value)
+        return np.asanyarray(value)  # a mask stays, for `as_arrays` to refuse
     except ValueError:
         raise ShapeError(f"{name}: expected a rectangular array, got rows of different lengths") from None
 
