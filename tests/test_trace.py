@@ -245,6 +245,7 @@ def test_a_variable_is_asked_for_by_its_name_in_the_source():
     trace = traces((MODELS["go2"], MODELS["go2"].standing(), *np.ones((2, 18)), np.zeros((14, 6))))[1]
     assert [len(x) for x in trace["u"][1:]] == [6] + 12 * [1]
     assert trace["u"][0] is None
+    assert trace.row(np.int64(2)) is trace.row("FL_hip_joint") is trace.rows[2]
     with pytest.raises(tw.NameNotFound, match="unknown variable 'IC' of aba"):
         trace["IC"]
 

@@ -82,7 +82,7 @@ class Trace:
 
     def row(self, body: int | str) -> Row:
         """Return the row of a body, by its number or by the name of its joint; raises NameNotFound, IndexError."""
-        return self.rows[body if isinstance(body, int) else self.model.joint_id(body)]
+        return self.rows[self.model.joint_id(body) if isinstance(body, str) else body]
 
     def __getitem__(self, name: str) -> list[Any]:
         """Return a variable of all bodies: its value, or the total of what adds up; None where there is none."""
