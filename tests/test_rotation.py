@@ -99,6 +99,9 @@ def test_half_turns_give_the_axis_up_to_its_sign():
     w = log3(exp3(np.pi * u))
     sign = np.sign((w * u).sum(-1, keepdims=True))
     np.testing.assert_allclose(w * sign, np.pi * u, rtol=0, atol=4e-15)
+    exact = log3(2 * u[:, :, None] * u[:, None, :] - np.eye(3))  # symmetric: sin π is 0, not 1e-16
+    np.testing.assert_allclose(exact * np.sign((exact * u).sum(-1, keepdims=True)), np.pi * u, rtol=0, atol=4e-15)
+    assert (np.take_along_axis(exact, np.abs(exact).argmax(-1)[:, None], axis=-1) > 0).all()
 
 
 def test_beyond_half_a_turn_the_logarithm_takes_the_short_way():
@@ -224,9 +227,9 @@ def test_a_batch_may_mix_every_case():
     np.testing.assert_array_equal(log3(exp3(w)), [log3(exp3(x)) for x in w])
 
 
-@pytest.mark.parametrize("function", [skew, exp3, rpy_to_rotation])
-def test_a_vector_of_four_is_refused(function):
-    with pytest.raises(ShapeError, match=r"expected shape \(\.\.\., 3\), got \(4,\)"):
+@pytest.mark.parametrize(("function", "name"), [(skew, "w"), (exp3, "w"), (rpy_to_rotation, "rpy")])
+def test_a_vector_of_four_is_refused(function, name):
+    with pytest.raises(ShapeError, match=rf"^{name}: expected shape \(\.\.\., 3\), got \(4,\)"):
         function(np.zeros(4))
 
 

@@ -61,8 +61,9 @@ class SpatialInertia:
         except ValueError:
             shapes = f"{m.shape}, {c.shape[:-1]} and {I_c.shape[:-2]}"
             raise ShapeError(f"mass, com and inertia_at_com: batch axes {shapes} do not broadcast") from None
-        if (m.real < 0).any():
-            raise ModelError(f"mass: expected no negative mass, got {m.real.min():.6g} kg" + which(m.real < 0))
+        wrong = np.asarray(m.real < 0)
+        if wrong.any():
+            raise ModelError(f"mass: expected no negative mass, got {m.real[wrong][0]:.6g} kg" + which(wrong))
         off = largest((I_c - I_c.mT).real, 2)
         wrong = off > resolution(I_c.dtype) ** 0.5 * largest(I_c.real, 2)
         if wrong.any():

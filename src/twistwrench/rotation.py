@@ -214,7 +214,7 @@ def rotation_to_quaternion(R: ArrayLike) -> Array:
     check_rotation(R, "R")
     Q = np.empty((*R.shape[:-2], 4, 4), R.dtype)  # 4 q qᵀ, whose entries are sums of those of R
     trace = np.trace(R, axis1=-2, axis2=-1)[..., None, None]
-    Q[..., :3, :3] = R + R.mT + np.eye(3, dtype=R.dtype) * (1 - trace)
+    Q[..., :3, :3] = R + R.mT + np.eye(3) * (1 - trace)
     Q[..., :3, 3] = Q[..., 3, :3] = 2 * skew_part(R)
     Q[..., 3, 3] = 1 + trace[..., 0, 0]
     squares = np.diagonal(Q, axis1=-2, axis2=-1)
@@ -262,7 +262,7 @@ def check_rotation(R: Array, name: str) -> None:
     """Raise ShapeError unless RᵀR = 1 and det R = 1, to the square root of the resolution."""
     real = R.real
     with np.errstate(over="ignore", invalid="ignore"):
-        off = largest(real.mT @ real - np.eye(3, dtype=real.dtype), 2)
+        off = largest(real.mT @ real - np.eye(3), 2)
     wrong = ~(off <= resolution(R.dtype) ** 0.5)
     if wrong.any():
         raise ShapeError(f"{name}: expected a rotation matrix, got |RᵀR − 1| = {off[wrong][0]:.3g}" + which(wrong))
