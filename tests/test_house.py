@@ -24,6 +24,7 @@ ORDER = [
         "constants",
         "state",
         "model",
+        "door",
         "links",
         "numbering",
         "builder",

@@ -331,5 +331,5 @@ def test_the_table_of_the_page_names_the_methods_with_their_orders():
 
 
 def test_a_name_is_no_robot_yet():
-    with pytest.raises(TypeError, match=r"expected a Model, as tw.load returns, or a Scene, got the str 'pendulum'"):
+    with pytest.raises(TypeError, match=r"robot: expected a Model or a Scene, got the str 'pendulum'"):
         tw.simulate("pendulum", [0.0], [0.0], dt=0.01, steps=1)

@@ -52,8 +52,8 @@ def test_both_languages_tell_the_same_steps(name):
     ("quotes", "said"),
     [
         (["A[0] = +gravity"], r"no such line, or not behind the one before it: A\[0\] = \+gravity"),
-        (["tree, n = walk(model, q), model.nbodies"], "no step holds the line: q, v, a, f_ext = model.state"),
-        (["q, v, a, f_ext = model.state(q, v=v, a=a, f_ext=external(model, f_ext))"] * 2, "not behind the one before"),
+        (["tree, n = walk(model, q), model.nbodies"], "no step holds the line: q, v, a, f_ext = state_of"),
+        (["q, v, a, f_ext = state_of(model, q, v=v, a=a, f_ext=f_ext)"] * 2, "not behind the one before"),
     ],
 )
 def test_a_line_that_is_gone_is_noticed(quotes, said):

@@ -410,7 +410,7 @@ def test_the_slider_of_time_shows_what_was_then_and_plays_from_the_start_again()
     [
         (["go2"], {"backend": "vtk"}, tw.NameNotFound, "unknown backend 'vtk'; known: 'matplotlib', 'browser'"),
         (["gogo2"], {}, tw.NameNotFound, "unknown robot 'gogo2'"),
-        ([GO2.nv], {}, TypeError, "robot: expected a name, a path, a Model, a Scene or a Simulation, got int"),
+        ([GO2.nv], {}, TypeError, "robot: expected a name, a path, a Model, a Scene or a Simulation, got the int"),
         (["go2", np.zeros(18)], {}, tw.ShapeError, "q: expected shape (..., 19), got (18,)"),
         (["go2", np.tile(GO2.standing(), (2, 2, 1))], {}, tw.ShapeError, "or (n, 19) for a motion, got (2, 2, 19)"),
         (["go2", np.tile(GO2.standing(), (2, 1))], {}, tw.ShapeError, "matplotlib plays no motion"),

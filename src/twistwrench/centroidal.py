@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
+from .door import state_of
 from .errors import SingularError
 from .inertia import cross_force
 from .kinematics import _motion, _placements
@@ -48,7 +49,7 @@ def center_of_mass(model: Model, q: ArrayLike) -> Array:
     >>> tw.center_of_mass(tw.load("pendulum"), [0.0])
     array([ 0.,  0., -1.])
     """
-    (q,) = model.state(q)
+    (q,) = state_of(model, q)
     return _center_of_mass(model, _placements(model, q), q)
 
 
@@ -96,7 +97,7 @@ def centroidal_map(model: Model, q: ArrayLike) -> Array:
            [ 0.   , 16.085,  0.   ],
            [ 0.   ,  0.   , 16.085]])
     """
-    (q,) = model.state(q)
+    (q,) = state_of(model, q)
     tree, to_G = walk(model, q), _to_center_of_mass(model, q)
     IC = composite_inertias(tree)
     columns = [to_G[i] @ IC[i] @ tree.S[i] for i in tree.outward]
@@ -129,7 +130,7 @@ def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> tw.centroidal_momentum(tw.load("pendulum"), [0.0], [2.0]).round(12) + 0.0  # a ball of 1 kg at 2 m/s
     array([ 0.   ,  0.002,  0.   , -2.   ,  0.   ,  0.   ])
     """
-    q, v = model.state(q, v=v)
+    q, v = state_of(model, q, v=v)
     to_G, I = _to_center_of_mass(model, q), model.constants(q.dtype).I
     V, _ = _motion(model, q, v, np.zeros_like(v))
     momenta = [np.matvec(to_G[i] @ I[i], V[i]) for i in range(model.nbodies)]
@@ -169,7 +170,7 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
     >>> tw.centroidal_momentum_rate(model, model.standing(), rest, free_fall)[5].round(3)  # −m g
     np.float64(-157.794)
     """
-    q, v, a = model.state(q, v=v, a=a)
+    q, v, a = state_of(model, q, v=v, a=a)
     to_G, I = _to_center_of_mass(model, q), model.constants(q.dtype).I
     V, A = _motion(model, q, v, a)
     rates = [

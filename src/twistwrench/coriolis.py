@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
+from .door import state_of
 from .inertia import cross_force, cross_motion
 from .model import Model
 from .tree import split, walk
@@ -50,7 +51,7 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> np.allclose(C @ v, tw.nonlinear_effects(model, q, v) - tw.gravity(model, q), rtol=0, atol=1e-15)
     True
     """
-    q, v = model.state(q, v=v)
+    q, v = state_of(model, q, v=v)
     tree, qd = walk(model, q), split(model, v)
     V = [np.zeros(6, q.dtype)] * model.nbodies
     J = [np.zeros((6, 0), q.dtype)] * model.nbodies  # columns of the joints on the way to the base only

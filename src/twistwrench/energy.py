@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
+from .door import state_of
 from .kinematics import _motion, _placements
 from .model import Model
 
@@ -39,7 +40,7 @@ def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> tw.kinetic_energy(tw.load("pendulum"), [0.5], [2.0])
     np.float64(2.002)
     """
-    q, v = model.state(q, v=v)
+    q, v = state_of(model, q, v=v)
     constants = model.constants(q.dtype)
     V, _ = _motion(model, q, v, np.zeros_like(v))
     twice: Array = (constants.armature * v * v).sum(axis=-1)
@@ -73,7 +74,7 @@ def potential_energy(model: Model, q: ArrayLike) -> Array:
     >>> float(tw.potential_energy(pendulum, [np.pi]) - tw.potential_energy(pendulum, [0.0]))  # 2 m · 9.81 N
     19.62
     """
-    (q,) = model.state(q)
+    (q,) = state_of(model, q)
     weight = -model.constants(q.dtype).gravity[3:]
     energy = np.zeros(q.shape[:-1], q.dtype)
     for T, inertia in zip(_placements(model, q), model.inertia):

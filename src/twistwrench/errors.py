@@ -7,8 +7,9 @@ Each message names the argument, joint, link or frame, what was expected and wha
 from __future__ import annotations
 
 from collections.abc import Iterable
+from os import PathLike
 
-__all__ = ["FrameError", "ModelError", "ShapeError", "SingularError", "unknown_name"]
+__all__ = ["FrameError", "ModelError", "ShapeError", "SingularError", "no_model", "unknown_name"]
 
 
 class ModelError(ValueError):
@@ -66,6 +67,43 @@ def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "")
         shown = ", ".join(map(repr, names[:12]))
         hint = f"known: {shown}" + (f" and {len(names) - 12} more" if len(names) > 12 else "")
     return NameNotFound(f"unknown {kind} {name!r}{where}; {hint}")
+
+
+def no_model(value: object, what: str = "model", expected: str = "a Model") -> TypeError:
+    """Make the error for what came in the place of a model, with the way from it to one.
+
+    Parameters
+    ----------
+    value : object
+        What came.
+    what : str
+        The name of the argument.
+    expected : str
+        All that it could have been.
+
+    Returns
+    -------
+    TypeError
+        Ready to be raised.
+
+    Examples
+    --------
+    >>> raise no_model("go2")
+    Traceback (most recent call last):
+    TypeError: model: expected a Model, got the str 'go2'; did you mean tw.load('go2')?
+    """
+    kind = type(value)
+    package, hint = kind.__module__.partition(".")[0], ""
+    came = f"the {kind.__name__}" if package in ("builtins", "twistwrench") else f"{package}'s {kind.__name__}"
+    if value is None or isinstance(value, type):
+        came = "None" if value is None else f"the class {value.__name__}"
+    elif isinstance(value, str | PathLike):
+        came, hint = f"the {kind.__name__} {str(value)!r}", f"; did you mean tw.load({str(value)!r})?"
+    elif (package, kind.__name__) == ("pinocchio", "Model"):
+        hint = "; tw.bridge.from_pinocchio_model makes one of it"
+    elif package == "twistwrench" and hasattr(value, "model"):
+        hint = "; did you mean its .model?"
+    return TypeError(f"{what}: expected {expected}, got {came}{hint}")
 
 
 def _typed(value: object) -> str:

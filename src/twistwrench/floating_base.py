@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array, resolution
+from .door import check_model, state_of
 from .errors import ShapeError, SingularError
 from .inverse_dynamics import gravity
 from .kinematics import frame_jacobian
@@ -36,6 +37,7 @@ def selection_matrix(model: Model) -> Array:
     >>> S.shape, bool((S.T @ np.ones(12))[:6].any())
     ((12, 18), False)
     """
+    check_model(model)
     return np.eye(model.nv)[_unactuated(model) :]
 
 
@@ -78,8 +80,8 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     >>> J_c.shape, int(np.linalg.matrix_rank(J_c))
     ((12, 18), 12)
     """
+    (q,) = state_of(model, q)
     contacts = names_of(contacts, "contacts", "frame names")
-    (q,) = model.state(q)
     rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
 
@@ -150,6 +152,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     >>> held.forces[:, 2].sum().round(3)  # the feet carry the whole weight
     np.float64(157.794)
     """
+    check_model(model)
     contacts = names_of(model.feet if contacts is None else contacts, "contacts", "frame names")
     if model.base != "floating":
         raise ValueError(

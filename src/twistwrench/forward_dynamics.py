@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 
 from ._scalars import which
 from .checks import Array, resolution
+from .door import state_of
 from .errors import SingularError
 from .inertia import cross_force, cross_motion
-from .inverse_dynamics import external
 from .model import Model
 from .tree import Tree, composite_inertias, join, split, walk
 
@@ -69,7 +69,7 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     >>> tw.aba(model, model.standing(), rest, rest)[:6].round(12) + 0.0
     array([ 0.  ,  0.  ,  0.  ,  0.  ,  0.  , -9.81])
     """
-    q, v, tau, f_ext = model.state(q, v=v, tau=tau, f_ext=external(model, f_ext))
+    q, v, tau, f_ext = state_of(model, q, v=v, tau=tau, f_ext=f_ext)
     tree, n = walk(model, q), model.nbodies
     S, X, qd, rotor = tree.S, tree.X, split(model, v), split(model, model.constants(q.dtype).armature)
     refuse_weightless(model, tree)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
+from .door import check_model, state_of
 from .inertia import cross_force, cross_motion
 from .model import Model
 from .tree import join, split, walk
@@ -66,7 +67,7 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
 
 def _rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None) -> tuple[Array, list[Array]]:
     """Return the joint forces, and the wrench that each joint passes on to its body."""
-    q, v, a, f_ext = model.state(q, v=v, a=a, f_ext=external(model, f_ext))
+    q, v, a, f_ext = state_of(model, q, v=v, a=a, f_ext=f_ext)
     tree, n = walk(model, q), model.nbodies
     S, I, X, qd, qdd = tree.S, tree.I, tree.X, split(model, v), split(model, a)
     V, A, F, tau = ([np.zeros(6, q.dtype)] * n for _ in range(4))
@@ -143,6 +144,7 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> bool((tw.nonlinear_effects(model, q, v) == tw.rnea(model, q, v, [0, 0])).all())
     True
     """
+    check_model(model)
     return rnea(model, q, v, np.zeros(model.nv, int))
 
 
@@ -170,19 +172,6 @@ def gravity(model: Model, q: ArrayLike) -> Array:
     >>> tw.gravity(tw.load("pendulum"), [0.0])  # hanging
     array([0.])
     """
+    check_model(model)
     rest = np.zeros(model.nv, int)  # integers have no say in the number type
     return rnea(model, q, rest, rest)
-
-
-def external(model: Model, f_ext: ArrayLike | None) -> ArrayLike:
-    """Return the wrenches on the bodies, zero where none came; refuse one on the world."""
-    if f_ext is None:
-        return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
-    try:
-        f_ext = np.asarray(f_ext)
-    except ValueError:  # rows of different lengths: `Model.state` says so
-        return f_ext
-    world = f_ext[..., 0, :] if f_ext.shape[-2:] == (model.nbodies, 6) else np.zeros(6)
-    if ((world != 0) & (world == world)).any():  # what is not a number is `Model.state`'s to refuse
-        raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
-    return f_ext

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from .checks import Array
 from .constants import cast
+from .door import state_of
 from .errors import unknown_name
 from .inertia import cross_motion
 from .model import Model
@@ -90,9 +91,9 @@ def forward_kinematics(
     if v is None:
         if a is not None:
             raise ValueError("a: an acceleration needs the velocity as well, got v = None")
-        (q,) = model.state(q)
+        (q,) = state_of(model, q)
         return Kinematics(_placements(model, q), None, None)
-    q, v, *rest = model.state(q, v=v) if a is None else model.state(q, v=v, a=a)
+    q, v, *rest = state_of(model, q, v=v) if a is None else state_of(model, q, v=v, a=a)
     V, A = _motion(model, q, v, rest[0] if rest else np.zeros_like(v))
     return Kinematics(_placements(model, q), np.stack(V, axis=-2), np.stack(A, axis=-2) if rest else None)
 
@@ -145,8 +146,8 @@ def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     >>> tw.frame_placement(model, model.standing(), "FR_foot").translation.round(3) + 0.0
     array([ 0.193, -0.142,  0.   ])
     """
+    (q,) = state_of(model, q)
     at = model.frame(frame)
-    (q,) = model.state(q)
     return _frame_placement(model, q, at.body, cast(at.placement, q.dtype))
 
 
@@ -190,8 +191,8 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
     >>> tw.frame_jacobian(arm, arm.neutral(), "tool", "world").shape
     (6, 3)
     """
+    (q,) = state_of(model, q)
     at = model.frame(frame)
-    (q,) = model.state(q)
     tree, T = walk(model, q), cast(at.placement, q.dtype)
     J = np.zeros((*q.shape[:-1], 6, model.nv), q.dtype)
     X = T.inverse().motion_transform()
@@ -236,8 +237,8 @@ def frame_bias_acceleration(
     >>> tw.frame_bias_acceleration(tw.load("pendulum"), [0.0], [2.0], "bob", "local_world_aligned")[3:].round(12)
     array([0., 0., 4.])
     """
+    q, v = state_of(model, q, v=v)
     at = model.frame(frame)
-    q, v = model.state(q, v=v)
     V, A = (motion[at.body] for motion in _motion(model, q, v, np.zeros_like(v)))
     T = cast(at.placement, q.dtype)
     X = T.inverse().motion_transform()

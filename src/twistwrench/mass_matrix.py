@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
+from .door import state_of
 from .model import Model
 from .tree import composite_inertias, walk
 
@@ -44,7 +45,7 @@ def crba(model: Model, q: ArrayLike) -> Array:
     >>> M.shape, M[3:6, 3:6].diagonal().round(3)  # the linear block is the whole mass
     ((18, 18), array([16.085, 16.085, 16.085]))
     """
-    (q,) = model.state(q)
+    (q,) = state_of(model, q)
     tree, at = walk(model, q), model.v_slice
     IC = composite_inertias(tree)
     M = np.zeros((*q.shape[:-1], model.nv, model.nv), q.dtype)

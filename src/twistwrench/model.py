@@ -261,15 +261,15 @@ class Model:
 
     # ---------------------------------------------------------------- what the algorithms ask for
 
-    def state(self, q: ArrayLike, **others: ArrayLike) -> tuple[Array, ...]:
+    def state(self, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
         """Check a state and bring it to one dtype and one batch shape.
 
         Parameters
         ----------
         q : array_like, shape (..., nq)
         **others : array_like
-            By the name of the argument: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
-            (..., nq), all others (..., nv).
+            By the name of the argument: ``f_ext`` (..., nbodies, 6), zero where it is None; names that
+            begin with ``q`` (..., nq), all others (..., nv).
 
         Returns
         -------
@@ -282,7 +282,7 @@ class Model:
             A wrong last axis (with a hint where nq and nv were confused), or batch axes that do
             not broadcast.
         ValueError
-            An infinity or a NaN; a quaternion or (cos, sin) that is off norm 1 by more than the
+            An infinity or a NaN; a wrench on the world; a quaternion or (cos, sin) that is off norm 1 by more than the
             root of the number type's resolution (1.5e-8 in float64).
         """
         return check_state(self, q=q, **others)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
+from .door import state_of
 from .errors import NameNotFound, ShapeError
 from .floating_base import names_of
 from .inertia import SpatialInertia
@@ -139,7 +140,7 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
     >>> tw.lock_joints(model, ["*_shoulder_*", "*_elbow"], model.standing()).model
     Model 'humanoid': floating base, 14 moving bodies, nq = 20, nv = 19, 20 kg
     """
-    (at,) = model.state(q)
+    (at,) = state_of(model, q)
     if at.ndim != 1 or at.dtype.kind == "c":
         raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {at.dtype} of shape {at.shape}")
     held = matching_joints(model, joints)

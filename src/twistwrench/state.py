@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["check_arrays", "check_state"]
 
 
-def check_state(model: Model, **named: ArrayLike) -> tuple[Array, ...]:
+def check_state(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
     """Check a state and bring it to one dtype and one batch shape: see `Model.state`."""
     arrays, names = check_arrays(model, **named), tuple(named)
     tails = [2 if name == "f_ext" else 1 for name in names]
@@ -38,24 +38,23 @@ def check_state(model: Model, **named: ArrayLike) -> tuple[Array, ...]:
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
-def check_arrays(model: Model, **named: ArrayLike) -> tuple[Array, ...]:
+def check_arrays(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
     """Convert to finite arrays of one dtype with the right last axes, or say what is wrong.
 
     The name of an argument says what it is: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
     (..., nq), all others (..., nv).
     """
-    expected: dict[str, tuple[ArrayLike, tuple[int, ...]]] = {}
+    expected: dict[str, tuple[Any, tuple[int, ...]]] = {}
     for name, value in named.items():
         if name == "f_ext":
-            expected[name] = (value, (model.nbodies, 6))
-            _check_world_is_there(model, value)
+            expected[name] = (_external(model, value), (model.nbodies, 6))
             continue
         _check_not_swapped(model, name, value)
         expected[name] = (value, (model.nq if name.startswith("q") else model.nv,))
     return as_arrays(**expected)
 
 
-def _check_not_swapped(model: Model, name: str, value: ArrayLike) -> None:
+def _check_not_swapped(model: Model, name: str, value: ArrayLike | None) -> None:
     """Say so where a v came for a q, a q for a v, the joints without the base, or a column for a row."""
     (kind, size), (other, came) = ("q", model.nq), ("v", model.nv)
     if not name.startswith("q"):
@@ -78,14 +77,20 @@ def _check_not_swapped(model: Model, name: str, value: ArrayLike) -> None:
         )
 
 
-def _check_world_is_there(model: Model, f_ext: ArrayLike) -> None:
-    """Say so where the wrenches on the moving bodies came without the world's row."""
+def _external(model: Model, f_ext: ArrayLike | None) -> ArrayLike:
+    """Return the wrenches on the bodies, zero where none came; refuse one on the world, or no row for it."""
+    if f_ext is None:
+        return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
     shape = _shape(f_ext)
     if shape[-2:] == (model.nbodies - 1, 6):
         raise ShapeError(f"f_ext: expected shape (..., {model.nbodies}, 6), got {shape}; row 0 is the world's, zero")
+    world = np.asarray(f_ext)[..., 0, :] if shape[-2:] == (model.nbodies, 6) else np.zeros(6)
+    if ((world != 0) & (world == world)).any():  # what is not a number, `as_arrays` refuses
+        raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
+    return f_ext
 
 
-def _shape(value: ArrayLike) -> tuple[int, ...]:
+def _shape(value: Any) -> tuple[int, ...]:
     try:
         return np.shape(value)
     except ValueError:  # rows of different lengths: as_arrays says so

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from .centroidal import centroidal_map
 from .checks import Array
+from .door import state_of
 from .errors import unknown_name
 from .floating_base import contact_jacobian, names_of
 from .inverse_dynamics import nonlinear_effects
@@ -85,6 +86,7 @@ def dynamics(
     >>> d.M.shape, d.J_c.shape, d.h
     ((18, 18), (12, 18), None)
     """
+    state_of(model, q, v=v)  # also where no wanted quantity depends on v
     contacts = names_of(model.feet if contacts is None else contacts, "contacts", "frame names")
     want = names_of(want, "want", "quantities")
     compute = {
@@ -96,5 +98,4 @@ def dynamics(
     for name in want:
         if not isinstance(name, str) or name not in compute:
             raise unknown_name("quantity", name, compute)
-    model.state(q, v=v)  # also where no wanted quantity depends on v
     return Dynamics(**{name: compute[name]() for name in want})

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..checks import Array
+from ..door import check_model
 from ..errors import ModelError
 from ..inertia import SpatialInertia
 from ..joint import Joint
@@ -90,6 +91,7 @@ def to_pinocchio_model(model: Model) -> Any:
     >>> (there.nq, there.nv, there.njoints) == (model.nq, model.nv, model.nbodies)
     True
     """
+    check_model(model)
     pin, order = import_pinocchio(), tangent_order(model.joints)
     effort, velocity = model.effort_limit[order], model.velocity_limit[order]
     there = pin.Model()

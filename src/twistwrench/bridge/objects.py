@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
+from ..checks import Array
+from ..door import check_model
 from ..errors import ShapeError
 from ..inertia import SpatialInertia
-from ..inverse_dynamics import external
 from ..model import Model
 from ..plucker import SE3
+from ..state import check_arrays
 from .spatial import from_pinocchio_force, to_pinocchio_force
 
 __all__ = [
@@ -195,8 +196,9 @@ def to_pinocchio_f_ext(model: Model, f_ext: ArrayLike) -> Any:
     >>> to_pinocchio_f_ext(model, [[0, 0, 0, 0, 0, 0], [1, 2, 3, 4, 5, 6]])[1].linear
     array([4., 5., 6.])
     """
+    check_model(model)
     pin = import_pinocchio()
-    F = _double(as_array(external(model, f_ext), "f_ext", model.nbodies, 6), "f_ext", 2)
+    F = _double(check_arrays(model, f_ext=f_ext)[0], "f_ext", 2)
     there = pin.StdVec_Force()
     there.extend([pin.Force(f) for f in to_pinocchio_force(F)])
     return there
@@ -228,8 +230,9 @@ def from_pinocchio_f_ext(model: Model, f_ext: Any) -> Array:
     >>> from_pinocchio_f_ext(model, [pin.Force.Zero(), pin.Force(np.arange(6.0))])[1]
     array([3., 4., 5., 0., 1., 2.])
     """
+    check_model(model)
     F = from_pinocchio_force(f_ext)
-    return as_array(external(model, F), "f_ext", model.nbodies, 6)
+    return check_arrays(model, f_ext=F)[0]
 
 
 def _double(x: Array, name: str, axes: int) -> Array:

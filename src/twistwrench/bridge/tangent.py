@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array
+from ..door import check_model
 from ..errors import ShapeError
 from ..joint import Joint
 from ..joint_types import FreeFlyer
@@ -65,6 +66,7 @@ def to_pinocchio_tangent(model: Model, v: ArrayLike) -> Array:
     >>> to_pinocchio_tangent(model, np.arange(18))[:8]
     array([3., 4., 5., 0., 1., 2., 6., 7.])
     """
+    check_model(model)
     return as_array(v, "v", model.nv)[..., tangent_order(model.joints)]
 
 
@@ -94,6 +96,7 @@ def from_pinocchio_tangent(model: Model, v: ArrayLike) -> Array:
     >>> from_pinocchio_tangent(model, [1, 2, 3, 4, 5, 6, *range(7, 19)])[:8]
     array([4., 5., 6., 1., 2., 3., 7., 8.])
     """
+    check_model(model)
     return as_array(v, "v", model.nv)[..., tangent_order(model.joints)]
 
 
@@ -124,6 +127,7 @@ def to_pinocchio_jacobian(model: Model, J: ArrayLike) -> Array:
     >>> bool((to_pinocchio_jacobian(arm, J)[:3] == J[3:]).all())  # the linear rows come first
     True
     """
+    check_model(model)
     return as_array(J, "J", 6, model.nv)[..., HALVES, :][..., tangent_order(model.joints)]
 
 
@@ -153,6 +157,7 @@ def from_pinocchio_jacobian(model: Model, J: ArrayLike) -> Array:
     >>> from_pinocchio_jacobian(arm, np.arange(18).reshape(6, 3))[:, 0]
     array([ 9., 12., 15.,  0.,  3.,  6.])
     """
+    check_model(model)
     return as_array(J, "J", 6, model.nv)[..., HALVES, :][..., tangent_order(model.joints)]
 
 
@@ -184,6 +189,7 @@ def to_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
     >>> to_pinocchio_contact_jacobian(model, J_c)[0, :3].round(12) + 0.0  # how the base's v moves a foot along x
     array([1., 0., 0.])
     """
+    check_model(model)
     return _with_rows(J_c, model.nv)[..., tangent_order(model.joints)]
 
 
@@ -212,6 +218,7 @@ def from_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
     >>> from_pinocchio_contact_jacobian(model, np.arange(18)[None])[0, :8]
     array([3., 4., 5., 0., 1., 2., 6., 7.])
     """
+    check_model(model)
     return _with_rows(J_c, model.nv)[..., tangent_order(model.joints)]
 
 
@@ -248,6 +255,7 @@ def to_pinocchio_matrix(model: Model, M: ArrayLike) -> Array:
     >>> to_pinocchio_matrix(model, M)[0, 0].round(3)  # the mass, where ours has the inertia about x
     np.float64(16.085)
     """
+    check_model(model)
     order = tangent_order(model.joints)
     return as_array(M, "M", model.nv, model.nv)[..., order, :][..., order]
 
@@ -276,5 +284,6 @@ def from_pinocchio_matrix(model: Model, M: ArrayLike) -> Array:
     >>> from_pinocchio_matrix(model, np.diag(np.arange(18))).diagonal()[:8]
     array([3., 4., 5., 0., 1., 2., 6., 7.])
     """
+    check_model(model)
     order = tangent_order(model.joints)
     return as_array(M, "M", model.nv, model.nv)[..., order, :][..., order]

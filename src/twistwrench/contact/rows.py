@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..constants import cast
+from ..door import check_model
 from ..errors import unknown_name
-from ..inverse_dynamics import external
 from ..kinematics import forward_kinematics, frame_placement
 from ..model import Model
 from ..plucker import SE3
@@ -206,6 +206,7 @@ def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Map
 
 def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
     """Return contacts as a tuple, each on a frame of its own that the robot carries."""
+    check_model(model)
     if isinstance(contacts, str | Contact):
         raise ValueError(f"contacts: expected a sequence of contacts, got the single {contacts!r}")
     contacts = tuple(contacts)
@@ -234,7 +235,7 @@ def real_state(model: Model, q: ArrayLike, f_ext: ArrayLike | None = None, **oth
     In the order q, the others, and f_ext where there is one.
     """
     if f_ext is not None:
-        others["f_ext"] = external(model, f_ext)
+        others["f_ext"] = f_ext
     state = model.state(q, **others)
     if state[0].dtype.kind == "c":
         raise ValueError(f"q: expected real numbers in all arguments, got {state[0].dtype}")

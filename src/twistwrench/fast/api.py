@@ -214,7 +214,6 @@ def dynamics(
     >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
-    contacts = model.feet if contacts is None else contacts
     given = {} if out is None else {name: x for name, x in vars(out).items() if x is not None}
     return Dynamics(**parts(model, q, (("v", v),), want, contacts, How(given, workers, progress)))
 

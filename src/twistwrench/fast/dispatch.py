@@ -84,7 +84,7 @@ def parts(
     q: ArrayLike,
     rates: tuple[tuple[str, ArrayLike], ...],
     want: Collection[str],
-    contacts: Sequence[str],
+    contacts: Sequence[str] | None,
     how: How,
 ) -> Parts:
     """Return what is wanted of M, h, J_c and A_G, by name; of `rates` only v counts, and only for h."""
@@ -93,6 +93,7 @@ def parts(
     plan, states = admit(model, q, *rates)
     if model.mass == 0 and "A_G" in want:
         centroidal_map(model, q)  # says what is wrong
+    contacts = model.feet if contacts is None else contacts
     few = _are_few(states[0], FEW)
     if few:
         one = _one_plan(model)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, resolution
-from ..inverse_dynamics import external
+from ..door import state_of
 from ..model import Model
 from .plan import Plan, plan_of
 
@@ -45,13 +45,13 @@ def admit(
 
     The arrays are what `Model.state` returns: checked, of one type, broadcast to one batch shape.
     """
-    if f_ext is None and isinstance(q, np.ndarray) and q.dtype in PLAIN:
+    if isinstance(model, Model) and f_ext is None and isinstance(q, np.ndarray) and q.dtype in PLAIN:
         plan, batch, limits = plan_of(model, q.dtype), q.shape[:-1], PLAIN[q.dtype]
         plain = [x for _, x in rates if _is_plain(x, q, (*batch, plan.nv), limits.rate)]
         if len(plain) == len(rates) and _is_plain(q, q, (*batch, plan.nq), limits.q) and _has_norm_1(plan, q):
             return plan, (q, *plain)
-    others = dict(rates) if f_ext is None else {**dict(rates), "f_ext": external(model, f_ext)}
-    arrays = model.state(q, **others)
+    others = dict(rates) if f_ext is None else {**dict(rates), "f_ext": f_ext}
+    arrays = state_of(model, q, **others)
     return plan_of(model, arrays[0].real.dtype), arrays
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..centroidal import center_of_mass
 from ..checks import Array
+from ..door import check_model
 from ..errors import ModelError
 from ..kinematics import frame_placement
 from ..model import Model
@@ -95,6 +96,7 @@ def stand(model: Model) -> Stand:
         If the robot does not stand on legs of three joints (point feet) or six (soles), or gravity does not pull along
         −z.
     """
+    check_model(model)
     if model.base != "floating" or not model.feet:
         raise ModelError(f"{model.name!r}: expected a floating base and feet, got a {model.base} one, {model.feet}")
     if not (model.gravity[2] < 0 and not model.gravity[:2].any()):

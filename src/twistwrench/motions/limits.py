@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..door import check_model
 from ..model import Model
 from .motion import Motion
 
@@ -33,6 +34,7 @@ def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]
     >>> limits_broken(model, tw.motions.trot(model))
     {}
     """
+    check_model(model)
     beyond = np.maximum(np.maximum(model.lower - motion.q, motion.q - model.upper), 0).max(axis=0)
     limit = np.where(model.velocity_limit > 0, model.velocity_limit, np.inf)
     share = (np.abs(motion.v) / limit).max(axis=0)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..centroidal import center_of_mass, centroidal_momentum_rate
 from ..checks import Array
+from ..door import check_model
 from ..errors import ModelError
 from ..kinematics import frame_placement
 from ..model import Model
@@ -78,6 +79,7 @@ def ground(model: Model, motion: Motion) -> Ground:
     >>> bool(needed.loaded.all()), bool(needed.friction.max() < 0.25), bool(needed.margin.min() > 0.01)
     (True, True, True)
     """
+    check_model(model)
     if not (model.gravity[2] < 0 and not model.gravity[:2].any()):
         raise ModelError(f"{model.name!r}: expected gravity along -z, got {model.gravity.tolist()}")
     wrench = centroidal_momentum_rate(model, motion.q, motion.v, motion.a)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_arrays, resolution
-from ..errors import ModelError, ShapeError
+from ..errors import ModelError, ShapeError, no_model
 
 __all__ = ["Arithmetic", "State", "as_mpmath", "take"]
 
@@ -154,11 +154,15 @@ def take(model: Any, **given: ArrayLike | None) -> State:
 
     Raises
     ------
+    TypeError
+        If `model` is none.
     ShapeError
         If an argument is not that of one state of this model.
     ValueError
         If an argument is not numeric, not finite, or a wrench on the world.
     """
+    if not hasattr(model, "joint_names"):
+        raise no_model(model)
     shapes = {"q": (model.nq,), "v": (model.nv,), "a": (model.nv,), "tau": (model.nv,), "f_ext": (model.nbodies, 6)}
     came = {name: _as_array(value, name) for name, value in given.items() if value is not None}
     for name, x in came.items():

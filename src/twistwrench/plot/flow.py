@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array
+from ..door import check_model
 from ..errors import ShapeError
 from ..model import Model
 from .style import COLOURS, axes_2d
@@ -39,6 +40,7 @@ def seats(model: Model) -> Array:
            [1., 0.],
            [2., 0.]])
     """
+    check_model(model)
     depth, branch, tips = np.zeros(model.nbodies), np.zeros(model.nbodies), 0
     for i in range(1, model.nbodies):
         depth[i] = depth[model.parent[i]] + 1
@@ -90,10 +92,10 @@ def flow(
     >>> [text.get_text() for text in ax.texts if text.get_text()]
     ['world', 'slide', 'hinge', '1 kg', '0.1 kg']
     """
+    seat = seats(model)
     size = np.ones(model.nbodies) if amounts is None else as_array(amounts, "amounts", model.nbodies).astype(float)
     if len(texts) != model.nbodies or size.ndim != 1:
         raise ShapeError(f"texts, amounts: expected {model.nbodies} of each, got {len(texts)} and {size.shape}")
-    seat = seats(model)
     width = 1 + 4 * np.sqrt(np.abs(size) / (np.abs(size[1:]).max(initial=0) or 1.0))
     ax = axes_2d(ax, size=(11.0, 3.2))
     names = ["world", *(name.removesuffix("_joint") for name in model.joint_names[1:])]

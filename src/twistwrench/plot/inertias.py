@@ -152,8 +152,8 @@ def ellipsoids(
     >>> len(ax.collections)
     2
     """
-    labels = {model.joint_id(name): name for name in names}
     placement = forward_kinematics(model, q).placement
+    labels = {model.joint_id(name): name for name in names}
     ax = axes_3d(ax)
     for i in range(1, model.nbodies):
         if model.inertia[i].mass > 0:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
 from ..checks import Array
+from ..door import state_of
 from ..errors import ShapeError
 from ..kinematics import forward_kinematics, frame_placement
 from ..model import Model
@@ -46,7 +47,7 @@ def sticks(model: Model, q: ArrayLike) -> Array:
     >>> sticks(model, model.standing()).shape
     (16, 2, 3)
     """
-    (q,) = model.state(q)
+    (q,) = state_of(model, q)
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
     T = forward_kinematics(model, q).placement

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array
+from ..door import check_model
 from ..model import Model
 from .matrices import ANGULAR_LINEAR, matrix
 from .style import COLOURS, axes_2d
@@ -34,6 +35,7 @@ def same_branch(model: Model) -> Array:
     >>> int((~same_branch(tw.load("go2"))).sum()) == 4 * 3 * 9
     True
     """
+    check_model(model)
     carries = np.zeros((model.nv, model.nv), bool)
     for i in range(1, model.nbodies):
         for j in model.support(i):
@@ -82,6 +84,7 @@ def mass_matrix(
     >>> [text.get_text() for text in ax.texts]
     ['slide', 'hinge']
     """
+    check_model(model)
     M = as_array(M, "M", model.nv, model.nv).astype(float).reshape(-1, model.nv, model.nv)
     largest = np.take_along_axis(M, np.abs(M).argmax(axis=0)[None], axis=0)[0]
     ax = matrix(largest, title, lines=(), rounding=rounding, ax=axes_2d(ax, size=(7.5, 5.4)))

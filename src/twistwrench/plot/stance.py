@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
 from ..checks import Array, as_array
+from ..door import check_model
 from ..kinematics import frame_placement
 from ..model import Model
 from .frames import arrows
@@ -168,6 +169,7 @@ def foot_forces(
     >>> [text.get_text().strip() for text in ax.texts]
     ['39.1 N', '39.1 N', '39.8 N', '39.8 N']
     """
+    check_model(model)
     contacts = model.feet if contacts is None else contacts
     f = as_array(forces, "forces", len(contacts), 3).astype(float)
     places = np.array([frame_placement(model, q, name).translation for name in contacts], dtype=float)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array, as_constant
-from ..errors import ModelError, ShapeError
+from ..errors import ModelError, ShapeError, no_model
 from ..model import Model
 from ..robots import load
 
@@ -20,6 +20,8 @@ def whole_robot(robot: str | PathLike[str] | Model, base: str | None, gravity: A
     """Return the robot with the gravity of the scene, and with a floating base where the scene needs one."""
     if base not in (None, "fixed", "floating", "planar"):
         raise ModelError(f"base: expected 'fixed', 'floating' or 'planar', got {base!r}")
+    if not isinstance(robot, str | PathLike | Model):
+        raise no_model(robot, "robot", "a name, a path or a Model")
     flies = base in ("floating", "planar")
     model = robot if isinstance(robot, Model) else load(robot, base="floating" if flies else None)
     if flies and model.base != "floating":

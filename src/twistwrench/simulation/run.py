@@ -100,10 +100,10 @@ def simulate(
     >>> bool((np.diff(damped.energy) <= 0).all())
     True
     """
+    model, own, push = parts(robot)
     if method not in METHODS:
         raise unknown_name("method", method, METHODS)
     count = _count(dt, steps, duration)
-    model, own, push = parts(robot)
     contacts = (*own, *contacts)
     q, v = model.state(q, v=v)
     if q.dtype.kind == "c":

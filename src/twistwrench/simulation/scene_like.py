@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..contact import Contact
+from ..errors import no_model
 from ..model import Model
 from .system import Push
 
@@ -30,6 +31,6 @@ def parts(robot: Model | SceneLike) -> tuple[Model, tuple[Contact, ...], Push | 
     """Return the model, the contacts and the wrenches of a scene; a model alone has but itself."""
     if isinstance(robot, Model):
         return robot, (), None
-    if not hasattr(robot, "model"):
-        raise TypeError(f"expected a Model, as tw.load returns, or a Scene, got the {type(robot).__name__} {robot!r}")
+    if not hasattr(robot, "f_ext"):
+        raise no_model(robot, "robot", "a Model or a Scene")
     return robot.model, robot.contacts, robot.f_ext

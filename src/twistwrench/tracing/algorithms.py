@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
+from ..door import check_model
 from ..errors import ShapeError, unknown_name
 from ..forward_dynamics import aba
 from ..inverse_dynamics import _rnea, rnea
@@ -84,6 +85,7 @@ def trace(
     """
     if algorithm not in NEEDED:
         raise unknown_name("algorithm", algorithm, NEEDED)
+    check_model(model)
     given = {name: x for name, x in {"v": v, "a": a, "tau": tau}.items() if x is not None}
     if tuple(given) != NEEDED[algorithm]:
         expected = ", ".join(("q", *NEEDED[algorithm]))

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ..errors import NameNotFound
+from ..errors import NameNotFound, no_model
 from ..model import Model
 from ..robots import load
 from ..robots.catalogue import find
@@ -129,6 +129,8 @@ def _load(robot: Model | str | PathLike[str], base: Literal["fixed", "floating"]
         if base is not None:
             raise ValueError(f"base: a Model has its base ({robot.base}) already, got {base!r}")
         return robot, None
+    if not isinstance(robot, str | PathLike):
+        raise no_model(robot, "robot", "a name, a path or a Model")
     model = load(robot, base=base, physical=False, mimic="independent")
     try:
         return model, find(str(robot)).path

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array
 from ..contact import Contact, PointContact, contact_inverse_dynamics, contact_placements
-from ..errors import ShapeError, SingularError
+from ..errors import ShapeError, SingularError, no_model
 from ..kinematics import forward_kinematics
 from ..model import Model
 from ..motions import Motion
@@ -145,7 +145,7 @@ def subject(
     """
     model = load(robot) if isinstance(robot, str | PathLike) else getattr(robot, "model", robot)
     if not isinstance(model, Model):
-        raise TypeError(f"robot: expected a name, a path, a Model, a Scene or a Simulation, got {type(robot).__name__}")
+        raise no_model(robot, "robot", "a name, a path, a Model, a Scene or a Simulation")
     touching = _contacts(model, robot.contacts if contacts is None and isinstance(robot, Scene) else contacts)
     motion = robot if isinstance(robot, Simulation) and q is None else q
     standing = motion.contacts if isinstance(motion, Motion) and contacts is None else None
