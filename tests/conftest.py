@@ -2,7 +2,10 @@
 
 import os
 
-from hypothesis import settings
+from hypothesis import Phase, settings
 
 settings.register_profile("twistwrench", deadline=None, print_blob=True, derandomize="CI" in os.environ)
+settings.register_profile(
+    "no_shrinking", settings.get_profile("twistwrench"), phases=[phase for phase in Phase if phase is not Phase.shrink]
+)
 settings.load_profile("twistwrench")
