@@ -19,9 +19,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..checks import Array
+from ..errors import ModelError
 from ..model import Model
 
 __all__ = ["Index", "Level", "Link", "Step", "base_floats", "index", "levels_of", "links_of", "parents_of", "steps_of"]
+
+KINDS = ("revolute", "prismatic", "continuous", "planar", "spherical", "free_flyer")
+"""The kinds of joint that `plan` and `frames` know how to place."""
 
 Index = slice | Array
 """Some of the links: a slice where it can be one, since a slice copies nothing."""
@@ -123,6 +127,9 @@ def links_of(model: Model) -> list[Link]:
 def _links_of_joint(model: Model, i: int) -> Iterator[Link]:
     """Yield a link for each column of S, which is a unit vector."""
     joint, start = model.joints[i], model.v_slice[i].start
+    if joint is not None and joint.kind not in KINDS:
+        said = f"joint {model.joint_names[i]!r}: twistwrench.fast, and what builds on it, knows no kind {joint.kind!r}"
+        raise ModelError(f"{said}; it knows {', '.join(KINDS)}. The textbook's functions take any")
     S = joint.subspace(np.longdouble) if joint is not None else np.zeros((6, 0), np.longdouble)
     for k, column in enumerate(S.mT):
         turns = bool(column[:3].any())
