@@ -14,7 +14,7 @@ from .errors import unknown_name
 from .inertia import cross_motion
 from .model import Model
 from .plucker import SE3
-from .tree import joint_placements, split, walk
+from .tree import Tree, joint_placements, split, walk
 
 __all__ = [
     "Kinematics",
@@ -92,23 +92,24 @@ def forward_kinematics(
         if a is not None:
             raise ValueError("a: an acceleration needs the velocity as well, got v = None")
         (q,) = state_of(model, q)
-        return Kinematics(_placements(model, q), None, None)
+        return Kinematics(_placements(model, joint_placements(model, q)), None, None)
     q, v, *rest = state_of(model, q, v=v) if a is None else state_of(model, q, v=v, a=a)
-    V, A = _motion(model, q, v, rest[0] if rest else np.zeros_like(v))
-    return Kinematics(_placements(model, q), np.stack(V, axis=-2), np.stack(A, axis=-2) if rest else None)
+    tree = walk(model, q)
+    V, A = _motion(model, tree, v, rest[0] if rest else np.zeros_like(v))
+    return Kinematics(_placements(model, tree.placement), np.stack(V, axis=-2), np.stack(A, axis=-2) if rest else None)
 
 
-def _placements(model: Model, q: Array) -> list[SE3]:
-    T = joint_placements(model, q)
+def _placements(model: Model, relative: list[SE3]) -> list[SE3]:
+    T = [*relative]
     for i in range(1, model.nbodies):
         T[i] = T[model.parent[i]] @ T[i]
     return T
 
 
-def _motion(model: Model, q: Array, v: Array, a: Array) -> tuple[list[Array], list[Array]]:
+def _motion(model: Model, tree: Tree, v: Array, a: Array) -> tuple[list[Array], list[Array]]:
     """Return twist and spatial acceleration of each body, each in its own frame."""
-    tree, qd, qdd = walk(model, q), split(model, v), split(model, a)
-    rest = np.zeros((*q.shape[:-1], 6), q.dtype)
+    qd, qdd = split(model, v), split(model, a)
+    rest = np.zeros((*v.shape[:-1], 6), v.dtype)
     V, A = [rest] * model.nbodies, [rest] * model.nbodies
     for i in tree.outward:
         p = tree.parent[i]
@@ -148,11 +149,10 @@ def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     """
     (q,) = state_of(model, q)
     at = model.frame(frame)
-    return _frame_placement(model, q, at.body, cast(at.placement, q.dtype))
+    return _frame_placement(model, joint_placements(model, q), at.body, cast(at.placement, q.dtype))
 
 
-def _frame_placement(model: Model, q: Array, body: int, T: SE3) -> SE3:
-    relative = joint_placements(model, q)
+def _frame_placement(model: Model, relative: list[SE3], body: int, T: SE3) -> SE3:
     for i in [*model.support(body), 0]:
         T = relative[i] @ T
     return T
@@ -199,7 +199,7 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
     for i in model.support(at.body):  # from the frame to the base
         J[..., model.v_slice[i]] = X @ tree.S[i]
         X = X @ tree.X[i]
-    return _to_reference(reference, _frame_placement(model, q, at.body, T)) @ J
+    return _to_reference(reference, _frame_placement(model, tree.placement, at.body, T)) @ J
 
 
 def frame_bias_acceleration(
@@ -239,13 +239,13 @@ def frame_bias_acceleration(
     """
     q, v = state_of(model, q, v=v)
     at = model.frame(frame)
-    V, A = (motion[at.body] for motion in _motion(model, q, v, np.zeros_like(v)))
-    T = cast(at.placement, q.dtype)
+    tree, T = walk(model, q), cast(at.placement, q.dtype)
+    V, A = (motion[at.body] for motion in _motion(model, tree, v, np.zeros_like(v)))
     X = T.inverse().motion_transform()
     V, A = np.matvec(X, V), np.matvec(X, A)
     if reference == "local_world_aligned":
         A = A + np.concatenate([np.zeros_like(A[..., :3]), np.cross(V[..., :3], V[..., 3:])], axis=-1)
-    bias: Array = np.matvec(_to_reference(reference, _frame_placement(model, q, at.body, T)), A)
+    bias: Array = np.matvec(_to_reference(reference, _frame_placement(model, tree.placement, at.body, T)), A)
     return bias
 
 

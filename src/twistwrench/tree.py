@@ -30,6 +30,8 @@ class Tree:
         Motion subspace, in frame i.
     I : list of ndarray, shape (6, 6)
         Spatial inertia, in frame i.
+    placement : list of SE3
+        ^λ(i)T_i, the placement of frame i in the parent's.
     X : list of ndarray, shape (..., 6, 6)
         ⁱX_λ(i), from the parent's frame to frame i.
     """
@@ -37,6 +39,7 @@ class Tree:
     parent: tuple[int, ...]
     S: list[Array]
     I: list[Array]
+    placement: list[SE3]
     X: list[Array]
 
     @property
@@ -53,8 +56,9 @@ class Tree:
 def walk(model: Model, q: Array) -> Tree:
     """Return what the recursions need of `model` at a checked `q`, in q's number type."""
     constants = model.constants(q.dtype)
-    X = [T.inverse().motion_transform() for T in joint_placements(model, q)]
-    return Tree(model.parent, [*constants.S], [*constants.I], X)
+    placement = joint_placements(model, q)
+    X = [T.inverse().motion_transform() for T in placement]
+    return Tree(model.parent, [*constants.S], [*constants.I], placement, X)
 
 
 def joint_placements(model: Model, q: Array) -> list[SE3]:

@@ -17,11 +17,11 @@ from ..checks import Array
 from ..constants import cast
 from ..door import check_model
 from ..errors import unknown_name
-from ..kinematics import forward_kinematics, frame_placement
+from ..kinematics import _motion, _placements, frame_placement
 from ..model import Model
 from ..plucker import SE3
 from ..rotation import log3
-from ..tree import joint_placements
+from ..tree import Tree, walk
 from .types import Contact
 
 __all__ = [
@@ -152,33 +152,33 @@ class Touching(NamedTuple):
 
 def touching(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> Touching:
     """Return what all contacts do, from one walk along the tree."""
-    bodies, *motion = forward_kinematics(model, q, v, np.zeros_like(v))
-    V, A = (np.asarray(x) for x in motion)
-    relative = joint_placements(model, q)
+    tree = walk(model, q)
+    bodies = _placements(model, tree.placement)
+    V, A = _motion(model, tree, v, np.zeros_like(v))
     place: list[SE3] = []
     J = [np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)]
     bias = [np.zeros((*q.shape[:-1], 0), q.dtype)]
     for c in contacts:
         body, own = model.frame(c.frame).body, cast(model.frame(c.frame).placement, q.dtype)
         place.append(bodies[body] @ own)
-        J.append(_jacobian(model, bodies, relative, body, own.translation)[..., c.rows, :])
-        bias.append(_bias(bodies[body], V[..., body, :], A[..., body, :], own.translation)[..., c.rows])
+        J.append(_jacobian(model, bodies, tree, body, own.translation)[..., c.rows, :])
+        bias.append(_bias(bodies[body], V[body], A[body], own.translation)[..., c.rows])
     return Touching(place, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
 
 
-def _jacobian(model: Model, bodies: Sequence[SE3], relative: Sequence[SE3], body: int, point: Array) -> Array:
+def _jacobian(model: Model, bodies: Sequence[SE3], tree: Tree, body: int, point: Array) -> Array:
     """Return the rows (ω, v) of a point of a body, in the axes of the world, shape (..., 6, nv).
 
     The point is handed down from body to body: a difference of places in the world would lose digits far from its
     origin, and with them the rank.
     """
     J = np.zeros((*bodies[0].translation.shape[:-1], 6, model.nv), point.dtype)
-    S = model.constants(point.dtype).S
     for i in model.support(body):
-        turn, shift = S[i][:3], S[i][3:] + np.cross(S[i][:3], point[..., None], axis=-2)
+        S = tree.S[i]
+        turn, shift = S[:3], S[3:] + np.cross(S[:3], point[..., None], axis=-2)
         J[..., :3, model.v_slice[i]] = bodies[i].rotation @ turn
         J[..., 3:, model.v_slice[i]] = bodies[i].rotation @ shift
-        point = relative[i].act(point)
+        point = tree.placement[i].act(point)
     return J
 
 
