@@ -130,7 +130,7 @@ def test_a_kind_of_joint_that_only_the_textbook_knows_is_refused():
         lambda: fast.aba(model, v[0], v[0], v[0]),
         lambda: tw.accuracy(model, [0.0]),
     ):
-        with pytest.raises(tw.ModelError, match="joint 'nut': .* knows no kind 'screw'; it knows revolute"):
+        with pytest.raises(tw.ModelError, match=r"joint 'nut': .* knows no kind 'screw'; it knows revolute"):
             call()
 
 
