@@ -68,6 +68,10 @@ class Accuracy:
         felt = float(self.felt.min(initial=1))
         if felt > PLENTY:
             return said
+        if len(self.weak) == 1:
+            return (
+                f"{said}\nA motion of {self.weak[0]!r} feels {felt:.1e} of the inertia that its parts feel one by one."
+            )
         more = len(self.weak) - NAMED
         names = ", ".join(map(repr, self.weak[:NAMED])) + (f" and {more} more" if more > 0 else "")
         return f"{said}\nMoved against each other, {names} feel {felt:.1e} of the inertia that they feel one by one."
@@ -112,7 +116,7 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
     Moved against each other, 'rod_02', 'rod_03', 'rod_01' feel ... of the inertia that they feel one by one.
     """
     (q,) = state_of(model, q)
-    eps, depth = resolution(q.dtype), max(len(model.support(i)) for i in range(model.nbodies))
+    eps, depth = resolution(q.dtype), max([1, *(len(model.support(i)) for i in range(model.nbodies))])
     felt, motion = _least_felt(model, model.normalize(q.real.astype(np.float64)))
     certain = felt - model.nv * resolution(np.float64)  # as far as the eigenvalue itself is
     sums = np.full(felt.shape, SUMMED * eps * np.sqrt(depth))
