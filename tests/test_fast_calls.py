@@ -139,9 +139,23 @@ def test_unknown_names_are_refused():
         fast.dynamics(GO2, Q, V, want={"m"})
     with pytest.raises(KeyError, match="did you mean 'FR_foot'"):
         fast.dynamics(GO2, Q, V, contacts=["FR_fot"])
-    with pytest.raises(ValueError, match="got the string 'FR_foot'"):
-        fast.dynamics(GO2, Q, V, contacts="FR_foot")
+    with pytest.raises(KeyError, match="quantity: expected a name, got list"):
+        fast.dynamics(GO2, Q, V, want=[["M"]])
+    with pytest.raises(ValueError, match="want: expected a sequence of quantities, got the string 'M'"):
+        fast.dynamics(GO2, Q, V, want="M")
+    for want in (["J_c"], ["M"]):
+        with pytest.raises(ValueError, match="contacts: expected a sequence of frame names, got the string 'FR_foot'"):
+            fast.dynamics(GO2, Q, V, contacts="FR_foot", want=want)
     fast.dynamics(GO2, Q, V, contacts=["FR_fot"], want={"h"})  # nobody asked for J_c
+
+
+@pytest.mark.parametrize("n", [1, 10])
+def test_names_may_come_from_an_iterator(n):
+    q, v = np.tile(Q, (n, 1)), np.tile(V, (n, 1))
+    d = fast.dynamics(GO2, q, v, contacts=iter(GO2.feet), want=iter(["J_c", "M"]))
+    assert (d.J_c == fast.dynamics(GO2, q, v).J_c).all()
+    assert (fast.crba(GO2, q) == d.M).all()
+    assert d.h is d.A_G is None
 
 
 def massless():
@@ -253,6 +267,8 @@ def test_out_of_dynamics_is_filled_where_it_is_given(states):
 def test_an_out_that_does_not_fit_is_refused(out, states):
     with pytest.raises(tw.ShapeError, match=r"out: expected for tau an array of float64 of shape \(37, 18\)"):
         fast.rnea(GO2, states.q, states.v, states.a, out=out)
+    with pytest.raises(TypeError, match="out: expected a Dynamics, got "):
+        fast.dynamics(GO2, states.q, states.v, out=out)
 
 
 @pytest.mark.parametrize("count", [3, 37])

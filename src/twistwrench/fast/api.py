@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Iterable
 from concurrent.futures import Executor
 
 from numpy.typing import ArrayLike
 
 from ..checks import Array
+from ..errors import unknown_name
+from ..floating_base import names_of
 from ..model import Model
 from ..whole_body import Dynamics
 from .dispatch import How, accelerations, parts, torques
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
+
+QUANTITIES = ("M", "h", "J_c", "A_G")
 
 
 def rnea(
@@ -174,8 +178,8 @@ def dynamics(
     q: ArrayLike,
     v: ArrayLike,
     *,
-    contacts: Sequence[str] | None = None,
-    want: Collection[str] = ("M", "h", "J_c", "A_G"),
+    contacts: Iterable[str] | None = None,
+    want: Iterable[str] = QUANTITIES,
     out: Dynamics | None = None,
     workers: int | Executor = 1,
     progress: bool = False,
@@ -204,6 +208,8 @@ def dynamics(
         As `twistwrench.dynamics`.
     SingularError
         As `centroidal_map`.
+    TypeError
+        If `out` is no `Dynamics`.
 
     Examples
     --------
@@ -214,6 +220,13 @@ def dynamics(
     >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
+    want = names_of(want, "want", "quantities")
+    for name in want:
+        if name not in QUANTITIES:
+            raise unknown_name("quantity", name, QUANTITIES)
+    contacts = None if contacts is None else names_of(contacts, "contacts", "frame names")
+    if not isinstance(out, Dynamics | None):
+        raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
     given = {} if out is None else {name: x for name, x in vars(out).items() if x is not None}
     return Dynamics(**parts(model, q, (("v", v),), want, contacts, How(given, workers, progress)))
 

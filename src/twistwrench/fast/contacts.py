@@ -42,8 +42,6 @@ class Contacts(NamedTuple):
 
 def contacts_of(model: Model, plan: Plan, names: Sequence[str]) -> Contacts:
     """Look up the frames at which a robot touches its surroundings."""
-    if isinstance(names, str):
-        raise ValueError(f"contacts: expected a sequence of frame names, got the string {names!r}")
     carriers = {body: (link, axes) for link, body, axes in plan.bodies}
     world, dtype = (0, np.eye(3)), plan.mass.dtype
     frames = [model.frame(name) for name in names]

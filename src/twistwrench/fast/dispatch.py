@@ -6,7 +6,7 @@ So are wrenches from outside, long double and complex numbers, however few the s
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
 from typing import Any, NamedTuple
@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..centroidal import centroidal_map
 from ..checks import Array
-from ..errors import SingularError, unknown_name
+from ..errors import SingularError
 from ..forward_dynamics import aba
 from ..model import Model
 from .articulated import NearlySingular
@@ -33,8 +33,6 @@ __all__ = ["How", "accelerations", "parts", "torques"]
 
 FEW, FEW_ABA = 8, 4
 """Up to so many states are done one by one; with more, all at once is faster (measured with Go2 and a humanoid)."""
-
-QUANTITIES = frozenset({"M", "h", "J_c", "A_G"})
 
 REMEMBERED = 32
 """Sets of contacts that a plan remembers."""
@@ -83,13 +81,11 @@ def parts(
     model: Model,
     q: ArrayLike,
     rates: tuple[tuple[str, ArrayLike], ...],
-    want: Collection[str],
-    contacts: Sequence[str] | None,
+    want: tuple[str, ...],
+    contacts: tuple[str, ...] | None,
     how: How,
 ) -> Parts:
     """Return what is wanted of M, h, J_c and A_G, by name; of `rates` only v counts, and only for h."""
-    if not QUANTITIES.issuperset(want):
-        raise unknown_name("quantity", next(name for name in want if name not in QUANTITIES), sorted(QUANTITIES))
     plan, states = admit(model, q, *rates)
     if model.mass == 0 and "A_G" in want:
         centroidal_map(model, q)  # says what is wrong
@@ -160,12 +156,12 @@ def _aba_plan(model: Model) -> AbaPlan:
     return plan
 
 
-def _touching(model: Model, plan: OnePlan, contacts: Sequence[str]) -> Touching:
+def _touching(model: Model, plan: OnePlan, contacts: tuple[str, ...]) -> Touching:
     """Look up contacts, or remember them."""
-    known = plan.known.get(tuple(contacts))
-    if known is None or isinstance(contacts, str):
+    known = plan.known.get(contacts)
+    if known is None:
         known = touching(plan, contacts_of(model, plan_of(model, DOUBLE), contacts))
         if len(plan.known) >= REMEMBERED:
             plan.known.clear()
-        plan.known[tuple(contacts)] = known
+        plan.known[contacts] = known
     return known
