@@ -121,7 +121,8 @@ class SE3:
         self._set(np.array(np.broadcast_to(R, (*batch, 3, 3))), np.array(np.broadcast_to(p, (*batch, 3))))
 
     def _set(self, rotation: Array, translation: Array) -> None:
-        rotation.flags.writeable = translation.flags.writeable = False
+        rotation.setflags(write=False)
+        translation.setflags(write=False)
         object.__setattr__(self, "rotation", rotation)
         object.__setattr__(self, "translation", translation)
 
