@@ -25,6 +25,8 @@ extensions = [
 templates_path = ["website/templates"]
 html_extra_path: list[str] = []
 exclude_patterns = ["files/**"]
+smartquotes_action = "D" if CHINESE else "qDe"
+smartquotes_excludes = {"builders": ["man", "text"]}  # and no language: -- is a dash in Chinese, too
 suppress_warnings = ["ref.python"]  # a `Motion` in a docstring may be one of several: the first will do
 
 # ---- pages

@@ -107,9 +107,20 @@ def test_headings_follow_each_other(tmp_path):
 
 
 def test_a_page_without_a_chinese_file_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr(pages, "pages", lambda: {"models/README.md": "models"})
+    monkeypatch.setattr(pages, "pages", lambda: {"CHANGELOG.md": "changelog"})
     pages.write_pages(tmp_path, "zh")
-    assert "本页只有英文" in (tmp_path / "models.md").read_text(encoding="utf-8")
+    assert "本页只有英文" in (tmp_path / "changelog.md").read_text(encoding="utf-8")
+
+
+def test_the_log_of_changes_alone_is_in_english_only():
+    assert [path for path in pages.pages() if not (ROOT / pages.twin(path, "zh")).exists()] == ["CHANGELOG.md"]
+
+
+def test_every_public_name_has_a_line_of_chinese():
+    pytest.importorskip("sphinx", reason="Sphinx is not installed: the interface is not checked")
+    from website import interface
+
+    assert set(interface.chinese()) == {name for names in interface.by_section().values() for name in names}
 
 
 def test_only_what_differs_is_touched_and_what_is_gone_goes(tmp_path):

@@ -21,8 +21,8 @@ FOLDER = Path(__file__).resolve().parent / "algorithms"
 SOURCE = ROOT / "src" / "twistwrench"
 ORDER = ("kinematics", "rnea", "aba", "crba", "centroidal")
 WORDS = {
-    "en": ("What it does", "The source: lines {} to {} of", "Documentation of"),
-    "zh": ("这一步做什么", "源码第 {}–{} 行：", "接口文档："),
+    "en": ("What it does", "The source: lines {} to {} of `{}`", "Documentation of {}."),
+    "zh": ("这一步做什么", "源码：`{2}` 第 {0}–{1} 行", "接口文档见 {}。"),
 }
 
 
@@ -77,7 +77,7 @@ def page(name: str, language: str) -> str:
         "---\nhtml_theme.sidebar_secondary.remove: true\n---",
         f"# {said['title'][language]}",
         joined(said["intro"][language].strip(), language),
-        f"{WORDS[language][2]} {call}.",
+        WORDS[language][2].format(call),
     ]
     for part in said["part"]:
         out += _table(part, numbers, language)
@@ -90,14 +90,14 @@ def _table(part: dict[str, Any], numbers: Iterator[int], language: str) -> Itera
     lines = body(part["file"], part["function"])
     pieces = cut(lines, [step["line"] for step in part["step"]], part["file"])
     yield ":::::{container} beside"
-    yield _head(does, source.format(lines.first, lines.first + len(lines.text) - 1), part["file"])
+    yield _head(does, source.format(lines.first, lines.first + len(lines.text) - 1, part["file"]))
     for step, piece in zip(part["step"], pieces, strict=True):
         yield _row(next(numbers), step, piece, language)
     yield ":::::"
 
 
-def _head(does: str, source: str, file: str) -> str:
-    cells = (f":::{{container}} say\n{does}\n:::", f":::{{container}} code\n{source} `{file}`\n:::")
+def _head(does: str, source: str) -> str:
+    cells = (f":::{{container}} say\n{does}\n:::", f":::{{container}} code\n{source}\n:::")
     return "\n".join(["::::{container} step head", *cells, "::::"])
 
 

@@ -1,6 +1,7 @@
 """The pages of the interface: one for each section that offers something, in the chapter's order.
 
-What they say comes from the docstrings, the section from README's table of files, the formulas from docs/map.md.
+What they say comes from the docstrings, the section from README's table of files, the formulas from docs/map.md. In
+Chinese each name has a line of its own from names.zh-CN.toml, and below it the docstring in English.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ import importlib
 import inspect
 import re
 import sys
+import tomllib
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -16,6 +18,7 @@ from typing import Any, NamedTuple
 from sphinx.pycode import ModuleAnalyzer
 
 import twistwrench as tw
+from twistwrench.exercises.catalogue import SECTIONS
 
 from .pages import ROOT, SUFFIX, contents, write
 
@@ -31,10 +34,12 @@ INTRO = {
     "the tests. `import twistwrench as tw` is understood.",
     "zh": "所有公开名称，按所属的章节排列。每一项写明各数组的形状、单位与坐标系，会抛出哪些异常，计算本章的哪个公式；"
     "其中的例子都由测试运行。"
-    "文档字符串是英文的。以下均假定 `import twistwrench as tw`。",
+    "每个名称有一句中文，其后的文档字符串是英文。以下均假定 `import twistwrench as tw`。",
 }
 HEAD = {"en": ("Name", "What it gives"), "zh": ("名称", "给出什么")}
 IN_THE_CHAPTER = {"en": "In the chapter", "zh": "本章公式"}
+ROW = {"en": "- {} {}: {} (``{}``)", "zh": "- {} {}：{}（``{}``）"}
+NOTE = {"en": "", "zh": "每个名称先用一句中文说明，其后的文档字符串是英文。\n\n"}
 
 
 class Formula(NamedTuple):
@@ -110,34 +115,42 @@ def _text(path: str, language: str) -> str:
     return (ROOT / f"{path}{SUFFIX[language]}.md").read_text(encoding="utf-8")
 
 
-def first_line(value: Any) -> str:
-    """Return the first paragraph of a docstring in one line."""
-    return " ".join((inspect.getdoc(value) or "").split("\n\n")[0].split())
+def chinese() -> dict[str, str]:
+    """Return what each public name gives, in Chinese."""
+    return tomllib.loads((Path(__file__).parent / "names.zh-CN.toml").read_text(encoding="utf-8"))
+
+
+def first_line(name: str) -> str:
+    """Return the first paragraph of what the source says of a name, in one line."""
+    value = _value(name)
+    said = (inspect.getdoc(value) or "") if callable(value) else "\n".join(_said(name))
+    return " ".join(said.split("\n\n")[0].split())
 
 
 def write_interface(out: Path, language: str) -> None:
     """Write a page for each section, and the list of them all."""
     at, owners = sections(), by_section()
     for section, names in owners.items():
-        write(out / "api" / f"{section}.md", _page(section, names, at.get(section, "")))
+        write(out / "api" / f"{section}.md", _page(section, names, at.get(section, ""), language))
+    own = chinese() if language == "zh" else {}
     rows = [f"# {TITLE[language]}", INTRO[language]]
     numbered = sorted({at[s] for s in owners if s in at}, key=_number)
     for number in [*numbered, ""]:
         mine = [section for section in owners if at.get(section, "") == number]
-        rows.append(f"## {number or LATER[language]}")
+        rows.append(f"## {number} {SECTIONS[number].of(language)}" if number else f"## {LATER[language]}")
         table = ["| {} | {} |\n|---|---|".format(*HEAD[language])]
-        table += [_row(name) for section in mine for name in owners[section]]
+        table += [_row(name, own.get(name) or first_line(name)) for section in mine for name in owners[section]]
         rows.append("\n".join([":::{container} names", "", *table, ":::"]))
     rows.append(contents(list(owners), hidden=True))
     write(out / "api" / "index.md", "\n\n".join(rows) + "\n")
 
 
-def _row(name: str) -> str:
-    what = re.sub(r"([|*_\[\]<>$])", r"\\\1", first_line(_value(name)).rstrip("."))
+def _row(name: str, what: str) -> str:
+    what = re.sub(r"([|*_\[\]<>$])", r"\\\1", what.rstrip("."))
     return f"| {{py:obj}}`{name} <twistwrench.{name}>` | {what} |"
 
 
-def _page(section: str, names: list[str], number: str) -> str:
+def _page(section: str, names: list[str], number: str, language: str) -> str:
     module = f"twistwrench.{section}"
     if section in tw.__all__ and not isinstance(getattr(tw, section), ModuleType):  # tw.robots is the function
         head = inspect.getdoc(importlib.import_module(f"{module}")) or ""
@@ -145,7 +158,7 @@ def _page(section: str, names: list[str], number: str) -> str:
         head = f".. automodule:: {module}\n   :no-members:"
     title = f"# {number} `{section}`".replace("  ", " ")
     entries = [head, ".. currentmodule:: twistwrench", *map(_entry, names)]
-    return f"{title}\n\n````{{eval-rst}}\n" + "\n\n".join(entries) + "\n````\n"
+    return f"{title}\n\n{NOTE[language]}````{{eval-rst}}\n" + "\n\n".join(entries) + "\n````\n"
 
 
 def _entry(name: str) -> str:
@@ -161,23 +174,29 @@ def _entry(name: str) -> str:
 
 
 def _constant(name: str) -> str:
-    """Describe a constant by the string that stands below it in the source."""
+    return "\n   ".join([f".. py:data:: {name}", "", *_said(name)])
+
+
+def _said(name: str) -> list[str]:
+    """Return the string that stands below a constant in the source."""
     package, _, own = name.partition(".")
     modules = [module for module in sys.modules if module.startswith(f"twistwrench.{package}")]
     said = [ModuleAnalyzer.for_module(module).find_attr_docs().get(("", own), []) for module in modules]
-    return "\n   ".join([f".. py:data:: {name}", "", *max(said, key=len, default=[])])
+    return max(said, key=len, default=[])
 
 
 def connect(app: Any, language: str) -> None:
-    """Let Sphinx put the chapter's formulas below the first paragraph of each docstring that has some."""
-    known = formulas(language)
+    """Let Sphinx put the chapter's formulas below the first paragraph of each docstring, in Chinese a line above it."""
+    known, own = formulas(language), chinese() if language == "zh" else {}
 
     def add(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
         lines[:] = _bars("\n".join(lines)).split("\n")
         if rows := known.get(name):
             end = lines.index("") if "" in lines else len(lines)
-            said = [f"- {row.section} {_rst(row.what)}: {_rst(row.formula)} (``{row.file}``)" for row in rows]
+            said = [ROW[language].format(row.section, _rst(row.what), _rst(row.formula), row.file) for row in rows]
             lines[end:end] = ["", f"*{IN_THE_CHAPTER[language]}*", "", *said, ""]
+        if phrase := own.get(name.removeprefix("twistwrench.")):
+            lines[:0] = [f"{_rst(phrase)}。", ""]
 
     app.connect("autodoc-process-docstring", add, priority=600)  # after napoleon
 

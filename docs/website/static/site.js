@@ -7,3 +7,17 @@ function reachable() {
 }
 window.addEventListener("load", () => setTimeout(reachable, 500));
 window.addEventListener("resize", reachable);
+
+// A formula keeps the Chinese mark behind it: no line begins with a comma.
+function keepMarks() {
+  for (const formula of document.querySelectorAll("span.math")) {
+    const mark = /^[，。；：、！？）”》]+/.exec(formula.nextSibling?.data ?? "");
+    if (!mark) continue;
+    const box = document.createElement("span");
+    box.className = "with-mark";
+    formula.nextSibling.data = formula.nextSibling.data.slice(mark[0].length);
+    formula.replaceWith(box);
+    box.append(formula, mark[0]);
+  }
+}
+document.addEventListener("DOMContentLoaded", keepMarks);
