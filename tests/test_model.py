@@ -183,6 +183,13 @@ def test_nothing_that_later_results_depend_on_can_be_changed():
     for array in (*constants.S[1:], *constants.I, constants.gravity, constants.armature):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 1.0
+    go2 = tw.load("go2")
+    for held in (go2, tw.lock_joints(go2, ["FL_*"], go2.standing()).model, tw.Scene(go2, base="planar").model):
+        with pytest.raises(ValueError, match="read-only"):
+            held.postures["standing"][0] = 1.0
+        held.standing()[0] = 1.0  # a copy
+    with pytest.raises(ValueError, match="posture 'up': expected real numbers"):
+        replace(model, postures={"up": model.neutral() + 1j})
     for mapping in (model.frames, model.postures):
         with pytest.raises(TypeError, match="does not support item assignment"):
             mapping["new"] = mapping

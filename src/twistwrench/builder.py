@@ -210,11 +210,9 @@ class Builder:
         )
         for foot in feet:
             model.frame(foot)
-        checked = {name: _join([model.state(q)[0]]) for name, q in (postures or {}).items()}
+        checked = {name: model.state(q)[0] for name, q in (postures or {}).items()}
         return replace(model, postures=checked)
 
 
 def _join(pieces: list[Array]) -> Array:
-    joined = np.concatenate([np.zeros(0), *pieces])
-    joined.flags.writeable = False
-    return joined
+    return np.concatenate([np.zeros(0), *pieces])

@@ -15,7 +15,7 @@ from .plucker import SE3
 if TYPE_CHECKING:
     from .model import Model
 
-__all__ = ["Constants", "cast"]
+__all__ = ["Constants", "cast", "fixed"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,15 +49,15 @@ class Constants:
             for i in model.inertia
         ]
         return cls(
-            S=tuple(_fixed(joint.subspace(dtype) if joint else np.zeros((6, 0), dtype)) for joint in model.joints),
-            I=tuple(_fixed(i.matrix()) for i in inertia),
+            S=tuple(fixed(joint.subspace(dtype) if joint else np.zeros((6, 0), dtype)) for joint in model.joints),
+            I=tuple(fixed(i.matrix()) for i in inertia),
             placement=tuple(cast(T, dtype) for T in model.placement),
-            gravity=_fixed(np.concatenate([np.zeros(3), model.gravity]).astype(dtype)),
-            armature=_fixed(model.armature.astype(dtype)),
+            gravity=fixed(np.concatenate([np.zeros(3), model.gravity]).astype(dtype)),
+            armature=fixed(model.armature.astype(dtype)),
         )
 
 
-def _fixed(x: Array) -> Array:
+def fixed(x: Array) -> Array:
     """Return x, read-only: all later results depend on it."""
     x.flags.writeable = False
     return x

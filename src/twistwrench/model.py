@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from .checks import Array
-from .constants import Constants
+from .checks import Array, as_constant
+from .constants import Constants, fixed
 from .errors import NameNotFound, unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
@@ -106,11 +106,10 @@ class Model:
 
     def __post_init__(self) -> None:
         for name in ("gravity", "armature", "lower", "upper", "velocity_limit", "effort_limit"):
-            own = np.array(getattr(self, name), np.float64)
-            own.flags.writeable = False
-            object.__setattr__(self, name, own)
-        for name in ("frames", "postures"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            object.__setattr__(self, name, fixed(as_constant(getattr(self, name), name)))
+        postures = {name: fixed(as_constant(q, f"posture {name!r}")) for name, q in self.postures.items()}
+        object.__setattr__(self, "postures", MappingProxyType(postures))
+        object.__setattr__(self, "frames", MappingProxyType(dict(self.frames)))
 
     def __reduce__(self) -> tuple[partial[Model], tuple[()]]:
         given = {f.name: getattr(self, f.name) for f in fields(self) if f.init}

@@ -190,13 +190,13 @@ def from_pinocchio_model(there: Any) -> Model:
         placement=(SE3.identity(), *placement),
         inertia=(SpatialInertia.zero(), *inertia),
         frames=_frames_here(there),
-        gravity=_frozen(there.gravity.linear),
-        armature=_frozen(there.armature[order]),
+        gravity=there.gravity.linear,
+        armature=there.armature[order],
         lower=_limits(there.lowerPositionLimit),
         upper=_limits(there.upperPositionLimit),
         velocity_limit=_limits(there.velocityLimit[order]),
         effort_limit=_limits(there.effortLimit[order]),
-        postures={entry.key(): entry.data().copy() for entry in there.referenceConfigurations},
+        postures={entry.key(): entry.data() for entry in there.referenceConfigurations},
     )
     for name, q in model.postures.items():
         _named(model.state, q, name, "named configuration")
@@ -255,10 +255,4 @@ def _named(convert: Callable[[Any], Any], value: Any, name: str, what: str) -> A
 
 def _limits(x: Array) -> Array:
     """Return limits; Pinocchio's largest double stands for none."""
-    return _frozen(np.where(np.abs(x) >= np.finfo(np.float64).max, np.copysign(np.inf, x), x))
-
-
-def _frozen(x: Array) -> Array:
-    x = np.array(x)
-    x.flags.writeable = False
-    return x
+    return np.where(np.abs(x) >= np.finfo(np.float64).max, np.copysign(np.inf, x), x)

@@ -77,7 +77,6 @@ def with_stance(model: Model, stance: Stance) -> Model:
         q[2] = 0.0
         q = model.normalize(q)
         q[2] = -min(float(frame_placement(model, q, foot).translation[2]) for foot in stance.feet)
-    q.flags.writeable = False
     return replace(model, feet=stance.feet, postures={**model.postures, "standing": q})
 
 
@@ -92,9 +91,7 @@ def _posture(model: Model, state: Mapping[str, list[float]]) -> Array:
         if len(values) != joint.nq:
             raise ModelError(f"posture of joint {model.joint_names[i]!r}: expected {joint.nq} numbers, got {values}")
         q[model.q_slice[i]] = values
-    q = model.normalize(q)
-    q.flags.writeable = False
-    return q
+    return model.normalize(q)
 
 
 def _from_angles(model: Model, stance: Stance) -> Array:
