@@ -306,6 +306,10 @@ def test_a_template_is_made_at_one_real_configuration():
             RigidBody.of(GO2, q)
     with pytest.raises(tw.ShapeError, match="expected shape"):
         PointMass.of(GO2, STAND[:-1])
+    mine = STAND.copy()
+    made = RigidBody.of(GO2, mine)
+    mine[0] = 5.0
+    assert (made.q == STAND).all()
 
 
 def test_states_of_the_wrong_shape_are_refused():

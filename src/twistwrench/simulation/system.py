@@ -70,7 +70,7 @@ class System:
         self.anchors = contact_placements(model, q, contacts)
         self._policy = tau if callable(tau) else None
         constant = np.zeros_like(v) if tau is None or callable(tau) else self._checked("tau", tau, v)
-        self._constant = np.broadcast_to(constant, v.shape)
+        self._constant = np.broadcast_to(constant, v.shape).copy()
         self._refuse_slip(q, v)
 
     def force(self, t: float, q: Array, v: Array) -> Array:

@@ -162,7 +162,7 @@ def checked(model: Model, q: ArrayLike) -> tuple[Model, Array, float, float]:
         raise SingularError(f"{model.name!r}: nothing that moves has mass")
     weight = model.mass * float(np.sqrt((model.gravity**2).sum()))
     length = float(np.sqrt(np.trace(locked_inertia(model, q)) / 2 / model.mass))
-    return model, q, weight, length
+    return model, q.copy(), weight, length
 
 
 def full_rate(model: Model, q: Array, v: Array, a: Array) -> Array:
