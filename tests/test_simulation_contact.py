@@ -156,6 +156,15 @@ def test_the_wrenches_of_a_scene_push(method):
     assert np.abs(a.v - tw.simulate(model, q, v, dt=0.01, steps=3, method=method).v).max() > 0.01
 
 
+def test_the_forces_at_the_contacts_are_those_of_the_motion_whatever_becomes_of_the_callers_array():
+    model, _, feet = standing_go2()
+    tau = np.linspace(0, 1, 18)
+    a, b = (tw.simulate(model, model.standing(), np.zeros(18), dt=0.01, steps=1, tau=tau, contacts=feet) for _ in "ab")
+    expected = a.contact_forces["FL_foot"]
+    tau[:] = 100.0
+    assert (b.contact_forces["FL_foot"] == expected).all()
+
+
 # ---------------------------------------------------------------- what is refused
 
 
@@ -171,6 +180,12 @@ def test_a_method_that_takes_no_contacts_says_so():
     model, _, feet = standing_go2()
     with pytest.raises(ValueError, match="method: 'variational' takes no contacts, and there are 4"):
         tw.simulate(model, model.standing(), np.zeros(18), dt=0.01, steps=1, contacts=feet, method="variational")
+
+
+def test_a_single_contact_is_no_sequence_of_them():
+    model, _, feet = standing_go2()
+    with pytest.raises(ValueError, match="contacts: expected a sequence of contacts, got the single PointContact"):
+        tw.simulate(model, model.standing(), np.zeros(18), dt=0.01, steps=1, contacts=feet[0])
 
 
 def test_an_unknown_frame_is_refused():

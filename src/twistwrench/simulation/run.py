@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..contact import Contact
+from ..contact.rows import as_contacts
 from ..errors import SingularError, unknown_name
 from ..model import Model
 from .divergence import DivergenceError, refuse_divergence
@@ -104,7 +105,7 @@ def simulate(
     if method not in METHODS:
         raise unknown_name("method", method, METHODS)
     count = _count(dt, steps, duration)
-    contacts = (*own, *contacts)
+    contacts = (*own, *as_contacts(model, contacts))
     q, v = model.state(q, v=v)
     if q.dtype.kind == "c":
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
