@@ -19,7 +19,7 @@ from .programme import least_within
 from .rows import as_contacts, real_state
 from .types import Contact, Pyramid
 
-__all__ = ["StanceMargins", "stance_margins"]
+__all__ = ["StanceMargins", "inside", "stance_margins"]
 
 PRECISION = 1e-6
 MOST = 2.0**20

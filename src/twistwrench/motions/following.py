@@ -23,7 +23,7 @@ from ..rotation import log3
 from .legs import Stand
 from .turning import body_rates
 
-__all__ = ["Goal", "follow", "free_columns", "nearer", "place", "solve", "tasks", "turned"]
+__all__ = ["Goal", "follow", "free_columns", "nearer", "place", "solve", "targets", "tasks", "turned"]
 
 REFERENCE: Reference = "local_world_aligned"
 
@@ -73,12 +73,12 @@ def follow(stand: Stand, goal: Goal) -> tuple[Array, Array, Array]:
         return out
 
     v, a = given(rates[0], goal.joints[1]), given(rates[1], goal.joints[2])
-    v[..., free] = solve(stand, J[..., free], _targets(stand, goal, 1) - np.matvec(J, v))
+    v[..., free] = solve(stand, J[..., free], targets(stand, goal, 1) - np.matvec(J, v))
     bias = [
         centroidal_momentum_rate(model, q, v, np.zeros_like(v))[..., 3:] / model.mass,
         *(frame_bias_acceleration(model, q, v, leg.frame, REFERENCE)[..., leg.rows] for leg in stand.legs),
     ]
-    missing = _targets(stand, goal, 2) - np.concatenate(bias, axis=-1) - np.matvec(J, a)
+    missing = targets(stand, goal, 2) - np.concatenate(bias, axis=-1) - np.matvec(J, a)
     a[..., free] = solve(stand, J[..., free], missing)
     return q, v, a
 
@@ -161,7 +161,7 @@ def _missing(stand: Stand, q: Array, goal: Goal) -> Array:
     return np.concatenate(out, axis=-1)
 
 
-def _targets(stand: Stand, goal: Goal, order: int) -> Array:
+def targets(stand: Stand, goal: Goal, order: int) -> Array:
     """Return the first (1) or second (2) derivative of what the tasks should be."""
     out = [goal.com[order]]
     for k, leg in enumerate(stand.legs):

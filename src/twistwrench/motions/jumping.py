@@ -18,7 +18,7 @@ from ..checks import Array
 from ..errors import SingularError
 from ..fast import centroidal_map
 from .curves import Pieces, between, hop, stair
-from .following import Goal, free_columns, nearer, place, solve, tasks, turned
+from .following import Goal, free_columns, nearer, place, solve, targets, tasks, turned
 from .legs import Stand
 from .turning import turning_jacobian
 
@@ -158,11 +158,7 @@ class Leap:
         model, free = self.stand.model, free_columns(self.stand)
         A_G = centroidal_map(model, q)[..., :3, :]
         J = np.concatenate([A_G, tasks(self.stand, q)], axis=-2)[..., [0, 1, 2, *free]]
-        feet = [
-            np.concatenate([np.zeros_like(step), step] if leg.has_sole else [step], axis=-1)
-            for leg, step in zip(self.stand.legs, np.moveaxis(goal.steps[1], -2, 0))
-        ]
-        wanted = np.concatenate([self.momentum(t)[0], goal.com[1], *feet], axis=-1)
+        wanted = np.concatenate([self.momentum(t)[0], targets(self.stand, goal, 1)], axis=-1)
         return solve(self.stand, J, wanted)[..., :3]
 
 

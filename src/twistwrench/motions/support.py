@@ -8,6 +8,7 @@ import numpy as np
 
 from ..centroidal import center_of_mass, centroidal_momentum_rate
 from ..checks import Array
+from ..contact.stance import inside
 from ..door import check_model
 from ..errors import ModelError
 from ..kinematics import frame_placement
@@ -18,8 +19,6 @@ __all__ = ["Ground", "ground"]
 
 LOADED = 1e-6
 """Share of the weight above which the ground counts as loaded."""
-DIRECTIONS = 360
-"""In which the support polygon is measured: its distance is right to 4e-5 of itself."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,12 +92,5 @@ def ground(model: Model, motion: Motion) -> Ground:
     down = level - p_G[:, 2]
     c = p_G + np.stack([(down * f[:, 0] - n[:, 1]) / f[:, 2], (down * f[:, 1] + n[:, 0]) / f[:, 2], down], axis=1)
     friction = np.sqrt(f[:, 0] ** 2 + f[:, 1] ** 2) / f[:, 2]
-    return Ground(wrench, loaded, friction, c, _depth(c[:, :2], feet[..., :2], stands))
-
-
-def _depth(point: Array, corners: Array, valid: Array) -> Array:
-    """Return how deep points lie in the hulls of the valid corners: what is ahead, least over all directions."""
-    angle = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
-    u = np.stack([np.cos(angle), np.sin(angle)])
-    reach = np.where(valid[..., None], corners @ u, -np.inf).max(axis=1)
-    return np.asarray((reach - point @ u).min(axis=1))
+    margin = [inside(corners[on, :2] - at[:2]) for corners, on, at in zip(feet, stands, c)]
+    return Ground(wrench, loaded, friction, c, np.array(margin))
