@@ -267,9 +267,9 @@ def check_rotation(R: Array, name: str) -> None:
     if wrong.any():
         raise ShapeError(f"{name}: expected a rotation matrix, got |RᵀR − 1| = {off[wrong][0]:.3g}" + which(wrong))
     x, y, z = np.moveaxis(real, -1, 0)
-    det = (np.cross(x, y) * z).sum(-1)
-    if (det < 0).any():
-        raise ShapeError(f"{name}: expected a rotation matrix, got a reflection, det R = −1" + which(det < 0))
+    wrong = (np.cross(x, y) * z).sum(-1) < 0
+    if wrong.any():
+        raise ShapeError(f"{name}: expected a rotation matrix, got a reflection, det R = −1" + which(wrong))
 
 
 def cross_matrix(w: Array) -> Array:
