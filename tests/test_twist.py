@@ -37,6 +37,7 @@ def test_hat_gives_the_velocity_of_every_point_of_the_body():
 def test_vee_undoes_hat_exactly():
     V = np.random.default_rng(1).normal(size=(5, 6))
     np.testing.assert_array_equal(vee(hat(V)), V)
+    np.testing.assert_array_equal(vee(np.zeros((4, 4))), np.zeros(6))
 
 
 def test_body_twist_is_the_rate_of_the_placement_seen_from_the_body():
@@ -61,11 +62,12 @@ def test_a_matrix_outside_se3_is_refused():
         vee(np.zeros((3, 3)))
 
 
-def test_the_room_for_a_matrix_in_se3_ends_at_the_square_root_of_the_resolution():
-    M = hat([0, 0, 1, 0, 0, 0])
-    M[3, 3] = 0.9 * 2.0**-26
-    np.testing.assert_array_equal(vee(M), [0, 0, 1, 0, 0, 0])
-    M[3, 3] = 1.1 * 2.0**-26
+@pytest.mark.parametrize("rate", [1e-3, 1.0, 1e3])
+def test_the_room_for_a_matrix_in_se3_ends_at_the_square_root_of_the_resolution(rate):
+    M = hat([0, 0, rate, 0, 0, 0])
+    M[3, 3] = 0.9 * 2.0**-26 * rate
+    np.testing.assert_array_equal(vee(M), [0, 0, rate, 0, 0, 0])
+    M[3, 3] = 1.1 * 2.0**-26 * rate
     with pytest.raises(ShapeError, match="last row of zeros"):
         vee(M)
 
@@ -156,6 +158,9 @@ def test_a_twist_of_zero_has_no_screw():
         screw([[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 0, 0]])
     with pytest.raises(SingularError, match="zero wrench has no axis"):
         screw(np.zeros(6), of="wrench")
+    for kind in (Twist, Wrench):
+        with pytest.raises(SingularError, match=f"zero {kind.__name__.lower()} has no axis"):
+            kind(np.zeros(6)).screw()
 
 
 def test_an_axis_beyond_the_largest_number_is_refused():
