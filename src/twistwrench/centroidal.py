@@ -195,7 +195,7 @@ def _placements_from_first_body(model: Model, tree: Tree) -> list[SE3]:
     """Return the placement of each body, in the world's axes but about the origin of the first body that moves.
 
     A lever p_i − p_G does not depend on where the robot stands. As the difference of two world coordinates it would
-    lose digits with the distance from the world's origin: 1e-10 of A_G at 1000 km, in float32 0.3 % at 1 km.
+    lose digits with the distance from the world's origin: 1e-10 of A_G at 1000 km, in float32 1e-4 at 1 km (a Go2).
     """
     world, first = tree.placement[0], tree.placement[min(1, model.nbodies - 1)]  # the world itself where nothing moves
     about_first = SE3._trusted(world.rotation, -first.translation)
