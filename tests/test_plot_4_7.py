@@ -87,6 +87,13 @@ def test_without_a_normal_force_there_is_no_centre_of_pressure():
         plot.center_of_pressure([1, 0, 0, 5, 0, 0])
 
 
+def test_a_twist_is_no_wrench_and_a_wrench_no_twist():
+    with pytest.raises(TypeError, match="F: expected a Wrench or an array, got a Twist"):
+        plot.center_of_pressure(tw.Twist([1, 0, 0, 0, 0, 1]))
+    with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
+        plot.point_velocity(tw.Wrench([1, 0, 0, 0, 0, 1]), [0, 0, 0])
+
+
 def test_a_friction_cone_stands_on_its_contact_and_opens_by_mu(space):
     p, mu = np.array([0.3, -0.2, 0.1]), 0.7
     plot.friction_cone(p, mu, height=0.2, label="cone", ax=space)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .._spatial_vector import as_spatial
 from ..checks import Array, as_array
 from ..errors import SingularError
 from ..wrench import Wrench
@@ -34,13 +35,15 @@ def center_of_pressure(F: Wrench | ArrayLike) -> Array:
         If the last axis is not 6 long.
     SingularError
         If there is no force along z: the foot does not stand.
+    TypeError
+        If `F` is a Twist.
 
     Examples
     --------
     >>> center_of_pressure([0, -1, 0, 0, 0, 100])
     array([0.01, 0.  , 0.  ])
     """
-    F = as_array(F, "F", 6)
+    F = as_spatial(F, "F")
     if (F[..., 5].real == 0).any():
         raise SingularError("center_of_pressure: without a force along the normal there is none")
     return np.stack([-F[..., 1], F[..., 0], 0 * F[..., 5]], axis=-1) / F[..., 5:]
@@ -126,7 +129,7 @@ def sole(
 
     Raises
     ------
-    ShapeError, SingularError
+    ShapeError, SingularError, TypeError
         As `center_of_pressure`.
 
     Examples
@@ -144,7 +147,7 @@ def sole(
         ax.set(xlabel="y [m]", ylabel="x [m]", aspect="equal")
         ax.invert_xaxis()
     if F is not None:
-        x, y, _ = center_of_pressure(as_array(F, "F", 6).reshape(6).astype(float))
+        x, y, _ = center_of_pressure(as_spatial(F, "F").reshape(6).astype(float))
         ax.plot(y, x, "o", color=colour, markersize=8)
         ax.annotate(text, (y, x), xytext=(6, 4), textcoords="offset points", fontsize=8)
     return ax

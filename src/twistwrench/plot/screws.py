@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .._spatial_vector import as_spatial
 from ..checks import Array, as_array, as_arrays
 from ..errors import ShapeError
 from ..twist import Twist, screw
@@ -36,13 +37,15 @@ def point_velocity(V: Twist | ArrayLike, points: ArrayLike) -> Array:
     ------
     ShapeError
         If a last axis is not 6 or 3 long.
+    TypeError
+        If `V` is a Wrench.
 
     Examples
     --------
     >>> point_velocity([0, 0, 2, 0, 0, 0], [1, 0, 0])
     array([0., 2., 0.])
     """
-    V, p = as_arrays(V=(V, (6,)), points=(points, (3,)))
+    V, p = as_arrays(V=(as_spatial(V, "V"), (6,)), points=(points, (3,)))
     return np.asarray(V[..., 3:] + np.cross(V[..., :3], p))
 
 
@@ -129,7 +132,7 @@ def twist_field(
 
     Raises
     ------
-    ShapeError
+    ShapeError, TypeError
         As `point_velocity`.
 
     Examples
