@@ -34,6 +34,7 @@ def test_exercise_49_4_1_four_feet_share_the_weight_without_a_moment():
     at_base = [foot.transform(SE3(np.eye(3), p), frame="base") for p in feet]
     total = at_base[0] + at_base[1] + at_base[2] + at_base[3]
     np.testing.assert_allclose(total.vector, [0, 0, 0, 0, 0, 12 * 9.81], rtol=0, atol=1e-14)
+    assert total.frame == "base"
 
 
 def test_exercise_49_4_2_a_point_contact_has_the_moment_of_its_lever_in_the_world():
@@ -124,8 +125,13 @@ def test_power_can_be_written_in_four_ways():
 
 def test_power_refuses_anything_but_a_wrench_and_a_twist():
     F, V = Wrench(np.ones(6)), Twist(np.ones(6))
-    for wrong in (lambda: power(V, F), lambda: power(V, V), lambda: power(F, F), lambda: F.power(F)):
-        with pytest.raises(TypeError, match="expected a wrench, then a twist"):
+    for wrong, came in [
+        (lambda: power(V, F), "Twist, Wrench"),
+        (lambda: power(V, V), "Twist, Twist"),
+        (lambda: power(F, F), "Wrench, Wrench"),
+        (lambda: F.power(F), "Wrench, Wrench"),
+    ]:
+        with pytest.raises(TypeError, match=rf"^power\({came}\): expected a wrench, then a twist"):
             wrong()
     with pytest.raises(TypeError, match="Wrench @ ndarray: expected a Twist"):
         F @ np.ones(6)
