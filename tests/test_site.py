@@ -98,6 +98,8 @@ def test_chinese_pages_link_to_chinese_pages(tmp_path):
 def test_lines_of_chinese_are_joined_without_a_blank(tmp_path):
     text = "# 标题\n第一行，\n第二行\n\n第三行\n- 一\n- 二\n"
     assert pages.moved(text, "docs/x.zh-CN.md", "x", tmp_path) == "# 标题\n第一行，第二行\n\n第三行\n- 一\n- 二\n"
+    listed = "- 第一行，\n  第二行\uff1b\n  model 与\n- **二**\n"
+    assert pages.moved(listed, "docs/x.zh-CN.md", "x", tmp_path) == "- 第一行，第二行；model 与\n- **二**\n"
     assert pages.moved("中文\n中文\n", "docs/x.md", "x", tmp_path) == "中文\n中文\n"
 
 

@@ -1,4 +1,4 @@
-"""The chapter's path: for each section its notebook, its algorithms line by line, its functions, and its errata."""
+"""The chapter's path: for each section its notebook, algorithms line by line, functions, and errata; its exercises."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ import re
 from pathlib import Path
 
 import nbformat
+
+from twistwrench.exercises import catalogue
+from twistwrench.exercises.text import Language
+from twistwrench.exercises.wrapping import wrapped
 
 from . import beside, interface, notebooks
 from .pages import ROOT, SUFFIX, contents, joined, write
@@ -18,13 +22,26 @@ chapter gets wrong there. The outputs are those of the run that built this site,
 numbers is an `assert`. To change a cell and see what still holds, open the notebooks in `notebooks/en/`.""",
     "zh": """# 逐节学习
 
-每节一个笔记本，另有一个用来起步；旁边是逐行读的算法、相应的函数，以及本章在那里写错了什么。
-这里的输出来自构建本站时的运行，笔记本中每个与数字有关的说法都是一条 `assert`。
-想改一改代码、看看哪些还成立，请打开 `notebooks/zh/` 中的笔记本。""",
+每节一个笔记本，另有一个用来起步；表中同时列出相应的逐行算法、函数，以及本章该节的勘误。
+页面上的输出来自构建本站时的运行；笔记本中凡是用数字说明的结论，都有一条 `assert` 检验。
+想改动代码、看看哪些结论还成立，请打开 `notebooks/zh/` 中的笔记本。""",
 }
 HEAD = {
     "en": ("Read and run", "Line by line", "Functions", "Errata"),
-    "zh": ("读与运行", "逐行读", "函数", "勘误"),
+    "zh": ("笔记本", "逐行读", "函数", "勘误"),
+}
+EXERCISES = {
+    "en": """# Exercises
+
+The chapter's exercises with its pre-test and its project, in our own words. `twistwrench exercises start answers` puts
+them into a folder; `pytest` there checks what you write and names the slip where it is wrong;
+`twistwrench exercises hint 49.3.1` helps one step at a time.""",
+    "zh": """# 练习
+
+本章的练习，连同前置自测与累积项目，用我们自己的话写成。
+`twistwrench exercises start answers --language zh` 把它们放进一个文件夹；
+在那里运行 `pytest` 就会检查你写下的答案，出错时指出是哪一种错误；
+`twistwrench exercises hint 49.3.1` 一步一步给出提示。""",
 }
 
 
@@ -40,8 +57,28 @@ def write_chapter(out: Path, language: str) -> None:
         title = f"[{_title(name, language)}]({name}.ipynb)"
         rows.append(f"| {title} | {', '.join(lines)} | {', '.join(files)} | {wrong} |")
     path = [":::{container} path", "", *rows, ":::"]
-    parts = [joined(INTRO[language], language), "\n".join(path), contents(notebooks.names(), hidden=True)]
+    inside = contents([*notebooks.names(), "exercises"], hidden=True)
+    parts = [joined(INTRO[language], language), "\n".join(path), inside]
     write(out / "chapter" / "index.md", "\n\n".join(parts) + "\n")
+    write(out / "chapter" / "exercises.md", _exercises(language))
+
+
+def _exercises(language: Language) -> str:
+    """Return the page of the exercises: what is asked, without hints."""
+    parts = [joined(EXERCISES[language], language)]
+    for section, title in catalogue.SECTIONS.items():
+        number = f"{section} " if section.startswith("49") else ""
+        parts.append(f"## {number}{title.of(language)}")
+        for exercise in catalogue.of_section(section):
+            parts.append(f"### {exercise.id} {_markdown(exercise.title.of(language))}")
+            parts += map(_markdown, wrapped(exercise.text.of(language), 10**6))
+    return "\n\n".join(parts) + "\n"
+
+
+def _markdown(text: str) -> str:
+    """Return a text with nothing in it that Markdown would take for its own, but code."""
+    pieces = re.split(r"(`[^`]+`)", text)
+    return "".join(piece if k % 2 else re.sub(r"([*_\[\]<>$\\])", r"\\\1", piece) for k, piece in enumerate(pieces))
 
 
 def _number(name: str) -> str:

@@ -31,8 +31,12 @@ ONE_BY_ONE = {
 FENCE = re.compile(r"^(`{3,}|~{3,}).*?^\1`*$\n?", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"(\]\(|<img src=\"|<source srcset=\")(?![a-z]+:|#)([^)\s\"#]+)(#[^)\s\"]*)?")
 TO_THE_TWIN = re.compile(r"^(?:\[(?:简体中文|English|中文|README)\]\([^)]+\)(?: · )?)+\n+", re.MULTILINE)
-LINE_END = re.compile(r"^(?!#)(.*[\u4e00-\u9fff，。；：、！？）》”])\n(?=[\u4e00-\u9fff（《“`])", re.MULTILINE)
-"""Where a line of Chinese ends and no blank may show."""
+LINE_END = re.compile(
+    r"(^#.*\n)|(?<=[\u4e00-\u9fff，。；：、！？）》”])\n {0,3}(?=[\u4e00-\u9fff（《“`])"
+    r"|(?<=[，。；：、！？）》”])\n {0,3}(?=[A-Za-z\[]|\*\*)",
+    re.MULTILINE,
+)
+"""Where a line of Chinese ends and no blank may show; a heading ends with its line."""
 NO_TWIN = "\n\n:::{note}\n本页只有英文。\n:::\n"
 
 

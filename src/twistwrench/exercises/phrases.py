@@ -24,7 +24,7 @@ PHRASES = {
     # what kept an answer from being compared
     "stopped": Text("It stopped with {error}", "运行出错：{error}"),
     "at line": Text("in {file}, line {line}:", "位于 {file} 第 {line} 行："),
-    "none": Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`?"),
+    "none": Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`？"),
     "pieces": Text(
         "It must return {n} things, in this order: {names}. It returned {got}.",
         "应按顺序返回 {n} 个量：{names}。实际返回 {got}。",

@@ -35,7 +35,7 @@ EXERCISE = Exercise(
         """What do nq and nv mean in Pinocchio, and why do they differ when the model has a free-flyer?
         Count both for any list of joints; a revolute or prismatic joint has one number in q and one in v.""",
         """Pinocchio 中 nq 和 nv 分别表示什么？为什么含 FreeFlyer 关节的模型中两者不同？
-        对任意一串关节数出 nq 和 nv；转动关节和棱柱关节在 q、v 中各占 1 个数。""",
+        对任意一串关节数出 nq 和 nv；转动关节和移动关节在 q、v 中各占 1 个数。""",
     ),
     parts=(
         Part(

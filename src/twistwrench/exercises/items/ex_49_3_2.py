@@ -110,7 +110,7 @@ EXERCISE = Exercise(
         When does a change of frame only turn ω and v, each by itself?""",
         """坐标系 A 与 B 原点重合：T_AB = (R, 0)。写出 X，并与 blkdiag(R, R) 比较。
         再写出任意位姿 (R, p) 的 X 与 X*：先旋转，再平移。
-        什么时候变换退化为分别旋转 ω 和 v?""",
+        什么时候变换退化为分别旋转 ω 和 v？""",
     ),
     parts=(ROTATION, BOTH),
     hints=(

@@ -164,7 +164,7 @@ EXERCISE = Exercise(
     hints=(
         Text(
             "τ = M a + h holds for every a. Which a leaves only h?",
-            "τ = M a + h 对任意 a 成立。取怎样的 a 时只剩下 h?",
+            "τ = M a + h 对任意 a 成立。取怎样的 a 时只剩下 h？",
         ),
         Text(
             "h keeps q and v: `tw.rnea(model, q, v, np.zeros(model.nv))`. It holds gravity, once.",
