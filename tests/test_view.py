@@ -56,6 +56,13 @@ def test_two_points_cannot_hold_a_humanoid_and_no_force_is_shown(space):
     assert not space.texts
 
 
+def test_a_sole_that_bears_nothing_has_its_force_in_its_middle():
+    seen = subject(tw.Scene("humanoid", contacts=SOLES, gravity=[0, 0, 0]))
+    middles = [tw.frame_placement(seen.model, seen.q, sole.frame).translation for sole in SOLES]
+    assert (seen.forces().at == middles).all()
+    assert not seen.forces().vectors.any()
+
+
 def test_a_sole_supports_with_its_corners():
     seen = subject("humanoid", contacts=SOLES)
     T = tw.frame_placement(seen.model, seen.q, "left_sole")

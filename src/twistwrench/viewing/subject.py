@@ -101,7 +101,7 @@ class Subject:
         for k, c in enumerate(self.contacts):
             if c.dim == 6:  # the wrench of a sole has no moment along the sole about its centre of pressure (49.4)
                 moment, force, normal = found[c.frame][:3], found[c.frame][3:], T[c.frame].rotation[:, 2]
-                feet[k] += np.cross(normal, moment) / (normal @ force)
+                feet[k] += np.cross(normal, moment) / (normal @ force or 1.0)  # a sole that bears nothing has none
         return Forces(feet, np.array([found[c.frame][-3:] for c in self.contacts]))
 
     def texts(self, forces: Forces) -> list[str]:
