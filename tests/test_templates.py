@@ -327,6 +327,10 @@ def test_without_gravity_there_is_no_pendulum_and_no_relative_residual():
     assert np.abs(residual.moment).max() > 0
     with pytest.raises(tw.SingularError, match="without gravity"):
         _ = residual.relative
+    point = tw.Builder("point", base="floating", root_inertia=tw.SpatialInertia(1.0, [0, 0, 0], np.zeros((3, 3))))
+    model = point.build(physical=False)
+    with pytest.raises(tw.SingularError, match="of a point there is no radius of gyration"):
+        _ = PointMass.of(model, model.neutral()).residual(*states(model=model)).relative
 
 
 def test_a_pendulum_needs_a_height():

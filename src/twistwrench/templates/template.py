@@ -46,10 +46,12 @@ class Residual:
     def relative(self) -> Array:
         """The size of the wrench left out as a share of the weight, shape (...).
 
-        √(‖force‖² + ‖moment / length‖²) / weight. Raises SingularError without gravity.
+        √(‖force‖² + ‖moment / length‖²) / weight. Raises SingularError without gravity, and of a point.
         """
         if self.weight == 0:
             raise SingularError("relative residual: without gravity there is no weight to compare with")
+        if self.length == 0:
+            raise SingularError("relative residual: of a point there is no radius of gyration to weigh moments by")
         squares = (self.force * self.force).sum(-1) + (self.moment * self.moment).sum(-1) / self.length**2
         return np.asarray(np.sqrt(squares) / self.weight)
 
