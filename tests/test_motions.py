@@ -269,6 +269,12 @@ def test_speeding_up_moves_the_pressure_back_by_the_pendulums_law_and_needs_fric
     assert needed.friction == pytest.approx(np.hypot(2, 1) / (G + 0.5), rel=1e-12)
 
 
+def test_the_motion_of_another_robot_is_refused():
+    for function in (ground, limits_broken):
+        with pytest.raises(tw.ShapeError, match=r"q: expected shape \(..., 28\), got"):
+            function(robot("humanoid"), motion("go2", "walk"))
+
+
 def test_pressure_outside_the_feet_counts_as_negative():
     model = robot("go2")
     com, edge = tw.center_of_mass(model, model.standing()), 0.1934

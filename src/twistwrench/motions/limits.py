@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..door import check_model
+from ..door import state_of
 from ..model import Model
 from .motion import Motion
 
@@ -27,6 +27,11 @@ def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]
         By the joint's name: how far q goes beyond its limits (rad or m; 0 where it does not), and the largest speed as
         a share of the velocity limit. A velocity limit of 0 is none.
 
+    Raises
+    ------
+    ShapeError, ValueError
+        As `Model.state`, where the motion is another robot's.
+
     Examples
     --------
     >>> import twistwrench as tw
@@ -34,10 +39,10 @@ def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]
     >>> limits_broken(model, tw.motions.trot(model))
     {}
     """
-    check_model(model)
-    beyond = np.maximum(np.maximum(model.lower - motion.q, motion.q - model.upper), 0).max(axis=0)
+    q, v = state_of(model, motion.q, v=motion.v)
+    beyond = np.maximum(np.maximum(model.lower - q, q - model.upper), 0).max(axis=0)
     limit = np.where(model.velocity_limit > 0, model.velocity_limit, np.inf)
-    share = (np.abs(motion.v) / limit).max(axis=0)
+    share = (np.abs(v) / limit).max(axis=0)
     found = {}
     for name, joint, qs, vs in zip(model.joint_names, model.joints, model.q_slice, model.v_slice):
         if joint and (beyond[qs].any() or share[vs].max() > 1):
