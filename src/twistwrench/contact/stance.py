@@ -35,7 +35,7 @@ class StanceMargins:
         Whether forces within the limits of the contacts hold the robot.
     friction_used : float
         The least multiple of the coefficients of friction with which it would stand: 0 where it needs none, 1 where it
-        is about to slip, infinity where no friction would do.
+        is about to slip, infinity where no multiple would do.
     tip : float
         Distance of the centre of mass, seen along gravity, from the edge of the support polygon, m; negative outside.
         On ground that is level, or rough enough, the robot tips where it is below zero.
