@@ -9,6 +9,8 @@ from .checks import Array
 from .door import state_of
 from .inertia import cross_force, cross_motion
 from .model import Model
+from .plucker import blocks
+from .rotation import cross_matrix
 from .tree import split, walk
 
 __all__ = ["coriolis_matrix"]
@@ -69,6 +71,6 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
 
 
 def _cross_bar(h: Array) -> Array:
-    """Return h×̄*, shape (..., 6, 6): the matrix that takes a twist x to x ×* h."""
-    columns = [np.matvec(cross_force(unit), h) for unit in np.eye(6, dtype=h.dtype)]
-    return np.stack(columns, axis=-1)
+    """Return h×̄* = −[[τ]×, [f]×; [f]×, 0], shape (..., 6, 6): the matrix that takes a twist x to x ×* h."""
+    moment, force = cross_matrix(h[..., :3]), cross_matrix(h[..., 3:])
+    return -blocks(moment, force, force, np.zeros_like(force))
