@@ -227,10 +227,13 @@ def test_a_batch_may_mix_every_case():
     np.testing.assert_array_equal(log3(exp3(w)), [log3(exp3(x)) for x in w])
 
 
-@pytest.mark.parametrize(("function", "name"), [(skew, "w"), (exp3, "w"), (rpy_to_rotation, "rpy")])
-def test_a_vector_of_four_is_refused(function, name):
-    with pytest.raises(ShapeError, match=rf"^{name}: expected shape \(\.\.\., 3\), got \(4,\)"):
-        function(np.zeros(4))
+@pytest.mark.parametrize(
+    ("function", "name", "n"),
+    [(skew, "w", 3), (exp3, "w", 3), (rpy_to_rotation, "rpy", 3), (quaternion_to_rotation, "xyzw", 4)],
+)
+def test_a_vector_of_five_is_refused(function, name, n):
+    with pytest.raises(ShapeError, match=rf"^{name}: expected shape \(\.\.\., {n}\), got \(5,\)"):
+        function(np.ones(5))
 
 
 @pytest.mark.parametrize("function", [log3, rotation_to_quaternion])
