@@ -1,13 +1,14 @@
 """The exercises: references pass, every slip is named, and a student's path through a folder works."""
 
 import importlib.resources
+import re
 import shlex
 import subprocess
 import sys
 from dataclasses import replace
 from functools import cache, wraps
 from importlib import import_module
-from itertools import combinations
+from itertools import combinations, cycle
 from pkgutil import iter_modules
 from types import SimpleNamespace
 
@@ -16,9 +17,10 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, checking, hint, skeletons, slips, solution, start, status
+from twistwrench.exercises import catalogue, checking, hint, mine, skeletons, slips, solution, start, status
 from twistwrench.exercises.compare import agree
 from twistwrench.exercises.judge import judge
+from twistwrench.exercises.layouts import JACOBIAN
 from twistwrench.exercises.slips import SLIPS
 from twistwrench.exercises.table import slip_table
 from twistwrench.exercises.text import Text
@@ -253,6 +255,7 @@ def test_a_path_through_pytest(tmp_path):
     file = tmp_path / "ex_49_3.py"
     written = file.read_text(encoding="utf-8")
     file.write_text(written.replace("return ...", "return np.eye(6), np.eye(6), np.eye(6)", 1), encoding="utf-8")
+    assert "Next:" not in pytest_in(tmp_path, "--collect-only", "ex_49_3.py").stdout
     failed = pytest_in(tmp_path, "-k", "49_3")
     assert failed.returncode == 1
     assert "The slip: the coupling term is missing." in failed.stdout
@@ -346,6 +349,9 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
         ("skew", lambda w: np.zeros((4, 4)), "has the shape (4, 4); it must be (3, 3)"),
         ("skew", lambda w: np.full((3, 3), np.nan), "entries that are not numbers: [0, 0], [0, 1], [0, 2], ..."),
         ("skew", lambda w: "a matrix", "must be numbers, not str"),
+        ("skew", lambda w: [[1], [2, 3]], "must be numbers, not list"),
+        ("sole_holds", lambda *arguments: 1.0, "must be True or False, not float"),
+        ("time_per_call", lambda task, calls, clock: f"{clock()} s", "must be numbers, not str"),
         ("skew", lambda w: 1 / 0, "It stopped with ZeroDivisionError: division by zero"),
         ("skew", lambda w: w.sort() or np.zeros((3, 3)), "It changes its argument `w`"),
         ("plucker", lambda R, p: np.eye(6), "It must return 2 things, in this order: X, X*. It returned ndarray."),
@@ -356,6 +362,53 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
 )
 def test_what_cannot_be_compared_is_said(name, function, says):
     assert says in message(name, function)
+
+
+def reference(name):
+    return catalogue.find_part(name)[1].solution
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda M: np.triu(M) + np.tril(M, -1) ** 2, "M (base held): only the upper triangle is right"),
+        (lambda M: np.tril(M) + np.triu(M, 1) ** 2, "M (base held): only the lower triangle is right"),
+        (lambda M: M + np.eye(len(M)), "M (base held): right but for the diagonal"),
+    ],
+)
+def test_the_part_of_a_matrix_that_is_right_is_told(change, says):
+    assert says in message("held_mass_matrix", lambda *arguments: change(reference("held_mass_matrix")(*arguments)))
+
+
+def test_a_truth_value_and_a_word_that_are_wrong_are_told():
+    answers = cycle([True, False])
+    assert re.search("holds: is (True|False)", message("sole_holds", lambda *arguments: next(answers)))
+
+    class Renamed(reference("SpatialVector")):
+        name = "screw"
+
+        def __add__(self, other):
+            return Renamed(self.name, super().__add__(other).vector)
+
+    assert "(F + G).kind: another text" in message("SpatialVector", Renamed)
+    Renamed.name = 1.0
+    assert "(F + G).kind must be a string, not float" in message("SpatialVector", Renamed)
+
+
+def test_an_answer_may_be_a_placement_of_ours():
+    pose = catalogue.find_part("base_pose")
+    assert judge(*pose, lambda q: tw.SE3.from_matrix(reference("base_pose")(q))).state == "done"
+    assert judge(*pose, lambda q: tw.SE3.from_matrix(reference("base_pose")(q)).inverse()).state == "wrong"
+
+
+def test_only_blocks_that_an_array_has_are_named():
+    names = [name.en for name, _ in JACOBIAN.blocks((6, 6))]  # of a base alone
+    assert names == ["the block of rows ω, columns of the base", "the block of rows v, columns of the base"]
+
+
+def test_a_name_of_no_function_suggests_one():
+    with pytest.raises(tw.NameNotFound, match="unknown function of an exercise 'skwe'; did you mean 'skew'"):
+        mine("skwe")
 
 
 def test_a_class_is_judged_by_what_it_does():
@@ -431,6 +484,7 @@ def test_later_exercises_run_on_the_reference_until_the_earlier_one_is_right(tmp
     unfinished = Workbook(tmp_path)
     assert unfinished.verdict(exercise, part).state == "done"
     assert unfinished.borrowed == {"skew"}
+    assert re.search("^On the reference until yours is right: .*skew", str(status(tmp_path)), re.MULTILINE)
 
     earlier = tmp_path / "ex_49_0.py"
     wrong = earlier.read_text(encoding="utf-8").replace("return ...", "return np.zeros((3, 3))", 1)
@@ -444,13 +498,27 @@ def test_later_exercises_run_on_the_reference_until_the_earlier_one_is_right(tmp
     assert finished.borrowed == set()
 
 
-def test_files_may_import_each_other_and_folders_do_not_mix(tmp_path):
+def test_files_may_import_each_other_and_folders_do_not_mix(tmp_path, monkeypatch):
     for k, folder in enumerate(("a", "b")):
         start(tmp_path / folder, language="en")
         (tmp_path / folder / "helper.py").write_text(f"number = {k}\n")
-        (tmp_path / folder / "ex_49_1.py").write_text("from helper import number\n\ndef sizes():\n    return number\n")
+        text = "import colorsys\nfrom helper import number\n\ndef sizes():\n    return number\n"
+        (tmp_path / folder / "ex_49_1.py").write_text(text)
+        monkeypatch.delitem(sys.modules, "colorsys", raising=False)
         module = Workbook(tmp_path / folder).module("49.1")
         assert module.sizes() == k
+        assert "helper" not in sys.modules
+        assert sys.modules["colorsys"] is module.colorsys  # what is not the student's stays
+
+
+def test_an_answer_in_a_word_is_too_short(tmp_path):
+    start(tmp_path, language="en")
+    file = tmp_path / "ex_49_3.py"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("answer_49_3_2 = ...", 'answer_49_3_2 = "p"'), encoding="utf-8")
+    verdict = Workbook(tmp_path).verdict_in_words(catalogue.exercise("49.3.2"))
+    assert verdict.state == "wrong"
+    assert "answer_49_3_2 is very short" in verdict.message("en")
 
 
 def test_a_file_that_cannot_be_read_says_where(tmp_path):

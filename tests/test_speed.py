@@ -1,12 +1,15 @@
 """`twistwrench study speed`: what it times is what it says, and what it prints."""
 
 import importlib
+import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.cli import main
 from twistwrench.clock import round_robin
 from twistwrench.study.cases import QUANTITIES, ours, random_states
 from twistwrench.study.speed import Speed, speed, table
@@ -45,11 +48,29 @@ def test_every_quantity_is_timed_in_every_way_and_shown():
     assert all(meaning in text for meaning in QUANTITIES.values())
 
 
-def test_without_pinocchio_times_stand_alone():
+def test_without_pinocchio_times_stand_alone(monkeypatch):
     text = table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, disturbed=True)])
     assert "Pinocchio is not installed" in text
     assert "~12.3" in text
     assert "other things to do" in text
+    assert "other things to do" not in table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, False)])
+    monkeypatch.setattr("twistwrench.study.speed.find_spec", lambda name: None)
+    monkeypatch.setattr("twistwrench.study.speed.round_robin", partial(round_robin, least=0, most=0))
+    found = list(speed(tw.load("pendulum"), rounds=1, states=2))
+    assert len(found) == 4 * len(QUANTITIES)
+    assert {row.ratio for row in found} == {None}
+
+
+def test_the_command_has_a_row_for_every_quantity_of_a_robot_with_feet(monkeypatch, capsys):
+    monkeypatch.setattr("twistwrench.study.speed.round_robin", partial(round_robin, least=0, most=0))
+    assert main(["study", "speed", "go2"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("go2, nv = 18: microseconds for one state")
+    rows = {line[:26].strip(): re.findall(r"\d[\d.]*(?= \(|$|  )", line[26:]) for line in out.splitlines()}
+    assert all(len(rows[meaning]) > 3 for meaning in QUANTITIES.values())
+    assert err == ""
+    assert main(["study", "speed", "pendulum", "--base", "floating"]) == 2
+    assert "joint 'root_joint': with the joints behind it free it feels no inertia" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["README.md", "README.zh-CN.md"])

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import twistwrench as tw
 
-from .errors import ModelError, NameNotFound
+from .errors import ModelError, NameNotFound, SingularError
 from .exercises.commands import register as add_exercises
 from .study.commands import register as add_study
 from .viewing.commands import register as add_view
@@ -70,7 +70,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return FAILED
     except KeyboardInterrupt:
         return INTERRUPTED
-    except (NameNotFound, ModelError, ImportError, OSError) as error:
+    except (NameNotFound, ModelError, SingularError, ImportError, OSError) as error:
         print(f"twistwrench: {_said(error)}", file=sys.stderr)
         return MISUSED
 

@@ -162,13 +162,10 @@ def _indented(line: Text) -> Text:
 
 def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
     """Say what is wrong with the first wrong answer, piece by piece."""
-    for answer, arguments in zip(answers, cases):
-        expected = part.value(part.solution, arguments)
-        if agree(part, answer, expected, arguments):
-            continue
-        got, right = values(answer, part.returns), values(expected, part.returns)
-        return [line for a, b in zip(got or [], right or []) for line in describe(a, b, part.rtol)]
-    return []
+    tried = ((answer, part.value(part.solution, arguments), arguments) for answer, arguments in zip(answers, cases))
+    wrong, expected, _ = next(case for case in tried if not agree(part, *case))
+    got, right = values(wrong, part.returns), values(expected, part.returns)
+    return [line for a, b in zip(got or [], right or []) for line in describe(a, b, part.rtol)]
 
 
 def _structure(part: Part, answers: Answers) -> Text | None:
@@ -190,8 +187,6 @@ def _broken_property(part: Part, answers: Answers, cases: Cases) -> Text | None:
     """Return the first property that a right answer has and one of these has not."""
     for item in part.properties:
         for answer, arguments in zip(answers, cases):
-            if pieces(answer, part.returns) is None:
-                return None
             try:
                 residual = np.abs(np.asarray(item.residual(answer, *arguments), complex))
             except MISHAPS:

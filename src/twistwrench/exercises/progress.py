@@ -125,8 +125,7 @@ def survey(book: Workbook) -> Status:
     rows = []
     for section in catalogue.SECTIONS:
         states = {e.id: state_of(v.state for v in book.verdicts(e).values()) for e in catalogue.of_section(section)}
-        if states:
-            rows.append(Row(section, states))
+        rows.append(Row(section, states))
     return Status(tuple(rows), book.language, tuple(sorted(book.borrowed)))
 
 

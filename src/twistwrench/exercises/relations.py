@@ -6,6 +6,7 @@ import numpy as np
 
 from ..checks import Array
 from .compare import FLOOR, Value
+from .layouts import Layout
 from .phrases import say
 from .text import Text
 
@@ -32,7 +33,7 @@ def describe(got: Value, right: Value, rtol: float) -> list[Text]:
         return []
     if relation is not None:
         return [_is(Text(name, name), relation)]
-    return _blocks(name, got, right, tolerance)
+    return _blocks(name, got.quantity.layout, got.array, right.array, tolerance)
 
 
 def _truths(name: str, got: Array, right: Array) -> list[Text]:
@@ -64,13 +65,10 @@ def _type(got: Value, expected: str) -> Text:
     return say("not numbers", name=got.quantity.name, what=say(expected), got=type(got.raw).__name__)
 
 
-def _blocks(name: str, got: Value, right: Value, tolerance: float) -> list[Text]:
+def _blocks(name: str, layout: Layout, a: Array, b: Array, tolerance: float) -> list[Text]:
     """Say what is wrong with each block, where the whole shows no pattern."""
-    a, b = got.array, right.array
-    if a is None or b is None:
-        return []
     lines, some_right = [], False
-    for block, index in got.quantity.layout.blocks(b.shape):
+    for block, index in layout.blocks(b.shape):
         origin = [0] * (b.ndim - len(index) + 1) + [part.start for part in index[1:]]
         relation = _relation(a[index], b[index], tolerance, origin)
         if relation == say("right"):

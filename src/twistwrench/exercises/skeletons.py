@@ -7,6 +7,7 @@ import inspect
 import textwrap
 from os import PathLike
 from pathlib import Path
+from typing import cast
 
 from . import catalogue
 from .exercise import Exercise, Part
@@ -158,9 +159,7 @@ def _untyped(node: ast.ClassDef) -> str:
 def source_of(part: Part, language: Language) -> str:
     """Return the solution of a part as the student would write it: no types, the skeleton's docstring."""
     source = textwrap.dedent(inspect.getsource(part.solution))
-    node = ast.parse(source).body[0]
-    if not isinstance(node, ast.FunctionDef | ast.ClassDef):
-        return source
+    node = cast("ast.FunctionDef | ast.ClassDef", ast.parse(source).body[0])
     if isinstance(node, ast.ClassDef):
         return _head(part) + _docstring(part, language) + textwrap.indent(_untyped(node), "    ")
     documented = ast.get_docstring(node) is not None

@@ -18,17 +18,10 @@ def columns(text: str) -> int:
 
 
 def wrapped(text: str, width: int = WIDTH) -> list[str]:
-    """Break a text into lines. Paragraphs stay apart, and lines that begin with two spaces stay as they are."""
+    """Break a text into lines. Paragraphs stay apart."""
     lines: list[str] = []
     for paragraph in inspect.cleandoc(text).split("\n\n"):
-        flowing: list[str] = []
-        for line in paragraph.split("\n"):
-            if line.startswith("  "):
-                lines += [*_fill(flowing, width), line]
-                flowing = []
-            else:
-                flowing.append(line.strip())
-        lines += [*_fill(flowing, width), ""]
+        lines += [*_fill([line.strip() for line in paragraph.split("\n")], width), ""]
     return lines[:-1]
 
 

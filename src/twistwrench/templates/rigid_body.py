@@ -7,6 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..checks import Array
+from ..joint_types import FreeFlyer
 from ..model import Model
 from .reading import com_acceleration, locked_inertia
 from .template import Template
@@ -51,7 +52,4 @@ class RigidBody(Template):
 
 def turning(model: Model, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
     """Return how the base is placed and turns: R, and ω and ω̇ in its own axes."""
-    base = model.joints[1]
-    if base is None:
-        raise RuntimeError("joint 1 is the floating base")
-    return base.transform(q[..., model.q_slice[1]]).rotation, v[..., :3], a[..., :3]
+    return FreeFlyer().transform(q[..., model.q_slice[1]]).rotation, v[..., :3], a[..., :3]

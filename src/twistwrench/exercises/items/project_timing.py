@@ -63,11 +63,6 @@ def _warmed(task: Any, calls: Any, clock: Any) -> Any:
     return np.mean(_seconds(task, calls, clock))
 
 
-def _warmed_block(task: Any, calls: Any, clock: Any) -> Any:
-    task()
-    return _block(task, calls, clock) / calls
-
-
 def _near(answer: Any, task: Any) -> Any:
     """Return 1 for about the right time: the median and the shortest are both right."""
     ratio = float(answer) / task.seconds
