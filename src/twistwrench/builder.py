@@ -208,10 +208,20 @@ class Builder:
             postures={},
             feet=tuple(feet),
         )
-        for foot in feet:
+        for foot in model.feet:
             model.frame(foot)
-        checked = {name: model.state(q)[0] for name, q in (postures or {}).items()}
-        return replace(model, postures=checked)
+        return replace(model, postures={name: _posture(model, name, q) for name, q in (postures or {}).items()})
+
+
+def _posture(model: Model, name: str, q: ArrayLike) -> Array:
+    """Return one configuration, checked."""
+    try:
+        (checked,) = model.state(q)
+    except ValueError as error:
+        raise type(error)(f"posture {name!r}: {error}") from None
+    if checked.ndim != 1:
+        raise ShapeError(f"posture {name!r}: expected one configuration, shape ({model.nq},), got {checked.shape}")
+    return checked
 
 
 def _join(pieces: list[Array]) -> Array:
