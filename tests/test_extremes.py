@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 from dataclasses import replace
 from functools import lru_cache
 
@@ -12,6 +13,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as ne
 from twistwrench.cli import main
+from twistwrench.plot.style import COLOURS
 from twistwrench.study.extremes import candidates, grid, picture, report, run
 from twistwrench.study.extremes.cell import Outcome, measure
 from twistwrench.study.extremes.grid import DIMENSIONS, ENDS, cells, of_pair, of_value
@@ -83,6 +85,38 @@ def test_newton_s_accelerations_are_those_of_elimination():
     torques = np.linspace(-3, 5, model.nv)
     right = ne.forward_dynamics(model, *(ne.as_mpmath(x) for x in (s.q, s.v, torques)))
     assert (abs(accelerations(model, s, torques) - right) <= 1e-22 * abs(right).max()).all()
+
+
+@pytest.mark.parametrize("recipe", [Recipe(mass_ratio=1e18, bodies=2), Recipe(mass_ratio=1e20, bodies=3)])
+def test_where_newton_does_not_come_to_rest_elimination_finds_the_accelerations(recipe):
+    model, s = recipe.model, recipe.state
+    found = truth(model, s)
+    q, v, tau = (ne.as_mpmath(x) for x in (s.q, s.v, found.torques["pushed"]))
+    right = found.right["pushed"]
+    assert (abs(ne.inverse_dynamics(model, q, v, right) - tau) <= 1e-22 * abs(tau).max()).all()
+    assert found.error("pushed", right.astype(float)) < 2 * EPS
+    assert 1e-7 < found.error("pushed", (right * (1 + 1e-6)).astype(float)) <= 1.001e-6
+
+
+def test_a_robot_at_rest_in_free_space_stays_there():
+    recipe = Recipe(bodies=3)
+    model, s = replace(recipe.model, gravity=np.zeros(3)), recipe.state
+    assert not accelerations(model, s._replace(v=0 * s.v), 0 * s.v).any()
+
+
+def test_of_a_long_robot_some_columns_of_the_mass_matrix_are_judged(monkeypatch):
+    recipe = Recipe()
+    whole = truth(recipe.model, recipe.state)
+    monkeypatch.setattr("twistwrench.study.extremes.truth.WHOLE", recipe.bodies)
+    some, M = truth(recipe.model, recipe.state), whole.right["M"]
+    assert (abs(some.right["M"] - M[:, [0, 5, 6, -1]]) <= 1e-45 * abs(M).max()).all()
+    wrong = M.astype(float)
+    wrong[2, 6] += 1e-6 * float(M[6, 6])
+    assert some.error("M", wrong) == pytest.approx(whole.error("M", wrong), rel=1e-9)
+
+
+def test_all_joints_stand_at_the_angle_that_is_asked_for():
+    assert (Recipe(angle=np.pi).state.q[7:] == np.pi).all()
 
 
 def test_an_error_is_what_is_wrong_of_the_terms():
@@ -271,6 +305,43 @@ def test_the_command_fails_where_a_cell_is_bad(monkeypatch, capsys):
     monkeypatch.setattr(run, "measure", lambda recipe, **how: bad)
     assert main(["study", "extremes", "--angles", "0"]) == 1
     assert "aba, pushed by fast: NaN" in capsys.readouterr().err
+
+
+def test_the_map_shows_a_nan_in_red_what_is_refused_hatched_and_pairs_by_their_worst():
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the maps are not drawn")
+    from matplotlib import colormaps
+    from matplotlib.colors import to_rgba
+    from matplotlib.figure import Figure
+
+    figure, far = Figure(), {"distance": 1e9}
+
+    def cell(changed, **outcome):
+        return Cell(Recipe(**changed), (Outcome("crba", "textbook", **outcome),))
+
+    cells = [cell({"angle": -np.pi}, bad="NaN"), cell(far, refused="ValueError: q", estimate=2.0)]
+    cells += [cell(far | {"speed": speed}, error=error) for speed, error in ((1e8, 1e-3), (1e-12, 1e-15))]
+    picture.draw(cells, "crba", figure)
+    (above, below), said = figure.axes[0:4:2], figure.axes[1]
+    refused, nan = above.patches
+    assert [text.get_text() for text in above.texts] == ["1e9", "−π"]
+    assert nan.get_facecolor() == to_rgba(COLOURS["vermilion"])
+    assert (nan.get_hatch(), refused.get_hatch()) == (None, "/////")
+    (pair,) = below.patches
+    assert pair.get_facecolor() == colormaps["cividis"].resampled(picture.DIGITS)(3)
+    assert [patch.get_hatch() for patch in said.patches] == ["/////"]  # sure of nothing
+
+
+def test_the_command_does_without_pinocchio_and_scipy(monkeypatch, capsys):
+    for name in ("pinocchio", "scipy", "scipy.spatial.transform"):
+        monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.setattr(grid, "cells", lambda *, full: FEW[2:])
+    assert main(["study", "extremes", "--angles", "4"]) == 0
+    said = capsys.readouterr()
+    assert "Pinocchio" in said.err
+    assert "it has no column" in said.err
+    assert "exp3 twistwrench" in said.out
+    assert "exp3 Pinocchio" not in said.out
+    assert "exp3 SciPy" not in said.out
 
 
 @pytest.mark.parametrize("angles", ["1", "-5", "2.5", "many"])

@@ -20,6 +20,8 @@ import pytest
 
 from twistwrench import newton_euler_3d
 from twistwrench.errors import ModelError, ShapeError, SingularError
+from twistwrench.newton_euler_3d.arithmetic import Arithmetic
+from twistwrench.newton_euler_3d.joints import joint_columns
 
 TOLERANCE = 1e-12
 SIZES = {"revolute": (1, 1), "prismatic": (1, 1), "continuous": (2, 1), "planar": (4, 3), "spherical": (4, 3)}
@@ -786,6 +788,8 @@ def test_an_unknown_kind_of_joint_is_refused():
     model.joints[1].kind = "helical"
     with pytest.raises(ModelError, match="joint 'revolute_1': unknown kind 'helical'"):
         newton_euler_3d.placements(model, [0.0])
+    with pytest.raises(ModelError, match="joint 'revolute_1': unknown kind 'helical'"):
+        joint_columns(Arithmetic(np.dtype(float)), model.joints[1], "revolute_1")
 
 
 def test_joints_that_move_no_inertia_are_named(mpmath):

@@ -181,8 +181,9 @@ def test_a_scene_may_have_wrenches_and_no_contacts():
     close(d.M @ a + d.h, tw.rnea(scene.model, q, v, a, scene.f_ext(q)))
 
 
-def test_angular_rows_are_those_of_the_jacobian():
-    model = tw.random_tree(12, rng=2, base="floating")
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_angular_rows_are_those_of_the_jacobian(base):
+    model = tw.random_tree(12, rng=2, base=base)
     q = model.random_configuration(rng=2)
     frames = list(model.frame_names)[::3]
     right = [tw.frame_jacobian(model, q, name, "local_world_aligned")[:3] for name in frames]

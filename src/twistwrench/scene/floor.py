@@ -8,7 +8,6 @@ import numpy as np
 
 from ..checks import Array
 from ..constants import cast
-from ..errors import ModelError
 from ..joint_types import FreeFlyer, Planar
 from ..model import Frame, Model
 from ..plucker import SE3
@@ -42,9 +41,7 @@ class OnTheFloor:
 
     @classmethod
     def of(cls, full: Model, q: Array) -> OnTheFloor:
-        """Exchange the base of a model; raises ModelError where it does not float."""
-        if full.base != "floating":
-            raise ModelError(f"{full.name!r}: a planar base takes the place of a floating one, and this one is fixed")
+        """Exchange the floating base of a model."""
         near = q[full.q_slice[1]].astype(np.float64)
         T = full.placement[1] @ FreeFlyer().transform(near)
         base = Planar().transform(_shadow(T)).inverse() @ T
