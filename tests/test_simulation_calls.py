@@ -192,6 +192,11 @@ def test_a_motion_is_drawn_on_given_axes():
         assert "s]" in ax.get_xlabel()
     assert ax.lines[1].get_ydata() == pytest.approx(s.v[:, 1])
     assert s.plot(figure.Figure().add_subplot()).lines[0].get_ydata() == pytest.approx(s.energy - s.energy[0])
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    try:
+        assert s.plot().figure.number in pyplot.get_fignums()
+    finally:
+        pyplot.close("all")
     with pytest.raises(tw.NameNotFound, match="unknown quantity 'enrgy'; did you mean 'energy'"):
         s.plot(what="enrgy")
 
