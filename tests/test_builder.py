@@ -393,7 +393,7 @@ def test_bad_base_gravity_feet_and_postures_are_refused():
         builder.build(feet=["foot"])
     with pytest.raises(tw.NameNotFound, match="foot"):
         builder.build(feet=iter(["foot"]))
-    with pytest.raises(tw.ShapeError, match="posture 'flat': q: .*this looks like nv"):
+    with pytest.raises(tw.ShapeError, match=r"posture 'flat': q: .*this looks like nv"):
         builder.build(postures={"flat": np.zeros(6)})
     with pytest.raises(tw.ShapeError, match=r"posture 'flat': expected one configuration, shape \(7,\), got \(1, 7\)"):
         builder.build(postures={"flat": [[0, 0, 0, 0, 0, 0, 1]]})
