@@ -202,6 +202,22 @@ def test_the_world_may_be_turned_about_gravity_and_shifted(name):
     assert np.allclose(template.rate(moved, v, a).reshape(-1, 2, 3), np.matvec(T.rotation, rate), rtol=0, atol=1e-11)
 
 
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_the_base_may_fly_from_any_frame_of_the_world(name):
+    """Pinocchio's models may place their free-flyer anywhere: the same robot with other entries in q."""
+    seat = tw.SE3(tw.exp3([0.3, 0.5, -0.4]), [1.0, 2, 3])
+    other = replace(GO2, placement=(GO2.placement[0], seat, *GO2.placement[2:]))
+
+    def there(q):
+        placed = seat.inverse() @ tw.forward_kinematics(GO2, q).placement[1]
+        return np.concatenate([GO2.joints[1].coordinates(placed, q[..., :7]), q[..., 7:]], axis=-1)
+
+    q, v, a = states(6)
+    here, moved = TEMPLATES[name].of(GO2, STAND), TEMPLATES[name].of(other, there(STAND))
+    assert np.allclose(moved.rate(there(q), v, a), here.rate(q, v, a), rtol=0, atol=1e-10)
+    assert np.allclose(moved.residual(there(q), v, a).relative, here.residual(q, v, a).relative, rtol=0, atol=1e-12)
+
+
 def test_a_pendulums_up_is_where_gravity_does_not_pull():
     R = tw.exp3([0.4, -0.7, 0.2])
     pendulum, other = (LinearPendulum.of(m, m.neutral(), height=0.5) for m in (brick(), brick(gravity=R @ [0, 0, -G])))

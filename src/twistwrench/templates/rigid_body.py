@@ -7,9 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..checks import Array
-from ..joint_types import FreeFlyer
-from ..model import Model
-from .reading import com_acceleration, locked_inertia
+from .reading import base_placement, com_acceleration, locked_inertia
 from .template import Template
 
 __all__ = ["RigidBody"]
@@ -37,7 +35,8 @@ class RigidBody(Template):
 
     def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
         """Return q, R, ω, ω̇ and p̈_G."""
-        return q, *turning(self.model, q, v, a), com_acceleration(self.model, q, v, a)
+        R = base_placement(self.model, q).rotation
+        return q, R, v[..., :3], a[..., :3], com_acceleration(self.model, q, v, a)
 
     def law(self, *known: Array) -> Array:
         """Return (R (I ω̇ + ω × I ω), m p̈_G)."""
@@ -48,8 +47,3 @@ class RigidBody(Template):
 
     def _inertia(self, q: Array) -> Array:
         return locked_inertia(self.model, q)
-
-
-def turning(model: Model, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
-    """Return how the base is placed and turns: R, and ω and ω̇ in its own axes."""
-    return FreeFlyer().transform(q[..., model.q_slice[1]]).rotation, v[..., :3], a[..., :3]

@@ -16,7 +16,7 @@ from ..errors import SingularError
 from ..inverse_dynamics import rnea
 from ..model import Model
 from ..plucker import SE3
-from .reading import locked_inertia
+from .reading import base_placement, locked_inertia
 
 __all__ = ["Residual", "Template", "full_rate"]
 
@@ -182,8 +182,8 @@ def full_rate(model: Model, q: Array, v: Array, a: Array) -> Array:
     """
     at_origin = q.copy()
     at_origin[..., :3] = 0  # where the robot stands does not matter, and far away would cost digits
-    base = model.joints[1].transform(at_origin[..., model.q_slice[1]])  # type: ignore[union-attr]
-    to_G = SE3._trusted(base.rotation, -center_of_mass(model, at_origin)).force_transform()
+    base = base_placement(model, at_origin)
+    to_G = SE3._trusted(base.rotation, base.translation - center_of_mass(model, at_origin)).force_transform()
     g = (model.mass * model.gravity).astype(q.dtype)
     rate: Array = np.matvec(to_G, rnea(model, q, v, a)[..., :6]) + np.concatenate([np.zeros_like(g), g])
     return rate
