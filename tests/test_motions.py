@@ -347,7 +347,7 @@ def test_a_joint_beyond_its_limits_is_named():
 
 
 def test_a_motion_has_at_least_two_samples():
-    with pytest.raises(ValueError, match="samples: expected at least 2, got 1"):
+    with pytest.raises(ValueError, match="samples: expected a whole number of at least 2, got 1"):
         tw.motions.walk(robot("go2"), samples=1)
 
 

@@ -215,8 +215,8 @@ def test_a_dt_that_is_no_duration_is_refused(dt):
     [
         ({}, "expected one of the two, got None and None"),
         ({"steps": 3, "duration": 0.1}, "expected one of the two, got 3 and 0.1"),
-        ({"steps": -1}, "steps: expected a whole number, 0 or more, got -1"),
-        ({"steps": 2.5}, "steps: expected a whole number, 0 or more, got 2.5"),
+        ({"steps": -1}, "steps: expected a whole number of at least 0, got -1"),
+        ({"steps": 2.5}, "steps: expected a whole number of at least 0, got 2.5"),
         ({"steps": np.nan}, "steps: expected a whole number"),
         ({"duration": -1.0}, "duration: expected seconds, 0 or more, got -1"),
         ({"duration": np.inf}, "duration: expected seconds"),

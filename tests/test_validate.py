@@ -359,7 +359,7 @@ def test_without_both_there_is_nothing_to_compare_with(monkeypatch):
 
 
 def test_arguments_that_cannot_be_are_refused():
-    with pytest.raises(ValueError, match="states: expected 1 or more, got 0"):
+    with pytest.raises(ValueError, match="states: expected a whole number of at least 1, got 0"):
         validate("pendulum", states=0)
     with pytest.raises(ValueError, match="has its base"):
         validate(tw.load("pendulum"), base="floating")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from .checks import Array, as_array, as_arrays
-from .errors import FrameError
+from .errors import FrameError, unknown_name
 
 __all__ = ["SpatialVector", "as_spatial", "common_frame", "latex_matrix"]
 
@@ -30,6 +30,8 @@ class SpatialVector:
         if isinstance(vector, SpatialVector):
             mine, theirs = type(self).__name__, type(vector).__name__
             raise TypeError(f"{mine}({theirs}): expected six numbers; those of the {theirs} are its .vector")
+        if not isinstance(frame, str | None):
+            raise unknown_name("frame", frame, ())
         self._vector = as_array(vector, "vector", 6).copy()
         self._vector.flags.writeable = False
         self._frame = frame

@@ -52,7 +52,7 @@ class Builder:
     ShapeError, ValueError
         If `gravity` is not three real numbers.
     TypeError
-        If `root` or `root_inertia` is none.
+        If `name` or `root` is no name, or `root_inertia` no inertia.
 
     Examples
     --------
@@ -76,6 +76,8 @@ class Builder:
     ) -> None:
         if base not in ("fixed", "floating"):
             raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
+        if not isinstance(name, str):
+            raise TypeError(f"name: expected a name, got {type(name).__name__} {name!r}")
         self._name = name
         self._base = base
         self._gravity = as_constant(as_array(gravity, "gravity", 3), "gravity")

@@ -7,6 +7,7 @@ last shape, and of one floating-point type.
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import ShapeError
 
-__all__ = ["Array", "as_array", "as_arrays", "as_constant", "resolution"]
+__all__ = [
+    "Array",
+    "as_array",
+    "as_arrays",
+    "as_constant",
+    "as_count",
+    "as_generator",
+    "as_number",
+    "resolution",
+]
 
 Array = NDArray[Any]
 
@@ -116,6 +126,52 @@ def as_constant(value: ArrayLike, name: str) -> Array:
     return x.astype(np.float64)
 
 
+def as_number(value: object, name: str) -> float:
+    """Return one real number: no text, no bool, no list.
+
+    Examples
+    --------
+    >>> as_number("0.01", "dt")
+    Traceback (most recent call last):
+    ValueError: dt: expected a number, got '0.01'
+    """
+    one = value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
+    if not isinstance(one, Real) or isinstance(one, bool):
+        raise ValueError(f"{name}: expected a number, got {value!r}")
+    return float(one)
+
+
+def as_count(value: object, name: str, least: int) -> int:
+    """Return a whole number that is not below `least`.
+
+    Examples
+    --------
+    >>> as_count(1.5, "samples", 2)
+    Traceback (most recent call last):
+    ValueError: samples: expected a whole number of at least 2, got 1.5
+    """
+    x = as_number(value, name)
+    if not least <= x < np.inf or x != round(x):
+        raise ValueError(f"{name}: expected a whole number of at least {least}, got {value}")
+    return int(x)
+
+
+def as_generator(rng: np.random.Generator | int | None) -> np.random.Generator:
+    """Return the generator that `rng` is or seeds.
+
+    Examples
+    --------
+    >>> as_generator(-1)
+    Traceback (most recent call last):
+    ValueError: rng: expected a numpy Generator, a whole number of at least 0 or None, got -1
+    """
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError):
+        expected = "a numpy Generator, a whole number of at least 0 or None"
+        raise ValueError(f"rng: expected {expected}, got {rng!r}") from None
+
+
 def _numeric(value: ArrayLike, name: str) -> Array:
     """Turn `value` into an array of numbers, or say why it is none."""
     try:
@@ -126,8 +182,8 @@ def _numeric(value: ArrayLike, name: str) -> Array:
         raise ValueError(f"{name}: expected numbers, got a masked array: what should stand where the mask is?")
     if x.dtype.kind in "iufc":
         return x
-    if value is None:
-        raise ValueError(f"{name}: expected numbers, got None")
+    if x.ndim == 0:
+        raise ValueError(f"{name}: expected numbers, got {value!r}")
     hint = " (for mpmath numbers use twistwrench.newton_euler_3d)" if x.dtype == object else ""
     raise ValueError(f"{name}: expected numbers, got an array of {x.dtype}{hint}")
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from .checks import Array, as_constant
+from .checks import Array, as_constant, as_generator
 from .constants import Constants, fixed
 from .errors import NameNotFound, unknown_name
 from .inertia import SpatialInertia
@@ -206,7 +206,7 @@ class Model:
         rng : numpy Generator or int, optional
             Where the randomness comes from.
         """
-        rng = np.random.default_rng(rng)
+        rng = as_generator(rng)
         joints = zip(self.joints, self.q_slice)
         parts = [joint.random(rng, self.lower[s], self.upper[s]) for joint, s in joints if joint]
         return np.concatenate([np.zeros(0), *parts])

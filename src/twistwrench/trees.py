@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .builder import Base, Builder
-from .checks import Array
+from .checks import Array, as_generator, as_number
 from .errors import ModelError, unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
@@ -80,9 +80,9 @@ def chain(
     """
     _check_count(n)
     for name, value in (("mass", mass), ("length", length), ("mass_ratio", mass_ratio)):
-        if not 0 < value < np.inf:
+        if not 0 < as_number(value, name) < np.inf:
             raise ModelError(f"{name}: expected a positive number, got {value}")
-    if joint not in AXIAL:
+    if not isinstance(joint, str) or joint not in AXIAL:
         raise ModelError(f"joint: expected one of {list(AXIAL)}, got {joint!r}")
     names = [f"rod_{k:0{max(2, len(str(n)))}d}" for k in range(1, n + 1)]
     rods = [_rod(mass * mass_ratio ** (k / max(n - 1, 1)), length) for k in range(n)]
@@ -163,12 +163,12 @@ def random_tree(
     >>> chain.parent
     (-1, 0, 1, 2, 3, 4)
     """
-    rng = np.random.default_rng(rng)
+    rng = as_generator(rng)
     _check_count(n)
-    if not 0 <= branching <= 1 or isinstance(kinds, str) or not len(kinds):
+    if not 0 <= as_number(branching, "branching") <= 1 or isinstance(kinds, str) or not len(kinds):
         raise ModelError(f"expected branching from 0 to 1 and a list of kinds, got {branching} and {kinds!r}")
     for kind in kinds:
-        if kind not in KINDS:
+        if not isinstance(kind, str) or kind not in KINDS:
             raise unknown_name("kind of joint", kind, KINDS)
     links, joints = ([f"{what}_{k}" for k in rng.permutation(n)] for what in ("link", "joint"))
     floats = base == "floating"

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._scalars import largest, length, which
 from ._spatial_vector import SpatialVector, as_spatial
-from .checks import Array, as_array, resolution
+from .checks import Array, as_array, as_number, resolution
 from .errors import ShapeError, SingularError
 from .rotation import cross_matrix, unskew
 
@@ -152,7 +152,7 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     >>> screw(V).pitch, screw(V, noise=1e-15).pitch
     (array(0.), array(inf))
     """
-    if not noise >= 0:
+    if not as_number(noise, "noise") >= 0:
         raise ValueError(f"noise: expected a number that is not below zero, got {noise}")
     if isinstance(x, SpatialVector):
         kind, (line, free) = type(x).__name__.lower(), x._line_and_free()

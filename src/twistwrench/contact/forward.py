@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._scalars import which
-from ..checks import Array
+from ..checks import Array, as_number
 from ..errors import SingularError
 from ..fast import aba, crba
 from ..model import Model
@@ -61,9 +61,9 @@ class Baumgarte:
     damping: float = 1.0
 
     def __post_init__(self) -> None:
-        if not 0 < self.frequency < np.inf:
+        if not 0 < as_number(self.frequency, "frequency") < np.inf:
             raise ValueError(f"frequency: expected a number above 0, got {self.frequency!r}")
-        if not 0 <= self.damping < np.inf:
+        if not 0 <= as_number(self.damping, "damping") < np.inf:
             raise ValueError(f"damping: expected a number of at least 0, got {self.damping!r}")
 
 

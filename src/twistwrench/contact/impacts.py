@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..checks import Array, as_number
 from ..fast import crba
 from ..model import Model
 from .decomposition import decompose, lever
@@ -89,7 +89,7 @@ def impact(
     >>> hit.v, hit.energy_lost.round(9), int(hit.redundant)
     (array([0.]), np.float64(2.002), 2)
     """
-    if not 0 <= restitution <= 1:
+    if not 0 <= as_number(restitution, "restitution") <= 1:
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
     contacts = as_contacts(model, contacts)
     q, v = real_state(model, q, v=v)

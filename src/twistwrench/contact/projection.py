@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._scalars import which
-from ..checks import Array
+from ..checks import Array, as_count, as_number
 from ..errors import SingularError
 from ..fast import crba
 from ..model import Model
@@ -77,6 +77,9 @@ def project_state(
     >>> np.abs(tw.constraint_jacobian(model, q, feet) @ v).max() < 1e-12
     np.True_
     """
+    steps = as_count(steps, "steps", 0)
+    if not as_number(tolerance, "tolerance") >= 0:
+        raise ValueError(f"tolerance: expected a number of at least 0, got {tolerance!r}")
     contacts = as_contacts(model, contacts)
     q, v = real_state(model, q, v=v)
     for _ in range(steps + 1):

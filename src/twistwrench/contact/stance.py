@@ -106,6 +106,7 @@ def stance_margins(
     (q,) = real_state(model, q)
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
+    limits(contacts, sides, pyramid)  # says what is wrong with the two where it falls, too
     tip, rest = tip_distance(model, q, contacts), np.zeros(model.nv)
     try:
         task = Task.of(model, q, rest, rest, contacts, None)

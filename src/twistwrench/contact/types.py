@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array
-from ..errors import ShapeError
+from ..errors import ShapeError, unknown_name
 from ..rotation import cross_matrix, exp3
 
 __all__ = ["Contact", "PointContact", "Pyramid", "SurfaceContact"]
@@ -238,6 +238,8 @@ class SurfaceContact(Contact):
 
 
 def _coefficient(frame: str, mu: ArrayLike) -> float:
+    if not isinstance(frame, str):
+        raise unknown_name("frame", frame, ())
     value = float(_numbers(frame, "mu", mu))
     if value < 0:
         raise ValueError(f"contact {frame!r}: mu: expected at least 0, got {value:g}")

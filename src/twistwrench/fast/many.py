@@ -123,8 +123,8 @@ def _batch_first(x: Array, tail: int) -> Array:
 
 def check_workers(workers: int | Executor) -> None:
     """Refuse less than one."""
-    if isinstance(workers, int) and workers < 1:
-        raise ValueError(f"workers: expected 1 or more, or an Executor, got {workers}")
+    if not isinstance(workers, Executor) and not (isinstance(workers, int) and workers >= 1):
+        raise ValueError(f"workers: expected 1 or more, or an Executor, got {workers!r}")
 
 
 def check_fits(given: Mapping[str, object], batch: Tail, tails: Mapping[str, Tail], dtype: np.dtype[Any]) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..checks import as_count
 from ..model import Model
 from .following import follow
 from .gaits import BRISK_WALK, CRAWL, TROT, WALK, Gait, Steps
@@ -124,9 +125,7 @@ def _steps(model: Model, name: str, gaits: dict[int, Gait], samples: int) -> Mot
 
 
 def _sample(name: str, standing: Stand, plan: Steps | Leap, duration: float, samples: int) -> Motion:
-    if samples < 2:
-        raise ValueError(f"samples: expected at least 2, got {samples}")
-    t = np.linspace(0, duration, samples)
+    t = np.linspace(0, duration, as_count(samples, "samples", 2))
     q, v, a = follow(standing, plan.goal(t))
     return Motion(name, t, q, v, a, standing.model.feet, plan.stands(t))
 

@@ -136,7 +136,7 @@ def frame_bias_acceleration(model: Any, q: ArrayLike, v: ArrayLike, frame: str, 
 def _frame(state: State, name: str) -> tuple[Body, Array, Array]:
     """Return the body that carries a frame, and the frame's rotation and position in the world."""
     frames, number = state.model.frames, state.number
-    if name not in frames:
+    if not isinstance(name, str) or name not in frames:
         raise unknown_name("frame", name, frames)
     body, place = walk(state)[frames[name].body], frames[name].placement
     R = body.rotation @ number.rotation(place.rotation, f"frame {name!r}")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._spatial_vector import as_spatial
-from ..checks import Array, as_array
+from ..checks import Array, as_array, as_number
 from ..errors import SingularError
 from ..wrench import Wrench
 from .style import COLOURS, axes_2d, axes_3d, fit
@@ -90,6 +90,8 @@ def friction_cone(
     >>> np.hypot(rim[:, 0], rim[:, 1]).max().round(3), rim[0, 2]
     (np.float64(0.6), np.float64(1.0))
     """
+    mu = as_number(mu, "mu")
+    height = as_number(height, "height")
     p = as_array(point, "point", 3).reshape(3).astype(float)
     angle = np.linspace(0, 2 * np.pi, 49)
     rim = p + height * np.stack([mu * np.cos(angle), mu * np.sin(angle), np.ones(49)], axis=-1)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_arrays
+from ..checks import as_arrays, as_number
 from ..errors import ShapeError
 from ..plucker import SE3
 from .style import COLOURS, XYZ, axes_3d, fit
@@ -45,6 +45,7 @@ def triad(T: SE3, name: str = "", *, size: float = 0.1, ax: Any = None) -> Any:
     >>> len(ax.lines), ax.texts[0].get_text().strip()
     (3, 'world')
     """
+    size = as_number(size, "size")
     if T.translation.ndim != 1:
         raise ShapeError(f"T: expected one placement, got a batch of shape {T.translation.shape[:-1]}")
     ax = axes_3d(ax)
@@ -99,6 +100,7 @@ def arrows(
     >>> arrows([0, 0, 0], [0, 0, 40], scale=0.01, texts=["40 N"], ax=ax).texts[0].get_position_3d()
     (np.float64(0.0), np.float64(0.0), np.float64(0.4))
     """
+    scale = as_number(scale, "scale")
     p, x = as_arrays(points=(points, (3,)), vectors=(vectors, (3,)))
     try:
         p, x = (a.reshape(-1, 3) for a in np.broadcast_arrays(p, x))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
+from ..checks import Array, as_array, as_number
 from ..errors import ShapeError
 from ..inertia import SpatialInertia
 from ..kinematics import forward_kinematics
@@ -100,6 +100,7 @@ def ellipsoid(
     >>> ax.texts[0].get_position_3d()
     (np.float64(0.0), np.float64(0.0), np.float64(0.5))
     """
+    alpha = as_number(alpha, "alpha")
     placed = inertia if T is None else inertia.transform(T)
     lengths, axes = semi_axes(placed, name or "body")
     azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, 25), np.linspace(0, np.pi, 13))
@@ -208,6 +209,7 @@ def felt_mass(
     >>> np.linalg.norm(ax.lines[0].get_xydata(), axis=-1).round(12).max()
     np.float64(2.0)
     """
+    scale = as_number(scale, "scale")
     M = as_array(inertia, "inertia", 6, 6).reshape(6, 6).astype(float)
     block = M[np.ix_(3 + np.array(plane), 3 + np.array(plane))]
     angle = np.linspace(0, 2 * np.pi, 73)

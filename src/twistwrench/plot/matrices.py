@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_array
+from ..checks import as_array, as_number
 from ..errors import ShapeError
 from .style import COLOURS, axes_2d
 
@@ -66,6 +66,8 @@ def matrix(
     >>> [text.get_text() for text in ax.texts]
     ['1', '-1']
     """
+    limit = None if limit is None else as_number(limit, "limit")
+    rounding = as_number(rounding, "rounding")
     A = as_array(A, "A").astype(float)
     if A.ndim != 2 or len(rows) not in (0, A.shape[0]) or len(columns) not in (0, A.shape[1]):
         raise ShapeError(f"A, rows, columns: {A.shape} with {len(rows)} and {len(columns)} names do not go together")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._spatial_vector import as_spatial
-from ..checks import Array, as_array, as_arrays
+from ..checks import Array, as_array, as_arrays, as_number
 from ..errors import ShapeError
 from ..twist import Twist, screw
 from ..wrench import Wrench
@@ -90,6 +90,7 @@ def screw_axis(
     array([[ 1.,  0., -1.],
            [ 1.,  0.,  1.]])
     """
+    length = as_number(length, "length")
     x, kind = as_array(V, "V", 6), "wrench" if isinstance(V, Wrench) else "twist"
     if x.ndim != 1:
         raise ShapeError(f"V: expected one {kind}, got a batch of shape {x.shape[:-1]}")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
+from ..checks import Array, as_array, as_number
 from ..door import check_model
 from ..model import Model
 from .matrices import ANGULAR_LINEAR, matrix
@@ -84,6 +84,8 @@ def mass_matrix(
     >>> [text.get_text() for text in ax.texts]
     ['slide', 'hinge']
     """
+    rounding = as_number(rounding, "rounding")
+    indent = as_number(indent, "indent")
     check_model(model)
     M = as_array(M, "M", model.nv, model.nv).astype(float).reshape(-1, model.nv, model.nv)
     largest = np.take_along_axis(M, np.abs(M).argmax(axis=0)[None], axis=0)[0]

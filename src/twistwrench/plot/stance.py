@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
-from ..checks import Array, as_array
+from ..checks import Array, as_array, as_number
 from ..door import check_model
 from ..kinematics import frame_placement
 from ..model import Model
@@ -169,6 +169,7 @@ def foot_forces(
     >>> [text.get_text().strip() for text in ax.texts]
     ['39.1 N', '39.1 N', '39.8 N', '39.8 N']
     """
+    scale = as_number(scale, "scale")
     check_model(model)
     contacts = model.feet if contacts is None else contacts
     f = as_array(forces, "forces", len(contacts), 3).astype(float)

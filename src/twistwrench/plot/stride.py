@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
+from ..checks import as_number
 from ..model import Model
 from .robot import sticks
 from .style import COLOURS, axes_2d
@@ -48,6 +49,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     >>> len(ax.lines)  # sixteen sticks, and the centre of mass
     17
     """
+    shift = as_number(shift, "shift")
     ax = axes_2d(ax, size=(10.0, 2.6))
     lines = sticks(model, q)
     across = lines[..., 1].mean(axis=-1)

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..checks import Array, as_number
 from ..clock import round_robin
 from ..model import Model
 from ..motions import Motion
@@ -120,7 +120,7 @@ class Candidate(NamedTuple):
 
 def costs(model: Model, motion: Motion, tolerance: float, groups: Mapping[str, Iterable[str]]) -> Costs:
     """Do what `Scene.cheapest` says, for a model with a floating base."""
-    if not tolerance >= 0:
+    if not as_number(tolerance, "tolerance") >= 0:
         raise ValueError(f"tolerance: expected a share of the weight, 0 or more, got {tolerance!r}")
     q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
     true, size = full_rate(model, q, v, a), Full.of(model, q[0])

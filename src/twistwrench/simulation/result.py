@@ -121,7 +121,7 @@ class Simulation:
         NameNotFound
             If `what` is none of these.
         """
-        if what not in LABELS:
+        if not isinstance(what, str) or what not in LABELS:
             raise unknown_name("quantity", what, LABELS)
         if ax is None:
             import matplotlib.pyplot as plt

@@ -8,7 +8,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..checks import Array, as_count, as_number
 from ..contact import Contact
 from ..contact.rows import as_contacts
 from ..errors import SingularError, unknown_name
@@ -102,7 +102,7 @@ def simulate(
     True
     """
     model, own, push = parts(robot)
-    if method not in METHODS:
+    if not isinstance(method, str) or method not in METHODS:
         raise unknown_name("method", method, METHODS)
     count = _count(dt, steps, duration)
     contacts = (*own, *as_contacts(model, contacts))
@@ -135,15 +135,13 @@ def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Ar
 
 def _count(dt: float, steps: int | None, duration: float | None) -> int:
     """Return the number of steps, or say what is wrong with it."""
-    if not 0 < dt < np.inf:
+    if not 0 < as_number(dt, "dt") < np.inf:
         raise ValueError(f"dt: expected a positive number of seconds, got {dt}")
     if steps is not None and duration is None:
-        if not 0 <= steps < np.inf or steps != round(steps):
-            raise ValueError(f"steps: expected a whole number, 0 or more, got {steps}")
-        return int(steps)
+        return as_count(steps, "steps", 0)
     if duration is None or steps is not None:
         raise ValueError(f"steps, duration: expected one of the two, got {steps} and {duration}")
-    if not 0 <= duration < np.inf:
+    if not 0 <= as_number(duration, "duration") < np.inf:
         raise ValueError(f"duration: expected seconds, 0 or more, got {duration}")
     count = round(duration / dt)
     if abs(count * dt - duration) > 1e-9 * duration:

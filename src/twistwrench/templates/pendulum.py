@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
-from ..checks import Array, as_arrays
+from ..checks import Array, as_arrays, as_number
 from ..errors import SingularError
 from ..kinematics import frame_placement
 from ..model import Model
@@ -76,7 +76,7 @@ class LinearPendulum(Template):
             up = _up(model)
             feet = [float(up @ frame_placement(model, q, foot).translation) for foot in model.feet]
             height = float(up @ center_of_mass(model, q)) - min(feet)
-        if not (np.isfinite(height) and height > 0):
+        if not 0 < as_number(height, "height") < np.inf:
             raise ValueError(f"height: expected a positive number, got {height}")
         return cls(*held, float(height))
 

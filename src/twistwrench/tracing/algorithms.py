@@ -83,7 +83,7 @@ def trace(
     >>> bool(np.isclose(own + received, total))
     True
     """
-    if algorithm not in NEEDED:
+    if not isinstance(algorithm, str) or algorithm not in NEEDED:
         raise unknown_name("algorithm", algorithm, NEEDED)
     check_model(model)
     given = {name: x for name, x in {"v": v, "a": a, "tau": tau}.items() if x is not None}

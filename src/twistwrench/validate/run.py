@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ..checks import as_count
 from ..errors import NameNotFound, no_model
 from ..model import Model
 from ..robots import load
@@ -92,9 +93,8 @@ def validate(
     True
     """
     start = time.perf_counter()
-    for name, value in (("states", states), ("frames", frames)):
-        if value < 1:
-            raise ValueError(f"{name}: expected 1 or more, got {value}")
+    for name, value, least in (("states", states, 1), ("truths", truths, 0), ("frames", frames, 1)):
+        as_count(value, name, least)
     model, path = _load(robot, base)
     oracle, context = _oracle(model, path), _context()
     if oracle is None and context is None:

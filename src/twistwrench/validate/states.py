@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import Array
+from ..checks import Array, as_generator
 from ..model import Model
 
 __all__ = ["States", "random_states", "sample_frames"]
@@ -82,7 +82,7 @@ def random_states(model: Model, n: int, *, rng: np.random.Generator | int, frame
     >>> random_states(load("pendulum"), 8, rng=0).f_ext.shape
     (8, 2, 6)
     """
-    rng = np.random.default_rng(rng)
+    rng = as_generator(rng)
     f_ext = rng.standard_normal((n, model.nbodies, 6))
     f_ext[:, 0] = 0
     v, a, tau, dv = rng.standard_normal((4, n, model.nv))

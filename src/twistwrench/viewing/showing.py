@@ -89,7 +89,7 @@ def view(
     from .figure import draw
     from .subject import subject
 
-    if backend not in BACKENDS:
+    if not isinstance(backend, str) or backend not in BACKENDS:
         raise unknown_name("backend", backend, BACKENDS)
     seen = subject(robot, q, t=t, contacts=contacts, forces=forces)
     for name in frames or ():
