@@ -90,8 +90,15 @@ def test_rows_of_different_lengths_are_named(name, argument):
         call(name, **{argument: [[1.0, 2.0], [3.0]]})
 
 
+def test_masked_wrenches_are_refused():
+    f_ext = np.ma.array(np.zeros((4, 6)), mask=np.arange(4)[:, None] > 1 * np.ones(6))
+    for function in (tw.rnea, tw.fast.rnea, tw.aba, tw.fast.aba):
+        with pytest.raises(ValueError, match="f_ext: expected numbers, got a masked array"):
+            function(ARM, np.zeros(3), np.zeros(3), np.zeros(3), f_ext)
+
+
 def test_batch_axes_that_do_not_broadcast_are_listed():
-    with pytest.raises(tw.ShapeError, match=r"batch axes do not broadcast: q \(2,\), v \(3,\), a \(\)"):
+    with pytest.raises(tw.ShapeError, match=r"batch axes do not broadcast: q \(2,\), v \(3,\)$"):
         tw.rnea(ARM, np.zeros((2, 3)), np.zeros((3, 3)), np.zeros(3))
     with pytest.raises(tw.ShapeError, match=r"f_ext \(2,\)"):
         tw.rnea(ARM, np.zeros((3, 3)), np.zeros(3), np.zeros(3), np.zeros((2, 4, 6)))

@@ -29,7 +29,7 @@ def check_state(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
     try:
         batch = np.broadcast_shapes(*batches)
     except ValueError:
-        listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches))
+        listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches) if shape)
         raise ShapeError(f"batch axes do not broadcast: {listed}") from None
     for name, x in zip(names, arrays):
         _check_size(x, name)

@@ -45,7 +45,7 @@ def admit(
 
     The arrays are what `Model.state` returns: checked, of one type, broadcast to one batch shape.
     """
-    if isinstance(model, Model) and f_ext is None and isinstance(q, np.ndarray) and q.dtype in PLAIN:
+    if isinstance(model, Model) and f_ext is None and type(q) is np.ndarray and q.dtype in PLAIN:
         plan, batch, limits = plan_of(model, q.dtype), q.shape[:-1], PLAIN[q.dtype]
         plain = [x for _, x in rates if _is_plain(x, q, (*batch, plan.nv), limits.rate)]
         if len(plain) == len(rates) and _is_plain(q, q, (*batch, plan.nq), limits.q) and _has_norm_1(plan, q):
@@ -57,7 +57,7 @@ def admit(
 
 def _is_plain(x: ArrayLike, q: Array, shape: tuple[int, ...], limit: float) -> TypeGuard[Array]:
     """Whether x is an array of q's type and of this shape, with no entry beyond the limit; a NaN is beyond it."""
-    if not isinstance(x, np.ndarray) or x.dtype != q.dtype or x.shape != shape:
+    if type(x) is not np.ndarray or x.dtype != q.dtype or x.shape != shape:  # a masked array is another type
         return False
     if x.ndim == 1:
         return math.hypot(*x.tolist()) <= limit  # for so few Python's own is quicker, and no entry is larger
