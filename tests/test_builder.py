@@ -393,6 +393,8 @@ def test_bad_base_gravity_feet_and_postures_are_refused():
         builder.build(feet=["foot"])
     with pytest.raises(tw.NameNotFound, match="foot"):
         builder.build(feet=iter(["foot"]))
+    with pytest.raises(ValueError, match="feet: expected a sequence of frame names, got the string 'foot'"):
+        builder.build(feet="foot")
     with pytest.raises(tw.ShapeError, match=r"posture 'flat': q: .*this looks like nv"):
         builder.build(postures={"flat": np.zeros(6)})
     with pytest.raises(tw.ShapeError, match=r"posture 'flat': expected one configuration, shape \(7,\), got \(1, 7\)"):

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array, as_array, as_constant
+from .checks import Array, as_array, as_constant, as_names
 from .errors import ModelError, ShapeError, unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
@@ -208,7 +208,7 @@ class Builder:
             velocity_limit=_join([link.velocity_limit for link in moved]),
             effort_limit=_join([link.effort_limit for link in moved]),
             postures={},
-            feet=tuple(feet),
+            feet=as_names(feet, "feet", "frame names"),
         )
         for foot in model.feet:
             model.frame(foot)

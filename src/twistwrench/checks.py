@@ -7,6 +7,7 @@ last shape, and of one floating-point type.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from numbers import Real
 from typing import Any
 
@@ -22,6 +23,7 @@ __all__ = [
     "as_constant",
     "as_count",
     "as_generator",
+    "as_names",
     "as_number",
     "resolution",
 ]
@@ -170,6 +172,20 @@ def as_generator(rng: np.random.Generator | int | None) -> np.random.Generator:
     except (TypeError, ValueError):
         expected = "a numpy Generator, a whole number of at least 0 or None"
         raise ValueError(f"rng: expected {expected}, got {rng!r}") from None
+
+
+def as_names(value: Iterable[str], name: str, expected: str) -> tuple[str, ...]:
+    """Return several names as a tuple; refuse a string, which is a sequence of letters.
+
+    Examples
+    --------
+    >>> as_names("FR_foot", "contacts", "frame names")
+    Traceback (most recent call last):
+    ValueError: contacts: expected a sequence of frame names, got the string 'FR_foot'
+    """
+    if isinstance(value, str):
+        raise ValueError(f"{name}: expected a sequence of {expected}, got the string {value!r}")
+    return tuple(value)
 
 
 def _numeric(value: ArrayLike, name: str) -> Array:

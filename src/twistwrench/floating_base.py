@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array, resolution
+from .checks import Array, as_names, resolution
 from .door import check_model, state_of
 from .errors import ShapeError, SingularError
 from .inverse_dynamics import gravity
 from .kinematics import frame_jacobian
 from .model import Model
 
-__all__ = ["Equilibrium", "contact_jacobian", "names_of", "selection_matrix", "static_equilibrium"]
+__all__ = ["Equilibrium", "contact_jacobian", "selection_matrix", "static_equilibrium"]
 
 
 def selection_matrix(model: Model) -> Array:
@@ -81,16 +81,9 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     ((12, 18), 12)
     """
     (q,) = state_of(model, q)
-    contacts = names_of(contacts, "contacts", "frame names")
+    contacts = as_names(contacts, "contacts", "frame names")
     rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
-
-
-def names_of(given: Iterable[str], what: str, expected: str) -> tuple[str, ...]:
-    """Return names as a tuple; refuse a string, which is a sequence of letters."""
-    if isinstance(given, str):
-        raise ValueError(f"{what}: expected a sequence of {expected}, got the string {given!r}")
-    return tuple(given)
 
 
 @dataclass(frozen=True)
@@ -153,7 +146,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     np.float64(157.794)
     """
     check_model(model)
-    contacts = names_of(model.feet if contacts is None else contacts, "contacts", "frame names")
+    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names")
     if model.base != "floating":
         raise ValueError(
             f"{model.name!r}: expected a floating base, got a {model.base} one, which holds the robot; "

@@ -13,10 +13,9 @@ from fnmatch import fnmatchcase
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array
+from .checks import Array, as_names
 from .door import state_of
 from .errors import NameNotFound, ShapeError
-from .floating_base import names_of
 from .inertia import SpatialInertia
 from .model import Frame, Model
 from .plucker import SE3
@@ -192,7 +191,7 @@ def _merged(model: Model, carrier: list[int], in_carrier: list[SE3], n: int) -> 
 def matching_joints(model: Model, patterns: Iterable[str]) -> tuple[str, ...]:
     """Return the joints that fit any of the patterns, in the model's order; refuse a pattern that fits none."""
     names, held = model.joint_names[1:], set[str]()
-    for pattern in names_of(patterns, "joints", "names or patterns"):
+    for pattern in as_names(patterns, "joints", "names or patterns"):
         if not isinstance(pattern, str):
             raise NameNotFound(f"joints: expected names or patterns, got {type(pattern).__name__} {pattern!r}")
         exact = pattern in names  # a name may hold what is a sign of patterns elsewhere: "arm[1]"

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .centroidal import centroidal_map
-from .checks import Array
+from .checks import Array, as_names
 from .door import state_of
 from .errors import unknown_name
-from .floating_base import contact_jacobian, names_of
+from .floating_base import contact_jacobian
 from .inverse_dynamics import nonlinear_effects
 from .mass_matrix import crba
 from .model import Model
@@ -87,8 +87,8 @@ def dynamics(
     ((18, 18), (12, 18), None)
     """
     state_of(model, q, v=v)  # also where no wanted quantity depends on v
-    contacts = names_of(model.feet if contacts is None else contacts, "contacts", "frame names")
-    want = names_of(want, "want", "quantities")
+    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    want = as_names(want, "want", "quantities")
     compute = {
         "M": lambda: crba(model, q),
         "h": lambda: nonlinear_effects(model, q, v),

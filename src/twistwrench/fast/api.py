@@ -7,9 +7,8 @@ from concurrent.futures import Executor
 
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..checks import Array, as_names
 from ..errors import unknown_name
-from ..floating_base import names_of
 from ..model import Model
 from ..whole_body import Dynamics
 from .dispatch import How, accelerations, parts, torques
@@ -220,11 +219,11 @@ def dynamics(
     >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
-    want = names_of(want, "want", "quantities")
+    want = as_names(want, "want", "quantities")
     for name in want:
         if name not in QUANTITIES:
             raise unknown_name("quantity", name, QUANTITIES)
-    contacts = None if contacts is None else names_of(contacts, "contacts", "frame names")
+    contacts = None if contacts is None else as_names(contacts, "contacts", "frame names")
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
     given = {} if out is None else {name: x for name, x in vars(out).items() if x is not None}

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
-from ..floating_base import names_of
+from ..checks import Array, as_names
 from ..kinematics import frame_placement
 from ..motions import Motion
 from ..whole_body import Dynamics
@@ -112,7 +111,7 @@ class Scene(SmallestModel):
         ShapeError, SingularError, ValueError
             As `twistwrench.dynamics`.
         """
-        want = names_of(want, "want", "quantities")
+        want = as_names(want, "want", "quantities")
         return scene_dynamics(self.model, self.contacts, self.wrenches, q, v, want)
 
     def f_ext(self, q: ArrayLike) -> Array:
