@@ -213,6 +213,24 @@ def test_what_is_only_nearly_singular_is_solved():
     np.testing.assert_array_equal(fast.aba(model, q, q, q), tw.aba(model, q, q, q))
 
 
+def test_states_in_single_precision_that_are_nearly_singular_are_solved():
+    """One by one and in double precision, in which their quaternions are not quite of norm 1."""
+    builder = tw.Builder("whip", base="floating", root_inertia=tw.SpatialInertia(1, [0, 0, -1], np.eye(3)))
+    parent = "base_link"
+    for k, axis in enumerate("xyx", 1):
+        rod = tw.SpatialInertia(1e3**k, [0, 0, -1], np.eye(3) * 1e3**k)
+        builder.link(f"rod {k}", parent=parent, joint=tw.Revolute(axis), inertia=rod)
+        parent = f"rod {k}"
+    model = builder.build()
+    for seed in range(10):
+        s = random_state(model, rng=seed, dtype=np.float32)
+        q, v, tau = (x.astype(np.float64) for x in (s.q, s.v, s.tau))
+        expected = tw.aba(model, model.normalize(q), v, tau)
+        found = fast.aba(model, s.q, s.v, s.tau)
+        assert found.dtype == np.float32
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6 * np.abs(expected).max())
+
+
 def test_no_mass_has_no_centroidal_map():
     builder = tw.Builder("nothing")
     builder.link("light", parent="base_link", joint=tw.Revolute("y"))

@@ -137,7 +137,7 @@ def _one_accelerations(model: Model, plan: AbaPlan, q: Array, v: Array, tau: Arr
     try:
         return {"qdd": one_aba(plan, q, v, tau)}
     except NearlySingular:
-        return {"qdd": aba(model, q, v, tau)}
+        return {"qdd": aba(model, model.normalize(q), v, tau)}  # of norm 1 in the caller's number type
 
 
 def _one_plan(model: Model) -> OnePlan:
