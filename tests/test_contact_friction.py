@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -340,6 +341,28 @@ def test_one_sole_cannot_hold_a_humanoid_that_stands_between_both():
     y = tw.frame_placement(HUMANOID, POSE, "left_sole").translation[1]
     assert np.isclose(margins.tip, -(y - SOLE[1] - tw.center_of_mass(HUMANOID, POSE)[1]), rtol=1e-12)
     assert "tips: the centre of mass is 0.0425 m outside" in margins.reason
+
+
+def test_one_point_holds_what_stands_right_above_it_and_pulls_nothing_down():
+    top = solid("top", 2.0, (0.2, 0.2, 0.4), {"foot": (0.0, 0.0, -0.2), "corner": (0.1, 0.1, -0.2)})
+    q, rest, fall = top.neutral(), np.zeros(6), np.array([0, 0, 0, 0, 0, -20.0])
+    right_above = tw.stance_margins(top, q, points(["foot"]))
+    assert (right_above.stands, right_above.friction_used, right_above.tip) == (True, 0, 0)
+    beside = tw.stance_margins(top, q, points(["corner"]))
+    assert not beside.stands
+    assert beside.tip == pytest.approx(-0.1 * np.sqrt(2), rel=1e-12)
+    assert tw.friction_inverse_dynamics(top, q, rest, fall / 4, points(["foot"])).forces["foot"][2] == pytest.approx(
+        9.62
+    )
+    with pytest.raises(tw.SingularError, match=r"break lift-off at 'foot' by 20\.4 N"):
+        tw.friction_inverse_dynamics(top, q, rest, fall, points(["foot"]))
+
+
+def test_a_solver_that_gives_up_is_said(monkeypatch):
+    solver = SimpleNamespace(solve=lambda H, f, A, b, primal_tol: (f, 0.0, -4, {"lam": b}))
+    monkeypatch.setitem(sys.modules, "daqp", solver)
+    with pytest.raises(RuntimeError, match="the quadratic programme gave up: flag -4 of daqp"):
+        least_within(np.eye(2), np.array([-1.0, 0.0]), 1.0)
 
 
 def test_two_points_cannot_hold_a_robot_that_is_not_above_their_line():

@@ -301,11 +301,31 @@ def test_moments_move_the_pressure():
 # ---------------------------------------------------------------- what cannot be
 
 
+def fork():
+    """Two feet whose legs begin at one knee."""
+    builder, bone = tw.Builder("fork", base="floating", root="hip"), tw.SpatialInertia(1, [0, 0, -0.1], np.eye(3) / 9)
+    parent = "hip"
+    for name in ("thigh", "shin"):
+        builder.link(name, parent=parent, joint=tw.Revolute("y"), inertia=bone)
+        parent = name
+    for name in ("left", "right"):
+        builder.link(name, parent="shin", joint=tw.Revolute("x"), inertia=bone)
+    return builder.build(feet=("left", "right"), postures={"standing": [0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]})
+
+
+def test_a_jump_whose_turning_does_not_come_to_rest_is_none(monkeypatch):
+    monkeypatch.setattr("twistwrench.motions.jumping.ROUNDS", 1)
+    with pytest.raises(tw.SingularError, match="'go2': no turning of the base found"):
+        Leap(stand(robot("go2")), FOUR_LEGS)
+
+
 def test_what_has_no_legs_cannot_walk():
     with pytest.raises(tw.ModelError, match="'planar_arm': expected a floating base and feet, got a fixed one"):
         tw.motions.walk(tw.load("planar_arm"))
     with pytest.raises(tw.ModelError, match="expected a leg of 3 joints"):
         tw.motions.walk(replace(robot("go2"), feet=("FL_calf_joint", "FR_hip_joint")))
+    with pytest.raises(tw.ModelError, match="'fork': its legs share joints"):
+        stand(fork())
     with pytest.raises(tw.ModelError, match="expected 4 legs for this gait, got 3"):
         tw.motions.trot(replace(robot("go2"), feet=robot("go2").feet[:3]))
 

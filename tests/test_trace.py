@@ -209,6 +209,7 @@ def test_the_table_has_a_block_for_each_body_with_its_account():
     model = MODELS["go2"]
     rest = np.zeros(model.nv)
     trace = tw.trace(model, "rnea", model.standing(), rest, rest)
+    assert repr(trace) == f"<Trace: rnea of 'go2', 13 bodies, {len(trace.steps)} steps>"
     blocks = str(trace).split("\n\n")
     assert len(blocks) == 1 + model.nbodies
     hip = blocks[3].splitlines()

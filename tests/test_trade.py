@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench import clock
 from twistwrench.cli import main
-from twistwrench.study import clock
 
 from .pages import blocks, page, run
 
 pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
 
-from twistwrench.study.trade import KEYS, SHORT, Effort, LeftOut, Point, Trade, weigh
+from twistwrench.study.trade import KEYS, SHORT, Effort, LeftOut, Point, Trade, picture, weigh
 from twistwrench.study.trade.choice import advice, front
 from twistwrench.study.trade.measure import relative_error
 from twistwrench.study.trade.numbers import convert, epsilon
@@ -195,6 +195,21 @@ def test_what_has_no_acceleration_is_left_out_and_the_rest_is_there():
     assert "no inertia resists the joints 'ghost'" in str(trade)
 
 
+def test_a_way_that_fails_in_one_number_type_is_left_out_there_alone():
+    """In single precision Cholesky finds the mass matrix of links of 1 kg to a million tonnes not positive."""
+    robot = tw.Builder("whip", base="floating", root_inertia=tw.SpatialInertia(1, [0, 0, -1], np.eye(3)))
+    parent = "base_link"
+    for k, axis in enumerate("xyx", 1):
+        rod = tw.SpatialInertia(1e3**k, [0, 0, -1], np.eye(3) * 1e3**k)
+        robot.link(f"rod {k}", parent=parent, joint=tw.Revolute(axis), inertia=rod)
+        parent = f"rod {k}"
+    trade = weigh(robot.build(), only=["FD"], effort=QUICK)
+    assert {x.number for x in trade.left_out} == {"float32"}
+    why = {x.way: x.why for x in trade.left_out}
+    assert why["tw.crba + Cholesky"] == why["tw.fast M, h + Cholesky"] == "Matrix is not positive definite"
+    assert {p.number for p in trade.points if p.way == "tw.crba + Cholesky"} == {"float64"}
+
+
 def test_a_quantity_that_is_zero_has_no_relative_error_and_is_left_out():
     """No frame of the cart-pole is off its axes, so no point is accelerated by v alone."""
     trade = weigh("cart_pole", only=["dJv"], effort=QUICK)
@@ -253,6 +268,31 @@ def test_the_quickest_call_says_how_many_make_a_stretch(monkeypatch):
     assert lap.repeat == 8
 
 
+def test_a_race_counts_rounds_that_nothing_disturbed_and_gives_seconds_for_one_state(monkeypatch):
+    cpu = Processor(monkeypatch)
+    warm, round_, torn = (0, 0), (0,), (5,)  # each call is made twice before the first round
+    found = clock.race((cpu.work(2), 4), (cpu.work(3, (*warm, *torn, *round_, *torn, *round_)), 2), rounds=2, least=0)
+    assert found.ours.tolist() == [0.5, 0.5]
+    assert found.theirs.tolist() == [1.5, 1.5]
+    assert found.disturbed == 2
+
+
+def test_a_race_of_several_threads_counts_every_round_and_one_that_is_never_quiet_ends(monkeypatch):
+    cpu = Processor(monkeypatch)
+    both = (cpu.work(4), 2), (cpu.work(1, (0, 0, 3, 0, 1)), 1)
+    found = clock.race(*both, rounds=3, least=0, one_thread=False)
+    assert found.theirs.tolist() == [4, 1, 2]
+    row = found.row()
+    assert (row["us"], row["us_q1"], row["reference_us"], row["reference_us_q1"], row["reference_us_q3"]) == (
+        pytest.approx((2e6, 2e6, 2e6, 1.5e6, 3e6))
+    )
+    assert (row["ratio"], row["rounds"], row["disturbed"]) == (1, 3, 0)
+    alone = clock.race((cpu.work(2, (3,)), 1), None, rounds=2, least=0)
+    assert alone.ours.tolist() == [5, 5]
+    assert np.isnan(alone.theirs).all()
+    assert alone.disturbed == 2 * clock.PATIENCE
+
+
 # ---------------------------------------------------------------- what is written
 
 
@@ -286,14 +326,29 @@ def test_the_command_prints_writes_and_draws(tmp_path, capsys):
         str(files[0]),
         "--plot",
         str(files[1]),
+        "--seed",
+        "1",
     ]
     assert main(command) == 0
     out, err = capsys.readouterr()
     assert out.startswith("pendulum: fixed base, 1 moving body")
     assert "inverse dynamics τ:" in out
     assert err == ""
-    assert {p["quantity"] for p in json.loads(files[0].read_text())["points"]} == {"ID"}
+    trade = weigh("pendulum", only=["ID"], effort=SHORT, rng=1)
+    found = [(p["quantity"], p["way"], p["error"]) for p in json.loads(files[0].read_text())["points"]]
+    assert found == [("ID", p.way, p.error) for p in trade.points]
     assert files[1].read_bytes().startswith(b"\x89PNG")
+    picture.draw(trade, tmp_path / "found.svg")
+    assert "pendulum: what a digit costs" in (tmp_path / "found.svg").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("errors", "said"), [([1e-3], []), ([1e-3, 1e-28, 1e-26], ["down to 1e-28"]), ([0.0], ["down to 0"])]
+)
+def test_what_is_below_the_picture_is_said(errors, said):
+    ax = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure().add_subplot()
+    picture._note_the_floor(ax, [point(1, error) for error in errors])
+    assert [text.get_text().removeprefix("on the bottom line: ") for text in ax.texts] == said
 
 
 def test_the_command_shows_a_bar_if_told_to(capsys):
@@ -361,6 +416,10 @@ def test_without_pinocchio_and_scipy_their_ways_are_left_out_and_a_line_says_so(
     }
     assert "Pinocchio is not installed: its ways are left out" in str(trade)
     assert "SciPy is not installed: its ways are left out" in str(trade)
+
+    monkeypatch.setattr(picture, "find_spec", lambda name: None)
+    with pytest.raises(ImportError, match="matplotlib"):
+        picture.check_format(Path("x.png"))
 
 
 def test_without_mpmath_there_is_no_truth(monkeypatch, capsys):
