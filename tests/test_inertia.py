@@ -416,6 +416,7 @@ def test_inertias_are_equal_where_their_ten_numbers_are():
 
 
 def test_an_inertia_shows_itself():
-    body = SpatialInertia(2, [0, 0, 1], np.eye(3))
+    body = SpatialInertia(2 / 3, [0, 1e-9 / 3, 1], np.diag([3, 2, 1]) / 7e6)
     np.testing.assert_array_equal(eval(repr(body)).matrix(), body.matrix())
+    assert max(map(len, repr(body).splitlines())) <= 100
     assert repr(bodies(43)) == "<SpatialInertia: a batch, shape (8,)>"

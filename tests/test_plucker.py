@@ -239,8 +239,16 @@ def test_placements_are_equal_where_their_numbers_are():
 
 def test_a_placement_shows_itself():
     T = SE3(np.eye(3), [1, 2, 3])
-    again = eval(repr(T))
-    np.testing.assert_array_equal(again.matrix(), T.matrix())
+    assert repr(T) == (
+        "SE3(rotation=[[1., 0., 0.],\n"
+        "              [0., 1., 0.],\n"
+        "              [0., 0., 1.]],\n"
+        "    translation=[1., 2., 3.])"
+    )
+    for far in (1, 1e-200, 1e200):
+        again = eval(repr(placed := SE3(exp3([0.1, 0.2, -0.3]), [-far / 3, far, 0])))
+        np.testing.assert_array_equal(again.matrix(), placed.matrix())
+        assert max(map(len, repr(placed).splitlines())) <= 100
     assert T._repr_latex_() == (
         r"$T = \begin{bmatrix} 1 & 0 & 0 & 1 \\ 0 & 1 & 0 & 2 \\ 0 & 0 & 1 & 3 \\ 0 & 0 & 0 & 1 \end{bmatrix}$"
     )

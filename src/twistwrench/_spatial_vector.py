@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, DTypeLike
 from .checks import Array, as_array, as_arrays
 from .errors import FrameError, unknown_name
 
-__all__ = ["SpatialVector", "as_spatial", "common_frame", "latex_matrix"]
+__all__ = ["SpatialVector", "aligned", "as_spatial", "common_frame", "latex_matrix"]
 
 LATEX = str.maketrans(
     {c: f"\\{c}" for c in "_#%&${} "} | {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", "\n": r"\ "}
@@ -156,6 +156,11 @@ def as_spatial(value: ArrayLike, name: Literal["V", "F"]) -> Array:
         expected = "Twist" if name == "V" else "Wrench"
         raise TypeError(f"{name}: expected a {expected} or an array, got a {type(value).__name__}")
     return as_array(value, name, 6)
+
+
+def aligned(before: str, x: Array) -> str:
+    """Return an array with all its digits behind what stands before it, row below row."""
+    return before + np.array2string(x, separator=", ", floatmode="unique", prefix=before, max_line_width=100)
 
 
 def latex_matrix(rows: Array) -> str:

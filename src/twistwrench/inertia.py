@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._physical import check_physical
 from ._scalars import largest, which
-from ._spatial_vector import as_spatial
+from ._spatial_vector import aligned, as_spatial
 from .checks import Array, as_array, as_arrays, resolution
 from .cross import cross_force, cross_motion
 from .errors import ModelError, ShapeError
@@ -290,5 +290,5 @@ class SpatialInertia:
     def __repr__(self) -> str:
         if self.mass.ndim:
             return f"<SpatialInertia: a batch, shape {self.mass.shape}>"
-        numbers = f"mass={self.mass}, com={self.com.tolist()}, inertia_at_com={self.inertia_at_com.tolist()}"
-        return f"SpatialInertia({numbers})"
+        com, inertia = aligned("    com=", self.com), aligned("    inertia_at_com=", self.inertia_at_com)
+        return f"SpatialInertia(mass={self.mass},\n{com},\n{inertia})"

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._scalars import largest, which
-from ._spatial_vector import latex_matrix
+from ._spatial_vector import aligned, latex_matrix
 from .checks import Array, as_array, as_arrays, resolution
 from .errors import ShapeError
 from .rotation import check_rotation, cross_matrix
@@ -265,7 +265,8 @@ class SE3:
     def __repr__(self) -> str:
         if self.translation.ndim > 1:
             return f"<SE3: a batch of placements, shape {self.translation.shape[:-1]}>"
-        return f"SE3(rotation={self.rotation.tolist()}, translation={self.translation.tolist()})"
+        rotation, translation = aligned("SE3(rotation=", self.rotation), aligned("    translation=", self.translation)
+        return f"{rotation},\n{translation})"
 
     def _repr_latex_(self) -> str | None:
         return None if self.translation.ndim > 1 else f"$T = {latex_matrix(self.matrix())}$"
