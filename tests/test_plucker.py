@@ -252,5 +252,6 @@ def test_a_placement_shows_itself():
     assert T._repr_latex_() == (
         r"$T = \begin{bmatrix} 1 & 0 & 0 & 1 \\ 0 & 1 & 0 & 2 \\ 0 & 0 & 1 & 3 \\ 0 & 0 & 0 & 1 \end{bmatrix}$"
     )
-    assert repr(placements(18, (2, 5))) == "<SE3: a batch of placements, shape (2, 5)>"
+    for shape in [(4,), (2, 5)]:
+        assert repr(placements(18, shape)) == f"<SE3: a batch of placements, shape {shape}>"
     assert placements(18)._repr_latex_() is None
