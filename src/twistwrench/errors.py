@@ -65,7 +65,7 @@ def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "")
         hint = "did you mean " + ", ".join(map(repr, near)) + "?"
     else:
         shown = ", ".join(map(repr, names[:12]))
-        hint = f"known: {shown}" + (f" and {len(names) - 12} more" if len(names) > 12 else "")
+        hint = f"known: {shown or 'none'}" + (f" and {len(names) - 12} more" if len(names) > 12 else "")
     return NameNotFound(f"unknown {kind} {name!r}{where}; {hint}")
 
 

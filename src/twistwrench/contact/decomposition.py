@@ -14,6 +14,7 @@ import numpy as np
 
 from ..checks import Array
 from ..errors import SingularError
+from ..model import Model
 from ..plucker import SE3
 from .types import Contact
 
@@ -63,8 +64,8 @@ class Decomposition(NamedTuple):
         return np.asarray(np.abs(np.linalg.solve(self.L, b[..., None])).max(axis=(-2, -1), initial=0))
 
 
-def decompose(M: Array, J: Array) -> Decomposition:
-    """Decompose J M⁻¹ Jᵀ without forming it.
+def decompose(model: Model, M: Array, J: Array) -> Decomposition:
+    """Decompose J M⁻¹ Jᵀ without forming it; M is the mass matrix of all joints of a model, or of the first.
 
     Rounding in Y comes from J and from the elimination with L, and goes through L⁻¹: a bound for both, entry by entry,
     is ε |L⁻¹| (|L| |Y| + |Jᵀ|). It scales as Y does, whatever the units of v.
@@ -72,15 +73,20 @@ def decompose(M: Array, J: Array) -> Decomposition:
     try:
         L = np.linalg.cholesky(M)
     except np.linalg.LinAlgError:
-        raise SingularError(
-            "the mass matrix is not positive definite: some joint moves nothing that has inertia"
-        ) from None
+        raise SingularError(f"the mass matrix is not positive definite: {_without_inertia(model, M)}") from None
     Y = np.linalg.solve(L, J.mT)
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
     doubt = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
     noise = np.finfo(np.float64).eps * np.sqrt((doubt**2).sum(axis=(-2, -1)))[..., None]
     kept = s > ROUNDINGS * noise
     return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
+
+
+def _without_inertia(model: Model, M: Array) -> str:
+    """Say which joints move nothing that has inertia."""
+    own = np.diagonal(M, axis1=-2, axis2=-1)
+    names = [repr(name) for name, s in zip(model.joint_names, model.v_slice) if (own[..., s] <= 0).any()]
+    return f"no inertia behind joint {', '.join(names)}" if names else "some joints feel none when moved together"
 
 
 def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:

@@ -160,7 +160,7 @@ def contact_forward_dynamics(
         error = contact_errors(contacts, at, stabilise.anchors)
         target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
     qdd = free = aba(model, q, v, tau, *pushed)
-    parts = decompose(crba(model, q), W @ J)
+    parts = decompose(model, crba(model, q), W @ J)
     mu = np.zeros(slip.shape)
     for _ in range(2):  # the second time takes up what rounding left
         x, change = parts.respond(np.matvec(W, target - np.matvec(J, qdd)))

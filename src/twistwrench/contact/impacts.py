@@ -95,7 +95,7 @@ def impact(
     q, v = real_state(model, q, v=v)
     at, J, _ = touching(model, q, v, contacts)
     W = lever(contacts, at)
-    parts = decompose(crba(model, q), W @ J)
+    parts = decompose(model, crba(model, q), W @ J)
     x, mu = parts.respond(np.matvec(W @ J, v))  # what the contacts take out at e = 0, with its sign turned
     return Impact(
         v=v - (1 + restitution) * parts.unwhiten(x),

@@ -224,7 +224,7 @@ class Task:
         at, J, bias = touching(model, q, v, contacts)
         b, P = rnea(model, q, v, a, *pushed), point_map(contacts, at)
         base = slice(0, 6 if model.base == "floating" else 0)
-        parts = decompose(crba(model, q)[..., base, base], P.mT @ J[..., base])
+        parts = decompose(model, crba(model, q)[..., base, base], P.mT @ J[..., base])
         least = parts.balance(b[..., base])
         weight = rnea(model, q, v, 0 * a, *pushed)[..., base]
         left = b[..., base] - np.matvec(J[..., base].mT @ P, least)

@@ -89,7 +89,7 @@ def project_state(
         far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
         if not far.any():
             return q, impact(model, q, v, contacts).v
-        parts = decompose(crba(model, q), W @ J)
+        parts = decompose(model, crba(model, q), W @ J)
         q = model.integrate(q, -parts.unwhiten(parts.respond(error)[0]))
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])
