@@ -93,7 +93,7 @@ class Trace:
         return found
 
     def tree(self) -> str:
-        """Return the tree of the bodies, with what each passed on to its parent, as text."""
+        """Return the tree of the bodies, with what each passed on to its parent, in short, as text."""
         from .printing import tree
 
         return tree(self)

@@ -24,18 +24,14 @@ UNITS = {
     "IC": "kg m², kg",
     "U": "kg m², kg m",
     "D": "kg m², kg",
-    "M": "kg m², kg m, kg",
+    "M": "kg m² to kg",
     "qdd": "rad/s², m/s²",
 }
 
 FIRST = {"rnea": ("V", "A"), "aba": ("V", "c"), "crba": ()}
 """What is found before anything is passed inward; the other values follow the accounts."""
 
-TITLES = {
-    "rnea": "what each body received, and passed on to its parent: wrenches",
-    "aba": "what each body received, and passed on to its parent: articulated inertias and bias wrenches",
-    "crba": "what each body received, and passed on to its parent: composite inertias",
-}
+PASSED = {"rnea": "wrenches", "aba": "articulated inertias and bias wrenches", "crba": "composite inertias"}
 
 Line = tuple[str, list[str], str]
 """What it is, its numbers, their unit."""
@@ -43,11 +39,11 @@ Line = tuple[str, list[str], str]
 
 def table(trace: Trace) -> str:
     """Return a trace as text: below each body its values, and its accounts as own + received = total, → passed on."""
-    blocks = [f"{trace.algorithm} of {trace.model.name!r}: {TITLES[trace.algorithm]} (angular, linear)"]
+    blocks = [f"{trace.algorithm} of {trace.model.name!r}: {_title(trace)}"]
     for row in trace.rows:
         lines = [_heading(row)]
         for what, cells, unit in _lines(trace.algorithm, row):
-            lines.append(f"  {what:<24}{''.join(f'{cell:>11}' for cell in cells):<66}  {unit}")
+            lines.append(f"  {what:<18}{''.join(f'{cell:>11}' for cell in cells):<66}  {unit}")
         blocks.append("\n".join(line.rstrip() for line in lines))
     return "\n\n".join(blocks)
 
@@ -60,7 +56,7 @@ def html(trace: Trace) -> str:
         for what, cells, unit in _lines(trace.algorithm, row):
             numbers = "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "<td></td>" * (6 - len(cells))
             rows.append(f'<tr><td style="text-align:left">{escape(what)}</td>{numbers}<td>{escape(unit)}</td></tr>')
-    title = f"{trace.algorithm} of {trace.model.name}: {TITLES[trace.algorithm]} (angular, linear)"
+    title = f"{trace.algorithm} of {trace.model.name}: {_title(trace)}"
     return f"<table><caption>{escape(title)}</caption>{''.join(rows)}</table>"
 
 
@@ -88,12 +84,16 @@ def _passes(algorithm: str, row: Row) -> str:
     if algorithm == "rnea":
         moment, force = _norm(account.passed[:3]), _norm(account.passed[3:])
         return f"{moment} N m, {force} N to {row.parent}; tau = {_few(row.values['tau'])}"
-    mass = _number(np.trace(account.passed[3:, 3:]) / 3)
+    mass = _number(np.trace(account.passed[3:, 3:]) / 3)  # an articulated one differs with the direction: the mean
     if algorithm == "aba":
         felt = _few(np.diagonal(row.values["D"]))
-        return f"{mass} kg (mean of three directions) to {row.parent}; D = {felt}; qdd = {_few(row.values['qdd'])}"
+        return f"{mass} kg to {row.parent}; D = {felt}; qdd = {_few(row.values['qdd'])}"
     own = f"M[{row.body}, {row.body}]"
     return f"{mass} kg to {row.parent}; {own} = {_few(np.diagonal(row.values[own]))}"
+
+
+def _title(trace: Trace) -> str:
+    return f"what each body received, and passed on to its parent:\n{PASSED[trace.algorithm]} (angular, linear)"
 
 
 def _heading(row: Row) -> str:
@@ -124,7 +124,7 @@ def _numbers(what: str, name: str, x: Array) -> Iterator[Line]:
     if x.ndim == 1:
         yield what, [_number(entry) for entry in x], unit
     elif x.shape[0] == x.shape[1] > 1:
-        yield f"{what}, diagonal", [_number(entry) for entry in np.diagonal(x)], unit
+        yield f"{what}, diag.", [_number(entry) for entry in np.diagonal(x)], unit
     else:
         for k, column in enumerate(x.mT):
             yield what if x.shape[1] == 1 else f"{what}, column {k}", [_number(entry) for entry in column], unit
@@ -136,7 +136,8 @@ def _number(x: float) -> str:
 
 
 def _few(x: Array) -> str:
-    return ", ".join(map(_number, x))
+    """At most two numbers: six would be too long for a line."""
+    return ", ".join([*map(_number, x[:2]), *["…"] * (len(x) > 2)])
 
 
 def _norm(x: Array) -> str:
