@@ -10,6 +10,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.simulation import METHODS, variational
+from twistwrench.simulation.tangent import bracket, dexp_transposed, exp_transposed
 
 from .pages import blocks, page
 from .pages import run as run_page
@@ -108,6 +109,16 @@ def test_a_batch_is_its_items(method):
         one = tw.simulate(model, q[i, j], v[j], dt=0.02, steps=3, method=method)
         assert np.abs(s.q[:, i, j] - one.q).max() < 1e-13
         assert np.abs(s.v[:, i, j] - one.v).max() < 1e-11
+
+
+@pytest.mark.parametrize("series", [exp_transposed, dexp_transposed])
+def test_a_momentum_is_seen_to_the_last_digit_whatever_else_is_in_the_batch(series):
+    flyer = Recipe(1, seed=0, base="floating").model
+    u, p = np.random.default_rng(0).standard_normal((2, 2, flyer.nv))
+    u[0] *= 1e-9  # this one needs no second term, and is large
+    p[0] *= 1e20
+    together, alone = series(bracket(flyer, u), p)[1], series(bracket(flyer, u[1]), p[1])
+    assert np.abs(together - alone).max() < 1e-14
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -57,6 +57,7 @@ def _series(A: Array, p: Array, shift: int) -> Array:
     for k in range(1, TERMS):
         term = np.matvec(A, term) / (k + shift)
         total = total + term
-        if np.abs(term).max(initial=0) <= resolution(p.dtype) * np.abs(total).max(initial=0) / 4:
+        added, size = (np.abs(x).max(axis=-1, initial=0) for x in (term, total))
+        if (added <= resolution(p.dtype) * size / 4).all():
             return total
     raise DivergenceError("a ball or a floating base turns by more than a whole turn in one step")
