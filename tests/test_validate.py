@@ -209,6 +209,36 @@ def test_where_the_two_differ_the_truth_says_who_is_right():
     assert row.note == "Pinocchio is 1.0e-06 off the truth"
 
 
+@needs_pinocchio
+def test_where_pinocchio_gives_nan_the_truth_decides_and_the_note_says_so():
+    q = quantity("g")
+    row = go2_judge().row(replace(q, theirs=lambda p, s: q.theirs(p, s) * np.nan))
+    assert row.passed
+    assert row.note == "Pinocchio gives NaN"
+
+
+@needs_pinocchio
+def test_a_frame_that_a_link_and_a_joint_share_the_name_of_is_the_one_that_is_meant(tmp_path):
+    path, text = tmp_path / "robot.urdf", find("double_pendulum").path.read_text(encoding="utf-8")
+    path.write_text(text.replace('"lower"', '"shoulder"').replace('"tip_joint"', '"upper"'), encoding="utf-8")
+    model = tw.load(path)
+    oracle, s = Oracle(model, path), random_states(model, 1, rng=0)[0]
+    types = {"link:shoulder": "BODY", "joint:shoulder": "JOINT", "link:upper": "BODY", "joint:upper": "FIXED_JOINT"}
+    found = {name: oracle.model.frames[oracle.frame(name)] for name in types}
+    assert {name: frame.type.name for name, frame in found.items()} == types
+    named = tuple(types)
+    ours = [tw.frame_placement(model, s.q, name).matrix() for name in named]
+    np.testing.assert_allclose(oracle.frame_placements(replace(s, frames=named)), ours, rtol=0, atol=1e-14)
+    with pytest.raises(tw.ModelError, match="Pinocchio has no frame 'link:elbow'"):
+        oracle.frame("link:elbow")
+
+
+@needs_pinocchio
+def test_two_robots_are_not_compared():
+    with pytest.raises(tw.ModelError, match=r"pendulum: the joints differ: Pinocchio's .*, ours "):
+        Oracle(tw.load("pendulum"), find("double_pendulum").path)
+
+
 def test_a_value_that_is_zero_is_measured_against_the_terms_that_cancelled():
     """A cart's g is zero; 1e-12 of 1 % of its weight may be missing, no more."""
     q, j = quantity("g"), judge(tw.load("cart_pole"))
@@ -286,6 +316,12 @@ def test_the_bound_of_forward_dynamics_comes_from_the_conditioning():
     for model, allowed in ((well, (0, 1e-12)), (ill, (0, 1e-4))):
         s = random_states(model, 1, rng=0)[0]
         assert allowed[0] < forward_dynamics_bound(model, s, tw.aba(model, s.q, s.v, s.tau)) < allowed[1]
+    one_and_one = tw.Builder("disc")  # M is [[1, 1], [1, 1]]
+    one_and_one.link("hub", parent="base_link", joint=tw.Revolute("z"))
+    one_and_one.link("disc", parent="hub", joint=tw.Revolute("z"), inertia=tw.SpatialInertia(1, [0, 0, 0], np.eye(3)))
+    for singular in (pendulum_with(0.0), one_and_one.build()):
+        s = random_states(singular, 1, rng=0)[0]
+        assert forward_dynamics_bound(singular, s, s.a) == np.inf
 
 
 def coaxial():
@@ -351,11 +387,22 @@ def test_without_mpmath_pinocchio_alone_decides(monkeypatch):
     assert [row.quantity for row in validate("double_pendulum", **QUICK).failed] == ["mass matrix M"]
 
 
+@needs_pinocchio
+def test_without_mpmath_a_nearly_singular_equation_is_put_to_the_test_in_long_double():
+    row = replace(judge(coaxial()), context=None).row(quantity("forward dynamics"))
+    assert row.passed
+    assert row.ours_vs_truth is None
+    assert "the equation is met to" in row.note
+
+
 def test_without_both_there_is_nothing_to_compare_with(monkeypatch):
     monkeypatch.setitem(sys.modules, "pinocchio", None)
     monkeypatch.setitem(sys.modules, "mpmath", None)
     with pytest.raises(ImportError, match=r'pip install "twistwrench\[validate\]"'):
         validate("pendulum")
+    model = tw.load("pendulum")
+    with pytest.raises(ValueError, match="nothing to compare with"):
+        Judge(model, random_states(model, 1, rng=0), None, None, 1).row(quantity("g"))
 
 
 def test_arguments_that_cannot_be_are_refused():

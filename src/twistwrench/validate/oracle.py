@@ -94,12 +94,12 @@ class Oracle:
     def frame(self, name: str) -> int:
         """Return the id of a frame. Where two frames share a name, ours says whether it is a link's or a joint's."""
         kind, _, bare = name.partition(":")
+        types = self.pin.FrameType
         if self.model.existFrame(name):
             found = self.model.getFrameId(name)
-        elif kind == "link":
-            found = self.model.getFrameId(bare, self.pin.FrameType.BODY)
-        else:
-            found = self.model.getFrameId(bare, self.pin.FrameType.JOINT | self.pin.FrameType.FIXED_JOINT)
+        else:  # the number of frames where there is none
+            kinds = [types.BODY] if kind == "link" else [types.JOINT, types.FIXED_JOINT]
+            found = min(self.model.getFrameId(bare, kind) for kind in kinds)
         if found >= self.model.nframes:
             raise ModelError(f"{self.ours.name}: Pinocchio has no frame {name!r}")
         return int(found)
