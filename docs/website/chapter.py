@@ -34,13 +34,13 @@ EXERCISES = {
     "en": """# Exercises
 
 The chapter's exercises with its pre-test and its project, in our own words. `twistwrench exercises start answers` puts
-them into a folder; `pytest` there checks what you write and names the slip where it is wrong;
+them into a folder; `python -m pytest` there checks what you write and names the slip where it is wrong;
 `twistwrench exercises hint 49.3.1` helps one step at a time.""",
     "zh": """# 练习
 
 本章的练习，连同前置自测与累积项目，用我们自己的话写成。
 `twistwrench exercises start answers --language zh` 把它们放进一个文件夹；
-在那里运行 `pytest` 就会检查你写下的答案，出错时指出是哪一种错误；
+在那里运行 `python -m pytest` 就会检查你写下的答案，出错时指出是哪一种错误；
 `twistwrench exercises hint 49.3.1` 一步一步给出提示。""",
 }
 

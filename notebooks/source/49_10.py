@@ -119,15 +119,19 @@ assert np.allclose(rate_in_the_air, [0, 0, 0, 0, 0, -weight], rtol=1e-12, atol=1
 # The first six rows of $M\ddot q + h = S^T\tau + J_c^T\lambda$ have no torques either. They are the same six equations,
 # written at the base. Take them to $G$ with ${}^G\!X_b^*$:
 #
-# $${}^G\!X_b^*\,(M_{bb}\ M_{bj}) = A_G, \qquad {}^G\!X_b^*\, h_b = \dot A_G \dot q - \begin{pmatrix} 0 \\ m g \end{pmatrix},
-# \qquad {}^G\!X_b^*\, J_{c,b}^T\lambda = \begin{pmatrix} \sum (p_k - p_G) \times f_k \\ \sum f_k \end{pmatrix}.$$
+# $$\begin{gathered} {}^G\!X_b^*\,(M_{bb}\ M_{bj}) = A_G, \\
+# {}^G\!X_b^*\, h_b = \dot A_G \dot q - \begin{pmatrix} 0 \\ m g \end{pmatrix}, \qquad
+# {}^G\!X_b^*\, J_{c,b}^T\lambda = \begin{pmatrix} \sum (p_k - p_G) \times f_k \\ \sum f_k \end{pmatrix}.
+# \end{gathered}$$
 # %% [markdown] lang="zh"
 # ## 基座行就是这个方程
 #
 # $M\ddot q + h = S^T\tau + J_c^T\lambda$ 的前六行里也没有力矩。它们就是同样的六个方程,只是写在基座处。用 ${}^G\!X_b^*$ 换到 $G$ 处:
 #
-# $${}^G\!X_b^*\,(M_{bb}\ M_{bj}) = A_G, \qquad {}^G\!X_b^*\, h_b = \dot A_G \dot q - \begin{pmatrix} 0 \\ m g \end{pmatrix},
-# \qquad {}^G\!X_b^*\, J_{c,b}^T\lambda = \begin{pmatrix} \sum (p_k - p_G) \times f_k \\ \sum f_k \end{pmatrix}.$$
+# $$\begin{gathered} {}^G\!X_b^*\,(M_{bb}\ M_{bj}) = A_G, \\
+# {}^G\!X_b^*\, h_b = \dot A_G \dot q - \begin{pmatrix} 0 \\ m g \end{pmatrix}, \qquad
+# {}^G\!X_b^*\, J_{c,b}^T\lambda = \begin{pmatrix} \sum (p_k - p_G) \times f_k \\ \sum f_k \end{pmatrix}.
+# \end{gathered}$$
 # %%
 M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)
 gravity = np.array([0, 0, 0, 0, 0, -weight])
@@ -438,7 +442,7 @@ else:
 # - **49.10.2** $l_G = m v_G$
 # - **49.10.3** why $\dot k_G = 0$ will do for a slow walk, and not for a somersault
 #
-# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.10.1`.
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.10.1`.
 # Next: notebook 49.11.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -447,5 +451,5 @@ else:
 # - **49.10.2** $l_G = m v_G$
 # - **49.10.3** 为什么 $\dot k_G = 0$ 适用于慢走,却不适用于翻跟头
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`；`twistwrench exercises hint 49.10.1` 给提示。
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.10.1` 给提示。
 # 下一个:笔记本 49.11。
