@@ -14,6 +14,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import motions, plot
 from twistwrench.cli import main
+from twistwrench.robots.catalogue import PREFIX
 from twistwrench.rotation import quaternion_to_rotation
 from twistwrench.viewing.controls import add_joints, add_time
 from twistwrench.viewing.shapes import shapes
@@ -182,6 +183,57 @@ def test_two_feet_on_the_ground_are_joined_by_a_line():
     np.testing.assert_allclose(np.sort(lengths), [0, 0, apart, apart], rtol=1e-5)
 
 
+def test_in_flight_nothing_supports_and_no_polygon_is_shown():
+    pytest.importorskip("trimesh")
+    stage, jump = Stage(), motions.jump(GO2, samples=8)
+    move, seen = build(stage, subject(GO2, jump), [], None), subject(GO2, jump)
+    for k, stands in enumerate(jump.contacts.any(axis=1)):
+        move(seen.at(k))
+        assert stage.nodes["/support"].visible == stage.nodes["/plumb"].visible == stands
+    assert not jump.contacts.all()
+
+
+def test_a_frame_that_is_asked_for_moves_with_its_name():
+    pytest.importorskip("trimesh")
+    stage, seen, q = Stage(), subject("go2"), GO2.random_configuration(rng=3)
+    build(stage, seen, [], ["FL_foot", "base"])(seen.moved(q))
+    for k, name in enumerate(("FL_foot", "base")):
+        label = stage.nodes[f"/names/{k}"]
+        assert label.args == (name,)
+        np.testing.assert_allclose(label.position, tw.frame_placement(GO2, q, name).translation, atol=1e-6)
+
+
+def test_the_arrow_of_the_largest_given_force_is_as_long_whatever_its_size():
+    pytest.importorskip("trimesh")
+    arrows, f = [], np.zeros((4, 3))
+    f[0], f[2] = [0, 3, 4], [0, 0, 1]
+    for scale in (1, 1000):
+        stage = Stage()
+        build(stage, subject(GO2, forces=scale * f), [], None)
+        arrows.append(np.diff(stage.nodes["/forces"].points, axis=1)[:, 0])
+    np.testing.assert_allclose(arrows[0], arrows[1], atol=1e-6)
+    np.testing.assert_allclose(arrows[0], f * np.linalg.norm(arrows[0][0]) / 5, atol=1e-6)
+    assert [stage.nodes[f"/forces/{k}"].visible for k in range(4)] == [True, False, True, False]
+
+
+def test_where_no_forces_hold_the_robot_none_are_shown():
+    """On three feet, one of which slides: where they are in line, and the weight is beside it, nothing holds."""
+    pytest.importorskip("trimesh")
+    lump = tw.SpatialInertia(1, [0, 0.1, 0.5], np.eye(3))
+    tripod = tw.Builder("tripod", base="floating", root_inertia=lump)
+    for name, x in (("front", 1.0), ("rear", -1.0)):
+        tripod.link(name, parent="base_link", placement=tw.SE3(np.eye(3), [x, 0, 0]))
+    slide = tw.SpatialInertia(1e-3, [0, 0, 0], np.eye(3) * 1e-3)
+    tripod.link("side", parent="base_link", joint=tw.Prismatic("y"), inertia=slide)
+    stage, model = Stage(), tripod.build(feet=("front", "rear", "side"))
+    wide, line = ([*model.neutral()[:7], y] for y in (0.5, 0.0))
+    seen = subject(model, wide)
+    move = build(stage, seen, [], None)
+    for q, held in ((line, False), (wide, True)):
+        move(seen.moved(q))
+        assert stage.nodes["/forces"].visible is held
+
+
 def test_a_rod_that_points_straight_down_is_turned_by_half_a_turn():
     pytest.importorskip("trimesh")
     stage = Stage()
@@ -234,6 +286,19 @@ def test_a_mesh_is_found_beside_the_urdf_and_in_packages_around_it(name, tmp_pat
     assert ball.mesh.visual.face_colors[0].tolist() == [255, 0, 0, 255]
 
 
+@pytest.mark.parametrize(
+    ("element", "extents"),
+    [('<cylinder radius="0.2" length="3"/>', (0.4, 0.4, 3)), ('<sphere radius="0.5"/>', (1, 1, 1))],
+)
+def test_round_shapes_have_their_size(element, extents, tmp_path):
+    pytest.importorskip("trimesh")
+    path = tmp_path / "robot.urdf"
+    path.write_text(re.sub("<mesh [^>]*>", element, URDF), encoding="utf-8")
+    found = shapes(tw.load(path), path)[1]
+    np.testing.assert_allclose(found.mesh.extents, extents, rtol=0.01)
+    assert found.placement.translation[2] == 0.5
+
+
 def test_meshes_keep_the_colours_of_their_materials_with_a_picture_or_without(tmp_path):
     trimesh = pytest.importorskip("trimesh")
     image = pytest.importorskip("PIL.Image")
@@ -264,6 +329,13 @@ def test_meshes_of_another_robot_are_not_put_on(tmp_path):
     assert shapes(GO2, path) == []
     assert shapes(GO2, None) == []
     assert shapes(tw.load("planar_arm"), "planar_arm") == []
+
+
+def test_our_robots_have_the_meshes_of_example_robot_data_and_none_without_it(monkeypatch):
+    here = [shape.body for shape in shapes(GO2, "go2")]
+    assert here == [shape.body for shape in shapes(GO2, f"{PREFIX}go2")]
+    monkeypatch.setattr(sys.modules["twistwrench.robots.catalogue"], "example_robot_data_folder", lambda: None)
+    assert shapes(GO2, "go2") == []
 
 
 # ---------------------------------------------------------------- the page
@@ -310,6 +382,7 @@ def test_the_page_is_served_to_this_machine_only(browser):
 
     shown = browser("pendulum")
     assert shown.url.startswith("http://127.0.0.1:")
+    assert repr(shown) == f"<Browser: pendulum at {shown.url}>"
     with urlopen(shown.url, timeout=10) as answer:
         assert b"<!doctype html>" in answer.read(100)
 
@@ -393,7 +466,7 @@ def test_a_joint_without_limits_has_a_turn_and_one_outside_them_still_a_slider()
 
 def test_the_slider_of_time_shows_what_was_then_and_plays_from_the_start_again():
     gui, shown, t = Controls(), [], np.array([0.0, 0.1, 0.4])
-    runs = add_time(gui, t, shown.append)
+    add_time(gui, t, shown.append)
     for now in (0.0, 0.05, 0.1, 0.39, 0.4):
         gui.set("time [s]", now)
     assert shown == [0, 0, 1, 1, 2]
@@ -403,10 +476,14 @@ def test_the_slider_of_time_shows_what_was_then_and_plays_from_the_start_again()
     while len(places) < 4 and time.monotonic() < end:
         places.add(slider.value)
         time.sleep(0.01)
-    runs.value = False
+    gui.set("play", False)
     assert len(places) >= 4
     assert min(places) < 0.4
     assert max(places) <= 0.4
+    time.sleep(0.1)
+    rests = slider.value
+    time.sleep(0.1)
+    assert slider.value == rests
 
 
 # ---------------------------------------------------------------- what cannot be shown
@@ -467,6 +544,42 @@ def test_the_command_writes_a_page(tmp_path):
     pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
     assert main(["view", "pendulum", "--output", str(tmp_path / "p.html")]) == 0
     assert "__VISER_EMBED_DATA__" in (tmp_path / "p.html").read_text(encoding="utf-8")
+
+
+def test_the_command_serves_the_page_until_it_is_interrupted(monkeypatch, capsys):
+    pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
+    from urllib.request import urlopen
+
+    pages = []
+
+    def look(url):
+        with urlopen(url, timeout=10) as answer:
+            pages.append((url, answer.read(100)))
+
+    def interrupt(seconds):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("webbrowser.open", look)
+    monkeypatch.setattr("twistwrench.viewing.commands.time", SimpleNamespace(sleep=interrupt))
+    assert main(["view", "pendulum", "--browser"]) == 130
+    ((url, text),) = pages
+    assert b"<!doctype html>" in text
+    assert capsys.readouterr().out == f"{url}  (Ctrl-C ends it)\n"
+    with pytest.raises(OSError, match="refused"):
+        urlopen(url, timeout=10)
+
+
+def test_the_command_opens_a_window(monkeypatch):
+    import matplotlib.pyplot as plt
+
+    shown = []
+    monkeypatch.setattr(plt, "get_backend", lambda: "TkAgg")
+    monkeypatch.setattr(plt, "show", lambda: shown.append(plt.gcf().axes[0].get_legend_handles_labels()[1]))
+    try:
+        assert main(["view", "go2"]) == 0
+    finally:
+        plt.close("all")
+    assert shown == [["centre of mass", "support polygon", "force of the ground"]]
 
 
 def test_the_command_says_what_it_cannot_do(tmp_path, capsys, monkeypatch):
