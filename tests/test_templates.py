@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -12,7 +11,8 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 from twistwrench.cli import main
-from twistwrench.clock import round_robin
+from twistwrench.clock import Lap
+from twistwrench.study.templates import _table
 from twistwrench.templates import (
     TEMPLATES,
     Centroidal,
@@ -420,8 +420,15 @@ def test_the_numbers_of_the_page_are_still_there():
 # ---------------------------------------------------------------- the study
 
 
+def in_a_millisecond(calls, *, rounds, after_round):
+    """Every call, but the first has to wait for the processor each time."""
+    for _ in range(rounds):
+        after_round()
+    return [Lap(call, **{"kept" if k else "spare": [1e-3]}) for k, call in enumerate(calls)]
+
+
 def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("twistwrench.study.templates.round_robin", partial(round_robin, least=0, most=0))
+    monkeypatch.setattr("twistwrench.study.templates.round_robin", in_a_millisecond)
     picture = tmp_path / "templates.png"
     assert main(["study", "templates", "go2", "--samples", "20", "--plot", str(picture)]) == 0
     printed = capsys.readouterr().out
@@ -429,7 +436,20 @@ def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
     assert [row[:2] for row in rows] == [(kind, name) for kind in ("walk", "trot", "jump") for name in TEMPLATES]
     assert max(float(rms) for _, name, rms in rows if name in ("centroidal", "full")) < 1e-14
     assert "60 % of the time" in printed  # a jump is loaded for less
+    assert len(re.findall(r" +50 +1\.00 +1\.000$", printed, re.MULTILINE)) == 3 * (len(TEMPLATES) - 1)
+    assert len(re.findall(r"^\w+ +point_mass .* +~50 +1\.00 +1\.000$", printed, re.MULTILINE)) == 3
+    assert printed.count("other things to do") == 1
     assert picture.stat().st_size > 20_000
+
+
+def test_a_robot_of_the_study_that_is_not_installed_is_left_out(monkeypatch, capsys):
+    monkeypatch.setattr("twistwrench.study.templates.ROBOTS", ("nobody",))
+    assert main(["study", "templates", "nobody"]) == 0
+    assert capsys.readouterr().out == "nobody: not installed, left out (example-robot-data)\n\n"
+
+
+def test_a_table_of_calls_that_nothing_disturbed_says_nothing_of_it():
+    assert "other things to do" not in _table("go2", GO2, [], [])
 
 
 def test_the_study_says_which_robot_is_not_known(capsys):

@@ -4,6 +4,7 @@ import importlib
 import json
 import re
 import sys
+from importlib.metadata import PackageNotFoundError
 from itertools import cycle, pairwise
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from twistwrench.study.trade import KEYS, SHORT, Effort, LeftOut, Point, Trade, 
 from twistwrench.study.trade.choice import advice, front
 from twistwrench.study.trade.measure import relative_error
 from twistwrench.study.trade.numbers import convert, epsilon
-from twistwrench.study.trade.run import DRAWN
+from twistwrench.study.trade.run import DRAWN, _versions
 from twistwrench.validate.states import random_states
 
 QUICK = Effort(states=2, batch=3, rounds=1, least=0, most=0)
@@ -310,6 +311,16 @@ def test_the_json_holds_everything(fixed):
     assert read["words"] == fixed.words().splitlines()
     assert read["fronts"]["ID"]["one"] == [[p.way, p.number, p.states] for p in fixed.fronts("ID")[0]]
     assert read["versions"]["numpy"] == np.__version__
+
+
+def test_the_versions_are_of_what_is_installed(monkeypatch):
+    def version(name):
+        if name == "scipy":
+            raise PackageNotFoundError(name)
+        return "1.0"
+
+    monkeypatch.setattr("twistwrench.study.trade.run.version", version)
+    assert set(_versions()) == {"python", "twistwrench", "numpy", "mpmath", "gmpy2", "pin"}
 
 
 def test_the_command_prints_writes_and_draws(tmp_path, capsys):
