@@ -135,8 +135,8 @@ assert (M[:6, rear] != 0).any()
 # - Notebook 49.1 begins the chapter: why six numbers for a velocity.
 # - `help(tw.rnea)` shows shapes, units and frames; each function has an example.
 # - `twistwrench validate go2` in a terminal compares every quantity with Pinocchio.
-# - `twistwrench exercises start my_answers` puts the chapter's exercises into a folder of yours, and `pytest` there
-#   checks your answers.
+# - `twistwrench exercises start my_answers` puts the chapter's exercises into a folder of yours, and
+#   `python -m pytest` there checks your answers.
 # - The code is meant to be read: `rnea` fits on one screen, in `inverse_dynamics.py`.
 # %% [markdown] lang="zh"
 # ## 接下来去哪里
@@ -144,5 +144,5 @@ assert (M[:6, rear] != 0).any()
 # - 笔记本 49.1 从本章的开头讲起:速度为什么要用六个数。
 # - `help(tw.rnea)` 给出形状、单位和坐标系;每个函数都有例子。
 # - 在终端运行 `twistwrench validate go2`,把每个量与 Pinocchio 逐一比较。
-# - `twistwrench exercises start my_answers` 把本章练习放进你自己的文件夹,在那里运行 `pytest` 就能检查答案。
+# - `twistwrench exercises start my_answers` 把本章练习放进你自己的文件夹,在那里运行 `python -m pytest` 就能检查答案。
 # - 代码是写来读的:`rnea` 一屏就能看完,在 `inverse_dynamics.py` 里。

@@ -388,7 +388,7 @@ else:
 # - **49.1.1** nq and nv of Go2; with Euler angles; why a quaternion
 # - **49.1.2** why an arm has no $J_c^T\lambda$, and what changes when it polishes
 #
-# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises start my_answers` puts them into a folder; `python -m pytest` there checks your answers;
 # `twistwrench exercises hint 49.1.1` helps. Next: notebook 49.2.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -396,5 +396,5 @@ else:
 # - **49.1.1** Go2 的 nq 与 nv;改用欧拉角;为什么选四元数
 # - **49.1.2** 机械臂为什么没有 $J_c^T\lambda$,抛光时要怎样改
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.1.1` 给提示。下一个:笔记本 49.2。

@@ -324,7 +324,7 @@ for name, attempt in nonsense.items():
 # - **49.2.1** the base turns, and the foot gets a linear velocity: why
 # - **49.2.2** hat and exp of a walk on a circle, exactly
 #
-# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.2.1`.
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.2.1`.
 # Next: notebook 49.3.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -332,5 +332,5 @@ for name, attempt in nonsense.items():
 # - **49.2.1** 只有基座在转,脚为什么有线速度
 # - **49.2.2** 沿圆行走的 hat 与 exp,要精确解
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`;`twistwrench exercises hint 49.2.1` 给提示。
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.2.1` 给提示。
 # 下一个:笔记本 49.3。

@@ -349,7 +349,7 @@ else:
 # - **49.3.2** $X$ of a pure rotation; when turning both halves is enough
 # - **49.3.3** the chain rule, proved
 #
-# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.3.1`.
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.3.1`.
 # Next: notebook 49.4.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -358,5 +358,5 @@ else:
 # - **49.3.2** 纯旋转的 $X$;什么时候只要分别旋转两半就够了
 # - **49.3.3** 证明链式法则
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`;`twistwrench exercises hint 49.3.1` 给提示。
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.3.1` 给提示。
 # 下一个:笔记本 49.4。

@@ -398,7 +398,7 @@ else:
 # - **49.4.2** where the moment comes from when the point of reference moves to the world's origin
 # - **49.4.3** the COP, and why it has to lie in the support polygon
 #
-# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises start my_answers` puts them into a folder; `python -m pytest` there checks your answers;
 # `twistwrench exercises hint 49.4.2` helps. Next: notebook 49.5.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -407,5 +407,5 @@ else:
 # - **49.4.2** 参考点移到世界原点,力矩从哪里来
 # - **49.4.3** COP,以及它为什么必须在支撑多边形内
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.4.2` 给提示。下一个:笔记本 49.5。

@@ -396,7 +396,7 @@ else:
 # - **49.5.2** Go2's base against Pinocchio, entry by entry
 # - **49.5.3** why the matrix falls into two blocks at the centre of mass
 #
-# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises start my_answers` puts them into a folder; `python -m pytest` there checks your answers;
 # `twistwrench exercises hint 49.5.1` helps. Next: notebook 49.6.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -405,5 +405,5 @@ else:
 # - **49.5.2** Go2 的基座,与 Pinocchio 逐元素比较
 # - **49.5.3** 为什么在质心处矩阵分成两块
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.5.1` 给提示。下一个:笔记本 49.6。

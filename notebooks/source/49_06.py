@@ -346,7 +346,7 @@ else:
 # - **49.6.2** why gravity enters at the world, and why that is the same
 # - **49.6.3** the base's wrench at rest
 #
-# `twistwrench exercises start my_answers` puts them into a folder; `pytest` there checks your answers;
+# `twistwrench exercises start my_answers` puts them into a folder; `python -m pytest` there checks your answers;
 # `twistwrench exercises hint 49.6.2` helps. Next: notebook 49.7.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -355,5 +355,5 @@ else:
 # - **49.6.2** 重力为什么从世界那里进入,为什么这样是等价的
 # - **49.6.3** 静止时基座的 wrench
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `pytest` 检查答案,
+# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.6.2` 给提示。下一个:笔记本 49.7。

@@ -331,7 +331,7 @@ else:
 # - **49.8.1** the base's block of $M$ in the neutral posture, and why it is not diagonal
 # - **49.8.2** how large $M$ is with a floating base, and with a fixed one
 #
-# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.8.1`.
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.8.1`.
 # Next: notebook 49.9.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -339,5 +339,5 @@ else:
 # - **49.8.1** 零位形下 $M$ 的基座块,它为什么不是对角阵
 # - **49.8.2** 浮动基座时 $M$ 多大,固定基座时多大
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`；`twistwrench exercises hint 49.8.1` 给提示。
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.8.1` 给提示。
 # 下一个:笔记本 49.9。

@@ -365,7 +365,7 @@ else:
 # - **49.9.2** $S$ by hand, and the first six entries of $S^T\tau$
 # - **49.9.3** why the base's rows are called the dynamics constraint
 #
-# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.9.1`.
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.9.1`.
 # Next: notebook 49.10.
 # %% [markdown] lang="zh"
 # ## 练习
@@ -374,5 +374,5 @@ else:
 # - **49.9.2** 手动构造 $S$；$S^T\tau$ 的前六个元素
 # - **49.9.3** 基座行为什么叫"动力学约束"
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `pytest`；`twistwrench exercises hint 49.9.1` 给提示。
+# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.9.1` 给提示。
 # 下一个:笔记本 49.10。

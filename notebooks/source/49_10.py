@@ -442,7 +442,8 @@ else:
 # - **49.10.2** $l_G = m v_G$
 # - **49.10.3** why $\dot k_G = 0$ will do for a slow walk, and not for a somersault
 #
-# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.10.1`.
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder;
+# `twistwrench exercises hint 49.10.1`.
 # Next: notebook 49.11.
 # %% [markdown] lang="zh"
 # ## 练习

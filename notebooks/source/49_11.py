@@ -446,8 +446,8 @@ if pin:
 # - **49.11.2** how RNEA's time grows with $N$
 # - **49.11.3** all quantities of a standing Go2, and the forces at its feet
 #
-# `twistwrench exercises start my_answers`, then `pytest` in that folder; `twistwrench exercises hint 49.11.1`; and
-# `twistwrench exercises status my_answers` shows what is left, project included. That was the last notebook.
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.11.1`;
+# and `twistwrench exercises status my_answers` shows what is left, project included. That was the last notebook.
 # %% [markdown] lang="zh"
 # 本章的表格里 CRBA 比 RNEA 慢,ABA 是 RNEA 的 1.7 倍。请和上面你自己的数字比一比;写作本文的机器上,
 # CRBA 只用了 RNEA 的 0.77 倍时间:它不需要速度,而 Go2 的腿又短。像 $O(N)$ 这样的规律,两个机器人是看不出来的;
@@ -459,5 +459,5 @@ if pin:
 # - **49.11.2** RNEA 的耗时怎样随 $N$ 增长
 # - **49.11.3** 站立的 Go2 的所有量,以及它的足端力
 #
-# `twistwrench exercises start my_answers`，然后在那个文件夹里运行 `pytest`；`twistwrench exercises hint 49.11.1` 给提示;
+# `twistwrench exercises start my_answers`，然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.11.1` 给提示;
 # `twistwrench exercises status my_answers` 显示还剩哪些没做,累积项目也在内。这是最后一个笔记本。

@@ -25,15 +25,15 @@ addopts = -p twistwrench.exercises.checking --tb=short -q -rN
 HEAD = {
     "en": '''"""{title}.
 
-Replace each `...` by your answer and run `pytest {file}` in this folder. Twists are (ω, v), wrenches
-(τ, f), units SI. `twistwrench exercises hint {first}` gives a hint, and the next one when asked again.
+Replace each `...` by your answer and run `python -m pytest {file}` in this folder. Twists are (ω, v),
+wrenches (τ, f), units SI. `twistwrench exercises hint {first}` gives a hint, and the next one when asked again.
 
 After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
 """
 ''',
     "zh": '''"""{title}。
 
-把每个 `...` 换成你的答案，然后在本目录运行 `pytest {file}`。twist 为 (ω, v)，wrench 为 (τ, f)，
+把每个 `...` 换成你的答案，然后在本目录运行 `python -m pytest {file}`。twist 为 (ω, v)，wrench 为 (τ, f)，
 使用国际单位。`twistwrench exercises hint {first}` 给出一条提示，再次运行给出下一条。
 
 改写自 Robotics Tutorial 第 49 章的练习，作者 Pengfei Guo(CC BY 4.0)。
