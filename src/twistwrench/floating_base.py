@@ -134,7 +134,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
 
     Notes
     -----
-    Sections 49.9 and 49.11.3, where the chapter leaves out Sᵀ τ: least squares over all 18 rows then
+    Section 49.9, and exercise 49.11.3, where the chapter leaves out Sᵀ τ: least squares over all 18 rows then
     cannot balance anything.
 
     Examples

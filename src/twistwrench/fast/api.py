@@ -183,7 +183,7 @@ def dynamics(
     workers: int | Executor = 1,
     progress: bool = False,
 ) -> Dynamics:
-    """Return what `twistwrench.dynamics` does: M, h, J_c and A_G (49.9).
+    """Return what `twistwrench.dynamics` does: M, h, J_c and A_G (49.11).
 
     Asking for all at once is cheaper than for one after the other: they share the places of the links.
 
