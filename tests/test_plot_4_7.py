@@ -92,6 +92,8 @@ def test_a_twist_is_no_wrench_and_a_wrench_no_twist():
         plot.center_of_pressure(tw.Twist([1, 0, 0, 0, 0, 1]))
     with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
         plot.point_velocity(tw.Wrench([1, 0, 0, 0, 0, 1]), [0, 0, 0])
+    with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
+        plot.twist_field([tw.Wrench([1, 0, 0, 0, 0, 1])], [0, 0, 0])
 
 
 def test_a_friction_cone_stands_on_its_contact_and_opens_by_mu(space):

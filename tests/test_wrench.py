@@ -139,12 +139,18 @@ def test_power_refuses_anything_but_a_wrench_and_a_twist():
         np.eye(6) @ F
     with pytest.raises(TypeError):
         V @ V
+    with pytest.raises(TypeError, match="F: expected a Wrench or an array, got a Twist"):
+        power([F, V], V)
+    with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
+        F.power([V, F])
 
 
 @pytest.mark.parametrize("function", [hat, exp6, cross_motion, cross_force, BODY.momentum, BODY.kinetic_energy])
 def test_a_wrench_where_a_twist_belongs_is_refused(function):
     with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
         function(Wrench(np.ones(6)))
+    with pytest.raises(TypeError, match="V: expected a Twist or an array, got a Wrench"):
+        function([Twist(np.ones(6)), Wrench(np.ones(6))])
     typed, plain = function(Twist(np.ones(6))), function(np.ones(6))
     assert typed == plain if isinstance(plain, SE3) else (typed == plain).all()
 

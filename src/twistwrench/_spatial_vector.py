@@ -152,9 +152,10 @@ def common_frame(a: SpatialVector, sign: str, b: SpatialVector) -> str | None:
 
 def as_spatial(value: ArrayLike, name: Literal["V", "F"]) -> Array:
     """Return the six numbers of an argument V, a Twist, or F, a Wrench; plain arrays pass, the other type does not."""
-    if isinstance(value, SpatialVector) and value._symbol != name:
-        expected = "Twist" if name == "V" else "Wrench"
-        raise TypeError(f"{name}: expected a {expected} or an array, got a {type(value).__name__}")
+    for one in value if isinstance(value, list | tuple) else [value]:
+        if isinstance(one, SpatialVector) and one._symbol != name:
+            expected = "Twist" if name == "V" else "Wrench"
+            raise TypeError(f"{name}: expected a {expected} or an array, got a {type(one).__name__}")
     return as_array(value, name, 6)
 
 
