@@ -203,6 +203,10 @@ def test_a_motion_is_drawn_on_given_axes():
         assert "s]" in ax.get_xlabel()
     assert ax.lines[1].get_ydata() == pytest.approx(s.v[:, 1])
     assert s.plot(figure.Figure().add_subplot()).lines[0].get_ydata() == pytest.approx(s.energy - s.energy[0])
+    rotor = tw.Builder("a rotor without mass")
+    rotor.link("rotor", parent="base_link", joint=tw.Revolute("z"), armature=0.1)
+    turning = tw.simulate(rotor.build(), [0.0], [1.0], dt=0.1, steps=2)  # there is no centre of mass, nor any asked for
+    assert turning.plot(figure.Figure().add_subplot(), what="q").lines[0].get_ydata() == pytest.approx([0, 0.1, 0.2])
     pyplot = pytest.importorskip("matplotlib.pyplot")
     try:
         assert s.plot().figure.number in pyplot.get_fignums()

@@ -127,8 +127,11 @@ class Simulation:
             import matplotlib.pyplot as plt
 
             ax = plt.subplots(figsize=(6.0, 3.5), layout="constrained")[1]
-        drawn = {"energy": self.energy, "angular momentum": self.momentum[..., :3], "q": self.q, "v": self.v}[what]
-        drawn = drawn if what in ("q", "v") else drawn - drawn[0]
+        if what in ("q", "v"):
+            drawn = self.q if what == "q" else self.v
+        else:
+            total = self.energy if what == "energy" else self.momentum[..., :3]
+            drawn = total - total[0]
         ax.plot(self.t, drawn.reshape(len(self.t), -1))
         ax.set(xlabel="time [s]", ylabel=LABELS[what])
         return ax
