@@ -148,6 +148,33 @@ class Stage:
         return put_up
 
 
+def weightless(base):
+    """A robot of which only the shape is known, as many a file for pictures has it."""
+    builder = tw.Builder("shape", base=base)
+    builder.link("leg", parent="base_link", joint=tw.Revolute("y"))
+    builder.link("foot", parent="leg", placement=tw.SE3(np.eye(3), [0, 0, -1]))
+    return builder.build(feet=["foot"])
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_a_robot_without_mass_is_shown_without_a_centre_of_mass(base, space):
+    model = weightless(base)
+    tw.view(model, ax=space)
+    assert "centre of mass" not in space.get_legend_handles_labels()[1]
+    plot.side_view(model, model.neutral(), ax=Figure().add_subplot())
+    pytest.importorskip("trimesh")
+    stage = Stage()
+    build(stage, subject(model), [], None)
+    assert "/centre_of_mass" not in stage.nodes
+    assert not stage.nodes["/plumb"].visible
+    assert stage.nodes["/support"].visible
+
+
+def test_what_touches_nothing_and_weighs_nothing_has_no_legend(space):
+    tw.view(weightless("fixed"), contacts=[], ax=space)
+    assert space.get_legend() is None
+
+
 def turned(wxyz, vector):
     return quaternion_to_rotation(np.roll(wxyz, -1, axis=-1)) @ vector
 

@@ -78,7 +78,7 @@ def robot(
     frames : collection of str
         Frames whose names are written beside them.
     com : bool
-        Whether to mark the centre of mass.
+        Whether to mark the centre of mass; what has no mass has none.
     colour : str
         Of the sticks.
     ax : matplotlib Axes3D, optional
@@ -109,7 +109,7 @@ def robot(
         ax.plot(*line.mT, color=colour, linewidth=3, solid_capstyle="round")
     joints = lines[:, 0]
     ax.plot(*joints.mT, ".", color=COLOURS["black"], markersize=7)
-    if com:
+    if com and model.mass > 0:
         c = center_of_mass(model, q).astype(float)
         ax.plot(*c[:, None], "x", color=COLOURS["purple"], markersize=9, markeredgewidth=2.5, label="centre of mass")
     for name in frames:

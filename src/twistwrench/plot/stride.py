@@ -28,7 +28,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     shift : float
         Added to x, so that several postures stand side by side, m.
     com : bool
-        Whether to mark the centre of mass.
+        Whether to mark the centre of mass; what has no mass has none.
     ax : matplotlib Axes, optional
 
     Returns
@@ -58,7 +58,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
         near, far = across[k] < -middle, across[k] > middle
         colour = COLOURS["vermilion"] if near else COLOURS["blue"] if far else COLOURS["grey"]
         ax.plot(lines[k, :, 0] + shift, lines[k, :, 2], color=colour, linewidth=3, solid_capstyle="round")
-    if com:
+    if com and model.mass > 0:
         c = center_of_mass(model, q).astype(float)
         ax.plot(c[0] + shift, c[2], "x", color=COLOURS["purple"], markersize=7, markeredgewidth=2)
     ax.set(xlabel="x [m]", ylabel="z [m]", aspect="equal")

@@ -44,7 +44,7 @@ def draw(seen: Subject, frames: Collection[str] | None = None, ax: Any = None) -
     for name in frames or ():
         triad(frame_placement(model, q, name), name, size=0.15 * extent, ax=ax)
     if len(corners := seen.support()):
-        support_polygon(corners, center_of_mass(model, q), ax=ax)
+        support_polygon(corners, center_of_mass(model, q) if model.mass > 0 else None, ax=ax)
     if (forces := seen.forces()) is not None:
         largest = float(np.linalg.norm(forces.vectors, axis=-1).max(initial=0)) or 1.0
         arrows(
@@ -57,7 +57,8 @@ def draw(seen: Subject, frames: Collection[str] | None = None, ax: Any = None) -
             ax=ax,
         )
     ax.set_title(f"{model.name}, {model.mass:.4g} kg")
-    ax.legend(loc="upper left", fontsize=9)
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(loc="upper left", fontsize=9)
     fit(ax, centre + 0.3 * extent * np.array([[-1, -1, 0], [1, 1, 0]]))  # a thin robot would crowd the ticks
     ax.set_box_aspect(np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1), zoom=0.9)  # room for the labels
     return ax

@@ -45,7 +45,9 @@ def build(scene: Any, seen: Subject, shapes: list[Shape], frames: Collection[str
     first = seen.at(0)
     _floor(scene, first)
     looks = _bodies(scene, shapes) if shapes else _sticks(scene, first)
-    parts = [looks, _frames(scene, first, frames), _mass(scene, first)]
+    parts = [looks, _frames(scene, first, frames)]
+    if first.model.mass > 0:
+        parts.append(_mass(scene, first))
     if first.contacts:
         parts.append(_support(scene, first))
     if largest := _largest_force(seen):
@@ -178,11 +180,13 @@ def _support(scene: Any, seen: Subject) -> Mover:
 
     def move(seen: Subject) -> None:
         corners = seen.support()
-        plate.visible = plumb.visible = len(corners) > 0
+        plate.visible = len(corners) > 0
+        plumb.visible = plate.visible and seen.model.mass > 0
         if len(corners) > 0:
             corners = hull(corners)
-            c, floor = center_of_mass(seen.model, seen.q), corners[:, 2].mean()
-            plumb.points = np.array([[c, [c[0], c[1], floor]]], np.float32)
+            if plumb.visible:
+                c, floor = center_of_mass(seen.model, seen.q), corners[:, 2].mean()
+                plumb.points = np.array([[c, [c[0], c[1], floor]]], np.float32)
             corners[:, 2] += above
             corners = corners[np.minimum(np.arange(n), len(corners) - 1)]  # as many as there may be at most
             plate.vertices = corners.astype(np.float32)
