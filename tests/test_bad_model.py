@@ -25,7 +25,7 @@ GOOD = {
     "J": np.zeros((6, GO2.nv)),
     "J_c": np.zeros((12, GO2.nv)),
     "M": np.eye(GO2.nv),
-    "motion": None,
+    "motion": tw.motions.walk(GO2, samples=2),
     "q": GO2.standing(),
     "texts": [""] * GO2.nbodies,
     "Iterable[Contact]": [tw.PointContact("FR_foot", 0.6)],
