@@ -5,6 +5,7 @@ import pytest
 
 from twistwrench.errors import FrameError, ShapeError, SingularError
 from twistwrench.exponential import exp6
+from twistwrench.inertia import SpatialInertia
 from twistwrench.plucker import SE3
 from twistwrench.rotation import exp3
 from twistwrench.twist import Screw, Twist, hat, screw, vee
@@ -239,6 +240,12 @@ def test_a_twist_and_a_plain_array_do_not_add():
         V - [1] * 6
     with pytest.raises(TypeError, match="ndarray - Twist: both sides"):
         np.ones(6) - V
+
+
+def test_a_matrix_is_no_placement():
+    for x in (Twist(np.zeros(6)), Wrench(np.zeros(6)), SpatialInertia(1.0, [0, 0, 0], np.eye(3))):
+        with pytest.raises(TypeError, match=r"^T: expected an SE3, got ndarray; SE3\.from_matrix makes one of a 4 × 4"):
+            x.transform(np.eye(4))
 
 
 def test_a_matrix_times_a_twist_points_to_transform():

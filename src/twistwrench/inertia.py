@@ -15,6 +15,7 @@ from .cross import cross_force, cross_motion
 from .errors import ModelError, ShapeError
 from .plucker import SE3, blocks
 from .rotation import cross_matrix, skew_part
+from .twist import check_placement
 
 __all__ = ["SpatialInertia", "cross_force", "cross_motion"]
 
@@ -51,8 +52,7 @@ class SpatialInertia:
     com: Array
     inertia_at_com: Array
 
-    # NumPy arrays leave the operators to this class.
-    __array_ufunc__ = None
+    __array_ufunc__ = None  # NumPy arrays leave the operators to this class
 
     def __init__(self, mass: ArrayLike, com: ArrayLike, inertia_at_com: ArrayLike) -> None:
         m, c, I_c = as_arrays(mass=(mass, ()), com=(com, (3,)), inertia_at_com=(inertia_at_com, (3, 3)))
@@ -167,11 +167,17 @@ class SpatialInertia:
         -------
         SpatialInertia
 
+        Raises
+        ------
+        TypeError
+            If `T` is no SE3.
+
         Examples
         --------
         >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).transform(SE3(np.eye(3), [1, 0, 0])).com
         array([1., 0., 0.])
         """
+        check_placement(T)
         turned = T.rotation @ self.inertia_at_com @ T.rotation.mT
         com = T.act(self.com)
         mass = np.broadcast_to(self.mass.astype(com.dtype), com.shape[:-1])

@@ -24,6 +24,12 @@ class Placement(Protocol):
     def force_transform(self) -> Array: ...
 
 
+def check_placement(T: object) -> None:
+    """Refuse what is no placement, and say how a matrix becomes one."""
+    if not hasattr(T, "motion_transform"):
+        raise TypeError(f"T: expected an SE3, got {type(T).__name__}; SE3.from_matrix makes one of a 4 × 4 matrix")
+
+
 class Screw(NamedTuple):
     """The screw of a twist or of a wrench (sections 49.2 and 49.4): what `screw` returns.
 
@@ -223,12 +229,18 @@ class Twist(SpatialVector):
         -------
         Twist
 
+        Raises
+        ------
+        TypeError
+            If `T` is no SE3.
+
         Examples
         --------
         >>> from twistwrench.plucker import SE3
         >>> Twist([0, 0, 1, 0, 0, 0]).transform(SE3(np.eye(3), [1, 0, 0]), frame="world")
         Twist([0.0, 0.0, 1.0, 0.0, -1.0, 0.0], frame='world')
         """
+        check_placement(T)
         return Twist(np.matvec(T.motion_transform(), self._vector), frame=frame)
 
     def screw(self) -> Screw:

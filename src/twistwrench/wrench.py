@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ._spatial_vector import SpatialVector, as_spatial, common_frame
 from .checks import Array, as_arrays
-from .twist import Placement, Screw, Twist, screw
+from .twist import Placement, Screw, Twist, check_placement, screw
 
 __all__ = ["Wrench", "power"]
 
@@ -97,12 +97,18 @@ class Wrench(SpatialVector):
         -------
         Wrench
 
+        Raises
+        ------
+        TypeError
+            If `T` is no SE3.
+
         Examples
         --------
         >>> from twistwrench.plucker import SE3
         >>> Wrench([0, 0, 0, 0, 0, 10]).transform(SE3(np.eye(3), [0.5, 0, 0]), frame="world")
         Wrench([0.0, -5.0, 0.0, 0.0, 0.0, 10.0], frame='world')
         """
+        check_placement(T)
         return Wrench(np.matvec(T.force_transform(), self._vector), frame=frame)
 
     def screw(self) -> Screw:
