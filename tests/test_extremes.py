@@ -257,6 +257,15 @@ def test_a_study_that_was_stopped_goes_on_where_it_stopped(tmp_path, monkeypatch
     assert asked == FEW
 
 
+@pytest.mark.parametrize("text", ["my notes", "my notes\n", "a\nb\n", '{"robot": "go2"}\n', "{}", "\n", "\0\xff\n"])
+def test_a_file_that_holds_something_else_is_left_as_it_is(text, tmp_path, capsys):
+    path = tmp_path / "notes.txt"
+    path.write_bytes(text.encode("latin-1"))
+    assert main(["study", "extremes", "--cells", str(path)]) == 2
+    assert "notes.txt, line 1: expected a cell of this study; the file was left as it is" in capsys.readouterr().err
+    assert path.read_bytes() == text.encode("latin-1")
+
+
 def test_a_cell_survives_its_line():
     outcomes = (Outcome("aba, pushed", "fast", error=0.1, estimate=np.inf), Outcome("crba", "fast", refused="no"))
     cell = Cell(Recipe(angle=np.pi, leaves=True), outcomes)

@@ -14,6 +14,10 @@ from .robots import Recipe
 __all__ = ["Cell", "read", "run"]
 
 
+START = '{"cell": '
+"""Of a line on file."""
+
+
 @dataclass(frozen=True)
 class Cell:
     """A cell and what came of it."""
@@ -48,13 +52,23 @@ def _whole(estimate: float | str | None = None, **others: Any) -> Outcome:
 
 
 def read(path: Path) -> list[Cell]:
-    """Return the cells on file. The last line may have been cut off where the study was stopped: it is left out."""
+    """Return the cells on file. The last line may have been cut off where the study was stopped: it is left out.
+
+    Raises
+    ------
+    OSError
+        If any other line is no cell: the file is something else, and would be lost.
+    """
+    text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+    *lines, cut = text.split("\n")  # each line is ended when it is whole
+    if not START.startswith(cut[: len(START)]):
+        lines.append(cut)
     cells = []
-    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
+    for number, line in enumerate(lines, 1):
         try:
             cells.append(Cell.from_line(line))
         except (ValueError, TypeError, KeyError):
-            continue
+            raise OSError(f"{path}, line {number}: expected a cell of this study; the file was left as it is") from None
     return cells
 
 
