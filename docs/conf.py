@@ -52,6 +52,7 @@ html_static_path = ["website/static", os.environ.get("SITE_STATIC", "website/sta
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]
 html_show_sourcelink = False
+html_use_index = html_domain_indices = False  # api/index has every name, with what it gives
 html_copy_source = False
 html_show_search_summary = False  # it would have to fetch the pages, which the file system does not allow
 html_sidebars = {"**": ["sidebar-nav-bs"], "index": []} | {f"algorithms/{name}": [] for name in beside.names()}

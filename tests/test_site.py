@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "docs"))
 
-from website import beside, browser, links, pages  # noqa: E402
+from website import beside, browser, links, pages, steps  # noqa: E402
 
 TEXTS = sorted(path.name for path in pages.TEXT.glob("*.md") if not path.stem.endswith(".zh-CN"))
 
@@ -29,6 +29,15 @@ def test_every_line_of_an_algorithm_stands_beside_its_step(name):
         source = (beside.SOURCE / part["file"]).read_text(encoding="utf-8").splitlines()
         for piece in pieces:
             assert source[piece.first - 1 : piece.first - 1 + len(piece.text)] == piece.text
+
+
+def test_the_values_on_a_go2_are_told_in_chinese():
+    english, chinese = ("".join(steps.section(beside.read(name), k) for name in steps.CODE) for k in pages.LANGUAGES)
+    assert all(english.count(word) for word in steps.CHINESE)
+    assert set(re.findall("<caption>.*?</caption>", chinese, re.DOTALL)) == {
+        f"<caption>{steps.CAPTION['zh'].format(name)}</caption>" for name in steps.CODE
+    }
+    assert not any(word in table for table in chinese.split("<details>")[1:] for word in steps.CHINESE)
 
 
 def test_the_algorithms_of_the_chapter_have_their_page():

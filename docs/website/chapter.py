@@ -56,6 +56,7 @@ def write_chapter(out: Path, language: str) -> None:
         wrong = f"[{number}](../errata.md#{errata[number]})" if number in errata else ""
         title = f"[{_title(name, language)}]({name}.ipynb)"
         rows.append(f"| {title} | {', '.join(lines)} | {', '.join(files)} | {wrong} |")
+    rows.append(f"| [{EXERCISES[language].splitlines()[0].removeprefix('# ')}](exercises.md) | | | |")
     path = [":::{container} path", "", *rows, ":::"]
     inside = contents([*notebooks.names(), "exercises"], hidden=True)
     parts = [joined(INTRO[language], language), "\n".join(path), inside]

@@ -38,11 +38,11 @@ TABLE = {
 OPEN = {"en": "All the numbers", "zh": "全部数值"}
 CAPTION = {"en": "{} of Go2, (angular, linear)", "zh": "Go2 的 {}，（角，线）"}
 CHINESE = {
-    "its own": "自身",
+    ": its own": "：自身",
     "+ from ": "+ 来自 ",
     "→ to ": "→ 传给 ",
-    "diagonal": "对角元素",
-    "column": "列",
+    ", diag.": "，对角元素",
+    "F in ": "F，坐标系 ",
     ", on ": "，父刚体 ",
 }
 
@@ -63,7 +63,8 @@ def section(said: dict[str, Any], language: str) -> str:
 def _table(trace: Any, language: str) -> str:
     """Return a trace's table, in the words of the page, and such that a narrow window scrolls it."""
     html = trace._repr_html_()
-    html = re.sub("<caption>.*?</caption>", f"<caption>{CAPTION[language].format(trace.algorithm)}</caption>", html)
+    caption = f"<caption>{CAPTION[language].format(trace.algorithm)}</caption>"
+    html = re.sub("<caption>.*?</caption>", caption, html, flags=re.DOTALL)
     for word, own in CHINESE.items() if language == "zh" else ():
         html = html.replace(word, own)
     html = html.replace("<table>", '<table class="table numbers">')
