@@ -5,10 +5,10 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from .checks import Array
-from .errors import no_model
+from .errors import ShapeError, no_model
 from .model import Model
 
-__all__ = ["check_model", "state_of"]
+__all__ = ["check_model", "one_configuration", "state_of"]
 
 
 def check_model(model: object) -> None:
@@ -21,3 +21,11 @@ def state_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Ar
     """Check a model and a state of it: see `Model.state`."""
     check_model(model)
     return model.state(q, **others)
+
+
+def one_configuration(model: Model, q: ArrayLike) -> Array:
+    """Check a model and one configuration of it, real and without batch axes, shape (nq,)."""
+    (q,) = state_of(model, q)
+    if q.ndim != 1 or q.dtype.kind == "c":
+        raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
+    return q

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array, as_names, resolution
-from .door import check_model, state_of
-from .errors import ShapeError, SingularError
+from .door import check_model, one_configuration, state_of
+from .errors import SingularError
 from .inverse_dynamics import gravity
 from .kinematics import frame_jacobian
 from .model import Model
@@ -154,9 +154,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
         )
     if not contacts:
         raise ValueError(f"{model.name!r}: expected at least one contact, got none")
-    (q,) = model.state(q)
-    if q.ndim != 1 or q.dtype.kind == "c":
-        raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
+    q = one_configuration(model, q)
     g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
     b = _unactuated(model)
     forces = np.linalg.lstsq(J_c[:, :b].mT.astype(np.float64), g[:b].astype(np.float64))[0].astype(q.dtype)

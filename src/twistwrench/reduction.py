@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array, as_names
-from .door import state_of
-from .errors import NameNotFound, ShapeError
+from .door import one_configuration
+from .errors import NameNotFound
 from .inertia import SpatialInertia
 from .model import Frame, Model
 from .plucker import SE3
@@ -139,9 +139,7 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
     >>> tw.lock_joints(model, ["*_shoulder_*", "*_elbow"], model.standing()).model
     Model 'humanoid': floating base, 14 moving bodies, nq = 20, nv = 19, 20 kg
     """
-    (at,) = state_of(model, q)
-    if at.ndim != 1 or at.dtype.kind == "c":
-        raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {at.dtype} of shape {at.shape}")
+    at = one_configuration(model, q)
     held = matching_joints(model, joints)
     kept = [i for i in range(1, model.nbodies) if model.joint_names[i] not in held]
     carrier, in_carrier = _carriers(model, at.astype(np.float64), kept)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_array, as_constant
+from ..door import one_configuration
 from ..errors import ModelError, ShapeError, no_model
 from ..model import Model
 from ..robots import load
@@ -38,7 +39,4 @@ def posture(model: Model, q: ArrayLike | None) -> Array:
     """Return where a scene's robot stands: q, or the standing posture, or the neutral one."""
     if q is None:
         return model.standing() if "standing" in model.postures else model.neutral()
-    (at,) = model.state(q)
-    if at.ndim != 1 or at.dtype.kind == "c":
-        raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {at.dtype} of shape {at.shape}")
-    return at.astype(np.float64)
+    return one_configuration(model, q).astype(np.float64)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
 from ..checks import Array
-from ..door import state_of
+from ..door import one_configuration
 from ..errors import SingularError
 from ..inverse_dynamics import rnea
 from ..model import Model
@@ -155,11 +155,9 @@ class Template(ABC):
 
 def checked(model: Model, q: ArrayLike) -> tuple[Model, Array, float, float]:
     """Return what every template holds: model, configuration, weight and radius of gyration."""
-    (q,) = state_of(model, q)
+    q = one_configuration(model, q)
     if model.base != "floating":
         raise ValueError(f"{model.name!r}: expected a floating base, got a {model.base} one")
-    if q.ndim != 1 or q.dtype.kind == "c":
-        raise ValueError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
     if model.mass == 0:
         raise SingularError(f"{model.name!r}: nothing that moves has mass")
     weight = model.mass * float(np.sqrt((model.gravity**2).sum()))
