@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import re
 import sys
 from dataclasses import replace
 
@@ -231,6 +232,24 @@ def test_a_frame_that_a_link_and_a_joint_share_the_name_of_is_the_one_that_is_me
     np.testing.assert_allclose(oracle.frame_placements(replace(s, frames=named)), ours, rtol=0, atol=1e-14)
     with pytest.raises(tw.ModelError, match="Pinocchio has no frame 'link:elbow'"):
         oracle.frame("link:elbow")
+
+
+@needs_pinocchio
+def test_a_link_and_a_joint_of_one_name_in_one_place_are_one_frame(tmp_path):
+    path, text = tmp_path / "robot.urdf", find("pendulum").path.read_text(encoding="utf-8")
+    joints, links = re.findall('<joint name="(.*?)"', text), re.findall('<child link="(.*?)"', text)
+    for joint, link in zip(joints, links, strict=True):
+        text = text.replace(f'name="{joint}"', f'name="{link}"')
+    path.write_text(text, encoding="utf-8")
+    assert validate(path, states=2, truths=0).passed
+
+
+@needs_pinocchio
+def test_a_file_that_pinocchio_cannot_read_is_named(tmp_path):
+    path, text = tmp_path / "robot.urdf", find("pendulum").path.read_text(encoding="utf-8")
+    path.write_text(text.replace('<robot name="pendulum"', "<robot"), encoding="utf-8")
+    with pytest.raises(tw.ModelError, match=r"robot\.urdf: Pinocchio cannot read it: "):
+        validate(path)
 
 
 @needs_pinocchio

@@ -33,7 +33,7 @@ class Oracle:
     ImportError
         If Pinocchio is not installed.
     ModelError
-        If the two do not agree on the joints or their order.
+        If Pinocchio cannot read the file, or the two do not agree on the joints or their order.
     """
 
     def __init__(self, ours: Model, path: Path | None) -> None:
@@ -42,7 +42,10 @@ class Oracle:
             self.model = bridge.to_pinocchio_model(ours)
         else:
             root = (self.pin.JointModelFreeFlyer(),) if ours.base == "floating" else ()
-            self.model = self.pin.buildModelFromUrdf(str(path), *root)
+            try:
+                self.model = self.pin.buildModelFromUrdf(str(path), *root)
+            except ValueError as error:
+                raise ModelError(f"{path}: Pinocchio cannot read it: {error}") from None
             self.model.gravity.linear = ours.gravity
         self.data = self.model.createData()
         if tuple(self.model.names) != ours.joint_names:
@@ -92,10 +95,12 @@ class Oracle:
         return self.data
 
     def frame(self, name: str) -> int:
-        """Return the id of a frame. Where two frames share a name, ours says whether it is a link's or a joint's."""
+        """Return the id of a frame. Where two of one name lie apart, ours says whether it is a link's or a joint's."""
         kind, _, bare = name.partition(":")
         types = self.pin.FrameType
-        if self.model.existFrame(name):
+        if self.model.existFrame(name, types.BODY):  # of a link and a joint of one name in one place, either
+            found = self.model.getFrameId(name, types.BODY)
+        elif self.model.existFrame(name):
             found = self.model.getFrameId(name)
         else:  # the number of frames where there is none
             kinds = [types.BODY] if kind == "link" else [types.JOINT, types.FIXED_JOINT]
