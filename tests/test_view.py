@@ -86,6 +86,11 @@ def test_forces_that_were_given_say_which_feet_stand():
     assert seen.texts(seen.forces()) == ["", "7.0 N", "", ""]
 
 
+def test_complex_forces_are_refused():
+    with pytest.raises(ValueError, match="forces: expected real numbers, got complex128"):
+        subject(GO2, forces=np.ones((4, 3)) * 1j)
+
+
 def test_forces_on_one_body_are_summed_up_once():
     seen = subject("humanoid")
     texts = [text for text in seen.texts(seen.forces()) if text]

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array, as_array, as_constant, as_names
+from .checks import Array, as_exactly, as_names
 from .errors import ModelError, ShapeError, unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
@@ -80,9 +80,7 @@ class Builder:
             raise TypeError(f"name: expected a name, got {type(name).__name__} {name!r}")
         self._name = name
         self._base = base
-        self._gravity = as_constant(as_array(gravity, "gravity", 3), "gravity")
-        if self._gravity.shape != (3,):
-            raise ShapeError(f"gravity: expected shape (3,), got {self._gravity.shape}")
+        self._gravity = as_exactly(gravity, "gravity", 3)
         self._links: dict[str, Link] = {}
         flyer, joint_name = (FreeFlyer(), "root_joint") if base == "floating" else (None, "")
         inertia = SpatialInertia.zero() if root_inertia is None else root_inertia

@@ -22,6 +22,7 @@ __all__ = [
     "as_arrays",
     "as_constant",
     "as_count",
+    "as_exactly",
     "as_generator",
     "as_names",
     "as_number",
@@ -126,6 +127,21 @@ def as_constant(value: ArrayLike, name: str) -> Array:
     if x.dtype.kind == "c":
         raise ValueError(f"{name}: expected real numbers, got {x.dtype}")
     return x.astype(np.float64)
+
+
+def as_exactly(value: ArrayLike, name: str, *shape: int) -> Array:
+    """Convert one argument to float64: finite and real, of this shape and without batch axes.
+
+    Examples
+    --------
+    >>> as_exactly([[0, 0, -9.81]], "gravity", 3)
+    Traceback (most recent call last):
+    twistwrench.errors.ShapeError: gravity: expected shape (3,), got (1, 3)
+    """
+    x = as_constant(as_array(value, name, *shape), name)
+    if x.shape != shape:
+        raise ShapeError(f"{name}: expected shape {shape}, got {x.shape}")
+    return x
 
 
 def as_number(value: object, name: str) -> float:

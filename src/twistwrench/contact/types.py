@@ -17,8 +17,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
-from ..errors import ShapeError, unknown_name
+from ..checks import Array, as_exactly
+from ..errors import unknown_name
 from ..rotation import cross_matrix, exp3
 
 __all__ = ["Contact", "PointContact", "Pyramid", "SurfaceContact"]
@@ -141,7 +141,7 @@ class PointContact(Contact):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
-        n = _numbers(self.frame, "normal", self.normal, 3)
+        n = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
         if not n.any():
             raise ValueError(f"contact {self.frame!r}: normal: expected a direction, got zero")
         n = n / np.abs(n).max()
@@ -211,7 +211,7 @@ class SurfaceContact(Contact):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
-        half = _numbers(self.frame, "half_size", self.half_size, 2)
+        half = as_exactly(self.half_size, f"contact {self.frame!r}: half_size", 2)
         if (half <= 0).any():
             raise ValueError(f"contact {self.frame!r}: half_size: expected lengths above 0, got {half.tolist()}")
         object.__setattr__(self, "half_size", tuple(half.tolist()))
@@ -240,17 +240,7 @@ class SurfaceContact(Contact):
 def _coefficient(frame: str, mu: ArrayLike) -> float:
     if not isinstance(frame, str):
         raise unknown_name("frame", frame, ())
-    value = float(_numbers(frame, "mu", mu))
+    value = float(as_exactly(mu, f"contact {frame!r}: mu"))
     if value < 0:
         raise ValueError(f"contact {frame!r}: mu: expected at least 0, got {value:g}")
     return value
-
-
-def _numbers(frame: str, name: str, value: ArrayLike, *shape: int) -> Array:
-    """Return finite real numbers of a shape, in double precision."""
-    x = as_array(value, f"contact {frame!r}: {name}", *shape)
-    if x.shape != shape:
-        raise ShapeError(f"contact {frame!r}: {name}: expected shape {shape}, got {x.shape}")
-    if x.dtype.kind == "c":
-        raise ValueError(f"contact {frame!r}: {name}: expected real numbers, got {x.dtype}")
-    return x.astype(np.float64)

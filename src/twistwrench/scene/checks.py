@@ -8,9 +8,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array, as_constant
+from ..checks import Array, as_exactly
 from ..contact import Contact
-from ..errors import ModelError, ShapeError
+from ..errors import ModelError
 from ..model import Model
 
 __all__ = ["SAME_PLACE", "checked_contacts", "checked_wrenches", "expect_movable"]
@@ -66,10 +66,7 @@ def checked_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[st
     checked = {}
     for frame, value in wrenches.items():
         model.frame(frame)
-        wrench = as_constant(as_array(value, f"wrenches[{frame!r}]", 6), f"wrenches[{frame!r}]")
-        if wrench.ndim != 1:
-            raise ShapeError(f"wrenches[{frame!r}]: expected shape (6,), got {wrench.shape}")
-        checked[frame] = wrench
+        checked[frame] = as_exactly(value, f"wrenches[{frame!r}]", 6)
     return checked
 
 

@@ -8,9 +8,9 @@ from os import PathLike
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array, as_constant
+from ..checks import Array, as_exactly
 from ..door import one_configuration
-from ..errors import ModelError, ShapeError, no_model
+from ..errors import ModelError, no_model
 from ..model import Model
 from ..robots import load
 
@@ -29,10 +29,7 @@ def whole_robot(robot: str | PathLike[str] | Model, base: str | None, gravity: A
         raise ModelError(f"base: {model.name!r} has a fixed base, not a {base} one; load it with base='floating'")
     if gravity is None:
         return model
-    g = as_constant(as_array(gravity, "gravity", 3), "gravity")
-    if g.ndim != 1:
-        raise ShapeError(f"gravity: expected shape (3,), got {g.shape}")
-    return replace(model, gravity=g)
+    return replace(model, gravity=as_exactly(gravity, "gravity", 3))
 
 
 def posture(model: Model, q: ArrayLike | None) -> Array:

@@ -9,7 +9,7 @@ from os import PathLike
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
+from ..checks import Array, as_exactly
 from ..contact import Contact, PointContact, contact_inverse_dynamics, contact_placements
 from ..errors import ShapeError, SingularError, no_model
 from ..kinematics import forward_kinematics
@@ -153,7 +153,7 @@ def subject(
         t = motion.t if t is None else t
         motion = motion.q
     q = _configuration(model, motion)
-    given = None if forces is None else _exactly(forces, "forces", (*q.shape[:-1], len(touching), 3))
+    given = None if forces is None else as_exactly(forces, "forces", *q.shape[:-1], len(touching), 3)
     stands = np.ones((*q.shape[:-1], len(touching)), bool) if standing is None else standing
     stands = stands if given is None else (given != 0).any(axis=-1)
     return Subject(model, q, _times(q, t), touching, stands, given)
@@ -177,17 +177,10 @@ def _times(q: Array, t: ArrayLike | None) -> Array | None:
         if t is not None:
             raise ValueError("t: a single configuration has no times")
         return None
-    times = np.arange(len(q)) / 30 if t is None else _exactly(t, "t", (len(q),))
+    times = np.arange(len(q)) / 30 if t is None else as_exactly(t, "t", len(q))
     if (np.diff(times) <= 0).any():
         raise ValueError("t: expected times that grow")
     return times
-
-
-def _exactly(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Array:
-    array = as_array(value, name, *shape)
-    if array.shape != shape:
-        raise ShapeError(f"{name}: expected shape {shape}, got {array.shape}")
-    return array.astype(float)
 
 
 def _contacts(model: Model, contacts: Iterable[str | Contact] | None) -> tuple[Contact, ...]:
