@@ -1,6 +1,7 @@
 """The command line: what is printed, what is written, and the exit status."""
 
 import json
+import os
 import subprocess
 import sys
 
@@ -99,6 +100,20 @@ def test_json_goes_to_stdout_alone(capsys):
     assert found["passed"] is True
     assert [report["robot"] for report in found["reports"]] == ["pendulum", "cart_pole"]
     assert found["reports"][0]["rows"][0]["ours_vs_truth"] < 1e-12
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
+def test_letters_that_the_output_lacks_are_shown_by_their_numbers(encoding):
+    def said(*arguments):
+        environment = os.environ | {"PYTHONIOENCODING": encoding}
+        command = [sys.executable, "-m", "twistwrench", *arguments]
+        ran = subprocess.run(command, capture_output=True, env=environment)
+        assert (ran.returncode, ran.stderr) == (0, b"")
+        return ran.stdout.decode(encoding)
+
+    assert r"1e-12  \u2713" in said("validate", "pendulum", "--states", "1")
+    rows = json.loads(said("validate", "pendulum", "--states", "1", "--json", "-"))["reports"][0]["rows"]
+    assert "J̇ v, local" in [row["quantity"] for row in rows]
 
 
 def test_json_goes_to_a_file_beside_the_table(tmp_path, capsys):

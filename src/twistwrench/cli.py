@@ -7,6 +7,7 @@ and returns the exit status. What a command needs it imports there, so that ``--
 from __future__ import annotations
 
 import argparse
+import io
 import json
 import os
 import sys
@@ -63,6 +64,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.print_help(sys.stderr)
         parser.exit(MISUSED)
     args = parser.parse_args(argv)
+    if isinstance(sys.stdout, io.TextIOWrapper):  # a letter that a terminal or a file lacks is shown by its number
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         return int(args.run(args))
     except BrokenPipeError:  # the reader has seen enough, as in `twistwrench robots | head`
@@ -135,7 +138,7 @@ def run_validate(args: argparse.Namespace) -> int:
     if args.json:
         seconds = time.perf_counter() - start
         found = {"passed": passed, "seconds": round(seconds, 3), "reports": reports}
-        text = json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False)
+        text = json.dumps(found, indent=2, ensure_ascii=args.json == "-", allow_nan=False)
         print(text) if args.json == "-" else Path(args.json).write_text(text + "\n", encoding="utf-8")
     return 0 if passed else FAILED
 
