@@ -124,11 +124,33 @@ def test_json_goes_to_a_file_beside_the_table(tmp_path, capsys):
 
 
 def test_a_file_that_cannot_be_written_is_noticed_before_the_work(tmp_path, capsys):
-    for path in (tmp_path, tmp_path / "nowhere" / "report.json"):
-        assert main(["validate", "pendulum", *QUICK, "--json", str(path)]) == 2
-        out, err = capsys.readouterr()
-        assert out == ""
-        assert f"--json {path}: " in err
+    for command, option in [
+        (["validate", "pendulum", *QUICK], "--json"),
+        (["study", "trade", "pendulum", "--short"], "--json"),
+        (["study", "trade", "pendulum", "--short"], "--plot"),
+        (["study", "templates", "go2"], "--plot"),
+        (["study", "extremes"], "--json"),
+        (["view", "pendulum"], "--output"),
+    ]:
+        folder = tmp_path / f"folder{'.json' if option == '--json' else '.png'}"
+        folder.mkdir(exist_ok=True)
+        for path in (folder, tmp_path / "nowhere" / folder.name):
+            assert main([*command, option, str(path)]) == 2
+            out, err = capsys.readouterr()
+            assert out == ""
+            assert f"{option} {path}: " in err
+
+
+def test_a_file_without_a_name_is_none(capsys):
+    assert main(["validate", "pendulum", *QUICK, "--json", ""]) == 2
+    assert capsys.readouterr().out == ""
+
+
+def test_of_several_robots_all_are_known_before_the_work(capsys):
+    assert main(["validate", "pendulum", "pendulun", *QUICK]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "unknown robot 'pendulun'" in err
 
 
 def test_a_file_is_neither_emptied_nor_made_before_there_is_something_to_write(tmp_path, capsys):

@@ -452,6 +452,14 @@ def test_a_table_of_calls_that_nothing_disturbed_says_nothing_of_it():
     assert "other things to do" not in _table("go2", GO2, [], [])
 
 
+@pytest.mark.parametrize("samples", ["1", "-5", "few"])
+def test_the_study_takes_no_fewer_than_two_samples(samples, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["study", "templates", "go2", "--samples", samples])
+    assert stop.value.code == 2
+    assert f"--samples: expected a whole number, 2 or more, got '{samples}'" in capsys.readouterr().err
+
+
 def test_the_study_says_which_robot_is_not_known(capsys):
     assert main(["study", "templates", "go3"]) == 2
     assert "unknown robot 'go3'" in capsys.readouterr().err

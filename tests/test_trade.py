@@ -373,8 +373,8 @@ def test_the_command_shows_a_bar_if_told_to(capsys):
         (["pendulun"], "did you mean 'pendulum'"),
         (["nowhere/robot.urdf"], "nowhere/robot.urdf: no such file"),
         (["pendulum", "--only", "FK"], "unknown quantity 'FK'"),
-        (["pendulum", "--json", "nowhere/x.json"], "--json nowhere/x.json: there is no folder nowhere"),
-        (["pendulum", "--plot", "nowhere/x.png"], "--plot nowhere/x.png: there is no folder nowhere"),
+        (["pendulum", "--json", "nowhere/x.json"], "--json nowhere/x.json: No such file or directory"),
+        (["pendulum", "--plot", "nowhere/x.png"], "--plot nowhere/x.png: No such file or directory"),
         (["pendulum", "--plot", "x.bmp"], "--plot x.bmp: expected a file that ends with one of .png, .svg, .pdf"),
     ],
 )

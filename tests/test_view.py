@@ -14,7 +14,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import motions, plot
 from twistwrench.cli import main
-from twistwrench.robots.catalogue import PREFIX
+from twistwrench.robots.catalogue import PREFIX, find
 from twistwrench.rotation import quaternion_to_rotation
 from twistwrench.viewing.controls import add_joints, add_time
 from twistwrench.viewing.shapes import shapes
@@ -565,11 +565,20 @@ def test_the_command_takes_postures_frames_contacts_and_a_base(tmp_path, monkeyp
     seen = {}
     monkeypatch.setattr("twistwrench.viewing.showing.view", lambda *args, **how: seen.update(args=args, **how))
     monkeypatch.setattr(Figure, "savefig", lambda *args, **how: None)
-    words = "view go2 --base fixed --frame base --frame FL_foot --contact FL_foot --output x.svg"
+    words = "view go2 --base fixed --frame base --frame FL_foot --contact FL_foot --contact FL_foot --output x.svg"
     assert main([*words.split(), "--posture", "standing"]) == 0
     model, q = seen["args"]
     assert (model.base, seen["frames"], seen["contacts"]) == ("fixed", ["base", "FL_foot"], ["FL_foot"])
     np.testing.assert_array_equal(q, model.postures["standing"])
+
+
+def test_the_command_shows_bodies_that_cannot_exist(tmp_path):
+    text = find("pendulum").path.read_text(encoding="utf-8")
+    path = tmp_path / "robot.urdf"
+    path.write_text(re.sub(r'ixx="[^"]*"', 'ixx="100"', text), encoding="utf-8")
+    with pytest.raises(tw.ModelError, match="triangle inequality"):
+        tw.load(path)
+    assert main(["view", str(path), "--output", str(tmp_path / "robot.png")]) == 0
 
 
 def test_the_command_writes_a_page(tmp_path):

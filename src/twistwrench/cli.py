@@ -20,6 +20,7 @@ import twistwrench as tw
 
 from .errors import ModelError, NameNotFound, SingularError
 from .exercises.commands import register as add_exercises
+from .options import at_least, check_writable
 from .study.commands import register as add_study
 from .viewing.commands import register as add_view
 
@@ -121,11 +122,11 @@ def add_validate(commands: Commands) -> None:
     what.add_argument("--all", action="store_true", help="every robot on a fixed and on a floating base, a line each")
     parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own (--all: both)")
     parser.add_argument("--fast", action="store_true", help="hold what tw.fast computes: the rows that it has")
-    parser.add_argument("--states", type=_at_least(1), default=8, metavar="N", help="random states (8)")
-    parser.add_argument("--truths", type=_at_least(1), metavar="N", help="states with the truth computed (3; --all: 1)")
-    parser.add_argument("--seed", type=_at_least(0), default=0, metavar="N", help="of the random states (0)")
+    parser.add_argument("--states", type=at_least(1), default=8, metavar="N", help="random states (8)")
+    parser.add_argument("--truths", type=at_least(1), metavar="N", help="states with the truth computed (3; --all: 1)")
+    parser.add_argument("--seed", type=at_least(0), default=0, metavar="N", help="of the random states (0)")
     parser.add_argument("--json", metavar="FILE", help="write the results as JSON; - for stdout, without the table")
-    parser.add_argument("--jobs", type=_at_least(1), metavar="N", help="processes for --all (as many as processors)")
+    parser.add_argument("--jobs", type=at_least(1), metavar="N", help="processes for --all (as many as processors)")
     parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
     parser.set_defaults(run=run_validate, misuse=parser.error)
 
@@ -135,7 +136,7 @@ def run_validate(args: argparse.Namespace) -> int:
     _check_options(args)
     start = time.perf_counter()
     reports, passed = (_validate_all if args.all else _validate_some)(args)
-    if args.json:
+    if args.json is not None:
         seconds = time.perf_counter() - start
         found = {"passed": passed, "seconds": round(seconds, 3), "reports": reports}
         text = json.dumps(found, indent=2, ensure_ascii=args.json == "-", allow_nan=False)
@@ -190,38 +191,14 @@ def _check_options(args: argparse.Namespace) -> None:
         args.misuse("argument --jobs: only with --all")
     if args.truths and args.truths > args.states:
         args.misuse(f"argument --truths: expected at most the number of states, {args.states}, got {args.truths}")
-    if args.json and args.json != "-":
-        _check_writable(Path(args.json))
-
-
-def _check_writable(path: Path) -> None:
-    """Open the file that will be written; leave behind what was there."""
-    new = not path.exists()
-    try:
-        path.open("a").close()
-    except OSError as error:
-        raise OSError(f"--json {path}: {error.strerror}") from None
-    if new:
-        path.unlink()
+    if args.json != "-":
+        check_writable("--json", None if args.json is None else Path(args.json))
+    for name in args.robot[1:]:  # the first is met at once
+        tw.load(name, base=args.base, physical=False, mimic="independent")
 
 
 def _shows_bar(args: argparse.Namespace) -> bool:
     return args.progress or sys.stderr.isatty()
-
-
-def _at_least(least: int) -> Callable[[str], int]:
-    """Return what reads a whole number that is not below another."""
-
-    def read(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            value = least - 1
-        if value < least:
-            raise argparse.ArgumentTypeError(f"expected a whole number, {least} or more, got {text!r}")
-        return value
-
-    return read
 
 
 COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_view, add_study, add_exercises)

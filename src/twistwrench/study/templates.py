@@ -15,6 +15,7 @@ import twistwrench as tw
 
 from ..clock import round_robin
 from ..motions import MOTIONS, Motion
+from ..options import at_least, check_writable
 from ..templates import TEMPLATES
 from .trade.picture import check_format
 
@@ -126,7 +127,7 @@ def add_templates(studies: Any) -> None:
         "each, and time them in turns.",
     )
     parser.add_argument("robot", nargs="*", default=list(ROBOTS), metavar="ROBOT", help=f"({' '.join(ROBOTS)})")
-    parser.add_argument("--samples", type=int, default=200, metavar="N", help="states of each motion (200)")
+    parser.add_argument("--samples", type=at_least(2), default=200, metavar="N", help="states of each motion (200)")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the first robot: a png, svg or pdf")
     parser.set_defaults(run=run_templates)
 
@@ -137,6 +138,7 @@ def run_templates(args: argparse.Namespace) -> int:
 
     if args.plot is not None:
         check_format(args.plot)
+        check_writable("--plot", args.plot)
     drawn = args.plot is None
     for robot in args.robot:
         try:

@@ -7,6 +7,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+from ..options import check_writable
+
 __all__ = ["register"]
 
 PICTURES = (".png", ".svg", ".pdf")
@@ -38,6 +40,7 @@ def run_view(args: argparse.Namespace) -> int:
     if args.output and suffix not in (*PICTURES, ".html"):
         args.misuse(f"argument --output: expected a name in {', '.join(PICTURES)} or .html, got {args.output}")
     if args.output:
+        check_writable("--output", args.output)
         _write(args, suffix)
     elif args.browser:
         _serve(args)
@@ -52,14 +55,15 @@ def _view(args: argparse.Namespace, **how: Any) -> Any:
     from ..robots import load
     from .showing import view
 
-    model, q = load(args.robot, base=args.base), None
+    model, q = load(args.robot, base=args.base, physical=False), None
     if args.posture is not None:
         if args.posture not in model.postures:
             raise unknown_name("posture", args.posture, model.postures, f" of {args.robot!r}")
         q = model.postures[args.posture]
     if how.get("backend") == "browser":
         how["meshes"] = args.robot
-    return view(model, q, contacts=args.contact, frames=args.frame, **how)
+    contacts = None if args.contact is None else list(dict.fromkeys(args.contact))
+    return view(model, q, contacts=contacts, frames=args.frame, **how)
 
 
 def _write(args: argparse.Namespace, suffix: str) -> None:

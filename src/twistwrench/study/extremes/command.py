@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from ...options import check_writable
+
 __all__ = ["add_extremes"]
 
 FAILED = 1
@@ -28,8 +30,8 @@ def add_extremes(studies: Any) -> None:
         metavar="FILE",
         help="where each cell is kept as it is done; a study goes on from there (extremes.jsonl)",
     )
-    parser.add_argument("--json", metavar="FILE", help="write what was counted as JSON")
-    parser.add_argument("--pictures", metavar="FOLDER", help="draw the map of every algorithm into a folder")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write what was counted as JSON")
+    parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="draw the map of every algorithm into a folder")
     parser.add_argument(
         "--angles", type=_count, default=10_000, metavar="N", help="of exp and log; 0 leaves them out (10000)"
     )
@@ -51,18 +53,21 @@ def run_extremes(args: argparse.Namespace) -> int:
     from .rotations import rotations
     from .run import run
 
+    check_writable("--json", args.json)
+    if args.pictures is not None:
+        args.pictures.mkdir(parents=True, exist_ok=True)
     kept = Path(args.cells or "extremes.jsonl") if args.full or args.cells else None
     bar = args.progress or sys.stderr.isatty()
     found = run(cells(full=args.full), kept, pinocchio=_pinocchio(), progress=bar)
     print(report.table(found))
     turns = rotations(args.angles, progress=bar) if args.angles else []
     print("\n".join(["", *report.turns(turns)]) if turns else "", end="\n" if turns else "")
-    if args.json:
-        _write(Path(args.json), report.as_dict(found) | {"exp and log": [turn._asdict() for turn in turns]})
-    if args.pictures:
+    if args.json is not None:
+        _write(args.json, report.as_dict(found) | {"exp and log": [turn._asdict() for turn in turns]})
+    if args.pictures is not None:
         from .picture import save
 
-        print("\n".join(str(path) for path in save(found, Path(args.pictures))))
+        print("\n".join(str(path) for path in save(found, args.pictures)))
     wrong = report.bad(found)
     for cell, outcome in wrong:
         print(f"{cell}: {outcome.algorithm} by {outcome.who}: {outcome.bad}", file=sys.stderr)

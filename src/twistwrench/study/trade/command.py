@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ...options import at_least, check_writable
 from .run import FULL, KEYS, SHORT, weigh
 
 __all__ = ["add_trade"]
@@ -22,7 +23,7 @@ def add_trade(studies: Any) -> None:
     parser.add_argument("robot", nargs="?", default="go2", metavar="ROBOT", help="a catalogue name or a URDF (go2)")
     parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own")
     parser.add_argument("--only", action="append", default=[], metavar="KEY", help=f"of {', '.join(KEYS)}; repeatable")
-    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of the random states (0)")
+    parser.add_argument("--seed", type=at_least(0), default=0, metavar="N", help="of the random states (0)")
     parser.add_argument("--short", action="store_true", help="few states and rounds: to see that all is there")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write everything as JSON")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="draw error over time: a png, svg or pdf")
@@ -32,9 +33,9 @@ def add_trade(studies: Any) -> None:
 
 def run_trade(args: argparse.Namespace) -> int:
     """Measure, print, write, draw."""
-    for name in ("json", "plot"):
-        _check_folder(name, getattr(args, name))
-    if args.plot:
+    check_writable("--json", args.json)
+    check_writable("--plot", args.plot)
+    if args.plot is not None:
         from .picture import check_format, draw
 
         check_format(args.plot)
@@ -42,20 +43,8 @@ def run_trade(args: argparse.Namespace) -> int:
     progress = True if args.progress else None
     trade = weigh(args.robot, base=args.base, only=args.only, effort=effort, rng=args.seed, progress=progress)
     print(trade)
-    if args.json:
+    if args.json is not None:
         args.json.write_text(trade.to_json() + "\n", encoding="utf-8")
-    if args.plot:
+    if args.plot is not None:
         draw(trade, args.plot)
     return 0
-
-
-def _seed(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"expected a whole number, 0 or more, got {text!r}")
-    return int(text)
-
-
-def _check_folder(name: str, path: Path | None) -> None:
-    """Refuse, before a minute of work, what could not be written at its end."""
-    if path is not None and not path.parent.is_dir():
-        raise FileNotFoundError(f"--{name} {path}: there is no folder {path.parent}")

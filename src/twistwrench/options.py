@@ -1,0 +1,43 @@
+"""What the commands ask of their options: a whole number, and a file that can be written."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+
+__all__ = ["at_least", "check_writable"]
+
+
+def at_least(least: int) -> Callable[[str], int]:
+    """Return what reads a whole number that is not below another."""
+
+    def read(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            value = least - 1
+        if value < least:
+            raise argparse.ArgumentTypeError(f"expected a whole number, {least} or more, got {text!r}")
+        return value
+
+    return read
+
+
+def check_writable(option: str, path: Path | None) -> None:
+    """Open the file that will be written, before the work; leave behind what was there.
+
+    Raises
+    ------
+    OSError
+        Naming the option.
+    """
+    if path is None:
+        return
+    new = not path.exists()
+    try:
+        path.open("a").close()
+    except OSError as error:
+        raise OSError(f"{option} {path}: {error.strerror}") from None
+    if new:
+        path.unlink()
