@@ -86,7 +86,10 @@ class Joint(ABC):
 
 
 class GroupJoint(Joint):
-    """A joint whose q has a unit part, so that a step is no addition but T(q) exp(S dv)."""
+    """A joint whose q has a unit part, so that a step is no addition but T(q) exp(S dv).
+
+    The columns of its S are orthonormal: Sᵀ reads dv off the twist S dv.
+    """
 
     @abstractmethod
     def coordinates(self, T: SE3, near: Array) -> Array:
