@@ -395,6 +395,10 @@ def test_an_error_in_a_process_is_seen(pool):
         fast.aba(massless(), q, q, q, workers=pool)
 
 
+def test_numpys_whole_numbers_count_workers_too(states):
+    assert_equal_to_rounding(fast.crba(GO2, states.q, workers=np.int64(1)), fast.crba(GO2, states.q))
+
+
 @pytest.mark.parametrize("workers", [0, -1])
 def test_there_must_be_a_worker(workers, states):
     with pytest.raises(ValueError, match=f"workers: expected 1 or more, or an Executor, got {workers}"):

@@ -123,7 +123,7 @@ def _batch_first(x: Array, tail: int) -> Array:
 
 def check_workers(workers: int | Executor) -> None:
     """Refuse less than one."""
-    if not isinstance(workers, Executor) and not (isinstance(workers, int) and workers >= 1):
+    if not isinstance(workers, Executor) and not (isinstance(workers, int | np.integer) and workers >= 1):
         raise ValueError(f"workers: expected 1 or more, or an Executor, got {workers!r}")
 
 
