@@ -70,6 +70,21 @@ def test_a_picture_makes_its_own_axes_where_none_are_given():
     plt.close("all")
 
 
+@pytest.mark.parametrize(
+    ("draw", "said"),
+    [
+        (lambda ax: plot.arrows(np.eye(3), np.eye(3), texts=["a"], ax=ax), "texts: expected one for each of 3 arrows"),
+        (lambda ax: plot.robot(MODEL, Q, frames="FL_foot", ax=ax), "frames: expected a sequence of frame names"),
+        (lambda ax: plot.screw_axis(V, near=np.eye(3), ax=ax), r"near: expected shape \(3,\), got \(3, 3\)"),
+        (lambda ax: plot.matrix(np.eye(2), limit=-1, ax=ax), "limit: expected a number above zero, got -1"),
+        (lambda ax: plot.matrix(np.eye(2), limit=0, ax=ax), "limit: expected a number above zero, got 0"),
+    ],
+)
+def test_what_cannot_be_drawn_is_named(draw, said, space):
+    with pytest.raises(ValueError, match=said):
+        draw(space)
+
+
 def test_flat_axes_are_refused_for_a_picture_of_space(flat):
     with pytest.raises(TypeError, match="projection='3d'"):
         plot.robot(MODEL, Q, ax=flat)

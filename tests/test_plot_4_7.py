@@ -60,6 +60,24 @@ def test_a_picture_is_drawn_on_the_axes_given(draw, fixture, request):
     assert ax.figure.axes == [ax]
 
 
+@pytest.mark.parametrize(
+    ("draw", "fixture", "said"),
+    [
+        (lambda ax: plot.friction_cone(np.eye(3), 0.5, ax=ax), "space", r"point: expected shape \(3,\), got \(3, 3\)"),
+        (lambda ax: plot.ellipsoids(MODEL, Q, names="hinge", ax=ax), "space", "names: expected a sequence of joint nam"),
+        (lambda ax: plot.sole([CORNERS, CORNERS], ax=ax), "flat", r"corners: expected shape \(n, 3\), got \(2, 4, 3\)"),
+        (lambda ax: plot.sole(CORNERS, np.ones((2, 6)), ax=ax), "flat", r"F: expected shape \(6,\), got \(2, 6\)"),
+        (lambda ax: plot.felt_mass(np.ones((2, 6, 6)), ax=ax), "flat", r"inertia: expected shape \(6, 6\), got"),
+        (lambda ax: plot.felt_mass(np.eye(6), (1, 2, 3), ax=ax), "flat", r"at: expected shape \(..., 2\), got \(3,\)"),
+        (lambda ax: plot.felt_mass(np.eye(6), plane=(-1, -2), ax=ax), "flat", "plane: expected two of the axes 0, 1, 2"),
+        (lambda ax: plot.felt_mass(np.eye(6), plane=(2, 2), ax=ax), "flat", "plane: expected two of the axes 0, 1, 2"),
+    ],
+)
+def test_what_cannot_be_drawn_is_named(draw, fixture, said, request):
+    with pytest.raises(ValueError, match=said):
+        draw(request.getfixturevalue(fixture))
+
+
 # ---------------------------------------------------------------- wrenches
 
 
@@ -120,7 +138,6 @@ def test_a_sole_shows_the_centre_of_pressure_where_the_force_acts(flat):
     left, right = flat.get_xlim()
     assert left > right  # y to the left
     plot.sole(CORNERS, np.concatenate([np.cross(-point, force), force]), ax=flat)
-    assert len(flat.patches) == 1  # the same foot
     assert flat.get_xlim() == (left, right)
 
 
@@ -179,6 +196,14 @@ def test_bodies_without_mass_are_left_out(space):
     builder.link("second", parent="first", joint=tw.Revolute("y"), inertia=tw.SpatialInertia(1, [0, 0, 1], np.eye(3)))
     plot.ellipsoids(builder.build(), [0.0, 0.0], ax=space)
     assert len(space.collections) == 1
+
+
+def test_every_sole_that_is_drawn_has_its_own_corners(flat):
+    plot.sole(CORNERS, ax=flat)
+    plot.sole(2 * np.asarray(CORNERS), ax=flat)
+    first, second = (patch.get_xy() for patch in flat.patches)
+    np.testing.assert_array_equal(second, 2 * first)
+    assert flat.xaxis.get_inverted()
 
 
 def test_the_mass_of_a_rigid_body_is_felt_alike_in_every_direction(flat):

@@ -49,6 +49,26 @@ def test_a_picture_is_drawn_on_the_axes_given(draw, fixture, request):
     assert ax.figure.axes == [ax]
 
 
+@pytest.mark.parametrize(
+    ("draw", "said"),
+    [
+        (lambda ax: plot.support_polygon(np.zeros((0, 3)), ax=ax), "points: expected shape .* n of at least 1, got"),
+        (lambda ax: plot.support_polygon([0, 0, 0], ax=ax), r"points: expected shape .*, got \(3,\)"),
+        (lambda ax: plot.support_polygon(np.eye(3), np.eye(3), ax=ax), r"com: expected shape \(3,\), got \(3, 3\)"),
+        (lambda ax: plot.foot_forces(MODEL, Q, np.eye(3), "FL_foot", ax=ax), "contacts: expected a sequence of frame"),
+        (lambda ax: plot.foot_forces(MODEL, Q, np.ones((2, 4, 3)), ax=ax), r"forces: expected shape \(4, 3\), got"),
+    ],
+)
+def test_what_cannot_be_drawn_is_named(draw, said, space):
+    with pytest.raises(ValueError, match=said):
+        draw(space)
+
+
+def test_contacts_may_come_from_an_iterator(space):
+    plot.foot_forces(MODEL, Q, np.ones((4, 3)), iter(MODEL.feet), ax=space)
+    assert len(space.texts) == 4
+
+
 # ---------------------------------------------------------------- the mass matrix
 
 

@@ -118,7 +118,7 @@ def test_the_figure_shows_frames_centre_of_mass_polygon_and_forces_in_their_plac
 def test_frames_that_are_asked_for_are_the_only_ones_and_carry_their_names(space):
     tw.view("planar_arm", frames=[], ax=space)
     without = len(space.lines)
-    tw.view("planar_arm", frames=[tw.load("planar_arm").frame_names[-1]], ax=space)
+    tw.view("planar_arm", frames=iter([tw.load("planar_arm").frame_names[-1]]), ax=space)
     assert len(space.lines) == 2 * without + 3
     assert [text.get_text().strip() for text in space.texts] == [tw.load("planar_arm").frame_names[-1]]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._spatial_vector import as_spatial
-from ..checks import Array, as_array, as_number
-from ..errors import SingularError
+from ..checks import Array, as_array, as_exactly, as_number
+from ..errors import ShapeError, SingularError
 from ..wrench import Wrench
 from .style import COLOURS, axes_2d, axes_3d, fit
 
@@ -92,7 +92,7 @@ def friction_cone(
     """
     mu = as_number(mu, "mu")
     height = as_number(height, "height")
-    p = as_array(point, "point", 3).reshape(3).astype(float)
+    p = as_exactly(point, "point", 3)
     angle = np.linspace(0, 2 * np.pi, 49)
     rim = p + height * np.stack([mu * np.cos(angle), mu * np.sin(angle), np.ones(49)], axis=-1)
     ax = axes_3d(ax)
@@ -132,7 +132,7 @@ def sole(
     Raises
     ------
     ShapeError, SingularError, TypeError
-        As `center_of_pressure`.
+        As `center_of_pressure`; or if `corners` are no points, or `F` is a batch.
 
     Examples
     --------
@@ -143,13 +143,14 @@ def sole(
     array([[0.  , 0.01]])
     """
     c = as_array(corners, "corners", 3).astype(float)
+    if c.ndim != 2:
+        raise ShapeError(f"corners: expected shape (n, 3), got {c.shape}")
     ax = axes_2d(ax, size=(3.0, 4.0))
-    if not ax.patches:
-        ax.fill(c[:, 1], c[:, 0], facecolor="0.92", edgecolor=COLOURS["black"], linewidth=1.2)
-        ax.set(xlabel="y [m]", ylabel="x [m]", aspect="equal")
-        ax.invert_xaxis()
+    ax.fill(c[:, 1], c[:, 0], facecolor="0.92", edgecolor=COLOURS["black"], linewidth=1.2)
+    ax.set(xlabel="y [m]", ylabel="x [m]", aspect="equal")
+    ax.xaxis.set_inverted(True)
     if F is not None:
-        x, y, _ = center_of_pressure(as_spatial(F, "F").reshape(6).astype(float))
+        x, y, _ = center_of_pressure(as_exactly(as_spatial(F, "F"), "F", 6))
         ax.plot(y, x, "o", color=colour, markersize=8)
         ax.annotate(text, (y, x), xytext=(6, 4), textcoords="offset points", fontsize=8)
     return ax

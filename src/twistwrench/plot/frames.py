@@ -91,7 +91,7 @@ def arrows(
     Raises
     ------
     ShapeError
-        If a last axis is not 3 long, or the others do not broadcast.
+        If a last axis is not 3 long, or the others do not broadcast, or there is not one text for each arrow.
 
     Examples
     --------
@@ -106,6 +106,8 @@ def arrows(
         p, x = (a.reshape(-1, 3) for a in np.broadcast_arrays(p, x))
     except ValueError:
         raise ShapeError(f"points and vectors: shapes {p.shape} and {x.shape} do not broadcast") from None
+    if len(texts) not in (0, len(p)):
+        raise ShapeError(f"texts: expected one for each of {len(p)} arrows, got {len(texts)}")
     ax = axes_3d(ax)
     tips = p + scale * x
     ax.quiver(*p.mT, *(scale * x).mT, color=colour, label=label, arrow_length_ratio=0.15, linewidth=1.6)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array, as_number
+from ..checks import Array, as_exactly, as_names, as_number
 from ..errors import ShapeError
 from ..inertia import SpatialInertia
 from ..kinematics import forward_kinematics
@@ -154,7 +154,7 @@ def ellipsoids(
     2
     """
     placement = forward_kinematics(model, q).placement
-    labels = {model.joint_id(name): name for name in names}
+    labels = {model.joint_id(name): name for name in as_names(names, "names", "joint names")}
     ax = axes_3d(ax)
     for i in range(1, model.nbodies):
         if model.inertia[i].mass > 0:
@@ -199,7 +199,9 @@ def felt_mass(
     Raises
     ------
     ShapeError
-        If `inertia` is not one 6 × 6 matrix.
+        If `inertia` is not one 6 × 6 matrix, or `at` no point of the picture.
+    ValueError
+        If `plane` is not two of the axes 0, 1, 2.
 
     Examples
     --------
@@ -210,10 +212,12 @@ def felt_mass(
     np.float64(2.0)
     """
     scale = as_number(scale, "scale")
-    M = as_array(inertia, "inertia", 6, 6).reshape(6, 6).astype(float)
+    if not len(plane) == 2 == len({0, 1, 2} & set(plane)):
+        raise ValueError(f"plane: expected two of the axes 0, 1, 2, got {plane}")
+    M = as_exactly(inertia, "inertia", 6, 6)
     block = M[np.ix_(3 + np.array(plane), 3 + np.array(plane))]
     angle = np.linspace(0, 2 * np.pi, 73)
-    curve = np.asarray(at, float) + scale * np.stack([np.cos(angle), np.sin(angle)], axis=-1) @ block.mT
+    curve = as_exactly(at, "at", 2) + scale * np.stack([np.cos(angle), np.sin(angle)], axis=-1) @ block.mT
     ax = axes_2d(ax)
     ax.plot(*curve.mT, color=colour, label=label, linewidth=1.8)
     ax.set_aspect("equal")

@@ -58,6 +58,8 @@ def matrix(
     ------
     ShapeError
         If `A` is not a matrix, or the names are not as many as its rows and columns.
+    ValueError
+        If `limit` is not above zero.
 
     Examples
     --------
@@ -66,7 +68,8 @@ def matrix(
     >>> [text.get_text() for text in ax.texts]
     ['1', '-1']
     """
-    limit = None if limit is None else as_number(limit, "limit")
+    if limit is not None and not as_number(limit, "limit") > 0:
+        raise ValueError(f"limit: expected a number above zero, got {limit}")
     rounding = as_number(rounding, "rounding")
     A = as_array(A, "A").astype(float)
     if A.ndim != 2 or len(rows) not in (0, A.shape[0]) or len(columns) not in (0, A.shape[1]):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
-from ..checks import Array
+from ..checks import Array, as_names
 from ..door import state_of
 from ..errors import ShapeError
 from ..kinematics import forward_kinematics, frame_placement
@@ -103,7 +103,7 @@ def robot(
     >>> robot(model, model.standing(), frames=["FR_foot"], ax=ax).texts[0].get_text().strip()
     'FR_foot'
     """
-    lines = sticks(model, q)
+    lines, frames = sticks(model, q), as_names(frames, "frames", "frame names")
     ax = axes_3d(ax)
     for line in lines:
         ax.plot(*line.mT, color=colour, linewidth=3, solid_capstyle="round")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._spatial_vector import as_spatial
-from ..checks import Array, as_array, as_arrays, as_number
+from ..checks import Array, as_array, as_arrays, as_exactly, as_number
 from ..errors import ShapeError
 from ..twist import Twist, screw
 from ..wrench import Wrench
@@ -95,7 +95,7 @@ def screw_axis(
     if x.ndim != 1:
         raise ShapeError(f"V: expected one {kind}, got a batch of shape {x.shape[:-1]}")
     axis, point = (part.astype(float) for part in screw(V if kind == "wrench" else x)[:2])
-    point = point + axis * (axis * (as_array(near, "near", 3) - point)).sum(-1)
+    point = point + axis * (axis * (as_exactly(near, "near", 3) - point)).sum(-1)
     ax = axes_3d(ax)
     ends = point + length / 2 * np.stack([-axis, axis])
     ax.plot(*ends.mT, "--", color=colour, linewidth=1.6, label=label)

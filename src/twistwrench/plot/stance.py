@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
-from ..checks import Array, as_array, as_number
+from ..checks import Array, as_array, as_exactly, as_names, as_number
 from ..door import check_model
+from ..errors import ShapeError
 from ..kinematics import frame_placement
 from ..model import Model
 from .frames import arrows
@@ -98,7 +99,7 @@ def support_polygon(
     Raises
     ------
     ShapeError
-        If these are no points.
+        If these are no points, or none.
 
     Examples
     --------
@@ -108,14 +109,17 @@ def support_polygon(
     >>> len(ax.collections), len(ax.lines)
     (1, 3)
     """
-    corners = hull(as_array(points, "points", 3).astype(float))
+    p = as_array(points, "points", 3).astype(float)
+    if p.ndim != 2 or not len(p):
+        raise ShapeError(f"points: expected shape (n, 3) with n of at least 1, got {p.shape}")
+    corners = hull(p)
     ax = axes_3d(ax)
     ax.plot(*np.concatenate([corners, corners[:1]]).mT, color=colour, linewidth=1.5, label=label)
     if len(corners) > 2:
         fan = [(0, k, k + 1) for k in range(1, len(corners) - 1)]
         ax.plot_trisurf(*corners.mT, triangles=fan, color=colour, alpha=0.35, linewidth=0, shade=False)
     if com is not None:
-        c = as_array(com, "com", 3).astype(float)
+        c = as_exactly(com, "com", 3)
         floor = np.array([c[0], c[1], corners[:, 2].mean()])
         ax.plot(*np.stack([c, floor], axis=-1), ":", color=COLOURS["purple"], linewidth=1.5)
         ax.plot(*floor[:, None], "o", color=COLOURS["purple"], markersize=5)
@@ -171,8 +175,8 @@ def foot_forces(
     """
     scale = as_number(scale, "scale")
     check_model(model)
-    contacts = model.feet if contacts is None else contacts
-    f = as_array(forces, "forces", len(contacts), 3).astype(float)
+    contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names")
+    f = as_exactly(forces, "forces", len(contacts), 3)
     places = np.array([frame_placement(model, q, name).translation for name in contacts], dtype=float)
     ax = robot(model, q, ax=ax)
     support_polygon(places, center_of_mass(model, q), ax=ax)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
 
+from ..checks import as_names
 from ..errors import ShapeError, unknown_name
 
 if TYPE_CHECKING:
@@ -92,8 +93,10 @@ def view(
     if not isinstance(backend, str) or backend not in BACKENDS:
         raise unknown_name("backend", backend, BACKENDS)
     seen = subject(robot, q, t=t, contacts=contacts, forces=forces)
-    for name in frames or ():
-        seen.model.frame(name)
+    if frames is not None:
+        frames = as_names(frames, "frames", "frame names")
+        for name in frames:
+            seen.model.frame(name)
     if backend == "browser":
         if ax is not None:
             raise ValueError("ax: means nothing in the browser")
