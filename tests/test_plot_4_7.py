@@ -64,13 +64,13 @@ def test_a_picture_is_drawn_on_the_axes_given(draw, fixture, request):
     ("draw", "fixture", "said"),
     [
         (lambda ax: plot.friction_cone(np.eye(3), 0.5, ax=ax), "space", r"point: expected shape \(3,\), got \(3, 3\)"),
-        (lambda ax: plot.ellipsoids(MODEL, Q, names="hinge", ax=ax), "space", "names: expected a sequence of joint nam"),
+        (lambda ax: plot.ellipsoids(MODEL, Q, names="hinge", ax=ax), "space", "names: expected a sequence of"),
         (lambda ax: plot.sole([CORNERS, CORNERS], ax=ax), "flat", r"corners: expected shape \(n, 3\), got \(2, 4, 3\)"),
         (lambda ax: plot.sole(CORNERS, np.ones((2, 6)), ax=ax), "flat", r"F: expected shape \(6,\), got \(2, 6\)"),
         (lambda ax: plot.felt_mass(np.ones((2, 6, 6)), ax=ax), "flat", r"inertia: expected shape \(6, 6\), got"),
         (lambda ax: plot.felt_mass(np.eye(6), (1, 2, 3), ax=ax), "flat", r"at: expected shape \(..., 2\), got \(3,\)"),
-        (lambda ax: plot.felt_mass(np.eye(6), plane=(-1, -2), ax=ax), "flat", "plane: expected two of the axes 0, 1, 2"),
-        (lambda ax: plot.felt_mass(np.eye(6), plane=(2, 2), ax=ax), "flat", "plane: expected two of the axes 0, 1, 2"),
+        (lambda ax: plot.felt_mass(np.eye(6), plane=(-1, -2), ax=ax), "flat", "plane: expected two of the axes"),
+        (lambda ax: plot.felt_mass(np.eye(6), plane=(2, 2), ax=ax), "flat", "plane: expected two of the axes"),
     ],
 )
 def test_what_cannot_be_drawn_is_named(draw, fixture, said, request):
