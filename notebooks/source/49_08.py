@@ -199,7 +199,7 @@ assert np.abs(tips_first[other_legs]).max() < 1e-12
 # ## 正定,以及什么时候不正定
 #
 # 只要没有哪种运动能让所有带质量的东西都静止,$\dot q^T M \dot q = 2T$ 对任何运动都为正。所以 $M$ 的特征值都为正,
-# 满秩。末端连杆没有质量就会破坏这一点:它的关节转动不需要能量。这时正动力学没有答案,`aba` 会告诉你。
+# 满秩。末端连杆没有质量就会破坏这一点:它的关节转动不需要能量。这时正向动力学没有答案,`aba` 会告诉你。
 # %%
 eigenvalues = np.linalg.eigvalsh(many)
 print(f"eigenvalues in 50 postures: {eigenvalues.min():.2g} to {eigenvalues.max():.3g}")

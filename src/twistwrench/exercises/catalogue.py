@@ -26,7 +26,7 @@ SECTIONS = {
     "49.4": Text("Wrenches", "Wrench（空间力）"),
     "49.5": Text("Spatial inertia", "空间惯量"),
     "49.6": Text("Inverse dynamics: RNEA", "逆动力学：RNEA"),
-    "49.7": Text("Forward dynamics: ABA", "正动力学：ABA"),
+    "49.7": Text("Forward dynamics: ABA", "正向动力学：ABA"),
     "49.8": Text("Mass matrix: CRBA", "质量矩阵：CRBA"),
     "49.9": Text("The floating base", "浮动基座方程"),
     "49.10": Text("Centroidal momentum", "质心动量"),

@@ -102,7 +102,7 @@ TWO_WAYS = Part(
             lambda answer, model, q, v, a: answer[0] - answer[1],
         ),
         Property(
-            Text("forward dynamics undoes it: ABA gives a back", "正动力学是其逆：ABA 应还原 a"),
+            Text("forward dynamics undoes it: ABA gives a back", "正向动力学是其逆：ABA 应还原 a"),
             lambda answer, model, q, v, a: tw.aba(model, q, v, answer[1]) - a,
         ),
     ),

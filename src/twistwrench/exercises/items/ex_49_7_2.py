@@ -232,7 +232,7 @@ EXERCISE = Exercise(
 
         A time is easily measured wrong. So write the measurement as a function first. It is checked on machines
         whose clocks we know; your own machine's speed is not.""",
-        """正动力学可以用 ABA 在 O(N) 内得到，也可以用 CRBA 构造 M、用 RNEA 求 h，再解 M q̈ = τ − h，复杂度 O(N³)。
+        """正向动力学可以用 ABA 在 O(N) 内得到，也可以用 CRBA 构造 M、用 RNEA 求 h，再解 M q̈ = τ − h，复杂度 O(N³)。
         对 18 自由度的 Go2 比较两者的耗时，各调用 100 次，可以画成柱状图。差异有多大？
 
         时间很容易测错。所以先把测量写成函数，用时钟已知的机器来检验它；不检验你自己机器的快慢。""",

@@ -157,7 +157,7 @@ CONSISTENCY = Part(
         model: with a floating base. q: array (nq,). v, tau: arrays (nv,); the base's entries of tau
         are zero.
         Returns: a number ≥ 0.""",
-        """返回逆动力学还原正动力学的误差：还原出的力减 τ 的最大分量（取绝对值），除以 τ 的最大分量。
+        """返回逆动力学还原正向动力学的误差：还原出的力减 τ 的最大分量（取绝对值），除以 τ 的最大分量。
 
         forward：按 `tw.aba(model, q, v, tau)` 调用。inverse：按 `tw.rnea(model, q, v, a)` 调用。其中
         之一可能有错。
@@ -189,7 +189,7 @@ EXERCISE = Exercise(
         The chapter wants each foot at about m g/4, from g = J_cᵀλ: that lacks Sᵀτ, see 49.11.3. It also wants all of it
         within 0.1 ms. That can be had, but not with every implementation: name yours, and the machine.""",
         """对整体做三项检验。静力：只用杠杆原理（不用动力学）求每只脚的负载，并与你在 49.11.3 写的 `standing_forces`
-        比较。一致性：写一个能发现错误正动力学的检验；它会用在一个正确的和几个有错的实现上。
+        比较。一致性：写一个能发现错误正向动力学的检验；它会用在一个正确的和几个有错的实现上。
         性能：测量一次调用的耗时，结果不应取决于运气。然后测量 Go2 的 get_dynamics，写下你的结果。
 
         本章由 g = J_cᵀλ 得每只脚约 m g/4，那漏了 Sᵀτ，见 49.11.3。本章还要求全部计算小于 0.1 ms：这可以做到，
