@@ -696,6 +696,34 @@ def test_every_robot_of_example_robot_data_is_taken_over(robot):
 
 
 @needs_pinocchio
+@pytest.mark.parametrize(
+    ("where", "value", "said"),
+    [
+        ("gravity", lambda: pin.Motion(np.array([0, 0, np.nan]), np.zeros(3)), "gravity: expected a finite acceleration"),
+        ("armature", lambda: np.array([0.0, np.nan]), "joint 'b': armature: is not a number"),
+        ("armature", lambda: np.array([0.0, -1.0]), "joint 'b': armature .* is below zero"),
+        ("lowerPositionLimit", lambda: np.array([np.nan, 0.0]), "joint 'a': lower: is not a number"),
+        ("lowerPositionLimit", lambda: np.array([0.0, 3.0]), "joint 'b': lower limit .* is above upper limit"),
+        ("upperVelocityLimit", lambda: np.array([-1.0, 3.0]), "joint 'a': velocity_limit .* is below zero"),
+        ("names", lambda: ["universe", "a", "a"], "joint 'a': the name is taken"),
+        ("names", lambda: ["universe", "a", "universe"], "joint 'universe': the name belongs to the world"),
+    ],
+)
+def test_numbers_and_names_that_cannot_be_are_not_taken_over(where, value, said):
+    there = pin.Model()
+    for name in "ab":
+        there.addJoint(0, pin.JointModelRX(), pin.SE3.Identity(), name)
+    there.upperPositionLimit = np.ones(2)
+    if where == "names":
+        for i, name in enumerate(value()):
+            there.names[i] = name
+    else:
+        setattr(there, where, value())
+    with pytest.raises(tw.ModelError, match=said):
+        bridge.from_pinocchio_model(there)
+
+
+@needs_pinocchio
 def test_joints_without_a_counterpart_are_all_named():
     there = pin.Model()
     there.addJoint(0, pin.JointModelRX(), pin.SE3.Identity(), "good")

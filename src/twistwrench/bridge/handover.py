@@ -17,6 +17,7 @@ from ..errors import ModelError
 from ..inertia import SpatialInertia
 from ..joint import Joint
 from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from ..links import WORLD, Link
 from ..model import Frame, Model
 from ..plucker import SE3
 from .objects import (
@@ -166,8 +167,8 @@ def from_pinocchio_model(there: Any) -> Model:
     ------
     ModelError
         If a joint has no counterpart here (mimic, composite, helical, …; all are listed by name and type),
-        gravity turns, an inertia, a placement or a named configuration cannot be, or two frames have one name
-        and kind.
+        gravity turns or is no number, an inertia, a placement, a limit, an armature or a named configuration
+        cannot be, two joints have one name, or two frames one name and kind.
 
     Examples
     --------
@@ -177,8 +178,8 @@ def from_pinocchio_model(there: Any) -> Model:
     """
     joints = _joints_here(there)
     moving, names, order = range(1, len(joints)), tuple(there.names), tangent_order(joints)
-    if there.gravity.angular.any():
-        raise ModelError(f"gravity: expected an acceleration without rotation, got {there.gravity.vector} (v, ω)")
+    if there.gravity.angular.any() or not np.isfinite(there.gravity.linear).all():
+        raise ModelError(f"gravity: expected a finite acceleration without rotation, got {there.gravity.vector} (v, ω)")
     placement = [_named(from_pinocchio_se3, there.jointPlacements[i], names[i], "placement") for i in moving]
     inertia = [_named(from_pinocchio_inertia, there.inertias[i], names[i], "inertia of its body") for i in moving]
     model = Model(
@@ -198,9 +199,21 @@ def from_pinocchio_model(there: Any) -> Model:
         effort_limit=_limits(there.effortLimit[order]),
         postures={entry.key(): entry.data() for entry in there.referenceConfigurations},
     )
+    _check_joints(model)
     for name, q in model.postures.items():
         _named(model.state, q, name, "named configuration")
     return model
+
+
+def _check_joints(model: Model) -> None:
+    """Refuse names, limits and armatures that `Builder` refuses."""
+    for i in range(1, model.nbodies):
+        name, at = model.joint_names[i], (model.q_slice[i], model.v_slice[i])
+        if name in model.joint_names[1:i]:
+            raise ModelError(f"joint {name!r}: the name is taken")
+        over_q = {key: getattr(model, key)[at[0]] for key in ("lower", "upper")}
+        over_v = {key: getattr(model, key)[at[1]] for key in ("velocity_limit", "effort_limit", "armature")}
+        Link.checked("", WORLD, model.joints[i], name, model.placement[i], model.inertia[i], over_q | over_v)
 
 
 def _joints_here(there: Any) -> tuple[Joint | None, ...]:
