@@ -699,7 +699,7 @@ def test_every_robot_of_example_robot_data_is_taken_over(robot):
 @pytest.mark.parametrize(
     ("where", "value", "said"),
     [
-        ("gravity", lambda: pin.Motion(np.array([0, 0, np.nan]), np.zeros(3)), "gravity: expected a finite acceleration"),
+        ("gravity", lambda: pin.Motion(np.array([0, 0, np.nan]), np.zeros(3)), "gravity: expected a finite acc"),
         ("armature", lambda: np.array([0.0, np.nan]), "joint 'b': armature: is not a number"),
         ("armature", lambda: np.array([0.0, -1.0]), "joint 'b': armature .* is below zero"),
         ("lowerPositionLimit", lambda: np.array([np.nan, 0.0]), "joint 'a': lower: is not a number"),
@@ -800,7 +800,7 @@ def two_of_a_kind(there):
 @pytest.mark.parametrize(
     ("spoil", "message"),
     [
-        (rotating_gravity, "gravity: expected an acceleration without rotation"),
+        (rotating_gravity, "gravity: expected a finite acceleration without rotation"),
         (negative_mass, "'elbow': inertia of its body: mass: expected no negative mass, got -1 kg"),
         (sheared_placement, "'elbow': placement: rotation"),
         (short_posture, "'rest': named configuration"),
