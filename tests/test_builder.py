@@ -208,6 +208,9 @@ def test_every_option_arrives_in_the_model():
     assert model.armature.tolist() == [0.1, 0.2, 0.3, 9, 0]
     assert model.postures["up"].tolist() == [0, 0, 1, 0, 0.1, 0]
     assert model.feet == ("b", "c")
+    tilted = np.array([0, 0, 0.1, 0.3, 0.4, 0.5, np.sqrt(0.5)], np.float32)
+    flying = tw.Builder("flying", base="floating").build(postures={"tilted": tilted})
+    assert abs(np.hypot.reduce(flying.postures["tilted"][3:]) - 1) < 1e-15  # to double precision, as it is kept
 
 
 def test_model_that_is_built_does_not_change_when_the_builder_goes_on():

@@ -72,6 +72,49 @@ def test_long_double_gains_what_double_has_not():
         assert 1e-17 < apart < 1e-12, name
 
 
+def single(model):
+    """A configuration in single precision whose quaternion is off norm 1 by more than double precision may be."""
+    rng = np.random.default_rng(0)
+    while True:
+        q = model.integrate(model.standing(), rng.standard_normal(model.nv) * 0.1).astype(np.float32)
+        if abs(np.hypot.reduce(q[3:7].astype(float)) - 1) > 3e-8:
+            return q
+
+
+def test_a_single_configuration_goes_with_double_velocities():
+    """Its quaternion has norm 1 to seven digits, and is made one to sixteen on the way."""
+    model = tw.load("go2")
+    q, v = single(model), np.linspace(-1, 1, model.nv)
+    checked, _ = model.state(q, v=v)
+    assert abs(np.hypot.reduce(checked[3:7]) - 1) < 1e-15
+    feet = [tw.PointContact(foot, 0.6) for foot in model.feet]
+    exact = model.normalize(q.astype(np.float64))
+    for answer in (
+        lambda q: tw.constraint_bias(model, q, v, feet),
+        lambda q: tw.templates.TEMPLATES["srbm"].of(model, exact).rate(q, v, v),
+        lambda q: tw.simulate(model, q, v, dt=0.01, steps=1).q,
+        lambda q: tw.simulate(model, q, v, dt=0.01, steps=1, method="variational").q,
+    ):
+        assert np.allclose(answer(q), answer(exact), rtol=0, atol=1e-12)
+
+
+def test_what_is_done_in_double_precision_takes_singles():
+    model = tw.load("go2")
+    q, v = single(model), np.zeros(model.nv, np.float32)
+    exact, feet = model.normalize(q.astype(np.float64)), [tw.PointContact(foot, 0.6) for foot in model.feet]
+    anchors = tw.contact_placements(model, q, feet)
+    for answer in (
+        lambda q: tw.contact_forward_dynamics(model, q, v, v, feet, stabilise=tw.Baumgarte(20.0, anchors)).qdd,
+        lambda q: tw.contact_inverse_dynamics(model, q, v, v, feet).tau,
+        lambda q: tw.impact(model, q, v + 1, feet).v,
+        lambda q: tw.project_state(model, q, v, feet, anchors)[0],
+        lambda q: tw.lock_joints(model, ["root_joint"], q).expand(np.zeros(12), np.zeros(12))[0],
+        lambda q: tw.crba(model, tw.Scene(model, base="fixed", q=q).q),
+        lambda q: tw.stance_margins(model, q, feet).tip,
+    ):
+        assert np.allclose(answer(q), answer(exact), rtol=0, atol=1e-9)
+
+
 def test_integers_count_as_double_precision_and_lists_are_welcome():
     model = tw.chain(3)
     tau = tw.rnea(model, [0, 1, 2], [1, 0, 0], [0, 0, 1])

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array, as_exactly, as_names
+from .door import in_double
 from .errors import ModelError, ShapeError, unknown_name
 from .inertia import SpatialInertia
 from .joint import Joint
@@ -221,7 +222,7 @@ def _posture(model: Model, name: str, q: ArrayLike) -> Array:
         raise type(error)(f"posture {name!r}: {error}") from None
     if checked.ndim != 1:
         raise ShapeError(f"posture {name!r}: expected one configuration, shape ({model.nq},), got {checked.shape}")
-    return checked
+    return in_double(model, checked)
 
 
 def _join(pieces: list[Array]) -> Array:

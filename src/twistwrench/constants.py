@@ -69,6 +69,8 @@ def cast(T: SE3, dtype: DTypeLike) -> SE3:
     For a finer type than it has, two steps of Newton's iteration for the nearest rotation,
     R ← R (3 − RᵀR)/2, remove what the coarser one could not hold.
     """
+    if T.rotation.dtype == dtype:
+        return T
     R = T.rotation.astype(dtype)
     if resolution(R.dtype) < resolution(T.rotation.dtype):
         for _ in range(2):

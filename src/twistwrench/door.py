@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array
 from .errors import ShapeError, no_model
 from .model import Model
 
-__all__ = ["check_model", "one_configuration", "state_of"]
+__all__ = ["check_model", "in_double", "one_configuration", "state_of"]
 
 
 def check_model(model: object) -> None:
@@ -29,3 +30,9 @@ def one_configuration(model: Model, q: ArrayLike) -> Array:
     if q.ndim != 1 or q.dtype.kind == "c":
         raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
     return q
+
+
+def in_double(model: Model, q: Array) -> Array:
+    """Return a copy of a checked q in double precision: its quaternions, once singles, have norm 1 to that again."""
+    double = q.astype(np.float64)
+    return double if q.dtype == double.dtype else model.normalize(double)

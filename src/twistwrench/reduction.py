@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array, as_names
-from .door import one_configuration
+from .door import in_double, one_configuration
 from .errors import NameNotFound
 from .inertia import SpatialInertia
 from .model import Frame, Model
@@ -139,10 +139,10 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
     >>> tw.lock_joints(model, ["*_shoulder_*", "*_elbow"], model.standing()).model
     Model 'humanoid': floating base, 14 moving bodies, nq = 20, nv = 19, 20 kg
     """
-    at = one_configuration(model, q)
+    at = in_double(model, one_configuration(model, q))
     held = matching_joints(model, joints)
     kept = [i for i in range(1, model.nbodies) if model.joint_names[i] not in held]
-    carrier, in_carrier = _carriers(model, at.astype(np.float64), kept)
+    carrier, in_carrier = _carriers(model, at, kept)
     kept_q = np.concatenate([np.zeros(0, np.intp), *(np.arange(model.nq)[model.q_slice[i]] for i in kept)])
     kept_v = np.concatenate([np.zeros(0, np.intp), *(np.arange(model.nv)[model.v_slice[i]] for i in kept)])
     up = [model.parent[i] for i in kept]
@@ -162,7 +162,7 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
         effort_limit=model.effort_limit[kept_v],
         postures={name: posture[kept_q] for name, posture in model.postures.items()},
     )
-    return Reduction(model, small, held, at.astype(np.float64), kept_q, kept_v)
+    return Reduction(model, small, held, at, kept_q, kept_v)
 
 
 def _carriers(model: Model, q: Array, kept: list[int]) -> tuple[list[int], list[SE3]]:

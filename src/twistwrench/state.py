@@ -23,7 +23,7 @@ __all__ = ["check_arrays", "check_state"]
 
 def check_state(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
     """Check a state and bring it to one dtype and one batch shape: see `Model.state`."""
-    arrays, names = check_arrays(model, **named), tuple(named)
+    arrays, names = list(check_arrays(model, **named)), tuple(named)
     tails = [2 if name == "f_ext" else 1 for name in names]
     batches = [x.shape[: x.ndim - tail] for x, tail in zip(arrays, tails)]
     try:
@@ -31,10 +31,10 @@ def check_state(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
     except ValueError:
         listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches) if shape)
         raise ShapeError(f"batch axes do not broadcast: {listed}") from None
-    for name, x in zip(names, arrays):
-        _check_size(x, name)
+    for k, name in enumerate(names):
+        _check_size(arrays[k], name)
         if name.startswith("q"):
-            _check_unit(model, x, name, digits=np.asarray(named[name]).dtype)
+            arrays[k] = _with_norm_1(model, arrays[k], name, came=np.asarray(named[name]).dtype)
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
@@ -113,9 +113,13 @@ def _check_size(x: Array, name: str) -> None:
         )
 
 
-def _check_unit(model: Model, q: Array, name: str, digits: np.dtype[Any]) -> None:
-    """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it came with."""
-    tolerance = np.sqrt(resolution(digits if digits.kind in "fc" else np.float64))
+def _with_norm_1(model: Model, q: Array, name: str, came: np.dtype[Any]) -> Array:
+    """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it came with.
+
+    What came with fewer digits than it has now gets norm 1 to all of these.
+    """
+    digits = resolution(came if came.kind in "fc" else np.float64)
+    tolerance = np.sqrt(digits)
     for joint, joint_name, s in zip(model.joints, model.joint_names, model.q_slice):
         if joint is None or joint.unit is None:
             continue
@@ -131,3 +135,4 @@ def _check_unit(model: Model, q: Array, name: str, digits: np.dtype[Any]) -> Non
                 f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
                 f"{which(bad)}, {close}; model.{mend}"
             )
+    return model.normalize(q) if digits > resolution(q.dtype) else q

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..constants import cast
-from ..door import check_model
+from ..door import check_model, in_double
 from ..errors import unknown_name
 from ..kinematics import _motion, _placements, frame_placement
 from ..model import Model
@@ -199,8 +199,9 @@ def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Map
         raise unknown_name("anchor", missing[0], anchors)
     parts = [np.zeros((*now[0].translation.shape[:-1], 0))] if now else [np.zeros(0)]
     for c, T in zip(contacts, now):
-        turned = log3(T.rotation @ anchors[c.frame].rotation.mT)
-        parts.append(np.concatenate([turned, T.translation - anchors[c.frame].translation], axis=-1)[..., c.rows])
+        anchor = cast(anchors[c.frame], np.float64)
+        turned = log3(T.rotation @ anchor.rotation.mT)
+        parts.append(np.concatenate([turned, T.translation - anchor.translation], axis=-1)[..., c.rows])
     return np.concatenate(parts, axis=-1)
 
 
@@ -239,4 +240,4 @@ def real_state(model: Model, q: ArrayLike, f_ext: ArrayLike | None = None, **oth
     state = model.state(q, **others)
     if state[0].dtype.kind == "c":
         raise ValueError(f"q: expected real numbers in all arguments, got {state[0].dtype}")
-    return tuple(x.astype(np.float64) for x in state)
+    return in_double(model, state[0]), *(x.astype(np.float64) for x in state[1:])

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from os import PathLike
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_exactly
-from ..door import one_configuration
+from ..door import in_double, one_configuration
 from ..errors import ModelError, no_model
 from ..model import Model
 from ..robots import load
@@ -36,4 +35,4 @@ def posture(model: Model, q: ArrayLike | None) -> Array:
     """Return where a scene's robot stands: q, or the standing posture, or the neutral one."""
     if q is None:
         return model.standing() if "standing" in model.postures else model.neutral()
-    return one_configuration(model, q).astype(np.float64)
+    return in_double(model, one_configuration(model, q))

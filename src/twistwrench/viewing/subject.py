@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array, as_exactly
 from ..contact import Contact, PointContact, contact_inverse_dynamics, contact_placements
+from ..door import in_double
 from ..errors import ShapeError, SingularError, no_model
 from ..kinematics import forward_kinematics
 from ..model import Model
@@ -168,7 +169,7 @@ def _configuration(model: Model, q: ArrayLike | None) -> Array:
         raise ShapeError(f"q: expected shape ({model.nq},), or (n, {model.nq}) for a motion, got {q.shape}")
     if q.dtype.kind == "c":
         raise ValueError("q: expected real numbers, got complex ones")
-    return q.astype(float)
+    return in_double(model, q)
 
 
 def _times(q: Array, t: ArrayLike | None) -> Array | None:
