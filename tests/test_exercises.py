@@ -285,6 +285,13 @@ def test_hints_come_one_at_a_time(tmp_path):
     assert "hint 2 of 2" in second
     assert hint("49.3.1", tmp_path, again=True) == second
     assert "提示 1/2" in hint("49.3.1", tmp_path, every=True, language="zh")
+    assert "--dir" not in first
+
+
+def test_a_hint_that_nobody_remembers_says_so(tmp_path):
+    """Elsewhere than in the folder of the answers the first hint comes every time."""
+    assert hint("49.3.1", tmp_path, language="en").endswith("--all shows all.")
+    assert hint("49.3.1", tmp_path, language="zh").endswith("--all 显示全部提示。")
 
 
 def test_a_model_answer_waits_for_the_attempt(tmp_path):
@@ -353,6 +360,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
         ("sole_holds", lambda *arguments: 1.0, "must be True or False, not float"),
         ("time_per_call", lambda task, calls, clock: f"{clock()} s", "must be numbers, not str"),
         ("skew", lambda w: 1 / 0, "It stopped with ZeroDivisionError: division by zero"),
+        ("skew", lambda w: sys.exit(), "It stopped with SystemExit"),
         ("skew", lambda w: w.sort() or np.zeros((3, 3)), "It changes its argument `w`"),
         ("plucker", lambda R, p: np.eye(6), "It must return 2 things, in this order: X, X*. It returned ndarray."),
         ("plucker", lambda R, p: (np.eye(6),) * 3, "It returned 3."),
@@ -526,6 +534,10 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path):
     (tmp_path / "ex_49_1.py").write_text("def sizes():\n    return (\n")
     said = Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
     assert "ex_49_1.py, line 2 cannot be read: SyntaxError" in said
+    said = Workbook(tmp_path, language="zh").verdict(*catalogue.find_part("sizes")).message("zh")
+    assert "ex_49_1.py 第 2 行无法读取：SyntaxError" in said
+    (tmp_path / "ex_49_1.py").write_text("import sys\nsys.exit(0)\n")
+    assert "cannot be read: SystemExit: 0" in Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
     (tmp_path / "ex_49_1.py").write_text("")
     assert "no function sizes in ex_49_1.py" in Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
 

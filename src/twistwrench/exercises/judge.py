@@ -97,7 +97,7 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
         answer = part.value(function, given)
     except NotImplementedError:
         raise
-    except Exception as error:  # whatever the student's code raises becomes a message
+    except (Exception, SystemExit) as error:  # whatever the student's code raises becomes a message
         raise _Stop(*_stopped(error)) from None
     for name, before, after in zip(part.arguments.split(", "), arguments, given):
         if not _unchanged(before, after):
@@ -112,7 +112,7 @@ def _unchanged(before: Any, after: Any) -> bool:
     return not isinstance(before, np.ndarray | int | float) or np.array_equal(before, after)
 
 
-def _stopped(error: Exception) -> list[Text]:
+def _stopped(error: BaseException) -> list[Text]:
     """Say what was raised, and at which line of the student's file."""
     lines = [say("stopped", error=f"{type(error).__name__}: {error}")]
     own = [f for f in traceback.extract_tb(error.__traceback__) if not _ours(f.filename)]

@@ -105,9 +105,9 @@ class Workbook:
         try:
             with _importable(self.folder):  # compiled anew each time: a cached file can be older than the last change
                 exec(compile(path.read_text(encoding="utf-8"), path, "exec"), module.__dict__)
-        except Exception as error:  # whatever the student's file raises becomes a message
-            line = f", line {error.lineno}" if isinstance(error, SyntaxError) else ""
-            return say("file", file=path.name + line, error=f"{type(error).__name__}: {getattr(error, 'msg', error)}")
+        except (Exception, SystemExit) as error:  # whatever the student's file raises becomes a message
+            said, line = f"{type(error).__name__}: {getattr(error, 'msg', error)}", getattr(error, "lineno", None)
+            return say("file" if line is None else "file at line", file=path.name, line=line, error=said)
         return module
 
     def words(self, exercise: Exercise) -> str | None:
