@@ -327,7 +327,7 @@ def test_a_rotation_that_is_no_longer_than_its_noise_is_none(angular):
 
 @pytest.mark.parametrize("noise", [-1.0, np.nan, "little"])
 def test_a_noise_that_is_none_is_refused(noise):
-    with pytest.raises(ValueError, match="^noise: expected"):
+    with pytest.raises(ValueError, match=r"^noise: expected"):
         screw([0, 0, 1, 0, 0, 0], noise=noise)
 
 
