@@ -542,6 +542,16 @@ def test_a_file_that_cannot_be_read_says_where(tmp_path):
     assert "no function sizes in ex_49_1.py" in Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
 
 
+def test_a_file_that_cannot_be_read_is_told_the_same_where_it_is_named(tmp_path):
+    """`python -m pytest ex_49_1.py`, as its first lines say: pytest would read it as a module of its own, and trace."""
+    start(tmp_path, language="en")
+    (tmp_path / "ex_49_1.py").write_text("def sizes():\n    retrun 3\n")
+    run = pytest_in(tmp_path, "ex_49_1.py")
+    assert run.returncode == 1
+    assert "ex_49_1.py, line 2 cannot be read: SyntaxError: invalid syntax" in run.stdout
+    assert "collecting" not in run.stdout
+
+
 def test_status_in_the_wrong_folder_says_where_the_exercises_are(tmp_path, capsys, monkeypatch):
     start(tmp_path / "my answers", language="en")
     (tmp_path / "my answers" / "notes").mkdir()

@@ -21,7 +21,13 @@ from .text import Text
 from .workbook import Workbook
 from .wrapping import wrapped
 
-__all__ = ["SectionFile", "pytest_collect_file", "pytest_configure", "pytest_terminal_summary"]
+__all__ = [
+    "SectionFile",
+    "pytest_collect_file",
+    "pytest_configure",
+    "pytest_pycollect_makemodule",
+    "pytest_terminal_summary",
+]
 
 TO_DO = Text("to do: {id} {name}", "未做：{id} {name}")
 COMPARE = Text(
@@ -53,6 +59,21 @@ def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Coll
     books = parent.config.stash[BOOKS]
     book = books.setdefault(str(file_path.parent), Workbook(file_path.parent))
     return SectionFile.of(parent, path=file_path, section=sections[file_path.name], book=book)
+
+
+def pytest_pycollect_makemodule(module_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
+    """Keep pytest from importing such a file as well where it is named: what cannot be read is shown as a trace."""
+    if module_path.name not in map(catalogue.file_name, catalogue.SECTIONS):
+        return None
+    return Nothing.from_parent(parent, path=module_path)
+
+
+class Nothing(pytest.File):
+    """A file without tests."""
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """Yield none."""
+        return []
 
 
 class SectionFile(pytest.File):

@@ -18,6 +18,10 @@ SAY = {
         "That was the last one. The solution: twistwrench exercises solution {id}",
         "提示已全部给出。查看解答：twistwrench exercises solution {id}",
     ),
+    "forgotten": Text(
+        "Asked in the folder of your answers (or with --dir), the next one comes the next time; --all shows all.",
+        "在答案目录中运行（或用 --dir 指定该目录），下次就给出下一条；--all 显示全部提示。",
+    ),
     "solution": Text("{id} {title}: a solution", "{id} {title}：参考解答"),
     "model": Text("The model answer:", "参考答案："),
     "later": Text(
@@ -68,13 +72,15 @@ def hint(
     spoken, n = book.language, len(exercise.hints)
     shown = int(book.state["hints"].get(number, 0))
     last = n if every else min(max(shown, 1) if again else shown + 1, n)
-    if (book.folder / catalogue.file_name(exercise.section)).exists():
+    if remembered := (book.folder / catalogue.file_name(exercise.section)).exists():
         book.remember(hints={**book.state["hints"], number: max(shown, last)})
     lines: list[str] = []
     for k in range(1 if every else last, last + 1):
         title = SAY["hint"].fill(id=number, title=exercise.title, k=k, n=n).of(spoken)
         lines += [title, "", *wrapped(exercise.hints[k - 1].of(spoken)), ""]
-    return "\n".join([*lines, SAY["last"].fill(id=number).of(spoken)] if last == n else lines[:-1])
+    if last == n:
+        return "\n".join([*lines, SAY["last"].fill(id=number).of(spoken)])
+    return "\n".join(lines[:-1] if remembered else [*lines, SAY["forgotten"].of(spoken)])
 
 
 def solution(number: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:

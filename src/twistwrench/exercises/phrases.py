@@ -42,6 +42,7 @@ PHRASES = {
     "missing": Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。"),
     "not a function": Text("{name} in {file} is no function any more.", "{file} 中的 {name} 已不是函数。"),
     "file": Text("{file} cannot be read: {error}", "无法读取 {file}：{error}"),
+    "file at line": Text("{file}, line {line} cannot be read: {error}", "{file} 第 {line} 行无法读取：{error}"),
     "no file": Text(
         "{file} is not there: `twistwrench exercises start` brings it back.",
         "缺少 {file}：用 `twistwrench exercises start` 可重新生成。",

@@ -106,8 +106,10 @@ class Workbook:
             with _importable(self.folder):  # compiled anew each time: a cached file can be older than the last change
                 exec(compile(path.read_text(encoding="utf-8"), path, "exec"), module.__dict__)
         except (Exception, SystemExit) as error:  # whatever the student's file raises becomes a message
-            said, line = f"{type(error).__name__}: {getattr(error, 'msg', error)}", getattr(error, "lineno", None)
-            return say("file" if line is None else "file at line", file=path.name, line=line, error=said)
+            said = f"{type(error).__name__}: {getattr(error, 'msg', error)}"
+            if isinstance(error, SyntaxError):
+                return say("file at line", file=path.name, line=error.lineno, error=said)
+            return say("file", file=path.name, error=said)
         return module
 
     def words(self, exercise: Exercise) -> str | None:
