@@ -218,6 +218,9 @@ def test_steps_and_tolerance_are_heeded():
     q, _ = tw.project_state(GO2, drifted, v, FEET, anchors, steps=1, tolerance=1e-2)
     left = tw.frame_placement(GO2, q, "RL_foot").translation - anchors["RL_foot"].translation
     assert 1e-9 < np.abs(left).max() < 1e-2
+    for tolerance in (-1e-12, np.nan):
+        with pytest.raises(ValueError, match=rf"tolerance: expected .*, got {tolerance}"):
+            tw.project_state(GO2, drifted, v, FEET, anchors, tolerance=tolerance)
 
 
 def test_a_missing_anchor_is_named():

@@ -442,6 +442,15 @@ def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
     assert picture.stat().st_size > 20_000
 
 
+def test_the_study_has_a_table_for_every_robot(monkeypatch, capsys):
+    monkeypatch.setattr("twistwrench.study.templates.round_robin", in_a_millisecond)
+    monkeypatch.setattr("twistwrench.study.templates.MOTIONS", {"walk": tw.motions.walk})
+    assert main(["study", "templates", "go2", "humanoid", "--samples", "4"]) == 0
+    printed = capsys.readouterr().out
+    assert re.findall(r"^(\w+), nv = (\d+)", printed, re.MULTILINE) == [("go2", "18"), ("humanoid", "27")]
+    assert len(re.findall("^walk ", printed, re.MULTILINE)) == 2 * len(TEMPLATES)
+
+
 def test_a_robot_of_the_study_that_is_not_installed_is_left_out(monkeypatch, capsys):
     monkeypatch.setattr("twistwrench.study.templates.ROBOTS", ("nobody",))
     assert main(["study", "templates", "nobody"]) == 0
