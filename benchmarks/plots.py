@@ -1,4 +1,4 @@
-"""Draw the results of speed.py, results/batch.png and results/links.png, and put its tables into the pages.
+"""Draw the results of speed.py: results/batch.png and results/links.png.
 
 python benchmarks/plots.py
 """

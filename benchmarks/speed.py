@@ -1,6 +1,6 @@
 """How fast is `tw.fast`? Everything against Pinocchio called state by state from Python, in one process, in turns.
 
-python benchmarks/speed.py                # all of it, about half an hour; writes to benchmarks/results
+python benchmarks/speed.py                # all of it, ten minutes; writes to benchmarks/results
 python benchmarks/speed.py --short        # batches of 1000 and one state, a minute; writes nothing
 python benchmarks/speed.py --only links   # one of: one, batch, workers, links, peers
 """
