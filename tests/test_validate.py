@@ -464,6 +464,12 @@ def test_a_sweep_runs_in_several_processes_and_keeps_the_order():
     assert [o.report.rows for o in found[:2]] == [o.report.rows for o in alone[:2]]
 
 
+def test_a_sweep_says_that_the_robots_of_a_package_are_left_out(monkeypatch):
+    monkeypatch.setattr(sweep, "example_robot_data_folder", lambda: None)
+    assert len(sweep.every_robot("fixed")) == 6
+    assert sweep.summary([], 1.0).startswith("example-robot-data is not installed: its robots are left out")
+
+
 def test_every_robot_of_the_catalogue_is_on_both_bases():
     every = sweep.every_robot()
     assert len(every) == len(set(every)) == 2 * len(sweep.every_robot("fixed"))

@@ -122,6 +122,8 @@ def _laid_out(cells: Sequence[str]) -> str:
 def summary(outcomes: Sequence[Outcome], seconds: float) -> str:
     """Return the last line, and before it what was missing."""
     missing = {text: None for o in outcomes if o.report for text in o.report.missing}
+    if example_robot_data_folder() is None:
+        missing["example-robot-data is not installed: its robots are left out (pip install example-robot-data)"] = None
     good, rows = sum(o.passed for o in outcomes), sum(len(o.report.rows) for o in outcomes if o.report)
     names = ", ".join(f"{o.robot} ({o.base})" for o in outcomes if not o.passed)
     line = (
