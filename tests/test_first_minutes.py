@@ -122,6 +122,21 @@ def test_without_matplotlib_the_command_and_the_call_say_how_to_get_it(tmp_path,
             draw(PENDULUM, [0.0])
     with pytest.raises(ModuleNotFoundError, match="twistwrench"):
         tw.plot.matrix(np.eye(2))
+    with pytest.raises(ModuleNotFoundError, match="twistwrench"):
+        tw.simulate(PENDULUM, [0.5], [0.0], dt=0.1, steps=1).plot()
+
+
+def test_without_pinocchio_and_mpmath_the_commands_say_how_to_get_them(monkeypatch, capsys):
+    for name in ("pinocchio", "mpmath"):
+        monkeypatch.setitem(sys.modules, name, None)
+    assert main(["validate", "--all"]) == 2  # once, and not a line for each robot
+    assert capsys.readouterr() == (
+        "",
+        'twistwrench: nothing to compare with: pip install "twistwrench[validate]" brings Pinocchio and mpmath\n',
+    )
+    for study in ("trade", "extremes"):
+        assert main(["study", study]) == 2
+        assert 'twistwrench: the truth needs mpmath: pip install "twistwrench[validate]"\n' in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("there", [True, False])

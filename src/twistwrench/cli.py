@@ -13,6 +13,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -81,10 +82,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _said(error: Exception) -> str:
     """Return the message; of a bare import that failed, what brings the package."""
-    if isinstance(error, ModuleNotFoundError) and error.msg == "No module named 'matplotlib'":
+    if isinstance(error, ModuleNotFoundError) and error.name == "matplotlib":
         from .plot.style import NO_MATPLOTLIB
 
         return NO_MATPLOTLIB
+    if isinstance(error, ModuleNotFoundError) and error.name == "mpmath":
+        from .study.trade.run import NO_MPMATH
+
+        return NO_MPMATH
     return str(error)
 
 
@@ -191,6 +196,10 @@ def _check_options(args: argparse.Namespace) -> None:
         args.misuse("argument --jobs: only with --all")
     if args.truths and args.truths > args.states:
         args.misuse(f"argument --truths: expected at most the number of states, {args.states}, got {args.truths}")
+    if args.all and not (find_spec("pinocchio") or find_spec("mpmath")):
+        from .validate.run import NOTHING_TO_COMPARE_WITH
+
+        raise ImportError(NOTHING_TO_COMPARE_WITH)
     if args.json != "-":
         check_writable("--json", None if args.json is None else Path(args.json))
     for name in args.robot[1:]:  # the first is met at once

@@ -123,10 +123,9 @@ class Simulation:
         """
         if not isinstance(what, str) or what not in LABELS:
             raise unknown_name("quantity", what, LABELS)
-        if ax is None:
-            import matplotlib.pyplot as plt
+        from ..plot.style import axes_2d
 
-            ax = plt.subplots(figsize=(6.0, 3.5), layout="constrained")[1]
+        ax = axes_2d(ax)
         if what in ("q", "v"):
             drawn = self.q if what == "q" else self.v
         else:

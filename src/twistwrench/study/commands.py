@@ -18,7 +18,9 @@ Commands = Any
 
 def register(commands: Commands) -> None:
     """Add ``twistwrench study``, and a command below it for every study."""
-    parser = commands.add_parser("study", help="measure what a digit costs, and where digits are lost")
+    parser = commands.add_parser(
+        "study", help="measure speed, what a digit costs, where digits are lost, what a template leaves out"
+    )
     studies = parser.add_subparsers(required=True, metavar="STUDY")
     for add in STUDIES:
         add(studies)

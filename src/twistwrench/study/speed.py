@@ -120,7 +120,7 @@ def table(model: tw.Model, found: list[Speed]) -> str:
     if "Pinocchio" in ways:
         lines.append("× is against Pinocchio, called from Python for one state at a time")
     else:
-        lines.append("Pinocchio is not installed: there is nothing to compare with")
+        lines.append("Pinocchio is not installed (pip install pin): there is nothing to compare with")
     lines.append("")
     halves = zip(*(way.rpartition(", ")[::2] for way in ways))  # "fast, 1000 states" on two lines
     lines += [f"{'':26}" + "".join(f"{x:>{_width(way)}}" for way, x in zip(ways, half)) for half in halves]

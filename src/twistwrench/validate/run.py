@@ -24,9 +24,11 @@ from .quantity import Quantity
 from .report import Report
 from .states import random_states
 
-__all__ = ["validate"]
+__all__ = ["NOTHING_TO_COMPARE_WITH", "validate"]
 
 DIGITS = 50
+
+NOTHING_TO_COMPARE_WITH = 'nothing to compare with: pip install "twistwrench[validate]" brings Pinocchio and mpmath'
 
 
 def validate(
@@ -98,7 +100,7 @@ def validate(
     model, path = _load(robot, base)
     oracle, context = _oracle(model, path), _context()
     if oracle is None and context is None:
-        raise ImportError('nothing to compare with: pip install "twistwrench[validate]" brings Pinocchio and mpmath')
+        raise ImportError(NOTHING_TO_COMPARE_WITH)
     at = random_states(model, states, rng=rng, frames=frames)
     judge = Judge(model, at, oracle, context, truths=min(truths, states))
     rows = (

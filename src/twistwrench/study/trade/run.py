@@ -27,13 +27,14 @@ from .poses import pose_quantities
 from .quantity import Arrays, Inputs, Quantity, repeated
 from .report import Trade
 
-__all__ = ["FULL", "KEYS", "SHORT", "weigh"]
+__all__ = ["FULL", "KEYS", "NO_MPMATH", "SHORT", "weigh"]
 
 DRAWN = 50
 """So many random states; more are the same ones again."""
 
 SLOPE = "dID/dq"
 KEYS = (*WAYS, SLOPE, "exp", "log")
+NO_MPMATH = 'the truth needs mpmath: pip install "twistwrench[validate]"'
 FULL = Effort()
 SHORT = Effort(states=2, batch=20, rounds=2, least=1e-4, most=0.05)
 """To see that all is there. Its times are worth little."""
@@ -163,7 +164,7 @@ def _inputs(model: Model, s: States, of: tuple[str, ...]) -> Inputs:
 
 def _ask_for_mpmath() -> None:
     if not _is_there("mpmath"):
-        raise ImportError('the truth needs mpmath: pip install "twistwrench[validate]"')
+        raise ImportError(NO_MPMATH)
 
 
 def _oracle(model: Model) -> Oracle | None:
