@@ -322,6 +322,23 @@ def test_frames_of_both_legs_are_compared():
     assert {name.partition("_")[0] for name in sample_frames(tw.load("humanoid"), 2)} == {"left", "right"}
 
 
+@needs_pinocchio
+@pytest.mark.parametrize(("named", "rows"), [((), 22), (("middle",), 29)])
+def test_a_model_of_pinocchio_s_need_not_have_a_frame_on_every_tip(named, rows):
+    import pinocchio as pin
+
+    there, parent = pin.Model(), 0
+    kinds = {"first": pin.JointModelFreeFlyer(), "middle": pin.JointModelRX(), "tip": pin.JointModelPZ()}
+    for name, joint in kinds.items():
+        parent = there.addJoint(parent, joint, pin.SE3.Random(), name)
+        there.appendBodyToJoint(parent, pin.Inertia.Random(), pin.SE3.Random())
+    for name in named:
+        there.addFrame(pin.Frame(name, 2, 0, pin.SE3.Random(), pin.FrameType.OP_FRAME))
+    report = validate(tw.bridge.from_pinocchio_model(there), **QUICK)
+    assert report.passed
+    assert len(report.rows) == rows
+
+
 def test_two_point_feet_hold_nothing():
     on_two_points = replace(tw.load("humanoid"), feet=("left_sole", "right_sole"))
     row = judge(on_two_points).row(quantity("static equilibrium τ, λ"))

@@ -42,6 +42,7 @@ def _frame_row(section: str, name: str, reference: Reference, of: str) -> Quanti
         ours=lambda m, s: _stack([tw.frame_jacobian(m, s.q, frame, reference) for frame in s.frames]),
         theirs=lambda p, s: p.frame_jacobians(s, reference),
         truth=lambda m, s: np.stack([ne.frame_jacobian(m, s.q, f, reference) for f in s.frames]),
+        applies=lambda m: bool(m.frames),
     )
 
 
@@ -54,6 +55,7 @@ def _bias_row(section: str, name: str, reference: Reference, of: str) -> Quantit
         theirs=lambda p, s: p.frame_bias(s, reference),
         truth=lambda m, s: np.stack([ne.frame_bias_acceleration(m, s.q, s.v, f, reference) for f in s.frames]),
         terms=lambda m, s: twist_products(m, s, reference),
+        applies=lambda m: bool(m.frames),
     )
 
 
@@ -122,6 +124,7 @@ KINEMATICS = (
         ours=lambda m, s: _stack([tw.frame_placement(m, s.q, frame).matrix() for frame in s.frames]),
         theirs=lambda p, s: p.frame_placements(s),
         truth=lambda m, s: exact.frame_placements(m, s),
+        applies=lambda m: bool(m.frames),
     ),
     Quantity(
         "49.6",

@@ -98,9 +98,10 @@ def sample_frames(model: Model, most: int) -> tuple[str, ...]:
     Of each tip the last frame in the file: it is often welded on, and its placement then counts as well.
     """
     last = {frame.body: name for name, frame in model.frames.items()}
-    tips = [last[i] for i in range(1, model.nbodies) if i not in model.parent]
+    tips = [last[i] for i in range(1, model.nbodies) if i in last and i not in model.parent]
     feet = _spread(model.feet, most)  # the first four of eight corners are all on one leg
-    return tuple(dict.fromkeys([*feet, *_spread(tips, most)]))[:most]
+    others = tips or list(model.frames)  # what comes from Pinocchio need not have one on every tip, or any at all
+    return tuple(dict.fromkeys([*feet, *_spread(others, most)]))[:most]
 
 
 def _spread(names: Sequence[str], most: int) -> Sequence[str]:
