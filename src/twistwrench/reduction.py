@@ -97,7 +97,8 @@ class Reduction:
         return q_full, v_full
 
     def __repr__(self) -> str:
-        return f"<Reduction of {self.full.name!r}: {len(self.held)} joints held, nv = {self.model.nv}>"
+        joints = "1 joint" if len(self.held) == 1 else f"{len(self.held)} joints"
+        return f"<Reduction of {self.full.name!r}: {joints} held, nv = {self.model.nv}>"
 
 
 def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
