@@ -439,6 +439,17 @@ def test_other_package_of_that_name_is_noticed(monkeypatch):
 # -------------------------------------------------------------------- models
 
 
+@pytest.mark.parametrize(("given", "came"), [(tw.chain(1), "twistwrench's Model"), ("go2", "builtins's str")])
+def test_what_is_no_model_of_pinocchio_is_refused(given, came):
+    with pytest.raises(TypeError, match=f"there: expected a pin.Model, got {came}"):
+        bridge.from_pinocchio_model(given)
+
+
+def test_a_model_of_pinocchio_is_no_source_and_the_way_from_it_is_told():
+    with pytest.raises(TypeError, match=r"got pinocchio's Model; tw\.bridge\.from_pinocchio_model makes one of it"):
+        tw.load(bridge.to_pinocchio_model(tw.chain(1)))
+
+
 def one_joint(joint):
     builder = tw.Builder("one joint")
     body = tw.SpatialInertia(2.0, [0.1, -0.2, 0.3], np.diag([0.3, 0.4, 0.5]))

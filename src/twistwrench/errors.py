@@ -55,17 +55,17 @@ def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "")
     """
     import difflib  # only where something went wrong
 
-    if not isinstance(name, str):
-        return NameNotFound(f"{kind}: expected a name, got {_typed(name)}")
     names = list(dict.fromkeys(known))
+    shown = ", ".join(map(repr, names[:12])) + (f" and {len(names) - 12} more" if len(names) > 12 else "")
+    if not isinstance(name, str):
+        return NameNotFound(f"{kind}: expected a name, got {_typed(name)}" + (f"; known: {shown}" if names else ""))
     longer = sorted((k for k in names if name and k.lower().startswith(name.lower())), key=len)
     shorter = [k for k in names if len(k) > 2 and k.lower() in name.lower()]
     near = longer + (difflib.get_close_matches(name, names, n=4, cutoff=0.5) or shorter)
     if near := list(dict.fromkeys(near))[:4]:
         hint = "did you mean " + ", ".join(map(repr, near)) + "?"
     else:
-        shown = ", ".join(map(repr, names[:12]))
-        hint = f"known: {shown or 'none'}" + (f" and {len(names) - 12} more" if len(names) > 12 else "")
+        hint = f"known: {shown or 'none'}"
     return NameNotFound(f"unknown {kind} {name!r}{where}; {hint}")
 
 

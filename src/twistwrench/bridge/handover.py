@@ -169,6 +169,8 @@ def from_pinocchio_model(there: Any) -> Model:
         If a joint has no counterpart here (mimic, composite, helical, …; all are listed by name and type),
         gravity turns or is no number, an inertia, a placement, a limit, an armature or a named configuration
         cannot be, two joints have one name, or two frames one name and kind.
+    TypeError
+        If `there` is no pin.Model.
 
     Examples
     --------
@@ -176,6 +178,9 @@ def from_pinocchio_model(there: Any) -> Model:
     >>> from_pinocchio_model(to_pinocchio_model(tw.load("go2")))
     Model 'go2': floating base, 13 moving bodies, nq = 19, nv = 18, 16.085 kg
     """
+    if not isinstance(there, import_pinocchio().Model):
+        package = type(there).__module__.partition(".")[0]
+        raise TypeError(f"there: expected a pin.Model, got {package}'s {type(there).__name__}")
     joints = _joints_here(there)
     moving, names, order = range(1, len(joints)), tuple(there.names), tangent_order(joints)
     if there.gravity.angular.any() or not np.isfinite(there.gravity.linear).all():

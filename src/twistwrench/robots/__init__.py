@@ -11,7 +11,7 @@ from os.path import exists
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from ..errors import ModelError
+from ..errors import ModelError, no_model
 from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
 
 if TYPE_CHECKING:  # `import twistwrench` passes here: what the catalogue does not need is imported by `load`
@@ -89,7 +89,7 @@ def load(
     if mimic not in (None, "independent"):
         raise ValueError(f"mimic: expected 'independent' (joints that follow others are not modelled), got {mimic!r}")
     if not isinstance(source, str | PathLike):
-        raise TypeError(f"source: expected a name or a path, got {type(source).__name__} {source!r}")
+        raise no_model(source, "source", "a name or a path")
     if not isinstance(source, str) or _is_path(source):
         quiet = mimic == "independent"
         _refuse_folder_before_name(source)
