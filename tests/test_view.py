@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -121,6 +122,17 @@ def test_frames_that_are_asked_for_are_the_only_ones_and_carry_their_names(space
     tw.view("planar_arm", frames=iter([tw.load("planar_arm").frame_names[-1]]), ax=space)
     assert len(space.lines) == 2 * without + 3
     assert [text.get_text().strip() for text in space.texts] == [tw.load("planar_arm").frame_names[-1]]
+
+
+def test_a_model_without_frames_is_shown(space):
+    tw.view(replace(tw.chain(3), frames={}), ax=space)
+    assert any(line.get_color() in plot.XYZ for line in space.lines)
+
+
+def test_a_model_that_no_robot_gave_its_name_is_shown_as_sticks():
+    pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
+    page = tw.view(tw.chain(3), backend="browser")
+    page.stop()
 
 
 def test_without_axes_a_figure_is_made_which_a_notebook_shows():

@@ -57,8 +57,8 @@ def view(
     t : array_like, shape (n,), optional
         Times of the configurations of a motion, s; 1/30 s apart unless given.
     meshes : str, path or bool
-        Browser only. The robot or URDF whose meshes are put on the bodies; True takes those of `robot` where
-        example-robot-data has some, False draws sticks.
+        Browser only. The robot or URDF whose meshes are put on the bodies, if its links are the same; True takes
+        those of `robot` where example-robot-data has some. Without any, or with False, sticks are drawn.
     backend : {"matplotlib", "browser"}
         The browser needs ``pip install "twistwrench[view]"``.
     ax : matplotlib Axes3D, optional
@@ -112,9 +112,12 @@ def view(
 def _in_browser(
     robot: Any, seen: Subject, frames: Collection[str] | None, meshes: str | PathLike[str] | bool
 ) -> Browser:
+    from ..robots.catalogue import known
     from .browser import Browser, import_viser
     from .shapes import shapes
 
     import_viser()  # what is missing is said before any mesh is looked for
-    asked_for = robot if isinstance(robot, str | PathLike) else seen.model.name
-    return Browser(seen, shapes(seen.model, asked_for if meshes is True else meshes or None), frames)
+    if meshes is True:  # a model has those of the robot of its name, if there is one
+        name = seen.model.name
+        meshes = robot if isinstance(robot, str | PathLike) else name if known(name) else False
+    return Browser(seen, shapes(seen.model, meshes or None), frames)

@@ -116,9 +116,10 @@ class Subject:
         return texts
 
     def box(self) -> tuple[Array, float]:
-        """Return the middle of the box around all frames, shape (3,), and its longest side; in the world, m."""
+        """Return the middle of the box around bodies and frames, shape (3,), and its longest side; in the world, m."""
         T = forward_kinematics(self.model, self.q).placement
-        points = np.array([T[f.body].act(f.placement.translation) for f in self.model.frames.values()])
+        origins = [place.translation for place in T[1:] or T]
+        points = np.array([*origins, *(T[f.body].act(f.placement.translation) for f in self.model.frames.values())])
         low, high = points.min(axis=0), points.max(axis=0)
         return (low + high) / 2, float((high - low).max()) or 1.0
 
