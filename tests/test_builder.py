@@ -350,6 +350,7 @@ def test_placement_in_single_precision_becomes_a_rotation_in_double():
 
 def test_builder_says_how_far_it_is():
     builder = tw.Builder("dog", base="floating")
+    assert repr(builder) == "<Builder 'dog': floating base, 1 link, 1 joint>"
     builder.link("leg", parent="base_link", joint=tw.Revolute("x"))
     builder.link("foot", parent="leg")
     assert repr(builder) == "<Builder 'dog': floating base, 3 links, 2 joints>"

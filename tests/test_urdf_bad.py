@@ -79,7 +79,7 @@ FAULTS = {
     "link named as the world": (GOOD.replace('"b"', '"universe"'), ["'universe'", "the world"]),
     # the joint
     "unknown type": (changed('"revolute"', '"revolut"'), ["line 4", "'j'", "'revolut'", "continuous, prismatic"]),
-    "no type": (changed(' type="revolute"', ""), ["'j'", "type is None", "expected one of"]),
+    "no type": (changed(' type="revolute"', ""), ["'j'", "type is missing", "expected one of"]),
     "zero axis": (changed(LIMIT, LIMIT + '<axis xyz="0 0 0"/>'), ["'j'", "axis is zero"]),
     "axis without xyz": (changed(LIMIT, LIMIT + "<axis/>"), ["'j'", "<axis> has no xyz"]),
     "axis of two": (changed(LIMIT, LIMIT + '<axis xyz="0 1"/>'), ["'j'", "<axis xyz='0 1'>", "3 numbers, got 2"]),

@@ -150,8 +150,9 @@ class Builder:
         self._add(Link.checked(name, parent, joint, joint_name, placement, inertia, numbers))
 
     def __repr__(self) -> str:
-        joints = sum(link.joint is not None for link in self._links.values())
-        return f"<Builder {self._name!r}: {self._base} base, {len(self._links)} links, {joints} joints>"
+        counts = (len(self._links), "link"), (sum(link.joint is not None for link in self._links.values()), "joint")
+        parts = ", ".join(f"{n} {what}{'s' * (n != 1)}" for n, what in counts)
+        return f"<Builder {self._name!r}: {self._base} base, {parts}>"
 
     def _add(self, link: Link) -> None:
         if link.name in self._links:

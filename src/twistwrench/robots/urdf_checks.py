@@ -123,8 +123,8 @@ def _check_inertial(path: Path, name: str, link: XML) -> None:
 def _check_joint(path: Path, name: str, joint: XML) -> None:
     what, kind = f"joint {name!r}", joint.get("type")
     if kind not in JOINT_TYPES:
-        known = ", ".join(JOINT_TYPES)
-        raise ModelError(f"{_at(path, joint)}: {what}: its type is {kind!r}, expected one of {known}")
+        came, known = "missing" if kind is None else repr(kind), ", ".join(JOINT_TYPES)
+        raise ModelError(f"{_at(path, joint)}: {what}: its type is {came}, expected one of {known}")
     _check_origin(path, what, joint)
     if kind == "fixed":
         return
