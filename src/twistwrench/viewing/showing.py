@@ -117,7 +117,8 @@ def _in_browser(
     from .shapes import shapes
 
     import_viser()  # what is missing is said before any mesh is looked for
+    source = None if isinstance(meshes, bool) else meshes
     if meshes is True:  # a model has those of the robot of its name, if there is one
         name = seen.model.name
-        meshes = robot if isinstance(robot, str | PathLike) else name if known(name) else False
-    return Browser(seen, shapes(seen.model, meshes or None), frames)
+        source = robot if isinstance(robot, str | PathLike) else name if known(name) else None
+    return Browser(seen, shapes(seen.model, source), frames)
