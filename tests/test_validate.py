@@ -121,6 +121,7 @@ def test_a_robot_that_does_not_move_has_nothing_to_compare():
 
 
 def test_the_seed_makes_a_report_repeatable():
+    assert validate("pendulum", states=1, truths=0, rng=np.int64(3)).seed == 3
     first, again, other = (validate("cart_pole", rng=seed, **QUICK).rows for seed in (1, 1, 2))
     assert first == again
     assert first != other

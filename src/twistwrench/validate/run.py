@@ -118,7 +118,7 @@ def validate(
         mpmath=None if context is None else _version_of_mpmath(),
         states=states,
         truths=judge.truths,
-        seed=rng if isinstance(rng, int) else None,
+        seed=int(rng) if isinstance(rng, int | np.integer) else None,
         loader=oracle is not None and path is not None,
         mimics=() if path is None else _mimics(path),
         seconds=time.perf_counter() - start,
