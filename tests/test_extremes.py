@@ -287,6 +287,14 @@ def test_the_report_counts():
     assert report.refusals(refused) == [("ValueError: q: joint … is", 1)]
 
 
+def test_the_report_is_json_where_an_estimate_has_no_end():
+    outcomes = (Outcome("aba, pushed", "fast", error=0.1, estimate=np.inf), Outcome("crba", "fast", bad="NaN"))
+    found = report.as_dict([Cell(Recipe(), (*outcomes, replace(outcomes[0], bad="a warning")))])
+    assert [row["median"] for row in found["estimates"]] == [None]
+    assert [row["estimate"] for row in found["bad"]] == [None, None]
+    json.dumps(found, allow_nan=False)
+
+
 def test_the_command_prints_writes_and_draws(tmp_path, monkeypatch, capsys):
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: the maps are not drawn")
     monkeypatch.setattr(grid, "cells", lambda *, full: FEW)

@@ -180,11 +180,15 @@ def turns(found: Iterable[Turns]) -> Iterator[str]:
 
 
 def as_dict(cells: Sequence[Cell]) -> dict[str, Any]:
-    """Return the same as numbers, for JSON."""
+    """Return the same as numbers, for JSON: an estimate without end is None."""
     return {
         "cells": len(cells),
         "ways": [asdict(row) for row in rows(cells)],
-        "estimates": [asdict(estimate) for estimate in estimates(cells)],
+        "estimates": [_finite(asdict(estimate)) for estimate in estimates(cells)],
         "refused": [{"error": message, "count": count} for message, count in refusals(cells)],
-        "bad": [{"cell": str(cell), **asdict(outcome)} for cell, outcome in bad(cells)],
+        "bad": [{"cell": str(cell), **_finite(asdict(outcome))} for cell, outcome in bad(cells)],
     }
+
+
+def _finite(found: dict[str, Any]) -> dict[str, Any]:
+    return {name: None if x in (np.inf, -np.inf) else x for name, x in found.items()}
