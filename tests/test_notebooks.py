@@ -5,6 +5,7 @@ import importlib.util
 import json
 import re
 import time
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -175,6 +176,16 @@ def test_a_section_ends_with_its_exercises(source, language):
 
 
 # ---------------------------------------------------------------- run
+
+
+def test_the_extra_of_the_notebooks_brings_the_solver_that_one_of_them_asks():
+    """Whether a scene can stand is a quadratic programme; the tests have its solver from an extra of their own."""
+    assert any("can_stand()" in source.read_text(encoding="utf-8") for source in SOURCES)
+    project = tomllib.loads((FOLDER.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    brought = re.findall(r"\w+", " ".join(extras["notebooks"]))
+    assert "qp" in brought
+    assert any(solver.startswith("daqp") for solver in extras["qp"])
 
 
 @pytest.mark.slow
