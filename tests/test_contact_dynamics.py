@@ -451,6 +451,13 @@ def test_a_stabilisation_out_of_bounds_is_refused(frequency, damping):
         tw.Baumgarte(frequency, {}, damping=damping)
 
 
+def test_what_is_no_stabilisation_is_refused():
+    with pytest.raises(TypeError, match="anchors: expected placements by frame, as from contact_placements, got None"):
+        tw.Baumgarte(20.0, None)
+    with pytest.raises(TypeError, match=r"stabilise: expected a Baumgarte or None, got 20\.0"):
+        tw.contact_forward_dynamics(GO2, GO2.standing(), np.zeros(18), np.zeros(18), FEET, stabilise=20.0)
+
+
 def test_the_truth_is_50_digits():
     v = np.zeros(6)
     assert isinstance(kkt(BOX, BOX.neutral(), v, v, BOX_CORNERS[:3]).qdd[0], type(slow.as_mpmath(np.ones(1))[0]))

@@ -46,6 +46,8 @@ class Baumgarte:
     ------
     ValueError
         If `frequency` or `damping` is out of bounds.
+    TypeError
+        If one of them is no number, or `anchors` no mapping.
 
     Examples
     --------
@@ -65,6 +67,8 @@ class Baumgarte:
             raise ValueError(f"frequency: expected a number above 0, got {self.frequency!r}")
         if not 0 <= as_number(self.damping, "damping") < np.inf:
             raise ValueError(f"damping: expected a number of at least 0, got {self.damping!r}")
+        if not isinstance(self.anchors, Mapping):
+            raise TypeError(f"anchors: expected placements by frame, as from contact_placements, got {self.anchors!r}")
 
 
 @dataclass(frozen=True)
@@ -136,6 +140,8 @@ def contact_forward_dynamics(
         If the contacts contradict each other, so that no acceleration suits all; or as `aba`.
     NameNotFound, ShapeError, ValueError
         As `constraint_jacobian`; complex numbers; an anchor that is missing.
+    TypeError
+        If `stabilise` is neither a Baumgarte nor None.
 
     Notes
     -----
@@ -157,6 +163,8 @@ def contact_forward_dynamics(
     at, J, bias = touching(model, q, v, contacts)
     W, slip, target = lever(contacts, at), np.matvec(J, v), -bias
     if stabilise is not None:
+        if not isinstance(stabilise, Baumgarte):
+            raise TypeError(f"stabilise: expected a Baumgarte or None, got {stabilise!r}")
         error = contact_errors(contacts, at, stabilise.anchors)
         target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
     qdd = free = aba(model, q, v, tau, *pushed)
