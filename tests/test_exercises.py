@@ -21,6 +21,7 @@ from twistwrench.exercises import catalogue, checking, hint, mine, skeletons, sl
 from twistwrench.exercises.compare import agree
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.layouts import JACOBIAN
+from twistwrench.exercises.progress import Row, Status
 from twistwrench.exercises.slips import SLIPS
 from twistwrench.exercises.table import slip_table
 from twistwrench.exercises.text import Text
@@ -276,6 +277,14 @@ def test_a_section_is_meant_by_its_number():
     config.addinivalue_line = lambda name, line: None
     checking.pytest_configure(config)
     assert config.option.keyword == "49_1_ or 49_3_2"
+
+
+@pytest.mark.parametrize(
+    ("language", "said"), [("en", "  1 done, 1 wrong, 1 to do"), ("zh", "  1 完成、1 有误、1 未做")]
+)
+def test_a_line_of_the_table_is_punctuated_in_its_language(language, said):
+    states = {"49.3.1": "done", "49.3.2": "wrong", "49.3.3": "to do"}
+    assert str(Status((Row("49.3", states),), language)).splitlines()[0].endswith(said)
 
 
 def test_hints_come_one_at_a_time(tmp_path):
@@ -560,7 +569,7 @@ def test_status_in_the_wrong_folder_says_where_the_exercises_are(tmp_path, capsy
         assert main(["exercises", "status"]) == 2
         quoted = shlex.quote(other)
         assert (
-            f".: no exercises here; there are in {other}: twistwrench exercises status {quoted}\n"
+            f".: no exercises here; there are some in {other}: twistwrench exercises status {quoted}\n"
             in capsys.readouterr().err
         )
 

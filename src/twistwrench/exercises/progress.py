@@ -25,6 +25,7 @@ SAY = {
     "next": Text("Next: {id} {title}, in {file}", "下一题：{id} {title}（{file}）"),
     "fix": Text("To mend: {ids}", "待改正：{ids}"),
     "borrowed": Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现：{names}"),
+    "comma": Text(", ", "、"),
     "finished": Text("All done.", "全部完成。"),
 }
 
@@ -82,19 +83,19 @@ class Status:
         full = round(WIDTH * counts.get("done", 0) / size)
         bar = "█" * full + "·" * (WIDTH - full)
         kinds: tuple[Literal["done", "wrong", "to do"], ...] = ("done", "wrong", "to do")
-        said = ", ".join(f"{counts[kind]} {self._say(kind)}" for kind in kinds if kind in counts)
+        said = self._say("comma").join(f"{counts[kind]} {self._say(kind)}" for kind in kinds if kind in counts)
         return f"{section:8}{title}{' ' * (28 - columns(title))}{bar}  {said}"
 
     def _advice(self, every: Row) -> list[str]:
         wrong = [number for number, state in every.states.items() if state == "wrong"]
         waiting = [number for number, state in every.states.items() if state == "to do"]
-        lines = [self._say("fix", ids=", ".join(wrong))] if wrong else []
+        lines = [self._say("fix", ids=self._say("comma").join(wrong))] if wrong else []
         if waiting:
             exercise = catalogue.exercise(waiting[0])
             file = catalogue.file_name(exercise.section)
             lines.append(self._say("next", id=exercise.id, title=exercise.title, file=file))
         if self.borrowed:
-            lines.append(self._say("borrowed", names=", ".join(self.borrowed)))
+            lines.append(self._say("borrowed", names=self._say("comma").join(self.borrowed)))
         return lines or [self._say("finished")]
 
 

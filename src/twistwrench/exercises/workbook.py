@@ -233,6 +233,6 @@ def _where(folder: Path) -> str:
     near = [folder / "..", *(sorted(folder.iterdir()) if folder.is_dir() else ())]
     for other in near:
         if _started(other):
-            return f"there are in {other}: twistwrench exercises status {shlex.quote(str(other))}"
+            return f"there are some in {other}: twistwrench exercises status {shlex.quote(str(other))}"
     named, new = "twistwrench exercises status DIR", "twistwrench exercises start DIR"
     return f"name the folder that they are in: {named} (to make one: {new})"
