@@ -568,6 +568,12 @@ def test_what_cannot_be_shown_is_said(arguments, options, error, said):
 # ---------------------------------------------------------------- the command line
 
 
+def test_meshes_without_their_reader_say_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "yourdfpy", None)
+    with pytest.raises(ModuleNotFoundError, match=r'yourdfpy, .* "twistwrench\[view\]"; meshes=False draws sticks'):
+        shapes(tw.load("planar_arm"), find("planar_arm").path)
+
+
 def test_the_command_writes_a_picture(tmp_path):
     assert main(["view", "go2", "--output", str(tmp_path / "go2.png")]) == 0
     assert (tmp_path / "go2.png").read_bytes().startswith(b"\x89PNG")

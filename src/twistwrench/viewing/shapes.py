@@ -104,8 +104,14 @@ def _urdf(source: str | PathLike[str] | None) -> Path | None:
 
 def _links(path: Path) -> list[Any]:
     """Read the links, without their meshes; what is no proper XML is refused before."""
-    import yourdfpy
     from lxml import etree
+
+    try:
+        import yourdfpy
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError(
+            'meshes need yourdfpy, which is not installed: pip install "twistwrench[view]"; meshes=False draws sticks'
+        ) from None
 
     text = BytesIO(etree.tostring(read_robot_xml(path)))
     return list(yourdfpy.URDF.load(text, build_scene_graph=False, load_meshes=False).robot.links)
