@@ -102,7 +102,12 @@ TAKERS = takers()
 
 def test_every_taker_of_a_number_or_a_name_is_found():
     assert len(TAKERS) > 75
-    known = {"simulate(dt)", "fast.aba(workers)", "Model.random_configuration(rng)", "templates.LinearPendulum(height)"}
+    known = {
+        "simulate(dt)",
+        "fast.aba(workers)",
+        "Coordinates.random_configuration(rng)",
+        "templates.LinearPendulum(height)",
+    }
     assert known <= set(TAKERS)
 
 

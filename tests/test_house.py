@@ -23,6 +23,7 @@ ORDER = [
         "joint_types",
         "constants",
         "state",
+        "coordinates",
         "model",
         "door",
         "links",

@@ -16,12 +16,12 @@ from .checks import Array, as_arrays, resolution
 from .errors import ShapeError
 
 if TYPE_CHECKING:
-    from .model import Model
+    from .coordinates import Coordinates
 
 __all__ = ["check_arrays", "check_state"]
 
 
-def check_state(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
+def check_state(model: Coordinates, **named: ArrayLike | None) -> tuple[Array, ...]:
     """Check a state and bring it to one dtype and one batch shape: see `Model.state`."""
     arrays, names = list(check_arrays(model, **named)), tuple(named)
     tails = [2 if name == "f_ext" else 1 for name in names]
@@ -38,7 +38,7 @@ def check_state(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
-def check_arrays(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
+def check_arrays(model: Coordinates, **named: ArrayLike | None) -> tuple[Array, ...]:
     """Convert to finite arrays of one dtype with the right last axes, or say what is wrong.
 
     The name of an argument says what it is: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
@@ -54,7 +54,7 @@ def check_arrays(model: Model, **named: ArrayLike | None) -> tuple[Array, ...]:
     return as_arrays(**expected)
 
 
-def _check_not_swapped(model: Model, name: str, value: ArrayLike | None) -> None:
+def _check_not_swapped(model: Coordinates, name: str, value: ArrayLike | None) -> None:
     """Say so where a v came for a q, a q for a v, the joints without the base, or a column for a row."""
     (kind, size), (other, came) = ("q", model.nq), ("v", model.nv)
     if not name.startswith("q"):
@@ -77,7 +77,7 @@ def _check_not_swapped(model: Model, name: str, value: ArrayLike | None) -> None
         )
 
 
-def _external(model: Model, f_ext: ArrayLike | None) -> ArrayLike:
+def _external(model: Coordinates, f_ext: ArrayLike | None) -> ArrayLike:
     """Return the wrenches on the bodies, zero where none came; refuse one on the world, or no row for it."""
     if f_ext is None:
         return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
@@ -113,7 +113,7 @@ def _check_size(x: Array, name: str) -> None:
         )
 
 
-def _with_norm_1(model: Model, q: Array, name: str, came: np.dtype[Any]) -> Array:
+def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -> Array:
     """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it came with.
 
     What came with fewer digits than it has now gets norm 1 to all of these.
