@@ -833,3 +833,14 @@ def test_empty_model_is_a_world_and_nothing_else():
     model = bridge.from_pinocchio_model(pin.Model())
     assert (model.nbodies, model.nq, model.nv, model.base) == (1, 0, 0, "fixed")
     assert bridge.to_pinocchio_model(model).njoints == 1
+
+
+def test_objects_of_the_other_package_are_named():
+    for function, given, message in (
+        (bridge.to_pinocchio_se3, pin.SE3.Identity(), r"T: expected twistwrench\.SE3, got pinocchio\.SE3"),
+        (bridge.from_pinocchio_se3, tw.SE3.identity(), r"T: expected pinocchio\.SE3, got twistwrench\.SE3"),
+        (bridge.to_pinocchio_inertia, np.eye(6), r"inertia: expected twistwrench\.SpatialInertia, got numpy\.ndarray"),
+        (bridge.from_pinocchio_inertia, np.eye(6), r"inertia: expected pinocchio\.Inertia, got numpy\.ndarray"),
+    ):
+        with pytest.raises(TypeError, match=f"^{message}$"):
+            function(given)

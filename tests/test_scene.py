@@ -593,3 +593,8 @@ def test_the_tables_of_the_page_are_what_its_command_finds():
         option = found[name]
         got = np.array([np.median(option.residual), option.worst])
         np.testing.assert_allclose([float(median), float(worst)], got, rtol=0.05, atol=2e-15)
+
+
+def test_wrenches_without_frames_are_refused():
+    with pytest.raises(TypeError, match="wrenches: expected a mapping of frames to wrenches, got list"):
+        tw.Scene("go2", wrenches=[[0, 0, 0, 1, 0, 0]])

@@ -26,7 +26,12 @@ class SpatialVector:
     __array_ufunc__ = None
     _symbol: ClassVar[str]
 
-    def __init__(self, vector: ArrayLike, *, frame: str | None = None) -> None:
+    def __init__(self, vector: ArrayLike, *others: ArrayLike, frame: str | None = None) -> None:
+        if others:
+            halves = "np.concatenate([angular, linear], axis=-1) makes one of two halves"
+            raise TypeError(
+                f"{type(self).__name__}: expected one array of shape (..., 6), got {1 + len(others)}; {halves}"
+            )
         if isinstance(vector, SpatialVector):
             mine, theirs = type(self).__name__, type(vector).__name__
             raise TypeError(f"{mine}({theirs}): expected six numbers; those of the {theirs} are its .vector")

@@ -205,6 +205,8 @@ class Twist(SpatialVector):
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If two halves came in the place of one array.
 
     Examples
     --------

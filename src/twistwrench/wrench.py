@@ -63,6 +63,8 @@ class Wrench(SpatialVector):
     ------
     ShapeError
         If the last axis is not 6 long.
+    TypeError
+        If two halves came in the place of one array.
 
     Examples
     --------

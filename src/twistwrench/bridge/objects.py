@@ -72,6 +72,8 @@ def to_pinocchio_se3(T: SE3) -> Any:
     ------
     ShapeError, ValueError
         If T has batch axes or is complex.
+    TypeError
+        If something else came.
     ImportError
         As `import_pinocchio`.
 
@@ -80,6 +82,7 @@ def to_pinocchio_se3(T: SE3) -> Any:
     >>> to_pinocchio_se3(SE3(np.eye(3), [1, 2, 3])).translation
     array([1., 2., 3.])
     """
+    _expect(SE3, T, "T")
     return import_pinocchio().SE3(_double(T.rotation, "T.rotation", 2), _double(T.translation, "T.translation", 1))
 
 
@@ -98,6 +101,8 @@ def from_pinocchio_se3(T: Any) -> SE3:
     ------
     ShapeError, ValueError
         If its rotation is none, or not finite.
+    TypeError
+        If something else came.
 
     Examples
     --------
@@ -105,6 +110,7 @@ def from_pinocchio_se3(T: Any) -> SE3:
     >>> from_pinocchio_se3(pin.SE3(np.eye(3), np.array([1.0, 2, 3]))).translation
     array([1., 2., 3.])
     """
+    _expect(import_pinocchio().SE3, T, "T")
     return SE3(T.rotation, T.translation)
 
 
@@ -126,6 +132,8 @@ def to_pinocchio_inertia(inertia: SpatialInertia) -> Any:
     ------
     ShapeError, ValueError
         If it has batch axes or is complex.
+    TypeError
+        If something else came.
     ImportError
         As `import_pinocchio`.
 
@@ -135,6 +143,7 @@ def to_pinocchio_inertia(inertia: SpatialInertia) -> Any:
     >>> to_pinocchio_inertia(body).matrix().diagonal()
     array([2.   , 2.   , 2.   , 0.03 , 0.03 , 0.005])
     """
+    _expect(SpatialInertia, inertia, "inertia")
     # Filled in afterwards: the constructor refuses inertias that no body can have, but robots do.
     there = import_pinocchio().Inertia.Zero()
     there.mass = float(_double(inertia.mass, "mass", 0))
@@ -158,6 +167,8 @@ def from_pinocchio_inertia(inertia: Any) -> SpatialInertia:
     ------
     ModelError, ValueError
         If the mass is below zero, or a number is not finite.
+    TypeError
+        If something else came.
 
     Examples
     --------
@@ -165,6 +176,7 @@ def from_pinocchio_inertia(inertia: Any) -> SpatialInertia:
     >>> from_pinocchio_inertia(pin.Inertia(2.0, np.array([0, 0, 0.1]), np.eye(3))).com
     array([0. , 0. , 0.1])
     """
+    _expect(import_pinocchio().Inertia, inertia, "inertia")
     return SpatialInertia(inertia.mass, inertia.lever, inertia.inertia)
 
 
@@ -233,6 +245,13 @@ def from_pinocchio_f_ext(model: Model, f_ext: Any) -> Array:
     check_model(model)
     F = from_pinocchio_force(f_ext)
     return check_arrays(model, f_ext=F)[0]
+
+
+def _expect(kind: type, value: object, name: str) -> None:
+    """Refuse what is not of a type, and name both with their packages: each has an SE3."""
+    if not isinstance(value, kind):
+        expected, came = (f"{k.__module__.partition('.')[0]}.{k.__name__}" for k in (kind, type(value)))
+        raise TypeError(f"{name}: expected {expected}, got {came}")
 
 
 def _double(x: Array, name: str, axes: int) -> Array:

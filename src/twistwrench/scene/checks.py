@@ -62,7 +62,11 @@ def checked_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[st
         If the model has no such frame.
     ShapeError, ValueError
         If a wrench is not six finite real numbers.
+    TypeError
+        If they come without the names of their frames.
     """
+    if not isinstance(wrenches, Mapping):
+        raise TypeError(f"wrenches: expected a mapping of frames to wrenches, got {type(wrenches).__name__}")
     checked = {}
     for frame, value in wrenches.items():
         model.frame(frame)

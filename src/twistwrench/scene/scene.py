@@ -70,7 +70,7 @@ class Scene(SmallestModel):
     ShapeError, ValueError
         Numbers that are none, or of a wrong shape; friction below zero (`PointContact` says so).
     TypeError
-        A contact that is none.
+        A contact that is none, or wrenches without the names of their frames.
 
     Examples
     --------
