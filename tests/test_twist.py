@@ -227,7 +227,7 @@ def test_a_twist_and_a_wrench_do_not_add():
     with pytest.raises(TypeError):
         V * F
     with pytest.raises(TypeError, match=r"Twist: expected one array of shape \(\.\.\., 6\), got 2; np\.concatenate"):
-        tw.Twist([0, 0, 1], [1, 0, 0])
+        Twist([0, 0, 1], [1, 0, 0])
     with pytest.raises(TypeError, match=r"Wrench\(Twist\): expected six numbers"):
         Wrench(V)
 

@@ -28,10 +28,8 @@ class SpatialVector:
 
     def __init__(self, vector: ArrayLike, *others: ArrayLike, frame: str | None = None) -> None:
         if others:
-            halves = "np.concatenate([angular, linear], axis=-1) makes one of two halves"
-            raise TypeError(
-                f"{type(self).__name__}: expected one array of shape (..., 6), got {1 + len(others)}; {halves}"
-            )
+            came = f"{type(self).__name__}: expected one array of shape (..., 6), got {1 + len(others)}"
+            raise TypeError(f"{came}; np.concatenate([angular, linear], axis=-1) makes one of two halves")
         if isinstance(vector, SpatialVector):
             mine, theirs = type(self).__name__, type(vector).__name__
             raise TypeError(f"{mine}({theirs}): expected six numbers; those of the {theirs} are its .vector")
