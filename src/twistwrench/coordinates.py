@@ -113,7 +113,7 @@ class Coordinates:
 
         Raises
         ------
-        TypeError
+        ValueError
             If `rng` is neither.
 
         Examples
