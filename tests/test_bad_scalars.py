@@ -117,7 +117,8 @@ def test_what_is_no_number_or_no_name_is_named(taker):
     if taker.startswith("validate"):
         pytest.importorskip("mpmath")
     parameters = inspect.signature(function).parameters
-    given = {name: GOOD[name] for name, p in parameters.items() if p.default is p.empty and p.kind is not p.VAR_KEYWORD}
+    needed = {name: p.kind for name, p in parameters.items() if p.default is p.empty}
+    given = {name: GOOD[name] for name, kind in needed.items() if kind not in (kind.VAR_POSITIONAL, kind.VAR_KEYWORD)}
     for bad in ("0.01", [1.0, 2.0], 1j) if is_number else (0.5, ["FR_foot"]):
         with pytest.raises((TypeError, ValueError), match=rf"\b{CALLED.get(taker, argument)}\b.*: .*, got "):
             function(**given | {argument: bad})
