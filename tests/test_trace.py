@@ -219,6 +219,17 @@ def test_the_table_has_a_block_for_each_body_with_its_account():
     np.testing.assert_allclose(shown, trace.row("FL_hip_joint").accounts["F"].total, rtol=1e-3, atol=1e-12)
 
 
+def test_what_is_small_is_shown_and_what_rounding_left_is_not():
+    arm = tw.Builder("hair", gravity=(0, 0, -9.81))
+    mote = tw.SpatialInertia(1e-9, [1e-3, 0, 0], 1e-16 * np.eye(3))  # a microgram on 2 mm
+    arm.link("hair", parent="base_link", joint=tw.Revolute([0, -1, 0]), inertia=mote)
+    trace = tw.trace(arm.build(), "rnea", [0.0], [0.0], [0.0])
+    assert "tau                  9.81e-12" in str(trace)
+    assert "tau = 9.81e-12" in trace.tree()
+    level = tw.trace(arm.build(), "rnea", [np.pi / 2], [0.0], [0.0])  # it hangs: cos(π/2) is 6e-17
+    assert "tau                         0" in str(level)
+
+
 @pytest.mark.parametrize("name", ["go2", "humanoid"])
 def test_table_and_tree_are_a_hundred_columns_wide_at_most(name):
     rng = np.random.default_rng(0)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from html import escape
 
 import numpy as np
 
 from ..checks import Array
-from .ledger import Row, Trace
+from .ledger import Account, Row, Trace
 
 __all__ = ["html", "table", "tree"]
 
@@ -40,7 +41,7 @@ Line = tuple[str, list[str], str]
 def table(trace: Trace) -> str:
     """Return a trace as text: below each body its values, and its accounts as own + received = total, → passed on."""
     blocks = [f"{trace.algorithm} of {trace.model.name!r}: {_title(trace)}"]
-    for row in trace.rows:
+    for row in _without_rounding(trace.rows):
         lines = [_heading(row)]
         for what, cells, unit in _lines(trace.algorithm, row):
             lines.append(f"  {what:<18}{''.join(f'{cell:>11}' for cell in cells):<66}  {unit}")
@@ -51,7 +52,7 @@ def table(trace: Trace) -> str:
 def html(trace: Trace) -> str:
     """Return a trace as a table of HTML."""
     rows = []
-    for row in trace.rows:
+    for row in _without_rounding(trace.rows):
         rows.append(f'<tr><th colspan="8" style="text-align:left">{escape(_heading(row))}</th></tr>')
         for what, cells, unit in _lines(trace.algorithm, row):
             numbers = "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "<td></td>" * (6 - len(cells))
@@ -62,8 +63,9 @@ def html(trace: Trace) -> str:
 
 def tree(trace: Trace) -> str:
     """Return the bodies as a tree, with what each passes on to its parent."""
-    lines = [trace.rows[0].name]
-    children = [[row for row in trace.rows if row.parent == i] for i in range(len(trace.rows))]
+    rows = _without_rounding(trace.rows)
+    lines = [rows[0].name]
+    children = [[row for row in rows if row.parent == i] for i in range(len(rows))]
 
     def grow(i: int, indent: str) -> None:
         for row in children[i]:
@@ -74,6 +76,31 @@ def tree(trace: Trace) -> str:
     grow(0, "")
     width = max(len(line.partition("\t")[0]) for line in lines) + 2
     return "\n".join(f"{name:<{width}}{text}".rstrip() for name, _, text in (line.partition("\t") for line in lines))
+
+
+def _without_rounding(rows: Sequence[Row]) -> list[Row]:
+    """Return rows with 0 for what rounding left of nothing: less than 1e-13 of the largest number in that unit."""
+    largest: dict[str, float] = {}
+    for row in rows:
+        for name, x in [*row.values.items(), *((name, account.total) for name, account in row.accounts.items())]:
+            largest[_unit(name)] = max(largest.get(_unit(name), 0.0), float(np.abs(x).max(initial=0.0)))
+
+    def shown(name: str, x: Array) -> Array:
+        return np.where(np.abs(x) > 1e-13 * largest[_unit(name)], x, 0.0)
+
+    def account(name: str, of: Account) -> Account:
+        received = {child: shown(name, part) for child, part in of.received.items()}
+        passed = None if of.passed is None else shown(name, of.passed)
+        return Account(shown(name, of.own), received, shown(name, of.total), passed)
+
+    return [
+        replace(
+            row,
+            values={name: shown(name, x) for name, x in row.values.items()},
+            accounts={name: account(name, of) for name, of in row.accounts.items()},
+        )
+        for row in rows
+    ]
 
 
 def _passes(algorithm: str, row: Row) -> str:
@@ -120,7 +147,7 @@ def _lines(algorithm: str, row: Row) -> Iterator[Line]:
 
 def _numbers(what: str, name: str, x: Array) -> Iterator[Line]:
     """Yield a vector or a matrix: of a square one the diagonal, of another the columns."""
-    unit = UNITS["U" if name.startswith("F in") else name.partition("[")[0]]  # a wrench per unit of acceleration
+    unit = _unit(name)
     if x.ndim == 1:
         yield what, [_number(entry) for entry in x], unit
     elif x.shape[0] == x.shape[1] > 1:
@@ -130,9 +157,12 @@ def _numbers(what: str, name: str, x: Array) -> Iterator[Line]:
             yield what if x.shape[1] == 1 else f"{what}, column {k}", [_number(entry) for entry in column], unit
 
 
+def _unit(name: str) -> str:
+    return UNITS["U" if name.startswith("F in") else name.partition("[")[0]]  # a wrench per unit of acceleration
+
+
 def _number(x: float) -> str:
-    """Four digits; what rounding left of nothing is 0."""
-    return f"{x:.4g}" if abs(x) > 1e-12 else "0"
+    return f"{x + 0.0:.4g}"  # + 0.0 turns -0 into 0
 
 
 def _few(x: Array) -> str:
