@@ -403,6 +403,8 @@ def test_bad_base_gravity_feet_and_postures_are_refused():
         builder.build(postures={"flat": np.zeros(6)})
     with pytest.raises(tw.ShapeError, match=r"posture 'flat': expected one configuration, shape \(7,\), got \(1, 7\)"):
         builder.build(postures={"flat": [[0, 0, 0, 0, 0, 0, 1]]})
+    with pytest.raises(ValueError, match=r"posture 'flat': q: expected real numbers, got complex128"):
+        builder.build(postures={"flat": [1j, 0, 0, 0, 0, 0, 1]})
     with pytest.raises(ValueError, match="quaternion"):
         builder.build(postures={"flat": np.zeros(7)})
 

@@ -218,12 +218,12 @@ class Builder:
 def _posture(model: Model, name: str, q: ArrayLike) -> Array:
     """Return one configuration, checked."""
     try:
-        (checked,) = model.state(q)
+        checked = in_double(model, *model.state(q))
     except ValueError as error:
         raise type(error)(f"posture {name!r}: {error}") from None
     if checked.ndim != 1:
         raise ShapeError(f"posture {name!r}: expected one configuration, shape ({model.nq},), got {checked.shape}")
-    return in_double(model, checked)
+    return checked
 
 
 def _join(pieces: list[Array]) -> Array:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from .checks import Array
+from .checks import Array, as_constant
 from .errors import ShapeError, no_model
 from .model import Model
 
@@ -33,6 +32,9 @@ def one_configuration(model: Model, q: ArrayLike) -> Array:
 
 
 def in_double(model: Model, q: Array) -> Array:
-    """Return a copy of a checked q in double precision: its quaternions, once singles, have norm 1 to that again."""
-    double = q.astype(np.float64)
+    """Return a copy of a checked q in double precision; refuse complex numbers.
+
+    What came in singles gets quaternions of norm 1 to all the digits that it has now.
+    """
+    double = as_constant(q, "q")
     return double if q.dtype == double.dtype else model.normalize(double)
