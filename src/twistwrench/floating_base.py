@@ -12,10 +12,12 @@ from .checks import Array, as_names, resolution
 from .door import check_model, one_configuration, state_of
 from .errors import SingularError
 from .inverse_dynamics import gravity
+from .joint_types import FreeFlyer
 from .kinematics import frame_jacobian
 from .model import Model
+from .plucker import SE3
 
-__all__ = ["Equilibrium", "contact_jacobian", "selection_matrix", "static_equilibrium"]
+__all__ = ["Equilibrium", "base_placement", "contact_jacobian", "selection_matrix", "static_equilibrium"]
 
 
 def selection_matrix(model: Model) -> Array:
@@ -84,6 +86,11 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     contacts = as_names(contacts, "contacts", "frame names")
     rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+
+
+def base_placement(model: Model, q: Array) -> SE3:
+    """Return the placement of a floating base in the world, at a checked q."""
+    return model.constants(q.dtype).placement[1] @ FreeFlyer().transform(q[..., model.q_slice[1]])
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..checks import Array
 from ..constants import cast
+from ..floating_base import base_placement
 from ..joint_types import FreeFlyer, Planar
 from ..model import Frame, Model
 from ..plucker import SE3
@@ -42,8 +43,8 @@ class OnTheFloor:
     @classmethod
     def of(cls, full: Model, q: Array) -> OnTheFloor:
         """Exchange the floating base of a model."""
-        near = q[full.q_slice[1]].astype(np.float64)
-        T = full.placement[1] @ FreeFlyer().transform(near)
+        q = q.astype(np.float64)
+        near, T = q[full.q_slice[1]], base_placement(full, q)
         base = Planar().transform(_shadow(T)).inverse() @ T
         q1, v1 = full.q_slice[1], full.v_slice[1]
         limits = {name: getattr(full, name)[v1][FLOOR_IN_FLYER] for name in ("velocity_limit", "effort_limit")}
@@ -69,7 +70,7 @@ class OnTheFloor:
     def reduce(self, q: Array, v: Array) -> tuple[Array, Array]:
         """Return the planar state below a floating one; its height, tilt and their rates are dropped."""
         base = cast(self.base, q.dtype)
-        T = cast(self.full.placement[1], q.dtype) @ FreeFlyer().transform(q[..., :7]) @ base.inverse()
+        T = base_placement(self.full, q) @ base.inverse()
         twist = np.matvec(base.motion_transform(), v[..., :6])
         return (
             np.concatenate([_shadow(T), q[..., 7:]], axis=-1),

@@ -1,23 +1,16 @@
-"""What templates read of a state: the base, the motion of the centre of mass, the inertia of the locked robot."""
+"""What templates read of a state: the motion of the centre of mass, the inertia of the locked robot."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..checks import Array
-from ..joint_types import FreeFlyer
 from ..kinematics import forward_kinematics
 from ..model import Model
-from ..plucker import SE3
 from ..rotation import skew
 from ..tree import composite_inertias, walk
 
-__all__ = ["base_placement", "com_acceleration", "locked_inertia"]
-
-
-def base_placement(model: Model, q: Array) -> SE3:
-    """Return the placement of a floating base in the world."""
-    return model.constants(q.dtype).placement[1] @ FreeFlyer().transform(q[..., model.q_slice[1]])
+__all__ = ["com_acceleration", "locked_inertia"]
 
 
 def com_acceleration(model: Model, q: Array, v: Array, a: Array) -> Array:

@@ -7,7 +7,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..checks import Array
-from .reading import base_placement, com_acceleration, locked_inertia
+from ..floating_base import base_placement
+from .reading import com_acceleration, locked_inertia
 from .template import Template
 
 __all__ = ["RigidBody"]

@@ -13,10 +13,11 @@ from ..centroidal import center_of_mass
 from ..checks import Array
 from ..door import one_configuration
 from ..errors import SingularError
+from ..floating_base import base_placement
 from ..inverse_dynamics import rnea
 from ..model import Model
 from ..plucker import SE3
-from .reading import base_placement, locked_inertia
+from .reading import locked_inertia
 
 __all__ = ["Residual", "Template", "full_rate"]
 
