@@ -60,21 +60,16 @@ def _check_not_swapped(model: Coordinates, name: str, value: ArrayLike | None) -
     if not name.startswith("q"):
         (kind, size), (other, came) = (other, came), (kind, size)
     shape = _shape(value)
-    if size != came and shape[-1:] == (came,):
-        raise ShapeError(
-            f"{name}: expected shape (..., {size}), got {shape}; this looks like n{other}: "
-            f"{kind} has n{kind} = {size}, {other} has n{other} = {came}"
-        )
     base = size - 7 if kind == "q" else size - 6
-    if model.base == "floating" and shape[-1:] == (base,):
-        raise ShapeError(
-            f"{name}: expected shape (..., {size}), got {shape}; "
-            f"the {size - base} entries of the floating base come before those of the joints"
-        )
-    if len(shape) == 2 and shape[0] == size != shape[1]:
-        raise ShapeError(
-            f"{name}: expected shape (..., {size}), got {shape}; the axis of length {size} must be the last"
-        )
+    if size != came and shape[-1:] == (came,):
+        hint = f"this looks like n{other}: {kind} has n{kind} = {size}, {other} has n{other} = {came}"
+    elif model.base == "floating" and shape[-1:] == (base,):
+        hint = f"the {size - base} entries of the floating base come before those of the joints"
+    elif len(shape) == 2 and shape[0] == size != shape[1]:
+        hint = f"the axis of length {size} must be the last"
+    else:
+        return
+    raise ShapeError(f"{name}: expected shape (..., {size}), got {shape}; {hint}")
 
 
 def _external(model: Coordinates, f_ext: ArrayLike | None) -> ArrayLike:

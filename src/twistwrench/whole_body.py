@@ -17,7 +17,9 @@ from .inverse_dynamics import nonlinear_effects
 from .mass_matrix import crba
 from .model import Model
 
-__all__ = ["Dynamics", "dynamics"]
+__all__ = ["QUANTITIES", "Dynamics", "dynamics", "wanted"]
+
+QUANTITIES = ("M", "h", "J_c", "A_G")
 
 
 @dataclass(frozen=True, repr=False)
@@ -52,7 +54,7 @@ def dynamics(
     v: ArrayLike,
     *,
     contacts: Iterable[str] | None = None,
-    want: Iterable[str] = ("M", "h", "J_c", "A_G"),
+    want: Iterable[str] = QUANTITIES,
 ) -> Dynamics:
     """Return what a whole-body controller needs: M, h, J_c and A_G (the chapter's getDynamics).
 
@@ -88,14 +90,20 @@ def dynamics(
     """
     state_of(model, q, v=v)  # also where no wanted quantity depends on v
     contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names")
-    want = as_names(want, "want", "quantities")
+    want = wanted(want)
     compute = {
         "M": lambda: crba(model, q),
         "h": lambda: nonlinear_effects(model, q, v),
         "J_c": lambda: contact_jacobian(model, q, contacts),
         "A_G": lambda: centroidal_map(model, q),
     }
-    for name in want:
-        if not isinstance(name, str) or name not in compute:
-            raise unknown_name("quantity", name, compute)
     return Dynamics(**{name: compute[name]() for name in want})
+
+
+def wanted(want: Iterable[str]) -> tuple[str, ...]:
+    """Return which quantities are wanted; refuse a name that is none of them."""
+    want = as_names(want, "want", "quantities")
+    for name in want:
+        if not isinstance(name, str) or name not in QUANTITIES:
+            raise unknown_name("quantity", name, QUANTITIES)
+    return want

@@ -8,14 +8,11 @@ from concurrent.futures import Executor
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_names
-from ..errors import unknown_name
 from ..model import Model
-from ..whole_body import Dynamics
+from ..whole_body import QUANTITIES, Dynamics, wanted
 from .dispatch import How, accelerations, parts, torques
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
-
-QUANTITIES = ("M", "h", "J_c", "A_G")
 
 
 def rnea(
@@ -219,10 +216,7 @@ def dynamics(
     >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
-    want = as_names(want, "want", "quantities")
-    for name in want:
-        if name not in QUANTITIES:
-            raise unknown_name("quantity", name, QUANTITIES)
+    want = wanted(want)
     contacts = None if contacts is None else as_names(contacts, "contacts", "frame names")
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_names
+from ..checks import Array
 from ..kinematics import frame_placement
 from ..motions import Motion
-from ..whole_body import Dynamics
+from ..whole_body import QUANTITIES, Dynamics, wanted
 from .costs import Costs, costs, limbs
 from .once import scene_dynamics
 from .robot import posture
@@ -86,7 +86,7 @@ class Scene(SmallestModel):
 
     # ---------------------------------------------------------------- what a controller asks for
 
-    def dynamics(self, q: ArrayLike, v: ArrayLike, *, want: Iterable[str] = ("M", "h", "J_c", "A_G")) -> Dynamics:
+    def dynamics(self, q: ArrayLike, v: ArrayLike, *, want: Iterable[str] = QUANTITIES) -> Dynamics:
         """Return what is wanted of M q̈ + h = Sᵀ τ + J_cᵀ λ, and nothing else.
 
         All of it from one placement of the links (`fast.dynamics`); the angular rows of a sole, or of a moment, take a
@@ -111,8 +111,7 @@ class Scene(SmallestModel):
         ShapeError, SingularError, ValueError
             As `twistwrench.dynamics`.
         """
-        want = as_names(want, "want", "quantities")
-        return scene_dynamics(self.model, self.contacts, self.wrenches, q, v, want)
+        return scene_dynamics(self.model, self.contacts, self.wrenches, q, v, wanted(want))
 
     def f_ext(self, q: ArrayLike) -> Array:
         """Return the scene's wrenches as `twistwrench.rnea` and `twistwrench.aba` take them, shape (..., nbodies, 6).
