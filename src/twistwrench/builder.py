@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from .checks import Array, as_exactly, as_names
 from .door import in_double
-from .errors import ModelError, ShapeError, unknown_name
+from .errors import ModelError, ShapeError, check_known
 from .inertia import SpatialInertia
 from .joint import Joint
 from .joint_types import FreeFlyer
@@ -135,8 +135,7 @@ class Builder:
         NameNotFound
             If the parent is not known.
         """
-        if not isinstance(parent, str) or parent not in self._links:
-            raise unknown_name("parent link", parent, self._links)
+        check_known("parent link", parent, self._links)
         numbers = {
             "lower": lower,
             "upper": upper,

@@ -6,10 +6,10 @@ Each message names the argument, joint, link or frame, what was expected and wha
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from os import PathLike
 
-__all__ = ["FrameError", "ModelError", "ShapeError", "SingularError", "no_model", "unknown_name"]
+__all__ = ["FrameError", "ModelError", "ShapeError", "SingularError", "check_known", "no_model", "unknown_name"]
 
 
 class ModelError(ValueError):
@@ -67,6 +67,19 @@ def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "")
     else:
         hint = f"known: {shown or 'none'}"
     return NameNotFound(f"unknown {kind} {name!r}{where}; {hint}")
+
+
+def check_known(kind: str, name: object, known: Collection[str], where: str = "") -> None:
+    """Refuse what is none of the known names: see `unknown_name`.
+
+    Examples
+    --------
+    >>> check_known("base", "flat", ["fixed", "floating"])
+    Traceback (most recent call last):
+    twistwrench.errors.NameNotFound: unknown base 'flat'; did you mean 'floating'?
+    """
+    if not isinstance(name, str) or name not in known:
+        raise unknown_name(kind, name, known, where)
 
 
 def no_model(value: object, what: str = "model", expected: str = "a Model") -> TypeError:

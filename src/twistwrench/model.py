@@ -19,7 +19,7 @@ from numpy.typing import DTypeLike
 from .checks import Array, as_constant
 from .constants import Constants, fixed
 from .coordinates import Coordinates
-from .errors import unknown_name
+from .errors import check_known
 from .inertia import SpatialInertia
 from .joint import Joint
 from .plucker import SE3
@@ -147,8 +147,7 @@ class Model(Coordinates):
         >>> foot.body, foot.placement.translation  # on the calf, 0.213 m below the knee
         (7, array([ 0.   ,  0.   , -0.213]))
         """
-        if not isinstance(name, str) or name not in self.frames:
-            raise unknown_name("frame", name, self.frames, f" of model {self.name!r}")
+        check_known("frame", name, self.frames, f" of model {self.name!r}")
         return self.frames[name]
 
     def joint_id(self, name: str) -> int:
@@ -173,8 +172,7 @@ class Model(Coordinates):
         >>> tw.load("go2").joint_id("FR_calf_joint")
         7
         """
-        if name not in self.joint_names:
-            raise unknown_name("joint", name, self.joint_names, f" of model {self.name!r}")
+        check_known("joint", name, self.joint_names, f" of model {self.name!r}")
         return self.joint_names.index(name)
 
     def support(self, body: int) -> list[int]:

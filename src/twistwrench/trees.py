@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from .builder import Base, Builder
 from .checks import Array, as_generator, as_number
-from .errors import ModelError, unknown_name
+from .errors import ModelError, check_known
 from .inertia import SpatialInertia
 from .joint import Joint
 from .joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
@@ -168,8 +168,7 @@ def random_tree(
     if not 0 <= as_number(branching, "branching") <= 1 or isinstance(kinds, str) or not len(kinds):
         raise ModelError(f"expected branching from 0 to 1 and a list of kinds, got {branching} and {kinds!r}")
     for kind in kinds:
-        if not isinstance(kind, str) or kind not in KINDS:
-            raise unknown_name("kind of joint", kind, KINDS)
+        check_known("kind of joint", kind, KINDS)
     links, joints = ([f"{what}_{k}" for k in rng.permutation(n)] for what in ("link", "joint"))
     floats = base == "floating"
     root = links[0] if floats else "base_link"

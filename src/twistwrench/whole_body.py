@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from .centroidal import centroidal_map
 from .checks import Array, as_names
 from .door import state_of
-from .errors import unknown_name
+from .errors import check_known
 from .floating_base import contact_jacobian
 from .inverse_dynamics import nonlinear_effects
 from .mass_matrix import crba
@@ -104,6 +104,5 @@ def wanted(want: Iterable[str]) -> tuple[str, ...]:
     """Return which quantities are wanted; refuse a name that is none of them."""
     want = as_names(want, "want", "quantities")
     for name in want:
-        if not isinstance(name, str) or name not in QUANTITIES:
-            raise unknown_name("quantity", name, QUANTITIES)
+        check_known("quantity", name, QUANTITIES)
     return want

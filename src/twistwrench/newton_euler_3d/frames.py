@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
-from ..errors import unknown_name
+from ..errors import check_known, unknown_name
 from .arithmetic import Arithmetic, State, take
 from .bodies import Body, walk
 from .kinematics import spatial_acceleration
@@ -136,8 +136,7 @@ def frame_bias_acceleration(model: Any, q: ArrayLike, v: ArrayLike, frame: str, 
 def _frame(state: State, name: str) -> tuple[Body, Array, Array]:
     """Return the body that carries a frame, and the frame's rotation and position in the world."""
     frames, number = state.model.frames, state.number
-    if not isinstance(name, str) or name not in frames:
-        raise unknown_name("frame", name, frames)
+    check_known("frame", name, frames)
     body, place = walk(state)[frames[name].body], frames[name].placement
     R = body.rotation @ number.rotation(place.rotation, f"frame {name!r}")
     return body, R, body.origin + body.rotation @ number.array(place.translation)

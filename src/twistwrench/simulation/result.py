@@ -11,7 +11,7 @@ import numpy as np
 from ..centroidal import center_of_mass, centroidal_momentum
 from ..checks import Array
 from ..energy import kinetic_energy, potential_energy
-from ..errors import unknown_name
+from ..errors import check_known
 from ..model import Model
 from .methods import METHODS
 from .system import System
@@ -121,8 +121,7 @@ class Simulation:
         NameNotFound
             If `what` is none of these.
         """
-        if not isinstance(what, str) or what not in LABELS:
-            raise unknown_name("quantity", what, LABELS)
+        check_known("quantity", what, LABELS)
         from ..plot.style import axes_2d
 
         ax = axes_2d(ax)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..checks import Array, as_count, as_number
 from ..contact import Contact
 from ..contact.rows import as_contacts
-from ..errors import SingularError, unknown_name
+from ..errors import SingularError, check_known
 from ..model import Model
 from .divergence import DivergenceError, refuse_divergence
 from .methods import METHODS, Step
@@ -102,8 +102,7 @@ def simulate(
     True
     """
     model, own, push = parts(robot)
-    if not isinstance(method, str) or method not in METHODS:
-        raise unknown_name("method", method, METHODS)
+    check_known("method", method, METHODS)
     count = _count(dt, steps, duration)
     contacts = (*own, *as_contacts(model, contacts))
     q, v = model.state(q, v=v)

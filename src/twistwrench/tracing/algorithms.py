@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..door import check_model
-from ..errors import ShapeError, unknown_name
+from ..errors import ShapeError, check_known
 from ..forward_dynamics import aba
 from ..inverse_dynamics import _rnea, rnea
 from ..mass_matrix import crba
@@ -83,8 +83,7 @@ def trace(
     >>> bool(np.isclose(own + received, total))
     True
     """
-    if not isinstance(algorithm, str) or algorithm not in NEEDED:
-        raise unknown_name("algorithm", algorithm, NEEDED)
+    check_known("algorithm", algorithm, NEEDED)
     check_model(model)
     given = {name: x for name, x in {"v": v, "a": a, "tau": tau}.items() if x is not None}
     if tuple(given) != NEEDED[algorithm]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from numpy.typing import ArrayLike
 
 from ..checks import as_names
-from ..errors import ShapeError, unknown_name
+from ..errors import ShapeError, check_known
 
 if TYPE_CHECKING:
     from ..contact import Contact
@@ -90,8 +90,7 @@ def view(
     from .figure import draw
     from .subject import subject
 
-    if not isinstance(backend, str) or backend not in BACKENDS:
-        raise unknown_name("backend", backend, BACKENDS)
+    check_known("backend", backend, BACKENDS)
     seen = subject(robot, q, t=t, contacts=contacts, forces=forces)
     if frames is not None:
         frames = as_names(frames, "frames", "frame names")
