@@ -2,7 +2,7 @@
 
 python benchmarks/speed.py                # all of it, ten minutes; writes to benchmarks/results
 python benchmarks/speed.py --short        # batches of 1000 and one state, a minute; writes nothing
-python benchmarks/speed.py --only links   # one of: one, batch, workers, links, peers
+python benchmarks/speed.py --only links   # one of: one, batch, links, peers
 """
 
 from __future__ import annotations
@@ -18,11 +18,8 @@ import os
 import platform
 import sys
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from functools import lru_cache, partial
+from collections.abc import Iterator
 from importlib.metadata import version
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -63,48 +60,6 @@ def batch(rounds: int, batches=BATCHES) -> Iterator[Row]:
                 call = ours(tw.fast, model, quantity, s.first(n, dtype)), n
                 result = race(call, reference, rounds=rounds if n < 100_000 else 3)
                 yield row("batch", "fast", quantity, result, robot=model.name, dtype=np.dtype(dtype).name, batch=n)
-
-
-def workers(rounds: int, n: int = 200_000) -> Iterator[Row]:
-    """Several processes against one, into arrays that are there; one stands where Pinocchio does elsewhere.
-
-    The last way is what the machine gives at best: each process computes states of its own, and sends nothing.
-    """
-    model = tw.load("go2")
-    s = random_states(model, n)
-    for count in (2, 4, 8):
-        if count > (os.cpu_count() or 1):
-            return
-        with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
-            for quantity in ("rnea", "crba", "set", "aba"):
-                out = ours(tw.fast, model, quantity, s)()
-                single = ours(tw.fast, model, quantity, s, out=out), n
-                ways = {
-                    "kept": ours(tw.fast, model, quantity, s, out=out, workers=pool),
-                    "started": ours(tw.fast, model, quantity, s, out=out, workers=count),
-                    "apart": partial(everyones_share, pool, count, quantity, n // count),
-                }
-                for way, call in ways.items():
-                    result = race((call, n), single, rounds=min(rounds, 5), one_thread=False)
-                    name = f"{count} workers {way}"
-                    yield row("workers", name, quantity, result, robot=model.name, dtype="float64", batch=n)
-
-
-def everyones_share(pool: ProcessPoolExecutor, count: int, quantity: str, n: int) -> None:
-    """Have each process do n states of its own."""
-    list(pool.map(share, [quantity] * count, [n] * count))
-
-
-def share(quantity: str, n: int) -> None:
-    """Do n states of this process's own; what is sent back is nothing."""
-    _share(quantity, n)()
-
-
-@lru_cache
-def _share(quantity: str, n: int) -> Callable[[], object]:
-    model = tw.load("go2")
-    s = random_states(model, n)
-    return ours(tw.fast, model, quantity, s, out=ours(tw.fast, model, quantity, s)())
 
 
 def links(rounds: int) -> Iterator[Row]:
@@ -170,7 +125,7 @@ def row(study: str, way: str, quantity: str, result, **what) -> Row:
     return made
 
 
-STUDIES = {"one": one, "batch": batch, "workers": workers, "links": links, "peers": peers}
+STUDIES = {"one": one, "batch": batch, "links": links, "peers": peers}
 COLUMNS = (
     *("study", "way", "quantity", "robot", "dtype", "batch", "links", "us", "us_q1", "us_q3"),
     *("reference_us", "reference_us_q1", "reference_us_q3", "ratio", "ratio_q1", "ratio_q3", "rounds", "disturbed"),

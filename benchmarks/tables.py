@@ -64,7 +64,6 @@ def tables() -> dict[str, str]:
     return {
         "one": table((r["quantity"], f"`{WAYS[r['way']]}`", f"{number(r['us'])} µs, {ratio(r)}") for r in rows("one")),
         "batch": table((r["quantity"], f"{r['dtype']}, {int(r['batch']):,}", ratio(r)) for r in batches),
-        "workers": table((r["quantity"], f"`{r['way']}`", f"{1 / float(r['ratio']):.2f} ×") for r in rows("workers")),
         "links": table((q, f"batch {b}", f"{growth(q, b):.2f}") for q in ("rnea", "aba", "A_G") for b in ("1", "100")),
         "peers": table((f"{r['way']}, {r['quantity']}", f"{int(r['batch']):,}", ratio(r)) for r in rows("peers")),
         "profile": table((r["stage"], "µs", f"{float(r['us']):.1f}") for r in rows("profile_one")),

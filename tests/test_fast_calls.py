@@ -2,10 +2,7 @@
 
 import gc
 import weakref
-from concurrent.futures import ProcessPoolExecutor
 from itertools import permutations
-from multiprocessing import get_context
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -335,81 +332,6 @@ def test_few_states_and_many_agree(name, count, states, monkeypatch):
     other_way = CALLS[name](fast, GO2, q, v)
     size = 10 if name == "aba" else 1  # the condition of M
     np.testing.assert_allclose(one_way, other_way, rtol=0, atol=size * 1e-14 * np.abs(other_way).max())
-
-
-def test_two_processes_change_nothing(states):
-    """The call starts them itself."""
-    q, v = np.tile(states.q, (30, 1)), np.tile(states.v, (30, 1))
-    assert_equal_to_rounding(fast.aba(GO2, q, v, v, workers=2), fast.aba(GO2, q, v, v))
-
-
-@pytest.fixture(scope="module")
-def pool():
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        yield pool
-
-
-@pytest.mark.parametrize("name", CALLS)
-def test_an_executor_is_used_and_changes_nothing(name, pool, states):
-    q, v = np.tile(states.q, (30, 1)), np.tile(states.v, (30, 1))
-    one = CALLS[name](fast, GO2, q, v)
-    assert_equal_to_rounding(CALLS[name](fast, GO2, q, v, workers=pool), one)
-    out = np.full_like(one, np.nan)
-    assert CALLS[name](fast, GO2, q, v, workers=pool, out=out) is out
-    assert_equal_to_rounding(out, one)
-
-
-@pytest.mark.parametrize("count", [999, 1000])
-def test_slots_are_used_again_and_again(pool, states, small_chunks, count):
-    """Four slots for a hundred parts, the last of which may be smaller."""
-    q, v = np.tile(states.q, (30, 1))[:count], np.tile(states.v, (30, 1))[:count]
-    d = fast.dynamics(GO2, q, v, workers=pool)
-    for ours, right in zip(vars(d).values(), vars(fast.dynamics(GO2, q, v)).values()):
-        assert_equal_to_rounding(ours, right)
-
-
-def test_results_of_processes_outlive_them(states):
-    q = np.tile(states.q, (30, 1))
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        M = fast.crba(GO2, q, workers=pool)
-    part = M[5:7, 3]
-    del M
-    gc.collect()
-    assert_equal_to_rounding(part, fast.crba(GO2, q[5:7])[:, 3])
-
-
-def test_shared_memory_is_given_back(pool, states):
-    """Its names go with the call, so that nothing is left behind."""
-    folder = Path("/dev/shm")
-    if not folder.is_dir():
-        pytest.skip("the platform does not show its shared memory")
-    before = set(folder.iterdir())
-    tau = fast.rnea(GO2, np.tile(states.q, (30, 1)), *[np.tile(states.v, (30, 1))] * 2, workers=pool)
-    assert tau.shape == (1110, 18)
-    assert set(folder.iterdir()) <= before
-
-
-def test_an_error_in_a_process_is_seen(pool):
-    q = np.full((1000, 2), 0.4)
-    with pytest.raises(tw.SingularError, match="'light'"):
-        fast.aba(massless(), q, q, q, workers=pool)
-
-
-def test_numpys_whole_numbers_count_workers_too(states):
-    assert_equal_to_rounding(fast.crba(GO2, states.q, workers=np.int64(1)), fast.crba(GO2, states.q))
-
-
-@pytest.mark.parametrize("workers", [0, -1])
-def test_there_must_be_a_worker(workers, states):
-    with pytest.raises(ValueError, match=f"workers: expected 1 or more, or an Executor, got {workers}"):
-        fast.rnea(GO2, states.q, states.v, states.a, workers=workers)
-
-
-def test_progress_is_shown_when_asked_for(states, small_chunks, capsys):
-    fast.crba(GO2, states.q)
-    assert capsys.readouterr().err == ""
-    fast.crba(GO2, states.q, progress=True)
-    assert "37/37" in capsys.readouterr().err
 
 
 def test_memory_does_not_grow_with_the_batch(states):

@@ -39,8 +39,9 @@ With one state the arithmetic costs nothing and the calls everything. There the 
 constant matrices with 4 × 4 matrices that hold all links: `one` explains.
 
 The files, in the order in which they are best read: `links` and `plan` (the constants); `vectors`, `frames` (where the
-links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `articulated` (ABA), `kernels`, `many`
-(chunks), `processes`; for one state `one_sums`, `one_plan`, `one`, `one_aba`; `door` (checks), `dispatch`, `api`.
+links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `articulated` (ABA), `kernels`, `outputs`
+(arrays of the caller), `many` (chunks); for one state `one_sums`, `one_plan`, `one`, `one_aba`; `door` (checks),
+`dispatch`, `api`.
 
 Which to take: the textbook to read, for a state now and then, and where an intermediate result is wanted; this for
 batches and loops. Long double and complex numbers work here as well, by the same code, and gain less. Forward dynamics

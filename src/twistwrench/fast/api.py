@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from concurrent.futures import Executor
 
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_names
 from ..model import Model
 from ..whole_body import QUANTITIES, Dynamics, wanted
-from .dispatch import How, accelerations, parts, torques
+from .dispatch import accelerations, parts, torques
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
 
@@ -23,8 +22,6 @@ def rnea(
     f_ext: ArrayLike | None = None,
     *,
     out: Array | None = None,
-    workers: int | Executor = 1,
-    progress: bool = False,
 ) -> Array:
     """Return what `twistwrench.rnea` does: the joint forces that make a motion happen (49.6).
 
@@ -33,12 +30,8 @@ def rnea(
     model, q, v, a, f_ext
         As there.
     out : ndarray, shape (..., nv), optional
-        To be filled, of the number type of the result.
-    workers : int or Executor
-        Number of processes for very many states, or a ``ProcessPoolExecutor``, which spares starting them anew:
-        half a second. As with all of `multiprocessing`, a script needs its ``if __name__ == "__main__":``.
-    progress : bool
-        Show a bar on stderr.
+        To be filled, of the number type of the result. It may share memory with the inputs: all are read as they were
+        before the call.
 
     Returns
     -------
@@ -48,7 +41,7 @@ def rnea(
     Raises
     ------
     ShapeError, ValueError
-        As `twistwrench.rnea`; or if `out` is not what it must be.
+        As `twistwrench.rnea`; or if `out` does not fit, is read-only, or has entries that share memory.
 
     Examples
     --------
@@ -60,7 +53,7 @@ def rnea(
     >>> np.allclose(tau[0], tw.rnea(model, model.standing(), v[0], v[0]), rtol=0, atol=1e-11)
     True
     """
-    return torques(model, q, v, a, f_ext, How({} if out is None else {"tau": out}, workers, progress))
+    return torques(model, q, v, a, f_ext, {} if out is None else {"tau": out})
 
 
 def nonlinear_effects(
@@ -69,8 +62,6 @@ def nonlinear_effects(
     v: ArrayLike,
     *,
     out: Array | None = None,
-    workers: int | Executor = 1,
-    progress: bool = False,
 ) -> Array:
     """Return what `twistwrench.nonlinear_effects` does: h = C v + g (49.9).
 
@@ -78,7 +69,7 @@ def nonlinear_effects(
     ----------
     model, q, v
         As there.
-    out, workers, progress
+    out
         As in `rnea`.
 
     Returns
@@ -97,20 +88,18 @@ def nonlinear_effects(
     >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0])  # standing: nothing for the cart
     array([0., 0.])
     """
-    how = How({} if out is None else {"h": out}, workers, progress)
-    return parts(model, q, (("v", v),), ("h",), (), how)["h"]
+    given = {} if out is None else {"h": out}
+    return parts(model, q, (("v", v),), ("h",), (), given)["h"]
 
 
-def crba(
-    model: Model, q: ArrayLike, *, out: Array | None = None, workers: int | Executor = 1, progress: bool = False
-) -> Array:
+def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
     """Return what `twistwrench.crba` does: the mass matrix (49.8).
 
     Parameters
     ----------
     model, q
         As there.
-    out, workers, progress
+    out
         As in `rnea`; `out` has shape (..., nv, nv).
 
     Returns
@@ -130,20 +119,18 @@ def crba(
     >>> tw.fast.crba(model, [[0.0], [1.0]]).shape
     (2, 1, 1)
     """
-    how = How({} if out is None else {"M": out}, workers, progress)
-    return parts(model, q, (), ("M",), (), how)["M"]
+    given = {} if out is None else {"M": out}
+    return parts(model, q, (), ("M",), (), given)["M"]
 
 
-def centroidal_map(
-    model: Model, q: ArrayLike, *, out: Array | None = None, workers: int | Executor = 1, progress: bool = False
-) -> Array:
+def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
     """Return what `twistwrench.centroidal_map` does: the centroidal momentum matrix (49.10).
 
     Parameters
     ----------
     model, q
         As there.
-    out, workers, progress
+    out
         As in `rnea`; `out` has shape (..., 6, nv).
 
     Returns
@@ -165,8 +152,8 @@ def centroidal_map(
     >>> tw.fast.centroidal_map(model, model.standing())[5, 5].round(3)  # the whole mass
     np.float64(16.085)
     """
-    how = How({} if out is None else {"A_G": out}, workers, progress)
-    return parts(model, q, (), ("A_G",), (), how)["A_G"]
+    given = {} if out is None else {"A_G": out}
+    return parts(model, q, (), ("A_G",), (), given)["A_G"]
 
 
 def dynamics(
@@ -177,8 +164,6 @@ def dynamics(
     contacts: Iterable[str] | None = None,
     want: Iterable[str] = QUANTITIES,
     out: Dynamics | None = None,
-    workers: int | Executor = 1,
-    progress: bool = False,
 ) -> Dynamics:
     """Return what `twistwrench.dynamics` does: M, h, J_c and A_G (49.11).
 
@@ -190,8 +175,6 @@ def dynamics(
         As there.
     out : Dynamics, optional
         Arrays to be filled; what is None in it is made.
-    workers, progress
-        As in `rnea`.
 
     Returns
     -------
@@ -221,7 +204,7 @@ def dynamics(
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
     given = {} if out is None else {name: x for name, x in vars(out).items() if x is not None}
-    return Dynamics(**parts(model, q, (("v", v),), want, contacts, How(given, workers, progress)))
+    return Dynamics(**parts(model, q, (("v", v),), want, contacts, given))
 
 
 def aba(
@@ -232,8 +215,6 @@ def aba(
     f_ext: ArrayLike | None = None,
     *,
     out: Array | None = None,
-    workers: int | Executor = 1,
-    progress: bool = False,
 ) -> Array:
     """Return what `twistwrench.aba` does: the acceleration under given joint forces (49.7).
 
@@ -241,7 +222,7 @@ def aba(
     ----------
     model, q, v, tau, f_ext
         As there.
-    out, workers, progress
+    out
         As in `rnea`.
 
     Returns
@@ -264,4 +245,4 @@ def aba(
     >>> np.allclose(tw.fast.rnea(model, q, q, qdd), q)
     True
     """
-    return accelerations(model, q, v, tau, f_ext, How({} if out is None else {"qdd": out}, workers, progress))
+    return accelerations(model, q, v, tau, f_ext, {} if out is None else {"qdd": out})

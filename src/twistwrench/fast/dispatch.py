@@ -7,9 +7,8 @@ So are wrenches from outside, long double and complex numbers, however few the s
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,13 +22,14 @@ from .articulated import NearlySingular
 from .contacts import contacts_of
 from .door import PLAIN, admit
 from .kernels import forward_dynamics, inverse_dynamics, quantities
-from .many import Tail, check_fits, check_workers, empty, fill
+from .many import fill
 from .one import Parts, one_dynamics, one_rnea
 from .one_aba import AbaPlan, make_aba_plan, one_aba
 from .one_plan import OnePlan, Touching, make_one_plan, touching
+from .outputs import Tail, check_outputs, finish, targets
 from .plan import plan_of
 
-__all__ = ["How", "accelerations", "parts", "torques"]
+__all__ = ["accelerations", "parts", "torques"]
 
 FEW, FEW_ABA = 8, 4
 """Up to so many states are done one by one; with more, all at once is faster (measured with Go2 and a humanoid)."""
@@ -40,39 +40,29 @@ REMEMBERED = 32
 DOUBLE = np.dtype(np.float64)
 
 
-class How(NamedTuple):
-    """How the caller wants it done.
-
-    Attributes
-    ----------
-    given : mapping of str to ndarray
-        Arrays of the caller for some of the results.
-    workers : int or Executor
-    progress : bool
-    """
-
-    given: Mapping[str, Array]
-    workers: int | Executor
-    progress: bool
+Given = Mapping[str, Array]
+"""Arrays of the caller for some of the results, by name."""
 
 
-def torques(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None, how: How) -> Array:
+def torques(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None, given: Given) -> Array:
     """Return τ."""
     plan, states = admit(model, q, ("v", v), ("a", a), f_ext=f_ext)
     tails = {"tau": (plan.nv,)}
     if f_ext is None and _are_few(states[0], FEW):
-        return _one_by_one(partial(_one_torques, _one_plan(model)), states, tails, how)["tau"]
-    return fill(partial(inverse_dynamics, plan), states, tails, plan, *how)["tau"]
+        return _one_by_one(partial(_one_torques, _one_plan(model)), states, tails, given)["tau"]
+    return fill(partial(inverse_dynamics, plan), states, tails, plan, given)["tau"]
 
 
-def accelerations(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None, how: How) -> Array:
+def accelerations(
+    model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None, given: Given
+) -> Array:
     """Return q̈."""
     plan, states = admit(model, q, ("v", v), ("tau", tau), f_ext=f_ext)
     tails = {"qdd": (plan.nv,)}
     try:
         if f_ext is None and _are_few(states[0], FEW_ABA):
-            return _one_by_one(partial(_one_accelerations, model, _aba_plan(model)), states, tails, how)["qdd"]
-        return fill(partial(forward_dynamics, model, plan), states, tails, plan, *how)["qdd"]
+            return _one_by_one(partial(_one_accelerations, model, _aba_plan(model)), states, tails, given)["qdd"]
+        return fill(partial(forward_dynamics, model, plan), states, tails, plan, given)["qdd"]
     except SingularError:
         return aba(model, *states)  # says of all states which
 
@@ -83,7 +73,7 @@ def parts(
     rates: tuple[tuple[str, ArrayLike], ...],
     want: tuple[str, ...],
     contacts: tuple[str, ...] | None,
-    how: How,
+    given: Given,
 ) -> Parts:
     """Return what is wanted of M, h, J_c and A_G, by name; of `rates` only v counts, and only for h."""
     plan, states = admit(model, q, *rates)
@@ -94,39 +84,39 @@ def parts(
     if few:
         one = _one_plan(model)
         touched = _touching(model, one, contacts) if "J_c" in want else None
-        if states[0].ndim == 1 and _is_plain(states, how):
+        if states[0].ndim == 1 and _is_plain(states, given):
             return one_dynamics(one, want, touched, *states)
     nv = plan.nv
     tails: dict[str, Tail] = {"M": (nv, nv), "h": (nv,), "J_c": (3 * len(contacts), nv), "A_G": (6, nv)}
     tails = {name: tail for name, tail in tails.items() if name in want}
     if few:
-        return _one_by_one(partial(one_dynamics, one, want, touched), states, tails, how)
+        return _one_by_one(partial(one_dynamics, one, want, touched), states, tails, given)
     touched_by_links = contacts_of(model, plan, contacts) if "J_c" in want else None
-    return fill(partial(quantities, plan, touched_by_links, tuple(tails)), states, tails, plan, *how)
+    return fill(partial(quantities, plan, touched_by_links, tuple(tails)), states, tails, plan, given)
 
 
 def _are_few(q: Array, few: int) -> bool:
     return (q.ndim == 1 or q.size <= few * q.shape[-1]) and q.dtype in PLAIN
 
 
-def _is_plain(states: Sequence[Array], how: How) -> bool:
+def _is_plain(states: Sequence[Array], given: Given) -> bool:
     """Whether the result for one state can be returned as it comes."""
-    return states[0].dtype == DOUBLE and not how.given and how.workers == 1
+    return states[0].dtype == DOUBLE and not given
 
 
-def _one_by_one(one: Callable[..., Parts], states: Sequence[Array], tails: Mapping[str, Tail], how: How) -> Parts:
+def _one_by_one(one: Callable[..., Parts], states: Sequence[Array], tails: Mapping[str, Tail], given: Given) -> Parts:
     """Return the results for a few states: of each, ``one(*state)`` in double precision."""
     batch, dtype = states[0].shape[:-1], states[0].dtype
-    if not batch and _is_plain(states, how):
+    if not batch and _is_plain(states, given):
         return one(*states)
-    check_workers(how.workers)
-    check_fits(how.given, batch, tails, dtype)
-    states = [x.astype(DOUBLE) for x in states]  # a copy: the caller's array may be one of those to be filled
-    results = {name: how.given.get(name, empty(batch, tail, dtype)) for name, tail in tails.items()}
+    given = {name: x for name, x in given.items() if name in tails}
+    check_outputs(given, batch, tails, dtype)
+    filled = targets(given, states, tails, dtype)
+    states = [x.astype(DOUBLE) for x in states]
     for state in np.ndindex(batch):
         for name, x in one(*(x[state] for x in states)).items():
-            results[name][state] = x
-    return results
+            filled[name][state] = x
+    return finish(given, filled)
 
 
 def _one_torques(plan: OnePlan, q: Array, v: Array, a: Array) -> Parts:
