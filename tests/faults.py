@@ -66,8 +66,8 @@ FAULTS = [
         "blocks(W, np.zeros_like(W), cross_matrix(V[..., 3:]), W)",
         "blocks(W, cross_matrix(V[..., 3:]), np.zeros_like(W), W)",
     ),
-    Fault("V×* as +(V×)ᵀ", "cross.py", "return -cross_motion(V).mT", "return cross_motion(V).mT"),
-    Fault("V×* as V×", "cross.py", "return -cross_motion(V).mT", "return cross_motion(V)"),
+    Fault("V×* as +(V×)ᵀ", "cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V).mT"),
+    Fault("V×* as V×", "cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V)"),
     Fault(
         "parallel axes subtracted",
         "inertia.py",

@@ -6,11 +6,76 @@ what is built on them. Only the real part decides which formula is used.
 
 from __future__ import annotations
 
+import sys
+from fractions import Fraction
+from math import isqrt
+from typing import Any
+
 import numpy as np
 
 from .checks import Array
 
-__all__ = ["atan2", "cosine_defect", "largest", "length", "sinc", "sine_defect_root", "which"]
+__all__ = ["atan2", "cos", "cosine_defect", "largest", "length", "sin", "sinc", "sine_defect_root", "sqrt", "which"]
+
+
+def cos(x: Array) -> Array:
+    """Return the cosine of each entry, of any number type: see `elementary`."""
+    return np.cos(x) if x.dtype != object else _of_each(x, "cos")
+
+
+def sin(x: Array) -> Array:
+    """Return the sine of each entry, of any number type: see `elementary`."""
+    return np.sin(x) if x.dtype != object else _of_each(x, "sin")
+
+
+def sqrt(x: Array) -> Array:
+    """Return the square root of each entry, of any number type: see `elementary`."""
+    return np.sqrt(x) if x.dtype != object else _of_each(x, "sqrt")
+
+
+def _of_each(x: Array, name: str) -> Array:
+    """Apply an elementary function to each object of an array, which stays an array where it has no axis."""
+    values = np.empty(x.shape, object)
+    for k in np.ndindex(x.shape):
+        values[k] = elementary(name, x[k])
+    return values
+
+
+def elementary(name: str, x: Any) -> Any:
+    """Return the cos, sin or sqrt of one number that is an object.
+
+    The number is asked first (a method of that name), then the context that it carries (mpmath's), then the package
+    that it is from (SymPy's). Whole numbers and fractions have only those values that are fractions themselves.
+
+    Raises
+    ------
+    ValueError
+        If the value is not a fraction, or the number's type knows no such function.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> elementary("sqrt", Fraction(9, 25)), elementary("cos", 0)
+    (Fraction(3, 5), 1)
+    """
+    if isinstance(x, int | Fraction):
+        return _of_fraction(name, x)
+    package = sys.modules.get(type(x).__module__.partition(".")[0])
+    for place in (x, getattr(x, "context", None), package):
+        function = getattr(place, name, None)
+        if function is not None:
+            return function() if place is x else function(x)
+    raise ValueError(f"expected numbers that have a {name}, got a {type(x).__name__}")
+
+
+def _of_fraction(name: str, x: int | Fraction) -> int | Fraction:
+    if name == "sqrt" and x >= 0:
+        root = Fraction(isqrt(x.numerator), isqrt(x.denominator))
+        if root * root == x:
+            return root
+    elif name != "sqrt" and x == 0:
+        return int(name == "cos")
+    raise ValueError(f"the {name} of {x} is not a fraction: expected SymPy's numbers (sympy.Rational) or floats")
 
 
 def length(x: Array) -> Array:

@@ -37,9 +37,7 @@ def cross_motion(V: ArrayLike) -> Array:
     >>> cross_motion([0, 0, 1, 0, 0, 0]) @ [1, 0, 0, 0, 0, 0]
     array([0., 1., 0., 0., 0., 0.])
     """
-    V = as_spatial(V, "V")
-    W = cross_matrix(V[..., :3])
-    return blocks(W, np.zeros_like(W), cross_matrix(V[..., 3:]), W)
+    return motion_cross_matrix(as_spatial(V, "V"))
 
 
 def cross_force(V: ArrayLike) -> Array:
@@ -66,4 +64,15 @@ def cross_force(V: ArrayLike) -> Array:
     >>> cross_force([0, 0, 0, 1, 0, 0]) @ [0, 0, 0, 0, 1, 0]
     array([0., 0., 1., 0., 0., 0.])
     """
-    return -cross_motion(V).mT
+    return force_cross_matrix(as_spatial(V, "V"))
+
+
+def motion_cross_matrix(V: Array) -> Array:
+    """Return V×, without checks and for any number type: the formula of `cross_motion`."""
+    W = cross_matrix(V[..., :3])
+    return blocks(W, np.zeros_like(W), cross_matrix(V[..., 3:]), W)
+
+
+def force_cross_matrix(V: Array) -> Array:
+    """Return V×*, without checks and for any number type: the formula of `cross_force`."""
+    return -motion_cross_matrix(V).mT

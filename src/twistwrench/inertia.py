@@ -13,7 +13,7 @@ from ._spatial_vector import aligned, as_spatial
 from .checks import Array, as_array, as_arrays, resolution
 from .cross import cross_force, cross_motion
 from .errors import ModelError, ShapeError
-from .plucker import SE3, blocks
+from .plucker import SE3, blocks, placed_point
 from .rotation import cross_matrix, skew_part
 from .twist import check_placement
 
@@ -151,7 +151,7 @@ class SpatialInertia:
         array([1., 1., 1., 2., 2., 2.])
         """
         m, C = self.mass[..., None, None], cross_matrix(self.com)
-        return blocks(self.inertia_at_com - m * (C @ C), m * C, -m * C, m * np.eye(3))
+        return blocks(self.inertia_at_com - m * (C @ C), m * C, -m * C, m * np.eye(3, dtype=m.dtype))
 
     def transform(self, T: SE3) -> SpatialInertia:
         """Return the same body's inertia in another frame: I_A = X* I_B X⁻¹.
@@ -179,7 +179,7 @@ class SpatialInertia:
         """
         check_placement(T)
         turned = T.rotation @ self.inertia_at_com @ T.rotation.mT
-        com = T.act(self.com)
+        com = placed_point(T.rotation, T.translation, self.com)
         mass = np.broadcast_to(self.mass.astype(com.dtype), com.shape[:-1])
         return SpatialInertia._trusted(mass, com, (turned + turned.mT) / 2)
 

@@ -196,7 +196,8 @@ class SE3:
                 f"SE3 @ {type(other).__name__}: only placements are chained with @; use T.act(point) for points, "
                 "T.motion_transform() @ V for twists, T.force_transform() @ F for wrenches"
             )
-        return SE3._trusted(self.rotation @ other.rotation, self.act(other.translation))
+        p = placed_point(self.rotation, self.translation, other.translation)
+        return SE3._trusted(self.rotation @ other.rotation, p)
 
     def __rmatmul__(self, other: object) -> SE3:
         raise TypeError(
@@ -236,7 +237,7 @@ class SE3:
         >>> SE3(np.eye(3), [1, 0, 0]).act([0, 2, 0])
         array([1., 2., 0.])
         """
-        return np.asarray(np.matvec(self.rotation, as_array(point, "point", 3)) + self.translation)
+        return placed_point(self.rotation, self.translation, as_array(point, "point", 3))
 
     def motion_transform(self) -> Array:
         """Return X, which takes twists from B to A, shape (..., 6, 6): see `motion_transform`.
@@ -270,6 +271,11 @@ class SE3:
 
     def _repr_latex_(self) -> str | None:
         return None if self.translation.ndim > 1 else f"$T = {latex_matrix(self.matrix())}$"
+
+
+def placed_point(R: Array, p: Array, x: Array) -> Array:
+    """Return R x + p, without checks and for any number type: the formula of `SE3.act`."""
+    return np.asarray(np.matvec(R, x) + p)
 
 
 def blocks(a: Array, b: Array, c: Array, d: Array) -> Array:

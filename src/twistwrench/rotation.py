@@ -3,6 +3,10 @@
 Nothing here has a small-angle threshold. Every coefficient is written so that nothing cancels,
 and only an angle that is exactly zero is a case of its own. Complex arguments pass through
 analytically, so that a complex step differentiates every function of this file.
+
+The public functions check their arguments. Behind each stands its formula, named after the matrix that it
+returns (`cross_matrix`, `quaternion_matrix`, `rpy_matrix`): arithmetic on arrays of any number type, objects
+included, that looks at no value. The recursions call the formulas only.
 """
 
 from __future__ import annotations
@@ -10,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._scalars import atan2, largest, length, sinc, which
+from ._scalars import atan2, cos, largest, length, sin, sinc, which
 from .checks import Array, as_array, resolution
 from .errors import ShapeError, SingularError
 
@@ -181,10 +185,7 @@ def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
     size = largest(q.real, 1)
     if (size == 0).any():
         raise SingularError("xyzw: the zero quaternion is no rotation" + which(size == 0))
-    q = q / size[..., None]
-    U, w = cross_matrix(q[..., :3]), q[..., 3, None, None]
-    R = np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / (q * q).sum(-1)[..., None, None]
-    return np.asarray(R)
+    return quaternion_matrix(q / size[..., None])
 
 
 def rotation_to_quaternion(R: ArrayLike) -> Array:
@@ -248,14 +249,7 @@ def rpy_to_rotation(rpy: ArrayLike) -> Array:
            [ 0.,  0., -1.],
            [ 0.,  1.,  0.]])
     """
-    rpy = as_array(rpy, "rpy", 3)
-    (cr, cp, cy), (sr, sp, sy) = np.moveaxis(np.cos(rpy), -1, 0), np.moveaxis(np.sin(rpy), -1, 0)
-    rows = [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    return rpy_matrix(as_array(rpy, "rpy", 3))
 
 
 def check_rotation(R: Array, name: str) -> None:
@@ -272,8 +266,25 @@ def check_rotation(R: Array, name: str) -> None:
         raise ShapeError(f"{name}: expected a rotation matrix, got a reflection, det R = −1" + which(wrong))
 
 
+def rpy_matrix(rpy: Array) -> Array:
+    """Return Rz(yaw) Ry(pitch) Rx(roll): the formula of `rpy_to_rotation`."""
+    (cr, cp, cy), (sr, sp, sy) = np.moveaxis(cos(rpy), -1, 0), np.moveaxis(sin(rpy), -1, 0)
+    rows = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def quaternion_matrix(q: Array) -> Array:
+    """Return the rotation 1 + 2 (w [u]× + [u]×²)/|q|² of q = (u, w): the formula of `quaternion_to_rotation`."""
+    U, w = cross_matrix(q[..., :3]), q[..., 3, None, None]
+    return np.asarray(np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / (q * q).sum(-1)[..., None, None])
+
+
 def cross_matrix(w: Array) -> Array:
-    """Return [w]× without checks."""
+    """Return [w]×: the formula of `skew`."""
     M = np.zeros((*w.shape, 3), w.dtype)
     M[..., 2, 1], M[..., 0, 2], M[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
     return M - M.mT
