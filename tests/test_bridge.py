@@ -160,6 +160,31 @@ def test_vector_is_no_contact_jacobian(function):
         function(tw.chain(3), [1, 2, 3])
 
 
+def test_column_that_pinocchio_drops_of_a_robot_with_one_joint_is_put_back():
+    rod, J = tw.load("pendulum"), np.arange(6.0)[:, None]
+    for convert in (bridge.from_pinocchio_jacobian, bridge.from_pinocchio_contact_jacobian):
+        for batch in (J, np.stack([J, 2 * J])):
+            assert (convert(rod, batch[..., 0]) == convert(rod, batch)).all()
+            assert convert(rod, batch[..., 0]).shape == batch.shape
+        with pytest.raises(tw.ShapeError, match="expected shape"):
+            convert(tw.chain(2), J[:, 0])
+        with pytest.raises(tw.ShapeError, match="expected shape"):
+            convert(rod, 1.0)
+
+
+def test_jacobians_of_a_robot_with_one_joint_cross_as_pinocchio_gives_them():
+    pin = pytest.importorskip("pinocchio")
+    rod, q = tw.load("pendulum"), np.array([0.3])
+    there = bridge.to_pinocchio_model(rod)
+    data = there.createData()
+    for name in rod.frame_names:
+        raw = pin.computeFrameJacobian(there, data, q, there.getFrameId(name), pin.LOCAL)
+        assert raw.shape == (6,)
+        assert close(bridge.from_pinocchio_jacobian(rod, raw), tw.frame_jacobian(rod, q, name))
+        assert close(bridge.from_pinocchio_contact_jacobian(rod, raw[:3]), tw.frame_jacobian(rod, q, name)[3:])
+    assert close(bridge.from_pinocchio_jacobian(rod, pin.computeCentroidalMap(there, data, q)), tw.centroidal_map(rod, q))
+
+
 def test_twists_and_wrenches_with_a_type_are_taken():
     x = np.arange(6.0)
     assert (bridge.to_pinocchio_motion(tw.Twist(x)) == [3, 4, 5, 0, 1, 2]).all()

@@ -138,7 +138,7 @@ def from_pinocchio_jacobian(model: Model, J: ArrayLike) -> Array:
     ----------
     model : Model
     J : array_like, shape (..., 6, nv)
-        Rows (linear, angular).
+        Rows (linear, angular). Of a robot with one degree of freedom also (..., 6), as Pinocchio's Python has it.
 
     Returns
     -------
@@ -158,7 +158,8 @@ def from_pinocchio_jacobian(model: Model, J: ArrayLike) -> Array:
     array([ 9., 12., 15.,  0.,  3.,  6.])
     """
     check_model(model)
-    return as_array(J, "J", 6, model.nv)[..., HALVES, :][..., tangent_order(model.joints)]
+    J = as_array(_with_column(J, "J", model.nv), "J", 6, model.nv)
+    return J[..., HALVES, :][..., tangent_order(model.joints)]
 
 
 def to_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
@@ -200,6 +201,7 @@ def from_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
     ----------
     model : Model
     J_c : array_like, shape (..., k, nv)
+        Of a robot with one degree of freedom also (..., k), as Pinocchio's Python has it.
 
     Returns
     -------
@@ -219,7 +221,13 @@ def from_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
     array([3., 4., 5., 0., 1., 2., 6., 7.])
     """
     check_model(model)
-    return _with_rows(J_c, model.nv)[..., tangent_order(model.joints)]
+    return _with_rows(_with_column(J_c, "J_c", model.nv), model.nv)[..., tangent_order(model.joints)]
+
+
+def _with_column(J: ArrayLike, name: str, nv: int) -> Array:
+    """Return a matrix over v with the axis of length 1 that Pinocchio's Python drops where nv is 1."""
+    x = as_array(J, name)
+    return x[..., None] if nv == 1 and x.ndim and (x.ndim == 1 or x.shape[-1] != 1) else x
 
 
 def _with_rows(J_c: ArrayLike, nv: int) -> Array:
