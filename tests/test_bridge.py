@@ -182,7 +182,9 @@ def test_jacobians_of_a_robot_with_one_joint_cross_as_pinocchio_gives_them():
         assert raw.shape == (6,)
         assert close(bridge.from_pinocchio_jacobian(rod, raw), tw.frame_jacobian(rod, q, name))
         assert close(bridge.from_pinocchio_contact_jacobian(rod, raw[:3]), tw.frame_jacobian(rod, q, name)[3:])
-    assert close(bridge.from_pinocchio_jacobian(rod, pin.computeCentroidalMap(there, data, q)), tw.centroidal_map(rod, q))
+    assert close(
+        bridge.from_pinocchio_jacobian(rod, pin.computeCentroidalMap(there, data, q)), tw.centroidal_map(rod, q)
+    )
 
 
 def test_twists_and_wrenches_with_a_type_are_taken():

@@ -18,6 +18,7 @@ from twistwrench.cli import main
 from twistwrench.robots.catalogue import PREFIX, find
 from twistwrench.rotation import quaternion_to_rotation
 from twistwrench.viewing.controls import add_joints, add_time
+from twistwrench.viewing.origin import only_own_page
 from twistwrench.viewing.shapes import shapes
 from twistwrench.viewing.stage import build
 from twistwrench.viewing.subject import subject
@@ -363,8 +364,54 @@ def test_meshes_keep_the_colours_of_their_materials_with_a_picture_or_without(tm
 def test_a_mesh_that_is_not_here_is_said_and_not_fetched(name, tmp_path):
     path = tmp_path / "robot.urdf"
     path.write_text(URDF.format(name), encoding="utf-8")
-    with pytest.warns(UserWarning, match="mesh files of these links are missing: arm"):
+    with pytest.warns(UserWarning, match=rf"these links are not shown.*: arm \({name}: the file is missing\)"):
         assert len(shapes(tw.load(path), path)) == 1
+
+
+POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"
+
+
+@pytest.mark.parametrize("suffix", ["stl", "STL", "obj", "dae", "glb", "gltf", "ply", "off", "3mf", "txt"])
+@pytest.mark.parametrize(("content", "said"), [(POINTER, "git lfs pull"), ("", "mesh"), ("\0junk\n" * 99, "mesh")])
+def test_a_file_without_a_mesh_is_named_with_its_link(suffix, content, said, tmp_path):
+    pytest.importorskip("yourdfpy")
+    path = tmp_path / "robot.urdf"
+    path.write_text(URDF.format(f"arm.{suffix}"), encoding="utf-8")
+    (tmp_path / f"arm.{suffix}").write_text(content, encoding="utf-8")
+    with pytest.warns(UserWarning, match=rf"not shown.*: arm \(.*arm\.{suffix}: .*{said}"):
+        assert len(shapes(tw.load(path), path)) == 1
+
+
+@pytest.mark.parametrize(
+    "geometry",
+    [
+        "",
+        "<mesh/>",
+        '<mesh filename=""/>',
+        '<box size="a b"/>',
+        '<box size="1 2"/>',
+        "<box/>",
+        '<box size="nan 1 1"/>',
+        '<capsule radius="1"/>',
+        '<cylinder radius="1"/>',
+        f'<mesh filename="{"x" * 400}.stl"/>',
+        '<mesh filename="/"/>',
+    ],
+)
+def test_a_visual_that_cannot_be_drawn_is_named_and_the_others_are_shown(geometry, tmp_path):
+    pytest.importorskip("yourdfpy")
+    path = tmp_path / "robot.urdf"
+    path.write_text(re.sub("<mesh [^>]*>", geometry, URDF), encoding="utf-8")
+    with pytest.warns(UserWarning, match=r"not shown.*: arm \("):
+        assert len(shapes(tw.load(path), path)) == 1
+
+
+def test_a_colour_that_the_robot_gives_a_name_is_the_links(tmp_path):
+    pytest.importorskip("yourdfpy")
+    path, red = tmp_path / "robot.urdf", '<material name="m"><color rgba="1 0 0 1"/></material>'
+    text = re.sub("<mesh [^>]*>", '<sphere radius="1"/>', URDF).replace(red, '<material name="m"/>')
+    path.write_text(text.replace('<link name="base">', red + '<link name="base">'), encoding="utf-8")
+    assert shapes(tw.load(path), path)[1].mesh.visual.face_colors[0].tolist() == [255, 0, 0, 255]
 
 
 def test_meshes_of_another_robot_are_not_put_on(tmp_path):
@@ -429,6 +476,39 @@ def test_the_page_is_served_to_this_machine_only(browser):
     assert repr(shown) == f"<Browser: pendulum at {shown.url}>"
     with urlopen(shown.url, timeout=10) as answer:
         assert b"<!doctype html>" in answer.read(100)
+
+
+@pytest.mark.parametrize(
+    ("origin", "host", "taken"),
+    [
+        (None, None, True),
+        ("http://127.0.0.1:{}", None, True),
+        ("http://localhost:{}", "localhost:{}", True),
+        ("http://evil.example", None, False),
+        ("http://127.0.0.1:1", None, False),
+        ("null", None, False),
+        ("http://evil.example:{}", "evil.example:{}", False),
+        (None, "evil.example:{}", False),
+        (None, "[", False),
+    ],
+)
+def test_a_page_of_another_site_is_not_answered(origin, host, taken, browser):
+    import socket
+
+    port = int(browser("pendulum").url.rpartition(":")[2])
+    lines = ["GET / HTTP/1.1", f"Host: {(host or '127.0.0.1:{}').format(port)}", "Upgrade: websocket"]
+    lines += ["Connection: Upgrade", "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==", "Sec-WebSocket-Version: 13"]
+    lines += [f"Origin: {origin.format(port)}"] if origin else []
+    with socket.create_connection(("127.0.0.1", port), timeout=10) as line:
+        line.sendall("\r\n".join([*lines, "Sec-WebSocket-Protocol: viser-v0", "", ""]).encode())
+        answer = line.recv(100)
+    assert answer.startswith(b"HTTP/1.1 101" if taken else b"HTTP/1.1 403")
+
+
+def test_a_server_that_cannot_be_guarded_is_said(recwarn):
+    pytest.importorskip("websockets")
+    with pytest.warns(UserWarning, match="pages of other sites"), only_own_page():
+        pass
 
 
 def test_without_viser_the_message_says_what_to_install(monkeypatch):

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .controls import add_joints, add_time
+from .origin import only_own_page
 from .shapes import Shape
 from .stage import build
 from .subject import Subject
@@ -24,8 +25,8 @@ __all__ = ["Browser", "import_viser"]
 class Browser:
     """A robot on a page; made by `twistwrench.view` with ``backend="browser"``.
 
-    The page is served by this process, to this machine only, and asks nothing of any other. In a notebook the
-    page that stands alone is shown.
+    The page is served by this process, to this machine only, and asks nothing of any other; no page of another
+    site that is open in the same browser is answered. In a notebook the page that stands alone is shown.
 
     Attributes
     ----------
@@ -36,7 +37,7 @@ class Browser:
     def __init__(self, seen: Subject, shapes: list[Shape], frames: Collection[str] | None) -> None:
         viser = import_viser()
         self._seen = seen
-        with redirect_stdout(StringIO()):  # viser greets
+        with redirect_stdout(StringIO()), only_own_page():  # viser greets
             self._server = viser.ViserServer(host="127.0.0.1", label=seen.model.name, verbose=False)
         self.url = f"http://127.0.0.1:{self._server.get_port()}"
         self._move = build(self._server.scene, seen, shapes, frames)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache
 from io import BytesIO
@@ -17,6 +18,7 @@ from ..model import Model
 from ..plucker import SE3
 from ..robots.catalogue import PREFIX, find, known
 from ..robots.reading import read_robot_xml
+from .meshes import Unseen, find_mesh, read_mesh
 
 __all__ = ["Shape", "shapes"]
 
@@ -58,29 +60,28 @@ def shapes(model: Model, source: str | PathLike[str] | None) -> list[Shape]:
     Warns
     -----
     UserWarning
-        Where a file that the URDF names is missing.
+        Where something that the URDF names cannot be shown: link, file and why.
     """
     path = _urdf(source)
     if path is None:
         return []
-    looks = [link for link in _links(path) if link.visuals]
-    frames = {link.name: f"link:{link.name}" if f"link:{link.name}" in model.frames else link.name for link in looks}
+    _import_yourdfpy()  # what is missing is said even where nothing would be read
+    looks = _visuals(path)
+    frames = {link: f"link:{link}" if f"link:{link}" in model.frames else link for link, _ in looks}
     if not set(frames.values()) <= set(model.frames):
         return []  # other links than the model's
-    found, missing, read = [], [], cache(_read)  # four legs have one file
-    for link in looks:
-        frame = model.frames[frames[link.name]]
-        for visual in link.visuals:
-            mesh = _mesh(visual.geometry, path, read)
-            if mesh is None:
-                missing.append(link.name)
-                continue
-            _paint(mesh, visual.material)
-            origin = SE3.identity() if visual.origin is None else SE3.from_matrix(visual.origin)
-            found.append(Shape(frame.body, frame.placement @ origin, mesh))
-    if missing:
-        names = ", ".join(dict.fromkeys(missing))
-        warnings.warn(f"{path}: the mesh files of these links are missing: {names}", UserWarning, stacklevel=2)
+    found, unseen, read = [], [], cache(read_mesh)  # four legs have one file
+    for link, visual in looks:
+        frame = model.frames[frames[link]]
+        try:
+            placement, mesh = _shape(visual, path, read)
+        except Unseen as reason:
+            unseen.append(f"{link} ({reason})")
+        else:
+            found.append(Shape(frame.body, frame.placement @ placement, mesh))
+    if unseen:
+        links = ", ".join(dict.fromkeys(unseen))
+        warnings.warn(f"{path}: these links are not shown, or not all of them: {links}", UserWarning, stacklevel=2)
     return found
 
 
@@ -102,23 +103,58 @@ def _urdf(source: str | PathLike[str] | None) -> Path | None:
         return None
 
 
-def _links(path: Path) -> list[Any]:
-    """Read the links, without their meshes; what is no proper XML is refused before."""
-    from lxml import etree
-
+def _import_yourdfpy() -> Any:
+    """Import yourdfpy, or say how it is had."""
     try:
         import yourdfpy
     except ModuleNotFoundError:
         raise ModuleNotFoundError(
             'meshes need yourdfpy, which is not installed: pip install "twistwrench[view]"; meshes=False draws sticks'
         ) from None
+    return yourdfpy
 
-    text = BytesIO(etree.tostring(read_robot_xml(path)))
-    return list(yourdfpy.URDF.load(text, build_scene_graph=False, load_meshes=False).robot.links)
+
+def _visuals(path: Path) -> list[tuple[str, Any]]:
+    """Return what each link looks like, with the link's name; what is no proper XML is refused before."""
+    robot = read_robot_xml(path)
+    return [(link.get("name"), visual) for link in robot.iterfind("link") for visual in link.iterfind("visual")]
+
+
+def _parse(visual: Any) -> Any:
+    """Read one visual element, with the material that the robot gives its name; each alone, as one may be broken."""
+    from lxml import etree
+
+    alone = etree.Element("robot", name="alone")
+    alone.extend(deepcopy(m) for m in visual.getroottree().getroot().iterfind("material"))
+    etree.SubElement(alone, "link", name="link").append(deepcopy(visual))
+    try:
+        text = BytesIO(etree.tostring(alone))
+        robot = _import_yourdfpy().URDF.load(text, build_scene_graph=False, load_meshes=False).robot
+        (parsed,) = robot.links[0].visuals
+    except Exception as error:  # whatever stands there
+        raise Unseen(f"its <visual> in line {visual.sourceline} cannot be read: {error}") from None
+    if parsed.material is not None and parsed.material.color is None:
+        named = [m for m in robot.materials if m.name == parsed.material.name]
+        parsed.material = named[0] if named else None
+    return parsed
+
+
+def _shape(element: Any, urdf: Path, read: Callable[[Path], Any]) -> tuple[SE3, Any]:
+    """Return where a visual is on its link, and its mesh with its colours."""
+    visual = _parse(element)
+    try:
+        placement = SE3.identity() if visual.origin is None else SE3.from_matrix(visual.origin)
+        mesh = _mesh(visual.geometry, urdf, read)
+        if not (len(mesh.faces) and np.isfinite(mesh.vertices).all()):
+            raise Unseen("its shape has no surface")
+        _paint(mesh, visual.material)
+    except (AttributeError, TypeError, ValueError) as error:
+        raise Unseen(f"its <visual> in line {element.sourceline} cannot be drawn: {error}") from None
+    return placement, mesh
 
 
 def _mesh(geometry: Any, urdf: Path, read: Callable[[Path], Any]) -> Any:
-    """Return a geometry as one mesh; None where its file is missing."""
+    """Return a geometry as one mesh."""
     import trimesh
 
     if geometry.box is not None:
@@ -127,41 +163,12 @@ def _mesh(geometry: Any, urdf: Path, read: Callable[[Path], Any]) -> Any:
         return trimesh.creation.cylinder(geometry.cylinder.radius, geometry.cylinder.length)
     if geometry.sphere is not None:
         return trimesh.creation.icosphere(radius=geometry.sphere.radius)
-    file = _file(geometry.mesh.filename, urdf)
-    if file is None:
-        return None
-    mesh = read(file).copy()
+    if geometry.mesh is None or not geometry.mesh.filename:
+        raise Unseen("it has no geometry")
+    mesh = read(find_mesh(geometry.mesh.filename, urdf)).copy()
     if geometry.mesh.scale is not None:
         mesh.apply_scale(geometry.mesh.scale)
     return mesh
-
-
-def _read(file: Path) -> Any:
-    """Read a file as one mesh, with colours at its corners in place of a picture, which may weigh 20 MB."""
-    import trimesh
-
-    scene = trimesh.load_scene(file)
-    for part in scene.geometry.values():
-        if part.visual.kind == "texture":
-            paint, uv = part.visual.material, part.visual.uv
-            found = None if uv is None else paint.to_color(uv)  # None without a picture
-            colours = np.asarray(paint.main_color if found is None else found)
-            colours = np.broadcast_to(colours, (len(part.vertices), 4))
-            part.visual = trimesh.visual.ColorVisuals(part, vertex_colors=colours)
-    return scene.to_mesh()
-
-
-def _file(name: str, urdf: Path) -> Path | None:
-    """Return where a mesh is: beside the URDF, or for ``package://`` in or below one of the folders around it."""
-    scheme, colon, rest = name.partition("://")
-    if colon and scheme not in ("package", "file"):
-        return None  # nothing is fetched
-    inside = Path(rest if colon else name)
-    around = urdf.resolve().parents
-    tried = [urdf.parent / inside] if scheme != "package" else []
-    if scheme == "package":
-        tried = [folder / tail for folder in around for tail in (inside, Path(*inside.parts[1:]))]
-    return next((file for file in tried if file.is_file()), None)
 
 
 def _paint(mesh: Any, material: Any) -> None:
