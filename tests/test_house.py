@@ -44,7 +44,7 @@ ORDER = [
         "whole_body",
     ),
     *("fast", "digits", "tracing", "robots", "plot"),
-    *("options", "clock", "reduction", "contact", "simulation", "motions", "templates", "scene"),
+    *("files", "stopping", "options", "clock", "reduction", "contact", "simulation", "motions", "templates", "scene"),
     *("bridge", "viewing", "_names", "__init__", "validate", "study", "exercises", "cli", "__main__"),
 ]
 """The chapter's order. A section imports from earlier ones only; a folder is one section."""

@@ -7,12 +7,14 @@ and returns the exit status. What a command needs it imports there, so that ``--
 from __future__ import annotations
 
 import argparse
+import errno
 import io
 import json
 import os
 import sys
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,19 +23,22 @@ import twistwrench as tw
 
 from .errors import ModelError, NameNotFound, SingularError
 from .exercises.commands import register as add_exercises
+from .files import write_text
 from .options import at_least, check_writable
+from .stopping import INTERRUPTED, UNREAD, Stopped, heeded
 from .study.commands import register as add_study
 from .viewing.commands import register as add_view
 
 if TYPE_CHECKING:
     from .validate import Report
+    from .validate.sweep import Outcome
 
 __all__ = ["COMMANDS", "main"]
 
 Commands = Any
 """What ``add_subparsers`` returns; argparse has no public name for it."""
 
-FAILED, MISUSED, INTERRUPTED = 1, 2, 130
+FAILED, MISUSED = 1, 2
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -47,7 +52,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0; 1 where a check failed; 2 where the command cannot be carried out.
+        0; 1 where a check failed; 2 where the command cannot be carried out; where it was stopped, 128 and the
+        number of the signal: 130 by Ctrl-C, 143 by SIGTERM, 141 where nobody reads what it prints.
 
     Examples
     --------
@@ -67,21 +73,38 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.exit(MISUSED)
     args = parser.parse_args(argv)
     if isinstance(sys.stdout, io.TextIOWrapper):  # a letter that a terminal or a file lacks is shown by its number
-        sys.stdout.reconfigure(errors="backslashreplace")
+        sys.stdout.reconfigure(errors="backslashreplace", line_buffering=True)
     try:
-        return int(args.run(args))
+        with heeded():
+            status = int(args.run(args))
+            sys.stdout.flush()
+        return status
     except BrokenPipeError:  # the reader has seen enough, as in `twistwrench robots | head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return FAILED
+        return _unheard(UNREAD)
+    except Stopped as stopped:
+        return _unheard(UNREAD) if stopped.status == UNREAD else stopped.status
     except KeyboardInterrupt:
         return INTERRUPTED
     except (NameNotFound, ModelError, SingularError, ImportError, OSError) as error:
         print(f"twistwrench: {_said(error)}", file=sys.stderr)
-        return MISUSED
+        return _unheard(MISUSED) if _is_of_stdout(error) else MISUSED
+
+
+def _unheard(status: int) -> int:
+    """Send what is still to be printed nowhere, and return an exit status."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return status
+
+
+def _is_of_stdout(error: Exception) -> bool:
+    """Whether stdout leads to a full disk: whatever else writes names its file."""
+    return isinstance(error, OSError) and error.errno == errno.ENOSPC and error.filename is None
 
 
 def _said(error: Exception) -> str:
     """Return the message; of a bare import that failed, what brings the package."""
+    if _is_of_stdout(error):
+        return "what is printed goes to a file on a full disk"
     if isinstance(error, ModuleNotFoundError) and error.name == "matplotlib":
         from .plot.style import NO_MATPLOTLIB
 
@@ -139,21 +162,37 @@ def add_validate(commands: Commands) -> None:
 def run_validate(args: argparse.Namespace) -> int:
     """Validate, print and write."""
     _check_options(args)
-    start = time.perf_counter()
-    reports, passed = (_validate_all if args.all else _validate_some)(args)
+    start, outcomes = time.perf_counter(), list[Any]()
+    try:
+        (_validate_all if args.all else _validate_some)(args, outcomes)
+    except (KeyboardInterrupt, BrokenPipeError):
+        if outcomes and args.json not in (
+            None,
+            "-",
+        ):  # an old file of a whole run is worth more than a part of a new one
+            part = f"{args.json}.part"
+            write_text(part, _as_json(outcomes, start, interrupted=True) + "\n")
+            print(f"\ntwistwrench: stopped; what was finished is in {part}", file=sys.stderr)
+        raise
     if args.json is not None:
-        seconds = time.perf_counter() - start
-        found = {"passed": passed, "seconds": round(seconds, 3), "reports": reports}
-        text = json.dumps(found, indent=2, ensure_ascii=args.json == "-", allow_nan=False)
-        print(text) if args.json == "-" else Path(args.json).write_text(text + "\n", encoding="utf-8")
-    return 0 if passed else FAILED
+        text = _as_json(outcomes, start, ascii_only=args.json == "-")
+        print(text) if args.json == "-" else write_text(args.json, text + "\n")
+    return 0 if all(outcome.passed for outcome in outcomes) else FAILED
 
 
-def _validate_some(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool]:
-    """Validate the robots that are named, a table each."""
+def _as_json(outcomes: Sequence[Any], start: float, *, ascii_only: bool = False, interrupted: bool = False) -> str:
+    """Return what was found, reports or outcomes of a sweep, as JSON."""
+    found: dict[str, Any] = {"passed": not interrupted and all(outcome.passed for outcome in outcomes)}
+    found |= {"interrupted": True} if interrupted else {}
+    found["seconds"] = round(time.perf_counter() - start, 3)
+    found["reports"] = [outcome.as_dict() for outcome in outcomes]
+    return json.dumps(found, indent=2, ensure_ascii=ascii_only, allow_nan=False)
+
+
+def _validate_some(args: argparse.Namespace, reports: list[Report]) -> None:
+    """Validate the robots that are named, a table each; gather the reports."""
     from .validate import validate
 
-    reports: list[Report] = []
     for name in args.robot or ["go2"]:
         report = validate(
             name,
@@ -164,30 +203,28 @@ def _validate_some(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool
             fast=args.fast,
             progress=_shows_bar(args),
         )
-        if args.json != "-":
-            print("\n" * bool(reports) + str(report))
         reports.append(report)
-    return [report.as_dict() for report in reports], all(report.passed for report in reports)
+        if args.json != "-":
+            print("\n" * (len(reports) > 1) + str(report))
 
 
-def _validate_all(args: argparse.Namespace) -> tuple[list[dict[str, Any]], bool]:
-    """Validate the whole catalogue, a line each."""
+def _validate_all(args: argparse.Namespace, outcomes: list[Outcome]) -> None:
+    """Validate the whole catalogue, a line each; gather what came of each."""
     from tqdm import tqdm
 
     from .validate import sweep
 
-    start, outcomes = time.perf_counter(), []
-    which = sweep.every_robot(args.base)
+    start, which = time.perf_counter(), sweep.every_robot(args.base)
+    say: Callable[[str], None] = tqdm.write if args.json != "-" else lambda text: None  # stdout is for the JSON
+    say(sweep.header())
     found = sweep.sweep(
         which, jobs=args.jobs, states=args.states, truths=args.truths or 1, seed=args.seed, fast=args.fast
     )
-    say: Callable[[str], None] = tqdm.write if args.json != "-" else lambda text: None  # stdout is for the JSON
-    say(sweep.header())
-    for outcome in tqdm(found, total=len(which), unit="robot", disable=not _shows_bar(args), leave=False):
-        outcomes.append(outcome)
-        say(sweep.line(outcome))
+    with closing(found):
+        for outcome in tqdm(found, total=len(which), unit="robot", disable=not _shows_bar(args), leave=False):
+            outcomes.append(outcome)
+            say(sweep.line(outcome))
     say("\n" + sweep.summary(outcomes, time.perf_counter() - start))
-    return [outcome.as_dict() for outcome in outcomes], all(outcome.passed for outcome in outcomes)
 
 
 def _check_options(args: argparse.Namespace) -> None:

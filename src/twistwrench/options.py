@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -34,10 +35,11 @@ def check_writable(option: str, path: Path | None) -> None:
     """
     if path is None:
         return
+    target = Path(os.path.realpath(path))  # a link that leads nowhere yet stays, the file it leads to is made
     new = not path.exists()
     try:
         path.open("a").close()
     except OSError as error:
         raise OSError(f"{option} {path}: {error.strerror}") from None
     if new:
-        path.unlink()
+        target.unlink()

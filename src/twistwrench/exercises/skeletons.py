@@ -9,6 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import cast
 
+from ..files import write_text
 from . import catalogue
 from .exercise import Exercise, Part
 from .text import Language, Text, default_language
@@ -77,7 +78,7 @@ def start(folder: str | PathLike[str], *, language: Language | None = None) -> t
         if path.exists():
             kept.append(path)
         else:
-            path.write_text(text, encoding="utf-8")
+            write_text(path, text)
             new.append(path)
     Workbook(folder).remember(language=asked)
     return new, kept

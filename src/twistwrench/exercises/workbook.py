@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import ModelError
+from ..files import write_text
 from . import catalogue
 from .exercise import Exercise, Part
 from .judge import Verdict, judge
@@ -80,7 +81,7 @@ class Workbook:
         """Write the hidden file."""
         self.state.update(news)
         text = json.dumps(self.state, indent=1, ensure_ascii=False)
-        (self.folder / STATE_FILE).write_text(text + "\n", encoding="utf-8")
+        write_text(self.folder / STATE_FILE, text + "\n")
 
     @property
     def language(self) -> Language:

@@ -10,6 +10,7 @@ import numpy as np
 
 import twistwrench as tw
 
+from ..files import replacing
 from ..motions import Motion
 from ..plot.style import COLOURS, XYZ
 from ..templates import TEMPLATES
@@ -47,7 +48,8 @@ def draw(model: tw.Model, motions: Sequence[Motion], path: Path) -> None:
     axes[1, 0].set_ylabel("left out of ḣ_G / weight")
     axes[0, 0].legend(loc="upper left", ncols=3, fontsize=8)
     figure.legend(*axes[1, 0].get_legend_handles_labels(), loc="outside lower center", ncols=len(LINES), fontsize=9)
-    figure.savefig(path, dpi=110)
+    with replacing(path) as beside:
+        figure.savefig(beside, dpi=110)
 
 
 def rates(model: tw.Model, motion: Motion, ax: Any) -> None:

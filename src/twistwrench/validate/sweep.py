@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+import threading
+from collections.abc import Generator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context, parent_process
 from typing import Any, Literal
 
 from ..robots import robots
 from ..robots.catalogue import PREFIX, example_robot_data_folder
+from ..stopping import without_interrupts
 from .report import Report, notes, number, pad
 from .run import validate
 
@@ -55,7 +57,7 @@ def sweep(
     truths: int = 1,
     seed: int = 0,
     fast: bool = False,
-) -> Iterator[Outcome]:
+) -> Generator[Outcome]:
     """Validate robots, several at a time, each with two frames.
 
     Parameters
@@ -77,13 +79,30 @@ def sweep(
             yield _outcome(name, base, states, truths, seed, fast)
         return
     # Spawned, not forked: a fork copies locks of the BLAS's threads in whatever state they are.
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        running = [pool.submit(_outcome, name, base, states, truths, seed, fast) for name, base in which]
-        try:
-            for future in running:
-                yield future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent)
+    others = set(active_children())
+    try:
+        with without_interrupts():
+            running = [pool.submit(_outcome, name, base, states, truths, seed, fast) for name, base in which]
+        for future in running:
+            yield future.result()
+    except BaseException:  # Ctrl-C, or nobody wants more: what is being worked on would take seconds or minutes
+        for process in set(active_children()) - others:
+            process.terminate()
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _end_with_the_parent() -> None:
+    """Let a process of the pool end when its parent was killed: it would wait for work for ever."""
+
+    def watch() -> None:
+        if (parent := parent_process()) is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _outcome(name: str, base: Base, states: int, truths: int, seed: int, fast: bool) -> Outcome:

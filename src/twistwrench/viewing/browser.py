@@ -7,12 +7,12 @@ from contextlib import redirect_stdout
 from html import escape
 from io import StringIO
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..files import write_text
 from .controls import add_joints, add_time
 from .origin import only_own_page
 from .shapes import Shape
@@ -69,7 +69,7 @@ class Browser:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the page that stands alone."""
-        Path(path).write_text(self.html(), encoding="utf-8")
+        write_text(path, self.html())
 
     def stop(self) -> None:
         """Serve the page no longer."""

@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from ..files import replacing
 from ..options import check_writable
 
 __all__ = ["register"]
@@ -76,7 +77,8 @@ def _write(args: argparse.Namespace, suffix: str) -> None:
 
     figure = Figure(figsize=(7.0, 6.0), layout="constrained")  # no window, hence no pyplot
     _view(args, ax=figure.add_subplot(projection="3d", elev=20, azim=-60))
-    figure.savefig(args.output, dpi=DOTS_PER_INCH)
+    with replacing(args.output) as beside:
+        figure.savefig(beside, dpi=DOTS_PER_INCH)
 
 
 def _serve(args: argparse.Namespace) -> None:

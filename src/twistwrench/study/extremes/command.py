@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from ...files import write_text
 from ...options import check_writable
 
 __all__ = ["add_extremes"]
@@ -87,4 +88,4 @@ def _pinocchio() -> bool:
 
 
 def _write(path: Path, found: dict[str, Any]) -> None:
-    path.write_text(json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n")

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...files import replacing
 from ...plot.style import COLOURS
 from .cell import Outcome
 from .grid import DIMENSIONS, ENDS, WORDS, of_pair, of_value
@@ -71,7 +72,8 @@ def save(cells: Sequence[Cell], folder: Path) -> list[Path]:
         paths.append(folder / f"extremes_{name}.png")
         whole = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
         few = whole.quantize(128, method=Image.Quantize.FASTOCTREE)  # a third of the bytes, and rare colours stay
-        few.save(paths[-1], optimize=True)
+        with replacing(paths[-1]) as beside:
+            few.save(beside, optimize=True)
     return paths
 
 

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from ...files import naming, write_text
 from .cell import Outcome, measure
 from .robots import Recipe
 
@@ -107,9 +108,8 @@ def _kept(cells: Iterable[Cell], path: Path | None, known: Iterable[Cell]) -> It
     if path is None:
         yield from cells
         return
-    path.write_text("".join(cell.as_line() + "\n" for cell in known), encoding="utf-8")
-    with path.open("a", encoding="utf-8") as file:
-        for cell in cells:
+    write_text(path, "".join(cell.as_line() + "\n" for cell in known))
+    for cell in cells:
+        with naming(path), path.open("a", encoding="utf-8") as file:
             file.write(cell.as_line() + "\n")
-            file.flush()
-            yield cell
+        yield cell

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from ...files import write_text
 from ...options import at_least, check_writable
 from .run import FULL, KEYS, SHORT, weigh
 
@@ -44,7 +45,7 @@ def run_trade(args: argparse.Namespace) -> int:
     trade = weigh(args.robot, base=args.base, only=args.only, effort=effort, rng=args.seed, progress=progress)
     print(trade)
     if args.json is not None:
-        args.json.write_text(trade.to_json() + "\n", encoding="utf-8")
+        write_text(args.json, trade.to_json() + "\n")
     if args.plot is not None:
         draw(trade, args.plot)
     return 0

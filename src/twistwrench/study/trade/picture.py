@@ -8,6 +8,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from ...files import replacing
 from ...plot.style import COLOURS, NO_MATPLOTLIB
 from .measure import Point
 from .report import Trade
@@ -67,14 +68,16 @@ def draw(trade: Trade, path: Path) -> None:
 def _save(figure: Any, path: Path) -> None:
     """Write the picture; PNG with a palette, which is a third of the size."""
     if path.suffix != ".png":
-        figure.savefig(path)
+        with replacing(path) as beside:
+            figure.savefig(beside)
         return
     from PIL import Image
 
     page = BytesIO()
     figure.savefig(page, dpi=100, format="png")
     colours, plain = Image.open(page).convert("RGB"), Image.Dither.NONE
-    colours.quantize(128, Image.Quantize.MAXCOVERAGE, dither=plain).save(path, optimize=True)
+    with replacing(path) as beside:
+        colours.quantize(128, Image.Quantize.MAXCOVERAGE, dither=plain).save(beside, optimize=True)
 
 
 def panel(ax: Any, trade: Trade, key: str) -> Any:

@@ -1,0 +1,103 @@
+"""Write a file beside, then rename: what was there before stays good until the new file is whole."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from os import PathLike
+from pathlib import Path
+
+__all__ = ["naming", "replacing", "write_text"]
+
+IN_PLACE = ("/dev/", "/proc/")
+"""Below these a name stands for something that is open already."""
+
+
+@contextmanager
+def naming(path: str | PathLike[str]) -> Iterator[None]:
+    """Say in an error of the operating system which file it was about: "No space left on device" does not.
+
+    Raises
+    ------
+    OSError
+        Naming the file.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise OSError(f"{path}: {error.strerror or error}") from error
+
+
+@contextmanager
+def replacing(path: str | PathLike[str]) -> Iterator[Path]:
+    """Yield a new file to write; it takes the place of `path` once it is written without an error.
+
+    It lies in the same folder and has the same suffix. A link stays, and the file that it leads to is replaced.
+    A device or a pipe is yielded itself.
+
+    Parameters
+    ----------
+    path : str or path
+
+    Yields
+    ------
+    Path
+
+    Raises
+    ------
+    OSError
+        Naming the file. What was there before is as it was.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = Path(tempfile.mkdtemp()) / "found.json"
+    >>> with replacing(path) as beside:
+    ...     written = beside.write_text("{}")
+    >>> path.read_text(), len(list(path.parent.iterdir()))
+    ('{}', 1)
+    """
+    with naming(path):
+        target = Path(os.path.realpath(path))
+        there = Path(path).exists()
+        if (there and not Path(path).is_file()) or os.path.abspath(path).startswith(IN_PLACE):
+            yield Path(path)
+            return
+        if there:
+            target.open("a").close()  # a file that may not be written must not be replaced
+        beside = target.with_name(f".{secrets.token_hex(4)}{target.suffix}")
+        try:
+            beside.open("x").close()
+        except PermissionError:
+            if not there:
+                raise
+            yield target  # the file may be written, its folder may not
+            return
+        try:
+            yield beside
+            if there:
+                shutil.copymode(target, beside)
+            beside.replace(target)
+        finally:
+            with suppress(OSError):
+                beside.unlink(missing_ok=True)
+
+
+def write_text(path: str | PathLike[str], text: str) -> None:
+    """Write a text file in UTF-8, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or path
+    text : str
+
+    Raises
+    ------
+    OSError
+        Naming the file. What was there before is as it was.
+    """
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8")

@@ -1,0 +1,136 @@
+"""Long commands stop when they are told to, soon, with the exit status of the signal, and keep what was finished."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from twistwrench.stopping import Stopped, heeded, without_interrupts
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and processes are those of POSIX")
+
+SOON = 5
+"""Seconds; it is less than one here, and this machine may be busy."""
+
+SWEEP = ["validate", "--all", "--jobs", "2", "--states", "1", "--truths", "1"]
+
+
+def started(*arguments):
+    """Start a command in a process group of its own, as a shell does."""
+    command = [sys.executable, "-m", "twistwrench", *arguments]
+    return subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+
+
+def working(group):
+    """Return the processes of a group that have not ended."""
+    found = subprocess.run(["ps", "-eo", "pgid=,stat="], capture_output=True, text=True, check=True).stdout
+    return [line for line in found.splitlines() if line.split()[0] == str(group) and "Z" not in line.split()[1]]
+
+
+def is_stopped(process):
+    """Wait for a process; return its exit status, and what it wrote to stderr. Nothing of it may go on."""
+    before = time.monotonic()
+    try:
+        error = process.communicate(timeout=30)[1]
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+    assert time.monotonic() - before < SOON
+    until = time.monotonic() + SOON
+    while working(process.pid) and time.monotonic() < until:
+        time.sleep(0.1)
+    assert working(process.pid) == []
+    return process.returncode, error
+
+
+@pytest.mark.parametrize(
+    ("number", "group", "status"),
+    [(signal.SIGINT, True, 130), (signal.SIGTERM, True, 143), (signal.SIGTERM, False, 143)],
+)
+def test_a_sweep_is_stopped_and_keeps_what_was_finished(tmp_path, number, group, status):
+    old = tmp_path / "found.json"
+    old.write_text("of a whole run")
+    process = started(*SWEEP, "--json", str(old))
+    for _ in range(2):  # the header and a robot
+        process.stdout.readline()
+    (os.killpg if group else os.kill)(process.pid, number)
+    code, error = is_stopped(process)
+    assert code == status
+    assert "Traceback" not in error
+    assert "what was finished is in" in error
+    assert old.read_text() == "of a whole run"
+    part = json.loads((tmp_path / "found.json.part").read_text(encoding="utf-8"))
+    assert part["interrupted"]
+    assert not part["passed"]
+    assert part["reports"]
+
+
+def test_a_sweep_that_is_killed_leaves_no_processes_behind():
+    process = started(*SWEEP)
+    for _ in range(2):
+        process.stdout.readline()
+    process.kill()
+    assert is_stopped(process)[0] == -signal.SIGKILL
+
+
+def test_a_sweep_that_nobody_reads_stops():
+    """As in `twistwrench validate --all | head -2`: it must not wait for the next line it prints."""
+    process = started(*SWEEP, "--states", "20", "--truths", "20")
+    process.stdout.readline()  # the header; the first robot takes longer than this test waits
+    process.stdout.close()
+    before = time.monotonic()
+    assert process.wait(30) == 141
+    assert time.monotonic() - before < SOON
+    assert process.stderr.read() == ""
+    process.stderr.close()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["study", "trade", "go2"], ["study", "extremes"], ["study", "speed"], ["study", "templates"]],
+    ids=lambda arguments: arguments[1],
+)
+def test_a_study_is_stopped(tmp_path, arguments):
+    process = started(*arguments)
+    time.sleep(3)
+    os.killpg(process.pid, signal.SIGINT)
+    code, error = is_stopped(process)
+    assert code == 130
+    assert "Traceback" not in error
+
+
+def test_a_signal_ends_the_work_and_is_as_before_afterwards():
+    def terminated():
+        with heeded():
+            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(SOON)
+
+    with pytest.raises(Stopped) as stopped:
+        terminated()
+    assert stopped.value.status == 143
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
+
+def test_an_interrupt_is_held_back_not_lost():
+    reached = []
+
+    def interrupted():
+        with without_interrupts():
+            os.kill(os.getpid(), signal.SIGINT)
+            reached.append("the end")
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert reached == ["the end"]
