@@ -199,6 +199,38 @@ def test_a_side_view_shows_x_and_z_and_is_shifted(flat):
     np.testing.assert_allclose(flat.lines[-1].get_xydata(), [[com[0] + 2, com[2]]], rtol=1e-12)
 
 
+def test_the_sides_are_the_robots_own_wherever_it_stands_and_however_it_moves():
+    def colours(q):
+        ax, sticks = plot.side_view(MODEL, q, com=False, ax=Figure().add_subplot()), plot.sticks(MODEL, q)
+        order = np.argsort(-sticks[..., 1].mean(axis=-1))  # the far ones are drawn first
+        drawn = dict(zip(order, ax.lines))
+        assert all((line.get_xydata() == sticks[k][:, [0, 2]]).all() for k, line in drawn.items())
+        return [drawn[k].get_color() for k in range(len(sticks))]
+
+    here = colours(Q)
+    assert here.count(plot.COLOURS["blue"]) == here.count(plot.COLOURS["vermilion"]) == 6
+    aside, turned = Q.copy(), MODEL.integrate(Q, np.r_[0, 0, np.pi, np.zeros(15)])
+    aside[1] = 1.0
+    assert colours(aside) == here
+    assert colours(turned) == here
+    for q in tw.motions.walk(MODEL, samples=8).q:
+        assert colours(q) == here
+
+
+def test_a_force_reads_as_zero_only_where_it_is(space):
+    plot.foot_forces(MODEL, Q, np.diag([0, 0, 1.0])[[0, 2, 2, 2]] * [[1], [0.004], [1e-7], [123.45]], ax=space)
+    assert [text.get_text().strip() for text in space.texts] == ["0 N", "0.004 N", "1e-07 N", "123.5 N"]
+
+
+def test_a_mass_matrix_of_a_tiny_robot_has_no_more_zeros(flat):
+    M = tw.crba(MODEL, Q)
+    plot.mass_matrix(MODEL, 1e-15 * M, ax=flat)
+    shade = flat.images[0].get_array()
+    big = Figure().add_subplot()
+    plot.mass_matrix(MODEL, M, ax=big)
+    np.testing.assert_allclose(shade.filled(0), big.images[0].get_array().filled(0), rtol=1e-9)
+
+
 def test_near_and_far_legs_have_their_own_colours_and_the_near_ones_are_in_front(flat):
     plot.side_view(MODEL, Q, com=False, ax=flat)
     colours = [line.get_color() for line in flat.lines]

@@ -521,6 +521,7 @@ def test_the_table_and_the_picture_show_every_option_and_the_choice(walking):
     ends = sorted(bar.get_x() + bar.get_width() for bar in ax.patches)
     np.testing.assert_allclose(ends, [1e6 * o.seconds for o in found.options], rtol=1e-12)
     assert [label.get_text() for label in ax.get_yticklabels()] == [o.name for o in found.options]
+    assert [float(text.get_text().split()[0]) for text in ax.texts] == [float(f"{o.worst:.2g}") for o in found.options]
 
 
 def test_limbs_are_what_touches_nothing():

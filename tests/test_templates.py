@@ -442,6 +442,19 @@ def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
     assert picture.stat().st_size > 20_000
 
 
+def test_the_picture_of_the_study_draws_the_values_that_it_has():
+    figure = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed: the picture is not made")
+    from twistwrench.study.templates_picture import residuals
+
+    jump, ax = tw.motions.jump(GO2, samples=20), figure.Figure().add_subplot()
+    residuals(GO2, jump, ax)
+    point = next(line for line in ax.lines if line.get_label() == "point_mass")
+    relative = PointMass.of(GO2, STAND).residual(jump.q, jump.v, jump.a).relative
+    assert relative.min() < 1e-10
+    np.testing.assert_array_equal(point.get_ydata(), relative)
+    assert f"point_mass down to {relative.min():.0e}" in ax.texts[0].get_text()
+
+
 def test_the_study_has_a_table_for_every_robot(monkeypatch, capsys):
     monkeypatch.setattr("twistwrench.study.templates.round_robin", in_a_millisecond)
     monkeypatch.setattr("twistwrench.study.templates.MOTIONS", {"walk": tw.motions.walk})

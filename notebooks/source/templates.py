@@ -192,7 +192,7 @@ axes[0].plot(jump.t, k_G[:, 1], color=plot.COLOURS["green"])
 axes[0].set(title="k_y [kg m²/s]", xlabel="time [s]")
 for name, colour in {"point_mass": "blue", "lipm": "orange", "srbm": "vermilion"}.items():
     relative = TEMPLATES[name].of(go2, go2.standing()).residual(jump.q, jump.v, jump.a).relative
-    axes[1].semilogy(jump.t, np.maximum(relative, 1e-4), color=plot.COLOURS[colour], label=name)
+    axes[1].semilogy(jump.t, relative, color=plot.COLOURS[colour], label=name)
 axes[1].set(title="left out of ḣ_G / weight", xlabel="time [s]")
 axes[1].legend(fontsize=8, loc="center left", bbox_to_anchor=(1, 0.5))
 for ax in axes:

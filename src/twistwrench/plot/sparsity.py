@@ -59,7 +59,8 @@ def mass_matrix(
         zero in all of them.
     title : str
     rounding : float
-        Entries up to this are taken for zeros.
+        Entries M_ij up to this share of √(M_ii M_jj) are taken for zeros that rounding has touched: of a robot of
+        grams as of one of tons.
     indent : float
         How far a joint stands to the right of the one that carries it, in squares.
     ax : matplotlib Axes, optional
@@ -89,8 +90,10 @@ def mass_matrix(
     check_model(model)
     M = as_array(M, "M", model.nv, model.nv).astype(float).reshape(-1, model.nv, model.nv)
     largest = np.take_along_axis(M, np.abs(M).argmax(axis=0)[None], axis=0)[0]
-    ax = matrix(largest, title, lines=(), rounding=rounding, ax=axes_2d(ax, size=(7.5, 5.4)))
-    rows, columns = np.nonzero((np.abs(largest) <= rounding) & same_branch(model))
+    size = np.sqrt(np.abs(largest.diagonal()))
+    largest = np.where(np.abs(largest) > rounding * np.multiply.outer(size, size), largest, 0)
+    ax = matrix(largest, title, lines=(), ax=axes_2d(ax, size=(7.5, 5.4)))
+    rows, columns = np.nonzero((largest == 0) & same_branch(model))
     ax.plot(columns, rows, ".", color=COLOURS["grey"], markersize=4)
     outward = range(1, model.nbodies)
     branches = [model.v_slice[i].start for i in outward if model.parent[i] in (0, 1) or model.parent[i] != i - 1]

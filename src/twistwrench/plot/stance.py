@@ -16,7 +16,7 @@ from ..kinematics import frame_placement
 from ..model import Model
 from .frames import arrows
 from .robot import robot
-from .style import COLOURS, axes_3d, fit
+from .style import COLOURS, axes_3d, fit, newtons
 
 __all__ = ["foot_forces", "hull", "support_polygon"]
 
@@ -180,5 +180,5 @@ def foot_forces(
     places = np.array([frame_placement(model, q, name).translation for name in contacts], dtype=float)
     ax = robot(model, q, ax=ax)
     support_polygon(places, center_of_mass(model, q), ax=ax)
-    texts = [f"{vertical:.1f} N" for vertical in f[:, 2]]
+    texts = [newtons(vertical) for vertical in f[:, 2]]
     return arrows(places, f, scale=scale, texts=texts, label=label, ax=ax)

@@ -8,18 +8,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
-from ..checks import as_number
+from ..checks import Array, as_number
 from ..model import Model
 from .robot import sticks
 from .style import COLOURS, axes_2d
 
 __all__ = ["side_view"]
 
+MIDDLE = 0.25
+"""Nearer to the plane of symmetry than this share of the widest stick, a stick is on neither side."""
+
 
 def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = True, ax: Any = None) -> Any:
-    """Draw a robot as a stick figure seen from its right, x to the right and z up.
+    """Draw a robot as a stick figure seen against the y axis of the world, x to the right and z up.
 
-    The limbs on the far side are blue and behind those on the near side, which are vermilion.
+    The limbs on the robot's own left are blue, those on its right vermilion, wherever it stands and however it moves:
+    which side they are on is read off the neutral configuration. What is nearer is in front.
 
     Parameters
     ----------
@@ -52,14 +56,18 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     shift = as_number(shift, "shift")
     ax = axes_2d(ax, size=(10.0, 2.6))
     lines = sticks(model, q)
-    across = lines[..., 1].mean(axis=-1)
-    middle = 1e-6 + 0.25 * np.abs(across).max(initial=0)
-    for k in np.argsort(-across):  # the far ones first
-        near, far = across[k] < -middle, across[k] > middle
-        colour = COLOURS["vermilion"] if near else COLOURS["blue"] if far else COLOURS["grey"]
+    side = _sides(model)
+    for k in np.argsort(-lines[..., 1].mean(axis=-1)):  # the far ones first
+        colour = COLOURS[("grey", "blue", "vermilion")[side[k]]]
         ax.plot(lines[k, :, 0] + shift, lines[k, :, 2], color=colour, linewidth=3, solid_capstyle="round")
     if com and model.mass > 0:
         c = center_of_mass(model, q).astype(float)
         ax.plot(c[0] + shift, c[2], "x", color=COLOURS["purple"], markersize=7, markeredgewidth=2)
     ax.set(xlabel="x [m]", ylabel="z [m]", aspect="equal")
     return ax
+
+
+def _sides(model: Model) -> Array:
+    """Return for each stick 1 on the robot's left, −1 on its right, 0 in the middle, as it is in neutral."""
+    left = sticks(model, model.neutral())[..., 1].mean(axis=-1)
+    return np.asarray(np.sign(left) * (np.abs(left) > 1e-6 + MIDDLE * np.abs(left).max(initial=0)), int)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import as_array
 
-__all__ = ["COLOURS", "NO_MATPLOTLIB", "XYZ", "axes_2d", "axes_3d", "fit"]
+__all__ = ["COLOURS", "NO_MATPLOTLIB", "XYZ", "axes_2d", "axes_3d", "fit", "newtons"]
 
 COLOURS = {
     "black": "#000000",
@@ -139,3 +139,14 @@ def _few_ticks(span: float) -> Any:
 
     steps = np.array([1, 2, 5, 10, 20, 50]) * 10.0 ** (np.floor(np.log10(span)) - 1)
     return MultipleLocator(float(steps[np.argmax(span / steps <= 4)]))
+
+
+def newtons(force: float) -> str:
+    """Write a force: one decimal from 1 N on, and of less its first three digits, so that only zero reads as zero.
+
+    Examples
+    --------
+    >>> newtons(39.14), newtons(0.00345), newtons(0.0)
+    ('39.1 N', '0.00345 N', '0 N')
+    """
+    return f"{force:.1f} N" if abs(force) >= 1 else f"{force:.3g} N"

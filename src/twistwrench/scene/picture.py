@@ -11,9 +11,6 @@ if TYPE_CHECKING:
 
 __all__ = ["draw"]
 
-ROUNDING = 1e-9
-"""What is less is written as 0: it is rounding."""
-
 
 def draw(costs: Costs, ax: Any = None) -> Any:
     """Draw a bar for the time of each option, coloured by whether it will do, with what it misses; returns the axes."""
@@ -30,8 +27,9 @@ def draw(costs: Costs, ax: Any = None) -> Any:
         rows = [k for k, mine in enumerate(kinds) if mine == kind]
         ax.barh(rows, [times[k] - start for k in rows], color=colour, label=kind, left=start)
     for k, option in enumerate(costs.options):
-        worst = "0" if option.worst < ROUNDING else f"{option.worst:.2g}"
-        ax.text(1.15 * times[k], k, worst + ("  + torques" if option.tells_torques else ""), va="center")
+        ax.text(
+            1.15 * times[k], k, f"{option.worst:.2g}" + ("  + torques" if option.tells_torques else ""), va="center"
+        )
     ax.set_yticks(range(len(times)), [option.name for option in costs.options])
     ax.invert_yaxis()
     ax.set(xscale="log", xlim=(start, 40 * max(times)), xlabel="time [µs per state]")

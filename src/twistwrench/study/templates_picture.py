@@ -24,7 +24,7 @@ LINES = {
     "srbm": (COLOURS["vermilion"], "-"),
 }
 LEAST = 1e-4
-"""Of the residuals that are drawn."""
+"""Where the axis of the residuals begins. What is less leaves the picture, and a note says how small it is."""
 
 
 def draw(model: tw.Model, motions: Sequence[Motion], path: Path) -> None:
@@ -59,7 +59,7 @@ def rates(model: tw.Model, motion: Motion, ax: Any) -> None:
     for k, (name, colour) in enumerate(zip("xyz", XYZ)):
         ax.plot(motion.t, 1e3 * rate[:, k] / weight, color=colour, label=name)
     largest = 1e3 * np.sqrt((rate**2).sum(axis=1)).max() / weight
-    ax.text(0.97, 0.93, f"largest {largest:.0f} mm", ha="right", va="top", transform=ax.transAxes, fontsize=8)
+    ax.text(0.97, 0.93, f"largest {largest:.3g} mm", ha="right", va="top", transform=ax.transAxes, fontsize=8)
     if _flight(motion, ax):
         ax.text(0.5, 0.05, "flight", ha="center", transform=ax.transAxes, fontsize=8)
     ax.set_title(motion.name)
@@ -67,9 +67,15 @@ def rates(model: tw.Model, motion: Motion, ax: Any) -> None:
 
 def residuals(model: tw.Model, motion: Motion, ax: Any) -> None:
     """Draw the relative residuals of the templates, on a logarithmic scale."""
+    below = []
     for name, (colour, line) in LINES.items():
-        residual = TEMPLATES[name].of(model, model.standing()).residual(motion.q, motion.v, motion.a)
-        ax.semilogy(motion.t, np.maximum(residual.relative, LEAST), line, color=colour, label=name)
+        relative = TEMPLATES[name].of(model, model.standing()).residual(motion.q, motion.v, motion.a).relative
+        ax.semilogy(motion.t, relative, line, color=colour, label=name)
+        if relative.min() < LEAST:
+            below.append(f"{name} down to {relative.min():.0e}")
+    if below:
+        text = "\n".join(["below the picture:", *below])
+        ax.text(0.5, 0.04, text, ha="center", va="bottom", transform=ax.transAxes, fontsize=7)
     _flight(motion, ax)
     ax.set(xlabel="t [s]", ylim=(LEAST, 5))
 

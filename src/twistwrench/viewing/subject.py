@@ -16,6 +16,7 @@ from ..errors import ShapeError, SingularError, no_model
 from ..kinematics import forward_kinematics
 from ..model import Model
 from ..motions import Motion
+from ..plot.style import newtons
 from ..robots import load
 from ..scene import Scene
 from ..simulation import Simulation
@@ -112,7 +113,7 @@ class Subject:
         for body in np.unique(bodies):
             (on,) = np.nonzero(bodies == body)
             size = float(np.linalg.norm(forces.vectors[on].sum(axis=0)))
-            texts[on[outwards[on].argmax()]] = f"{'Σ ' * (len(on) > 1)}{size:.1f} N" if size else ""
+            texts[on[outwards[on].argmax()]] = f"{'Σ ' * (len(on) > 1)}{newtons(size)}" if size else ""
         return texts
 
     def box(self) -> tuple[Array, float]:
