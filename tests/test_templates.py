@@ -452,7 +452,7 @@ def test_the_picture_of_the_study_draws_the_values_that_it_has():
     relative = PointMass.of(GO2, STAND).residual(jump.q, jump.v, jump.a).relative
     assert relative.min() < 1e-10
     np.testing.assert_array_equal(point.get_ydata(), relative)
-    assert f"point_mass down to {relative.min():.0e}" in ax.texts[0].get_text()
+    assert f"point_mass {relative.min():.0e}" in ax.texts[0].get_text()
 
 
 def test_the_study_has_a_table_for_every_robot(monkeypatch, capsys):

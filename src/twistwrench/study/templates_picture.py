@@ -72,9 +72,9 @@ def residuals(model: tw.Model, motion: Motion, ax: Any) -> None:
         relative = TEMPLATES[name].of(model, model.standing()).residual(motion.q, motion.v, motion.a).relative
         ax.semilogy(motion.t, relative, line, color=colour, label=name)
         if relative.min() < LEAST:
-            below.append(f"{name} down to {relative.min():.0e}")
+            below.append(f"{name} {relative.min():.0e}")
     if below:
-        text = "\n".join(["below the picture:", *below])
+        text = "\n".join(["below the picture, down to", *below])
         ax.text(0.5, 0.04, text, ha="center", va="bottom", transform=ax.transAxes, fontsize=7)
     _flight(motion, ax)
     ax.set(xlabel="t [s]", ylim=(LEAST, 5))
