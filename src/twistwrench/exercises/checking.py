@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from contextlib import ExitStack
 from typing import Any
 
 import pytest
 
 from . import catalogue
 from .exercise import Exercise
+from .isolation import TIME_LIMIT, opened
 from .judge import Verdict
 from .progress import survey
 from .text import Text
@@ -23,10 +25,12 @@ from .wrapping import wrapped
 
 __all__ = [
     "SectionFile",
+    "pytest_addoption",
     "pytest_collect_file",
     "pytest_configure",
     "pytest_pycollect_makemodule",
     "pytest_terminal_summary",
+    "pytest_unconfigure",
 ]
 
 TO_DO = Text("to do: {id} {name}", "未做：{id} {name}")
@@ -35,6 +39,7 @@ COMPARE = Text(
 )
 
 BOOKS = pytest.StashKey[dict[str, Workbook]]()
+OPEN = pytest.StashKey[ExitStack]()
 
 
 def mark_of(section: str) -> str:
@@ -44,11 +49,27 @@ def mark_of(section: str) -> str:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Announce the marks, and let ``-k 49_1`` mean section 49.1 and not 49.10 as well."""
-    config.stash[BOOKS] = {}
+    config.stash[BOOKS], config.stash[OPEN] = {}, ExitStack()
     for section, title in catalogue.SECTIONS.items():
         config.addinivalue_line("markers", f"{mark_of(section)}: {title.en}")
     if config.option.keyword:
         config.option.keyword = re.sub(r"\b49_(\d+)\b", r"49_\1_", config.option.keyword)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the time limit; a debugger needs 0, as the answers otherwise run in a process of their own."""
+    parser.addoption(
+        "--time-limit",
+        type=float,
+        default=TIME_LIMIT,
+        metavar="S",
+        help="seconds for one call of an answer; 0 for none, as `breakpoint()` needs it (10)",
+    )
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """End the processes that ran the answers."""
+    config.stash[OPEN].close()
 
 
 def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
@@ -57,7 +78,10 @@ def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Coll
     if file_path.name not in sections:
         return None
     books = parent.config.stash[BOOKS]
-    book = books.setdefault(str(file_path.parent), Workbook(file_path.parent))
+    if str(file_path.parent) not in books:
+        opening = opened(file_path.parent, time_limit=parent.config.getoption("time_limit"))
+        books[str(file_path.parent)] = parent.config.stash[OPEN].enter_context(opening)
+    book = books[str(file_path.parent)]
     return SectionFile.of(parent, path=file_path, section=sections[file_path.name], book=book)
 
 
@@ -142,8 +166,10 @@ class Answer(pytest.Item):
         return self.path, None, self.name
 
 
-def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    """Show model answers for comparison, each once, and how far the student is."""
+def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pytest.Config) -> None:
+    """Show model answers for comparison, each once, and how far the student is; nothing after an interrupt."""
+    if exitstatus == pytest.ExitCode.INTERRUPTED:
+        return
     for book in config.stash[BOOKS].values():
         for exercise in _to_compare(book):
             terminalreporter.section(f"{exercise.id} {exercise.title.of(book.language)}")

@@ -28,6 +28,9 @@ def register(commands: Any) -> None:
     start.add_argument("dir", metavar="DIR")
     status = _action(actions, "status", "check all answers and show the progress by section", run_status)
     status.add_argument("dir", nargs="?", default=".", metavar="DIR")
+    status.add_argument(
+        "--time-limit", type=_seconds, metavar="S", help="seconds for one call of a function; 0 for none (10)"
+    )
     hint = _action(actions, "hint", "the next hint for an exercise", run_hint)
     solution = _action(actions, "solution", "a solution of an exercise", run_solution)
     for asked in (hint, solution):
@@ -44,6 +47,17 @@ def _action(actions: Any, name: str, help: str, run: Any) -> Any:
     parser.add_argument("--language", choices=["en", "zh"], help="English or 简体中文")
     parser.set_defaults(run=run)
     return parser
+
+
+def _seconds(text: str) -> float:
+    """Read a number of seconds."""
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if not 0 <= seconds < 1e6:
+        raise argparse.ArgumentTypeError(f"expected a number of seconds, 0 or more, got {text!r}")
+    return seconds
 
 
 def run_start(args: argparse.Namespace) -> int:
@@ -67,9 +81,11 @@ def run_start(args: argparse.Namespace) -> int:
 
 def run_status(args: argparse.Namespace) -> int:
     """Print the progress; exit status 1 where an answer is wrong."""
+    from .isolation import TIME_LIMIT
     from .progress import status
 
-    found = status(args.dir, language=args.language)
+    limit = TIME_LIMIT if args.time_limit is None else args.time_limit
+    found = status(args.dir, language=args.language, time_limit=limit)
     print(found)
     return REFUSED if any(row.count("wrong") for row in found.rows) else 0
 

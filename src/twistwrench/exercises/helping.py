@@ -5,6 +5,8 @@ from __future__ import annotations
 from os import PathLike
 
 from . import catalogue
+from .exercise import Exercise
+from .isolation import opened
 from .skeletons import source_of
 from .text import Language, Text
 from .workbook import Workbook
@@ -83,6 +85,14 @@ def hint(
     return "\n".join(lines[:-1] if remembered else [*lines, SAY["forgotten"].of(spoken)])
 
 
+def _has_words(book: Workbook, exercise: Exercise) -> bool:
+    """Whether the student has answered in words; the file is read in a process of its own."""
+    if not (book.folder / catalogue.file_name(exercise.section)).exists():
+        return False
+    with opened(book.folder) as other:
+        return other.words(exercise) is not None
+
+
 def solution(number: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
     """Return a solution of an exercise, as it could stand in the student's file.
 
@@ -116,7 +126,7 @@ def solution(number: str, folder: str | PathLike[str] = ".", *, language: Langua
     lines = [SAY["solution"].fill(id=number, title=exercise.title).of(spoken)]
     lines += ["\n" + source_of(part, spoken).rstrip() for part in exercise.parts]
     if exercise.answer is not None:
-        attempted = book.words(exercise) is not None
+        attempted = _has_words(book, exercise)
         said = SAY["model"] if attempted else SAY["later"].fill(name=exercise.answer_name)
         lines += ["", said.of(spoken), *(wrapped(exercise.answer.of(spoken)) if attempted else [])]
     return "\n".join(lines)

@@ -6,6 +6,7 @@ import copy
 import traceback
 import zlib
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -24,6 +25,7 @@ __all__ = ["State", "Verdict", "judge"]
 ROOM = 96
 """Columns for the arguments of a case."""
 
+Watch = Callable[[], AbstractContextManager[object]]
 State = Literal["to do", "done", "wrong"]
 
 
@@ -53,7 +55,9 @@ class _Stop(Exception):
     """The student's function did not give an answer."""
 
 
-def judge(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed: int = 0) -> Verdict:
+def judge(
+    exercise: Exercise, part: Part, function: Callable[..., Any], *, seed: int = 0, watch: Watch = nullcontext
+) -> Verdict:
     """Compare a function with the reference on random cases.
 
     Parameters
@@ -65,6 +69,8 @@ def judge(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed:
         The student's.
     seed : int
         Of the random cases. The same seed gives the same verdict.
+    watch : callable
+        Gives a context for each call of the function, as to stop it after some time.
 
     Returns
     -------
@@ -74,7 +80,8 @@ def judge(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed:
     answers: list[Any] = []
     for arguments in cases:
         try:
-            answer = _run(part, function, arguments)
+            with watch():
+                answer = _run(part, function, arguments)
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:

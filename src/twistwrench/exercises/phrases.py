@@ -41,6 +41,14 @@ PHRASES = {
     ),
     "missing": Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。"),
     "not a function": Text("{name} in {file} is no function any more.", "{file} 中的 {name} 已不是函数。"),
+    "endless": Text(
+        "It did not finish in {seconds} s: a loop that never ends?", "{seconds} 秒内没有结束：是不是死循环？"
+    ),
+    "ended": Text("It ended the whole process of Python.", "它使整个 Python 进程终止了。"),
+    "encoding": Text(
+        "{file} is not written in UTF-8: save it as UTF-8 in your editor. ({error})",
+        "{file} 不是 UTF-8 编码：请在编辑器中另存为 UTF-8。（{error}）",
+    ),
     "file": Text("{file} cannot be read: {error}", "无法读取 {file}：{error}"),
     "file at line": Text("{file}, line {line} cannot be read: {error}", "{file} 第 {line} 行无法读取：{error}"),
     "no file": Text(

@@ -8,6 +8,7 @@ from os import PathLike
 from typing import Literal
 
 from . import catalogue
+from .isolation import TIME_LIMIT, opened
 from .judge import State
 from .text import Language, Text
 from .workbook import Workbook
@@ -99,7 +100,9 @@ class Status:
         return lines or [self._say("finished")]
 
 
-def status(folder: str | PathLike[str] = ".", *, language: Language | None = None) -> Status:
+def status(
+    folder: str | PathLike[str] = ".", *, language: Language | None = None, time_limit: float = TIME_LIMIT
+) -> Status:
     """Check every exercise of a folder and say how far it is.
 
     Parameters
@@ -108,6 +111,9 @@ def status(folder: str | PathLike[str] = ".", *, language: Language | None = Non
         One that `start` has filled.
     language : {"en", "zh"}, optional
         Of the table; that of the folder unless given.
+    time_limit : float
+        Seconds for one call of a function; 0 for none. The answers run in a process of their own, which is ended where
+        they take longer; without a limit they run in this one.
 
     Returns
     -------
@@ -118,7 +124,9 @@ def status(folder: str | PathLike[str] = ".", *, language: Language | None = Non
     ModelError
         If nothing was started there.
     """
-    return survey(Workbook.existing(folder, language=language))
+    Workbook.existing(folder)
+    with opened(folder, language=language, time_limit=time_limit) as book:
+        return survey(book)
 
 
 def survey(book: Workbook) -> Status:

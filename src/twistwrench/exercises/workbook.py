@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import shlex
 import sys
+import traceback
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from functools import cached_property
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from functools import cached_property, partial
+from importlib.util import decode_source
 from os import PathLike
 from os.path import isfile  # Path's own raises where the folder may not be read
 from pathlib import Path
@@ -48,7 +50,9 @@ class Workbook:
         self._asked = language
         self._modules: dict[str, ModuleType | Text | None] = {}
         self._verdicts: dict[str, Verdict] = {}
-        self._judging: set[str] = set()
+        self._judging: list[str] = []
+        self.watch: Callable[[str], AbstractContextManager[object]] = nullcontext
+        """Surrounds each call of the student's function of a name, and the reading of a file of a name."""
         self.borrowed: set[str] = set()
         """Functions that others asked for through `mine` and that came from the reference."""
 
@@ -104,12 +108,17 @@ class Workbook:
         module = ModuleType(path.stem)
         module.__dict__.update(__file__=str(path), __workbook__=self)
         try:
-            with _importable(self.folder):  # compiled anew each time: a cached file can be older than the last change
-                exec(compile(path.read_text(encoding="utf-8"), path, "exec"), module.__dict__)
+            source = decode_source(path.read_bytes())  # as Python reads it: with a BOM, or a line that names a coding
+        except (OSError, SyntaxError, UnicodeError) as error:
+            return say("file" if isinstance(error, OSError) else "encoding", file=path.name, error=error)
+        try:
+            with _importable(self.folder), self.watch(path.name):
+                # compiled anew each time: a cached file can be older than the last change
+                exec(compile(source, path, "exec"), module.__dict__)
         except (Exception, SystemExit) as error:  # whatever the student's file raises becomes a message
             said = f"{type(error).__name__}: {getattr(error, 'msg', error)}"
-            if isinstance(error, SyntaxError):
-                return say("file at line", file=path.name, line=error.lineno, error=said)
+            if (line := _line(error, path)) is not None:
+                return say("file at line", file=path.name, line=line, error=said)
             return say("file", file=path.name, error=said)
         return module
 
@@ -124,11 +133,11 @@ class Workbook:
     def verdict(self, exercise: Exercise, part: Part) -> Verdict:
         """Judge one function; each is judged once."""
         if part.name not in self._verdicts:
-            self._judging.add(part.name)
+            self._judging.append(part.name)
             try:
                 self._verdicts[part.name] = self._judge(exercise, part)
             finally:
-                self._judging.discard(part.name)
+                self._judging.pop()
         return self._verdicts[part.name]
 
     def _judge(self, exercise: Exercise, part: Part) -> Verdict:
@@ -141,7 +150,7 @@ class Workbook:
         if not callable(function):
             phrase = "missing" if function is None else "not a function"
             return Verdict("wrong", (head, say(phrase, name=part.name, file=file)))
-        return judge(exercise, part, function)
+        return judge(exercise, part, function, watch=partial(self.watch, part.name))
 
     def verdict_in_words(self, exercise: Exercise) -> Verdict | None:
         """Judge whether the answer in words is there; None where none is asked for."""
@@ -162,6 +171,8 @@ class Workbook:
 
     def best(self, name: str) -> Callable[..., Any]:
         """Return the student's function where it is right, the reference where it is not yet."""
+        if self._judging[-1:] == [name]:
+            raise RuntimeError(f"mine({name!r}) is the function that you are to write here")
         exercise, part = catalogue.find_part(name)
         module = self.module(exercise.section)
         if name not in self._judging and not isinstance(module, Text) and self.verdict(exercise, part).state == "done":
@@ -169,6 +180,14 @@ class Workbook:
             return function
         self.borrowed.add(name)
         return part.solution
+
+
+def _line(error: BaseException, path: Path) -> int | None:
+    """Return the line of a file at which an error is, or came from."""
+    if isinstance(error, SyntaxError):
+        return error.lineno
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    return lines[-1] if lines else None
 
 
 @contextmanager

@@ -1,0 +1,193 @@
+"""The student's code in a process of its own: a loop that never ends is stopped, and its line is told."""
+
+from __future__ import annotations
+
+import pickle
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from os import PathLike
+from pathlib import Path
+from typing import Any, BinaryIO, cast
+
+from ..stopping import without_interrupts
+from . import catalogue
+from .exercise import Exercise, Part
+from .judge import Verdict
+from .phrases import say
+from .text import Language, Text
+from .workbook import Workbook
+
+__all__ = ["TIME_LIMIT", "IsolatedWorkbook", "opened"]
+
+TIME_LIMIT = 10.0
+"""Seconds for one call of a function, and for reading a file. The longest of the references takes 0.1 s."""
+
+WORKER = "import sys; sys.path[:] = {path!r}; from twistwrench.exercises.worker import main; main()"
+
+
+@contextmanager
+def opened(
+    folder: str | PathLike[str], *, language: Language | None = None, time_limit: float = TIME_LIMIT
+) -> Iterator[Workbook]:
+    """Open a folder that was started before, and close it again.
+
+    Parameters
+    ----------
+    folder : str or path
+    language : {"en", "zh"}, optional
+        Of the messages.
+    time_limit : float
+        Seconds for one call of a student's function; 0 for none, and no other process, as a debugger needs it.
+
+    Yields
+    ------
+    Workbook
+    """
+    if not time_limit or not sys.executable or sys.platform == "emscripten":
+        yield Workbook(folder, language=language)
+        return
+    book = IsolatedWorkbook(folder, language=language, time_limit=time_limit)
+    try:
+        yield book
+    finally:
+        book.close()
+
+
+class IsolatedWorkbook(Workbook):
+    """A folder whose files are read and judged in another process.
+
+    Parameters
+    ----------
+    folder : str or path
+    language : {"en", "zh"}, optional
+        Of the messages.
+    time_limit : float
+        Seconds for one call of a student's function.
+    """
+
+    def __init__(
+        self, folder: str | PathLike[str], *, language: Language | None = None, time_limit: float = TIME_LIMIT
+    ) -> None:
+        super().__init__(folder, language=language)
+        self._time_limit = time_limit
+        self._worker: _Worker | None = None
+        self._unreadable: dict[str, Text] = {}
+
+    def words(self, exercise: Exercise) -> str | None:
+        """Return the student's answer in words, None where there is none yet."""
+        found: str | None = self._ask("words", exercise.id)
+        return found
+
+    def _judge(self, exercise: Exercise, part: Part) -> Verdict:
+        verdict = self._ask("verdict", part.name)
+        return verdict if isinstance(verdict, Verdict) else _wrong(exercise, part.name, [say("ended")])
+
+    def close(self) -> None:
+        """End the other process."""
+        if self._worker is not None:
+            self._worker.close()
+            self._worker = None
+
+    def _ask(self, what: str, name: str) -> Any:
+        """Return what the other process answers. Where it had to stop, note at what, and ask a new one."""
+        while True:
+            if self._worker is None:
+                self._worker = _Worker(self.folder, self._time_limit, self._verdicts, self._unreadable)
+            try:
+                answer, borrowed = self._worker.ask(what, name)
+            except _Died as died:
+                self.close()
+                if died.at is None:  # at nothing of the student's
+                    return None
+                lines = self._told(died)
+                if died.at in map(catalogue.file_name, catalogue.SECTIONS):
+                    self._unreadable[died.at] = Text(*("\n".join(line.of(k) for line in lines) for k in ("en", "zh")))
+                else:
+                    self._verdicts[died.at] = _wrong(catalogue.find_part(died.at)[0], died.at, lines)
+                if died.at == name:
+                    return self._verdicts[name]
+            else:
+                self.borrowed |= borrowed
+                return answer
+
+    def _told(self, died: _Died) -> list[Text]:
+        """Say why the process ended, and at which line of the student's."""
+        late = died.trace.startswith("Timeout")
+        lines = [say("endless", seconds=f"{self._time_limit:g}") if late else say("ended")]
+        for path, number in re.findall(r'File "(.+)", line (\d+) in', died.trace):
+            file = self.folder / Path(path).name
+            if file.exists():
+                lines.append(say("at line", file=file.name, line=number))
+                source = file.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+                lines += [Text(*("    " + line.strip(),) * 2) for line in source[int(number) - 1 : int(number)]]
+                break
+        return lines
+
+
+def _wrong(exercise: Exercise, name: str, lines: list[Text]) -> Verdict:
+    """Return the verdict on a function that did not give an answer."""
+    return Verdict("wrong", (say("head", id=exercise.id, name=name), *lines))
+
+
+class _Died(Exception):
+    """The other process ended: what it was at, and where its threads stood."""
+
+    def __init__(self, at: str | None, trace: str) -> None:
+        super().__init__()
+        self.at, self.trace = at, trace
+
+
+class _Worker:
+    """The other process."""
+
+    def __init__(self, folder: Path, limit: float, verdicts: dict[str, Verdict], unreadable: dict[str, Text]) -> None:
+        handle, trace = tempfile.mkstemp(prefix="twistwrench-", suffix=".trace")
+        with open(handle, "wb"):
+            self._trace = Path(trace)
+        with without_interrupts():  # Ctrl-C is for the parent
+            self._process = subprocess.Popen(
+                [sys.executable, "-u", "-c", WORKER.format(path=sys.path)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+            )
+        self._requests, self._replies = cast("tuple[BinaryIO, BinaryIO]", (self._process.stdin, self._process.stdout))
+        self._send((str(folder), limit, trace, verdicts, unreadable))
+
+    def _send(self, message: Any) -> None:
+        with suppress(OSError):  # it has ended: the answer will be missing
+            pickle.dump(message, self._requests)
+            self._requests.flush()
+
+    def ask(self, what: str, name: str) -> Any:
+        """Return an answer, and follow what the process is at until then."""
+        begun: list[str] = []
+        self._send((what, name))
+        try:
+            while True:
+                kind, said = pickle.load(self._replies)
+                if kind == "answer":
+                    return said
+                if kind == "begin":
+                    begun.append(said)
+                else:
+                    begun.pop()
+        except (EOFError, OSError, pickle.UnpicklingError):
+            trace = self._trace.read_text(encoding="utf-8", errors="replace")
+            raise _Died(begun[-1] if begun else None, trace) from None
+
+    def close(self) -> None:
+        """End it: it leaves when nobody will ask any more, unless it is still at something."""
+        for pipe in (self._requests, self._replies):
+            with suppress(OSError):
+                pipe.close()
+        try:
+            self._process.wait(0.5)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._trace.unlink(missing_ok=True)

@@ -1,0 +1,186 @@
+"""An answer that never ends, or that ends Python, is told with its line, and the others are judged all the same."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from twistwrench.cli import main
+from twistwrench.exercises import catalogue, solution, start, status
+from twistwrench.exercises.isolation import opened
+from twistwrench.exercises.workbook import Workbook
+
+LIMIT = 1.5
+"""Seconds; a reference takes 0.1 s at most."""
+
+ENDLESS = "i = 0\nwhile i < len(kinds):\n    nq = 1"
+SWALLOWED = "while True:\n    try:\n        x = 1\n    except:\n        pass"
+IN_C = "import itertools\nreturn sum(itertools.count())"
+
+
+def write(folder, section, bodies=None, *, more="", head=b""):
+    """Fill in functions of a section's file."""
+    file = folder / catalogue.file_name(section)
+    text = file.read_text(encoding="utf-8")
+    for name, body in (bodies or {}).items():
+        before, found, after = text.partition(f"def {name}(")
+        assert found
+        indented = "\n".join("    " + line for line in body.split("\n"))
+        text = before + found + after.replace("    return ...", indented, 1)
+    file.write_bytes(head + (text + more).encode())
+
+
+def said(folder, name, language="en"):
+    """Return the verdict on a function, its message on one line."""
+    with opened(folder, language=language, time_limit=LIMIT) as book:
+        verdict = book.verdict(*catalogue.find_part(name))
+    return verdict.state, " ".join(verdict.message(language).split())
+
+
+@pytest.mark.parametrize(
+    ("name", "body", "line"),
+    [
+        ("count", ENDLESS, "while i < len(kinds): or nq = 1"),
+        ("skew", SWALLOWED, "while True: or try: or x = 1 or pass"),
+        ("act", IN_C, "return sum(itertools.count())"),
+    ],
+    ids=["plain", "swallows every exception", "inside NumPy or C"],
+)
+def test_an_endless_loop_is_told_with_its_line(tmp_path, name, body, line):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {name: body})
+    state, message = said(tmp_path, name)
+    assert state == "wrong"
+    assert f"{name}: not yet right. It did not finish in 1.5 s: a loop that never ends? in ex_49_0.py, line " in message
+    assert any(message.endswith(": " + one) for one in line.split(" or "))
+    assert "1.5 秒内没有结束" in said(tmp_path, name, "zh")[1]
+
+
+def test_the_others_are_judged_all_the_same(tmp_path):
+    start(tmp_path, language="en")
+    right = "return R @ x + p"
+    write(tmp_path, "49.0", {"act": right, "adjoint": "import os\nos._exit(0)"})
+    write(tmp_path, "49.1", more="\nwhile True: x = 1\n")
+    found = status(tmp_path, time_limit=LIMIT)
+    states = {number: state for row in found.rows for number, state in row.states.items()}
+    assert {number for number, state in states.items() if state == "wrong"} == {"49.0.3", "49.1.1", "49.1.2"}
+    assert states["49.0.2"] == "done"
+    assert said(tmp_path, "adjoint")[1].endswith("It ended the whole process of Python.")
+    file = said(tmp_path, "sizes")[1]
+    assert "It did not finish in 1.5 s" in file
+    assert "while True: x = 1" in file
+    assert "The model answer is shown once" in solution("49.1.1", tmp_path)
+
+
+def test_an_earlier_answer_that_never_ends_is_not_held_against_a_later_one(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"skew": SWALLOWED})
+    body = "X = np.eye(6)\nX[3:, :3] = skew(p)\nreturn X, np.linalg.inv(X), np.linalg.inv(X).T"
+    write(tmp_path, "49.3", {"translation_transforms": body})
+    assert said(tmp_path, "translation_transforms")[0] == "done"
+
+
+def test_pytest_goes_on_after_an_endless_loop(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"count": ENDLESS, "act": "print('here')\nreturn x"})
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--time-limit", str(LIMIT), "ex_49_0.py"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 1
+    assert "It did not finish in 1.5 s" in done.stdout
+    assert "here" in done.stdout  # what it printed, below its message
+    assert "2 failed" in done.stdout
+    assert "Next: 49.0.1" in done.stdout
+
+
+def test_without_a_limit_the_answers_run_in_this_process(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"skew": "import os\nraise ValueError(os.getpid())"})
+    assert f"ValueError: {os.getpid()}" not in said(tmp_path, "skew")[1]
+    with opened(tmp_path, time_limit=0) as book:
+        assert f"ValueError: {os.getpid()}" in book.verdict(*catalogue.find_part("skew")).message("en")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are those of POSIX")
+def test_one_interrupt_ends_the_check(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"count": ENDLESS})
+    command = [sys.executable, "-m", "twistwrench", "exercises", "status", str(tmp_path), "--time-limit", "600"]
+    process = subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    time.sleep(5)
+    os.killpg(process.pid, signal.SIGINT)
+    before = time.monotonic()
+    assert b"Traceback" not in process.communicate(timeout=30)[1]
+    assert process.returncode == 130
+    assert time.monotonic() - before < 5
+    left = subprocess.run(["ps", "-eo", "pgid=,stat="], capture_output=True, text=True, check=True).stdout
+    ours = [line.split()[1] for line in left.splitlines() if line.split()[0] == str(process.pid)]
+    assert not [state for state in ours if "Z" not in state]
+
+
+# ---------------------------------------------------------------- files as editors write them
+
+
+def test_a_file_with_a_byte_order_mark_is_read(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"act": "return R @ x + p"}, head=b"\xef\xbb\xbf")
+    assert Workbook(tmp_path).verdict(*catalogue.find_part("act")).state == "done"
+
+
+def test_a_file_that_names_its_coding_is_read(tmp_path):
+    start(tmp_path, language="zh")
+    file = tmp_path / "ex_49_0.py"
+    text = "# -*- coding: gb18030 -*-\n" + file.read_text(encoding="utf-8")
+    file.write_bytes(text.encode("gb18030"))
+    assert Workbook(tmp_path).verdict(*catalogue.find_part("act")).state == "to do"
+
+
+@pytest.mark.parametrize("coding", ["gb18030", "utf-16"])
+def test_a_file_in_another_coding_is_told_what_to_do(tmp_path, coding):
+    start(tmp_path, language="zh")
+    file = tmp_path / "ex_49_0.py"
+    file.write_bytes(file.read_text(encoding="utf-8").encode(coding))
+    verdict = Workbook(tmp_path).verdict(*catalogue.find_part("act"))
+    assert "ex_49_0.py is not written in UTF-8: save it as UTF-8" in verdict.message("en")
+    assert "另存为 UTF-8" in verdict.message("zh")
+
+
+def test_an_error_at_the_top_of_a_file_has_its_line(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", more="\nx = 1\nx[0]\n")
+    said = Workbook(tmp_path).verdict(*catalogue.find_part("act")).message("en")
+    lines = (tmp_path / "ex_49_0.py").read_text(encoding="utf-8").splitlines()
+    assert f"ex_49_0.py, line {lines.index('x[0]') + 1} cannot be read: TypeError" in " ".join(said.split())
+
+
+def test_a_start_on_a_full_disk_leaves_no_half_file(tmp_path, monkeypatch, capsys):
+    whole = Path.write_text
+
+    def full(self, text, **how):
+        whole(self, text[:0], **how)
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_text", full)
+    assert main(["exercises", "start", str(tmp_path)]) == 2
+    assert "pytest.ini: No space left on device" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+    monkeypatch.undo()
+    new, kept = start(tmp_path, language="en")
+    assert new
+    assert not kept
+
+
+def test_a_function_cannot_be_its_own_reference(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"skew": 'return mine("skew")(w)'})
+    verdict = Workbook(tmp_path).verdict(*catalogue.find_part("skew"))
+    assert verdict.state == "wrong"
+    assert "mine('skew') is the function that you are to write here" in verdict.message("en")
