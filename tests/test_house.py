@@ -14,7 +14,7 @@ TEXT = {p.relative_to(SOURCE).as_posix(): p.read_text(encoding="utf-8") for p in
 TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
-    *("errors", "checks", "newton_euler_3d"),
+    *("errors", "report", "checks", "newton_euler_3d"),
     *("_scalars", "rotation", "_physical", "_spatial_vector", "twist", "plucker", "exponential", "wrench"),
     *(
         "cross",

@@ -28,7 +28,7 @@ def pinocchio_model(path, base):
 @pytest.mark.parametrize("robot", FILES, ids=lambda robot: robot.name)
 def test_model_equals_pinocchio(robot, base):
     pin, theirs = pinocchio_model(robot.path, base)
-    ours = load(robot.path, base=base, physical=False, mimic="independent")
+    ours = load(robot.name, base=base, physical=False, mimic="independent")
     assert ours.joint_names == tuple(theirs.names)
     assert (ours.nq, ours.nv) == (theirs.nq, theirs.nv)
     assert ours.parent[1:] == tuple(theirs.parents)[1:]

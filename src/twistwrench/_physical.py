@@ -7,7 +7,7 @@ import numpy as np
 from .checks import Array
 from .errors import ModelError
 
-__all__ = ["check_physical"]
+__all__ = ["check_not_negative", "check_physical"]
 
 # Relative room for rounding: a thin rod (0, I, I) and a thin plate (I, I, 2I) lie on the edge, and pass.
 ROOM = 1e-9
@@ -18,21 +18,27 @@ def check_physical(link: str, mass: Array, inertia_at_com: Array) -> None:
     mass = mass.real
     if (mass <= 0).any():
         raise ModelError(f"link {link!r}: the mass must be positive, got {mass.min():.6g} kg")
-    # NumPy has eigenvalues in single and double precision only: double is enough to judge by.
-    moments = np.linalg.eigvalsh(inertia_at_com.real.astype(np.float64))
+    moments = check_not_negative(link, inertia_at_com)
     a, b, c = np.moveaxis(moments, -1, 0)
-    not_positive = (a < -ROOM * c) | (c <= 0)
-    if not_positive.any():
-        raise ModelError(
-            f"link {link!r}: the inertia about the centre of mass must be positive definite, "
-            f"got principal moments {_numbers(moments[not_positive][0])} kg m²"
-        )
     broken = c > (a + b) * (1 + ROOM)
     if broken.any():
         raise ModelError(
             f"link {link!r}: the largest principal moment must not exceed the sum of the other two "
             f"(triangle inequality), got {_numbers(moments[broken][0])} kg m²"
         )
+
+
+def check_not_negative(link: str, inertia_at_com: Array) -> Array:
+    """Return the principal moments; raise ModelError where one of them is negative. All are zero for a point mass."""
+    # NumPy has eigenvalues in single and double precision only: double is enough to judge by.
+    moments: Array = np.linalg.eigvalsh(inertia_at_com.real.astype(np.float64))
+    negative = moments[..., 0] < -ROOM * np.abs(moments[..., 2])
+    if negative.any():
+        raise ModelError(
+            f"link {link!r}: the inertia about the centre of mass must be positive definite, "
+            f"got principal moments {_numbers(moments[negative][0])} kg m²"
+        )
+    return moments
 
 
 def _numbers(moments: Array) -> str:

@@ -20,10 +20,11 @@ from .errors import ModelError, ShapeError, check_known
 from .inertia import SpatialInertia
 from .joint import Joint
 from .joint_types import FreeFlyer
-from .links import UNLIMITED, WORLD, Link
-from .model import Model
+from .links import WORLD, Link
+from .model import PER_DOF, Model
 from .numbering import Numbered
 from .plucker import SE3
+from .report import Report
 
 __all__ = ["Builder"]
 
@@ -43,6 +44,8 @@ class Builder:
         Name of the root link.
     root_inertia : SpatialInertia, optional
         Of the root link, in its frame. Of no effect on a fixed base: it never moves.
+    root_joint : str
+        Name of the joint of a floating base.
     gravity : array_like, shape (3,)
         In the world, m/s².
 
@@ -73,6 +76,7 @@ class Builder:
         base: Base = "fixed",
         root: str = "base_link",
         root_inertia: SpatialInertia | None = None,
+        root_joint: str = "root_joint",
         gravity: ArrayLike = (0.0, 0.0, -9.81),
     ) -> None:
         if base not in ("fixed", "floating"):
@@ -83,9 +87,9 @@ class Builder:
         self._base = base
         self._gravity = as_exactly(gravity, "gravity", 3)
         self._links: dict[str, Link] = {}
-        flyer, joint_name = (FreeFlyer(), "root_joint") if base == "floating" else (None, "")
+        flyer, joint_name = (FreeFlyer(), root_joint) if base == "floating" else (None, "")
         inertia = SpatialInertia.zero() if root_inertia is None else root_inertia
-        self._add(Link.checked(root, WORLD, flyer, joint_name, SE3.identity(), inertia, UNLIMITED))
+        self._add(Link.checked(root, WORLD, flyer, joint_name, SE3.identity(), inertia, {}))
 
     def link(
         self,
@@ -101,6 +105,8 @@ class Builder:
         velocity_limit: ArrayLike = np.inf,
         effort_limit: ArrayLike = np.inf,
         armature: ArrayLike = 0.0,
+        damping: ArrayLike = 0.0,
+        friction: ArrayLike = 0.0,
     ) -> None:
         """Add a link.
 
@@ -122,12 +128,14 @@ class Builder:
         velocity_limit, effort_limit : array_like, shape () or (joint.nv,)
         armature : array_like, shape () or (joint.nv,)
             Inertia of the rotor as seen at the joint, kg m² or kg.
+        damping, friction : array_like, shape () or (joint.nv,)
+            Kept as `Model.damping` and `Model.friction`; no algorithm applies them.
 
         Raises
         ------
         ModelError
-            A name that is taken or the world's; limits that cross; a limit of speed or effort, or an armature,
-            below zero; limits or an armature on a weld; complex numbers.
+            A name that is taken or the world's; limits that cross; a limit of speed or effort, an armature, damping
+            or friction below zero; any of them on a weld; complex numbers.
         ShapeError
             A batch of placements or inertias, or limits of a wrong shape.
         TypeError
@@ -142,6 +150,8 @@ class Builder:
             "velocity_limit": velocity_limit,
             "effort_limit": effort_limit,
             "armature": armature,
+            "damping": damping,
+            "friction": friction,
         }
         placement = SE3.identity() if placement is None else placement
         inertia = SpatialInertia.zero() if inertia is None else inertia
@@ -173,7 +183,7 @@ class Builder:
             The frames on which a legged robot stands.
         physical : bool
             Refuse a moving body, welded links merged, that cannot exist (`SpatialInertia.check_physical`).
-            A body without mass may be there all the same, if it has no inertia either.
+            A body without mass may be there all the same, and `Model.report` says so where it has an inertia.
 
         Returns
         -------
@@ -189,7 +199,7 @@ class Builder:
         with np.errstate(over="ignore", invalid="ignore"):
             tree = Numbered(self._links)
             tree.check_finite()
-        tree.check_bodies(physical)
+        report = Report(tree.check_bodies(physical))
         moved = tree.moved
         model = Model(
             name=self._name,
@@ -201,13 +211,12 @@ class Builder:
             inertia=tuple(tree.inertia),
             frames=tree.frames,
             gravity=self._gravity,
-            armature=_join([link.armature for link in moved]),
             lower=_join([link.lower for link in moved]),
             upper=_join([link.upper for link in moved]),
-            velocity_limit=_join([link.velocity_limit for link in moved]),
-            effort_limit=_join([link.effort_limit for link in moved]),
             postures={},
             feet=as_names(feet, "feet", "frame names"),
+            report=report,
+            **{name: _join([getattr(link, name) for link in moved]) for name in PER_DOF},
         )
         for foot in model.feet:
             model.frame(foot)

@@ -272,8 +272,8 @@ class SpatialInertia:
     def check_physical(self, link: str) -> None:
         """Raise ModelError unless a body with this inertia can exist.
 
-        The mass is positive; no principal moment is negative, and not all are zero; the largest is at most the sum of
-        the other two. Each to a relative 1e-9: thin rods and plates lie on the edge, and pass.
+        The mass is positive; no principal moment is negative; the largest is at most the sum of the other two. Each to
+        a relative 1e-9: point masses, thin rods and plates lie on the edge, and pass.
 
         Parameters
         ----------

@@ -13,6 +13,7 @@ from .constants import cast
 from .errors import ModelError, ShapeError
 from .inertia import SpatialInertia
 from .joint import Joint
+from .model import PER_DOF
 from .plucker import SE3
 
 __all__ = ["UNLIMITED", "WORLD", "Link"]
@@ -20,8 +21,16 @@ __all__ = ["UNLIMITED", "WORLD", "Link"]
 WORLD = "universe"
 """The name of what carries the root; nothing else may have it."""
 
-UNLIMITED = {"lower": -np.inf, "upper": np.inf, "velocity_limit": np.inf, "effort_limit": np.inf, "armature": 0.0}
-"""Limits and armature of a joint of which nothing was said."""
+UNLIMITED = {
+    "lower": -np.inf,
+    "upper": np.inf,
+    "velocity_limit": np.inf,
+    "effort_limit": np.inf,
+    "armature": 0.0,
+    "damping": 0.0,
+    "friction": 0.0,
+}
+"""Limits, armature, damping and friction of a joint of which nothing was said."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +48,8 @@ class Link:
     velocity_limit: Array
     effort_limit: Array
     armature: Array
+    damping: Array
+    friction: Array
 
     @classmethod
     def checked(
@@ -51,7 +62,8 @@ class Link:
         inertia: SpatialInertia,
         numbers: Mapping[str, ArrayLike],
     ) -> Link:
-        """Make a link, or say what is wrong with it. `numbers` are its limits and its armature."""
+        """Make a link, or say what is wrong with it. `numbers` are those of `UNLIMITED` that were given."""
+        numbers = UNLIMITED | dict(numbers)
         _expect_names(name, joint_name)
         if joint is not None:
             _expect(joint, Joint, f"link {name!r}: joint", "a joint such as Revolute('z')")
@@ -94,17 +106,18 @@ def _expect_one(vector: Array, what: str) -> None:
 def _vectors(joint: Joint | None, what: str, numbers: Mapping[str, ArrayLike]) -> dict[str, Array]:
     """Return limits and armature as float64 vectors; a scalar counts for every entry."""
     nq, nv = (joint.nq, joint.nv) if joint else (0, 0)
-    sizes = {"lower": nq, "upper": nq, "velocity_limit": nv, "effort_limit": nv, "armature": nv}
+    sizes = {key: nq if key in ("lower", "upper") else nv for key in UNLIMITED}
     x = {key: _vector(numbers[key], size, f"{what}: {key}") for key, size in sizes.items()}
     if (x["lower"] > x["upper"]).any():
         raise ModelError(f"{what}: lower limit {x['lower']} is above upper limit {x['upper']}")
     if (x["lower"] == np.inf).any() or (x["upper"] == -np.inf).any():
         raise ModelError(f"{what}: no number lies between lower limit {x['lower']} and upper limit {x['upper']}")
-    for key in ("velocity_limit", "effort_limit", "armature"):
+    for key in PER_DOF:
         if (x[key] < 0).any():
             raise ModelError(f"{what}: {key} {numbers[key]!r} is below zero")
-    if np.isinf(x["armature"]).any():
-        raise ModelError(f"{what}: armature {numbers['armature']!r} is not finite")
+    for key in ("armature", "damping", "friction"):
+        if np.isinf(x[key]).any():
+            raise ModelError(f"{what}: {key} {numbers[key]!r} is not finite")
     return x
 
 

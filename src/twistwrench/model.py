@@ -23,8 +23,12 @@ from .errors import check_known
 from .inertia import SpatialInertia
 from .joint import Joint
 from .plucker import SE3
+from .report import Report
 
-__all__ = ["Frame", "Model"]
+__all__ = ["PER_DOF", "Frame", "Model"]
+
+PER_DOF = ("armature", "velocity_limit", "effort_limit", "damping", "friction")
+"""The attributes of a `Model` with one entry for each degree of freedom."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +80,11 @@ class Model(Coordinates):
         Named configurations, for example ``"standing"``.
     feet : tuple of str
         The frames on which a legged robot stands.
+    damping, friction : ndarray, shape (nv,)
+        What a URDF's ``<dynamics>`` says of the joints: N m s/rad or N s/m, and N m or N; zero where nothing was
+        said. No algorithm applies them; a policy can: ``tau - model.damping * v - model.friction * np.sign(v)``.
+    report : Report
+        What was not as it should be, and how it was read. Prints as a table.
 
     Examples
     --------
@@ -101,11 +110,17 @@ class Model(Coordinates):
     effort_limit: Array
     postures: Mapping[str, Array] = field(default_factory=dict)
     feet: tuple[str, ...] = ()
+    damping: Array = field(default_factory=lambda: np.zeros(0))
+    friction: Array = field(default_factory=lambda: np.zeros(0))
+    report: Report = field(default_factory=Report)
     _constants: dict[Any, Constants] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
         for name in ("gravity", "armature", "lower", "upper", "velocity_limit", "effort_limit"):
             object.__setattr__(self, name, fixed(as_constant(getattr(self, name), name)))
+        for name in ("damping", "friction"):
+            given = as_constant(getattr(self, name), name)
+            object.__setattr__(self, name, fixed(given if given.size else np.zeros(self.nv)))
         postures = {name: fixed(as_constant(q, f"posture {name!r}")) for name, q in self.postures.items()}
         object.__setattr__(self, "postures", MappingProxyType(postures))
         object.__setattr__(self, "frames", MappingProxyType(dict(self.frames)))

@@ -6,11 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ._physical import check_not_negative
 from .errors import ModelError
 from .inertia import SpatialInertia
 from .links import WORLD, Link
 from .model import Frame
 from .plucker import SE3
+from .report import Entry
 
 __all__ = ["Numbered"]
 
@@ -71,31 +73,63 @@ class Numbered:
             if not np.isfinite(frame.placement.matrix()).all():
                 raise ModelError(f"frame {name!r}: the way to it overflows")
 
-    def check_bodies(self, physical: bool) -> None:
+    def check_bodies(self, physical: bool) -> list[Entry]:
         """Check each body, welded links merged: that sum is all that enters the dynamics.
 
-        A single welded link may be a point, or carry an inertia without mass, as in many a real file.
+        A single welded link may be a point, or carry an inertia without mass, as in many a real file. Returned is
+        what holds for a whole body and is worth a word.
         """
-        faults = []
-        for group, inertia in zip(self.groups[1:], self.inertia[1:], strict=True):
-            if inertia.mass == 0 and inertia.inertia_at_com.any():
-                raise ModelError(f"link {group[0].name!r}: it moves, and has an inertia but no mass")
-            if physical and inertia.mass > 0 and (fault := _fault(inertia, group)):
-                faults.append(fault)
-        if faults:
-            bodies = "1 moving body" if len(faults) == 1 else f"{len(faults)} moving bodies"
-            listed = "".join(f"\n  {fault}" for fault in faults)
-            raise ModelError(f"{bodies} cannot exist (physical=False takes the robot all the same):{listed}")
+        bodies = list(zip(self.groups[1:], self.inertia[1:], strict=True))
+        faults = [(group, fault) for group, inertia in bodies if (fault := _fault(inertia, group))]
+        if faults and physical:
+            count = "1 moving body" if len(faults) == 1 else f"{len(faults)} moving bodies"
+            listed = "".join(f"\n  {fault}" for _, fault in faults)
+            raise ModelError(f"{count} cannot exist (physical=False takes the robot all the same):{listed}")
+        impossible = [
+            Entry(_link(group), fault.partition(": ")[2], "a body that cannot exist (physical=False)", warns=False)
+            for group, fault in faults
+        ]
+        degenerate = [entry for group, inertia in bodies if (entry := _degenerate(inertia, group))]
+        return [*impossible, *degenerate, *self._floating_nothing()]
+
+    def _floating_nothing(self) -> list[Entry]:
+        """Say of a floating base without mass that carries a single joint: the two turn against each other freely."""
+        if len(self.groups) == 1 or self.groups[1][0].parent != WORLD or self.inertia[1].matrix().any():
+            return []
+        carried = [group[0].joint_name for group, parent in zip(self.groups[2:], self.parent[2:]) if parent == 1]
+        if len(carried) > 1:
+            return []
+        found = "floats without mass" + "".join(f", and carries the joint {name!r} alone" for name in carried)
+        return [Entry(_link(self.groups[1]), found, "given: M is singular (base='fixed' or a mass mends that)")]
 
 
 def _fault(inertia: SpatialInertia, group: list[Link]) -> str:
-    """Say why a body cannot exist, in the name of the link that it is named after; empty if it can."""
+    """Say why a body cannot exist, in the name of the link that it is named after; empty if it can.
+
+    A body without mass is judged as the limit of ever lighter ones with its inertia: no moment may be negative.
+    """
     try:
-        inertia.check_physical(group[0].name)
+        if inertia.mass > 0:
+            inertia.check_physical(group[0].name)
+        else:
+            check_not_negative(group[0].name, inertia.inertia_at_com)
     except ModelError as error:
         others = [repr(x.name) for x in group[1:] if x.inertia.mass > 0 or x.inertia.inertia_at_com.any()]
         return f"{error}" + (f" (with {', '.join(others)} welded to it)" if others else "")
     return ""
+
+
+def _degenerate(inertia: SpatialInertia, group: list[Link]) -> Entry | None:
+    """Say of a body that it is a limit: a point, or an inertia without mass."""
+    if inertia.mass == 0 and inertia.inertia_at_com.any():
+        return Entry(_link(group), "an inertia without a mass", "the inertia as given, with no weight")
+    if inertia.mass > 0 and not inertia.inertia_at_com.any():
+        return Entry(_link(group), f"{inertia.mass:.6g} kg without an inertia", "a point mass")
+    return None
+
+
+def _link(group: list[Link]) -> str:
+    return f"link {group[0].name!r}"
 
 
 def _named(found: Mapping[tuple[str, str], Frame]) -> dict[str, Frame]:

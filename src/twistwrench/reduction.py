@@ -17,7 +17,7 @@ from .checks import Array, as_names
 from .door import in_double, one_configuration
 from .errors import NameNotFound
 from .inertia import SpatialInertia
-from .model import Frame, Model
+from .model import PER_DOF, Frame, Model
 from .plucker import SE3
 from .tree import joint_placements
 
@@ -156,12 +156,10 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
         placement=(model.placement[0], *(in_carrier[p] @ model.placement[i] for p, i in zip(up, kept))),
         inertia=_merged(model, carrier, in_carrier, 1 + len(kept)),
         frames={name: Frame(carrier[f.body], in_carrier[f.body] @ f.placement) for name, f in model.frames.items()},
-        armature=model.armature[kept_v],
         lower=model.lower[kept_q],
         upper=model.upper[kept_q],
-        velocity_limit=model.velocity_limit[kept_v],
-        effort_limit=model.effort_limit[kept_v],
         postures={name: posture[kept_q] for name, posture in model.postures.items()},
+        **{name: getattr(model, name)[kept_v] for name in PER_DOF},
     )
     return Reduction(model, small, held, at, kept_q, kept_v)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from os import PathLike
 from os.path import exists
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from ..errors import ModelError, no_model
 from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
@@ -29,13 +29,18 @@ def load(
     gravity: ArrayLike = (0.0, 0.0, -9.81),
     physical: bool = True,
     mimic: Literal["independent"] | None = None,
+    strict: bool = False,
 ) -> Model:
     """Load a robot of the catalogue, or a URDF.
 
     Masses, centres of mass, inertias, joints and limits are read; meshes are not, and need not exist. Links
     welded by fixed joints are merged and stay as frames: every link and every joint of the file is one. A link
-    without ``<inertial>`` has no mass. ``<dynamics>`` (friction and damping) is not modelled, and a joint with
-    ``<mimic>`` moves on its own, both as in Pinocchio.
+    without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own, as in Pinocchio; damping and
+    friction are kept as `Model.damping` and `Model.friction`, and no algorithm applies them.
+
+    What has one meaning is read, even where the format has it otherwise, and `Model.report` is the table of it. What
+    is no dynamics (shapes, limits, sensors, elements that are not URDF's) stops no load; what has no meaning (an
+    incomplete ``<inertial>``, ``xzy`` in an ``<axis>``, a cycle) is an error.
 
     Parameters
     ----------
@@ -51,9 +56,11 @@ def load(
         Refuse a moving body, welded links merged, that cannot exist: its inertia about the centre of mass must be
         positive definite and obey the triangle inequality. False drops these two conditions and no other.
     mimic : {"independent"}, optional
-        A file with mimic joints is loaded with a warning that names them, and refused where one should follow a
-        joint that is not there, or itself; "independent" says that you know, and loads either quietly.
-        (The catalogue notes them in its table and does not warn.)
+        Where a joint should follow one that is not there, or itself, the file is refused; "independent" says that
+        you know that joints with ``<mimic>`` move on their own, and loads it either way.
+    strict : bool
+        Refuse what would otherwise be read, with a warning, in the one way that it can be meant: all that is in
+        the report, but for what these arguments asked for.
 
     Returns
     -------
@@ -70,6 +77,12 @@ def load(
         If `mimic` asks for joints that follow others.
     TypeError
         If `source` is neither a name nor a path.
+
+    Warns
+    -----
+    UserWarning
+        Once for a file of which something is reported, with all of it. The robots of the catalogue are reported on,
+        and do not warn.
 
     Examples
     --------
@@ -90,12 +103,12 @@ def load(
         raise ValueError(f"mimic: expected 'independent' (joints that follow others are not modelled), got {mimic!r}")
     if not isinstance(source, str | PathLike):
         raise no_model(source, "source", "a name or a path")
+    options: dict[str, Any] = {"gravity": gravity, "physical": physical, "mimic": mimic, "strict": strict}
     if not isinstance(source, str) or _is_path(source):
-        quiet = mimic == "independent"
         _refuse_folder_before_name(source)
-        return load_urdf(Path(source), base=base or "fixed", gravity=gravity, physical=physical, quiet=quiet)
+        return load_urdf(Path(source), base=base or "fixed", quiet=False, **options)
     robot = find(source)
-    model = load_urdf(robot.path, base=base or robot.base, gravity=gravity, physical=physical, quiet=True)
+    model = load_urdf(robot.path, base=base or robot.base, quiet=True, **options)
     if robot.srdf is not None:
         model = with_states(model, read_states(robot.srdf))
     return with_stance(model, robot.stance) if robot.stance is not None else model

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from html import escape
 from pathlib import Path
 from typing import Literal
 
 from ..errors import ModelError, NameNotFound, unknown_name
+from ..report import html_table, text_table
 from .stances import STANCES, Stance
 from .table import EXAMPLE_ROBOT_DATA, MODELS, Row
 
@@ -89,15 +88,10 @@ class Catalogue(tuple[Robot, ...]):
         return [[str(getattr(robot, column)) for column in self.columns] for robot in self]
 
     def __repr__(self) -> str:
-        lines = [list(self.columns), *self._cells()]
-        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-        return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in lines)
+        return text_table(self.columns, self._cells())
 
     def _repr_html_(self) -> str:
-        def row(cells: Iterable[str], tag: str) -> str:
-            return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
-
-        return f"<table>{row(self.columns, 'th')}{''.join(row(cells, 'td') for cells in self._cells())}</table>"
+        return html_table(self.columns, self._cells())
 
 
 @cache

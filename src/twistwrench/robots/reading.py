@@ -2,21 +2,29 @@
 
 A URDF is text from elsewhere: entities are not expanded, nothing is fetched, and what is not
 well-formed is refused. (yourdfpy, left alone, would recover what it can and drop the rest.)
+Three slips are common, have one meaning each, and are read: an XML version that does not exist, blank lines
+before the XML declaration, and a prefix such as ``drake:`` that nobody declared.
 """
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
+from ..report import Entry
+from .urdf_words import NOT_DYNAMICS, words_of
 
-__all__ = ["XML", "read_robot_xml"]
+__all__ = ["XML", "read_document", "read_robot_xml"]
 
 XML = Any
 """An lxml element; lxml carries no types."""
 
 DOCTYPE = "declares a document type (<!DOCTYPE ...>); a URDF has none, and entities are not expanded: remove it"
+GIT_LFS = b"version https://git-lfs.github.com/spec/"
+DECLARATION = re.compile(rb"(\xef\xbb\xbf|\s)*(<\?xml\s[^>]*\?>)")
+VERSION = re.compile(rb"version\s*=\s*([\"'])([^\"']*)\1")
 OTHER_FORMATS = {"sdf": "SDF", "mujoco": "MJCF", "COLLADA": "COLLADA"}
 
 
@@ -35,8 +43,8 @@ def read_robot_xml(path: Path) -> XML:
     Raises
     ------
     ModelError
-        A file that is missing, no file, empty, not XML, cut short, nested too deep, not a robot,
-        full of xacro macros, or that declares a document type (the door to entities).
+        A file that is missing, no file, a Git LFS pointer, empty, not XML, cut short, nested too deep, not a
+        robot, full of xacro macros, or that declares a document type (the door to entities).
 
     Examples
     --------
@@ -44,7 +52,14 @@ def read_robot_xml(path: Path) -> XML:
     Traceback (most recent call last):
     twistwrench.errors.ModelError: nowhere.urdf: no such file
     """
-    root = _parse(path, _read(path))
+    return read_document(path)[0]
+
+
+def read_document(path: Path) -> tuple[XML, list[Entry]]:
+    """Read the ``<robot>`` element, as `read_robot_xml` does, and what in it was not XML 1.0 to the letter."""
+    data, remarks = _declared(_read(path))
+    root, undeclared = _parse(path, data)
+    remarks += undeclared
     if root.getroottree().docinfo.doctype:
         raise ModelError(f"{path}: {DOCTYPE}")
     _drop_namespace(root)
@@ -52,8 +67,7 @@ def read_robot_xml(path: Path) -> XML:
         known = OTHER_FORMATS.get(str(root.tag))
         hint = f" (this looks like {known}; convert it to URDF first)" if known else ""
         raise ModelError(f"{path}: the root element is <{root.tag}>, expected <robot>{hint}")
-    _refuse_macros(path, root)
-    return root
+    return root, remarks + _leftover_macros(path, root)
 
 
 def _read(path: Path) -> bytes:
@@ -72,17 +86,42 @@ def _read(path: Path) -> bytes:
         raise ModelError(f"{path}: cannot be read: {error.strerror}") from None
     if not data.strip():
         raise ModelError(f"{path}: the file is empty")
+    if data.startswith(GIT_LFS):
+        raise ModelError(f"{path}: is a Git LFS pointer, not the file itself; fetch that with: git lfs pull")
     return data
 
 
-def _parse(path: Path, data: bytes) -> XML:
+def _declared(data: bytes) -> tuple[bytes, list[Entry]]:
+    """Put right what stands before the first element; the lines keep their numbers."""
+    found = DECLARATION.match(data)
+    if found is None:
+        return data, []
+    before, declaration, remarks = data[: found.start(2)], found[2], []
+    version = VERSION.search(declaration)
+    if version and not version[2].startswith(b"1."):
+        written = version[2].decode("latin-1")
+        remarks.append(Entry("the file", f"XML version {written!r}", "XML 1.0", line=1 + before.count(b"\n")))
+        declaration = declaration[: version.start(2)] + b"1.0" + declaration[version.end(2) :]
+    blank = before.removeprefix(b"\xef\xbb\xbf")
+    if blank:
+        remarks.append(Entry("the file", "blanks before the XML declaration", "none", line=1))
+    return declaration + blank.replace(b"\xef\xbb\xbf", b"") + data[found.end() :], remarks
+
+
+def _parse(path: Path, data: bytes) -> tuple[XML, list[Entry]]:
     """Parse with nothing expanded, nothing fetched, and libxml2's limits on depth and growth kept."""
     from lxml import etree
 
-    parser = etree.XMLParser(resolve_entities=False, load_dtd=False, no_network=True, huge_tree=False, recover=False)
+    rules: dict[str, Any] = {"resolve_entities": False, "load_dtd": False, "no_network": True, "huge_tree": False}
+    parser = etree.XMLParser(**rules)
     try:
-        return etree.fromstring(data, parser)
+        return etree.fromstring(data, parser), []
     except etree.XMLSyntaxError as error:
+        undeclared = [(e.line, e.message) for e in parser.error_log if e.type_name == "NS_ERR_UNDEFINED_NAMESPACE"]
+        if len(undeclared) == len(parser.error_log) > 0:  # all is there, under names such as "drake:acceleration"
+            prefixes = {message.split()[2]: line for line, message in undeclared[::-1]}
+            remarks = [Entry("the file", f"prefix {x}: not declared", "not URDF", line) for x, line in prefixes.items()]
+            return etree.fromstring(data, etree.XMLParser(recover=True, **rules)), remarks[::-1]
         line, column = error.position
         place = f"line {line}, column {column}"
         reason = (error.msg or "nothing could be parsed").removesuffix(f", {place}")
@@ -100,10 +139,18 @@ def _drop_namespace(root: XML) -> None:
         element.tag = element.tag.removeprefix(space + brace)
 
 
-def _refuse_macros(path: Path, root: XML) -> None:
-    for element in root.iter("{*}*"):
-        if element.tag.startswith("{") and "xacro" in element.tag:
+def _leftover_macros(path: Path, root: XML) -> list[Entry]:
+    """Refuse xacro's elements where they could stand for a link, a joint or a number; pass over all others."""
+    remarks = []
+    for element in root.iter("*"):
+        space, _, name = element.tag.rpartition("}" if "}" in element.tag else ":")
+        if "xacro" not in space:
+            continue
+        inside = {str(ancestor.tag) for ancestor in element.iterancestors()}
+        if not inside & NOT_DYNAMICS and not words_of(name) & NOT_DYNAMICS:
             raise ModelError(
                 f"{path}, line {element.sourceline}: holds xacro macros; expand them first, "
                 "for example with: xacro robot.urdf.xacro > robot.urdf"
             )
+        remarks.append(Entry("the file", f"<xacro:{name}>, not expanded", "no dynamics", element.sourceline))
+    return remarks

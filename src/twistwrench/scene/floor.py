@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from ..checks import Array
 from ..constants import cast
 from ..floating_base import base_placement
 from ..joint_types import FreeFlyer, Planar
-from ..model import Frame, Model
+from ..model import PER_DOF, Frame, Model
 from ..plucker import SE3
 
 __all__ = ["OnTheFloor"]
@@ -47,7 +48,9 @@ class OnTheFloor:
         near, T = q[full.q_slice[1]], base_placement(full, q)
         base = Planar().transform(_shadow(T)).inverse() @ T
         q1, v1 = full.q_slice[1], full.v_slice[1]
-        limits = {name: getattr(full, name)[v1][FLOOR_IN_FLYER] for name in ("velocity_limit", "effort_limit")}
+        per_dof: dict[str, Any] = {
+            name: np.concatenate([(x := getattr(full, name))[v1][FLOOR_IN_FLYER], x[v1.stop :]]) for name in PER_DOF
+        }
         small = replace(
             full,
             base="fixed",
@@ -57,10 +60,8 @@ class OnTheFloor:
             frames={name: Frame(f.body, _on(base, f.body, f.placement)) for name, f in full.frames.items()},
             lower=np.concatenate([full.lower[q1][:2], [-np.inf, -np.inf], full.lower[q1.stop :]]),
             upper=np.concatenate([full.upper[q1][:2], [np.inf, np.inf], full.upper[q1.stop :]]),
-            armature=np.concatenate([full.armature[v1][FLOOR_IN_FLYER], full.armature[v1.stop :]]),
-            velocity_limit=np.concatenate([limits["velocity_limit"], full.velocity_limit[v1.stop :]]),
-            effort_limit=np.concatenate([limits["effort_limit"], full.effort_limit[v1.stop :]]),
             postures={},
+            **per_dof,
         )
         floor = cls(full, small, base, near)
         still = np.zeros(full.nv)

@@ -1,0 +1,95 @@
+"""What was read how: the table that comes with a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+
+__all__ = ["Entry", "Report", "html_table", "text_table"]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One thing that was not as the format has it, or not as a body is, and how it was read.
+
+    Attributes
+    ----------
+    where : str
+        The link, the joint, or the file.
+    found : str
+        What stands there.
+    read_as : str
+        What it was taken for.
+    line : int or None
+        Of the file.
+    warns : bool
+        Whether `twistwrench.load` warns of this, and refuses it under ``strict=True``. Not where an argument asked for
+        it, nor where it is read as it stands and is merely worth knowing, as damping is.
+    """
+
+    where: str
+    found: str
+    read_as: str
+    line: int | None = None
+    warns: bool = True
+
+
+class Report(tuple[Entry, ...]):
+    """What was read how, a tuple of `Entry`; prints as a table. Empty where all is as it should be.
+
+    Examples
+    --------
+    >>> Report([Entry("joint 'j'", "no <limit>", "no limits", line=4)])
+    line  where      found       read as
+    4     joint 'j'  no <limit>  no limits
+    >>> Report()
+    nothing to report
+    """
+
+    __slots__ = ()
+
+    columns = ("line", "where", "found", "read as")
+
+    @property
+    def warnings(self) -> Report:
+        """The entries that `twistwrench.load` warns of."""
+        return Report(entry for entry in self if entry.warns)
+
+    def summary(self) -> str:
+        """Return one line for each way of reading, with the first places."""
+        groups: dict[str, list[Entry]] = {}
+        for entry in self:
+            groups.setdefault(entry.read_as, []).append(entry)
+        return "".join(f"\n  {_places(entries)}: read as {read_as}" for read_as, entries in groups.items())
+
+    def _cells(self) -> list[list[str]]:
+        return [["" if e.line is None else str(e.line), e.where, e.found, e.read_as] for e in self]
+
+    def __repr__(self) -> str:
+        return text_table(self.columns, self._cells()) if self else "nothing to report"
+
+    def _repr_html_(self) -> str:
+        return html_table(self.columns, self._cells())
+
+
+def _places(entries: Sequence[Entry], shown: int = 4) -> str:
+    lines = ["" if e.line is None else f"line {e.line}: " for e in entries]
+    places = [f"{e.where} ({line}{e.found})" for e, line in zip(entries[:shown], lines)]
+    return ", ".join(places) + (f" and {len(entries) - shown} more" if len(entries) > shown else "")
+
+
+def text_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table as text, its columns under each other."""
+    lines = [head, *rows]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in lines)
+
+
+def html_table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    """Return a table as HTML."""
+
+    def row(cells: Iterable[str], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+    return f"<table>{row(head, 'th')}{''.join(row(cells, 'td') for cells in rows)}</table>"

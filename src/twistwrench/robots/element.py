@@ -1,0 +1,93 @@
+"""An element of a URDF, and the errors that name its place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ..errors import ModelError
+from ..report import Entry
+from .reading import XML
+from .urdf_words import ATTRIBUTES, CHILDREN, meant
+
+__all__ = ["Element"]
+
+QUATERNION = "quat_xyzw"
+"""An attribute of <origin> in a later version of the format."""
+
+
+@dataclass(frozen=True)
+class Element:
+    """An element of which each number is read here, and by whom: `what` is the link or joint, for the messages.
+
+    A misspelt attribute or child is an error from the start. What was odd and had one meaning all the same is
+    added to `remarks`, a list that all elements of a file share.
+    """
+
+    xml: XML
+    path: Path
+    what: str
+    remarks: list[Entry]
+
+    def __post_init__(self) -> None:
+        tag = self.xml.tag
+        if tag == "origin" and QUATERNION in self.xml.attrib:
+            raise self.error(f"<origin {QUATERNION}=...> is not read; give the rotation as rpy")
+        for key in self.xml.attrib:
+            if word := meant(key, ATTRIBUTES.get(tag, ())):
+                raise self.error(f"unknown attribute {key!r} of <{tag}>; did you mean {word!r}?")
+        for child in self.xml.iterchildren("*") if tag in CHILDREN else ():
+            if word := meant(child.tag, CHILDREN[tag]):
+                raise replace(self, xml=child).error(f"unknown element <{child.tag}>; did you mean <{word}>?")
+
+    def error(self, text: str) -> ModelError:
+        """Return the error that says this of the link or joint."""
+        return ModelError(f"{self.at}: {self.what}: {text}")
+
+    @property
+    def at(self) -> str:
+        """File and line."""
+        return f"{self.path}, line {self.xml.sourceline}"
+
+    def remark(self, found: str, read_as: str, *, warns: bool = True) -> None:
+        """Note what stands here, and what it was taken for."""
+        self.remarks.append(Entry(self.what, found, read_as, self.xml.sourceline, warns))
+
+    def get(self, key: str) -> str | None:
+        """Return the text of an attribute."""
+        text: str | None = self.xml.get(key)
+        return text
+
+    def only(self, tag: str) -> Element | None:
+        """Return the child of this kind, or None; two would leave open which one counts."""
+        found: Iterator[XML] = iter(self.xml.findall(tag))
+        first, second = next(found, None), next(found, None)
+        if second is not None:
+            raise ModelError(f"{self.path}, line {second.sourceline}: {self.what}: has two <{tag}>, expected one")
+        return None if first is None else replace(self, xml=first)
+
+    def numbers(self, key: str, default: tuple[float, ...], *, infinite: bool = False) -> tuple[float, ...]:
+        """Read as many numbers as the default has; `default` is what URDF means where the attribute is missing."""
+        text = self.get(key)
+        if text is None:
+            return default
+        name, words = f"<{self.xml.tag} {key}={text!r}>", text.split()
+        if len(words) != len(default):
+            expected = f"{len(default)} number{'s' * (len(default) > 1)}"
+            raise self.error(f"{name}: expected {expected}, got {len(words)}")
+        values = []
+        for word in words:
+            try:
+                values.append(float(word if word.isascii() and "_" not in word else "?"))  # Python alone reads 1_000
+            except ValueError:
+                hint = "; expand the macros with xacro first" if "$" in word else ""
+                raise self.error(f"{name}: {word!r} is not a number{hint}") from None
+            if math.isnan(values[-1]) or (math.isinf(values[-1]) and not infinite):
+                raise self.error(f"{name}: {word!r} is not a finite number")
+        return tuple(values)
+
+    def number(self, key: str, default: float = 0.0, *, infinite: bool = False) -> float:
+        """Read one number."""
+        return self.numbers(key, (default,), infinite=infinite)[0]

@@ -1,0 +1,226 @@
+"""From the XML of a URDF to its records, in one walk: each number is checked where it is read.
+
+yourdfpy accepts cycles, two roots, orphans and names that are used twice, and puts a default where
+a number is missing. Here each of these is an error with file, line and name. Whether an inertia is
+one that a body can have is decided later, once the welded links are merged: see `Builder.build`.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ModelError, unknown_name
+from ..inertia import SpatialInertia
+from ..plucker import SE3
+from ..rotation import rpy_to_rotation
+from .element import Element
+from .reading import read_document
+from .records import UrdfJoint, UrdfLink, UrdfMimic, UrdfRobot
+from .urdf_tree import outwards
+from .urdf_words import CHILDREN, words_of
+
+__all__ = ["read_urdf"]
+
+JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+RANGED = ("revolute", "prismatic")
+RESERVED = "universe"
+"""Pinocchio's name of the world, which stands in `Model.joint_names` as well."""
+
+MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
+"""The entries below the diagonal, which the format leaves out, and those above it."""
+
+
+def read_urdf(path: Path) -> UrdfRobot:
+    """Read a URDF.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    UrdfRobot
+
+    Raises
+    ------
+    ModelError
+        Naming the file, the line, the link or joint, and what was expected.
+    """
+    xml, remarks = read_document(path)
+    robot = Element(xml, path, "the robot", remarks)
+    for child in xml.iterchildren("*"):
+        if child.tag not in CHILDREN["robot"] and words_of(str(child.tag)) & {*CHILDREN["robot"]}:
+            Element(child, path, "the robot", remarks).remark(f"<{child.tag}>", "not URDF")
+    links = {name: _link(name, element) for name, element in _named(robot, "link").items()}
+    if not links:
+        raise ModelError(f"{path}: the robot has no <link>")
+    joints = {name: _joint(name, element, links) for name, element in _named(robot, "joint").items()}
+    root, ordered = outwards(path, links, joints)
+    return UrdfRobot(xml.get("name") or path.stem, root, links, ordered, tuple(remarks))
+
+
+def _named(robot: Element, tag: str) -> dict[str, Element]:
+    """Collect the elements of one kind by name; each must have one, and its own."""
+    found: dict[str, Element] = {}
+    for xml in robot.xml.findall(tag):
+        name, at = xml.get("name"), f"{robot.path}, line {xml.sourceline}"
+        element = Element(xml, robot.path, f"{tag} {name!r}", robot.remarks)
+        if not name:
+            raise ModelError(f"{at}: this <{tag}> has no name")
+        if name == RESERVED:
+            raise ModelError(f"{at}: a {tag} cannot be called {name!r}: that names the world")
+        if name in found:
+            raise ModelError(f"{at}: two {tag}s are called {name!r} (the first on line {found[name].xml.sourceline})")
+        found[name] = element
+    return found
+
+
+# -------------------------------------------------------------------- links
+
+
+def _link(name: str, link: Element) -> UrdfLink:
+    """Read all of mass and inertia; no <inertial> at all is a massless link."""
+    inertial = link.only("inertial")
+    if inertial is None:
+        return UrdfLink(name, SpatialInertia.zero())
+    placement = _placement(inertial)
+    mass, inertia = inertial.only("mass"), inertial.only("inertia")
+    missing = [f"<{tag}>" for tag, element in (("mass", mass), ("inertia", inertia)) if element is None]
+    if mass is not None and mass.get("value") is None:
+        missing.append("mass value")
+    if inertia is not None:
+        missing += [key for key in MOMENTS if inertia.get(key) is None]
+    if mass is None or inertia is None or missing:
+        raise inertial.error(
+            f"its <inertial> is incomplete: {', '.join(missing)} missing (for a link without mass leave out <inertial>)"
+        )
+    moments, kilograms = _moments(inertia), mass.number("value")
+    if kilograms < 0:
+        raise mass.error(f"its mass is {mass.get('value')}, expected 0 or more")
+    about_com = SpatialInertia(kilograms, np.zeros(3), moments)
+    return UrdfLink(name, about_com.transform(placement))  # its <origin> may turn the axes of <inertia> as well
+
+
+def _moments(inertia: Element) -> np.ndarray:
+    """Read the six numbers of a symmetric matrix, or all nine where they agree."""
+    value = {key: inertia.number(key) for key in MOMENTS}
+    twins = {key: inertia.number(key) for key in TWINS if inertia.get(key) is not None}
+    room = 1e-8 * max(map(abs, value.values()))
+    for key, number in twins.items():
+        if abs(number - value[TWINS[key]]) > room:
+            raise inertia.error(
+                f"its {key} = {number:g} contradicts {TWINS[key]} = {value[TWINS[key]]:g}: expected a symmetric matrix"
+            )
+    if twins:
+        inertia.remark(f"{', '.join(twins)} beside the six numbers of <inertia>", "the same matrix")
+    xx, xy, xz, yy, yz, zz = value.values()
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+# -------------------------------------------------------------------- joints
+
+
+def _joint(name: str, joint: Element, links: dict[str, UrdfLink]) -> UrdfJoint:
+    kind = joint.get("type")
+    if kind not in JOINT_TYPES:
+        got, known = "missing" if kind is None else repr(kind), ", ".join(JOINT_TYPES)
+        raise joint.error(f"its type is {got}, expected one of {known}")
+    moves = kind != "fixed"  # an axis, a limit or a mimic means nothing there
+    placement = _placement(joint)
+    axis = _axis(joint, kind) if moves else ()
+    numbers = _limits(joint, kind) | _dynamics(joint) if moves else {}
+    mimic = _mimic(joint) if moves else None
+    parent, child = (_end(joint, name, tag, links) for tag in ("parent", "child"))
+    return UrdfJoint(name, kind, parent, child, placement, axis, numbers, mimic, joint.xml.sourceline)
+
+
+def _placement(element: Element) -> SE3:
+    origin = element.only("origin")
+    if origin is None:
+        return SE3.identity()
+    nothing = (0.0, 0.0, 0.0)
+    xyz, rpy = origin.numbers("xyz", nothing), origin.numbers("rpy", nothing)
+    return SE3(rpy_to_rotation(np.array(rpy)), np.array(xyz))
+
+
+def _axis(joint: Element, kind: str) -> tuple[float, ...]:
+    """Read an axis that can be normalised, and of a plane that it is x-y."""
+    element = joint.only("axis")
+    if element is not None and element.get("xyz") is None:
+        raise element.error("its <axis> has no xyz")
+    axis = (1.0, 0.0, 0.0) if element is None else element.numbers("xyz", (1.0, 0.0, 0.0))
+    place = joint if element is None else element
+    if kind == "planar" and not (axis[0] == axis[1] == 0 < axis[2]):
+        got = "no <axis>, which means 1 0 0" if element is None else str([*axis])
+        raise place.error(
+            f"a planar joint moves in its x-y plane: expected <axis xyz='0 0 1'/>, got {got} "
+            "(turn the joint's origin instead; Pinocchio ignores this axis)"
+        )
+    if kind != "floating" and not any(axis):
+        raise place.error("its axis is zero, expected a direction")
+    return axis
+
+
+def _limits(joint: Element, kind: str) -> dict[str, float]:
+    """Read the limits, which are no dynamics: what is missing, or cannot be met, is no limit.
+
+    Only revolute and prismatic joints have an end of their range; lower and upper are 0 when they are not given.
+    """
+    limit = joint.only("limit")
+    if limit is None:
+        if kind in RANGED:
+            joint.remark("no <limit>", "no limits")
+        return {}
+    limits = {}
+    for key in ("effort", "velocity"):
+        value = limit.number(key, -math.inf, infinite=True)
+        if value >= 0:
+            limits[f"{key}_limit"] = value
+        else:
+            limit.remark(f"no {key} limit" if limit.get(key) is None else f"{key} limit {value:g}", "no limit of it")
+    lower, upper = (limit.number(key, infinite=True) for key in ("lower", "upper"))
+    if kind in RANGED and (lower > upper or lower == math.inf or upper == -math.inf):
+        limit.remark(f"lower limit {lower:g} above upper limit {upper:g}", "no end of its range")
+    elif kind in RANGED:
+        limits |= {"lower": lower, "upper": upper}
+    return limits
+
+
+def _dynamics(joint: Element) -> dict[str, float]:
+    """Read damping and friction, which are kept and enter no algorithm."""
+    element = joint.only("dynamics")
+    if element is None:
+        return {}
+    found = {key: element.number(key) for key in ("damping", "friction")}
+    for key, value in found.items():
+        if value < 0:
+            element.remark(f"{key} {value:g}", "none")
+        elif value > 0:
+            element.remark(f"{key} {value:g}", f"model.{key}, which no algorithm applies", warns=False)
+    return {key: value for key, value in found.items() if value > 0}
+
+
+def _mimic(joint: Element) -> UrdfMimic | None:
+    element = joint.only("mimic")
+    if element is None:
+        return None
+    multiplier, offset = element.number("multiplier", 1.0), element.number("offset")
+    leader = element.get("joint")
+    if not leader:
+        raise element.error("its <mimic> names no joint")
+    return UrdfMimic(leader, multiplier, offset, element.xml.sourceline)
+
+
+def _end(joint: Element, name: str, tag: str, links: dict[str, UrdfLink]) -> str:
+    """Return the name of a joint's parent or child link, which must exist."""
+    element = joint.only(tag)
+    link = None if element is None else element.get("link")
+    if element is None or not link:
+        raise ModelError(f"{joint.at}: joint {name!r} names no {tag} link")
+    if link not in links:
+        raise element.error(f"its {tag}: {unknown_name('link', link, links)}")
+    return link

@@ -1,0 +1,259 @@
+"""What has one meaning is read, and reported; strict=True refuses it: every case on its own, and against Pinocchio."""
+
+import pickle
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+
+from .test_urdf_bad import GOOD, INERTIAL, JOINT, LIMIT, changed, refuse
+
+ROOT_INERTIAL = '<link name="root"/>' + JOINT.replace('"j"', '"i"').replace('"b"', '"a"').replace('"a"', '"root"', 1)
+"""A root without inertia, below the two links of the good file: both of them move then."""
+
+
+def both_move(old, new):
+    """Return the good file with both links moving, changed in link b."""
+    head, mark, tail = GOOD.replace("</robot>", ROOT_INERTIAL + "</robot>").partition('<link name="b">')
+    assert old in tail
+    return head + mark + tail.replace(old, new, 1)
+
+
+ALL_NINE = 'ixy="0.1" iyx="0.1" ixz="0" izx="0" iyz="0" izy="0"'
+NO_MOMENTS = '<inertia ixx="0" iyy="0" izz="0"'
+
+CASES = {
+    "xml 0.0": ('<?xml version="0.0" ?>' + GOOD, ["line 1", "XML version '0.0'", "XML 1.0"]),
+    "blank line first": ("\n\n<?xml version='1.0'?>\n" + GOOD, ["blanks before the XML declaration"]),
+    "mark and blank line": ("\ufeff\n<?xml version='1.0' encoding='utf-8'?>" + GOOD, ["blanks before"]),
+    "prefix of an element": (changed(LIMIT, LIMIT + "\n<drake:acceleration value='1'/>"), ["line 5", "prefix drake"]),
+    "prefix of an attribute": (changed("<limit ", "<limit drake:acceleration='1' "), ["line 4", "prefix drake"]),
+    "two prefixes": (changed(JOINT, "<sensor:a/><drake:b/><drake:c/>" + JOINT), ["prefix sensor", "prefix drake"]),
+    "xacro in a visual": (changed(INERTIAL, INERTIAL + "<visual><xacro:grey/></visual>"), ["<xacro:grey>", "line 2"]),
+    "declared xacro": (
+        changed('name="r">', 'name="r" xmlns:xacro="http://ros.org/wiki/xacro"><gazebo><xacro:p/></gazebo>'),
+        ["<xacro:p>", "no dynamics"],
+    ),
+    "xacro of a sensor": (changed(JOINT, "<xacro:imu_sensor/>" + JOINT), ["<xacro:imu_sensor>"]),
+    "RefLink": (changed(JOINT, "<RefLink>a</RefLink>" + JOINT), ["line 4", "<RefLink>", "not URDF"]),
+    "nine entries": (changed('ixy="0" ixz="0" iyz="0"', ALL_NINE), ["iyx, izx, izy", "the same matrix"]),
+    "no limit": (changed(LIMIT, ""), ["line 4", "joint 'j'", "no <limit>", "no limits"]),
+    "no limit, prismatic": (changed(LIMIT, "").replace("revolute", "prismatic"), ["no <limit>", "no limits"]),
+    "no effort": (changed(' effort="1"', ""), ["no effort limit", "no limit of it"]),
+    "no velocity": (changed(' velocity="1"', ""), ["no velocity limit"]),
+    "negative effort": (changed('effort="1"', 'effort="-1"'), ["effort limit -1", "no limit of it"]),
+    "limits crossed": (
+        changed('lower="-1"', 'lower="2"'),
+        ["lower limit 2 above upper limit 1", "no end of its range"],
+    ),
+    "lower above the default": (changed('lower="-1" upper="1"', 'lower="1"'), ["lower limit 1 above upper limit 0"]),
+    "no room": (changed('lower="-1" upper="1"', 'lower="inf" upper="inf"'), ["lower limit inf"]),
+    "negative damping": (changed(LIMIT, LIMIT + '<dynamics damping="-1"/>'), ["damping -1", "none"]),
+    "no mass": (both_move('<mass value="1"/>', '<mass value="0"/>'), ["link 'b'", "an inertia without a mass"]),
+    "a point": (both_move('<inertia ixx="1" iyy="1" izz="1"', NO_MOMENTS), ["link 'b'", "a point mass"]),
+}
+
+
+@pytest.fixture
+def save(tmp_path):
+    def saved(text):
+        path = tmp_path / "robot.urdf"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return saved
+
+
+def load_warned(path, **options):
+    with pytest.warns(UserWarning, match="not all is as it should be") as caught:
+        model = tw.load(path, **options)
+    assert len(caught) == 1
+    assert Path(caught[0].filename) == Path(__file__)
+    return model, str(caught[0].message)
+
+
+@pytest.mark.parametrize(("text", "words"), CASES.values(), ids=CASES.keys())
+@pytest.mark.parametrize("physical", [True, False])
+def test_what_has_one_meaning_is_read_warned_of_and_refused_by_strict(save, text, words, physical):
+    path = save(text)
+    model, message = load_warned(path, physical=physical)
+    assert model.nv == 1 + ("root" in text)
+    for word in words:
+        assert word in message
+    refuse(path, str(path), "strict=True", *words, physical=physical, strict=True)
+    assert model.report == model.report.warnings != ()
+    assert repr(model.report).startswith("line  where")
+    assert pickle.loads(pickle.dumps(model)).report == model.report
+
+
+def test_what_was_read_another_way_is_what_was_meant(save):
+    good = tw.load(save(GOOD))
+    for name in ("xml 0.0", "blank line first", "two prefixes", "xacro in a visual", "RefLink", "no limit"):
+        model, _ = load_warned(save(CASES[name][0]))
+        assert tw.crba(model, [0.3]) == tw.crba(good, [0.3])
+    assert good.report == ()
+    assert repr(good.report) == "nothing to report"
+
+
+def test_lines_keep_their_numbers_behind_blank_ones(save):
+    text = "\n\n<?xml version='0.1'?>\n" + GOOD.replace('value="1"', 'value="x"')
+    refuse(save(text), "line 5", "'x' is not a number")
+
+
+def test_a_version_is_put_right_in_any_encoding_that_python_knows(save):
+    model, _ = load_warned(save('<?xml version="0.0" encoding="UTF-8" standalone="yes"?>' + GOOD.replace('"b"', '"ß"')))
+    assert "ß" in model.frame_names
+
+
+def test_no_limits_are_infinite_ones(save):
+    model, _ = load_warned(save(CASES["no limit"][0]))
+    limits = (model.lower, model.upper, model.velocity_limit, model.effort_limit)
+    assert [x.tolist() for x in limits] == [[-np.inf], [np.inf], [np.inf], [np.inf]]
+    model, _ = load_warned(save(CASES["limits crossed"][0]))
+    limits = (model.lower, model.upper, model.velocity_limit, model.effort_limit)
+    assert [x.tolist() for x in limits] == [[-np.inf], [np.inf], [1], [1]]
+
+
+def test_infinite_limits_are_read_as_written(save):
+    path = save(changed(LIMIT, '<limit lower="-inf" upper="inf" effort="INF" velocity="infinity"/>'))
+    model = tw.load(path, strict=True)
+    assert [model.lower[0], model.upper[0], model.effort_limit[0]] == [-np.inf, np.inf, np.inf]
+
+
+def test_crossed_limits_of_a_joint_without_ends_are_nothing_to_it(save):
+    text = changed('lower="-1"', 'lower="2"').replace("revolute", "continuous")
+    assert tw.load(save(text), strict=True).nv == 1
+
+
+def test_all_nine_entries_give_the_matrix(save):
+    moves = changed('ixy="0" ixz="0" iyz="0"', 'ixy="0.1" iyx="0.1" ixz="0.2" izx="0.2" iyz="0.3" izy="0.3"')
+    model, _ = load_warned(save(moves), base="floating")
+    expected = [[1, 0.1, 0.2], [0.1, 1, 0.3], [0.2, 0.3, 1]]
+    np.testing.assert_array_equal(model.inertia[1].inertia_at_com, expected)
+
+
+def test_one_warning_lists_everything_by_how_it_was_read(save):
+    many = "".join(
+        JOINT.replace('"j"', f'"j{i}"').replace('"b"', f'"b{i}"').replace(LIMIT, "")
+        + f'<link name="b{i}">{INERTIAL}</link>'
+        for i in range(9)
+    )
+    model, message = load_warned(save('<?xml version="0.0"?>' + GOOD.replace("</robot>", many + "</robot>")))
+    assert message.count("\n") == 2
+    assert "joint 'j0' (line 5: no <limit>), " in message
+    assert " and 5 more: read as no limits" in message
+    assert len(model.report) == 10
+
+
+def test_a_joint_of_the_file_may_be_called_root_joint(save):
+    path = save(GOOD.replace('"j"', '"root_joint"'))
+    assert tw.load(path, strict=True).joint_names == ("universe", "root_joint")
+    model, message = load_warned(path, base="floating")
+    assert model.joint_names == ("universe", "root_joint_", "root_joint")
+    assert "the base's is 'root_joint_'" in message
+    refuse(path, "'root_joint'", base="floating", strict=True)
+
+
+def test_a_floating_base_without_mass_on_one_joint_is_told_to_be_singular(save):
+    path = save(GOOD.replace(INERTIAL, "", 1))
+    assert tw.load(path, strict=True).nv == 1
+    model, message = load_warned(path, base="floating")
+    assert "link 'a' (floats without mass, and carries the joint 'j' alone): read as given: M is singular" in message
+    with pytest.raises(tw.SingularError):
+        tw.aba(model, model.neutral(), np.zeros(7), np.zeros(7))
+
+
+def test_damping_and_friction_are_kept_reported_and_no_warning(save):
+    path = save(changed(LIMIT, LIMIT + '<dynamics damping="0.5" friction="0.25"/>'))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        model = tw.load(path, strict=True, base="floating")
+    assert model.damping.tolist() == [0] * 6 + [0.5]
+    assert model.friction.tolist() == [0] * 6 + [0.25]
+    assert [(entry.where, entry.found) for entry in model.report] == [
+        ("joint 'j'", "damping 0.5"),
+        ("joint 'j'", "friction 0.25"),
+    ]
+    assert tw.lock_joints(model, ["root_joint"], model.neutral()).model.damping.tolist() == [0.5]
+    assert tw.Scene(model, base="planar").model.damping.tolist() == [0, 0, 0, 0.5]
+    assert tw.load(save(changed(LIMIT, LIMIT + '<dynamics damping="0"/>'))).report == ()
+
+
+def test_damping_takes_the_energy_that_it_should(save):
+    """q'' = −(d/I) q' about a principal axis through the centre of mass: q' = exp(−d t / I)."""
+    path = save(changed(LIMIT, LIMIT + '<dynamics damping="0.5"/>'))
+    model = tw.load(path, gravity=(0, 0, 0))
+    run = tw.simulate(model, [0.0], [1.0], dt=0.01, duration=1.0, tau=lambda t, q, v: -model.damping * v, method="rk4")
+    assert run.v[-1, 0] == pytest.approx(np.exp(-0.5), rel=1e-9)
+
+
+# -------------------------------------------------------------------- robots of the textbooks
+
+
+PUMA_1 = '<inertial><mass value="0"/><inertia ixx="0" iyy="0.35" izz="0" ixy="0" ixz="0" iyz="0"/></inertial>'
+
+
+# Corke and Armstrong's first two links: the first has I = diag(0, 0.35, 0) kg m² and no mass.
+PUMA = f"""<robot name="puma560"><link name="base"/><link name="l1">{PUMA_1}</link><link name="l2"><inertial>
+    <origin xyz="-0.3638 0.006 0.2275"/><mass value="17.4"/>
+    <inertia ixx="0.13" iyy="0.524" izz="0.539" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    <joint name="j1" type="revolute"><parent link="base"/><child link="l1"/><origin rpy="-1.5707963267948966 0 0"/>
+    <axis xyz="0 -1 0"/>{LIMIT}</joint><joint name="j2" type="revolute"><parent link="l1"/><child link="l2"/>
+    <axis xyz="0 0 1"/>{LIMIT}</joint></robot>"""
+
+
+def test_the_first_link_of_the_puma_560_loads_as_published(save):
+    model, message = load_warned(save(PUMA))
+    assert "link 'l1' (an inertia without a mass): read as the inertia as given, with no weight" in message
+    nothing = tw.SpatialInertia(0, [0, 0, 0], np.zeros((3, 3)))
+    without = replace(model, inertia=(model.inertia[0], nothing, model.inertia[2]))
+    q = [0.2, -0.4]
+    np.testing.assert_allclose(tw.crba(model, q), tw.crba(without, q) + np.diag([0.35, 0]), rtol=0, atol=1e-15)
+
+
+def test_what_loads_equals_pinocchio(save):
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    rng = np.random.default_rng(0)
+    rod = '<inertial><origin xyz="0 1 0.5"/>'
+    point = CASES["a point"][0].replace("<inertial>", rod)
+    for text in (PUMA, point, CASES["nine entries"][0], CASES["lower above the default"][0]):
+        path = save(text)
+        model, _ = load_warned(path)
+        theirs = pin.buildModelFromUrdf(str(path))
+        data, q, v, a = theirs.createData(), *rng.standard_normal((3, model.nv))
+        tau = pin.rnea(theirs, data, q, v, a)
+        np.testing.assert_allclose(tw.rnea(model, q, v, a), tau, rtol=1e-13, atol=1e-13)
+        np.testing.assert_allclose(tw.crba(model, q), pin.crba(theirs, data, q), rtol=1e-13, atol=1e-14)
+        np.testing.assert_allclose(tw.aba(model, q, v, tau), a, rtol=1e-12, atol=1e-12)
+
+
+def test_point_masses_on_rods_are_the_textbooks_double_pendulum():
+    builder = tw.Builder("double pendulum of points")
+    for name, parent, z in (("upper", "base_link", 0.0), ("lower", "upper", -1.0)):
+        bob = tw.SpatialInertia(1.0, [0, 0, -1], np.zeros((3, 3)))
+        builder.link(name, parent=parent, joint=tw.Revolute("y"), placement=tw.SE3(np.eye(3), [0, 0, z]), inertia=bob)
+    model, q2 = builder.build(), 0.7
+    assert [(e.where, e.read_as) for e in model.report] == [
+        ("link 'upper'", "a point mass"),
+        ("link 'lower'", "a point mass"),
+    ]
+    c = np.cos(q2)
+    np.testing.assert_allclose(tw.crba(model, [0.2, q2]), [[3 + 2 * c, 1 + c], [1 + c, 1]], rtol=1e-15)
+
+
+# -------------------------------------------------------------------- the catalogue
+
+
+def test_robots_of_the_catalogue_are_reported_on_and_do_not_warn():
+    assert tw.load("go2").report == ()
+    pytest.importorskip("pinocchio", reason="example-robot-data comes with Pinocchio")
+    report = tw.load("panda").report
+    assert any("<mimic>" in entry.found for entry in report.warnings)
+    assert "<td>" in report._repr_html_()
+    with pytest.raises(tw.ModelError, match="strict=True"):
+        tw.load("panda", strict=True)
+    assert tw.load("panda", strict=True, mimic="independent").nv == 9
