@@ -91,8 +91,8 @@ FAULTS = [
     Fault(
         "joint turned by the axis of another sign",
         "joint.py",
-        "sin[..., None, None] * skew(axis)",
-        "sin[..., None, None] * -skew(axis)",
+        "sin[..., None] * cross_matrix(axis)",
+        "sin[..., None] * -cross_matrix(axis)",
     ),
     Fault("planar: v in the world's axes (S swapped)", "joint_types.py", "[:, [3, 4, 2]]", "[:, [4, 3, 2]]"),
     Fault(

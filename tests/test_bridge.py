@@ -788,7 +788,7 @@ def test_joint_of_a_kind_that_pinocchio_lacks_is_refused_by_name():
 
     for joint in (Helical("z"), Ball()):
         model = replace(tw.random_tree(1, rng=0, kinds=[joint.kind]), joints=(None, joint))
-        message = f"joint {model.joint_names[1]!r}: Pinocchio has no {type(joint).__name__}; it has Planar, Spherical"
+        message = f"joint {model.joint_names[1]!r}: Pinocchio has no {type(joint).__name__}; it has Revolute, Prismatic"
         with pytest.raises(tw.ModelError, match=message):
             bridge.to_pinocchio_model(model)
 

@@ -108,29 +108,6 @@ def test_a_wrench_on_the_world_is_refused():
             function(GO2, Q, V, V, f_ext)
 
 
-def test_a_kind_of_joint_that_only_the_textbook_knows_is_refused():
-    class Screw(tw.Revolute):
-        """A turn with a pitch, as one adds a joint of one's own."""
-
-        kind = "screw"
-
-        def subspace(self, dtype=np.float64):
-            return np.concatenate([self._axis(dtype), 0.3 * self._axis(dtype)])[:, None]
-
-    builder, nut = tw.Builder("screw"), tw.SpatialInertia(2.0, [0.1, 0, 0], 0.1 * np.eye(3))
-    builder.link("nut", parent="base_link", joint=Screw("z"), inertia=nut)
-    model, v = builder.build(), np.ones((20, 1))
-    assert np.isclose(tw.crba(model, [0.0])[0, 0], 0.1 + 2 * 0.1**2 + 2 * 0.3**2)
-    for call in (
-        lambda: fast.crba(model, [0.0]),
-        lambda: fast.rnea(model, v, v, v),
-        lambda: fast.aba(model, v[0], v[0], v[0]),
-        lambda: tw.accuracy(model, [0.0]),
-    ):
-        with pytest.raises(tw.ModelError, match=r"joint 'nut': .* knows no kind 'screw'; it knows revolute"):
-            call()
-
-
 def test_unknown_names_are_refused():
     with pytest.raises(KeyError, match="unknown quantity 'm'"):
         fast.dynamics(GO2, Q, V, want={"m"})

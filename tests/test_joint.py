@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,20 +12,17 @@ from hypothesis import strategies as st
 
 import twistwrench as tw
 from twistwrench import bridge
+from twistwrench.joint import AxisJoint, Joint
+from twistwrench.trees import KINDS
 
 from .strategies import examples
 
 OBLIQUE = np.array([0.48, -0.6, 0.64])
-JOINTS = {
-    "revolute": tw.Revolute(OBLIQUE),
-    "revolute y": tw.Revolute("y"),
-    "prismatic": tw.Prismatic(OBLIQUE),
-    "prismatic x": tw.Prismatic("x"),
-    "continuous": tw.Continuous(OBLIQUE),
-    "continuous z": tw.Continuous("z"),
-    "planar": tw.Planar(),
-    "spherical": tw.Spherical(),
-    "free_flyer": tw.FreeFlyer(),
+JOINTS = {kind: Joint.kinds[kind].sample(np.random.default_rng(0)) for kind in KINDS}
+JOINTS |= {
+    f"{kind} {axis}": replace(joint, axis=axis)
+    for axis, (kind, joint) in product("xyz", JOINTS.items())
+    if isinstance(joint, AxisJoint)
 }
 TURNING = {name: joint for name, joint in JOINTS.items() if joint.unit is not None}
 QUATERNIONS = {name: joint for name, joint in JOINTS.items() if name in ("spherical", "free_flyer")}
@@ -64,7 +64,7 @@ def test_each_kind_moves_its_frame_as_its_name_says():
 
 
 def test_oblique_axis_stays_where_it_is_while_the_rest_turns():
-    T = JOINTS["revolute"].transform(np.array([2.0]))
+    T = tw.Revolute(OBLIQUE).transform(np.array([2.0]))
     assert np.allclose(T.rotation @ OBLIQUE, OBLIQUE, rtol=0, atol=1e-15)
     assert np.isclose(np.trace(T.rotation), 1 + 2 * np.cos(2.0), rtol=1e-14)
     across = np.cross(OBLIQUE, [1.0, 0, 0])
@@ -84,9 +84,14 @@ def test_neutral_moves_nothing(joint):
 
 @every_joint
 def test_subspace_has_one_unit_twist_per_degree_of_freedom(joint):
+    """Unit in its turn, or in its slide where it does not turn; orthonormal where difference() reads it by Sᵀ."""
     S = joint.subspace()
     assert S.shape == (6, joint.nv)
-    assert np.allclose(S.mT @ S, np.eye(joint.nv), rtol=0, atol=1e-15)
+    assert np.linalg.matrix_rank(S) == joint.nv
+    for column in S.mT:
+        assert np.isclose(np.linalg.norm(column[:3] if column[:3].any() else column[3:]), 1, rtol=0, atol=1e-15)
+    if joint.unit is not None:
+        assert np.allclose(S.mT @ S, np.eye(joint.nv), rtol=0, atol=1e-15)
 
 
 # ---------------------------------------------------------------- S is the derivative of the placement
@@ -220,7 +225,7 @@ def test_random_configurations_respect_the_limits_and_are_finite_without(joint):
     bounded = np.ones(joint.nq, bool)
     if joint.unit is not None:
         bounded[joint.unit] = False
-    span = np.pi if joint.kind == "revolute" else 1.0
+    span = np.pi if joint.nq == 1 and joint.subspace()[:3].any() else 1.0
     for lower, upper in [
         (-free, free),
         (np.full(joint.nq, -0.2), np.full(joint.nq, 0.1)),

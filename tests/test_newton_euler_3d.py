@@ -21,7 +21,7 @@ import pytest
 from twistwrench import newton_euler_3d
 from twistwrench.errors import ModelError, ShapeError, SingularError
 from twistwrench.newton_euler_3d.arithmetic import Arithmetic
-from twistwrench.newton_euler_3d.joints import joint_columns
+from twistwrench.newton_euler_3d.joints import joint_columns, joint_pose
 
 TOLERANCE = 1e-12
 SIZES = {"revolute": (1, 1), "prismatic": (1, 1), "continuous": (2, 1), "planar": (4, 3), "spherical": (4, 3)}
@@ -40,6 +40,15 @@ def link(parent, kind, axis=None, at=None, mass=0.0, com=(0.0, 0.0, 0.0), inerti
     return SimpleNamespace(**locals())
 
 
+def joint(kind, axis):
+    """Make what the package reads of a joint: S where there is one coordinate, the axis of a continuous joint."""
+    (nq, nv), axis = SIZES[kind], (0.0, 0.0, 0.0) if axis is None else tuple(axis)
+    column = {"revolute": [*axis, 0, 0, 0], "prismatic": [0, 0, 0, *axis]}.get(kind)
+    return SimpleNamespace(
+        kind=kind, axis=axis, nq=nq, nv=nv, unit=UNIT.get(kind), subspace=lambda dtype: np.array(column, dtype)[:, None]
+    )
+
+
 def make(*links, gravity=(0.0, 0.0, -9.81), frames=None):
     """Make what the package reads of a model."""
     sizes = [(0, 0), *(SIZES[x.kind] for x in links)]
@@ -51,7 +60,7 @@ def make(*links, gravity=(0.0, 0.0, -9.81), frames=None):
         nbodies=len(links) + 1,
         nq=q_ends[-1],
         nv=v_ends[-1],
-        joints=(None, *(SimpleNamespace(kind=x.kind, axis=x.axis) for x in links)),
+        joints=(None, *(joint(x.kind, x.axis) for x in links)),
         joint_names=("universe", *(f"{x.kind}_{i}" for i, x in enumerate(links, 1))),
         parent=(-1, *(x.parent for x in links)),
         placement=(place(), *(x.at or place() for x in links)),
@@ -784,12 +793,25 @@ def test_a_placement_that_is_no_rotation_is_refused():
 
 
 def test_an_unknown_kind_of_joint_is_refused():
-    model = make(link(0, "revolute", axis=(0, 0, 1)))
-    model.joints[1].kind = "helical"
-    with pytest.raises(ModelError, match="joint 'revolute_1': unknown kind 'helical'"):
-        newton_euler_3d.placements(model, [0.0])
-    with pytest.raises(ModelError, match="joint 'revolute_1': unknown kind 'helical'"):
-        joint_columns(Arithmetic(np.dtype(float)), model.joints[1], "revolute_1")
+    model = make(link(0, "planar"))
+    model.joints[1].kind = "sledge"
+    with pytest.raises(ModelError, match="joint 'planar_1': unknown kind 'sledge'"):
+        newton_euler_3d.placements(model, [0.0, 0.0, 1.0, 0.0])
+    with pytest.raises(ModelError, match="joint 'planar_1': unknown kind 'sledge'"):
+        joint_columns(Arithmetic(np.dtype(float)), model.joints[1], "planar_1")
+
+
+def test_a_joint_with_one_coordinate_is_the_screw_that_its_S_says():
+    """A turn about an axis beside the origin, with a pitch and at twice the rate, after q = 0.4: by hand."""
+    w, point, pitch = np.array([0, 0, 2.0]), np.array([0.5, 0, 0]), 0.3
+    S = np.concatenate([w, pitch * w - np.cross(w, point)])
+    screw = SimpleNamespace(kind="of nobody", nq=1, nv=1, unit=None, subspace=lambda dtype: S.astype(dtype)[:, None])
+    R, p = joint_pose(Arithmetic(np.dtype(float)), screw, np.array([0.4]), "screw")
+    c, s = np.cos(0.8), np.sin(0.8)
+    assert np.allclose(R, [[c, -s, 0], [s, c, 0], [0, 0, 1]], rtol=0, atol=1e-15)
+    assert np.allclose(p, [0.5 - 0.5 * c, -0.5 * s, 0.3 * 0.8], rtol=0, atol=1e-15)
+    turn, slide = joint_columns(Arithmetic(np.dtype(float)), screw, "screw")
+    assert (np.concatenate([turn, slide])[:, 0] == S).all()
 
 
 def test_joints_that_move_no_inertia_are_named(mpmath):

@@ -4,23 +4,30 @@ Each joint is a subgroup of the rigid motions. `Joint.transform` gives the place
 in the joint's frame; the columns of `Joint.subspace` are the twists S that the joint allows, constant in
 the moved frame, so that the joint's own twist is S q̇ (49.6) and a step of length one along v leads to
 T(q) exp(S v). The joints themselves are in `joint_types`.
+
+A joint is one class: whatever else must be known of it is read from its S, nq, nv and unit part, and its
+`kind` puts it into the table `Joint.kinds`, from which `random_tree` and the bridge take it.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import ClassVar
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
 
 import numpy as np
-from numpy.typing import DTypeLike
+from numpy.typing import ArrayLike, DTypeLike
 
-from ._scalars import which
-from .checks import Array
+from ._scalars import sqrt, which
+from .checks import Array, as_array, as_constant
+from .errors import ModelError
 from .exponential import exp6, log6
 from .plucker import SE3
-from .rotation import skew
+from .rotation import cross_matrix
 
-__all__ = ["GroupJoint", "Joint", "placement", "same_side", "turn", "unit"]
+__all__ = ["AxisJoint", "GroupJoint", "Joint", "placement", "same_side", "turn", "unit"]
+
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
 class Joint(ABC):
@@ -31,6 +38,31 @@ class Joint(ABC):
     nv: ClassVar[int]
     unit: ClassVar[slice | None] = None
     """The entries of q that have norm 1: a quaternion, or a (cos, sin)."""
+    pinocchio: ClassVar[tuple[str, ...]] = ()
+    """What follows ``JointModel`` in Pinocchio's names: one name, or that before X, Y, Z and that with any axis."""
+    kinds: ClassVar[dict[str, type[Joint]]] = {}
+    """Every class of joint by its `kind`."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        """Enter a class that has a `kind` of its own into `kinds`.
+
+        Raises
+        ------
+        ModelError
+            If another class has that kind.
+        """
+        super().__init_subclass__(**options)
+        if "kind" in vars(cls):
+            other = Joint.kinds.get(cls.kind, cls)
+            if (other.__module__, other.__qualname__) != (cls.__module__, cls.__qualname__):
+                raise ModelError(f"kind of {cls.__name__}: {cls.kind!r} is taken by {other.__qualname__}")
+            Joint.kinds[cls.kind] = cls
+            cls.pinocchio = vars(cls).get("pinocchio", ())  # another kind has another name there, or none
+
+    @classmethod
+    def sample(cls, rng: np.random.Generator) -> Self:
+        """Draw a joint of this class: an axis in any direction where it has one."""
+        return cls(rng.standard_normal(3)) if issubclass(cls, AxisJoint) else cls()
 
     @abstractmethod
     def subspace(self, dtype: DTypeLike = np.float64) -> Array:
@@ -38,7 +70,7 @@ class Joint(ABC):
 
     @abstractmethod
     def transform(self, q: Array) -> SE3:
-        """Return the placement of the moved frame in the joint's frame."""
+        """Return the placement of the moved frame in the joint's frame: arithmetic alone, for numbers of any type."""
 
     def neutral(self) -> Array:
         """Return the q that moves nothing, shape (nq,)."""
@@ -73,7 +105,9 @@ class Joint(ABC):
 
     def random(self, rng: np.random.Generator, lower: Array, upper: Array) -> Array:
         """Draw a q, uniform between the limits; where they are wide, see `Model.random_configuration`."""
-        span = np.pi if self.kind == "revolute" else 1.0
+        span = np.ones(self.nq)
+        if self.nq == self.nv:  # entry k of q goes along column k of S: an angle, or a length
+            span[self.subspace()[:3].any(axis=0)] = np.pi
         near_zero = np.clip(0.0, lower + span, upper - span)
         wide = upper / 2 - lower / 2 > 100 * span  # halved before, so that nothing overflows
         low = np.where(wide, np.maximum(near_zero - span, lower), lower)
@@ -107,20 +141,51 @@ class GroupJoint(Joint):
         return dv
 
 
+@dataclass(frozen=True)
+class AxisJoint(Joint):
+    """A joint with one degree of freedom, along or about a unit axis of its frame."""
+
+    axis: tuple[float, float, float]
+    """Unit vector, the same in the joint's frame and in the moved frame."""
+
+    nv: ClassVar[int] = 1
+
+    def __init__(self, axis: str | ArrayLike) -> None:
+        if isinstance(axis, str) and axis not in AXES:
+            raise ModelError(f"axis: expected 'x', 'y', 'z' or a vector of 3, got {axis!r}")
+        a = as_constant(as_array(AXES[axis] if isinstance(axis, str) else axis, "axis", 3), "axis")
+        if a.ndim != 1 or not a.any():
+            raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
+        size = np.abs(a).max()
+        if size > 2 or abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # what is normalised stays, to the bit
+            a = unit(a / size)
+        object.__setattr__(self, "axis", (float(a[0]), float(a[1]), float(a[2])))
+
+    def _axis(self, dtype: DTypeLike) -> Array:
+        """Return the axis in a number type, of norm 1 to that type's own precision.
+
+        Objects are numbers that need not mix with floats: for them 0 and 1 are integers.
+        """
+        if np.dtype(dtype) == object:
+            return np.array([int(x) if x == int(x) else x for x in self.axis], object)
+        a = np.asarray(self.axis).astype(dtype)
+        return unit(a) if np.finfo(a.dtype).eps < np.finfo(np.float64).eps else a
+
+
 def unit(x: Array) -> Array:
     """Divide by the norm over the last axis, differentiably in complex numbers."""
-    unit: Array = x / np.sqrt((x * x).sum(axis=-1, keepdims=True))
+    unit: Array = x / sqrt((x * x).sum(axis=-1, keepdims=True))
     return unit
 
 
 def turn(axis: Array, cos: Array, sin: Array) -> SE3:
-    """Turn about a unit axis: the part along it stays, the part across it turns.
+    """Turn about a unit axis, with cos and sin of shape (..., 1): the part along it stays, the part across it turns.
 
     R = aaᵀ + cos (1 − aaᵀ) + sin [a]×, which for a coordinate axis holds cos and sin untouched.
     """
-    along = np.outer(axis, axis)
+    along = axis[:, None] * axis
     across = np.eye(3, dtype=axis.dtype) - along
-    R = along + cos[..., None, None] * across + sin[..., None, None] * skew(axis)
+    R = along + cos[..., None] * across + sin[..., None] * cross_matrix(axis)
     return placement(R, np.zeros(3, R.dtype))
 
 

@@ -15,49 +15,20 @@ free_flyer    7    6   (x, y, z, qx, qy, qz, qw)     (ω, v), moved frame       
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike
+from numpy.typing import DTypeLike
 
-from .checks import Array, as_array, as_constant
-from .errors import ModelError
-from .joint import GroupJoint, Joint, placement, same_side, turn, unit
+from ._scalars import cos, sin
+from .checks import Array
+from .joint import AxisJoint, GroupJoint, placement, same_side, turn, unit
 from .plucker import SE3
-from .rotation import quaternion_to_rotation, rotation_to_quaternion, skew
+from .rotation import cross_matrix, quaternion_matrix, rotation_to_quaternion
 
 __all__ = ["Continuous", "FreeFlyer", "Planar", "Prismatic", "Revolute", "Spherical"]
 
-AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
-
-@dataclass(frozen=True)
-class _AxisJoint(Joint):
-    """A joint with one degree of freedom, along or about a unit axis of its frame."""
-
-    axis: tuple[float, float, float]
-    """Unit vector, the same in the joint's frame and in the moved frame."""
-
-    nv: ClassVar[int] = 1
-
-    def __init__(self, axis: str | ArrayLike) -> None:
-        if isinstance(axis, str) and axis not in AXES:
-            raise ModelError(f"axis: expected 'x', 'y', 'z' or a vector of 3, got {axis!r}")
-        a = as_constant(as_array(AXES[axis] if isinstance(axis, str) else axis, "axis", 3), "axis")
-        if a.ndim != 1 or not a.any():
-            raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
-        size = np.abs(a).max()
-        if size > 2 or abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # what is normalised stays, to the bit
-            a = unit(a / size)
-        object.__setattr__(self, "axis", (float(a[0]), float(a[1]), float(a[2])))
-
-    def _axis(self, dtype: DTypeLike) -> Array:
-        """Return the axis in a number type, of norm 1 to that type's own precision."""
-        a = np.asarray(self.axis).astype(dtype)
-        return unit(a) if np.finfo(a.dtype).eps < np.finfo(np.float64).eps else a
-
-
-class Revolute(_AxisJoint):
+class Revolute(AxisJoint):
     """A turn about an axis. q is the angle in rad.
 
     Parameters
@@ -79,6 +50,7 @@ class Revolute(_AxisJoint):
     """
 
     kind, nq = "revolute", 1
+    pinocchio = ("R", "RevoluteUnaligned")
 
     def subspace(self, dtype: DTypeLike = np.float64) -> Array:
         """Return S = (axis, 0)."""
@@ -86,10 +58,10 @@ class Revolute(_AxisJoint):
 
     def transform(self, q: Array) -> SE3:
         """Return the turn by the angle q about the axis."""
-        return turn(self._axis(q.dtype), np.cos(q[..., 0]), np.sin(q[..., 0]))
+        return turn(self._axis(q.dtype), cos(q), sin(q))
 
 
-class Prismatic(_AxisJoint):
+class Prismatic(AxisJoint):
     """A slide along an axis. q is the length in m.
 
     Parameters
@@ -109,6 +81,7 @@ class Prismatic(_AxisJoint):
     """
 
     kind, nq = "prismatic", 1
+    pinocchio = ("P", "PrismaticUnaligned")
 
     def subspace(self, dtype: DTypeLike = np.float64) -> Array:
         """Return S = (0, axis)."""
@@ -119,7 +92,7 @@ class Prismatic(_AxisJoint):
         return placement(np.eye(3, dtype=q.dtype), q * self._axis(q.dtype))
 
 
-class Continuous(_AxisJoint, GroupJoint):
+class Continuous(AxisJoint, GroupJoint):
     """A turn without end about an axis. q is (cos, sin).
 
     Parameters
@@ -140,6 +113,7 @@ class Continuous(_AxisJoint, GroupJoint):
     """
 
     kind, nq = "continuous", 2
+    pinocchio = ("RUB", "RevoluteUnboundedUnaligned")
     unit = slice(0, 2)
     _one = 0
 
@@ -150,12 +124,12 @@ class Continuous(_AxisJoint, GroupJoint):
     def transform(self, q: Array) -> SE3:
         """Return the turn with this cosine and sine about the axis."""
         cs = unit(q)
-        return turn(self._axis(q.dtype), cs[..., 0], cs[..., 1])
+        return turn(self._axis(q.dtype), cs[..., :1], cs[..., 1:])
 
     def coordinates(self, T: SE3, near: Array) -> Array:
         """Read cosine and sine off the turn: cos = (tr R − 1)/2, sin = axis · (R − Rᵀ)/2."""
         R = T.rotation
-        k = skew(self._axis(R.dtype))
+        k = cross_matrix(self._axis(R.dtype))
         return unit(np.stack([(np.trace(R, axis1=-2, axis2=-1) - 1) / 2, (R * k).sum((-2, -1)) / 2], axis=-1))
 
 
@@ -172,6 +146,7 @@ class Planar(GroupJoint):
     """
 
     kind, nq, nv = "planar", 4, 3
+    pinocchio = ("Planar",)
     unit = slice(2, 4)
     _one = 2
 
@@ -182,7 +157,7 @@ class Planar(GroupJoint):
     def transform(self, q: Array) -> SE3:
         """Return the shift by (x, y, 0) and the turn about z."""
         cs = unit(q[..., 2:])
-        turned = turn(np.eye(3, dtype=q.dtype)[2], cs[..., 0], cs[..., 1])
+        turned = turn(np.eye(3, dtype=q.dtype)[2], cs[..., :1], cs[..., 1:])
         return placement(turned.rotation, np.concatenate([q[..., :2], np.zeros_like(q[..., :1])], axis=-1))
 
     def coordinates(self, T: SE3, near: Array) -> Array:
@@ -202,6 +177,7 @@ class Spherical(GroupJoint):
     """
 
     kind, nq, nv = "spherical", 4, 3
+    pinocchio = ("Spherical",)
     unit = slice(0, 4)
 
     def subspace(self, dtype: DTypeLike = np.float64) -> Array:
@@ -210,7 +186,7 @@ class Spherical(GroupJoint):
 
     def transform(self, q: Array) -> SE3:
         """Return the turn of the quaternion."""
-        return placement(quaternion_to_rotation(q), np.zeros(3, q.dtype))
+        return placement(quaternion_matrix(q), np.zeros(3, q.dtype))
 
     def coordinates(self, T: SE3, near: Array) -> Array:
         """Read the quaternion off the turn, with the sign that is closer to `near`."""
@@ -229,6 +205,7 @@ class FreeFlyer(GroupJoint):
     """
 
     kind, nq, nv = "free_flyer", 7, 6
+    pinocchio = ("FreeFlyer",)
     unit = slice(3, 7)
 
     def subspace(self, dtype: DTypeLike = np.float64) -> Array:
@@ -237,7 +214,7 @@ class FreeFlyer(GroupJoint):
 
     def transform(self, q: Array) -> SE3:
         """Return the placement with this position and quaternion."""
-        return placement(quaternion_to_rotation(q[..., 3:]), q[..., :3])
+        return placement(quaternion_matrix(q[..., 3:]), q[..., :3])
 
     def coordinates(self, T: SE3, near: Array) -> Array:
         """Read position and quaternion off the placement, the sign closer to `near`."""

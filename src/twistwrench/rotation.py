@@ -280,7 +280,7 @@ def rpy_matrix(rpy: Array) -> Array:
 def quaternion_matrix(q: Array) -> Array:
     """Return the rotation 1 + 2 (w [u]× + [u]×²)/|q|² of q = (u, w): the formula of `quaternion_to_rotation`."""
     U, w = cross_matrix(q[..., :3]), q[..., 3, None, None]
-    return np.asarray(np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / (q * q).sum(-1)[..., None, None])
+    return np.asarray(np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / (q * q).sum(-1, keepdims=True)[..., None])
 
 
 def cross_matrix(w: Array) -> Array:

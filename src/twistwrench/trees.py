@@ -13,22 +13,17 @@ from .checks import Array, as_generator, as_number
 from .errors import ModelError, check_known
 from .inertia import SpatialInertia
 from .joint import Joint
-from .joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from .joint_types import Continuous, Prismatic, Revolute
 from .model import Model
 from .plucker import SE3
 from .rotation import quaternion_to_rotation
 
 __all__ = ["KINDS", "chain", "random_tree"]
 
-KINDS = ("revolute", "prismatic", "continuous", "planar", "spherical", "free_flyer")
-"""The kinds of joint that `random_tree` knows."""
+KINDS = tuple(Joint.kinds)
+"""The kinds of joint that `random_tree` draws from, if not told otherwise: those of the package."""
 
-AXIAL: dict[str, Callable[[str | ArrayLike], Joint]] = {
-    "revolute": Revolute,
-    "prismatic": Prismatic,
-    "continuous": Continuous,
-}
-OTHER: dict[str, Callable[[], Joint]] = {"planar": Planar, "spherical": Spherical, "free_flyer": FreeFlyer}
+AXIAL: dict[str, Callable[[str | ArrayLike], Joint]] = {kind.kind: kind for kind in (Revolute, Prismatic, Continuous)}
 
 
 def chain(
@@ -138,7 +133,7 @@ def random_tree(
         Where the randomness comes from.
     base : {"fixed", "floating"}
     kinds : sequence of str
-        Kinds of joint to draw from, of `KINDS`.
+        Kinds of joint to draw from, each the `kind` of a class of joint; all that the package has, if not given.
     branching : float
         Chance that a link is carried by any of the links before it, and not by the last one:
         0 makes a chain.
@@ -168,7 +163,7 @@ def random_tree(
     if not 0 <= as_number(branching, "branching") <= 1 or isinstance(kinds, str) or not len(kinds):
         raise ModelError(f"expected branching from 0 to 1 and a list of kinds, got {branching} and {kinds!r}")
     for kind in kinds:
-        check_known("kind of joint", kind, KINDS)
+        check_known("kind of joint", kind, Joint.kinds)
     links, joints = ([f"{what}_{k}" for k in rng.permutation(n)] for what in ("link", "joint"))
     floats = base == "floating"
     root = links[0] if floats else "base_link"
@@ -181,7 +176,7 @@ def random_tree(
                 f"welded_{k}", parent=_carrier(rng, added, branching), placement=_random_placement(rng), inertia=inertia
             )
             added.append(f"welded_{k}")
-        joint = _random_joint(rng, kinds[int(rng.integers(len(kinds)))])
+        joint = Joint.kinds[kinds[int(rng.integers(len(kinds)))]].sample(rng)
         builder.link(
             links[k],
             parent=_carrier(rng, added, branching),
@@ -197,10 +192,6 @@ def random_tree(
 
 def _carrier(rng: np.random.Generator, added: list[str], branching: float) -> str:
     return added[rng.integers(len(added))] if rng.random() < branching else added[-1]
-
-
-def _random_joint(rng: np.random.Generator, kind: str) -> Joint:
-    return AXIAL[kind](rng.standard_normal(3)) if kind in AXIAL else OTHER[kind]()
 
 
 def _random_placement(rng: np.random.Generator) -> SE3:

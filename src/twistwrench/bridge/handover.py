@@ -7,6 +7,7 @@ reordered like v.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,8 @@ from ..checks import Array
 from ..door import check_model
 from ..errors import ModelError
 from ..inertia import SpatialInertia
-from ..joint import Joint
-from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from ..joint import AxisJoint, Joint
+from ..joint_types import Continuous, FreeFlyer
 from ..links import WORLD, Link
 from ..model import Frame, Model
 from ..plucker import SE3
@@ -30,23 +31,6 @@ from .objects import (
 from .tangent import tangent_order
 
 __all__ = ["from_pinocchio_model", "to_pinocchio_model"]
-
-WITHOUT_AXIS: dict[str, type[Planar] | type[Spherical] | type[FreeFlyer]] = {
-    "Planar": Planar,
-    "Spherical": Spherical,
-    "FreeFlyer": FreeFlyer,
-}
-"""What follows ``JointModel`` in Pinocchio's name, and the joint here."""
-
-WITH_AXIS: dict[str, type[Revolute] | type[Prismatic] | type[Continuous]] = {
-    "R": Revolute,
-    "P": Prismatic,
-    "RUB": Continuous,
-    "RevoluteUnaligned": Revolute,
-    "PrismaticUnaligned": Prismatic,
-    "RevoluteUnboundedUnaligned": Continuous,
-}
-"""The same for the joints with an axis; the short names are followed by X, Y or Z."""
 
 AXES = {(1.0, 0.0, 0.0): "X", (0.0, 1.0, 0.0): "Y", (0.0, 0.0, 1.0): "Z"}
 
@@ -116,19 +100,32 @@ def to_pinocchio_model(model: Model) -> Any:
 
 def _joint_there(pin: Any, joint: Joint, name: str) -> Any:
     """Return the joint as one of Pinocchio's joint models, the aligned one where there is one."""
-    without_axis = [kind for kind, ours in WITHOUT_AXIS.items() if ours is type(joint)]
-    if without_axis:
-        return getattr(pin, "JointModel" + without_axis[0])()
-    with_axis = [kind for kind, ours in WITH_AXIS.items() if ours is type(joint)]
-    if not isinstance(joint, Revolute | Prismatic | Continuous) or not with_axis:
-        known = dict.fromkeys(kind.__name__ for kind in [*WITHOUT_AXIS.values(), *WITH_AXIS.values()])
-        raise ModelError(f"joint {name!r}: Pinocchio has no {type(joint).__name__}; it has {', '.join(known)}")
-    aligned, unaligned = with_axis
+    names = joint.pinocchio if Joint.kinds.get(joint.kind) is type(joint) else ()
+    if not names:
+        known = ", ".join(kind.__name__ for kind in Joint.kinds.values() if kind.pinocchio)
+        raise ModelError(f"joint {name!r}: Pinocchio has no {type(joint).__name__}; it has {known}")
+    others = [getattr(joint, constant) for constant in _constants(type(joint))]
+    if not isinstance(joint, AxisJoint):
+        return getattr(pin, "JointModel" + names[0])(*others)
+    aligned, unaligned = names
     if joint.axis in AXES:
-        return getattr(pin, "JointModel" + aligned + AXES[joint.axis])()
+        return getattr(pin, "JointModel" + aligned + AXES[joint.axis])(*others)
     if isinstance(joint, Continuous):  # its constructor takes no axis
         return pin.buildModelFromXML(ONE_CONTINUOUS_JOINT.format(*joint.axis)).joints[1]
-    return getattr(pin, "JointModel" + unaligned)(np.array(joint.axis))
+    return getattr(pin, "JointModel" + unaligned)(np.array(joint.axis), *others)
+
+
+def _names(kind: type[Joint]) -> list[str]:
+    """Return Pinocchio's names of a kind of joint."""
+    if not issubclass(kind, AxisJoint) or not kind.pinocchio:
+        return list(kind.pinocchio)
+    aligned, unaligned = kind.pinocchio
+    return [*(aligned + axis for axis in AXES.values()), unaligned]
+
+
+def _constants(kind: type[Joint]) -> list[str]:
+    """Return the names of a joint's constants besides its axis."""
+    return [field.name for field in fields(kind) if field.name != "axis"] if is_dataclass(kind) else []
 
 
 def _frames_there(pin: Any, model: Model, there: Any) -> None:
@@ -224,23 +221,24 @@ def _check_joints(model: Model) -> None:
 def _joints_here(there: Any) -> tuple[Joint | None, ...]:
     """Return the joints; the axis is read off the motion subspace, which every joint has."""
     neutral = import_pinocchio().neutral(there)
+    known = {name: kind for kind in Joint.kinds.values() for name in _names(kind)}
     joints: list[Joint | None] = [None]
     unknown = []
     for name, model in zip(list(there.names)[1:], list(there.joints)[1:], strict=True):
-        kind = model.shortname().removeprefix("JointModel")
-        if kind in WITHOUT_AXIS:
-            joints.append(WITHOUT_AXIS[kind]())
-        elif kind.rstrip("XYZ") in WITH_AXIS:
+        full = model.shortname().removeprefix("JointModel")
+        kind = known.get(full)
+        if kind is None:
+            unknown.append(f"{name!r} ({full})")
+            continue
+        constants: list[Any] = [getattr(model.extract(), constant) for constant in _constants(kind)]
+        if issubclass(kind, AxisJoint):
             data = model.createData()
             model.calc(data, neutral)
             v, w = np.split(np.ravel(data.S), 2)  # Pinocchio's order
-            make = WITH_AXIS[kind.rstrip("XYZ")]
-            joints.append(make(v if make is Prismatic else w))
-        else:
-            unknown.append(f"{name!r} ({kind})")
+            constants.insert(0, w if w.any() else v)
+        joints.append(kind(*constants))
     if unknown:
-        known = ", ".join([*WITHOUT_AXIS, *WITH_AXIS])
-        raise ModelError(f"joints without a counterpart: {', '.join(unknown)}; those that have one: {known}")
+        raise ModelError(f"joints without a counterpart: {', '.join(unknown)}; those that have one: {', '.join(known)}")
     return tuple(joints)
 
 

@@ -46,7 +46,7 @@ links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `
 Which to take: the textbook to read, for a state now and then, and where an intermediate result is wanted; this for
 batches and loops. Long double and complex numbers work here as well, by the same code, and gain less. Forward dynamics
 that may be singular is handed to the textbook, which follows each rounding and says which joint. A joint of a kind of
-one's own is refused: the textbook takes it. How fast it is, and
+one's own is read off its S, and where its q is of no known layout its `transform` places it. How fast all this is, and
 what bounds it, is in benchmarks/README.md; more states than one machine holds are in docs/dask.md.
 
 >>> import numpy as np

@@ -221,7 +221,9 @@ def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
         for parents, children in level.inward:
             second[parents] += (far + 2 * r * near + r * r * m)[children]
             first[parents] += (near + r * m)[children]
-    felt = second.copy() if plan.turning is None else np.where(plan.turning[:, 0] > 0, second, mass)
+    turn = 1 if plan.turn is None else plan.turn[:, 0]
+    slide = 0 if plan.slide is None else np.sqrt((plan.slide[..., 0] ** 2).sum(axis=0))
+    felt = turn * turn * second + 2 * turn * slide * first + slide * slide * mass
     felt[1:] += plan.rotor[plan.entry[1:], 0]
     base = np.repeat([second[0], mass[0]], 3) + (plan.rotor[:6, 0] if plan.floats else 0)
     lost = max(1e-6, math.sqrt(resolution(mass.dtype)))

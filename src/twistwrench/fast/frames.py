@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..checks import Array
-from .plan import Plan, Seat
+from .plan import Placed, Plan
 from .vectors import SYMMETRIC, rotation
 
 __all__ = ["Frames", "Inertias", "frames_of", "inertias_of", "origins_of"]
@@ -23,7 +23,7 @@ class Frames(NamedTuple):
     offset : ndarray, shape (3, 1 + n, b)
         From the parent's origin to the link's, m.
     spin, slide : ndarray, shape (3, 1 + n, b); slide is None where no link slides
-        The axis about which a link turns, and along which it slides; one of the two is zero. Entry 0 means nothing.
+        The angular velocity of a link for a unit rate, and the velocity with which it slides. Entry 0 means nothing.
     base : ndarray, shape (3, 3, b), or None
         The rotation from the axes of a floating base to those of the world.
     in_world : bool
@@ -65,7 +65,7 @@ def frames_of(plan: Plan, q: Array, *, in_world: bool = False) -> Frames:
     axes, offset = np.empty((3, 3, 1 + plan.n, b), q.dtype), np.zeros((3, 1 + plan.n, b), q.dtype)
     axes[:, :, 0] = np.eye(3)[..., None] if base is None or not in_world else base.swapaxes(0, 1)
     cos, sin = _cos_sin(plan, q)
-    for level, seats in zip(plan.levels, plan.seats):
+    for level, placed in zip(plan.levels, plan.placed):
         here, k = level.here, slice(level.here.start - 1, level.here.stop - 1)
         still = np.empty((4, 3, here.stop - here.start, b), q.dtype)  # axes and offset before the joint moves
         by_component = axes[:, :, level.up].transpose(1, 2, 0, 3), still.transpose(1, 2, 0, 3)
@@ -73,13 +73,25 @@ def frames_of(plan: Plan, q: Array, *, in_world: bool = False) -> Frames:
         x, y, axes[2, :, here], offset[:, here] = still
         np.add(cos[k] * x, sin[k] * y, out=axes[0, :, here])
         np.subtract(cos[k] * y, sin[k] * x, out=axes[1, :, here])
-        for seat in seats:
-            _sit(seat, q, still[:, :, seat.link], axes[:, :, here.start + seat.link], offset[:, here.start + seat.link])
-    slides, lengths = plan.lengths
-    offset[:, 1:][:, slides] += axes[2, :, 1:][:, slides] * q[lengths]
-    z = axes[2]
-    spin, slide = (z, None) if plan.turning is None else (z * plan.turning, z * (1 - plan.turning))
+        for one in placed:
+            number = here.start + one.link
+            _place(one, q, still[:, :, one.link], axes[:, :, number], offset[:, number])
+    spin, slide = axes[2] if plan.turn is None else axes[2] * plan.turn, _slide(plan, axes)
+    if slide is not None:
+        links, lengths = plan.lengths
+        offset[:, 1:][:, links] += slide[:, 1:][:, links] * q[lengths]
     return Frames(axes, offset, spin, slide, base, in_world)
+
+
+def _slide(plan: Plan, axes: Array) -> Array | None:
+    """Return the velocities with which links slide for unit rates; most of them along z."""
+    if plan.slide is None:
+        return None
+    slide: Array = axes[2] * plan.slide[2]
+    for axis, part in zip(axes[:2], plan.slide[:2]):
+        if part.any():
+            slide += axis * part
+    return slide
 
 
 def _base(plan: Plan, q: Array) -> Array:
@@ -108,20 +120,12 @@ def _cos_sin(plan: Plan, q: Array) -> tuple[Array, Array]:
     return cos, sin
 
 
-def _sit(seat: Seat, q: Array, still: Array, axes: Array, offset: Array) -> None:
-    """Place, in `axes` and `offset`, the first link of a joint that turns and shifts freely."""
-    q = q[seat.q]
-    shift = np.zeros((3, q.shape[-1]), q.dtype)
-    if seat.kind == "planar":
-        c, s = q[2:] / np.sqrt(q[2] * q[2] + q[3] * q[3])
-        shift[:2] = q[:2]
-        turn = np.zeros((3, 3, q.shape[-1]), q.dtype)
-        turn[0, 0], turn[0, 1], turn[1, 0], turn[1, 1], turn[2, 2] = c, -s, s, c, 1
-    else:
-        turn = rotation(q[-4:])
-        shift[:] = q[:3] if seat.kind == "free_flyer" else 0
-    axes[:] = np.einsum("cib,cdb,dk->kib", still[:3], turn, seat.axes)
-    offset += np.einsum("cib,cb->ib", still[:3], shift)
+def _place(one: Placed, q: Array, still: Array, axes: Array, offset: Array) -> None:
+    """Place, in `axes` and `offset`, the first link of a joint by the joint's `transform`."""
+    T = one.joint.transform(q[one.q].mT)
+    R, p = T.rotation.transpose(1, 2, 0), T.translation.mT
+    axes[:] = np.einsum("cib,cdb,dk->kib", still[:3], R, one.axes)
+    offset += np.einsum("cib,cb->ib", still[:3], p)
 
 
 def inertias_of(plan: Plan, frames: Frames) -> Inertias:

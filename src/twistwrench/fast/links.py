@@ -1,8 +1,11 @@
 """The links of a plan: a link of its own for every degree of freedom.
 
-The frame of a link is turned such that its freedom is a turn about, or a slide along, its z axis. The links of
-one joint have one origin in common; the last of them carries the body, those before it have no mass. So there
-is one kind of link only, and no kind of joint in the algorithms.
+Its column (w, v) of S is all that the algorithms know of it: the link turns with w, and slides with v. The frame of a
+link is turned such that w, or where it only slides v, is along its z axis. The links of one joint have one origin in
+common; the last of them carries the body, those before it have no mass. So there is one kind of link only, and no kind
+of joint in the algorithms.
+
+Where a q places a link is read off the joint, too, by trying it: see `Way`.
 
 The links are numbered level by level, from the base to the tips, and in a level as far as possible in the order
 of their parents: what a level reads of the one below it is then a slice. Number 0 is the base: the body that
@@ -12,20 +15,26 @@ floats, or the world of a fixed base.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from ..checks import Array
-from ..errors import ModelError
+from ..exponential import exp6
+from ..joint import Joint
+from ..joint_types import FreeFlyer
 from ..model import Model
 
 __all__ = ["Index", "Level", "Link", "Step", "base_floats", "index", "levels_of", "links_of", "parents_of", "steps_of"]
 
-KINDS = ("revolute", "prismatic", "continuous", "planar", "spherical", "free_flyer")
-"""The kinds of joint that `plan` and `frames` know how to place."""
+Way = Literal["coordinate", "circle", "transform"]
+"""How q places a joint: T = exp(S q) with one coordinate q; a turn with q = (cos, sin); or `Joint.transform` does."""
+
+ROUNDING = 1e-15
+TRIAL = 0.7
 
 Index = slice | Array
 """Some of the links: a slice where it can be one, since a slice copies nothing."""
@@ -41,8 +50,12 @@ class Link:
         The joint that it belongs to.
     entry : int
         Its entry in v.
-    turns : bool
-        Whether it turns about the z axis; else it slides along it.
+    way : Way
+        How q places the joint.
+    turn : long double
+        How much it turns about its z axis for a unit rate.
+    slide : ndarray, shape (3,)
+        How much it slides for a unit rate, in its own axes.
     first, last : bool
         Whether it is the first, the last of its joint.
     axes : ndarray, shape (3, 3)
@@ -53,7 +66,9 @@ class Link:
 
     joint: int
     entry: int
-    turns: bool
+    way: Way
+    turn: np.longdouble
+    slide: Array
     first: bool
     last: bool
     axes: Array
@@ -103,7 +118,7 @@ class Step(NamedTuple):
 def base_floats(model: Model) -> bool:
     """Whether all bodies hang on body 1, and that one on nothing."""
     joint = model.joints[1] if model.nbodies > 1 else None
-    return joint is not None and joint.kind == "free_flyer" and model.parent.count(0) == 1
+    return type(joint) is FreeFlyer and model.parent.count(0) == 1
 
 
 def links_of(model: Model) -> list[Link]:
@@ -125,16 +140,48 @@ def links_of(model: Model) -> list[Link]:
 
 
 def _links_of_joint(model: Model, i: int) -> Iterator[Link]:
-    """Yield a link for each column of S, which is a unit vector."""
+    """Yield a link for each column of S."""
     joint, start = model.joints[i], model.v_slice[i].start
-    if joint is not None and joint.kind not in KINDS:
-        said = f"joint {model.joint_names[i]!r}: twistwrench.fast, and what builds on it, knows no kind {joint.kind!r}"
-        raise ModelError(f"{said}; it knows {', '.join(KINDS)}. The textbook's functions take any")
-    S = joint.subspace(np.longdouble) if joint is not None else np.zeros((6, 0), np.longdouble)
-    for k, column in enumerate(S.mT):
-        turns = bool(column[:3].any())
-        axes = _axes_with_z(column[:3] if turns else column[3:])
-        yield Link(i, start + k, turns, first=k == 0, last=k == S.shape[1] - 1, axes=axes)
+    if joint is None:
+        return
+    S = joint.subspace(np.longdouble)
+    screws = [_screw(column) for column in S.mT]
+    way = _way(joint) if isinstance(joint, Hashable) else _way.__wrapped__(joint)
+    for k, (axes, turn, slide) in enumerate(screws):
+        yield Link(i, start + k, way, turn, slide, first=k == 0, last=k == joint.nv - 1, axes=axes)
+
+
+def _screw(column: Array) -> tuple[Array, np.longdouble, Array]:
+    """Return axes with z along the turn, or where there is none along the slide; the turn; and the slide in them.
+
+    What rounding has left of a length of 1, or across z, is taken away.
+    """
+    w, v = column[:3], column[3:]
+    z = w if w.any() else v
+    size = np.sqrt((z * z).sum())
+    if abs(size - 1) < ROUNDING:
+        size = np.longdouble(1)
+    axes = _axes_with_z(z / size) if size else np.eye(3, dtype=z.dtype)
+    slide = axes.mT @ v if w.any() else np.array([0, 0, size])
+    slide[np.abs(slide) < ROUNDING * np.abs(v).max()] = 0
+    return axes, size if w.any() else size * 0, slide
+
+
+@lru_cache(maxsize=256)
+def _way(joint: Joint) -> Way:
+    """Return how q places a joint: what its nq and its S promise is tried on one q."""
+    if joint.nv != 1:
+        return "transform"
+    S = joint.subspace(np.longdouble)[:, 0]
+    _, turn, slide = _screw(S)
+    if turn not in (0, 1) or slide[:2].any():
+        return "transform"
+    way: Way = "coordinate" if joint.nq == 1 else "circle"
+    q, unit = ([TRIAL], None) if joint.nq == 1 else ([np.cos(TRIAL), np.sin(TRIAL)], slice(0, 2))
+    if joint.nq != len(q) or joint.unit != unit:
+        return "transform"
+    off = joint.transform(np.array(q)).matrix() - exp6(TRIAL * S.astype(np.float64)).matrix()
+    return way if np.abs(off).max() < 1e-12 * max(1, np.abs(slide).max()) else "transform"
 
 
 def _axes_with_z(z: Array) -> Array:

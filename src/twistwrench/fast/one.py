@@ -26,9 +26,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..checks import Array
-from .one_plan import SLIDE, TURN, TWISTS, Doings, OnePlan, Touching
-from .plan import Seat
-from .vectors import rotation
+from .one_plan import Doings, OnePlan, Touching
+from .products import TURN, TWISTS
 
 __all__ = ["one_dynamics", "one_rnea", "placements", "turned"]
 
@@ -64,8 +63,11 @@ def place(plan: OnePlan, q: Array) -> Place:
     S = plan.twist.copy()
     products = (T[plan.origin] * T[plan.axis]).reshape(-1, 12)  # of p̄ and z
     products.dot(TURN, out=S[plan.base :])
+    if plan.turn is not None:
+        S[plan.base :] *= plan.turn
     if plan.sliding.size:
-        S[plan.base + plan.sliding] = products[plan.sliding].dot(SLIDE)
+        slide = stack[1 + plan.sliding, :3, :3] @ plan.slide
+        S.reshape(-1, 4, 4)[plan.base + plan.sliding, :3, 3] += slide[:, :, 0]
     return Place(stack, S, turned(plan, q))
 
 
@@ -78,8 +80,10 @@ def placements(plan: OnePlan, q: Array) -> tuple[Array, Array]:
     else:
         T[16:] = np.matmul(plan.local, done[plan.doings.looks, None]).reshape(-1)
     stack = T.reshape(-1, 4, 4)
-    for link, seat, own in plan.seats:
-        stack[link] = own @ _seated(seat, q[seat.q])
+    for link, placed, own in plan.placed:
+        moved = placed.joint.transform(q[placed.q]).matrix()
+        moved[:3, :3] = moved[:3, :3] @ placed.axes
+        stack[link] = own @ moved
     return T, stack
 
 
@@ -94,20 +98,6 @@ def _done(doings: Doings, q: Array) -> Array:
         cos_sin /= np.sqrt((cos_sin * cos_sin).sum(axis=0))
         done[2 * n + 1 : -1] = np.concatenate([cos_sin.reshape(-1), lengths])
     return done
-
-
-def _seated(seat: Seat, q: Array) -> Array:
-    """Return the placement of a link that a joint places freely, in the joint's frame."""
-    T = np.eye(4)
-    if seat.kind == "planar":
-        cos, sin = q[2:] / np.hypot(q[2], q[3])
-        T[:2, :2] = [[cos, -sin], [sin, cos]]
-        T[:2, 3] = q[:2]
-    else:
-        T[:3, :3] = rotation(q[-4:])
-        T[:3, 3] = q[:3] if seat.kind == "free_flyer" else 0
-    T[:3, :3] = T[:3, :3] @ seat.axes
-    return T
 
 
 def turned(plan: OnePlan, q: Array) -> Array:

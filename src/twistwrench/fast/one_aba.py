@@ -62,8 +62,8 @@ class AbaPlan:
     stages : list of Stage
         From the base to the tips.
     parent, last : ndarray of int, shape (1 + n,)
-    S : ndarray, shape (1 + n, 7, 3)
-        From a link's z axis to (S, 0).
+    screw : ndarray, shape (1 + n, 3, 2)
+        How a link turns and slides for a unit rate, in its own axes.
     rotor : ndarray, shape (nv,)
     floors : tuple of ndarray, or None
         As `articulated.floors` gives them, in the order here, where they do not depend on the state.
@@ -75,7 +75,7 @@ class AbaPlan:
     stages: list[Stage]
     parent: Array
     last: Array
-    S: Array
+    screw: Array
     rotor: Array
     floors: tuple[Array, Array] | None
     plan: Plan
@@ -106,17 +106,15 @@ def make_aba_plan(plan: Plan, one: OnePlan) -> AbaPlan:
     order = np.argsort(one.new)
     parent = one.new[np.array(plan.parent)][order]
     last = np.concatenate([[0], one.new[np.arange(1 + plan.n)[plan.last]]])[order]
-    turns = np.ones(1 + plan.n) if plan.turning is None else plan.turning[order, 0]
-    turns[0] = 0
-    S = np.zeros((1 + plan.n, 7, 3))
-    for i in range(3):
-        S[1:, i, i], S[1:, 3 + i, i] = turns[1:], 1 - turns[1:]
+    screw = np.zeros((1 + plan.n, 3, 2))
+    screw[1:, 2, 0] = 1 if one.turn is None else one.turn[:, 0]
+    screw[1 + one.sliding, :, 1] = one.slide[:, :, 0]
     stages = [_stage(np.sort(one.new[level.here]), parent) for level in plan.levels]
     constant = None
     if plan.reach is not None:
         links, base = floors(plan, plan.reach)
         constant = links[order, 0], base[:, 0]
-    return AbaPlan(one, stages, parent, last, S, plan.rotor[:, 0], constant, plan)
+    return AbaPlan(one, stages, parent, last, screw, plan.rotor[:, 0], constant, plan)
 
 
 def _stage(links: Array, parent: Array) -> Stage:
@@ -179,8 +177,9 @@ def _start(aba: AbaPlan, q: Array, v: Array) -> tuple[Array, Array, Array, Array
         T[links] = np.matmul(T[others], T[links])
     T[:, :3, 3] = 0  # each link about its own origin
     r = np.matmul(T.take(aba.parent, axis=0)[:, :3, :3], offset[:, :, None])[:, :, 0]
-    S = np.matmul(aba.S, T[:, :3, 2, None])[:, :, 0]
-    n1 = len(S)
+    n1 = len(T)
+    S = np.zeros((n1, 7))
+    S[:, :6] = np.matmul(T[:, :3, :3], aba.screw).mT.reshape(n1, 6)
     K, Y, V, a = np.zeros((n1, 7, 7)), np.zeros((n1, 7, 7)), np.zeros((n1, 7)), np.empty((n1, 7))
     I = np.matmul(np.matmul(T, one.J), T.mT).reshape(-1, 16).dot(SPATIAL).reshape(-1, 6, 6)
     Y[:, range(7), range(7)] = 1

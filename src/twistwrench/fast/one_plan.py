@@ -14,10 +14,10 @@ from ..checks import Array
 from .contacts import Contacts
 from .links import Index, index
 from .one_sums import BLOCK, Sums, SumsInBlocks, carried_by, sums_of
-from .plan import Plan, Seat
-from .vectors import CYCLE
+from .plan import Placed, Plan
+from .products import MOMENTUM, TWISTS
 
-__all__ = ["SLIDE", "TURN", "TWISTS", "OnePlan", "Touching", "make_one_plan", "touching"]
+__all__ = ["OnePlan", "Touching", "make_one_plan", "touching"]
 
 
 class Touching(NamedTuple):
@@ -52,8 +52,8 @@ class Doings(NamedTuple):
     ----------
     still : ndarray, shape (m,)
         The vector to be filled.
-    looks : ndarray of int, shape (n, 3)
-        Which three of it a link looks at: 1, cosine, sine; 1, length, 0; 1, 1, 0.
+    looks : ndarray of int, shape (n, 4)
+        Where in it a link finds 1, cosine, sine and length: of what does not turn 1 and 0, of what does not slide 0.
     angles : slice or ndarray of int
         Their entries in q.
     circles : ndarray of int, shape (2, k)
@@ -77,21 +77,25 @@ class OnePlan:
     base : int
         How many entries of v are those of a floating base: 6, or 0.
     doings : Doings
-    local : ndarray, shape (16 n, m) or (n, 16, 3)
+    local : ndarray, shape (16 n, m) or (n, 16, 4)
         From what the joints do to the placement of each link in its parent's axes: one matrix, or, where that would
         be large, a matrix for each link.
     pose : ndarray, shape (16 (1 + n),)
         Placements to be filled; that of the base is known.
-    seats : list of (int, Seat, ndarray)
-        Link, seat, and the seat's own placement.
+    placed : list of (int, Placed, ndarray)
+        A link that a joint's `transform` places, and the joint's own placement.
     chain : list of (links, links)
         Products T[links] ← T[others] T[links] that lead from placements in the parents to those in the base.
     twist : ndarray, shape (nv, 16)
         Twists of unit rates to be filled; those of the base are known.
     origin, axis : ndarray of int, shape (12 n,)
         Where, in the placements, the factors of the products p̄ zᵀ stand.
+    turn : ndarray, shape (n, 1), or None
+        How much links without the base turn for a unit rate; None where all do by 1.
     sliding : ndarray of int
         Links without the base that slide.
+    slide : ndarray, shape (k, 3, 1)
+        How much these slide for a unit rate, in their own axes.
     sums : Sums or SumsInBlocks
     J : ndarray, shape (1 + n, 4, 4)
         Second moments, first moments and mass: ∫ x̄ x̄ᵀ dm.
@@ -115,12 +119,14 @@ class OnePlan:
     doings: Doings
     local: Array
     pose: Array
-    seats: list[tuple[int, Seat, Array]]
+    placed: list[tuple[int, Placed, Array]]
     chain: list[tuple[Index, Index]]
     twist: Array
     origin: Array
     axis: Array
+    turn: Array | None
     sliding: Array
+    slide: Array
     sums: Sums | SumsInBlocks
     J: Array
     upper: Array
@@ -131,28 +137,6 @@ class OnePlan:
     under: Array | None
     new: Array
     known: dict[tuple[str, ...], Touching] = field(default_factory=dict)
-
-
-def _of_products() -> tuple[Array, Array, Array]:
-    """Return `TURN`, `SLIDE` and `MOMENTUM`."""
-    turn, slide = np.zeros((4, 3, 4, 4)), np.zeros((4, 3, 4, 4))
-    for i, j, k in CYCLE:
-        turn[3, k, j, i], turn[3, k, i, j] = 1, -1  # z×
-        turn[j, k, i, 3], turn[k, j, i, 3] = 1, -1  # p × z
-        slide[3, i, i, 3] = 1
-    momentum = np.zeros((6, 6, 3, 3, 4))
-    for row in range(3):
-        for i, j, k in CYCLE:
-            momentum[row, i, row, i, 3] = momentum[3 + row, 3 + i, row, i, 3] = 1  # R
-            momentum[row, 3 + j, row, i, k], momentum[row, 3 + i, row, j, k] = 1, -1  # −R c×
-    return turn.reshape(12, 16), slide.reshape(12, 16), momentum.reshape(36, 36)
-
-
-TURN, SLIDE, MOMENTUM = _of_products()
-TWISTS = np.concatenate([TURN[9:], SLIDE[9:]])
-"""What makes, of the products of p̄ = (p, 1) and z, the Ŝ of a turn about z through p, and of a slide along z; and,
-of those of R and c̄ = (c, 1), the 6 × 6 matrix that takes a momentum to the point c and to the axes of the world. Last
-the Ŝ of turns about, and slides along, the axes of the base."""
 
 
 def make_one_plan(plan: Plan) -> OnePlan:
@@ -170,17 +154,21 @@ def make_one_plan(plan: Plan) -> OnePlan:
     carried, entries = carried_by(parent)[np.ix_(of, of)], np.indices((len(of), len(of)))
     row, column = np.indices((4, 3)).reshape(2, 12)
     first = 16 * np.arange(1, 1 + n)[:, None]
+    slide = np.zeros((n, 3, 1)) if plan.slide is None else plan.slide.swapaxes(0, 1)[order[1:]]
+    sliding = np.flatnonzero(slide.any(axis=(1, 2)))
     return OnePlan(
         base=base,
         doings=doings,
         local=_side_by_side(local, doings) if n < BLOCK else local,
         pose=np.concatenate([np.eye(4).reshape(16), np.zeros(16 * n)]),
-        seats=_seats(plan, new),
+        placed=_placed(plan, new),
         chain=_chain(parent),
         twist=np.concatenate([TWISTS[:base], np.zeros((n, 16))]),
         origin=(first + 4 * row + 3).reshape(12 * n),
         axis=(first + 4 * column + 2).reshape(12 * n),
-        sliding=np.flatnonzero(plan.turning[order[1:], 0] == 0) if plan.turning is not None else np.zeros(0, np.intp),
+        turn=None if plan.turn is None else plan.turn[order[1:]],
+        sliding=sliding,
+        slide=slide[sliding],
         sums=sums_of(parent, of, before, last),
         J=_pseudo_inertias(plan)[order],
         upper=np.minimum(*entries) * len(of) + np.maximum(*entries),
@@ -200,9 +188,9 @@ def _doings(plan: Plan, new: Array) -> Doings:
         mine = new[1:][links] - 1
         kinds.append((np.sort(mine), entries[np.argsort(mine)]))
     (angles, _), (circles, _), (lengths, _) = kinds
-    columns = [(angles, 1), (angles, 2), (circles, 1), (circles, 2), (lengths, 1)]
+    columns = [(angles, 1), (angles, 2), (circles, 1), (circles, 2), (lengths, 3)]
     end = 1 + sum(len(links) for links, _ in columns)
-    looks, place = np.tile([0, 0, end], (plan.n, 1)), 1
+    looks, place = np.tile([0, 0, end, end], (plan.n, 1)), 1
     for links, column in columns:
         looks[links, column] = place + np.arange(len(links))
         place += len(links)
@@ -222,27 +210,26 @@ def _side_by_side(local: Array, doings: Doings) -> Array:
 
 
 def _local(plan: Plan) -> Array:
-    """Return placements in the parents' axes for (1, cos, sin), or (1, length, 0), shape (n, 16, 3)."""
-    local = np.zeros((plan.n, 4, 4, 3))
+    """Return placements in the parents' axes for (1, cos, sin, length), shape (n, 16, 4)."""
+    local = np.zeros((plan.n, 4, 4, 4))
     x, y, z, offset = plan.fixed.swapaxes(0, 1)
     local[:, :3, 0, 1], local[:, :3, 0, 2] = x, y
     local[:, :3, 1, 1], local[:, :3, 1, 2] = y, -x
     local[:, :3, 2, 0], local[:, :3, 3, 0], local[:, 3, 3, 0] = z, offset, 1
-    slides, _ = plan.lengths
-    local[slides, :3, :2, 0], local[slides, :3, :2, 1] = local[slides, :3, :2, 1], 0
-    local[slides, :3, 3, 1] = z[slides]
-    return local.reshape(plan.n, 16, 3)
+    if plan.slide is not None:
+        local[:, :3, 3, 3] = z * plan.slide[2, 1:]
+    return local.reshape(plan.n, 16, 4)
 
 
-def _seats(plan: Plan, new: Array) -> list[tuple[int, Seat, Array]]:
-    seats = []
-    for level, of_level in zip(plan.levels, plan.seats):
-        for seat in of_level:
-            number = level.here.start + seat.link
+def _placed(plan: Plan, new: Array) -> list[tuple[int, Placed, Array]]:
+    placed = []
+    for level, of_level in zip(plan.levels, plan.placed):
+        for one in of_level:
+            number = level.here.start + one.link
             own = np.eye(4)
             own[:3, :3], own[:3, 3] = plan.fixed[number - 1, :3].mT, plan.fixed[number - 1, 3]
-            seats.append((int(new[number]), seat, own))
-    return seats
+            placed.append((int(new[number]), one, own))
+    return placed
 
 
 def _chain(parent: Array) -> list[tuple[Index, Index]]:

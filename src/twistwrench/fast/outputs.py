@@ -71,7 +71,7 @@ def finish(given: Mapping[str, Array], filled: Mapping[str, Array]) -> dict[str,
 def _share(x: Array, y: Array) -> bool:
     """Whether two arrays have a byte in common, or may have one and it takes long to find out."""
     try:
-        return bool(np.shares_memory(x, y, max_work=WORK))
+        return bool(np.shares_memory(x, y, max_work=WORK))  # type: ignore[arg-type]  # the stubs know no limit
     except np.exceptions.TooHardError:
         return True
 

@@ -8,21 +8,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..checks import Array
+from ..joint import Joint
 from ..model import Model
 from .links import Index, Level, Link, Step, base_floats, index, levels_of, links_of, parents_of, steps_of
 
-__all__ = ["Plan", "Seat", "plan_of"]
+__all__ = ["Placed", "Plan", "plan_of"]
 
 
-class Seat(NamedTuple):
-    """The first link of a joint that places it anywhere: planar, spherical or free-flyer.
+class Placed(NamedTuple):
+    """The first link of a joint whose `transform` places it.
 
     Attributes
     ----------
     link : int
-        Its number.
-    kind : str
-        Of the joint.
+        Its place in its level.
+    joint : Joint
     q : slice
         The joint's entries.
     axes : ndarray, shape (3, 3)
@@ -30,7 +30,7 @@ class Seat(NamedTuple):
     """
 
     link: int
-    kind: str
+    joint: Joint
     q: slice
     axes: Array
 
@@ -59,14 +59,17 @@ class Plan:
         The entry of each link in v; -1 for the base.
     apart : (ndarray, ndarray) of int
         The entries of M that are always zero, of links none of which carries the other.
-    turning : ndarray, shape (1 + n, 1), or None
-        1 for a link that turns, 0 for one that slides; None where all turn.
+    turn : ndarray, shape (1 + n, 1), or None
+        How much a link turns about its z axis for a unit rate; None where all do by 1.
+    slide : ndarray, shape (3, 1 + n, 1), or None
+        How much a link slides for a unit rate, in its own axes; None where none does.
     last, before : slice or ndarray
         For each link the last one of its joint, and the one that carries the joint.
     angles, circles, lengths : (slice or ndarray, ndarray of int)
-        Links without the base, and the entry of q that holds the angle; its cosine, with the sine next; the length.
-    seats : list of list of Seat
-        Level by level, what is placed freely.
+        Links without the base, and the entry of q that holds the angle; its cosine, with the sine next; and what
+        a link goes along its z axis with, times its `slide`.
+    placed : list of list of Placed
+        Level by level, what a joint's `transform` places.
     inertia : ndarray, shape (1 + n, 4, 3)
         Of each link in its axes about its origin: the rows of the inertia, then mass times centre of mass.
     mass, carried : ndarray, shape (1 + n, 1)
@@ -98,13 +101,14 @@ class Plan:
     fixed: Array
     entry: Array
     apart: tuple[Array, Array]
-    turning: Array | None
+    turn: Array | None
+    slide: Array | None
     last: Index
     before: Index
     angles: tuple[Index, Array]
     circles: tuple[Index, Array]
     lengths: tuple[Index, Array]
-    seats: list[list[Seat]]
+    placed: list[list[Placed]]
     inertia: Array
     mass: Array
     carried: Array
@@ -144,10 +148,11 @@ def _make(model: Model, dtype: np.dtype[Any]) -> Plan:
     for level in reversed(levels):
         for parents, children in level.inward:
             carried[parents] += carried[level.here][children]
-    turning = np.array([[True], *([link.turns] for link in links)])
+    turn = np.array([[1], *([link.turn] for link in links)], np.longdouble)
+    slide = np.array([np.zeros(3), *(link.slide for link in links)], np.longdouble)
     ends = {link.joint: link.number for link in links if link.last}
     fixed = _fixed(model, links).astype(dtype)
-    rigid = all(_kind(model, link.joint) in ("revolute", "continuous") for link in links)
+    rigid = all(link.way != "transform" and not link.slide.any() for link in links)
     starts = {link.joint: link.parent.number if link.parent else 0 for link in links if link.first}
     return Plan(
         floats=floats,
@@ -161,13 +166,14 @@ def _make(model: Model, dtype: np.dtype[Any]) -> Plan:
         fixed=fixed,
         entry=np.array([-1, *(link.entry for link in links)], np.intp),
         apart=_apart(links),
-        turning=None if turning.all() else turning.astype(dtype),
+        turn=None if (turn == 1).all() else turn.astype(dtype),
+        slide=slide.astype(dtype).mT[..., None] if slide.any() else None,
         last=index([ends[link.joint] for link in links]),
         before=index([starts[link.joint] for link in links]),
-        angles=_moved_by(model, links, "revolute"),
-        circles=_moved_by(model, links, "continuous"),
-        lengths=_moved_by(model, links, "prismatic"),
-        seats=[_seats(model, links[level.here.start - 1 : level.here.stop - 1], dtype) for level in levels],
+        angles=_moved(model, [link for link in links if link.way == "coordinate" and link.turn]),
+        circles=_moved(model, [link for link in links if link.way == "circle"]),
+        lengths=_moved(model, [link for link in links if link.way == "coordinate" and link.slide.any()]),
+        placed=[_placed(model, links[level.here.start - 1 : level.here.stop - 1], dtype) for level in levels],
         inertia=spread.astype(dtype),
         mass=mass.astype(dtype),
         carried=carried.astype(dtype),
@@ -229,35 +235,25 @@ def _fixed(model: Model, links: list[Link]) -> Array:
         if not link.first:
             row[:3] = (carrier.mT @ link.axes).mT
             continue
-        seat = constants.placement[link.joint]
-        axes = seat.rotation if _anywhere(model, link.joint) else seat.rotation @ link.axes
-        row[:3], row[3] = (carrier.mT @ axes).mT, carrier.mT @ seat.translation
+        base = constants.placement[link.joint]
+        axes = base.rotation if link.way == "transform" else base.rotation @ link.axes
+        row[:3], row[3] = (carrier.mT @ axes).mT, carrier.mT @ base.translation
     if not base_floats(model) and links:
         roots = [i for i, link in enumerate(links) if link.parent is None]
         rows[roots, 3] -= rows[0, 3]  # nothing depends on where the base is, but digits do
     return rows
 
 
-def _kind(model: Model, i: int) -> str:
-    joint = model.joints[i]
-    return joint.kind if joint is not None else ""
-
-
-def _anywhere(model: Model, i: int) -> bool:
-    """Whether joint i turns and shifts in ways that the links do not know: its `Seat` does."""
-    return _kind(model, i) in ("planar", "spherical", "free_flyer")
-
-
-def _seats(model: Model, links: list[Link], dtype: np.dtype[Any]) -> list[Seat]:
-    """Return what is placed freely in a level, by its place in the level."""
+def _placed(model: Model, links: list[Link], dtype: np.dtype[Any]) -> list[Placed]:
+    """Return what is placed by its joint's `transform` in a level, by its place in the level."""
     return [
-        Seat(k, _kind(model, link.joint), model.q_slice[link.joint], link.axes.astype(dtype))
+        Placed(k, joint, model.q_slice[link.joint], link.axes.astype(dtype))
         for k, link in enumerate(links)
-        if link.first and _anywhere(model, link.joint)
+        if link.first and link.way == "transform" and (joint := model.joints[link.joint]) is not None
     ]
 
 
-def _moved_by(model: Model, links: list[Link], kind: str) -> tuple[Index, Array]:
-    """Return which links, without the base, a kind of joint moves, and where their q begins."""
-    mine = [k for k, link in enumerate(links) if _kind(model, link.joint) == kind]
-    return index(mine), np.array([model.q_slice[links[k].joint].start for k in mine], np.intp)
+def _moved(model: Model, links: list[Link]) -> tuple[Index, Array]:
+    """Return the places of links among those without the base, and where their q begins."""
+    starts = [model.q_slice[link.joint].start for link in links]
+    return index([link.number - 1 for link in links]), np.array(starts, np.intp)
