@@ -4,10 +4,13 @@ A copy of the package gets one wrong line, and the tests of physics and those ag
 run on it, not the ones that compare the package with itself or its examples. One of them must fail.
 """
 
+import ast
 import os
+import re
 import shutil
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -76,6 +79,15 @@ def test_each_fault_changes_one_line_of_the_source():
         assert text.count(fault.right) == 1, f"{fault.slip}: found {text.count(fault.right)} times in {fault.file}"
         assert fault.wrong != fault.right, fault.slip
     assert len({fault.slip for fault in FAULTS}) == len(FAULTS) >= 30
+
+
+def test_a_fault_is_a_slip_and_no_misspelling():
+    """A line with a name that its file does not know would be noticed by any test."""
+    for fault in FAULTS:
+        text = (ROOT / "src/twistwrench" / fault.file).read_text(encoding="utf-8")
+        if fault.right in [line.strip() for line in text.splitlines()]:
+            used = {node.id for node in ast.walk(ast.parse(textwrap.dedent(fault.wrong))) if isinstance(node, ast.Name)}
+            assert used <= set(re.findall(r"\w+", text)), fault.slip
 
 
 @pytest.mark.slow

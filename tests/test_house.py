@@ -31,10 +31,13 @@ ORDER = [
         "builder",
         "trees",
         "tree",
+        "formulas",
+        "terms",
         "kinematics",
     ),
     *(
         "inverse_dynamics",
+        "singular",
         "forward_dynamics",
         "mass_matrix",
         "coriolis",

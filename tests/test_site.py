@@ -24,7 +24,7 @@ TEXTS = sorted(path.name for path in pages.TEXT.glob("*.md") if not path.stem.en
 def test_every_line_of_an_algorithm_stands_beside_its_step(name):
     for part in beside.read(name)["part"]:
         lines = beside.body(part["file"], part["function"])
-        pieces = beside.cut(lines, [step["line"] for step in part["step"]], part["file"])
+        pieces = beside.cut(lines, [step["at"] for step in part["step"]], part["file"])
         assert [line for piece in pieces for line in piece.text] == lines.text
         source = (beside.SOURCE / part["file"]).read_text(encoding="utf-8").splitlines()
         for piece in pieces:
@@ -58,16 +58,16 @@ def test_both_languages_tell_the_same_steps(name):
 
 
 @pytest.mark.parametrize(
-    ("quotes", "said"),
+    ("steps", "said"),
     [
-        (["A[0] = +gravity"], r"no such line, or not behind the one before it: A\[0\] = \+gravity"),
-        (["tree, n = walk(model, q), model.nbodies"], "no step holds the line: q, v, a, f_ext = state_of"),
-        (["q, v, a, f_ext = state_of(model, q, v=v, a=a, f_ext=f_ext)"] * 2, "not behind the one before"),
+        (["49.6 A0", "49.6 V", "49.6 speed"], "49.6 speed is told, 49.6 A stands there"),
+        (["49.6 A0, 49.6 V"], "None is told, 49.6 A stands there"),
+        (["49.6 A0"] * 2, "49.6 A0 is told, 49.6 V stands there"),
     ],
 )
-def test_a_line_that_is_gone_is_noticed(quotes, said):
+def test_a_step_that_is_gone_is_noticed(steps, said):
     with pytest.raises(LookupError, match=said):
-        beside.cut(beside.body("inverse_dynamics.py", "_rnea"), quotes, "inverse_dynamics.py")
+        beside.cut(beside.body("inverse_dynamics.py", "newton_euler"), steps, "inverse_dynamics.py")
 
 
 def test_a_function_that_is_gone_is_noticed():

@@ -1,8 +1,8 @@
 """A page per algorithm: what a step does, its formula, and the lines of the source that do it, side by side.
 
-The words and the formulas are in algorithms/NAME.toml, a step at a time, each with the first of its lines as it stands
-in the source. The lines themselves, and their numbers, are read from the source when the site is built; a step whose
-line is no longer there stops the build, and so does a line that belongs to no step.
+The words and the formulas are in algorithms/NAME.toml, a step at a time, each with the anchor of its last line (see
+`twistwrench.tracing.anchors`). The lines themselves, and their numbers, are read from the source when the site is
+built; a step whose anchor is no longer there stops the build, and so does an anchor that no step tells of.
 """
 
 from __future__ import annotations
@@ -10,9 +10,11 @@ from __future__ import annotations
 import ast
 import tomllib
 from collections.abc import Iterator
-from itertools import count
+from itertools import count, pairwise, zip_longest
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from twistwrench.tracing.anchors import anchor_of
 
 from . import steps
 from .pages import ROOT, joined, write
@@ -55,18 +57,20 @@ def body(file: str, function: str) -> Lines:
     return Lines(start, text.splitlines()[start - 1 : end])
 
 
-def cut(lines: Lines, quotes: list[str], file: str) -> list[Lines]:
-    """Cut the lines of a function where its steps begin; raises LookupError where a step's line is not there."""
-    stripped, starts = [line.strip() for line in lines.text], []
-    for quote in quotes:
-        after = starts[-1] + 1 if starts else 0
-        if quote not in stripped[after:]:
-            raise LookupError(f"{file}: no such line, or not behind the one before it: {quote}")
-        starts.append(stripped.index(quote, after))
-    if starts[0] != 0:
-        raise LookupError(f"{file}: no step holds the line: {stripped[0]}")
-    ends = [*starts[1:], len(stripped)]
-    return [Lines(lines.first + a, lines.text[a:b]) for a, b in zip(starts, ends, strict=True)]
+def cut(lines: Lines, steps: list[str], file: str) -> list[Lines]:
+    """Cut the lines of a function behind the anchors of its steps; raises LookupError where they are not the same.
+
+    A step has the lines from the one before it to its anchor, the last one also what follows; a step may have several
+    anchors, with commas between them.
+    """
+    told = [name for step in steps for name in step.split(", ")]
+    there = [name for line in lines.text if (name := anchor_of(line))]
+    if told != there:
+        wrong = next((f"{a} is told, {b} stands there" for a, b in zip_longest(told, there) if a != b), "")
+        raise LookupError(f"{file}: not the steps of the source: {wrong}")
+    last = {name: k for k, line in enumerate(lines.text) if (name := anchor_of(line))}
+    ends = [0, *(last[step.split(", ")[-1]] + 1 for step in steps[:-1]), len(lines.text)]
+    return [Lines(lines.first + a, lines.text[a:b]) for a, b in pairwise(ends)]
 
 
 def page(name: str, language: str) -> str:
@@ -88,7 +92,7 @@ def _table(part: dict[str, Any], numbers: Iterator[int], language: str) -> Itera
     """Yield the rows of one function."""
     does, source, _ = WORDS[language]
     lines = body(part["file"], part["function"])
-    pieces = cut(lines, [step["line"] for step in part["step"]], part["file"])
+    pieces = cut(lines, [step["at"] for step in part["step"]], part["file"])
     yield ":::::{container} beside"
     yield _head(does, source.format(lines.first, lines.first + len(lines.text) - 1, part["file"]))
     for step, piece in zip(part["step"], pieces, strict=True):

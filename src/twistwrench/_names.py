@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import bridge, fast, newton_euler_3d
 from .builder import Builder
-from .centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
+from .centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate, centroidal_terms
 from .contact import (
     Baumgarte,
     ContactDynamics,
@@ -31,12 +31,12 @@ from .energy import kinetic_energy, potential_energy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
 from .exponential import exp6, log6
 from .floating_base import Equilibrium, contact_jacobian, selection_matrix, static_equilibrium
-from .forward_dynamics import aba
+from .forward_dynamics import aba, aba_terms
 from .inertia import SpatialInertia
-from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea
+from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
 from .joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
 from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
-from .mass_matrix import crba
+from .mass_matrix import crba, crba_terms
 from .model import Model
 from .plucker import SE3, force_transform, motion_transform
 from .reduction import Reduction, lock_joints
@@ -89,12 +89,14 @@ __all__ = [
     "Twist",
     "Wrench",
     "aba",
+    "aba_terms",
     "accuracy",
     "bridge",
     "center_of_mass",
     "centroidal_map",
     "centroidal_momentum",
     "centroidal_momentum_rate",
+    "centroidal_terms",
     "chain",
     "constraint_bias",
     "constraint_jacobian",
@@ -104,6 +106,7 @@ __all__ = [
     "contact_placements",
     "coriolis_matrix",
     "crba",
+    "crba_terms",
     "cross_force",
     "cross_motion",
     "dynamics",
@@ -136,6 +139,7 @@ __all__ = [
     "project_state",
     "random_tree",
     "rnea",
+    "rnea_terms",
     "robots",
     "screw",
     "selection_matrix",

@@ -12,13 +12,31 @@ from numpy.typing import ArrayLike
 from .checks import Array
 from .door import state_of
 from .errors import SingularError
-from .inertia import cross_force
-from .kinematics import _motion, _placements
+from .formulas import bias_wrench
+from .kinematics import motion, placements
 from .model import Model
 from .plucker import SE3
-from .tree import Tree, composite_inertias, joint_placements, walk
+from .terms import CentroidalTerms, matrices
+from .tree import Tree, columns, composite_inertias, joint_placements, walk
 
-__all__ = ["center_of_mass", "centroidal_map", "centroidal_momentum", "centroidal_momentum_rate"]
+__all__ = [
+    "center_of_mass",
+    "centroidal_composite",
+    "centroidal_map",
+    "centroidal_momentum",
+    "centroidal_momentum_rate",
+    "centroidal_terms",
+]
+
+
+def centroidal_composite(tree: Tree, X: list[Array]) -> CentroidalTerms:
+    """Run the CCRBA: a unit velocity of joint i moves its subtree as one rigid body, with the momentum IC[i] S[i].
+
+    X[i] is the chapter's ᴳX*_i: it takes a momentum from frame i to the centre of mass, in the axes of the world.
+    """
+    IC = composite_inertias(tree)  # 49.10 IC
+    A_G = [X[i] @ IC[i] @ tree.S[i] for i in range(len(X))]  # 49.10 A_G
+    return CentroidalTerms(tuple(X), matrices(IC, tree.batch), np.concatenate(A_G, axis=-1))
 
 
 def center_of_mass(model: Model, q: ArrayLike) -> Array:
@@ -50,7 +68,7 @@ def center_of_mass(model: Model, q: ArrayLike) -> Array:
     array([ 0.,  0., -1.])
     """
     (q,) = state_of(model, q)
-    return _center_of_mass(model, _placements(model, joint_placements(model, q)), q)
+    return _center_of_mass(model, placements(model.parent, joint_placements(model, q)), q)
 
 
 def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
@@ -59,7 +77,7 @@ def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
     moment = np.zeros((*q.shape[:-1], 3), q.dtype)
     for T, inertia in zip(placement, model.inertia):
         moment = moment + inertia.mass.astype(q.dtype) * T.act(inertia.com.astype(q.dtype))
-    p_G: Array = moment / np.sum([inertia.mass.astype(q.dtype) for inertia in model.inertia])
+    p_G: Array = moment / np.sum([inertia.mass.astype(q.dtype) for inertia in model.inertia])  # 49.10 p_G
     return p_G
 
 
@@ -97,12 +115,37 @@ def centroidal_map(model: Model, q: ArrayLike) -> Array:
            [ 0.   , 16.085,  0.   ],
            [ 0.   ,  0.   , 16.085]])
     """
+    return centroidal_terms(model, q).A_G
+
+
+def centroidal_terms(model: Model, q: ArrayLike) -> CentroidalTerms:
+    """Return what the CCRBA computes on its way: transforms to the centre of mass, composite inertias, and A_G.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+
+    Returns
+    -------
+    CentroidalTerms
+        X and IC for each body, and A_G.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `centroidal_map`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> tw.centroidal_terms(model, model.standing()).IC[1][5, 5].round(3)  # with the joints locked, the whole mass
+    np.float64(16.085)
+    """
     (q,) = state_of(model, q)
     tree = walk(model, q)
-    to_G = _to_center_of_mass(model, tree, q)
-    IC = composite_inertias(tree)
-    columns = [to_G[i] @ IC[i] @ tree.S[i] for i in tree.outward]
-    return np.concatenate([np.zeros((*q.shape[:-1], 6, 0), q.dtype), *columns], axis=-1)
+    return centroidal_composite(tree, _to_center_of_mass(model, tree, q))
 
 
 def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
@@ -133,11 +176,10 @@ def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """
     q, v = state_of(model, q, v=v)
     tree = walk(model, q)
-    to_G, I = _to_center_of_mass(model, tree, q), tree.I
-    V, _ = _motion(model, tree, v, np.zeros_like(v))
-    momenta = [np.matvec(to_G[i] @ I[i], V[i]) for i in range(model.nbodies)]
-    h_G: Array = np.sum(momenta, axis=0)
-    return h_G
+    X, I = _to_center_of_mass(model, tree, q), tree.I
+    V, _ = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
+    h_G: Array = np.sum([X[i] @ I[i] @ V[i] for i in range(model.nbodies)], axis=0)  # 49.10 h_G
+    return h_G[..., 0]
 
 
 def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
@@ -174,21 +216,18 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
     """
     q, v, a = state_of(model, q, v=v, a=a)
     tree = walk(model, q)
-    to_G, I = _to_center_of_mass(model, tree, q), tree.I
-    V, A = _motion(model, tree, v, a)
-    rates = [
-        np.matvec(to_G[i], np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]), np.matvec(I[i], V[i])))
-        for i in range(model.nbodies)
-    ]
-    rate: Array = np.sum(rates, axis=0)
-    return rate
+    X, I = _to_center_of_mass(model, tree, q), tree.I
+    V, A = motion(tree, columns(model, v), columns(model, a))
+    F = [I[i] @ A[i] + bias_wrench(I[i], V[i]) for i in range(model.nbodies)]  # 49.10 F
+    rate: Array = np.sum([X[i] @ F[i] for i in range(model.nbodies)], axis=0)  # 49.10 rate
+    return rate[..., 0]
 
 
 def _to_center_of_mass(model: Model, tree: Tree, q: Array) -> list[Array]:
     """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
     placement = _placements_from_first_body(model, tree)
     p_G = _center_of_mass(model, placement, q)
-    return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]
+    return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]  # 49.10 X
 
 
 def _placements_from_first_body(model: Model, tree: Tree) -> list[SE3]:
@@ -199,4 +238,4 @@ def _placements_from_first_body(model: Model, tree: Tree) -> list[SE3]:
     """
     world, first = tree.placement[0], tree.placement[min(1, model.nbodies - 1)]  # the world itself where nothing moves
     about_first = SE3._trusted(world.rotation, -first.translation)
-    return _placements(model, [about_first, *tree.placement[1:]])
+    return placements(model.parent, [about_first, *tree.placement[1:]])

@@ -33,6 +33,8 @@ class Constants:
     gravity : ndarray, shape (6,)
         The spatial acceleration (0, g) of free fall, in the world.
     armature : ndarray, shape (nv,)
+    rotor : tuple of ndarray, shape (nv of joint i, nv of joint i)
+        The joint's part of the armature, as a diagonal matrix.
     """
 
     S: tuple[Array, ...]
@@ -40,6 +42,7 @@ class Constants:
     placement: tuple[SE3, ...]
     gravity: Array
     armature: Array
+    rotor: tuple[Array, ...]
 
     @classmethod
     def of(cls, model: Model, dtype: np.dtype[Any]) -> Constants:
@@ -54,6 +57,7 @@ class Constants:
             placement=tuple(cast(T, dtype) for T in model.placement),
             gravity=fixed(np.concatenate([np.zeros(3), model.gravity]).astype(dtype)),
             armature=fixed(model.armature.astype(dtype)),
+            rotor=tuple(fixed(np.diag(model.armature[s].astype(dtype))) for s in model.v_slice),
         )
 
 

@@ -7,11 +7,11 @@ from numpy.typing import ArrayLike
 
 from .checks import Array
 from .door import state_of
-from .inertia import cross_force, cross_motion
+from .formulas import cross_force, cross_motion
 from .model import Model
 from .plucker import blocks
 from .rotation import cross_matrix
-from .tree import split, walk
+from .tree import columns, walk
 
 __all__ = ["coriolis_matrix"]
 
@@ -54,23 +54,24 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     True
     """
     q, v = state_of(model, q, v=v)
-    tree, qd = walk(model, q), split(model, v)
-    V = [np.zeros(6, q.dtype)] * model.nbodies
-    J = [np.zeros((6, 0), q.dtype)] * model.nbodies  # columns of the joints on the way to the base only
-    dJ, dofs = [*J], [np.zeros(0, int)] * model.nbodies
+    tree, qd = walk(model, q), columns(model, v)
+    parent, S, I, X = tree.parent, tree.S, tree.I, tree.X
+    V, J, dJ = tree.zeros(3)
+    J[0] = dJ[0] = np.zeros((6, 0), q.dtype)  # columns of the joints on the way to the base only
+    dofs = [np.zeros(0, int)] * model.nbodies
     C = np.zeros((*q.shape[:-1], model.nv, model.nv), q.dtype)
     for i in tree.outward:
-        p, I, own = tree.parent[i], tree.I[i], np.broadcast_to(tree.S[i], (*q.shape[:-1], *tree.S[i].shape))
-        V[i] = np.matvec(tree.X[i], V[p]) + np.matvec(tree.S[i], qd[i])
-        J[i] = np.concatenate([tree.X[i] @ J[p], own], axis=-1)
-        dJ[i] = np.concatenate([tree.X[i] @ dJ[p], cross_motion(V[i]) @ own], axis=-1)
+        p, own = parent[i], np.broadcast_to(S[i], (*q.shape[:-1], *S[i].shape))
+        V[i] = X[i] @ V[p] + S[i] @ qd[i]
+        J[i] = np.concatenate([X[i] @ J[p], own], axis=-1)
+        dJ[i] = np.concatenate([X[i] @ dJ[p], cross_motion(V[i]) @ own], axis=-1)
         dofs[i] = np.concatenate([dofs[p], np.arange(model.nv)[model.v_slice[i]]])
-        B = (cross_force(V[i]) @ I - I @ cross_motion(V[i]) + _cross_bar(np.matvec(I, V[i]))) / 2
-        C[..., dofs[i][:, None], dofs[i]] += J[i].mT @ (I @ dJ[i] + B @ J[i])
+        B = (cross_force(V[i]) @ I[i] - I[i] @ cross_motion(V[i]) + _cross_bar(I[i] @ V[i])) / 2  # 49.6 B
+        C[..., dofs[i][:, None], dofs[i]] += J[i].mT @ (I[i] @ dJ[i] + B @ J[i])  # 49.6 C
     return C
 
 
 def _cross_bar(h: Array) -> Array:
     """Return h×̄* = −[[τ]×, [f]×; [f]×, 0], shape (..., 6, 6): the matrix that takes a twist x to x ×* h."""
-    moment, force = cross_matrix(h[..., :3]), cross_matrix(h[..., 3:])
+    moment, force = cross_matrix(h[..., :3, 0]), cross_matrix(h[..., 3:, 0])
     return -blocks(moment, force, force, np.zeros_like(force))

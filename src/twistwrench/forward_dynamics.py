@@ -1,8 +1,8 @@
 """Forward dynamics by the articulated-body algorithm (49.7).
 
 Given the forces at the joints, how does the robot accelerate? The question is answered without the
-mass matrix, by asking of each joint which inertia it feels when all joints behind it are free: three
-passes, O(N).
+mass matrix, by asking of each joint which inertia it accelerates when all joints outboard of it are free:
+three passes, O(N).
 """
 
 from __future__ import annotations
@@ -10,18 +10,50 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._scalars import which
-from .checks import Array, resolution
+from .checks import Array
 from .door import state_of
-from .errors import SingularError
-from .inertia import cross_force, cross_motion
+from .formulas import bias_wrench, cross_motion, inverse, symmetric
 from .model import Model
-from .tree import Tree, composite_inertias, join, split, walk
+from .singular import refuse_singular
+from .terms import AbaTerms
+from .tree import Tree, columns, stacked, walk, wrenches
 
-__all__ = ["aba"]
+__all__ = ["aba", "aba_terms", "articulated_body"]
 
-ROUNDINGS = 100
-"""An inertia of fewer times the rounding in it counts as none."""
+
+def articulated_body(tree: Tree, qd: list[Array], tau: list[Array], f_ext: list[Array]) -> AbaTerms:
+    """Run the ABA, three passes (RBDA table 7.1).
+
+    The index is the frame: V[i] is the twist of body i in frame i. Inertias and wrenches go inward by X[i]ᵀ, where
+    the chapter writes X*.
+    """
+    parent, S, I, X, rotor = tree.parent, tree.S, tree.I, tree.X, tree.rotor
+    V, c, B, pA, U, D, D_inv, u, Ia, pa, A, qdd = tree.zeros(12)
+
+    IA = [*I]  # 49.7 IA: at first the body's own
+    for i in tree.outward:  # pass 1: twists, and what depends on them alone
+        vJ = S[i] @ qd[i]
+        V[i] = X[i] @ V[parent[i]] + vJ  # 49.7 V: twist
+        c[i] = cross_motion(V[i]) @ vJ  # 49.7 c: bias acceleration
+        pA[i] = B[i] = bias_wrench(I[i], V[i]) - f_ext[i]  # 49.7 pA: bias wrench
+    for i in tree.inward:  # pass 2: articulated-body inertias and their bias wrenches
+        p = parent[i]
+        U[i] = IA[i] @ S[i]  # 49.7 U
+        D[i] = S[i].mT @ U[i] + rotor[i]  # 49.7 D
+        D_inv[i] = inverse(D[i])  # 49.7 D_inv
+        u[i] = tau[i] - S[i].mT @ pA[i]  # 49.7 u
+        Ia[i] = symmetric(IA[i] - U[i] @ D_inv[i] @ U[i].mT)  # 49.7 Ia: Schur complement
+        pa[i] = pA[i] + Ia[i] @ c[i] + U[i] @ D_inv[i] @ u[i]  # 49.7 pa
+        IA[p] = IA[p] + X[i].mT @ Ia[i] @ X[i]  # 49.7 IA_p
+        pA[p] = pA[p] + X[i].mT @ pa[i]  # 49.7 pA_p
+    A[0] = -tree.gravity  # 49.7 A0: the world rises
+    for i in tree.outward:  # pass 3: accelerations
+        a = X[i] @ A[parent[i]] + c[i]  # 49.7 a: what the parent brings
+        qdd[i] = D_inv[i] @ (u[i] - U[i].mT @ a)  # 49.7 qdd
+        A[i] = a + S[i] @ qdd[i]  # 49.7 A
+    return AbaTerms.of(  # 49.7 ABA
+        tree.batch, V=V, c=c, B=B, IA=IA, pA=pA, U=U, D=D, D_inv=D_inv, u=u, Ia=Ia, pa=pa, A=A, qdd=stacked(qdd)
+    )
 
 
 def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
@@ -53,11 +85,12 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     See Also
     --------
     twistwrench.rnea : the inverse.
+    twistwrench.aba_terms : what is computed on the way.
 
     Notes
     -----
     Section 49.7; Featherstone, RBDA table 7.1. As in `rnea`, wrenches and inertias go inward by
-    X[i]ᵀ, where the chapter's pseudocode writes X*.
+    X[i]ᵀ, where the chapter's pseudocode writes X*. `articulated_body` is the listing.
 
     Examples
     --------
@@ -69,97 +102,40 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     >>> tw.aba(model, model.standing(), rest, rest)[:6].round(12) + 0.0
     array([ 0.  ,  0.  ,  0.  ,  0.  ,  0.  , -9.81])
     """
+    return aba_terms(model, q, v, tau, f_ext).qdd
+
+
+def aba_terms(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None = None) -> AbaTerms:
+    """Return what the ABA computes on its way: twists, articulated-body inertias, bias wrenches, accelerations.
+
+    Parameters
+    ----------
+    model, q, v, tau, f_ext
+        As `aba`.
+
+    Returns
+    -------
+    AbaTerms
+        V, c, B, IA, pA, U, D, D_inv, u, Ia, pa, A for each body, and qdd.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `aba`.
+
+    Examples
+    --------
+    Whoever lifts the trunk of a Go2 with free joints lifts 13.4 kg of its 16.1:
+
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> rest = np.zeros(model.nv)
+    >>> tw.aba_terms(model, model.standing(), rest, rest).IA[1][5, 5].round(1)
+    np.float64(13.4)
+    """
     q, v, tau, f_ext = state_of(model, q, v=v, tau=tau, f_ext=f_ext)
-    tree, n = walk(model, q), model.nbodies
-    S, X, qd, rotor = tree.S, tree.X, split(model, v), split(model, model.constants(q.dtype).armature)
-    refuse_weightless(model, tree)
-    tau, IA, doubt = split(model, tau), [*tree.I], [rounding(I) for I in tree.I]
-    V, A, c, pA, U, D_inv, u, qdd = ([np.zeros(6, q.dtype)] * n for _ in range(8))
-
-    A[0], qdd[0] = -model.constants(q.dtype).gravity, q[..., :0]  # the world rises
-    for i in tree.outward:  # pass 1: twists, and what depends on them alone
-        vJ = np.matvec(S[i], qd[i])
-        V[i] = np.matvec(X[i], V[tree.parent[i]]) + vJ
-        c[i] = np.matvec(cross_motion(V[i]), vJ)  # bias acceleration
-        pA[i] = np.matvec(cross_force(V[i]), np.matvec(IA[i], V[i])) - f_ext[..., i, :]  # bias wrench
-    for i in tree.inward:  # pass 2: articulated inertia IA and bias wrench pA
-        p = tree.parent[i]
-        U[i] = IA[i] @ S[i]
-        D = S[i].mT @ U[i] + _diagonal(rotor[i])
-        D_inv[i] = invert(D, S[i].mT @ doubt[i] @ S[i], model.joint_names[i])
-        u[i] = tau[i] - np.matvec(S[i].mT, pA[i])
-        given = U[i] @ D_inv[i] @ U[i].mT  # what the joint gives way
-        Ia = IA[i] - given  # what is felt through the joint: Schur complement
-        Ia = (Ia + Ia.mT) / 2  # an asymmetry left by rounding would grow from link to link
-        pa = pA[i] + np.matvec(Ia, c[i]) + np.matvec(U[i] @ D_inv[i], u[i])
-        IA[p] = IA[p] + X[i].mT @ Ia @ X[i]
-        doubt[p] = doubt[p] + passed_on(doubt[i], X[i] - S[i] @ D_inv[i] @ U[i].mT @ X[i], X[i], IA[i], given)
-        pA[p] = pA[p] + np.matvec(X[i].mT, pa)
-    for i in tree.outward:  # pass 3: accelerations
-        A[i] = np.matvec(X[i], A[tree.parent[i]]) + c[i]
-        qdd[i] = np.matvec(D_inv[i], u[i] - np.matvec(U[i].mT, A[i]))
-        A[i] = A[i] + np.matvec(S[i], qdd[i])
-    return join(qdd)
-
-
-def refuse_weightless(model: Model, tree: Tree) -> None:
-    """Raise SingularError with the names of all joints behind which nothing has inertia."""
-    rotor = split(model, model.constants(tree.I[0].dtype).armature)
-    felt = [((IC @ S) * S).sum(axis=-2) + r for IC, S, r in zip(composite_inertias(tree), tree.S, rotor)]
-    names = [model.joint_names[i] for i in tree.outward if (felt[i].real <= 0).any()]
-    if names:
-        raise SingularError(f"no inertia behind joint {', '.join(map(repr, names))}: q̈ is not determined there")
-
-
-def rounding(*terms: Array) -> Array:
-    """Return how far rounding may move a sum of inertias, in units of the number type's resolution.
-
-    A diagonal matrix, by which every motion's inertia is bounded: an entry (i, j) of a positive
-    semidefinite term is no larger than the mean of the entries (i, i) and (j, j).
-    """
-    size: Array = sum(np.abs(np.diagonal(term.real, axis1=-2, axis2=-1)) for term in terms)
-    return _diagonal(size)
-
-
-def passed_on(doubt: Array, moved: Array, X: Array, IA: Array, given: Array) -> Array:
-    """Return how far rounding may have moved Xᵀ (IA − given) X, in units of the resolution.
-
-    What moved IA goes inward with it: `moved` takes the parent's motion to what is left of it behind
-    the free joint, 1 − S D⁻¹ Uᵀ after X. To that comes the rounding of the terms of the sum here.
-    """
-    X = np.abs(X.real)
-    here = X.mT @ (np.abs(IA.real) + np.abs(given.real)) @ X
-    inward: Array = moved.real.mT @ doubt @ moved.real + rounding(here)
-    return inward
-
-
-def invert(D: Array, doubt: Array, name: str) -> Array:
-    """Return D⁻¹, shape (..., n, n), of the inertia that a joint feels when those behind it are free.
-
-    Where a motion of the joint feels no more than a hundred times what rounding may have moved D by,
-    it feels nothing that could be told from zero: it is one of the motions of the joints behind.
-    By Gauss-Jordan without pivoting, which a positive definite D does not need, in any number type.
-    """
-    n = D.shape[-1]
-    size = np.abs(np.diagonal(D.real, axis1=-2, axis2=-1)) + np.diagonal(doubt.real, axis1=-2, axis2=-1)
-    unit = np.sqrt(np.where(size == 0, 1, size))
-    scaled = (D.real / unit[..., :, None] / unit[..., None, :]).astype(np.float64)
-    lost = np.asarray((np.linalg.eigvalsh(scaled) < ROUNDINGS * resolution(D.dtype)).any(axis=-1))
-    if lost.any():
-        raise SingularError(
-            f"joint {name!r}: with the joints behind it free it feels no inertia beyond rounding{which(lost)}"
-        )
-    D, inverse = D.copy(), np.broadcast_to(np.eye(n, dtype=D.dtype), D.shape).copy()
-    for k in range(n):
-        pivot = D[..., k, k, None].copy()
-        inverse[..., k, :], D[..., k, :] = inverse[..., k, :] / pivot, D[..., k, :] / pivot
-        for j in set(range(n)) - {k}:
-            factor = D[..., j, k, None].copy()
-            inverse[..., j, :] = inverse[..., j, :] - factor * inverse[..., k, :]
-            D[..., j, :] = D[..., j, :] - factor * D[..., k, :]
-    return inverse
-
-
-def _diagonal(x: Array) -> Array:
-    diagonal: Array = x[..., None] * np.eye(x.shape[-1], dtype=x.dtype)
-    return diagonal
+    tree = walk(model, q)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # where D is singular, which the guard says
+        terms = articulated_body(tree, columns(model, v), columns(model, tau), wrenches(f_ext))
+    refuse_singular(model, tree, terms)
+    return terms

@@ -11,11 +11,35 @@ from numpy.typing import ArrayLike
 
 from .checks import Array
 from .door import check_model, state_of
-from .inertia import cross_force, cross_motion
+from .formulas import bias_wrench, cross_motion
 from .model import Model
-from .tree import join, split, walk
+from .terms import RneaTerms
+from .tree import Tree, columns, stacked, walk, wrenches
 
-__all__ = ["gravity", "joint_wrenches", "nonlinear_effects", "rnea"]
+__all__ = ["gravity", "joint_wrenches", "newton_euler", "nonlinear_effects", "rnea", "rnea_terms"]
+
+
+def newton_euler(tree: Tree, qd: list[Array], qdd: list[Array], f_ext: list[Array]) -> RneaTerms:
+    """Run the RNEA, two passes (RBDA table 5.1).
+
+    The index is the frame: V[i] is the twist of body i in frame i. Wrenches go inward by X[i]ᵀ, where the chapter
+    writes X*; and F[i] is set in pass 1, where it cannot overwrite what the children have added to it.
+    """
+    parent, S, I, X, rotor = tree.parent, tree.S, tree.I, tree.X, tree.rotor
+    V, A, B, F, tau = tree.zeros(5)
+
+    A[0] = -tree.gravity  # 49.6 A0: the world rises
+    for i in tree.outward:  # pass 1, from the base to the tips
+        p = parent[i]
+        vJ = S[i] @ qd[i]
+        V[i] = X[i] @ V[p] + vJ  # 49.6 V: twist
+        A[i] = X[i] @ A[p] + S[i] @ qdd[i] + cross_motion(V[i]) @ vJ  # 49.6 A: acceleration
+        F[i] = B[i] = I[i] @ A[i] + bias_wrench(I[i], V[i]) - f_ext[i]  # 49.6 F: Newton and Euler
+    for i in tree.inward:  # pass 2, from the tips to the base
+        p = parent[i]
+        tau[i] = S[i].mT @ F[i] + rotor[i] @ qdd[i]  # 49.6 tau: along S, what the joint leaves free
+        F[p] = F[p] + X[i].mT @ F[i]  # 49.6 F_p: action and reaction
+    return RneaTerms.of(tree.batch, V, A, B, F, stacked(tau))  # 49.6 RNEA
 
 
 def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
@@ -45,12 +69,13 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     See Also
     --------
     twistwrench.aba : the inverse.
+    twistwrench.rnea_terms : what is computed on the way.
 
     Notes
     -----
     Section 49.6; Featherstone, RBDA table 5.1. Gravity enters as an upward acceleration of the world.
     The chapter's backward pass sets F[i] after the children have added to it, and uses X* where Xᵀ
-    is meant: here F[i] is set in the forward pass and goes inward by X[i]ᵀ.
+    is meant: here F[i] is set in the forward pass and goes inward by X[i]ᵀ. `newton_euler` is the listing.
 
     Examples
     --------
@@ -62,30 +87,38 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     >>> tw.rnea(model, model.standing(), rest, rest)[5].round(3)
     np.float64(157.794)
     """
-    return _rnea(model, q, v, a, f_ext)[0]
+    return rnea_terms(model, q, v, a, f_ext).tau
 
 
-def _rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None) -> tuple[Array, list[Array]]:
-    """Return the joint forces, and the wrench that each joint passes on to its body."""
+def rnea_terms(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None = None) -> RneaTerms:
+    """Return what the RNEA computes on its way: twists, accelerations, wrenches and the joint forces.
+
+    Parameters
+    ----------
+    model, q, v, a, f_ext
+        As `rnea`.
+
+    Returns
+    -------
+    RneaTerms
+        V, A, B, F for each body, and tau.
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `rnea`.
+
+    Examples
+    --------
+    Both links of a double pendulum hang on its first joint:
+
+    >>> import twistwrench as tw
+    >>> terms = tw.rnea_terms(tw.load("double_pendulum"), [0.0, 0.0], [0.0, 0.0], [0.0, 0.0])
+    >>> terms.F[1].round(3) + 0.0, terms.F[2].round(3) + 0.0
+    (array([ 0.  ,  0.  ,  0.  ,  0.  ,  0.  , 19.62]), array([0.  , 0.  , 0.  , 0.  , 0.  , 9.81]))
+    """
     q, v, a, f_ext = state_of(model, q, v=v, a=a, f_ext=f_ext)
-    tree, n = walk(model, q), model.nbodies
-    S, I, X, qd, qdd = tree.S, tree.I, tree.X, split(model, v), split(model, a)
-    V, A, F, tau = ([np.zeros(6, q.dtype)] * n for _ in range(4))
-
-    A[0] = -model.constants(q.dtype).gravity  # the world rises
-    F[0], tau[0] = np.zeros((*q.shape[:-1], 6), q.dtype), q[..., :0]
-    for i in tree.outward:  # pass 1, from the base to the tips
-        p = tree.parent[i]
-        vJ = np.matvec(S[i], qd[i])
-        V[i] = np.matvec(X[i], V[p]) + vJ  # twist
-        A[i] = np.matvec(X[i], A[p]) + np.matvec(S[i], qdd[i]) + np.matvec(cross_motion(V[i]), vJ)  # acceleration
-        h = np.matvec(I[i], V[i])  # momentum
-        F[i] = np.matvec(I[i], A[i]) + np.matvec(cross_force(V[i]), h) - f_ext[..., i, :]  # Newton-Euler
-    for i in tree.inward:  # pass 2, from the tips to the base
-        p = tree.parent[i]
-        tau[i] = np.matvec(S[i].mT, F[i])  # the part that the joint does not bear by itself
-        F[p] = F[p] + np.matvec(X[i].mT, F[i])  # the rest is the parent's
-    return join(tau) + model.constants(q.dtype).armature * a, F
+    return newton_euler(walk(model, q), columns(model, v), columns(model, a), wrenches(f_ext))
 
 
 def joint_wrenches(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
@@ -114,7 +147,7 @@ def joint_wrenches(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext
     >>> tw.joint_wrenches(model, [0.0], [0.0], [0.0])[1].round(6)  # hanging: its weight, no moment
     array([0.  , 0.  , 0.  , 0.  , 0.  , 9.81])
     """
-    return np.stack(_rnea(model, q, v, a, f_ext)[1], axis=-2)
+    return np.stack(rnea_terms(model, q, v, a, f_ext).F, axis=-2)
 
 
 def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
@@ -145,7 +178,7 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     True
     """
     check_model(model)
-    return rnea(model, q, v, np.zeros(model.nv, int))
+    return rnea(model, q, v, np.zeros(model.nv, int))  # 49.6 h
 
 
 def gravity(model: Model, q: ArrayLike) -> Array:
@@ -174,4 +207,4 @@ def gravity(model: Model, q: ArrayLike) -> Array:
     """
     check_model(model)
     rest = np.zeros(model.nv, int)  # integers have no say in the number type
-    return rnea(model, q, rest, rest)
+    return rnea(model, q, rest, rest)  # 49.6 g

@@ -11,10 +11,10 @@ from .checks import Array
 from .constants import cast
 from .door import state_of
 from .errors import unknown_name
-from .inertia import cross_motion
+from .formulas import cross_motion
 from .model import Model
 from .plucker import SE3
-from .tree import Tree, joint_placements, split, walk
+from .tree import Tree, columns, joint_placements, walk
 
 __all__ = [
     "Kinematics",
@@ -23,6 +23,8 @@ __all__ = [
     "frame_bias_acceleration",
     "frame_jacobian",
     "frame_placement",
+    "motion",
+    "placements",
 ]
 
 Reference = Literal["local", "world", "local_world_aligned"]
@@ -99,24 +101,34 @@ def forward_kinematics(
     return Kinematics(_placements(model, tree.placement), np.stack(V, axis=-2), np.stack(A, axis=-2) if rest else None)
 
 
-def _placements(model: Model, relative: list[SE3]) -> list[SE3]:
+def placements(parent: tuple[int, ...], relative: list[SE3]) -> list[SE3]:
+    """Return the placement of each body in the world, from those in the parents' frames (49.3)."""
     T = [*relative]
-    for i in range(1, model.nbodies):
-        T[i] = T[model.parent[i]] @ T[i]
+    for i in range(1, len(parent)):
+        T[i] = T[parent[i]] @ T[i]  # 49.3 T
     return T
 
 
-def _motion(model: Model, tree: Tree, v: Array, a: Array) -> tuple[list[Array], list[Array]]:
-    """Return twist and spatial acceleration of each body, each in its own frame."""
-    qd, qdd = split(model, v), split(model, a)
-    rest = np.zeros((*v.shape[:-1], 6), v.dtype)
-    V, A = [rest] * model.nbodies, [rest] * model.nbodies
+def motion(tree: Tree, qd: list[Array], qdd: list[Array]) -> tuple[list[Array], list[Array]]:
+    """Return twist and spatial acceleration of each body, in its frame: pass 1 of 49.6, with the world at rest."""
+    parent, S, X = tree.parent, tree.S, tree.X
+    V, A = tree.zeros(2)
     for i in tree.outward:
-        p = tree.parent[i]
-        vJ = np.matvec(tree.S[i], qd[i])
-        V[i] = np.matvec(tree.X[i], V[p]) + vJ
-        A[i] = np.matvec(tree.X[i], A[p]) + np.matvec(tree.S[i], qdd[i]) + np.matvec(cross_motion(V[i]), vJ)
+        p = parent[i]
+        vJ = S[i] @ qd[i]
+        V[i] = X[i] @ V[p] + vJ  # 49.2 V: body twist
+        A[i] = X[i] @ A[p] + S[i] @ qdd[i] + cross_motion(V[i]) @ vJ  # 49.2 A: its rate
     return V, A
+
+
+def _placements(model: Model, relative: list[SE3]) -> list[SE3]:
+    return placements(model.parent, relative)
+
+
+def _motion(model: Model, tree: Tree, v: Array, a: Array) -> tuple[list[Array], list[Array]]:
+    """Return twist and spatial acceleration of each body in its own frame, as vectors."""
+    V, A = motion(tree, columns(model, v), columns(model, a))
+    return [x[..., 0] for x in V], [x[..., 0] for x in A]
 
 
 def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
@@ -154,7 +166,7 @@ def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
 
 def _frame_placement(model: Model, relative: list[SE3], body: int, T: SE3) -> SE3:
     for i in [*model.support(body), 0]:
-        T = relative[i] @ T
+        T = relative[i] @ T  # 49.3 T_f
     return T
 
 
@@ -197,7 +209,7 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
     J = np.zeros((*q.shape[:-1], 6, model.nv), q.dtype)
     X = T.inverse().motion_transform()
     for i in model.support(at.body):  # from the frame to the base
-        J[..., model.v_slice[i]] = X @ tree.S[i]
+        J[..., model.v_slice[i]] = X @ tree.S[i]  # 49.2 J
         X = X @ tree.X[i]
     return _to_reference(reference, _frame_placement(model, tree.placement, at.body, T)) @ J
 
@@ -244,8 +256,10 @@ def frame_bias_acceleration(
     X = T.inverse().motion_transform()
     V, A = np.matvec(X, V), np.matvec(X, A)
     if reference == "local_world_aligned":
-        A = A + np.concatenate([np.zeros_like(A[..., :3]), np.cross(V[..., :3], V[..., 3:])], axis=-1)
-    bias: Array = np.matvec(_to_reference(reference, _frame_placement(model, tree.placement, at.body, T)), A)
+        classical = np.cross(V[..., :3], V[..., 3:])  # 49.9 classical: of the origin, not of the field
+        A = A + np.concatenate([np.zeros_like(classical), classical], axis=-1)
+    to_reference = _to_reference(reference, _frame_placement(model, tree.placement, at.body, T))
+    bias: Array = np.matvec(to_reference, A)  # 49.9 dJ
     return bias
 
 
@@ -255,7 +269,7 @@ def _to_reference(reference: str, T: SE3) -> Array:
     if reference == "local":
         return np.eye(6, dtype=zero.dtype)
     if reference == "world":
-        return T.motion_transform()
+        return T.motion_transform()  # 49.2 world
     if reference == "local_world_aligned":
-        return SE3._trusted(T.rotation, zero).motion_transform()
+        return SE3._trusted(T.rotation, zero).motion_transform()  # 49.9 aligned
     raise unknown_name("reference", reference, ["local", "world", "local_world_aligned"])

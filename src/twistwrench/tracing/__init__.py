@@ -1,8 +1,8 @@
 """What each body received and passed on, step by step (49.6 to 49.8).
 
-- `observer`: runs a function of the textbook and takes down which line gave which variable its value.
+- `listing`: which line of an algorithm gives which term its value, read from the source.
 - `ledger`: a body's account: its own, what its children passed on, the sum, what goes to its parent.
-- `algorithms`: `trace`, which reads the accounts of `rnea`, `aba` and `crba` off what was taken down.
+- `algorithms`: `trace`, which reads the accounts of `rnea`, `aba` and `crba` off their records.
 - `printing`: the accounts as text, as a tree and as HTML.
 """
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, Literal
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,18 +11,22 @@ from numpy.typing import ArrayLike
 from ..checks import Array
 from ..door import check_model
 from ..errors import ShapeError, check_known
-from ..forward_dynamics import aba
-from ..inverse_dynamics import _rnea, rnea
-from ..mass_matrix import crba
+from ..forward_dynamics import aba_terms, articulated_body
+from ..inverse_dynamics import newton_euler, rnea_terms
+from ..mass_matrix import composite_rigid_body, crba_terms
 from ..model import Model
-from ..tree import Tree, composite_inertias
+from ..terms import AbaTerms, CrbaTerms, RneaTerms
+from ..tree import Tree, walk
 from .ledger import Account, Row, Trace
-from .observer import Observation, observe
+from .listing import Step, places
 
 __all__ = ["trace"]
 
 NEEDED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": ()}
 """What each algorithm asks for besides q."""
+
+RESULT = {"rnea": "tau", "aba": "qdd", "crba": "M"}
+"""The term that it is run for."""
 
 
 def trace(
@@ -37,8 +41,9 @@ def trace(
 ) -> Trace:
     """Run an algorithm, and tell what each body received and passed on.
 
-    The algorithm is the textbook's: it is watched as it runs, and every value is one of its own variables, under
-    the name that it has in the source. What a body passes on is said in its parent's frame, where it is added.
+    The algorithm is the textbook's, and every value is a term of its record (`rnea_terms`, `aba_terms`,
+    `crba_terms`), under the name that it has in the source. What a body passes on is said in its parent's frame,
+    where it is added.
 
     Parameters
     ----------
@@ -95,74 +100,101 @@ def trace(
     checked, *_ = model.state(q, **given, **wrenches)  # of one batch shape
     if checked.ndim != 1:
         raise ShapeError(f"{', '.join(('q', *given, *wrenches))}: expected one state, got a batch {checked.shape[:-1]}")
-    watched, function, read = _ALGORITHMS[algorithm]
-    seen = observe(watched, lambda: function(model, q, *given.values(), **wrenches))
-    return Trace(algorithm, model, seen.result, tuple(read(model, seen)), tuple(seen.steps))
+    run, listing, read = _ALGORITHMS[algorithm]
+    terms, tree = run(model, q, *given.values(), **wrenches), walk(model, checked)
+    rows = tuple(read(model, tree, terms))
+    return Trace(algorithm, model, getattr(terms, RESULT[algorithm]), rows, tuple(_steps(listing, model, terms, rows)))
 
 
-def _rnea_rows(model: Model, seen: Observation) -> list[Row]:
+def _rnea_rows(model: Model, tree: Tree, x: RneaTerms) -> list[Row]:
     """49.6: twists and accelerations outward, wrenches inward."""
-    x = seen.variables["_rnea"]
-    tree: Tree = x["tree"]
-    own = [seen.of("F", i)[0] for i in range(model.nbodies)]
-    F = _accounts(tree, own, x["F"], lambda i: tree.X[i].mT @ x["F"][i])
-    return [_row(model, i, {"F": F[i]}, {name: x[name][i] for name in ("V", "A", "tau")}) for i in range(model.nbodies)]
+    F = _accounts(tree, x.B, x.F, [_inward(X, F) for X, F in zip(tree.X, x.F)])
+    tau = [x.tau[s] for s in model.v_slice]
+    return [_row(model, i, {"F": F[i]}, {"V": x.V[i], "A": x.A[i], "tau": tau[i]}) for i in range(model.nbodies)]
 
 
-def _aba_rows(model: Model, seen: Observation) -> list[Row]:
+def _aba_rows(model: Model, tree: Tree, x: AbaTerms) -> list[Row]:
     """49.7: twists outward, articulated inertias and bias wrenches inward, accelerations outward."""
-    x = seen.variables["aba"]
-    tree: Tree = x["tree"]
-    Ia, pa, D = ([seen.during(name, i)[-1:] for i in range(model.nbodies)] for name in ("Ia", "pa", "D"))
-    bias = [np.zeros(6), *(seen.of("pA", i)[0] for i in tree.outward)]  # the world has none of its own
-    IA = _accounts(tree, tree.I, x["IA"], lambda i: tree.X[i].mT @ Ia[i][0] @ tree.X[i])
-    pA = _accounts(tree, bias, x["pA"], lambda i: tree.X[i].mT @ pa[i][0])
-    return [
-        _row(
-            model,
-            i,
-            {"IA": IA[i], "pA": pA[i]},
-            {name: x[name][i] for name in ("V", "c")}
-            | ({"U": x["U"][i], "D": D[i][0], "u": x["u"][i]} if i else {})
-            | {name: x[name][i] for name in ("A", "qdd")},
-        )
-        for i in range(model.nbodies)
-    ]
+    IA = _accounts(tree, tree.I, x.IA, [X.mT @ Ia @ X for X, Ia in zip(tree.X, x.Ia)])
+    pA = _accounts(tree, x.B, x.pA, [_inward(X, pa) for X, pa in zip(tree.X, x.pa)])
+    qdd = [x.qdd[s] for s in model.v_slice]
+    names = ("V", "c", "U", "D", "u", "A")
+    values = [{name: getattr(x, name)[i] for name in names} | {"qdd": qdd[i]} for i in range(model.nbodies)]
+    return [_row(model, i, {"IA": IA[i], "pA": pA[i]}, values[i]) for i in range(model.nbodies)]
 
 
-def _crba_rows(model: Model, seen: Observation) -> list[Row]:
+def _crba_rows(model: Model, tree: Tree, x: CrbaTerms) -> list[Row]:
     """49.8: composite inertias inward; the wrench of each joint's unit acceleration on its way to the base."""
-    x, inside = seen.variables["crba"], seen.variables["composite_inertias"]
-    tree: Tree = x["tree"]
-    IC = _accounts(tree, tree.I, inside["IC"], lambda i: tree.X[i].mT @ inside["IC"][i] @ tree.X[i])
+    IC = _accounts(tree, tree.I, x.IC, [X.mT @ IC @ X for X, IC in zip(tree.X, x.IC)])
     at = model.v_slice
     rows: list[Row] = []
     for i in range(model.nbodies):
         values: dict[str, Array] = {}
-        for j, F in zip(model.support(i), seen.during("F", i)):  # in frame i, then in those on the way to the base
-            values |= {f"F in {j}": F, f"M[{j}, {i}]": x["M"][at[j], at[i]]}
+        for j in model.support(i):  # in frame i, then in those on the way to the base
+            values |= {f"F in {j}": x.F[j, i], f"M[{j}, {i}]": x.M[at[j], at[i]]}
         rows.append(_row(model, i, {"IC": IC[i]}, values))
     return rows
 
 
-def _accounts(tree: Tree, own: list[Array], total: list[Array], passed: Callable[[int], Array]) -> list[Account]:
+def _inward(X: Array, wrench: Array) -> Array:
+    """Return a wrench in the parent's frame, as the recursions take it there."""
+    there: Array = X.mT @ wrench[:, None]
+    return there[:, 0]
+
+
+def _accounts(tree: Tree, own: Sequence[Array], total: Sequence[Array], passed: Sequence[Array]) -> list[Account]:
     """Open an account for each body. The world passes nothing on."""
-    to_parent = [None, *(passed(i) for i in tree.outward)]
     children: list[dict[int, Array]] = [{} for _ in own]
     for i in tree.outward:
-        children[tree.parent[i]][i] = passed(i)
-    return [Account(*account) for account in zip(own, children, total, to_parent)]
+        children[tree.parent[i]][i] = passed[i]
+    return [Account(*account) for account in zip(own, children, total, [None, *passed[1:]])]
 
 
 def _row(model: Model, i: int, accounts: Mapping[str, Account], values: Mapping[str, Array]) -> Row:
     return Row(i, model.joint_names[i], model.parent[i], {k: x for k, x in values.items() if x.size}, accounts)
 
 
-_ALGORITHMS: dict[
-    str, tuple[list[Callable[..., Any]], Callable[..., Array], Callable[[Model, Observation], list[Row]]]
-] = {
-    "rnea": ([_rnea], rnea, _rnea_rows),
-    "aba": ([aba], aba, _aba_rows),
-    "crba": ([crba, composite_inertias], crba, _crba_rows),
+def _steps(listing: Callable[..., Any], model: Model, terms: Any, rows: Sequence[Row]) -> Iterator[Step]:
+    """Yield every line that gave a term its value; what adds up has a value more with each child."""
+    sums: dict[Any, list[Array]] = {
+        (name, row.body): _sums(account) for row in rows for name, account in row.accounts.items()
+    }
+    for place in places(listing, model.parent):
+        name, index = place.name, place.index
+        if (name, index) in sums:
+            values = sums[name, index]
+            value = values[0] if place.own else values.pop(1)
+        else:
+            value = _value(model, getattr(terms, name), index)
+        yield Step(listing.__name__, place.line, place.source, place.body, name, index, value)
+
+
+def _sums(account: Account) -> list[Array]:
+    """Return an account's own, and what it holds as the children come in, from the last to the first."""
+    sums = [account.own]
+    for part in reversed([*account.received.values()]):
+        sums.append(sums[-1] + part)
+    return sums
+
+
+def _value(model: Model, term: Any, index: Any) -> Array:
+    """Return the entry of a term: of a list by bodies, or of what all joints have in one array."""
+    at = model.v_slice
+    if isinstance(term, np.ndarray):
+        index = tuple(at[k] for k in index) if isinstance(index, tuple) else at[index]
+    value: Array = term[index]
+    return value
+
+
+class _Algorithm(NamedTuple):
+    run: Callable[..., Any]
+    listing: Callable[..., Any]
+    read: Callable[[Model, Tree, Any], list[Row]]
+
+
+_ALGORITHMS = {
+    "rnea": _Algorithm(rnea_terms, newton_euler, _rnea_rows),
+    "aba": _Algorithm(aba_terms, articulated_body, _aba_rows),
+    "crba": _Algorithm(crba_terms, composite_rigid_body, _crba_rows),
 }
-"""What is watched, what is run, and what reads the accounts off that."""
+"""What is run, its listing, and what reads the accounts off its record."""

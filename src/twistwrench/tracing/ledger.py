@@ -9,7 +9,7 @@ from typing import Any
 from ..checks import Array
 from ..errors import unknown_name
 from ..model import Model
-from .observer import Step
+from .listing import Step
 
 __all__ = ["Account", "Row", "Trace"]
 
@@ -71,7 +71,7 @@ class Trace:
     rows : tuple of Row
         For each body, the world first.
     steps : tuple of Step
-        Every line of the source that gave a variable a value, in the order in which it was run.
+        Every line of the source that gave a term of a body its value, in the order in which they are run.
     """
 
     algorithm: str
