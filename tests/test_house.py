@@ -14,8 +14,18 @@ TEXT = {p.relative_to(SOURCE).as_posix(): p.read_text(encoding="utf-8") for p in
 TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
-    *("errors", "report", "checks", "newton_euler_3d"),
-    *("_scalars", "rotation", "_physical", "_spatial_vector", "twist", "plucker", "exponential", "wrench"),
+    *("errors", "report", "exact", "checks", "newton_euler_3d"),
+    *(
+        "_scalars",
+        "orthonormal",
+        "rotation",
+        "_physical",
+        "_spatial_vector",
+        "twist",
+        "plucker",
+        "exponential",
+        "wrench",
+    ),
     *(
         "cross",
         "inertia",

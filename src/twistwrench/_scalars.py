@@ -6,30 +6,26 @@ what is built on them. Only the real part decides which formula is used.
 
 from __future__ import annotations
 
-import sys
-from fractions import Fraction
-from math import isqrt
-from typing import Any
-
 import numpy as np
 
-from .checks import Array
+from .checks import Array, resolution
+from .exact import elementary
 
 __all__ = ["atan2", "cos", "cosine_defect", "largest", "length", "sin", "sinc", "sine_defect_root", "sqrt", "which"]
 
 
 def cos(x: Array) -> Array:
-    """Return the cosine of each entry, of any number type: see `elementary`."""
+    """Return the cosine of each entry, of any number type: see `exact.elementary`."""
     return np.cos(x) if x.dtype != object else _of_each(x, "cos")
 
 
 def sin(x: Array) -> Array:
-    """Return the sine of each entry, of any number type: see `elementary`."""
+    """Return the sine of each entry, of any number type: see `exact.elementary`."""
     return np.sin(x) if x.dtype != object else _of_each(x, "sin")
 
 
 def sqrt(x: Array) -> Array:
-    """Return the square root of each entry, of any number type: see `elementary`."""
+    """Return the square root of each entry, of any number type: see `exact.elementary`."""
     return np.sqrt(x) if x.dtype != object else _of_each(x, "sqrt")
 
 
@@ -39,43 +35,6 @@ def _of_each(x: Array, name: str) -> Array:
     for k in np.ndindex(x.shape):
         values[k] = elementary(name, x[k])
     return values
-
-
-def elementary(name: str, x: Any) -> Any:
-    """Return the cos, sin or sqrt of one number that is an object.
-
-    The number is asked first (a method of that name), then the context that it carries (mpmath's), then the package
-    that it is from (SymPy's). Whole numbers and fractions have only those values that are fractions themselves.
-
-    Raises
-    ------
-    ValueError
-        If the value is not a fraction, or the number's type knows no such function.
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> elementary("sqrt", Fraction(9, 25)), elementary("cos", 0)
-    (Fraction(3, 5), 1)
-    """
-    if isinstance(x, int | Fraction):
-        return _of_fraction(name, x)
-    package = sys.modules.get(type(x).__module__.partition(".")[0])
-    for place in (x, getattr(x, "context", None), package):
-        function = getattr(place, name, None)
-        if function is not None:
-            return function() if place is x else function(x)
-    raise ValueError(f"expected numbers that have a {name}, got a {type(x).__name__}")
-
-
-def _of_fraction(name: str, x: int | Fraction) -> int | Fraction:
-    if name == "sqrt" and x >= 0:
-        root = Fraction(isqrt(x.numerator), isqrt(x.denominator))
-        if root * root == x:
-            return root
-    elif name != "sqrt" and x == 0:
-        return int(name == "cos")
-    raise ValueError(f"the {name} of {x} is not a fraction: expected SymPy's numbers (sympy.Rational) or floats")
 
 
 def length(x: Array) -> Array:
@@ -100,20 +59,25 @@ def sine_defect_root(x: Array) -> Array:
     """
     small = np.abs(x.real) < 1
     near, far = np.where(small, x, 0), np.where(small, 1, x)
-    return np.where(small, np.sqrt(_series(near, 4, 5) / 6), np.sqrt((far - np.sin(far)) / far) / far)
+    return np.where(
+        small, np.sqrt(series(near, 4, 5, resolution(x.dtype)) / 6), np.sqrt((far - np.sin(far)) / far) / far
+    )
 
 
 def cosine_defect(x: Array) -> Array:
     """Return (sin x − x cos x)/x³, which is 1/3 at 0: its series below 1, where the difference would cancel."""
     small = np.abs(x.real) < 1
     near, far = np.where(small, x, 0), np.where(small, 1, x)
-    return np.where(small, _series(near, 2, 5) / 3, (np.sin(far) - far * np.cos(far)) / far**3)
+    return np.where(small, series(near, 2, 5, resolution(x.dtype)) / 3, (np.sin(far) - far * np.cos(far)) / far**3)
 
 
-def _series(x: Array, a: int, b: int) -> Array:
-    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)): 15 terms, enough below 1 for every floating-point type."""
+def series(x: Array, a: int, b: int, eps: float) -> Array:
+    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)) for |x| ≤ 1, with all terms that reach a quarter of eps."""
+    terms, left = 0, 1.0
+    while left > eps / 4 or terms < 15:
+        left, terms = left / ((a + 2 * terms) * (b + 2 * terms)), terms + 1
     total = np.ones_like(x)
-    for k in range(28, -1, -2):
+    for k in range(2 * terms - 2, -1, -2):
         total = 1 - x * x / ((a + k) * (b + k)) * total
     return total
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal, NoReturn, Self
+from typing import Any, ClassVar, Literal, NoReturn, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from .checks import Array, as_array, as_arrays
+from .checks import Array, as_number_array, as_number_arrays
 from .errors import FrameError, unknown_name
 
 __all__ = ["SpatialVector", "aligned", "as_spatial", "common_frame", "latex_matrix"]
@@ -35,7 +35,7 @@ class SpatialVector:
             raise TypeError(f"{mine}({theirs}): expected six numbers; those of the {theirs} are its .vector")
         if not isinstance(frame, str | None):
             raise unknown_name("frame", frame, ())
-        self._vector = as_array(vector, "vector", 6).copy()
+        self._vector = as_number_array(vector, "vector", 6).copy()
         self._vector.flags.writeable = False
         self._frame = frame
 
@@ -115,7 +115,7 @@ class SpatialVector:
         # A Python number takes the type of the vector: twice a float32 twist is a float32 twist.
         if type(scalar) in (int, float, complex):
             scalar = np.asarray(scalar, np.result_type(self._vector, scalar))
-        s, x = as_arrays(scalar=(scalar, ()), vector=(self._vector, (6,)))
+        s, x = as_number_arrays(scalar=(scalar, ()), vector=(self._vector, (6,)))
         return s[..., None], x
 
     def __rmatmul__(self, other: object) -> Array:
@@ -159,7 +159,7 @@ def as_spatial(value: ArrayLike, name: Literal["V", "F"]) -> Array:
         if isinstance(one, SpatialVector) and one._symbol != name:
             expected = "Twist" if name == "V" else "Wrench"
             raise TypeError(f"{name}: expected a {expected} or an array, got a {type(one).__name__}")
-    return as_array(value, name, 6)
+    return as_number_array(value, name, 6)
 
 
 def aligned(before: str, x: Array) -> str:
@@ -173,6 +173,8 @@ def latex_matrix(rows: Array) -> str:
     return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
 
 
-def _latex_number(x: complex) -> str:
+def _latex_number(x: Any) -> str:
+    if not isinstance(x, int | float | complex | np.number):
+        return str(x)
     digits, e, power = f"{x:.6g}".partition("e")
     return rf"{digits} \cdot 10^{{{int(power)}}}" if e and power.lstrip("+-").isdigit() else digits + e + power

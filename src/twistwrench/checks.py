@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import ShapeError
+from .exact import exact_numbers, has_objects
 
 __all__ = [
     "Array",
@@ -26,21 +27,41 @@ __all__ = [
     "as_generator",
     "as_names",
     "as_number",
+    "as_number_array",
+    "as_number_arrays",
     "resolution",
+    "tolerance",
 ]
 
 Array = NDArray[Any]
 
+WIDENED = 16 * 2.0**-52
+"""What rounding may leave of a condition on doubles: entries of rotations, norms of quaternions."""
+
 
 def resolution(dtype: np.dtype[Any] | type) -> float:
-    """Spacing of the numbers next to 1, for a real or complex floating-point type.
+    """Spacing of the numbers next to 1, for a real or complex floating-point type; objects are judged as doubles.
 
     Examples
     --------
     >>> resolution(np.complex128) == resolution(np.float64) == 2.0**-52
     True
     """
-    return float(np.finfo(dtype).eps)
+    return float(np.finfo(np.float64 if np.dtype(dtype).hasobject else dtype).eps)
+
+
+def tolerance(dtype: np.dtype[Any] | type) -> float:
+    """By how much an argument may miss a condition that rounding breaks: the root of the resolution.
+
+    Never less than what rounding leaves of a double: in a long double of 113 bits the root of the resolution is
+    below that, and what was widened from doubles is right all the same.
+
+    Examples
+    --------
+    >>> tolerance(np.float64) == 2.0**-26
+    True
+    """
+    return float(max(resolution(dtype) ** 0.5, WIDENED))
 
 
 def as_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
@@ -77,12 +98,52 @@ def as_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
     dtype = np.result_type(*dtypes, np.float32) if dtypes else np.dtype(np.float64)
     for name, (_, tail) in named.items():
         x = arrays[name] = arrays[name].astype(dtype, copy=False)
-        if x.shape[x.ndim - len(tail) :] != tail or x.ndim < len(tail):
-            raise ShapeError(f"{name}: expected {_shape(tail)}, got {x.shape}")
+        _check_tail(x, name, tail)
         if not np.isfinite(x).all():
             where = tuple(int(k) for k in np.argwhere(~np.isfinite(x))[0])
             raise ValueError(f"{name}: expected finite numbers, got {x[where]} at index {where}")
     return tuple(arrays.values())
+
+
+def as_number_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
+    """Convert as `as_arrays`, for formulas that take any number: fractions, SymPy's and the like are kept, too.
+
+    Where one argument holds such, all become arrays of objects, and floats the fractions that they are.
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `as_arrays`; an object that is not a number, a complex number beside exact ones.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> as_number_arrays(w=([0, 0, Fraction(1, 3)], (3,)), v=([0, 0, 0.5], (3,)))[1]
+    array([Fraction(0, 1), Fraction(0, 1), Fraction(1, 2)], dtype=object)
+    """
+    try:
+        arrays = {name: np.asarray(value) for name, (value, _) in named.items()}
+    except ValueError:  # rows of different lengths: as_arrays says so
+        return as_arrays(**named)
+    if not any(has_objects(x) for x in arrays.values()):
+        return as_arrays(**named)
+    for name, (value, tail) in named.items():
+        x = arrays[name] if arrays[name].dtype == object else as_array(value, name, *tail)
+        arrays[name] = exact_numbers(x, name)
+        _check_tail(x, name, tail)
+    return tuple(arrays.values())
+
+
+def as_number_array(value: ArrayLike, name: str, *tail: int) -> Array:
+    """Convert one argument to an array of any number type and check it: see `as_number_arrays`.
+
+    Examples
+    --------
+    >>> as_number_array(["1", None], "w", 2)
+    Traceback (most recent call last):
+    ValueError: w: expected numbers, got '1' at index (0,)
+    """
+    return as_number_arrays(**{name: (value, tail)})[0]
 
 
 def as_array(value: ArrayLike, name: str, *tail: int) -> Array:
@@ -216,8 +277,23 @@ def _numeric(value: ArrayLike, name: str) -> Array:
         return x
     if x.ndim == 0:
         raise ValueError(f"{name}: expected numbers, got {value!r}")
-    hint = " (for mpmath numbers use twistwrench.newton_euler_3d)" if x.dtype == object else ""
-    raise ValueError(f"{name}: expected numbers, got an array of {x.dtype}{hint}")
+    raise ValueError(f"{name}: expected {'' if x.dtype != object else 'floating-point '}numbers, got {_what(x)}")
+
+
+def _what(x: Array) -> str:
+    """Say what an array of no floating-point type holds."""
+    if x.dtype != object:
+        return f"an array of {x.dtype}"
+    if not has_objects(x):
+        return "an array of objects; .astype(float) makes floating-point numbers of it"
+    odd = next(one for one in x.flat if not isinstance(one, int | float | complex | np.number))
+    mpmath = type(odd).__module__.startswith("mpmath")
+    return f"{odd!r}{' (for mpmath numbers use twistwrench.newton_euler_3d)' if mpmath else ''}"
+
+
+def _check_tail(x: Array, name: str, tail: tuple[int, ...]) -> None:
+    if x.shape[x.ndim - len(tail) :] != tail or x.ndim < len(tail):
+        raise ShapeError(f"{name}: expected {_shape(tail)}, got {x.shape}")
 
 
 def _shape(tail: tuple[int, ...]) -> str:

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from .checks import Array, resolution
+from .exact import convert
 from .inertia import SpatialInertia
 from .plucker import SE3
+from .rotation import exact_rotation
 
 if TYPE_CHECKING:
     from .model import Model
@@ -48,16 +50,16 @@ class Constants:
     def of(cls, model: Model, dtype: np.dtype[Any]) -> Constants:
         """Convert the constants of `model`."""
         inertia = [
-            SpatialInertia(i.mass.astype(dtype), i.com.astype(dtype), i.inertia_at_com.astype(dtype))
+            SpatialInertia(convert(i.mass, dtype), convert(i.com, dtype), convert(i.inertia_at_com, dtype))
             for i in model.inertia
         ]
         return cls(
             S=tuple(fixed(joint.subspace(dtype) if joint else np.zeros((6, 0), dtype)) for joint in model.joints),
             I=tuple(fixed(i.matrix()) for i in inertia),
             placement=tuple(cast(T, dtype) for T in model.placement),
-            gravity=fixed(np.concatenate([np.zeros(3), model.gravity]).astype(dtype)),
-            armature=fixed(model.armature.astype(dtype)),
-            rotor=tuple(fixed(np.diag(model.armature[s].astype(dtype))) for s in model.v_slice),
+            gravity=fixed(convert(np.concatenate([np.zeros(3), model.gravity]), dtype)),
+            armature=fixed(convert(model.armature, dtype)),
+            rotor=tuple(fixed(np.diag(convert(model.armature[s], dtype))) for s in model.v_slice),
         )
 
 
@@ -71,10 +73,12 @@ def cast(T: SE3, dtype: DTypeLike) -> SE3:
     """Convert a placement to a number type, its rotation orthonormal to that type's precision.
 
     For a finer type than it has, two steps of Newton's iteration for the nearest rotation,
-    R ← R (3 − RᵀR)/2, remove what the coarser one could not hold.
+    R ← R (3 − RᵀR)/2, remove what the coarser one could not hold. As objects it is one exactly.
     """
     if T.rotation.dtype == dtype:
         return T
+    if np.dtype(dtype) == object:
+        return SE3._trusted(exact_rotation(T.rotation), convert(T.translation, dtype))
     R = T.rotation.astype(dtype)
     if resolution(R.dtype) < resolution(T.rotation.dtype):
         for _ in range(2):

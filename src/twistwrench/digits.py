@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .checks import Array, resolution
-from .door import state_of
+from .door import floats_of
 from .fast import crba
 from .model import Model
 
@@ -115,7 +115,7 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
     rnea keeps 13 of 16 digits, aba 8, crba + solve 8.
     Moved against each other, 'rod_02', 'rod_03', 'rod_01' feel ... of the inertia that they feel one by one.
     """
-    (q,) = state_of(model, q)
+    (q,) = floats_of(model, q)
     eps, depth = resolution(q.dtype), max([1, *(len(model.support(i)) for i in range(model.nbodies))])
     felt, motion = _least_felt(model, model.normalize(q.real.astype(np.float64)))
     certain = felt - model.nv * resolution(np.float64)  # as far as the eigenvalue itself is

@@ -7,8 +7,9 @@ from numpy.typing import ArrayLike
 from .checks import Array, as_constant
 from .errors import ShapeError, no_model
 from .model import Model
+from .state import check_state
 
-__all__ = ["check_model", "in_double", "one_configuration", "state_of"]
+__all__ = ["check_model", "floats_of", "in_double", "one_configuration", "state_of"]
 
 
 def check_model(model: object) -> None:
@@ -18,14 +19,20 @@ def check_model(model: object) -> None:
 
 
 def state_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
-    """Check a model and a state of it: see `Model.state`."""
+    """Check a model and a state of it, in numbers of any type: see `Model.state` and `exact`."""
+    check_model(model)
+    return check_state(model, True, q=q, **others)
+
+
+def floats_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
+    """Check a model and a state of it, in floating-point numbers: see `Model.state`."""
     check_model(model)
     return model.state(q, **others)
 
 
 def one_configuration(model: Model, q: ArrayLike) -> Array:
     """Check a model and one configuration of it, real and without batch axes, shape (nq,)."""
-    (q,) = state_of(model, q)
+    (q,) = floats_of(model, q)
     if q.ndim != 1 or q.dtype.kind == "c":
         raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
     return q

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ._scalars import cosine_defect, length, sinc, sine_defect_root
 from ._spatial_vector import as_spatial
-from .checks import Array
+from .checks import Array, as_array
 from .plucker import SE3
 from .rotation import exp3, log3
 
@@ -42,7 +42,7 @@ def exp6(V: ArrayLike) -> SE3:
     >>> exp6([0, 0, 0, 1, 2, 3]).translation
     array([1., 2., 3.])
     """
-    V = as_spatial(V, "V")
+    V = as_array(as_spatial(V, "V"), "V", 6)
     w, v = V[..., :3], V[..., 3:]
     theta = length(w)[..., None]
     H, c = sinc(theta / 2) / 2, sine_defect_root(theta) * w

@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike
 from ._physical import check_physical
 from ._scalars import largest, which
 from ._spatial_vector import aligned, as_spatial
-from .checks import Array, as_array, as_arrays, resolution
+from .checks import Array, as_array, as_number_arrays, tolerance
 from .cross import cross_force, cross_motion
 from .errors import ModelError, ShapeError
+from .exact import judged
 from .plucker import SE3, blocks, placed_point
 from .rotation import cross_matrix, skew_part
 from .twist import check_placement
@@ -55,17 +56,17 @@ class SpatialInertia:
     __array_ufunc__ = None  # NumPy arrays leave the operators to this class
 
     def __init__(self, mass: ArrayLike, com: ArrayLike, inertia_at_com: ArrayLike) -> None:
-        m, c, I_c = as_arrays(mass=(mass, ()), com=(com, (3,)), inertia_at_com=(inertia_at_com, (3, 3)))
+        m, c, I_c = as_number_arrays(mass=(mass, ()), com=(com, (3,)), inertia_at_com=(inertia_at_com, (3, 3)))
         try:
             batch = np.broadcast_shapes(m.shape, c.shape[:-1], I_c.shape[:-2])
         except ValueError:
             shapes = f"{m.shape}, {c.shape[:-1]} and {I_c.shape[:-2]}"
             raise ShapeError(f"mass, com and inertia_at_com: batch axes {shapes} do not broadcast") from None
-        wrong = np.asarray(m.real < 0)
+        wrong = np.asarray(judged(m) < 0)
         if wrong.any():
-            raise ModelError(f"mass: expected no negative mass, got {m.real[wrong][0]:.6g} kg" + which(wrong))
-        off = largest((I_c - I_c.mT).real, 2)
-        wrong = off > resolution(I_c.dtype) ** 0.5 * largest(I_c.real, 2)
+            raise ModelError(f"mass: expected no negative mass, got {judged(m)[wrong][0]:.6g} kg" + which(wrong))
+        off = largest(judged(I_c - I_c.mT), 2)
+        wrong = off > tolerance(I_c.dtype) * largest(judged(I_c), 2)
         if wrong.any():
             raise ModelError(
                 f"inertia_at_com: expected a symmetric matrix, got |I − Iᵀ| = {off[wrong][0]:.3g} kg m²" + which(wrong)
@@ -134,7 +135,7 @@ class SpatialInertia:
         about_origin = (M[..., :3, :3] + M[..., :3, :3].mT) / 2
         body = cls(mass, com, about_origin + mass[..., None, None] * (C @ C))
         off = largest((body.matrix() - M).real, 2)
-        wrong = off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)
+        wrong = off > tolerance(M.dtype) * largest(M.real, 2)
         if wrong.any():
             raise ModelError(
                 f"I6: expected [[I_c − m[c]×², m[c]×], [−m[c]×, m 1]], got a matrix {off[wrong][0]:.3g} away from it"
@@ -186,8 +187,7 @@ class SpatialInertia:
     def __eq__(self, other: object) -> bool:  # by value; like an array, without a hash
         if not isinstance(other, SpatialInertia):
             return NotImplemented
-        numbers = ("mass", "com", "inertia_at_com")
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in numbers)
+        return all(np.array_equal(getattr(self, x), getattr(other, x)) for x in ("mass", "com", "inertia_at_com"))
 
     def __add__(self, other: SpatialInertia) -> SpatialInertia:
         if not isinstance(other, SpatialInertia):

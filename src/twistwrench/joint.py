@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, DTypeLike
 from ._scalars import sqrt, which
 from .checks import Array, as_array, as_constant
 from .errors import ModelError
+from .exact import exact_unit
 from .exponential import exp6, log6
 from .plucker import SE3
 from .rotation import cross_matrix
@@ -164,10 +165,11 @@ class AxisJoint(Joint):
     def _axis(self, dtype: DTypeLike) -> Array:
         """Return the axis in a number type, of norm 1 to that type's own precision.
 
-        Objects are numbers that need not mix with floats: for them 0 and 1 are integers.
+        Objects are numbers that need not mix with floats: for them it is the fractions nearest to it of norm 1.
         """
         if np.dtype(dtype) == object:
-            return np.array([int(x) if x == int(x) else x for x in self.axis], object)
+            axis = np.array(self.axis)
+            return axis if axis.dtype == object else exact_unit(axis)
         a = np.asarray(self.axis).astype(dtype)
         return unit(a) if np.finfo(a.dtype).eps < np.finfo(np.float64).eps else a
 

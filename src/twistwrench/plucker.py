@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike
 
 from ._scalars import largest, which
 from ._spatial_vector import aligned, latex_matrix
-from .checks import Array, as_array, as_arrays, resolution
+from .checks import Array, as_array, as_number_array, as_number_arrays, tolerance
 from .errors import ShapeError
-from .rotation import check_rotation, cross_matrix
+from .orthonormal import check_rotation
+from .rotation import cross_matrix
 
 __all__ = ["SE3", "force_transform", "motion_transform"]
 
@@ -110,7 +111,7 @@ class SE3:
     __array_ufunc__ = None
 
     def __init__(self, rotation: ArrayLike, translation: ArrayLike) -> None:
-        R, p = as_arrays(rotation=(rotation, (3, 3)), translation=(translation, (3,)))
+        R, p = as_number_arrays(rotation=(rotation, (3, 3)), translation=(translation, (3,)))
         check_rotation(R, "rotation")
         try:
             batch = np.broadcast_shapes(R.shape[:-2], p.shape[:-1])
@@ -168,7 +169,7 @@ class SE3:
         array([0., 0., 0.])
         """
         M = as_array(T, "T", 4, 4)
-        wrong = largest((M[..., 3, :] - [0, 0, 0, 1]).real, 1) > resolution(M.dtype) ** 0.5
+        wrong = largest((M[..., 3, :] - [0, 0, 0, 1]).real, 1) > tolerance(M.dtype)
         if wrong.any():
             raise ShapeError(f"T: expected (0, 0, 0, 1) as the last row, got {M[wrong][0, 3].tolist()}" + which(wrong))
         return cls(M[..., :3, :3], M[..., :3, 3])
@@ -237,7 +238,7 @@ class SE3:
         >>> SE3(np.eye(3), [1, 0, 0]).act([0, 2, 0])
         array([1., 2., 0.])
         """
-        return placed_point(self.rotation, self.translation, as_array(point, "point", 3))
+        return placed_point(self.rotation, self.translation, as_number_array(point, "point", 3))
 
     def motion_transform(self) -> Array:
         """Return X, which takes twists from B to A, shape (..., 6, 6): see `motion_transform`.

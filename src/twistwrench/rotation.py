@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._scalars import atan2, cos, largest, length, sin, sinc, which
-from .checks import Array, as_array, resolution
+from .checks import Array, as_array, as_number_array, tolerance
 from .errors import ShapeError, SingularError
+from .exact import convert, judged
+from .orthonormal import check_rotation
 
 __all__ = [
     "exp3",
@@ -54,7 +56,7 @@ def skew(w: ArrayLike) -> Array:
            [ 3.,  0., -1.],
            [-2.,  1.,  0.]])
     """
-    return cross_matrix(as_array(w, "w", 3))
+    return cross_matrix(as_number_array(w, "w", 3))
 
 
 def unskew(M: ArrayLike) -> Array:
@@ -82,7 +84,7 @@ def unskew(M: ArrayLike) -> Array:
     """
     M = as_array(M, "M", 3, 3)
     off = largest((M + M.mT).real, 2)
-    wrong = off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)
+    wrong = off > tolerance(M.dtype) * largest(M.real, 2)
     if wrong.any():
         raise ShapeError(f"M: expected a skew-symmetric matrix, got |M + Mᵀ| = {off[wrong][0]:.3g}" + which(wrong))
     return skew_part(M)
@@ -181,11 +183,11 @@ def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
            [ 1.,  0.,  0.],
            [ 0.,  0.,  1.]])
     """
-    q = as_array(xyzw, "xyzw", 4)
-    size = largest(q.real, 1)
+    q = as_number_array(xyzw, "xyzw", 4)
+    size = largest(judged(q), 1)
     if (size == 0).any():
         raise SingularError("xyzw: the zero quaternion is no rotation" + which(size == 0))
-    return quaternion_matrix(q / size[..., None])
+    return quaternion_matrix(q if q.dtype == object else q / size[..., None])
 
 
 def rotation_to_quaternion(R: ArrayLike) -> Array:
@@ -249,21 +251,7 @@ def rpy_to_rotation(rpy: ArrayLike) -> Array:
            [ 0.,  0., -1.],
            [ 0.,  1.,  0.]])
     """
-    return rpy_matrix(as_array(rpy, "rpy", 3))
-
-
-def check_rotation(R: Array, name: str) -> None:
-    """Raise ShapeError unless RᵀR = 1 and det R = 1, to the square root of the resolution."""
-    real = R.real
-    with np.errstate(over="ignore", invalid="ignore"):
-        off = largest(real.mT @ real - np.eye(3), 2)
-    wrong = ~(off <= resolution(R.dtype) ** 0.5)
-    if wrong.any():
-        raise ShapeError(f"{name}: expected a rotation matrix, got |RᵀR − 1| = {off[wrong][0]:.3g}" + which(wrong))
-    x, y, z = np.moveaxis(real, -1, 0)
-    wrong = (np.cross(x, y) * z).sum(-1) < 0
-    if wrong.any():
-        raise ShapeError(f"{name}: expected a rotation matrix, got a reflection, det R = −1" + which(wrong))
+    return rpy_matrix(as_number_array(rpy, "rpy", 3))
 
 
 def rpy_matrix(rpy: Array) -> Array:
@@ -280,7 +268,16 @@ def rpy_matrix(rpy: Array) -> Array:
 def quaternion_matrix(q: Array) -> Array:
     """Return the rotation 1 + 2 (w [u]× + [u]×²)/|q|² of q = (u, w): the formula of `quaternion_to_rotation`."""
     U, w = cross_matrix(q[..., :3]), q[..., 3, None, None]
-    return np.asarray(np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / (q * q).sum(-1, keepdims=True)[..., None])
+    square = (q * q).sum(-1, keepdims=True)[..., None]
+    return np.asarray(np.eye(3, dtype=q.dtype) + 2 * (w * U + U @ U) / square)
+
+
+def exact_rotation(R: Array) -> Array:
+    """Return fractions that are a rotation exactly, and within a rounding of this one of doubles, shape (3, 3)."""
+    whole = R.round()
+    if np.abs(R - whole).max() < 1e-15:  # along the axes
+        return convert(whole, object)
+    return quaternion_matrix(convert(rotation_to_quaternion(R), object))
 
 
 def cross_matrix(w: Array) -> Array:

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._scalars import which
-from .checks import Array, as_arrays, resolution
+from .checks import WIDENED, Array, as_arrays, as_number_arrays, resolution
 from .errors import ShapeError
+from .exact import judged
 
 if TYPE_CHECKING:
     from .coordinates import Coordinates
@@ -21,9 +22,13 @@ if TYPE_CHECKING:
 __all__ = ["check_arrays", "check_state"]
 
 
-def check_state(model: Coordinates, **named: ArrayLike | None) -> tuple[Array, ...]:
-    """Check a state and bring it to one dtype and one batch shape: see `Model.state`."""
-    arrays, names = list(check_arrays(model, **named)), tuple(named)
+def check_state(model: Coordinates, any_number: bool = False, /, **named: ArrayLike | None) -> tuple[Array, ...]:
+    """Check a state and bring it to one dtype and one batch shape: see `Model.state`.
+
+    With `any_number`, fractions, SymPy's numbers and the like pass, as arrays of objects: of these only shapes are
+    checked, and that each is a finite number.
+    """
+    arrays, names = list(check_arrays(model, any_number, **named)), tuple(named)
     tails = [2 if name == "f_ext" else 1 for name in names]
     batches = [x.shape[: x.ndim - tail] for x, tail in zip(arrays, tails)]
     try:
@@ -31,14 +36,14 @@ def check_state(model: Coordinates, **named: ArrayLike | None) -> tuple[Array, .
     except ValueError:
         listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches) if shape)
         raise ShapeError(f"batch axes do not broadcast: {listed}") from None
-    for k, name in enumerate(names):
+    for k, name in enumerate(names if arrays[0].dtype != object else ()):
         _check_size(arrays[k], name)
         if name.startswith("q"):
             arrays[k] = _with_norm_1(model, arrays[k], name, came=np.asarray(named[name]).dtype)
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
-def check_arrays(model: Coordinates, **named: ArrayLike | None) -> tuple[Array, ...]:
+def check_arrays(model: Coordinates, any_number: bool = False, /, **named: ArrayLike | None) -> tuple[Array, ...]:
     """Convert to finite arrays of one dtype with the right last axes, or say what is wrong.
 
     The name of an argument says what it is: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
@@ -51,7 +56,7 @@ def check_arrays(model: Coordinates, **named: ArrayLike | None) -> tuple[Array, 
             continue
         _check_not_swapped(model, name, value)
         expected[name] = (value, (model.nq if name.startswith("q") else model.nv,))
-    return as_arrays(**expected)
+    return (as_number_arrays if any_number else as_arrays)(**expected)
 
 
 def _check_not_swapped(model: Coordinates, name: str, value: ArrayLike | None) -> None:
@@ -80,6 +85,9 @@ def _external(model: Coordinates, f_ext: ArrayLike | None) -> ArrayLike:
     if shape[-2:] == (model.nbodies - 1, 6):
         raise ShapeError(f"f_ext: expected shape (..., {model.nbodies}, 6), got {shape}; row 0 is the world's, zero")
     world = np.asarray(f_ext)[..., 0, :] if shape[-2:] == (model.nbodies, 6) else np.zeros(6)
+    if world.dtype == object:
+        world = judged(world)
+        world = np.where(np.isnan(world), 1, world)  # of what has no value, nobody knows that it is zero
     if ((world != 0) & (world == world)).any():  # what is not a number, `as_arrays` refuses
         raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
     return f_ext
@@ -114,7 +122,7 @@ def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -
     What came with fewer digits than it has now gets norm 1 to all of these.
     """
     digits = resolution(came if came.kind in "fc" else np.float64)
-    tolerance = np.sqrt(digits)
+    tolerance = max(np.sqrt(digits), WIDENED)
     for joint, joint_name, s in zip(model.joints, model.joint_names, model.q_slice):
         if joint is None or joint.unit is None:
             continue
@@ -130,4 +138,4 @@ def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -
                 f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
                 f"{which(bad)}, {close}; model.{mend}"
             )
-    return model.normalize(q) if digits > resolution(q.dtype) else q
+    return model.normalize(q) if digits > resolution(q.dtype) or tolerance == WIDENED else q

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._scalars import largest, length, which
 from ._spatial_vector import SpatialVector, as_spatial
-from .checks import Array, as_array, as_number, resolution
+from .checks import Array, as_array, as_number, tolerance
 from .errors import ShapeError, SingularError
 from .rotation import cross_matrix, unskew
 
@@ -109,7 +109,7 @@ def vee(M: ArrayLike) -> Array:
     """
     M = as_array(M, "M", 4, 4)
     off = largest(M[..., 3, :].real, 1)
-    wrong = off > resolution(M.dtype) ** 0.5 * largest(M.real, 2)
+    wrong = off > tolerance(M.dtype) * largest(M.real, 2)
     if wrong.any():
         raise ShapeError(f"M: expected a last row of zeros, got up to {off[wrong][0]:.3g}" + which(wrong))
     return np.concatenate([unskew(M[..., :3, :3]), M[..., :3, 3]], axis=-1)
@@ -161,7 +161,8 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     if not as_number(noise, "noise") >= 0:
         raise ValueError(f"noise: expected a number that is not below zero, got {noise}")
     if isinstance(x, SpatialVector):
-        kind, (line, free) = type(x).__name__.lower(), x._line_and_free()
+        kind = type(x).__name__.lower()
+        line, free = (as_array(half, "x", 3) for half in x._line_and_free())
         if of not in (None, kind):
             raise TypeError(f"screw: of={of!r}, but x is a {type(x).__name__}")
         return _screw(line, free, kind, noise)

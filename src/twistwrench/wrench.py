@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._spatial_vector import SpatialVector, as_spatial, common_frame
-from .checks import Array, as_arrays
+from .checks import Array, as_number_arrays
 from .twist import Placement, Screw, Twist, check_placement, screw
 
 __all__ = ["Wrench", "power"]
@@ -45,7 +45,7 @@ def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
         raise TypeError(f"power({type(F).__name__}, {type(V).__name__}): expected a wrench, then a twist")
     if isinstance(F, SpatialVector) and isinstance(V, SpatialVector):
         common_frame(F, "·", V)
-    f, v = as_arrays(F=(as_spatial(F, "F"), (6,)), V=(as_spatial(V, "V"), (6,)))
+    f, v = as_number_arrays(F=(as_spatial(F, "F"), (6,)), V=(as_spatial(V, "V"), (6,)))
     return np.asarray((f * v).sum(-1))
 
 

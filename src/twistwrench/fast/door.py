@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, resolution
-from ..door import state_of
+from ..door import floats_of
 from ..model import Model
 from .plan import Plan, plan_of
 
@@ -51,7 +51,7 @@ def admit(
         if len(plain) == len(rates) and _is_plain(q, q, (*batch, plan.nq), limits.q) and _has_norm_1(plan, q):
             return plan, (q, *plain)
     others = dict(rates) if f_ext is None else {**dict(rates), "f_ext": f_ext}
-    arrays = state_of(model, q, **others)
+    arrays = floats_of(model, q, **others)
     return plan_of(model, arrays[0].real.dtype), arrays
 
 

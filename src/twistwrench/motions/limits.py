@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..door import state_of
+from ..door import floats_of
 from ..model import Model
 from .motion import Motion
 
@@ -39,7 +39,7 @@ def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]
     >>> limits_broken(model, tw.motions.trot(model))
     {}
     """
-    q, v = state_of(model, motion.q, v=motion.v)
+    q, v = floats_of(model, motion.q, v=motion.v)
     beyond = np.maximum(np.maximum(model.lower - q, q - model.upper), 0).max(axis=0)
     limit = np.where(model.velocity_limit > 0, model.velocity_limit, np.inf)
     share = (np.abs(v) / limit).max(axis=0)

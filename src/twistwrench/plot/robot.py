@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
 from ..checks import Array, as_names
-from ..door import state_of
+from ..door import floats_of
 from ..errors import ShapeError
 from ..kinematics import forward_kinematics, frame_placement
 from ..model import Model
@@ -47,7 +47,7 @@ def sticks(model: Model, q: ArrayLike) -> Array:
     >>> sticks(model, model.standing()).shape
     (16, 2, 3)
     """
-    (q,) = state_of(model, q)
+    (q,) = floats_of(model, q)
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
     T = forward_kinematics(model, q).placement

@@ -1,0 +1,168 @@
+"""Arrays of numbers that are objects: fractions, SymPy's expressions, numbers that record what is done to them.
+
+A formula of this package is arithmetic, so it takes them as they are. What they need is settled here, before it:
+which objects are numbers, what a float becomes beside them, and their cosine, sine and square root. Nothing here
+compares a number or turns it into a float, unless its type is registered as one of Python's `numbers`.
+"""
+
+from __future__ import annotations
+
+import sys
+from fractions import Fraction
+from math import isqrt
+from numbers import Number, Rational, Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+__all__ = ["convert", "elementary", "exact_numbers", "exact_unit", "has_objects", "judged"]
+
+ARITHMETIC = ("__radd__", "__rsub__", "__rmul__", "__rtruediv__", "__neg__")
+"""What a type must define to count as one of numbers."""
+
+
+def has_objects(x: NDArray[Any]) -> bool:
+    """Return whether an array holds numbers that are not Python's or NumPy's floats and whole numbers.
+
+    Examples
+    --------
+    >>> has_objects(np.array([Fraction(1, 3), 2])), has_objects(np.array([0.5, 2], object))
+    (True, False)
+    """
+    return x.dtype == object and not all(isinstance(one, int | float | complex | np.number) for one in x.flat)
+
+
+def exact_numbers(x: NDArray[Any], name: str) -> NDArray[Any]:
+    """Return an array of objects of the same values: floats and whole numbers become the fractions that they are.
+
+    Whole numbers too, since half of one is a float in Python, and half of a fraction is a fraction.
+
+    Parameters
+    ----------
+    x : ndarray
+    name : str
+        The argument's name, for the error.
+
+    Raises
+    ------
+    ValueError
+        If an entry is not a number, not finite, complex, or of mpmath.
+
+    Examples
+    --------
+    >>> exact_numbers(np.array([0.5, 2.0, Fraction(1, 3)], object), "q")
+    array([Fraction(1, 2), Fraction(2, 1), Fraction(1, 3)], dtype=object)
+    """
+    numbers = np.empty(x.shape, object)
+    for k in np.ndindex(x.shape):
+        wrong = _why_not(x[k])
+        if wrong:
+            where = f" at index {k}" if k else ""
+            raise ValueError(f"{name}: expected {wrong}, got {x[k]!r}{where}")
+        numbers[k] = _exact(x[k])
+    return numbers
+
+
+def convert(x: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
+    """Convert constants to a number type; as objects, to the fractions that they are.
+
+    Examples
+    --------
+    >>> convert(np.array([2.0, 0.5]), object)
+    array([Fraction(2, 1), Fraction(1, 2)], dtype=object)
+    """
+    return exact_numbers(x, "constant") if np.dtype(dtype) == object else x.astype(dtype)
+
+
+def judged(x: NDArray[Any]) -> NDArray[Any]:
+    """Return what a check can look at: real parts; of objects, doubles, and NaN where the value is not known.
+
+    Examples
+    --------
+    >>> judged(np.array([Fraction(1, 2), 3], object)), judged(np.array([1 + 2j]))
+    (array([0.5, 3. ]), array([1.]))
+    """
+    if x.dtype != object:
+        return x.real
+    known = [float(one) if isinstance(one, Real) else np.nan for one in x.flat]
+    return np.array(known).reshape(x.shape)
+
+
+def exact_unit(x: NDArray[Any]) -> NDArray[Any]:
+    """Return the fractions nearest to a unit vector of three doubles whose squares add up to 1 exactly.
+
+    The point of the sphere is projected from the pole across onto the plane, and back with fractions.
+
+    Examples
+    --------
+    >>> n = exact_unit(np.array([0.6, 0.0, -0.8]))
+    >>> bool((n * n).sum() == 1), n.astype(float)
+    (True, array([ 0.6,  0. , -0.8]))
+    """
+    k = int(np.abs(x).argmax())
+    side = 1 if x[k] > 0 else -1
+    flat = exact_numbers(x / (1 + abs(x[k])), "axis")
+    flat[k] = Fraction(0)
+    square = (flat * flat).sum()
+    n: NDArray[Any] = 2 * flat / (1 + square)
+    n[k] = side * (1 - square) / (1 + square)
+    return n
+
+
+def elementary(name: str, x: Any) -> Any:
+    """Return the cos, sin or sqrt of one number that is an object.
+
+    The number is asked first (a method of that name), then the context that it carries (mpmath's), then the package
+    that it is from (SymPy's). Whole numbers and fractions have only those values that are fractions themselves.
+
+    Raises
+    ------
+    ValueError
+        If the value is not a fraction, or the number's type knows no such function.
+
+    Examples
+    --------
+    >>> elementary("sqrt", Fraction(9, 25)), elementary("cos", 0)
+    (Fraction(3, 5), Fraction(1, 1))
+    """
+    if isinstance(x, int | Fraction):
+        return _of_fraction(name, x)
+    package = sys.modules.get(type(x).__module__.partition(".")[0])
+    for place in (x, getattr(x, "context", None), package):
+        function = getattr(place, name, None)
+        if function is not None:
+            return function() if place is x else function(x)
+    raise ValueError(f"expected numbers that have a {name}, got a {type(x).__name__}")
+
+
+def _of_fraction(name: str, x: int | Fraction) -> Fraction:
+    if name == "sqrt" and x >= 0:
+        root = Fraction(isqrt(x.numerator), isqrt(x.denominator))
+        if root * root == x:
+            return root
+    elif name != "sqrt" and x == 0:
+        return Fraction(name == "cos")
+    raise ValueError(f"the {name} of {x} is not a fraction; SymPy's numbers and floats have one")
+
+
+def _exact(x: Any) -> Any:
+    if isinstance(x, int | np.integer):
+        return Fraction(int(x))
+    return Fraction(*x.as_integer_ratio()) if isinstance(x, float | np.floating) else x
+
+
+def _why_not(x: Any) -> str:
+    """Return what was expected in the place of x, and nothing where x is a number."""
+    if type(x).__module__.startswith("mpmath"):
+        return "numbers of another kind (for mpmath numbers use twistwrench.newton_euler_3d)"
+    if isinstance(x, bool | np.ndarray) or not all(hasattr(type(x), operation) for operation in ARITHMETIC):
+        return "numbers"
+    if isinstance(x, complex | np.complexfloating):
+        return "no complex number beside exact ones"
+    if type(x).__module__ in ("decimal", "_pydecimal", "_decimal"):
+        return "a fraction (fractions.Fraction takes it as it is) or a float"
+    unlike_fractions = isinstance(x, Number) and not isinstance(x, Rational)
+    if (unlike_fractions and x - x != 0) or getattr(x, "is_finite", None) is False:
+        return "finite numbers"
+    return ""

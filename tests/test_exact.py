@@ -1,0 +1,173 @@
+"""Numbers that are objects: which are let in, what they become, and what comes out."""
+
+from decimal import Decimal
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.exact import convert, elementary, exact_unit
+from twistwrench.rotation import exact_rotation
+
+TWO = tw.chain(2)
+QUARTER = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+
+
+def fractions(*shape, seed=0):
+    """Draw fractions whose floats are exact."""
+    return convert(np.random.default_rng(seed).integers(-9, 10, shape) / 4, object)
+
+
+def same(exact, floats):
+    assert exact.dtype == object
+    assert all(isinstance(one, F | int) for one in exact.flat)
+    np.testing.assert_allclose(exact.astype(float), floats, rtol=1e-14, atol=1e-14)
+
+
+# ---------------------------------------------------------------- the algebra
+
+
+def test_the_products_of_the_algebra_keep_fractions():
+    V, W, c = fractions(6), fractions(6, seed=1), fractions(3, seed=2)
+    v, w = V.astype(float), W.astype(float)
+    for function in (tw.cross_motion, tw.cross_force, tw.hat):
+        same(function(V), function(v))
+    same(tw.skew(c), tw.skew(c.astype(float)))
+    T, t = tw.SE3(convert(QUARTER, object), c), tw.SE3(QUARTER, c.astype(float))
+    for exact, floats in ((T @ T.inverse() @ T, t), (T, t)):
+        same(exact.motion_transform(), floats.motion_transform())
+        same(exact.force_transform(), floats.force_transform())
+        same(exact.act(c), floats.act(c.astype(float)))
+    assert (T @ T.inverse()).matrix().tolist() == np.eye(4).tolist()
+    body = tw.SpatialInertia(F(1, 3), c, convert(np.diag([1, 2, 3]) / 8, object)).transform(T)
+    assert body.mass == F(1, 3)
+    same(body.matrix(), tw.SpatialInertia(1 / 3, c.astype(float), np.diag([1, 2, 3]) / 8).transform(t).matrix())
+    same(np.array(tw.power(W, V)), tw.power(w, v))
+    assert (tw.Twist(V) + tw.Twist(W)).vector.tolist() == (V + W).tolist()
+
+
+def test_a_quaternion_of_fractions_is_a_rotation_exactly():
+    for seed in range(5):
+        floats = tw.exp3(np.random.default_rng(seed).standard_normal(3))
+        exact = exact_rotation(floats)
+        assert (exact.T @ exact).tolist() == np.eye(3).tolist()
+        assert abs(exact.astype(float) - floats).max() < 1e-15
+    assert exact_rotation(tw.exp3([0, 0, np.pi / 2])).tolist() == QUARTER.tolist()  # 6e-17 is 0 here
+    n = exact_unit(np.array([2, -1, 2]) / -3)
+    assert (n * n).sum() == 1
+    assert abs(n.astype(float) - np.array([2, -1, 2]) / -3).max() < 1e-15
+
+
+def test_checks_look_at_what_has_a_value():
+    with pytest.raises(tw.ShapeError, match=r"rotation: expected a rotation matrix, got \|RᵀR − 1\| = 3"):
+        tw.SE3(convert(2 * np.eye(3), object), [0, 0, 0])
+    with pytest.raises(tw.ModelError, match=r"mass: expected no negative mass, got -0\.5 kg"):
+        tw.SpatialInertia(F(-1, 2), [0, 0, 0], np.eye(3))
+    with pytest.raises(tw.SingularError, match="zero quaternion"):
+        tw.rotation.quaternion_to_rotation([F(0)] * 4)
+
+
+# ---------------------------------------------------------------- the algorithms
+
+
+def test_fractions_pass_through_the_algorithms():
+    lift, box = tw.Builder("lift"), np.eye(3) / 8
+    lift.link("stage", parent="base_link", joint=tw.Prismatic("z"), inertia=tw.SpatialInertia(2.0, [0, 0, 0.5], box))
+    lift.link("hand", parent="stage", joint=tw.Prismatic("x"), inertia=tw.SpatialInertia(0.5, [0, 0, 0], box))
+    model = lift.build()
+    q, v, a = fractions(2), fractions(2, seed=1), fractions(2, seed=2)
+    same(tw.rnea(model, q, v, a), tw.rnea(model, *(x.astype(float) for x in (q, v, a))))
+    assert tw.rnea(model, [0, 0], [0, 0], [F(1, 3), 0])[0] == F(5, 2) * (F(1, 3) - F(-9.81))
+
+
+def test_the_same_numbers_as_fractions_and_as_floats():
+    q, v, a = [F(0), F(0)], [F(1, 3), F(2)], [F(1), F(1, 7)]
+    floats = [np.array(x, float) for x in (q, v, a)]
+    same(tw.rnea(TWO, q, v, a), tw.rnea(TWO, *floats))
+    same(tw.crba(TWO, q), tw.crba(TWO, floats[0]))
+    same(tw.forward_kinematics(TWO, q, v, a).acceleration, tw.forward_kinematics(TWO, *floats).acceleration)
+
+
+def test_the_mass_matrix_of_the_double_pendulum_is_a_formula():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
+    q = sympy.symbols("q1 q2")
+    M = sympy.Matrix(tw.crba(TWO, q)).applyfunc(sympy.trigsimp)
+    tip = M[1, 1]
+    expected = sympy.Matrix(
+        [[2 * tip + 1 + sympy.cos(q[1]), tip + sympy.cos(q[1]) / 2], [tip + sympy.cos(q[1]) / 2, tip]]
+    )
+    assert sympy.simplify(M - expected) == sympy.zeros(2, 2)
+    at = {q[0]: 0.3, q[1]: -0.8}
+    np.testing.assert_allclose(np.array(M.subs(at), float), tw.crba(TWO, [0.3, -0.8]), rtol=1e-14)
+
+
+def test_bias_forces_of_symbols_are_lagranges():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
+    q, v, a = (np.array(sympy.symbols(f"{name}1 {name}2")) for name in "qva")
+    M, g = sympy.Matrix(tw.crba(TWO, q)), sympy.Matrix(tw.gravity(TWO, q))
+    energy = (sympy.Matrix(v).T * M * sympy.Matrix(v))[0] / 2
+    left = sympy.Matrix(tw.rnea(TWO, q, v, a)) - g
+    for k in range(2):
+        momentum = sympy.diff(energy, v[k])
+        rate = sum(sympy.diff(momentum, x) * y for x, y in zip((*q, *v), (*v, *a)))
+        assert sympy.simplify(left[k] - rate + sympy.diff(energy, q[k])) == 0
+
+
+# ---------------------------------------------------------------- what is not let in
+
+
+@pytest.mark.parametrize(
+    ("bad", "said"),
+    [
+        (None, "expected numbers, got None"),
+        ("1/3", "expected numbers, got '1/3'"),
+        (True, "expected numbers, got True"),
+        (Decimal("0.1"), r"expected a fraction .* got Decimal\('0.1'\)"),
+        (1j, "expected no complex number beside exact ones, got 1j"),
+        (np.inf, "expected finite numbers, got inf"),
+        (tw.Twist(np.zeros(6)), "expected numbers, got Twist"),
+    ],
+    ids=repr,
+)
+def test_what_is_no_number_is_refused_beside_fractions(bad, said):
+    x = np.empty(2, object)
+    x[:] = [F(1, 3), 0]
+    x[1] = bad
+    with pytest.raises(ValueError, match=rf"^q: {said}.* at index \(1,\)$"):
+        tw.crba(TWO, x)
+
+
+def test_symbols_that_are_not_finite_are_refused():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed")
+    for bad in (sympy.oo, sympy.nan, sympy.zoo):
+        with pytest.raises(ValueError, match="q: expected finite numbers"):
+            tw.crba(TWO, [bad, 0])
+
+
+def test_a_wrench_on_the_world_is_refused_whatever_its_numbers():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed")
+    f_ext = np.zeros((3, 6), object)
+    for one in (F(1, 3), sympy.Symbol("f")):
+        f_ext[0, 2] = one
+        with pytest.raises(ValueError, match="f_ext: row 0"):
+            tw.rnea(TWO, [F(0), 0], [0, 0], [0, 0], f_ext)
+
+
+def test_functions_of_floats_say_so():
+    for call in (
+        lambda x: tw.exp3(x), lambda x: tw.exp6([*x, *x]), lambda x: tw.fast.crba(tw.chain(3), x),
+        lambda x: tw.chain(3).integrate(x, x), lambda x: tw.screw(tw.Twist([*x, *x])),
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=r"expected floating-point numbers, got Fraction\(1, 3\)"):
+            call([F(1, 3)] * 3)
+
+
+def test_a_fraction_has_only_the_functions_that_are_fractions():
+    assert elementary("sqrt", F(9, 16)) == F(3, 4)
+    assert (elementary("cos", 0), elementary("sin", F(0))) == (1, 0)
+    for name, x in (("cos", F(1, 3)), ("sqrt", 2), ("sqrt", F(-1))):
+        with pytest.raises(ValueError, match=rf"^the {name} of {x} is not a fraction"):
+            elementary(name, x)
+    with pytest.raises(ValueError, match=r"q: expected floating-point numbers, got an array of objects; \.astype"):
+        tw.crba(TWO, np.array([0.1, 0.2], object))
