@@ -38,6 +38,7 @@ from .joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Sph
 from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .mass_matrix import crba, crba_terms
 from .model import Model
+from .orthonormal import nearest_rotation
 from .plucker import SE3, force_transform, motion_transform
 from .reduction import Reduction, lock_joints
 from .robots import load, robots
@@ -131,6 +132,7 @@ __all__ = [
     "log6",
     "motion_transform",
     "motions",
+    "nearest_rotation",
     "newton_euler_3d",
     "nonlinear_effects",
     "plot",
