@@ -443,14 +443,52 @@ def test_a_class_is_judged_by_what_it_does():
             return self.vector @ other.vector
 
     said = message("SpatialVector", SpatialVector)
-    assert "The slip in V + F refused: a twist and a wrench are added." in said
-    assert "The slip in V.power(W) refused: the power of two things of one kind is taken." in said
+    assert "The slip in the error of V + F: a twist and a wrench are added." in said
+    assert "The slip in the error of V.power(W): the power of two things of one kind is taken." in said
 
     class Unfinished(SpatialVector):
         def __add__(self, other):
             return ...
 
     assert judge(*catalogue.find_part("SpatialVector"), Unfinished).state == "to do"
+
+
+def test_power_is_asked_for_both_ways_and_the_error_is_the_one_that_was_asked_for():
+    class OneWay(reference("SpatialVector")):
+        def power(self, other):
+            if self.kind == "twist":
+                raise TypeError("ask the wrench")
+            return super().power(other)
+
+    class OtherWay(reference("SpatialVector")):
+        def power(self, other):
+            if self.kind == "wrench":
+                raise TypeError("ask the twist")
+            return super().power(other)
+
+    class OtherError(reference("SpatialVector")):
+        def power(self, other):
+            if self.kind == other.kind:
+                raise ValueError("of one kind")
+            return super().power(other)
+
+    assert "The slip in V.power(F): only one of wrench.power(twist) and twist.power(wrench)" in message(
+        "SpatialVector", OneWay
+    )
+    assert "F.power(V) must be numbers, not str" in message("SpatialVector", OtherWay)
+    assert "The slip in the error of V.power(W): another error than the TypeError" in message(
+        "SpatialVector", OtherError
+    )
+
+
+def test_an_explanation_does_not_tell_to_do_what_was_done():
+    """Three that did: where the operation is undone, or the order is Pinocchio's, the sign that is right is another."""
+    slips = {name: catalogue.find_part(name)[1].slips for name in ("whole_robot", "pinocchio_inertia")}
+    assert "the sign is a plus" in message("whole_robot", slips["whole_robot"]["parallel-axis-sign"])
+    assert "top right is +m [c]×" in message("whole_robot", slips["whole_robot"]["com-sign"])
+    assert "minus stands top right" in message("pinocchio_inertia", slips["pinocchio_inertia"]["com-sign"])
+    said = message("pinocchio_linear_momentum", lambda A_G, v: A_G[:3] @ np.r_[v[3:6], v[:3], v[6:]])
+    assert "Pinocchio's (v, ω): take v as it is" in said
 
 
 def test_two_slips_at_once_are_both_named():

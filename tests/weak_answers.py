@@ -29,6 +29,13 @@ ANSWERS = [
         "n = sum(6 if k == 'free_flyer' else 3 if k == 'spherical' else 1 for k in kinds)\nreturn n + 1, n",
         "nq: too small",
     ),
+    Weak(
+        "count",
+        "nq, nv = 7, 6\nfor k in kinds:\n    if k == 'free_flyer':\n        continue\n    elif k == 'spherical':\n"
+        "        nq, nv = nq + 4, nv + 3\n    elif k == 'continuous':\n        nq, nv = nq + 2, nv + 1\n    else:\n"
+        "        nq, nv = nq + 1, nv + 1\nreturn nq, nv",
+        "a free-flyer is counted once, whether it is there or not",
+    ),
     Weak("newton_euler", "return I_c @ alpha, m * a_c", "gyroscopic term is missing"),
     Weak("newton_euler", "return m * a_c, I_c @ alpha + np.cross(omega, I_c @ omega)", "swapped"),
     # 49.1
@@ -85,6 +92,11 @@ ANSWERS = [
         "sole_holds",
         "return bool(abs(F[0] / F[5]) <= d_y and abs(F[1] / F[5]) <= d_x)",
         "the ground is allowed to pull",
+    ),
+    Weak(
+        "sole_holds",
+        "return bool(F[5] > 0 and abs(F[1] / F[5]) < d_x and abs(F[0] / F[5]) < d_y)",
+        "the edge is refused: < in place of ≤",
     ),
     # 49.5
     Weak(
@@ -180,6 +192,7 @@ ANSWERS = [
     Weak("whole_robot", "return np.trace(block) / 6, tw.unskew(block[:3, 3:]), block[:3, :3]", "m [kg]: too"),
     Weak("mass_matrix_sizes", "return 19, 12", "nq in place of nv"),
     Weak("held_mass_matrix", "M = M + M.T - np.diag(np.diag(M))\nreturn M[6:, 6:]", "off the diagonal are doubled"),
+    Weak("held_mass_matrix", "return M[6:18, 6:18]", "the sizes of one robot are written into the function"),
     # 49.9
     Weak(
         "out_of_balance",

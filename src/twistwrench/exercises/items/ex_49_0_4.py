@@ -24,7 +24,11 @@ def _less(kinds: Any, *, fewer: dict[str, int]) -> Any:
 def _cases(rng: Any) -> Any:
     others = ["revolute", "prismatic", "continuous", "spherical"]
     every = ["free_flyer", *others]
-    return [(every + [str(k) for k in rng.choice(others, size=4)],) for _ in range(4)]
+
+    def some(n: int) -> list[str]:
+        return [str(kind) for kind in rng.choice(others, size=n)]
+
+    return [(every + some(4),), (some(5),), (every + some(3) + ["free_flyer"],), (some(2) + every,)]
 
 
 EXERCISE = Exercise(
@@ -59,7 +63,14 @@ EXERCISE = Exercise(
                 "nq-nv-exchanged": lambda kinds: count(kinds)[::-1],
                 "quaternion-of-three": lambda kinds: _less(kinds, fewer={"free_flyer": 1, "spherical": 1}),
                 "angle-of-one": lambda kinds: _less(kinds, fewer={"continuous": 1}),
-                "base-missing": lambda kinds: count(kinds[1:]),
+                "base-missing": lambda kinds: count([kind for kind in kinds if kind != "free_flyer"]),
+                "base-assumed": lambda kinds: count(["free_flyer", *(kind for kind in kinds if kind != "free_flyer")]),
+            },
+            reasons={
+                "base-missing": Text(
+                    "A free-flyer is a joint as well: 7 numbers in q, 6 in v.",
+                    "FreeFlyer 也是关节：q 中 7 个数，v 中 6 个。",
+                ),
             },
             properties=(
                 Property(

@@ -97,6 +97,12 @@ OURS = Part(
         "joints-left-out": lambda A_G, v: A_G[3:, :6] @ v[:6],
         "pinocchio-velocity": lambda A_G, v: A_G[3:] @ _other_order(v),
     },
+    reasons={
+        "pinocchio-velocity": Text(
+            "The columns of this A_G and v have one order, (ω, v): take v as it is.",
+            "这里 A_G 的列与 v 的顺序相同，都是 (ω, v)：v 不需要调换。",
+        ),
+    },
 )
 
 THEIRS = Part(
@@ -120,6 +126,12 @@ THEIRS = Part(
         "angular-for-linear": lambda A_G, v: A_G[3:] @ v,
         "joints-left-out": lambda A_G, v: A_G[:3, :6] @ v[:6],
         "pinocchio-velocity": lambda A_G, v: A_G[:3] @ _other_order(v),
+    },
+    reasons={
+        "pinocchio-velocity": Text(
+            "The columns of this A_G and v have one order, Pinocchio's (v, ω): take v as it is.",
+            "这里 A_G 的列与 v 的顺序相同，都是 Pinocchio 的 (v, ω)：v 不需要调换。",
+        ),
     },
 )
 

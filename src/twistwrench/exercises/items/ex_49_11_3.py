@@ -9,7 +9,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Property, Quantity
 from ..layouts import JOINT_SPACE
-from ..robots import robot
+from ..robots import robot, small_robot
 from ..text import Text
 from ..wrong import negated, times
 
@@ -50,7 +50,17 @@ def _postures(rng: Any) -> Any:
 
 
 def _arrays(rng: Any) -> Any:
-    return [(tw.gravity(model, q), tw.contact_jacobian(model, q, model.feet)) for model, q in _postures(rng)]
+    """Return g and J_c of the postures, on four feet and on three."""
+    (model, first), (_, second) = _postures(rng)
+    standing = ((first, model.feet), (second, model.feet), (first, model.feet[1:]))
+    return [(tw.gravity(model, q), tw.contact_jacobian(model, q, feet)) for q, feet in standing]
+
+
+def _maps(rng: Any) -> Any:
+    """Return A_G of the postures, and of another robot."""
+    small = small_robot(rng)
+    postures = [*_postures(rng), (small, small.random_configuration(rng=rng))]
+    return [(tw.centroidal_map(model, q),) for model, q in postures]
 
 
 def _with_torques(forces: Any, g: Any, J_c: Any) -> Any:
@@ -67,8 +77,9 @@ def _joint_rows(g: Any, J_c: Any) -> Any:
 
 
 def _equal(g: Any, J_c: Any) -> Any:
-    """Give each foot a quarter of the weight, upward: g[3:6] is the weight in the base's axes."""
-    return _with_torques(np.tile([0, 0, np.linalg.norm(g[3:6]) / 4], 4), g, J_c)
+    """Give each foot the same part of the weight, upward: g[3:6] is the weight in the base's axes."""
+    feet = len(J_c) // 3
+    return _with_torques(np.tile([0, 0, np.linalg.norm(g[3:6]) / feet], feet), g, J_c)
 
 
 def _torques(change: Any) -> Any:
@@ -103,7 +114,7 @@ MAP = Part(
         返回：数组 (nv,)，N m 与 N。""",
     ),
     returns=(Quantity("g", JOINT_SPACE),),
-    cases=lambda rng: [(tw.centroidal_map(model, q),) for model, q in _postures(rng)],
+    cases=_maps,
     slips={
         "gravity-sign": negated(gravity_from_map),
         "angular-for-linear": lambda A_G: 9.81 * A_G[2],

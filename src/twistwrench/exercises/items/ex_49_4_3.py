@@ -58,14 +58,16 @@ def _at(p_x: float, p_y: float, f_z: float, rng: Any) -> Any:
 
 
 def _wrenches(rng: Any) -> Any:
-    """Return wrenches in the middle, beyond each edge and near it, one that pulls, one that hardly pushes."""
+    """Return wrenches in the middle, beyond each edge, near it and on it, one that pulls, one that hardly pushes."""
     near, far = rng.uniform(0.6, 0.9), rng.uniform(1.2, 2.0)
     places = [(0.3, 0.3), (near, 0.2), (0.2, -near), (far, 0.3), (-far, 0.2), (0.3, far), (0.2, -far), (-0.2, 0.3)]
     places += [(0.75, 0.1), (0.1, 0.75)]
+    edges = [_at(*place, 256.0, rng)[0] for place in ((0.125, 0.01), (-0.125, 0.01), (0.05, 0.0625), (0.05, -0.0625))]
     twist = np.array([0, -0.2 * 100, 3.0, 0.01, 0.01, 100]), 0.1, 0.04
     pushes = [_at(0.1 * x, 0.04 * y, rng.uniform(100, 400), rng) for x, y in places]
     return [
         *pushes,
+        *((F, 0.125, 0.0625) for F in edges),  # powers of two: the division is exact
         _at(0.01, 0.01, -rng.uniform(100, 400), rng),
         _at(0.07, 0.03, 300.0, rng),
         _at(0.15, 0.06, 0.3, rng),
@@ -156,6 +158,7 @@ HOLDS = Part(
         "one-sided": lambda F, d_x, d_y: bool(F[5] > 0 and _edges(F, d_x, d_y)[0].all()),
         "either-for-both": lambda F, d_x, d_y: bool(F[5] > 0 and (np.logical_and(*_edges(F, d_x, d_y))).any()),
         "cop-not-divided": lambda F, d_x, d_y: bool(F[5] > 0 and abs(F[1]) <= d_x and abs(F[0]) <= d_y),
+        "edge-excluded": lambda F, d_x, d_y: bool(F[5] > 0 and (np.abs(center_of_pressure(F)) < [d_x, d_y]).all()),
         "swapped-halves": before(sole_holds, swap, which=0),
     },
 )

@@ -113,6 +113,16 @@ AT_COM = Part(
         "mass-dropped": lambda m, c, I_c: spatial_inertia(1.0, 0 * c, I_c),
         "swapped-halves": lambda m, c, I_c: swapped(spatial_inertia)(m, 0 * c, I_c),
     },
+    reasons={
+        "translation-sign": Text(
+            "p is the origin of the old frame as the new one sees it: from the centre of mass that is −c.",
+            "p 是旧坐标系原点在新坐标系中的位置：从质心看是 −c。",
+        ),
+        "parallel-axis-dropped": Text(
+            "About the centre of mass the parallel-axis term is gone again: what is left is I_c.",
+            "关于质心时平行轴项又消去：剩下的是 I_c。",
+        ),
+    },
     properties=(
         Property(
             Text("the blocks off the diagonal are zero", "非对角块为零"),

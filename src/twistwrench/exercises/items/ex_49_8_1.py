@@ -186,6 +186,26 @@ WHOLE = Part(
     },
     reasons={
         "mass-dropped": Text("The block holds m [c]×: divide by m.", "块中是 m [c]×：要除以 m。"),
+        "com-sign": Text(
+            "The block top right is +m [c]×, that bottom left −m [c]×.", "右上块是 +m [c]×，左下块是 −m [c]×。"
+        ),
+        "parallel-axis-sign": Text(
+            "The block holds the inertia about the origin, I_O = I_c − m [c]×². Solved for I_c the sign is a plus: "
+            "I_c = I_O + m [c]×², and [c]×² is negative, so I_c is the smaller one.",
+            "块中是关于原点的惯量 I_O = I_c − m [c]×²。解出 I_c 时是加号：I_c = I_O + m [c]×²；[c]×² 是负半定的，所以 I_c 较小。",
+        ),
+        "parallel-axis-dropped": Text(
+            "The block holds the inertia about the origin. About the centre of mass it is less: I_c = I_O + m [c]×².",
+            "块中是关于原点的惯量；关于质心的较小：I_c = I_O + m [c]×²。",
+        ),
+        "parallel-axis-all": Text(
+            "Turning about the line through both points moves no mass: take off m (|c|² 1 − c cᵀ), not m |c|² 1.",
+            "绕两点连线转动时质量不移动：应减去 m (|c|² 1 − c cᵀ)，而不是 m |c|² 1。",
+        ),
+        "parallel-axis-outer": Text(
+            "Taken off is m (|c|² 1 − c cᵀ): what counts is the distance from the axis.",
+            "应减去 m (|c|² 1 − c cᵀ)：起作用的是到轴的距离。",
+        ),
     },
     properties=(
         Property(

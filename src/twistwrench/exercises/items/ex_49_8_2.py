@@ -30,7 +30,9 @@ def _let_go(M: Any) -> Any:
 
 
 def _cases(rng: Any) -> Any:
-    models = [robot("go2"), robot("go2"), tw.random_tree(6, rng=rng, base="floating", kinds=["revolute", "spherical"])]
+    small = tw.random_tree(6, rng=rng, base="floating", kinds=["revolute", "spherical"])
+    large = tw.random_tree(20, rng=rng, base="floating", kinds=["revolute"])
+    models = [robot("go2"), robot("go2"), small, large]
     return [(tw.crba(model, model.random_configuration(rng=rng)),) for model in models]
 
 
@@ -77,6 +79,7 @@ EXERCISE = Exercise(
                 "base-block-for-joints": lambda M: M[:6, :6],
                 "base-last": lambda M: M[:-6, :-6],
                 "nq-for-nv": lambda M: M[7:, 7:],
+                "robot-hard-coded": lambda M: M[6:18, 6:18],
                 "one-triangle": after(held_mass_matrix, np.triu),
                 "doubled-off-diagonal": after(held_mass_matrix, lambda M: M + M.mT - np.diag(np.diag(M))),
             },

@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Property, Quantity
 from ..layouts import JOINT_SPACE
-from ..robots import robot
+from ..robots import robot, small_robot
 from ..text import Text
 from .project_aba import ABA
 from .project_crba import CRBA
@@ -34,7 +34,10 @@ def _feet(rng: Any) -> Any:
         T = tw.forward_kinematics(model, q).placement[frame.body]
         J = tw.frame_jacobian(model, q, model.joint_names[frame.body])
         cases.append((J, T.rotation, np.array(frame.placement.translation)))
-    return cases
+    other = small_robot(rng)
+    q = other.random_configuration(rng=rng)
+    R = tw.forward_kinematics(other, q).placement[3].rotation
+    return [*cases, (tw.frame_jacobian(other, q, other.joint_names[3]), R, rng.standard_normal(3))]
 
 
 def _equations(rng: Any) -> Any:

@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Property, Quantity
 from ..layouts import CENTROIDAL_MAP, CONTACT_JACOBIAN, JOINT_SPACE, MASS_MATRIX, MOMENTUM, WRENCH
-from ..robots import robot
+from ..robots import robot, small_robot
 from ..text import Text
 from ..workbook import mine
 from ..wrong import after, swap
@@ -182,6 +182,16 @@ def _in_pinocchio_order(model: Any, q: Any, v: Any, feet: Any) -> Any:
     return swap(M), swap(h), np.array([swap(row) for row in J_c]), swap(A_G)
 
 
+def _states(rng: Any) -> Any:
+    """Return states of Go2 on all feet and on two, and of a smaller robot."""
+    feet = (robot("go2").feet, ("FR_foot", "RL_foot"))
+    other = small_robot(rng)
+    return [
+        *((model, q, v, names) for (model, q, v, _, _), names in zip(_falls(rng), feet)),
+        (other, other.random_configuration(rng=rng), rng.standard_normal(other.nv), tuple(other.joint_names[2:4])),
+    ]
+
+
 INTERFACE = Part(
     solution=get_dynamics,
     doc=Text(
@@ -205,10 +215,7 @@ INTERFACE = Part(
         Quantity("J_c", CONTACT_JACOBIAN),
         Quantity("A_G", CENTROIDAL_MAP),
     ),
-    cases=lambda rng: [
-        (model, q, v, feet)
-        for (model, q, v, _, _), feet in zip(_falls(rng), (robot("go2").feet, ("FR_foot", "RL_foot")))
-    ],
+    cases=_states,
     slips={
         "doubled-off-diagonal": _replaced(0, lambda model, q, v, feet, M: 2 * M - np.diag(np.diag(M))),
         "one-triangle": _replaced(0, lambda model, q, v, feet, M: np.triu(M)),

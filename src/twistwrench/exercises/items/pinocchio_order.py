@@ -66,6 +66,14 @@ INERTIA_MATRIX = Part(
             "That is the order of the chapter, (ω, v). Pinocchio has the linear half first.",
             "那是本章的顺序 (ω, v)；Pinocchio 的线分量在前。",
         ),
+        "com-sign": Text(
+            "The linear half comes first here: l = m v − m [c]× ω is the first row, and the minus stands top right.",
+            "这里线分量在前：第一行是 l = m v − m [c]× ω，负号在右上。",
+        ),
+        "inertia-asymmetric": Text(
+            "[c]× is antisymmetric, so its mirror image has the other sign: −m [c]× top right, m [c]× bottom left.",
+            "[c]× 是反对称的，镜像位置符号相反：右上为 −m [c]×，左下为 m [c]×。",
+        ),
     },
     properties=(Property(Text("it is symmetric", "对称"), lambda answer, m, c, I_c: answer - answer.mT),),
 )

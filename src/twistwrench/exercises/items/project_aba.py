@@ -131,6 +131,10 @@ ABA = Part(
         "chain-for-tree": lambda parent, *rest: tree_aba(previous(parent), *rest),
     },
     reasons={
+        "gravity-sign": Text(
+            "a0 is −g already, and points up: begin with it as it is.", "a0 已经是 −g，方向向上：直接用它作为初值。"
+        ),
+        "gravity-missing": Text("Begin with A[0] = a0, which is −g.", "从 A[0] = a0 开始，它就是 −g。"),
         "bias-sign": Text(
             "u = τ − Sᵀ p: the joint must overcome the bias force before it accelerates anything.",
             "u = τ − Sᵀ p：关节先要克服偏置力，余下的才产生加速度。",

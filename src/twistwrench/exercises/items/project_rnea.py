@@ -134,6 +134,10 @@ RNEA = Part(
         ),
     },
     reasons={
+        "gravity-sign": Text(
+            "a0 is −g already, and points up: begin with it as it is.", "a0 已经是 −g，方向向上：直接用它作为初值。"
+        ),
+        "gravity-missing": Text("Begin with A[0] = a0, which is −g.", "从 A[0] = a0 开始，它就是 −g。"),
         "force-sign": Text(
             "What the child needs the parent must give in addition: add.", "子物体所需的，父物体要额外提供：应当相加。"
         ),

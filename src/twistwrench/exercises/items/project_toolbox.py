@@ -64,19 +64,23 @@ def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
     """Add, subtract and pair two twists and two wrenches, and try what must be refused."""
     twist, other_twist = kind("twist", V), kind("twist", W)
     wrench, other_wrench = kind("wrench", F), kind("wrench", G)
-    total, difference, power = wrench + other_wrench, twist - other_twist, wrench.power(twist)
+    total, difference = wrench + other_wrench, twist - other_twist
+    power, reverse = _tried(lambda: wrench.power(twist)), _tried(lambda: twist.power(wrench))
     if total is ... or difference is ... or power is ...:
         return ...
-    mixed, paired = _refused(lambda: twist + wrench), _refused(lambda: twist.power(other_twist))
-    return total.kind, total.vector, difference.vector, power, mixed, paired
+    mixed, paired = _tried(lambda: twist + wrench), _tried(lambda: twist.power(other_twist))
+    errors = (x if isinstance(x, str) else "no error" for x in (mixed, paired))
+    return total.kind, total.vector, difference.vector, power, reverse, *errors
 
 
-def _refused(action: Any) -> bool:
+def _tried(action: Any) -> Any:
+    """Return a result, or the name of the error in its place."""
     try:
-        action()
-    except (TypeError, ValueError):
-        return True
-    return False
+        return action()
+    except TypeError:
+        return "TypeError"
+    except (ArithmeticError, AssertionError, AttributeError, LookupError, ValueError) as error:
+        return type(error).__name__
 
 
 class _Mixing(SpatialVector):
@@ -91,6 +95,29 @@ class _Pairing(SpatialVector):
 
     def power(self, other: Any) -> Any:
         return self.vector @ other.vector
+
+
+class _OneWay(SpatialVector):
+    """Pair a wrench with a twist, and not a twist with a wrench."""
+
+    def power(self, other: Any) -> Any:
+        if (self.kind, other.kind) != ("wrench", "twist"):
+            raise TypeError
+        return super().power(other)
+
+
+class _Raising(SpatialVector):
+    """Raise another error."""
+
+    def __add__(self, other: Any) -> Any:
+        if self.kind != other.kind:
+            raise ValueError
+        return super().__add__(other)
+
+    def power(self, other: Any) -> Any:
+        if self.kind == other.kind:
+            raise ValueError
+        return super().power(other)
 
 
 class _Swapping(SpatialVector):
@@ -148,13 +175,16 @@ VECTOR = Part(
         Quantity("F + G"),
         Quantity("V − W"),
         Quantity("F.power(V)", unit="W"),
-        Quantity("V + F refused"),
-        Quantity("V.power(W) refused"),
+        Quantity("V.power(F)", unit="W"),
+        Quantity("the error of V + F"),
+        Quantity("the error of V.power(W)"),
     ),
     cases=lambda rng: [tuple(rng.standard_normal((4, 6))) for _ in range(3)],
     slips={
         "kinds-mixed": _Mixing,
         "pairing-of-equals": _Pairing,
+        "pairing-one-way": _OneWay,
+        "other-error": _Raising,
         "swapped-halves": _Swapping,
         "difference-reversed": _Reversing,
         "kind-lost": _Forgetting,

@@ -74,8 +74,8 @@ ALGEBRA = {
     ),
     "inverse-transform": Slip(
         Text(
-            "the inverse in place of the transform: from A to B, not from B to A",
-            "用了逆变换：从 A 到 B，而不是从 B 到 A",
+            "the inverse in place of the transform: it leads the other way",
+            "用了逆变换：方向反了",
         ),
         Text(
             "Read the letters, x_A = T_AB x_B and V_A = X_AB V_B: what is known in B meets the B of the transform.",

@@ -7,7 +7,9 @@ __all__ = ["BODIES"]
 
 BODIES = {
     "parallel-axis-all": Slip(
-        Text("m|c|² is added on all three axes", "三个轴上都加了 m|c|²"),
+        Text(
+            "m |c|² on all three axes, in place of m (|c|² 1 − c cᵀ)", "三个轴上都用了 m |c|²，应为 m (|c|² 1 − c cᵀ)"
+        ),
         Text(
             "The mass does not move when the body turns about the line through both points: m (|c|² 1 − c cᵀ).",
             "绕两点连线转动时质心不动，该方向不增加：应为 m (|c|² 1 − c cᵀ)。",

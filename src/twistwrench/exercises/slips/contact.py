@@ -89,6 +89,14 @@ CONTACT = {
         ),
         "49.4",
     ),
+    "edge-excluded": Slip(
+        Text("the edge is refused: < in place of ≤", "排除了边缘：写成了 <，应为 ≤"),
+        Text(
+            "With the pressure on the edge the ground still pushes: only beyond it must it pull. The edge is allowed.",
+            "压力中心恰在边缘时地面仍在推；超出边缘才需要拉。边缘算可以。",
+        ),
+        "49.4",
+    ),
     "averaged": Slip(
         Text("the mean of the forces in place of their sum", "取了力的平均值，而不是合力"),
         Text("Wrenches in one frame add up.", "同一坐标系中的 wrench 直接相加。"),

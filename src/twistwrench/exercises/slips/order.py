@@ -168,6 +168,22 @@ ORDER = {
         ),
         "49.1",
     ),
+    "base-assumed": Slip(
+        Text("a free-flyer is counted once, whether it is there or not", "不管有没有 FreeFlyer，都只算了一个"),
+        Text(
+            "An arm on a table has none, two robots in one model have two: count what is in the list.",
+            "固定在桌上的机械臂没有，一个模型中的两台机器人有两个：列表里有几个就算几个。",
+        ),
+        "49.1",
+    ),
+    "robot-hard-coded": Slip(
+        Text("the sizes of one robot are written into the function", "把某一台机器人的维数写死在函数里"),
+        Text(
+            "Another robot has other sizes: take them from the arguments, as `[6:]` does.",
+            "换一台机器人维数就不同：应由参数得到，如 `[6:]`。",
+        ),
+        "49.8",
+    ),
     "angle-of-one": Slip(
         Text("a continuous joint is counted as one number in q", "连续旋转关节在 q 中只算了 1 个数"),
         Text(
@@ -186,8 +202,8 @@ ORDER = {
     ),
     "pinocchio-velocity": Slip(
         Text(
-            "v is filled in the other order: the base moves where it should turn",
-            "按另一种顺序填写了 v：基座在平移而不是转动",
+            "v is in the other order: the base moves where it should turn",
+            "v 的顺序反了：基座在平移而不是转动",
         ),
         Text(
             "Here v[:3] is the base's ω and v[3:6] its v. Pinocchio has them the other way round.",

@@ -148,6 +148,25 @@ PIPELINE = {
         ),
         "49.4",
     ),
+    "pairing-one-way": Slip(
+        Text(
+            "only one of wrench.power(twist) and twist.power(wrench) works",
+            "wrench.power(twist) 与 twist.power(wrench) 只支持一种",
+        ),
+        Text(
+            "The power is the same whoever is asked: FᵀV = VᵀF. Refuse only two of one kind.",
+            "从谁算起功率都一样：FᵀV = VᵀF。只拒绝同一种类的两个量。",
+        ),
+        "49.4",
+    ),
+    "other-error": Slip(
+        Text("another error than the TypeError that was asked for", "抛出的不是题目要求的 TypeError"),
+        Text(
+            "A value can be wrong (ValueError), or be of the wrong kind (TypeError): callers tell them apart.",
+            "值不对是 ValueError，种类不对是 TypeError：调用者要区分二者。",
+        ),
+        "49.4",
+    ),
     "difference-reversed": Slip(
         Text("b − a in place of a − b", "写成了 b − a，应为 a − b"),
         Text("a.__sub__(b) is a − b: `self` comes first.", "a.__sub__(b) 是 a − b：`self` 在前。"),
