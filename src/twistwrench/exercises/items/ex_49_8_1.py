@@ -192,7 +192,8 @@ WHOLE = Part(
         "parallel-axis-sign": Text(
             "The block holds the inertia about the origin, I_O = I_c − m [c]×². Solved for I_c the sign is a plus: "
             "I_c = I_O + m [c]×², and [c]×² is negative, so I_c is the smaller one.",
-            "块中是关于原点的惯量 I_O = I_c − m [c]×²。解出 I_c 时是加号：I_c = I_O + m [c]×²；[c]×² 是负半定的，所以 I_c 较小。",
+            "块中是关于原点的惯量 I_O = I_c − m [c]×²。解出 I_c 时是加号：I_c = I_O + m [c]×²；"
+            "[c]×² 是负半定的，所以 I_c 较小。",
         ),
         "parallel-axis-dropped": Text(
             "The block holds the inertia about the origin. About the centre of mass it is less: I_c = I_O + m [c]×².",

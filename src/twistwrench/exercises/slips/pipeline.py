@@ -200,7 +200,10 @@ PIPELINE = {
             "the bodies are visited outward: a parent is used before its children have added to it",
             "由内向外遍历：子连杆还没加上来，父连杆就已被使用",
         ),
-        Text("Go from the last body to the first.", "应从最后一个物体到第一个。"),
+        Text(
+            "Go from the last body to the first, and pass on the sum of what has come so far.",
+            "应从最后一个物体到第一个，并把累加后的结果传下去。",
+        ),
         "49.6",
     ),
     "joint-force-not-passed": Slip(
