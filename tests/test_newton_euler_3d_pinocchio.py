@@ -81,9 +81,10 @@ def every_joint():
             pin.JointModelPX(),
             pin.JointModelRZ(),
             pin.JointModelRevoluteUnaligned(unit(rng)),
+            pin.JointModelHelicalUnaligned(unit(rng), 0.3),
         ]
 
-    return grown(joints, [0, 1, 2, 1, 4, 5, 6, 5, 4], 4)  # depth first: Pinocchio needs it
+    return grown(joints, [0, 1, 2, 1, 4, 5, 6, 5, 4, 9], 4)  # depth first: Pinocchio needs it
 
 
 def oblique_wheels():
@@ -110,18 +111,20 @@ KINDS = {
     "Planar": "planar",
     "Spherical": "spherical",
     "RevoluteUnboundedUnaligned": "continuous",
-    "RevoluteUnaligned": "revolute",
-    "PrismaticUnaligned": "prismatic",
-} | {
-    name + axis: kind for name, kind in (("RUB", "continuous"), ("R", "revolute"), ("P", "prismatic")) for axis in "XYZ"
+    **{f"RUB{axis}": "continuous" for axis in "XYZ"},
 }
+"""The joints that have a formula of their own; all others have one coordinate, and are the screw that their S says."""
 
 
-def joint(model, data):
-    kind = KINDS[model.shortname().removeprefix("JointModel")]
+def joint(model, data, q):
+    model.calc(data, q)
+    name = model.shortname().removeprefix("JointModel")
+    kind = KINDS.get(name, name)
     S = np.asarray(data.S)  # (v, ω) per unit rate
-    axis = {"revolute": S[3:], "continuous": S[3:], "prismatic": S[:3]}.get(kind)
-    return SimpleNamespace(kind=kind, axis=None if axis is None else axis.ravel())
+    axis = S[3:].ravel() if kind == "continuous" else None
+    unit = None if model.nq == model.nv else "some of it"
+    column = S[ANGULAR_FIRST].reshape(6, -1)
+    return SimpleNamespace(kind=kind, axis=axis, nq=model.nq, nv=model.nv, unit=unit, subspace=column.astype)
 
 
 def place(M):
@@ -132,7 +135,7 @@ def read(model):
     """Return what the package reads of a model, and where each of its entries of v stands in Pinocchio's."""
     n = model.njoints
     pairs = zip(list(model.joints)[1:], list(model.createData().joints)[1:], strict=True)
-    joints = [None, *(joint(*pair) for pair in pairs)]
+    joints = [None, *(joint(*pair, pin.neutral(model)) for pair in pairs)]
     order = np.arange(model.nv)
     for j in range(1, n):
         if joints[j].kind == "free_flyer":

@@ -163,7 +163,7 @@ def from_pinocchio_model(there: Any) -> Model:
     Raises
     ------
     ModelError
-        If a joint has no counterpart here (mimic, composite, helical, …; all are listed by name and type),
+        If a joint has no counterpart here (mimic, composite, universal, …; all are listed by name and type),
         gravity turns or is no number, an inertia, a placement, a limit, an armature or a named configuration
         cannot be, two joints have one name, or two frames one name and kind.
     TypeError

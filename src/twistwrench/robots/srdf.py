@@ -10,6 +10,7 @@ import numpy as np
 
 from ..checks import Array
 from ..errors import ModelError
+from ..joint_types import Continuous
 from ..kinematics import frame_placement
 from ..model import Model
 from .reading import read_robot_xml
@@ -86,7 +87,7 @@ def _posture(model: Model, state: Mapping[str, list[float]]) -> Array:
         values = state.get(model.joint_names[i])
         if joint is None or values is None:
             continue
-        if joint.kind == "continuous" and len(values) == 1:
+        if isinstance(joint, Continuous) and len(values) == 1:
             values = [np.cos(values[0]), np.sin(values[0])]  # an SRDF gives the angle
         if len(values) != joint.nq:
             raise ModelError(f"posture of joint {model.joint_names[i]!r}: expected {joint.nq} numbers, got {values}")

@@ -10,6 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..checks import Array
+from ..errors import ModelError
+from ..joint import Joint
+from ..joint_types import Continuous, FreeFlyer, Planar, Spherical
 from ..model import Model
 from ..newton_euler_3d.bodies import cross
 
@@ -19,26 +22,28 @@ __all__ = ["integrate"]
 def integrate(model: Model, q: Array, dv: Array) -> Array:
     """Return q ⊕ dv for one state of mpmath numbers, shape (nq,)."""
     pieces = [
-        _step(joint.kind, q[qs], dv[vs])
+        _step(joint, q[qs], dv[vs])
         for joint, qs, vs in zip(model.joints, model.q_slice, model.v_slice, strict=True)
         if joint
     ]
     return np.concatenate(pieces)
 
 
-def _step(kind: str, q: Array, dv: Array) -> Array:
-    if kind in ("revolute", "prismatic"):
+def _step(joint: Joint, q: Array, dv: Array) -> Array:
+    if joint.unit is None:
         return q + dv
-    if kind == "continuous":
+    if isinstance(joint, Continuous):
         return _turned(q, dv[0])
-    if kind == "planar":
+    if isinstance(joint, Planar):
         c, s, w = q[2], q[3], dv[2]
         shift = _shift(np.array([w * 0, w * 0, w]), np.array([dv[0], dv[1], w * 0]))
         place = q[:2] + np.array([c * shift[0] - s * shift[1], s * shift[0] + c * shift[1]])
         return np.concatenate([place, _turned(q[2:], w)])
-    if kind == "spherical":
+    if isinstance(joint, Spherical):
         return _product(q, _quaternion(dv))
-    position, quaternion = q[:3], q[3:]  # a free-flyer
+    if not isinstance(joint, FreeFlyer):
+        raise ModelError(f"no exact step is known for a joint of kind {joint.kind!r}")
+    position, quaternion = q[:3], q[3:]
     return np.concatenate(
         [position + _rotate(quaternion, _shift(dv[:3], dv[3:])), _product(quaternion, _quaternion(dv[:3]))]
     )
