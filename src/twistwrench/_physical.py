@@ -4,18 +4,33 @@ from __future__ import annotations
 
 import numpy as np
 
-from .checks import Array
+from ._scalars import largest, which
+from .checks import Array, tolerance
 from .errors import ModelError
+from .exact import judged
 
-__all__ = ["check_not_negative", "check_physical"]
+__all__ = ["check_not_negative", "check_numbers", "check_physical"]
 
 # Relative room for rounding: a thin rod (0, I, I) and a thin plate (I, I, 2I) lie on the edge, and pass.
 ROOM = 1e-9
 
 
+def check_numbers(mass: Array, inertia_at_com: Array) -> None:
+    """Raise ModelError where a mass is negative, or an inertia not symmetric."""
+    wrong = np.asarray(judged(mass) < 0)
+    if wrong.any():
+        raise ModelError(f"mass: expected no negative mass, got {judged(mass)[wrong][0]:.6g} kg" + which(wrong))
+    off = largest(judged(inertia_at_com - inertia_at_com.mT), 2)
+    wrong = off > tolerance(inertia_at_com.dtype) * largest(judged(inertia_at_com), 2)
+    if wrong.any():
+        raise ModelError(
+            f"inertia_at_com: expected a symmetric matrix, got |I − Iᵀ| = {off[wrong][0]:.3g} kg m²" + which(wrong)
+        )
+
+
 def check_physical(link: str, mass: Array, inertia_at_com: Array) -> None:
     """Raise ModelError, with the link, the condition and its numbers, unless a body with this inertia can exist."""
-    mass = mass.real
+    mass = judged(mass)
     if (mass <= 0).any():
         raise ModelError(f"link {link!r}: the mass must be positive, got {mass.min():.6g} kg")
     moments = check_not_negative(link, inertia_at_com)
@@ -31,7 +46,7 @@ def check_physical(link: str, mass: Array, inertia_at_com: Array) -> None:
 def check_not_negative(link: str, inertia_at_com: Array) -> Array:
     """Return the principal moments; raise ModelError where one of them is negative. All are zero for a point mass."""
     # NumPy has eigenvalues in single and double precision only: double is enough to judge by.
-    moments: Array = np.linalg.eigvalsh(inertia_at_com.real.astype(np.float64))
+    moments: Array = np.linalg.eigvalsh(judged(inertia_at_com).astype(np.float64))
     negative = moments[..., 0] < -ROOM * np.abs(moments[..., 2])
     if negative.any():
         raise ModelError(

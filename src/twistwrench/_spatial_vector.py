@@ -118,9 +118,17 @@ class SpatialVector:
         s, x = as_number_arrays(scalar=(scalar, ()), vector=(self._vector, (6,)))
         return s[..., None], x
 
-    def __rmatmul__(self, other: object) -> Array:
-        mine = type(self).__name__
-        raise TypeError(f"{type(other).__name__} @ {mine}: use .transform(T), or @ with the .vector of the {mine}")
+    def __matmul__(self, other: object) -> Any:
+        if isinstance(other, SpatialVector) and type(other) is not type(self):
+            return NotImplemented  # a wrench knows its power on a twist
+        self._refuse_product(self, other)
+
+    def __rmatmul__(self, other: object) -> Any:
+        self._refuse_product(other, self)
+
+    def _refuse_product(self, left: object, right: object) -> NoReturn:
+        expression, x = f"{type(left).__name__} @ {type(right).__name__}", self._symbol
+        raise TypeError(f"{expression}: use {x}.transform(T) for another frame, {x}.vector for products of arrays")
 
     def _refuse(self, left: object, sign: str, right: object) -> NoReturn:
         mine, expression = type(self).__name__, f"{type(left).__name__} {sign} {type(right).__name__}"
@@ -143,7 +151,7 @@ def common_frame(a: SpatialVector, sign: str, b: SpatialVector) -> str | None:
     if type(a) is not type(b) and sign in "+-":
         raise TypeError(
             f"{type(a).__name__} {sign} {type(b).__name__}: twists and wrenches live in dual spaces and do not add; "
-            "did you mean the power, wrench @ twist, or the momentum, inertia.momentum(twist)?"
+            "did you mean the power, wrench @ twist, or the momentum, inertia @ twist?"
         )
     if None not in (a.frame, b.frame) and a.frame != b.frame:
         raise FrameError(

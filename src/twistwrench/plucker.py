@@ -193,10 +193,10 @@ class SE3:
 
     def __matmul__(self, other: SE3) -> SE3:
         if not isinstance(other, SE3):
-            raise TypeError(
-                f"SE3 @ {type(other).__name__}: only placements are chained with @; use T.act(point) for points, "
-                "T.motion_transform() @ V for twists, T.force_transform() @ F for wrenches"
-            )
+            name = {"Twist": "V", "Wrench": "F", "SpatialInertia": "I"}.get(type(other).__name__)
+            use = "T.act(x) for points, T.motion_transform() @ x for twists, T.force_transform() @ x for wrenches"
+            use = use if name is None else f"{name}.transform(T)"
+            raise TypeError(f"SE3 @ {type(other).__name__}: only placements are chained with @; use {use}")
         p = placed_point(self.rotation, self.translation, other.translation)
         return SE3._trusted(self.rotation @ other.rotation, p)
 

@@ -124,7 +124,7 @@ class Wrench(SpatialVector):
         """Return the power spent on a twist, W: see `twistwrench.wrench.power`."""
         return power(self, twist)
 
-    def __matmul__(self, twist: Twist) -> Array:
+    def __matmul__(self, twist: object) -> Array:
         if not isinstance(twist, Twist):
             raise TypeError(f"Wrench @ {type(twist).__name__}: expected a Twist; .power() also takes an array")
         return power(self, twist)
