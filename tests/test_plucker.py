@@ -188,7 +188,7 @@ def test_a_placement_does_not_change():
 def test_only_placements_chain_with_the_matrix_product():
     T = SE3.identity()
     for other in (np.ones(3), np.eye(4), 2.0):
-        advice = r"use T\.act\(point\) for points, T\.motion_transform\(\) @ V"
+        advice = r"use T\.act\(x\) for points, T\.motion_transform\(\) @ x"
         with pytest.raises(TypeError, match=rf"^SE3 @ {type(other).__name__}: .* {advice}"):
             T @ other
     with pytest.raises(TypeError, match="ndarray @ SE3: only placements"):

@@ -251,7 +251,7 @@ def test_a_matrix_is_no_placement():
 
 
 def test_a_matrix_times_a_twist_points_to_transform():
-    with pytest.raises(TypeError, match=r"ndarray @ Twist: use \.transform\(T\)"):
+    with pytest.raises(TypeError, match=r"ndarray @ Twist: use V\.transform\(T\)"):
         np.eye(6) @ Twist(np.ones(6))
 
 

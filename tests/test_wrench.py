@@ -135,7 +135,7 @@ def test_power_refuses_anything_but_a_wrench_and_a_twist():
             wrong()
     with pytest.raises(TypeError, match="Wrench @ ndarray: expected a Twist"):
         F @ np.ones(6)
-    with pytest.raises(TypeError, match=r"ndarray @ Wrench: use \.transform"):
+    with pytest.raises(TypeError, match=r"ndarray @ Wrench: use F\.transform"):
         np.eye(6) @ F
     with pytest.raises(TypeError):
         V @ V
