@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from scipy.optimize import linprog, nnls
@@ -256,13 +253,6 @@ def test_a_wrong_argument_is_named(change, said):
         tw.friction_inverse_dynamics(GO2, **given)
 
 
-def test_a_missing_solver_is_named_with_how_to_get_it(monkeypatch):
-    monkeypatch.setitem(sys.modules, "daqp", None)
-    tw.friction_inverse_dynamics(GO2, *poised(REST), FEET)  # the least forces obey: nothing to solve
-    with pytest.raises(ModuleNotFoundError, match=r'needs the solver daqp: pip install "twistwrench\[qp\]"'):
-        pushing(feet(0.75))
-
-
 # ---------------------------------------------------------------- stance
 
 
@@ -356,13 +346,6 @@ def test_one_point_holds_what_stands_right_above_it_and_pulls_nothing_down():
     )
     with pytest.raises(tw.SingularError, match=r"break lift-off at 'foot' by 20\.4 N"):
         tw.friction_inverse_dynamics(top, q, rest, fall, points(["foot"]))
-
-
-def test_a_solver_that_gives_up_is_said(monkeypatch):
-    solver = SimpleNamespace(solve=lambda H, f, A, b, primal_tol: (f, 0.0, -4, {"lam": b}))
-    monkeypatch.setitem(sys.modules, "daqp", solver)
-    with pytest.raises(RuntimeError, match="the quadratic programme gave up: flag -4 of daqp"):
-        least_within(np.eye(2), np.array([-1.0, 0.0]), 1.0)
 
 
 def test_two_points_cannot_hold_a_robot_that_is_not_above_their_line():

@@ -57,7 +57,7 @@ def straight(plumb: bool) -> np.ndarray:
         hip = GO2.joint_id(f"{foot[:2]}_hip_joint")
         offset = p[1] - tw.forward_kinematics(GO2, q).placement[hip].translation[1]
         if plumb:
-            q[GO2.q_slice[hip]] = np.arctan2(offset, p[2])
+            q[GO2.q_slice[hip]] = np.arctan2(-offset, -p[2])
     return q
 
 

@@ -19,6 +19,7 @@ from ..fast import crba, rnea
 from ..model import Model
 from .decomposition import Decomposition, block_diagonal, decompose, point_map
 from .programme import least_breach, least_within
+from .reach import NEAR, Reach, reach
 from .rows import as_contacts, per_contact, real_state, touching
 from .types import Contact, Pyramid
 
@@ -118,8 +119,8 @@ def friction_inverse_dynamics(
 ) -> ContactForces:
     """Return the joint forces and the least contact forces within the friction cones: a quadratic programme.
 
-    No contact pulls, none slips, and the pressure on a sole stays within it. Needs the extra
-    ``pip install "twistwrench[qp]"``, unless the least forces of all obey anyway.
+    No contact pulls, none slips, and the pressure on a sole stays within it. Quicker with the extra
+    ``pip install "twistwrench[qp]"``, where the least forces of all do not obey anyway.
 
     Parameters
     ----------
@@ -144,14 +145,13 @@ def friction_inverse_dynamics(
     ------
     SingularError
         If no forces within the limits make the robot move so; the message says which limits stand in the way.
-    ModuleNotFoundError
-        If the solver is not installed.
     NameNotFound, ShapeError, ValueError
         As `contact_inverse_dynamics`; a batch; less than 3 sides; a pyramid that is neither.
 
     Notes
     -----
-    Sections 49.9 and 49.4.
+    Sections 49.9 and 49.4. Possible is what forces within the limits miss by at most 1e-8 of what the base needs. Where
+    only just that is so, they are forces that do it, not the least.
 
     Examples
     --------
@@ -169,12 +169,17 @@ def friction_inverse_dynamics(
     A, names = limits(task.contacts, sides, pyramid)
     free = task.free
     found = least_within(A @ free, -A @ task.least, task.size)
-    if found is None:
-        worst = breached(names, least_breach(A @ free, -A @ task.least, task.size))
-        raise SingularError(f"cannot: no forces within the limits do this; they would have to break {worst}")
-    z, tight = found
+    if found is not None:
+        z, tight = found
+        f = task.least + free @ z
+    else:  # no forces, or some by a hair
+        answer = task.reach(sides, pyramid)
+        if not answer.reached:
+            worst = breached(names, least_breach(A @ free, -A @ task.least, task.size))
+            raise SingularError(f"cannot: no forces within the limits do this; they would have to break {worst}")
+        f, tight = answer.f, A @ answer.f > -NEAR * task.size
     binding = tuple(dict.fromkeys(name for name, leans in zip(names, tight) if leans))
-    return task.result(model, task.least + free @ z, binding)
+    return task.result(model, f, binding)
 
 
 def breached(names: Sequence[str], by: Array) -> str:
@@ -191,12 +196,21 @@ def limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> tuple[A
     return A, [name for c in contacts for name in c.limit_names(sides)]
 
 
+class Unbalanced(SingularError):
+    """No forces at the contacts, though they pulled, do what the base needs; ``left`` is what they leave over of it."""
+
+    def __init__(self, message: str, left: Array, L: Array) -> None:
+        super().__init__(message)
+        self.away = np.linalg.solve(L.mT, np.linalg.solve(L, left[..., None]))[..., 0]
+
+
 @dataclass(frozen=True)
 class Task:
     """What the contacts have to do together, and the least forces f at their points that do it.
 
-    f has three entries for each point, in the axes of its contact; ``free`` spans what may be added to it, and
-    ``size`` is how large such forces are, those of the weight among them, N.
+    f has three entries for each point, in the axes of its contact; ``free`` spans what may be added to it. ``size`` is
+    how large such forces are, N, and ``asked`` how large what is asked of them is, in the metric of M: the larger of
+    this motion's and of the weight's.
     """
 
     contacts: tuple[Contact, ...]
@@ -206,6 +220,7 @@ class Task:
     parts: Decomposition
     least: Array
     size: float
+    asked: float
     residual: Array
 
     @classmethod
@@ -233,9 +248,25 @@ class Task:
         if missed.any():
             names = [c.frame for c in contacts]
             over = ", ".join(f"{x:.3g}" for x in left[missed][0])
-            raise SingularError(f"no forces at {names} do this{which(missed)}: (τ, f) = ({over}) is left over")
+            raise Unbalanced(
+                f"no forces at {names} do this{which(missed)}: (τ, f) = ({over}) is left over", left, parts.L
+            )
         size = max(float(np.abs(f).max(initial=0)) for f in (least, parts.balance(weight)))
-        return cls(contacts, b, J, P, parts, least, size, np.matvec(J, a) + bias)
+        asked = float(np.maximum(*terms).max(initial=0))
+        return cls(contacts, b, J, P, parts, least, size, asked, np.matvec(J, a) + bias)
+
+    def reach(
+        self, sides: int, pyramid: Pyramid, also: tuple[Array, Array] | None = None, contacts: Sequence[Contact] = ()
+    ) -> Reach:
+        """Return whether forces within the limits do this, and the proof; its twist is that of the base, as b's rows.
+
+        Of the task's contacts, or of others at the same points; `also` is (C, d) with C f ≤ d, in N.
+        """
+        base = slice(0, len(self.parts.L))
+        G, w = (np.linalg.solve(self.parts.L, x) for x in ((self.J.mT @ self.P)[base], self.b[base]))
+        more = None if also is None else (also[0], also[1] / self.size)
+        found = reach(G * self.size / self.asked, w / self.asked, contacts or self.contacts, sides, pyramid, more)
+        return found._replace(f=self.size * found.f, away=np.linalg.solve(self.parts.L.mT, found.away))
 
     @property
     def free(self) -> Array:

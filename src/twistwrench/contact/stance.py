@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
 from ..checks import Array
-from ..errors import ShapeError, SingularError
+from ..errors import ShapeError
 from ..kinematics import frame_placement
 from ..model import Model
-from .inverse import Task, limits
-from .programme import least_within
+from .inverse import Task, Unbalanced, limits
 from .rows import as_contacts, real_state
 from .types import Contact, Pyramid
 
@@ -41,12 +40,20 @@ class StanceMargins:
         On ground that is level, or rough enough, the robot tips where it is below zero.
     reason : str
         Why it cannot stand; empty where it can.
+    point_forces : dict of str to ndarray, shape (k, 3), or None
+        The proof that it stands: forces within the limits, by the contact's frame, at each of its touching points and
+        in its own axes (z the normal), N. None where it cannot.
+    falls : ndarray, shape (6,), or None
+        The proof that it cannot: a twist (ω, v) of the base, in the base's axes, along which the weight does work and
+        no force within the limits does any against it. Only its direction counts. None where it stands.
     """
 
     stands: bool
     friction_used: float
     tip: float
     reason: str
+    point_forces: dict[str, Array] | None = field(default=None, repr=False, compare=False)
+    falls: Array | None = field(default=None, repr=False, compare=False)
 
 
 def stance_margins(
@@ -54,8 +61,8 @@ def stance_margins(
 ) -> StanceMargins:
     """Return whether a robot can stand in a pose without pulling or slipping, and by which margins.
 
-    The motors are as strong as it takes. Needs the extra ``pip install "twistwrench[qp]"`` unless the least forces of
-    all need no friction.
+    The motors are as strong as it takes. Either answer comes with its proof, which takes no solver to check: forces
+    within the limits that hold the robot, or a motion along which nothing does.
 
     Parameters
     ----------
@@ -75,8 +82,6 @@ def stance_margins(
 
     Raises
     ------
-    ModuleNotFoundError
-        If the solver is not installed.
     NameNotFound, ShapeError, ValueError
         As `friction_inverse_dynamics`; a fixed base, no contacts or no gravity.
 
@@ -87,7 +92,8 @@ def stance_margins(
 
     Notes
     -----
-    Sections 49.9 and 49.4. The least friction is found by halving the interval, to a millionth.
+    Sections 49.9 and 49.4. The least friction is found by halving the interval, to a millionth. A pose that is on the
+    edge counts as one that stands: forces may leave over 1e-8 of the weight, in the metric of the inertia.
 
     Examples
     --------
@@ -110,31 +116,38 @@ def stance_margins(
     tip, rest = tip_distance(model, q, contacts), np.zeros(model.nv)
     try:
         task = Task.of(model, q, rest, rest, contacts, None)
-    except SingularError as error:
-        return StanceMargins(False, np.inf, tip, f"it falls: {error}")
-    used, reason = friction_used(task, sides, pyramid), ""
-    if used == np.inf and friction_used(_rough(task), sides, pyramid) < np.inf:
+    except Unbalanced as error:
+        return StanceMargins(False, np.inf, tip, f"it falls: {error}", falls=-error.away)
+    answer = task.reach(sides, pyramid)
+    used, reason = friction_used(task, sides, pyramid, answer.reached), ""
+    if used == np.inf and friction_used(_rough(task), sides, pyramid, False) < np.inf:
         reason = "it slips: it would need friction where there is none"
     elif used == np.inf:
         where = f"is {-tip:.3g} m outside the support polygon" if tip < 0 else "is above the support polygon"
         reason = f"it tips: the centre of mass {where}, and some contact would have to pull"
     elif used > 1:
         reason = f"it slips: it would need {used:.3g} times the friction"
-    return StanceMargins(used <= 1, used, tip, reason)
+    if not answer.reached:
+        return StanceMargins(False, used, tip, reason, falls=-answer.away)
+    ends = np.cumsum([3 * len(c.points) for c in contacts])[:-1]
+    at_points = {c.frame: f.reshape(-1, 3) for c, f in zip(contacts, np.split(answer.f, ends))}
+    return StanceMargins(True, used, tip, reason, point_forces=at_points)
 
 
-def friction_used(task: Task, sides: int, pyramid: Pyramid) -> float:
-    """Return the least multiple of the coefficients of friction at which there are forces within the limits."""
-    free = task.free
+def friction_used(task: Task, sides: int, pyramid: Pyramid, stands: bool) -> float:
+    """Return the least multiple of the coefficients of friction at which there are forces within the limits.
+
+    At most 1 if it stands with the friction there is, and more if not.
+    """
 
     def holds(multiple: float) -> bool:
-        A, _ = limits([_with_friction(c, multiple * c.mu) for c in task.contacts], sides, pyramid)
-        return least_within(A @ free, -A @ task.least, task.size) is not None
+        rubbed = [_with_friction(c, multiple * c.mu) for c in task.contacts]
+        return task.reach(sides, pyramid, contacts=rubbed).reached
 
-    if holds(0.0):
+    if stands and holds(0.0):
         return 0.0
-    low, high = 0.0, 1.0
-    while not holds(high):
+    low, high = (0.0, 1.0) if stands else (1.0, 2.0)
+    while not (high == 1.0 or holds(high)):
         low, high = high, 2 * high
         if high > MOST:
             return np.inf

@@ -96,14 +96,39 @@ class Contact(ABC):
         ValueError
             If `sides` is no whole number from 3, or the pyramid is neither.
         """
-        if not isinstance(sides, int | np.integer) or sides < 3:
-            raise ValueError(f"sides: expected a whole number, at least 3, got {sides!r}")
-        if pyramid not in ("inner", "outer"):
-            raise ValueError(f"pyramid: expected 'inner' or 'outer', got {pyramid!r}")
+        sides = _checked(sides, pyramid)
         slope = self.mu * (np.cos(np.pi / sides) if pyramid == "inner" else 1.0)
         angle = 2 * np.pi * np.arange(sides) / sides
         one = np.stack([np.cos(angle), np.sin(angle), np.full(sides, -slope)], axis=-1)
         return np.kron(np.eye(len(self.points)), np.concatenate([one, [[0.0, 0.0, -1.0]]]))
+
+    def rays(self, sides: int, pyramid: Pyramid) -> Array:
+        """Return the edges of the pyramids, shape (k sides, 3 k): all that `limits` allow is their sums.
+
+        Of use only while `limits` are those of this class; a contact with its own needs no rays.
+
+        Parameters
+        ----------
+        sides, pyramid
+            As `limits`.
+
+        Raises
+        ------
+        ValueError
+            As `limits`.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> foot = tw.PointContact("FL_foot", 0.5)
+        >>> bool((foot.limits(8, "inner") @ foot.rays(8, "inner").T).max() < 1e-15)
+        True
+        """
+        sides = _checked(sides, pyramid)
+        slope = self.mu / (1.0 if pyramid == "inner" else np.cos(np.pi / sides))
+        angle = 2 * np.pi * (np.arange(sides) + 0.5) / sides
+        one = np.stack([slope * np.cos(angle), slope * np.sin(angle), np.ones(sides)], axis=-1)
+        return np.kron(np.eye(len(self.points)), one)
 
     def limit_names(self, sides: int) -> list[str]:
         """Return what the rows of `limits` are called in messages, one for each."""
@@ -235,6 +260,15 @@ class SurfaceContact(Contact):
     def point_names(self) -> tuple[str, ...]:
         """The corners, by the signs of their x and y."""
         return tuple(f"corner ({x}, {y}) of {self.frame!r}" for x in "+-" for y in "+-")
+
+
+def _checked(sides: int, pyramid: Pyramid) -> int:
+    """Return the number of sides, or say what is wrong with it or with the pyramid."""
+    if not isinstance(sides, int | np.integer) or sides < 3:
+        raise ValueError(f"sides: expected a whole number, at least 3, got {sides!r}")
+    if pyramid not in ("inner", "outer"):
+        raise ValueError(f"pyramid: expected 'inner' or 'outer', got {pyramid!r}")
+    return int(sides)
 
 
 def _coefficient(frame: str, mu: ArrayLike) -> float:

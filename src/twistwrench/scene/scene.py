@@ -157,8 +157,6 @@ class Scene(SmallestModel):
         ------
         ValueError
             If the base does not float, there are no contacts, or there is no gravity.
-        ModuleNotFoundError
-            If the solver is not installed: ``pip install "twistwrench[qp]"``.
         ShapeError
             As `Model.state`.
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from ..checks import Array
 from ..contact import Contact, stance_margins
-from ..contact.inverse import Task, friction_inverse_dynamics, limits
-from ..contact.programme import least_within
+from ..contact.inverse import Task, friction_inverse_dynamics
 from ..errors import SingularError
 from ..model import Model
 
@@ -70,18 +69,15 @@ def outside_limits(model: Model, q: Array) -> list[str]:
 def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> str:
     """Say which motors are too weak, whatever forces within the friction cones the contacts choose; or nothing.
 
-    τ = b − Jᵀ P f, with the forces f = f₀ + N z at the touching points, of which z is free to press or to relieve.
+    τ = b − Jᵀ P f, with the forces f at the touching points, which are free to press and to relieve.
     """
     rest, motors = np.zeros(model.nv), np.arange(6, model.nv)
     strong = model.effort_limit[motors]
     task = Task.of(model, q, rest, rest, contacts, f_ext)
-    A, _ = limits(task.contacts, 16, "inner")
     with_motor = np.isfinite(strong)
     B, limit = (task.J.mT @ task.P)[motors][with_motor], strong[with_motor]
-    b = task.b[motors][with_motor] - B @ task.least
-    rows = np.concatenate([A, -B, B]) @ task.free
-    room = np.concatenate([-A @ task.least, limit - b, limit + b])
-    if least_within(rows, room, task.size) is not None:
+    b = task.b[motors][with_motor]
+    if task.reach(16, "inner", (np.concatenate([-B, B]), np.concatenate([limit - b, limit + b]))).reached:
         return ""
     tau = friction_inverse_dynamics(model, q, rest, rest, contacts, f_ext, sides=16).tau[motors]
     names = [name for name, s in zip(model.joint_names[2:], model.v_slice[2:]) for _ in range(s.stop - s.start)]
