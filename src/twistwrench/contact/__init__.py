@@ -1,8 +1,8 @@
 """Contact: what a robot that touches its surroundings can and cannot do (49.9).
 
 In the order in which the files are best read: `types` (points and soles), `rows` (J and J̇ v), `decomposition` (the
-rank), `forward`, `impacts`, `projection`; `inverse` and its `programme` (friction), `nonnegative` least squares, `reach`
-(whether forces within the limits are enough, and the proof), `stance` (slipping and tipping).
+rank), `forward`, `impacts`, `projection`; `inverse` and its `programme` (friction), `nonnegative` least squares,
+`reach` (whether forces within the limits are enough, and the proof), `stance` (slipping and tipping).
 """
 
 from .forward import Baumgarte, ContactDynamics, contact_forward_dynamics
