@@ -1,21 +1,62 @@
 """Wrong implementations, made out of right ones: the slips that need no code of their own.
 
-Each takes the reference, and gives a function with the same arguments that makes one slip. Where the
-reference returns several things, ``only`` says which of them are touched; by default all are.
+Each takes the reference, and gives a function with the same arguments that makes one slip: `faulty` changes a line of
+it, the others what goes in or comes out. Where the reference returns several things, ``only`` says which of them are
+touched; by default all are.
 """
 
 from __future__ import annotations
 
+import inspect
+import sys
+import textwrap
 from collections.abc import Callable
+from functools import cache, wraps
 from typing import Any
 
 import numpy as np
 
 from ..checks import Array
 
-__all__ = ["after", "as_column", "before", "negated", "swap", "swapped", "times", "transposed"]
+__all__ = ["after", "as_column", "before", "faulty", "negated", "swap", "swapped", "times", "transposed"]
 
 Function = Callable[..., Any]
+
+
+def faulty(solution: Function, *changes: tuple[str, str]) -> Function:
+    """Change the text of the reference: in each pair what is right, and what stands there in its place.
+
+    It is compiled when it is first called.
+
+    Raises
+    ------
+    ValueError
+        When it is called, if what is right does not stand in the reference exactly once.
+
+    Examples
+    --------
+    >>> wrong = faulty(swap, ("k < 3 else k - 3", "k < 3 else k - 4"))
+    >>> wrong(np.arange(6))
+    array([3, 4, 5, 5, 0, 1])
+    """
+
+    @cache
+    def compiled() -> Function:
+        source, name = textwrap.dedent(inspect.getsource(solution)), solution.__name__
+        for right, wrong in changes:
+            if source.count(right) != 1:
+                raise ValueError(f"{name}: expected {right!r} once in its source, found it {source.count(right)} times")
+            source = source.replace(right, wrong)
+        names = dict(vars(sys.modules[solution.__module__]))
+        exec(compile(source, f"<{name}, changed>", "exec"), names)
+        found: Function = names[name]
+        return found
+
+    @wraps(solution)
+    def wrong(*arguments: Any) -> Any:
+        return compiled()(*arguments)
+
+    return wrong
 
 
 def after(solution: Function, change: Callable[[Any], Any], *, only: tuple[int, ...] | None = None) -> Function:

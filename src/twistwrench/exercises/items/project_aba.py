@@ -1,7 +1,6 @@
 """The project, stage 2: ABA on a tree, and how it goes wrong."""
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -9,6 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Part, Property, Quantity
 from ..text import Text
+from ..wrong import faulty
 from .project_rnea import tree_rnea
 from .project_trees import described, pieces, previous, trees
 
@@ -36,50 +36,6 @@ def tree_aba(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) ->
         qdd[i] = D[i] @ (u[i] - U[i].mT @ A[i])
         A[i] = A[i] + S[i] @ qdd[i]
     return np.concatenate(qdd[1:])
-
-
-class Ways(NamedTuple):
-    """Ways to write ABA, all of them right by default: factors before its terms, and what is done on the way in."""
-
-    gravity: float = 1
-    coriolis: float = 1
-    gyroscopic: float = 1
-    bias: float = 1
-    freed: float = 1
-    bias_of_c: float = 1
-    bias_of_u: float = 1
-    passed: float = 1
-    carried: float = 1
-    own: float = 1
-    inward: Callable[[Any], Any] = lambda X: X.mT
-    congruence: Callable[[Any, Any], Any] = lambda X, I: X.mT @ I @ X
-
-
-def _written(ways: Ways) -> Any:
-    """Write ABA in one of those ways."""
-
-    def wrong(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) -> Any:
-        n = len(parent)
-        V, A, c, p, U, D, u, qdd = ([np.zeros(6)] * n for _ in range(8))
-        IA, A[0] = list(I), ways.gravity * a0
-        for i in range(1, n):
-            V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
-            c[i] = ways.coriolis * tw.cross_motion(V[i]) @ S[i] @ qd[i]
-            p[i] = ways.gyroscopic * tw.cross_force(V[i]) @ I[i] @ V[i]
-        for i in range(n - 1, 0, -1):
-            U[i], u[i] = IA[i] @ S[i], tau[i] - ways.bias * S[i].mT @ p[i]
-            D[i] = np.linalg.inv(S[i].mT @ U[i])
-            Ia = IA[i] - ways.freed * U[i] @ D[i] @ U[i].mT
-            pa = p[i] + ways.bias_of_c * Ia @ c[i] + ways.bias_of_u * U[i] @ D[i] @ u[i]
-            IA[parent[i]] = IA[parent[i]] + ways.passed * ways.congruence(X[i], Ia)
-            p[parent[i]] = p[parent[i]] + ways.passed * ways.inward(X[i]) @ pa
-        for i in range(1, n):
-            A[i] = ways.carried * X[i] @ A[parent[i]] + c[i]
-            qdd[i] = D[i] @ (u[i] - U[i].mT @ A[i])
-            A[i] = A[i] + ways.own * S[i] @ qdd[i]
-        return np.concatenate(qdd[1:])
-
-    return wrong
 
 
 def _loads(rng: Any) -> Any:
@@ -113,21 +69,21 @@ ABA = Part(
     returns=(Quantity("q̈"),),
     cases=_loads,
     slips={
-        "gravity-missing": _written(Ways(gravity=0)),
-        "gravity-sign": _written(Ways(gravity=-1)),
-        "coriolis-missing": _written(Ways(coriolis=0)),
-        "coriolis-sign": _written(Ways(coriolis=-1)),
-        "gyroscopic-missing": _written(Ways(gyroscopic=0)),
-        "gyroscopic-sign": _written(Ways(gyroscopic=-1)),
-        "bias-sign": _written(Ways(bias=-1)),
-        "composite-for-articulated": _written(Ways(freed=0)),
-        "articulated-bias": _written(Ways(bias_of_c=0)),
-        "joint-force-not-passed": _written(Ways(bias_of_u=0)),
-        "children-dropped": _written(Ways(passed=0)),
-        "acceleration-not-carried": _written(Ways(carried=0)),
-        "own-acceleration-missing": _written(Ways(own=0)),
-        "force-outward": _written(Ways(inward=lambda X: np.linalg.inv(X).mT)),
-        "inertia-half-rotated": _written(Ways(congruence=lambda X, I: X.mT @ I)),
+        "gravity-missing": faulty(tree_aba, ("list(I), a0", "list(I), 0 * a0")),
+        "gravity-sign": faulty(tree_aba, ("list(I), a0", "list(I), -a0")),
+        "coriolis-missing": faulty(tree_aba, ("c[i] = tw", "c[i] = 0 * tw")),
+        "coriolis-sign": faulty(tree_aba, ("c[i] = tw", "c[i] = -tw")),
+        "gyroscopic-missing": faulty(tree_aba, ("p[i] = tw", "p[i] = 0 * tw")),
+        "gyroscopic-sign": faulty(tree_aba, ("p[i] = tw", "p[i] = -tw")),
+        "bias-sign": faulty(tree_aba, ("tau[i] - S[i].mT @ p[i]", "tau[i] + S[i].mT @ p[i]")),
+        "composite-for-articulated": faulty(tree_aba, ("IA[i] - U[i] @ D[i] @ U[i].mT", "IA[i]")),
+        "articulated-bias": faulty(tree_aba, (" + Ia @ c[i]", "")),
+        "joint-force-not-passed": faulty(tree_aba, (" + U[i] @ D[i] @ u[i]", "")),
+        "children-dropped": faulty(tree_aba, (" + X[i].mT @ Ia @ X[i]", ""), (" + X[i].mT @ pa", "")),
+        "acceleration-not-carried": faulty(tree_aba, ("X[i] @ A[parent[i]] + c[i]", "c[i]")),
+        "own-acceleration-missing": faulty(tree_aba, (" + S[i] @ qdd[i]", "")),
+        "force-outward": faulty(tree_aba, ("X[i].mT @ pa", "np.linalg.inv(X[i]).mT @ pa")),
+        "inertia-half-rotated": faulty(tree_aba, ("X[i].mT @ Ia @ X[i]", "X[i].mT @ Ia")),
         "chain-for-tree": lambda parent, *rest: tree_aba(previous(parent), *rest),
     },
     reasons={

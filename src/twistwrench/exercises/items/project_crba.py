@@ -1,13 +1,12 @@
 """The project, stage 2: CRBA on a tree, and how it goes wrong."""
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..exercise import Part, Property, Quantity
 from ..text import Text
-from ..wrong import after
+from ..wrong import after, faulty
 from .project_rnea import tree_energy
 from .project_trees import described, previous, trees
 
@@ -32,46 +31,6 @@ def tree_crba(parent: Any, S: Any, I: Any, X: Any) -> Any:
     return M
 
 
-class Ways(NamedTuple):
-    """Ways to write CRBA, all of them right by default."""
-
-    congruence: Callable[[Any, Any], Any] = lambda X, I: X.mT @ I @ X
-    inward: Callable[[Any], Any] = lambda X: X.mT
-    outward: bool = False
-    stops_at: int = 0
-
-
-def _written(ways: Ways) -> Any:
-    """Write CRBA in one of those ways."""
-
-    def wrong(parent: Any, S: Any, I: Any, X: Any) -> Any:
-        n, end = len(parent), np.cumsum([s.shape[1] for s in S])
-        at = [slice(end[i] - S[i].shape[1], end[i]) for i in range(n)]
-        IC, M = list(I), np.zeros((end[-1], end[-1]))
-        for i in range(1, n) if ways.outward else range(n - 1, 0, -1):
-            IC[parent[i]] = IC[parent[i]] + ways.congruence(X[i], IC[i])
-        for i in range(1, n):
-            F, j = IC[i] @ S[i], i
-            M[at[i], at[i]] = S[i].mT @ F
-            while parent[j] > ways.stops_at:
-                F, j = ways.inward(X[j]) @ F, parent[j]
-                M[at[j], at[i]] = S[j].mT @ F
-                M[at[i], at[j]] = M[at[j], at[i]].mT
-        return M
-
-    return wrong
-
-
-def _blocks_only(parent: Any, S: Any, I: Any, X: Any) -> Any:
-    """Fill the blocks on the diagonal."""
-    M, start = tree_crba(parent, S, I, X), 0
-    kept = np.zeros_like(M)
-    for s in S:
-        at = slice(start, start := start + s.shape[1])
-        kept[at, at] = M[at, at]
-    return kept
-
-
 def _energies(answer: Any, parent: Any, S: Any, I: Any, X: Any) -> Any:
     """Return ½ q̇ᵀM q̇ less the energy of the bodies, for some q̇."""
     rates = np.random.default_rng(0).standard_normal((3, len(answer)))
@@ -91,19 +50,19 @@ CRBA = Part(
     returns=(Quantity("M"),),
     cases=lambda rng: [tuple(lists) for _, *lists in trees(rng)],
     slips={
-        "subtree-left-out": _written(Ways(congruence=lambda X, I: 0 * I)),
-        "inertia-half-rotated": _written(Ways(congruence=lambda X, I: X.mT @ I)),
-        "inertia-like-motion": _written(Ways(congruence=lambda X, I: np.linalg.inv(X) @ I @ X)),
-        "inverse-transform": _written(
-            Ways(
-                congruence=lambda X, I: np.linalg.inv(X).mT @ I @ np.linalg.inv(X), inward=lambda X: np.linalg.inv(X).mT
-            )
+        "subtree-left-out": faulty(tree_crba, (" + X[i].mT @ IC[i] @ X[i]", "")),
+        "inertia-half-rotated": faulty(tree_crba, ("X[i].mT @ IC[i] @ X[i]", "X[i].mT @ IC[i]")),
+        "inertia-like-motion": faulty(tree_crba, ("X[i].mT @ IC[i] @ X[i]", "np.linalg.inv(X[i]) @ IC[i] @ X[i]")),
+        "inverse-transform": faulty(
+            tree_crba,
+            ("X[i].mT @ IC[i] @ X[i]", "np.linalg.inv(X[i]).mT @ IC[i] @ np.linalg.inv(X[i])"),
+            ("X[j].mT @ F", "np.linalg.inv(X[j]).mT @ F"),
         ),
-        "force-outward": _written(Ways(inward=lambda X: np.linalg.inv(X).mT)),
-        "motion-for-force": _written(Ways(inward=np.linalg.inv)),
-        "visited-outward": _written(Ways(outward=True)),
-        "joints-missing": _written(Ways(stops_at=1)),
-        "off-diagonal-missing": _blocks_only,
+        "force-outward": faulty(tree_crba, ("X[j].mT @ F", "np.linalg.inv(X[j]).mT @ F")),
+        "motion-for-force": faulty(tree_crba, ("X[j].mT @ F", "np.linalg.inv(X[j]) @ F")),
+        "visited-outward": faulty(tree_crba, ("range(n - 1, 0, -1)", "range(1, n)")),
+        "joints-missing": faulty(tree_crba, ("parent[j] > 0", "parent[j] > 1")),
+        "off-diagonal-missing": faulty(tree_crba, ("while parent[j] > 0", "while False")),
         "chain-for-tree": lambda parent, *rest: tree_crba(previous(parent), *rest),
         "one-triangle": after(tree_crba, np.triu),
         "doubled-off-diagonal": after(tree_crba, lambda M: M + M.mT - np.diag(np.diag(M))),

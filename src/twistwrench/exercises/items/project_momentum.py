@@ -1,7 +1,6 @@
 """The project, stage 3: A_G and ḣ_G of one's own, and how they go wrong."""
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from ..exercise import Part, Property, Quantity
 from ..layouts import CENTROIDAL_MAP, MOMENTUM
 from ..robots import robot, small_robot
 from ..text import Text
-from ..wrong import swapped
+from ..wrong import faulty, swapped
 
 __all__ = ["MAP", "RATE", "momentum_rate", "own_centroidal_map"]
 
@@ -37,30 +36,6 @@ def momentum_rate(model: Any, q: Any, v: Any, a: Any) -> Any:
         F = I @ A + tw.cross_force(V) @ I @ V
         rate = rate + tw.force_transform(T.rotation, T.translation - p_G) @ F
     return rate
-
-
-class Ways(NamedTuple):
-    """Ways to take the momentum of a body to the centre of mass, all of them right by default."""
-
-    about: Callable[[Any, Any], Any] = tw.center_of_mass
-    moved: Callable[[Any, Any], Any] = tw.force_transform
-    inertia: Callable[[Any, Any, Any], Any] = lambda I, R, p: I.matrix()
-    rotated: bool = True
-
-
-def _summed(ways: Ways) -> Any:
-    """Sum the momenta in one of those ways."""
-
-    def wrong(model: Any, q: Any) -> Any:
-        point, placement = ways.about(model, q), tw.forward_kinematics(model, q).placement
-        A_G = np.zeros((6, model.nv))
-        for i in range(1, model.nbodies):
-            J = tw.frame_jacobian(model, q, model.joint_names[i], reference="local")
-            R, p = placement[i].rotation, placement[i].translation - point
-            A_G = A_G + ways.moved(R if ways.rotated else np.eye(3), p) @ ways.inertia(model.inertia[i], R, p) @ J
-        return A_G
-
-    return wrong
 
 
 def _at_mean(model: Any, q: Any) -> Any:
@@ -119,18 +94,21 @@ MAP = Part(
     returns=(Quantity("A_G", CENTROIDAL_MAP),),
     cases=_postures,
     slips={
-        "momentum-at-origin": _summed(Ways(about=lambda model, q: np.zeros(3))),
-        "momentum-at-base": _summed(Ways(about=lambda model, q: q[:3])),
-        "unweighted-mean": _summed(Ways(about=_at_mean)),
-        "frame-for-com": _summed(Ways(about=_at_frames)),
-        "motion-for-force": _summed(Ways(moved=tw.motion_transform)),
-        "untransformed": _summed(Ways(moved=lambda R, p: np.eye(6))),
-        "local-for-world": _summed(Ways(rotated=False)),
-        "inverse-transform": _summed(Ways(moved=lambda R, p: np.linalg.inv(tw.force_transform(R, p)))),
-        "mixed-frames": _summed(
-            Ways(moved=lambda R, p: np.eye(6), inertia=lambda body, R, p: body.transform(tw.SE3(R, p)).matrix())
+        "momentum-at-origin": faulty(own_centroidal_map, ("tw.center_of_mass(model, q)", "np.zeros(3)")),
+        "momentum-at-base": faulty(own_centroidal_map, ("tw.center_of_mass(model, q)", "q[:3]")),
+        "unweighted-mean": faulty(own_centroidal_map, ("tw.center_of_mass(model, q)", "_at_mean(model, q)")),
+        "frame-for-com": faulty(own_centroidal_map, ("tw.center_of_mass(model, q)", "_at_frames(model, q)")),
+        "motion-for-force": faulty(own_centroidal_map, ("tw.force_transform", "tw.motion_transform")),
+        "untransformed": faulty(own_centroidal_map, ("tw.force_transform(R, p - p_G) @ ", "")),
+        "local-for-world": faulty(own_centroidal_map, ("tw.force_transform(R", "tw.force_transform(np.eye(3)")),
+        "inverse-transform": faulty(
+            own_centroidal_map, ("tw.force_transform(R, p - p_G)", "np.linalg.inv(tw.force_transform(R, p - p_G))")
         ),
-        "orbital-missing": _summed(Ways(inertia=lambda body, R, p: _spin(body))),
+        "mixed-frames": faulty(
+            own_centroidal_map,
+            ("tw.force_transform(R, p - p_G) @ model.inertia[i]", "model.inertia[i].transform(tw.SE3(R, p - p_G))"),
+        ),
+        "orbital-missing": faulty(own_centroidal_map, ("model.inertia[i].matrix()", "_spin(model.inertia[i])")),
         "rows-only": _rows,
     },
     reasons={
@@ -162,38 +140,6 @@ MAP = Part(
 )
 
 
-def _rated(change: Any) -> Any:
-    """Change the wrench that a body needs, of I, V and A."""
-
-    def wrong(model: Any, q: Any, v: Any, a: Any) -> Any:
-        p_G = tw.center_of_mass(model, q)
-        placement, twists, accelerations = tw.forward_kinematics(model, q, v, a)
-        rate = np.zeros(6)
-        for body, T, V, A in zip(model.inertia, placement, np.array(twists), np.array(accelerations)):
-            moved = tw.force_transform(T.rotation, T.translation - p_G)
-            rate = rate + moved @ change(body.matrix(), V, A)
-        return rate
-
-    return wrong
-
-
-def _shifted(about: Any) -> Any:
-    """Take the rate about another point: it gains (p_G − point) × f."""
-
-    def wrong(model: Any, q: Any, v: Any, a: Any) -> Any:
-        rate = tw.centroidal_momentum_rate(model, q, v, a)
-        arm = tw.center_of_mass(model, q) - about(q)
-        return rate + np.concatenate([np.cross(arm, rate[3:]), np.zeros(3)])
-
-    return wrong
-
-
-def _classical(I: Any, V: Any, A: Any) -> Any:
-    """Use the acceleration of the origin for the spatial one."""
-    origin = A + np.concatenate([np.zeros(3), np.cross(V[:3], V[3:])])
-    return I @ origin + tw.cross_force(V) @ I @ V
-
-
 RATE = Part(
     solution=momentum_rate,
     doc=Text(
@@ -214,15 +160,17 @@ RATE = Part(
     returns=(Quantity("ḣ_G", MOMENTUM),),
     cases=_motions,
     slips={
-        "gyroscopic-missing": _rated(lambda I, V, A: I @ A),
-        "gyroscopic-sign": _rated(lambda I, V, A: I @ A - tw.cross_force(V) @ I @ V),
-        "motion-cross-for-force": _rated(lambda I, V, A: I @ A + tw.cross_motion(V) @ I @ V),
-        "classical-acceleration": _rated(_classical),
+        "gyroscopic-missing": faulty(momentum_rate, (" + tw.cross_force(V) @ I @ V", "")),
+        "gyroscopic-sign": faulty(momentum_rate, ("+ tw.cross_force", "- tw.cross_force")),
+        "motion-cross-for-force": faulty(momentum_rate, ("tw.cross_force", "tw.cross_motion")),
+        "classical-acceleration": faulty(
+            momentum_rate, ("I @ A +", "I @ (A + np.concatenate([np.zeros(3), np.cross(V[:3], V[3:])])) +")
+        ),
         "swapped-halves": swapped(momentum_rate),
         "rate-bias-missing": lambda model, q, v, a: tw.centroidal_map(model, q) @ a,
         "velocity-for-acceleration": lambda model, q, v, a: tw.centroidal_map(model, q) @ v,
-        "momentum-at-origin": _shifted(lambda q: np.zeros(3)),
-        "momentum-at-base": _shifted(lambda q: q[:3]),
+        "momentum-at-origin": faulty(momentum_rate, ("tw.center_of_mass(model, q)", "np.zeros(3)")),
+        "momentum-at-base": faulty(momentum_rate, ("tw.center_of_mass(model, q)", "q[:3]")),
         "gravity-in-rate": lambda model, q, v, a: (
             tw.centroidal_momentum_rate(model, q, v, a) - np.concatenate([np.zeros(3), model.mass * model.gravity])
         ),

@@ -1,7 +1,6 @@
 """The project, stage 2: RNEA on a tree, the energy of its motion, and how the recursion goes wrong."""
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -9,6 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Part, Property, Quantity
 from ..text import Text
+from ..wrong import faulty
 from .project_trees import described, pieces, previous, trees
 
 __all__ = ["ENERGY", "RNEA", "tree_energy", "tree_rnea"]
@@ -37,43 +37,6 @@ def tree_energy(parent: Any, S: Any, I: Any, X: Any, qd: Any) -> Any:
         V.append(X[i] @ V[parent[i]] + S[i] @ qd[i])
         energy += V[i] @ I[i] @ V[i] / 2
     return energy
-
-
-class Ways(NamedTuple):
-    """Ways to write RNEA, all of them right by default: factors before its terms, and what is done on the way in."""
-
-    gravity: float = 1
-    carried: float = 1
-    own: float = 1
-    coriolis: float = 1
-    classical: float = 0
-    gyroscopic: Callable[[Any], Any] = tw.cross_force
-    inward: Callable[[Any], Any] = lambda X: X.mT
-    passed: float = 1
-    kept: float = 1
-    outward: bool = False
-
-
-def _written(ways: Ways) -> Any:
-    """Write RNEA in one of those ways."""
-
-    def wrong(parent: Any, S: Any, I: Any, X: Any, qd: Any, qdd: Any, a0: Any) -> Any:
-        bodies = range(1, len(parent))
-        V, A, need, F, tau = ([np.zeros(6)] * len(parent) for _ in range(5))
-        A[0] = ways.gravity * a0
-        for i in bodies:
-            V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
-            bias = ways.coriolis * tw.cross_motion(V[i]) @ S[i] @ qd[i]
-            A[i] = ways.carried * X[i] @ A[parent[i]] + ways.own * S[i] @ qdd[i] + bias
-            classical = ways.classical * np.concatenate([np.zeros(3), np.cross(V[i][:3], V[i][3:])])
-            need[i] = I[i] @ (A[i] + classical) + ways.gyroscopic(V[i]) @ I[i] @ V[i]
-        for i in bodies if ways.outward else reversed(bodies):
-            F[i] = ways.kept * F[i] + need[i]
-            tau[i] = S[i].mT @ F[i]
-            F[parent[i]] = F[parent[i]] + ways.passed * ways.inward(X[i]) @ F[i]
-        return np.concatenate(tau[1:])
-
-    return wrong
 
 
 def _motions(rng: Any) -> Any:
@@ -112,22 +75,26 @@ RNEA = Part(
     returns=(Quantity("τ"),),
     cases=_motions,
     slips={
-        "gravity-missing": _written(Ways(gravity=0)),
-        "gravity-sign": _written(Ways(gravity=-1)),
-        "acceleration-not-carried": _written(Ways(carried=0)),
-        "own-acceleration-missing": _written(Ways(own=0)),
-        "coriolis-missing": _written(Ways(coriolis=0)),
-        "coriolis-sign": _written(Ways(coriolis=-1)),
-        "classical-acceleration": _written(Ways(classical=1)),
-        "gyroscopic-missing": _written(Ways(gyroscopic=lambda V: np.zeros((6, 6)))),
-        "gyroscopic-sign": _written(Ways(gyroscopic=lambda V: -tw.cross_force(V))),
-        "motion-cross-for-force": _written(Ways(gyroscopic=tw.cross_motion)),
-        "force-outward": _written(Ways(inward=lambda X: np.linalg.inv(X).mT)),
-        "motion-for-force": _written(Ways(inward=np.linalg.inv)),
-        "children-overwritten": _written(Ways(kept=0)),
-        "children-dropped": _written(Ways(passed=0)),
-        "force-sign": _written(Ways(passed=-1)),
-        "visited-outward": _written(Ways(outward=True)),
+        "gravity-missing": faulty(tree_rnea, ("A[0] = a0", "A[0] = 0 * a0")),
+        "gravity-sign": faulty(tree_rnea, ("A[0] = a0", "A[0] = -a0")),
+        "acceleration-not-carried": faulty(tree_rnea, ("X[i] @ A[p] + S[i]", "S[i]")),
+        "own-acceleration-missing": faulty(tree_rnea, (" + S[i] @ qdd[i]", "")),
+        "coriolis-missing": faulty(tree_rnea, (" + tw.cross_motion(V[i]) @ S[i] @ qd[i]", "")),
+        "coriolis-sign": faulty(tree_rnea, ("+ tw.cross_motion", "- tw.cross_motion")),
+        "classical-acceleration": faulty(
+            tree_rnea, ("I[i] @ A[i]", "I[i] @ (A[i] + np.concatenate([np.zeros(3), np.cross(V[i][:3], V[i][3:])]))")
+        ),
+        "gyroscopic-missing": faulty(tree_rnea, (" + tw.cross_force(V[i]) @ I[i] @ V[i]", "")),
+        "gyroscopic-sign": faulty(tree_rnea, ("+ tw.cross_force", "- tw.cross_force")),
+        "motion-cross-for-force": faulty(tree_rnea, ("tw.cross_force", "tw.cross_motion")),
+        "force-outward": faulty(tree_rnea, ("X[i].mT @ F[i]", "np.linalg.inv(X[i]).mT @ F[i]")),
+        "motion-for-force": faulty(tree_rnea, ("X[i].mT @ F[i]", "np.linalg.inv(X[i]) @ F[i]")),
+        "children-overwritten": faulty(
+            tree_rnea, ("tau[i] = S", "F[i] = I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i]; tau[i] = S")
+        ),
+        "children-dropped": faulty(tree_rnea, (" + X[i].mT @ F[i]", "")),
+        "force-sign": faulty(tree_rnea, ("+ X[i].mT @ F[i]", "- X[i].mT @ F[i]")),
+        "visited-outward": faulty(tree_rnea, ("range(n - 1, 0, -1)", "range(1, n)")),
         "chain-for-tree": lambda parent, *rest: tree_rnea(previous(parent), *rest),
         "velocity-terms-missing": lambda parent, S, I, X, qd, qdd, a0: tree_rnea(
             parent, S, I, X, [0 * rate for rate in qd], qdd, a0
