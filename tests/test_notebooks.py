@@ -166,6 +166,22 @@ def test_nothing_that_the_package_has_is_defined_again(source):
     assert defined & (set(dir(tw)) | set(dir(tw.newton_euler_3d))) == set()
 
 
+@pytest.mark.parametrize(
+    ("name", "listing"),
+    [
+        ("49_06", "newton_euler"),
+        ("49_07", "articulated_body"),
+        ("49_08", "composite_rigid_body"),
+        ("49_10", "centroidal_composite"),
+    ],
+)
+def test_the_algorithms_are_shown_as_they_stand_in_the_package(name, listing):
+    (source,) = (source for source in SOURCES if source.stem == name)
+    text = "\n".join(code(source))
+    assert f"print(inspect.getsource({listing}))" in text
+    assert "settrace" not in text
+
+
 @pytest.mark.parametrize("language", build.LANGUAGES)
 @pytest.mark.parametrize("source", SECTIONS, ids=by_name)
 def test_a_section_ends_with_its_exercises(source, language):

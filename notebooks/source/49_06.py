@@ -11,13 +11,15 @@
 # 一步一步走一遍,画出每一步带的是什么,说明重力在里面是什么,最后看看本章的伪代码错在哪里。
 # %%
 import dataclasses
+import inspect
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import twistwrench as tw
 from twistwrench import plot
-from twistwrench.tree import split, walk
+from twistwrench.inverse_dynamics import newton_euler
+from twistwrench.tree import walk
 
 model = tw.load("go2")
 q = model.standing()
@@ -43,7 +45,6 @@ for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs
 # %%
 tree = walk(model, q)
 parent, S, I, X = tree.parent, tree.S, tree.I, tree.X
-qd, qdd = split(model, v), split(model, a)  # one piece for each joint
 print("body            parent          S")
 for i in range(1, 5):
     print(f"{model.joint_names[i]:15} {model.joint_names[parent[i]]:15} {S[i].shape}")
@@ -63,6 +64,8 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 #
 # The start is the world: $\boldsymbol V_0 = 0$, and $\boldsymbol a_0 = (0, -\boldsymbol g)$: instead of pulling
 # every body down, let the world rise. Why that is the same, we see below.
+#
+# `tw.rnea_terms` returns everything that the recursion computes on its way, a list entry for each body.
 # %% [markdown] lang="zh"
 # ## 向外:twist 与加速度
 #
@@ -76,12 +79,16 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 #
 # 起点是世界:$\boldsymbol V_0 = 0$,而 $\boldsymbol a_0 = (0, -\boldsymbol g)$:不是把每个刚体往下拉,而是让世界向上加速。
 # 为什么两者一样,下面会看到。
+#
+# `tw.rnea_terms` 返回递推途中算出的所有量,每个刚体一项。
 # %%
-V, A = np.zeros((2, model.nbodies, 6))
-A[0, 3:] = -model.gravity  # the world rises
-for i in tree.outward:
-    V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
-    A[i] = X[i] @ A[parent[i]] + S[i] @ qdd[i] + tw.cross_motion(V[i]) @ S[i] @ qd[i]
+terms = tw.rnea_terms(model, q, v, a)
+V, A = np.array(terms.V), np.array(terms.A)
+i, at = 3, model.v_slice[3]  # one of its lines, by hand: the left front thigh
+assert np.allclose(V[i], X[i] @ V[parent[i]] + S[i] @ v[at], atol=1e-14)
+coriolis = tw.cross_motion(V[i]) @ S[i] @ v[at]
+assert np.allclose(A[i], X[i] @ A[parent[i]] + S[i] @ a[at] + coriolis, atol=1e-13)
+assert np.allclose(A[0], [0, 0, 0, *-model.gravity])  # the world rises
 
 kin = tw.forward_kinematics(model, q, v, a)
 assert np.allclose(V, kin.twist, atol=1e-12)
@@ -114,23 +121,29 @@ assert np.allclose(moving.imag / h, kin.acceleration, atol=1e-12)
 # 用 $X_j^T$,是因为 $X_j$ 向外,而功率相等使它的转置向内(49.4)。$\boldsymbol F_i$ 的六个数里,转动关节自己就承受了五个,
 # 只有沿 $S_i$ 的那一个归电机。
 # %%
-own = np.array([I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i] for i in range(model.nbodies)])
-F, tau = own.copy(), [np.zeros(0)] * model.nbodies
-for i in tree.inward:
-    tau[i] = S[i].T @ F[i]  # the motor's part
-    F[parent[i]] += X[i].T @ F[i]  # all of it must come through the parent
-tau = np.concatenate(tau)
-
-assert np.allclose(F, tw.joint_wrenches(model, q, v, a), rtol=1e-12, atol=1e-12)
-assert np.allclose(tau, tw.rnea(model, q, v, a), rtol=1e-12, atol=1e-12)
+own, F, tau = np.array(terms.B), np.array(terms.F), terms.tau
+i = 3
+assert np.allclose(own[i], I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i], rtol=1e-12, atol=1e-12)  # Newton and Euler
+children = [j for j in tree.outward if parent[j] == i]
+assert np.allclose(F[i], own[i] + sum(X[j].T @ F[j] for j in children), rtol=1e-12, atol=1e-12)
+assert np.allclose(tau[model.v_slice[i]], S[i].T @ F[i], rtol=1e-12)  # the motor's part
+assert np.array_equal(tau, tw.rnea(model, q, v, a))
 
 
 # %% [markdown] lang="en"
-# That is RNEA. `tw.rnea` does the same, for batches and for any number type. This is what has travelled: each label says
-# what goes through that joint, and the width of the arrow how much of it.
+# That is RNEA: two passes. This is the whole of it, as it stands in the package. `tw.rnea` checks its arguments, runs
+# this, and returns $\boldsymbol\tau$. Vectors are columns, so that batches and any number type go through the same lines.
 # %% [markdown] lang="zh"
-# 这就是 RNEA。`tw.rnea` 做的是同样的事,只是还支持 batch 和任何数值类型。下图是一路传递的东西:标注是经过该关节的量,
-# 箭头的粗细表示多少。
+# 这就是 RNEA:两遍。下面是它在程序包里的全文。`tw.rnea` 检查参数,运行它,再返回 $\boldsymbol\tau$。向量写成列,
+# 所以 batch 和任何数值类型都走同样的几行。
+# %%
+print(inspect.getsource(newton_euler))
+
+
+# %% [markdown] lang="en"
+# This is what has travelled: each label says what goes through that joint, and the width of the arrow how much of it.
+# %% [markdown] lang="zh"
+# 下图是一路传递的东西:标注是经过该关节的量,箭头的粗细表示多少。
 # %%
 def sizes(vectors, angular, linear):
     """Lengths of both halves, for the labels; nothing for the world."""

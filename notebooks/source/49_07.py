@@ -10,13 +10,15 @@
 # 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$:它问每个关节,当后面的关节全部自由时,它
 # *感受到*的惯量是多少。这个笔记本把这种惯量画出来,在 Go2 上走完三遍递推,最后看答案有多准。
 # %%
+import inspect
+
 import matplotlib.pyplot as plt
 import mpmath
 import numpy as np
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d, plot
-from twistwrench.tree import composite_inertias, split, walk
+from twistwrench.forward_dynamics import articulated_body
 
 model = tw.load("go2")
 q = model.standing()
@@ -112,32 +114,18 @@ plt.show()
 # 本章这里写的是 $X_i^* \hat I X_i^{-1}$ 和 $X_i^* \boldsymbol p$,而 $X_i$ 是从父到子。这和 49.6 一样是向外的:
 # 小腿会跑到大腿上方去。
 # %%
-tree = walk(model, q)
-n, parent, S, I, X = model.nbodies, tree.parent, tree.S, tree.I, tree.X
-qd, torque = split(model, v), split(model, tau)
-V, A, c, pA = np.zeros((4, n, 6))
-IA, U, D, u, qdd = np.array(I), [None] * n, [None] * n, [None] * n, [np.zeros(0)] * n
-A[0, 3:] = -model.gravity  # the world rises, as in RNEA
+print(inspect.getsource(articulated_body))
+# %% [markdown] lang="en"
+# That is the file itself: `tw.aba` checks its arguments, runs this, and refuses a $D_i$ that is singular. What it computes
+# on its way is in the record that `tw.aba_terms` returns, an entry for each body.
+# %% [markdown] lang="zh"
+# 这就是源文件本身:`tw.aba` 检查参数,运行它,遇到奇异的 $D_i$ 就拒绝。途中算出的量都在 `tw.aba_terms` 返回的记录里,
+# 每个刚体一项。
+# %%
+terms = tw.aba_terms(model, q, v, tau)
+A, D, IA, pA, qdd = np.array(terms.A), terms.D, np.array(terms.IA), np.array(terms.pA), terms.qdd
 
-for i in tree.outward:  # 1: twists
-    V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
-    c[i] = tw.cross_motion(V[i]) @ S[i] @ qd[i]
-    pA[i] = tw.cross_force(V[i]) @ I[i] @ V[i]
-for i in tree.inward:  # 2: articulated inertias
-    U[i] = IA[i] @ S[i]
-    D[i] = S[i].T @ U[i]
-    u[i] = torque[i] - S[i].T @ pA[i]
-    Ia = IA[i] - U[i] @ np.linalg.solve(D[i], U[i].T)
-    pa = pA[i] + Ia @ c[i] + U[i] @ np.linalg.solve(D[i], u[i])
-    IA[parent[i]] += X[i].T @ Ia @ X[i]
-    pA[parent[i]] += X[i].T @ pa
-for i in tree.outward:  # 3: accelerations
-    A[i] = X[i] @ A[parent[i]] + c[i]
-    qdd[i] = np.linalg.solve(D[i], u[i] - U[i].T @ A[i])
-    A[i] += S[i] @ qdd[i]
-qdd = np.concatenate(qdd)
-
-assert np.allclose(qdd, tw.aba(model, q, v, tau), rtol=1e-11, atol=1e-11)
+assert np.array_equal(qdd, tw.aba(model, q, v, tau))
 through = tw.joint_wrenches(model, q, v, qdd)
 assert np.allclose(np.matvec(IA, A)[1:] + pA[1:], through[1:], atol=1e-10)  # F = I^A a + p^A, for every body
 assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on to the world
@@ -169,13 +157,8 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 # %%
 def through_joints(model, q):
     """Composite inertia of each subtree, and what its parent feels of it through the free joint."""
-    tree = walk(model, np.asarray(q, float))
-    IA, felt = [*tree.I], [None] * model.nbodies
-    for i in tree.inward:
-        U = IA[i] @ tree.S[i]
-        felt[i] = IA[i] - U @ np.linalg.solve(tree.S[i].T @ U, U.T)
-        IA[tree.parent[i]] = IA[tree.parent[i]] + tree.X[i].T @ felt[i] @ tree.X[i]
-    return composite_inertias(tree), felt
+    rest = np.zeros(model.nv)
+    return tw.crba_terms(model, q).IC, tw.aba_terms(model, q, rest, rest).Ia
 
 
 rods = tw.chain(6)
