@@ -15,7 +15,7 @@ from .errors import SingularError
 from .formulas import bias_wrench
 from .kinematics import motion, placements
 from .model import Model
-from .plucker import SE3
+from .plucker import SE3, placed_point
 from .terms import CentroidalTerms, matrices
 from .tree import Tree, columns, composite_inertias, joint_placements, walk
 
@@ -76,7 +76,8 @@ def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
         raise SingularError(f"centre of mass of {model.name!r}: nothing that moves has mass")
     moment = np.zeros((*q.shape[:-1], 3), q.dtype)
     for T, inertia in zip(placement, model.inertia):
-        moment = moment + inertia.mass.astype(q.dtype) * T.act(inertia.com.astype(q.dtype))
+        com = placed_point(T.rotation, T.translation, inertia.com.astype(q.dtype))
+        moment = moment + inertia.mass.astype(q.dtype) * com
     p_G: Array = moment / np.sum([inertia.mass.astype(q.dtype) for inertia in model.inertia])  # 49.10 p_G
     return p_G
 

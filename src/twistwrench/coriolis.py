@@ -11,9 +11,27 @@ from .formulas import cross_force, cross_motion
 from .model import Model
 from .plucker import blocks
 from .rotation import cross_matrix
-from .tree import columns, walk
+from .tree import Tree, columns, walk
 
-__all__ = ["coriolis_matrix"]
+__all__ = ["christoffel", "coriolis_matrix"]
+
+
+def christoffel(tree: Tree, qd: list[Array]) -> Array:
+    """Add up C = Σ Jᵢᵀ (Iᵢ J̇ᵢ + Bᵢ Jᵢ); J[i] has the columns of the joints on the way to the base, and no others."""
+    parent, S, I, X, end = tree.parent, tree.S, tree.I, tree.X, np.cumsum(tree.nv)
+    V, J, dJ = tree.zeros(3)
+    J[0] = dJ[0] = V[0][..., :0]
+    dofs = [np.arange(0)] * len(parent)
+    C = np.zeros((*tree.batch, end[-1], end[-1]), V[0].dtype)
+    for i in tree.outward:
+        p, own = parent[i], np.broadcast_to(S[i], (*tree.batch, *S[i].shape))
+        V[i] = X[i] @ V[p] + S[i] @ qd[i]
+        J[i] = np.concatenate([X[i] @ J[p], own], axis=-1)
+        dJ[i] = np.concatenate([X[i] @ dJ[p], cross_motion(V[i]) @ own], axis=-1)
+        dofs[i] = np.concatenate([dofs[p], np.arange(end[i - 1], end[i])])
+        B = (cross_force(V[i]) @ I[i] - I[i] @ cross_motion(V[i]) + _cross_bar(I[i] @ V[i])) / 2  # 49.6 B
+        C[..., dofs[i][:, None], dofs[i]] += J[i].mT @ (I[i] @ dJ[i] + B @ J[i])  # 49.6 C
+    return C
 
 
 def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
@@ -54,21 +72,7 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     True
     """
     q, v = state_of(model, q, v=v)
-    tree, qd = walk(model, q), columns(model, v)
-    parent, S, I, X = tree.parent, tree.S, tree.I, tree.X
-    V, J, dJ = tree.zeros(3)
-    J[0] = dJ[0] = np.zeros((6, 0), q.dtype)  # columns of the joints on the way to the base only
-    dofs = [np.zeros(0, int)] * model.nbodies
-    C = np.zeros((*q.shape[:-1], model.nv, model.nv), q.dtype)
-    for i in tree.outward:
-        p, own = parent[i], np.broadcast_to(S[i], (*q.shape[:-1], *S[i].shape))
-        V[i] = X[i] @ V[p] + S[i] @ qd[i]
-        J[i] = np.concatenate([X[i] @ J[p], own], axis=-1)
-        dJ[i] = np.concatenate([X[i] @ dJ[p], cross_motion(V[i]) @ own], axis=-1)
-        dofs[i] = np.concatenate([dofs[p], np.arange(model.nv)[model.v_slice[i]]])
-        B = (cross_force(V[i]) @ I[i] - I[i] @ cross_motion(V[i]) + _cross_bar(I[i] @ V[i])) / 2  # 49.6 B
-        C[..., dofs[i][:, None], dofs[i]] += J[i].mT @ (I[i] @ dJ[i] + B @ J[i])  # 49.6 C
-    return C
+    return christoffel(walk(model, q), columns(model, v))
 
 
 def _cross_bar(h: Array) -> Array:

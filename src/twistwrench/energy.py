@@ -9,6 +9,7 @@ from .checks import Array
 from .door import state_of
 from .kinematics import motion, placements
 from .model import Model
+from .plucker import placed_point
 from .tree import columns, joint_placements, walk
 
 __all__ = ["kinetic_energy", "potential_energy"]
@@ -79,5 +80,6 @@ def potential_energy(model: Model, q: ArrayLike) -> Array:
     weight = -model.constants(q.dtype).gravity[3:]
     energy = np.zeros(q.shape[:-1], q.dtype)
     for T, inertia in zip(placements(model.parent, joint_placements(model, q)), model.inertia):
-        energy = energy + inertia.mass.astype(q.dtype) * (T.act(inertia.com.astype(q.dtype)) * weight).sum(axis=-1)
+        com = placed_point(T.rotation, T.translation, inertia.com.astype(q.dtype))
+        energy = energy + inertia.mass.astype(q.dtype) * (com * weight).sum(axis=-1)  # 49.5 U
     return energy
