@@ -53,6 +53,8 @@ def test_each_kind_moves_its_frame_as_its_name_says():
         (tw.Revolute([0, 0, -2]), [-0.3], about_z, [0, 0, 0]),
         (tw.Continuous("z"), [c, s], about_z, [0, 0, 0]),
         (tw.Prismatic([0, 3, 4]), [0.5], np.eye(3), [0, 0.3, 0.4]),
+        (tw.Helical("z", 0.5), [0.3], about_z, [0, 0, 0.15]),
+        (tw.Helical([0, 0, -2], -0.5), [-0.3], about_z, [0, 0, -0.15]),
         (tw.Planar(), [1, 2, c, s], about_z, [1, 2, 0]),
         (tw.Spherical(), half, about_z, [0, 0, 0]),
         (tw.FreeFlyer(), [1, 2, 3, *half], about_z, [1, 2, 3]),
@@ -303,6 +305,17 @@ def test_axis_is_normalised_whatever_its_length():
 def test_axis_that_is_none_is_refused(axis):
     with pytest.raises(ValueError, match="axis"):
         tw.Revolute(axis)
+
+
+@pytest.mark.parametrize("pitch", [np.nan, np.inf, "0.1", None, [0.1, 0.2], True], ids=str)
+def test_pitch_that_is_no_finite_number_is_refused(pitch):
+    with pytest.raises(ValueError, match="pitch"):
+        tw.Helical("z", pitch)
+
+
+def test_a_screw_without_pitch_is_a_hinge():
+    q = np.array([0.7])
+    assert same_placement(tw.Helical(OBLIQUE, 0.0).transform(q), tw.Revolute(OBLIQUE).transform(q), 1e-16)
 
 
 def test_joints_are_frozen():

@@ -34,7 +34,7 @@ from .floating_base import Equilibrium, contact_jacobian, selection_matrix, stat
 from .forward_dynamics import aba, aba_terms
 from .inertia import SpatialInertia
 from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
-from .joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from .joint_types import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .mass_matrix import crba, crba_terms
 from .model import Model
@@ -68,6 +68,7 @@ __all__ = [
     "Equilibrium",
     "FrameError",
     "FreeFlyer",
+    "Helical",
     "Impact",
     "Model",
     "ModelError",

@@ -6,6 +6,7 @@ kind         nq   nv   q                             v                          
 revolute      1    1   angle                         rate                        RBDA table 4.1
 prismatic     1    1   length                        rate                        RBDA table 4.1
 continuous    2    1   (cos, sin)                    rate
+helical       1    1   angle                         rate                        RBDA table 4.1
 planar        4    3   (x, y, cos, sin)              (vx, vy, ωz), moved frame   RBDA table 4.1
 spherical     4    3   (qx, qy, qz, qw)              ω, moved frame              RBDA table 4.1
 free_flyer    7    6   (x, y, z, qx, qy, qz, qw)     (ω, v), moved frame         RBDA table 4.1
@@ -15,17 +16,20 @@ free_flyer    7    6   (x, y, z, qx, qy, qz, qw)     (ω, v), moved frame       
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
+from typing import Self
 
 import numpy as np
-from numpy.typing import DTypeLike
+from numpy.typing import ArrayLike, DTypeLike
 
 from ._scalars import cos, sin
-from .checks import Array
+from .checks import Array, as_number
+from .errors import ModelError
 from .joint import AxisJoint, GroupJoint, placement, same_side, turn, unit
 from .plucker import SE3
 from .rotation import cross_matrix, quaternion_matrix, rotation_to_quaternion
 
-__all__ = ["Continuous", "FreeFlyer", "Planar", "Prismatic", "Revolute", "Spherical"]
+__all__ = ["Continuous", "FreeFlyer", "Helical", "Planar", "Prismatic", "Revolute", "Spherical"]
 
 
 class Revolute(AxisJoint):
@@ -131,6 +135,60 @@ class Continuous(AxisJoint, GroupJoint):
         R = T.rotation
         k = cross_matrix(self._axis(R.dtype))
         return unit(np.stack([(np.trace(R, axis1=-2, axis2=-1) - 1) / 2, (R * k).sum((-2, -1)) / 2], axis=-1))
+
+
+@dataclass(frozen=True)
+class Helical(AxisJoint):
+    """A screw: a turn about an axis, and a slide along it by `pitch` times the angle. q is the angle in rad.
+
+    Parameters
+    ----------
+    axis : {"x", "y", "z"} or array_like, shape (3,)
+        Normalised here.
+    pitch : float
+        m/rad; positive for a right-handed thread.
+
+    Raises
+    ------
+    ModelError, ValueError
+        If the axis is zero or not a real vector of three, or the pitch is not a finite number.
+
+    Examples
+    --------
+    >>> spindle = Helical("z", 0.005 / (2 * np.pi))  # 5 mm a turn
+    >>> spindle.transform(np.array([2 * np.pi])).translation
+    array([0.   , 0.   , 0.005])
+    """
+
+    pitch: float
+
+    kind, nq = "helical", 1
+    pinocchio = ("H", "HelicalUnaligned")
+
+    def __init__(self, axis: str | ArrayLike, pitch: float) -> None:
+        super().__init__(axis)
+        if not np.isfinite(as_number(pitch, "pitch")):
+            raise ModelError(f"pitch: expected a finite number, got {pitch}")
+        object.__setattr__(self, "pitch", as_number(pitch, "pitch"))
+
+    @classmethod
+    def sample(cls, rng: np.random.Generator) -> Self:
+        """Draw a screw with an axis in any direction and a pitch of up to 0.5 m/rad to either hand."""
+        return cls(rng.standard_normal(3), rng.uniform(-0.5, 0.5))
+
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S = (axis, pitch axis)."""
+        axis = self._axis(dtype)
+        return np.concatenate([axis, self._pitch(dtype) * axis])[:, None]
+
+    def transform(self, q: Array) -> SE3:
+        """Return the turn by the angle q about the axis, and the shift by pitch q along it."""
+        axis = self._axis(q.dtype)
+        return placement(turn(axis, cos(q), sin(q)).rotation, self._pitch(q.dtype) * q * axis)
+
+    def _pitch(self, dtype: DTypeLike) -> float | Fraction:
+        """Return the pitch; for objects, which need not mix with floats, as a fraction."""
+        return Fraction(self.pitch) if np.dtype(dtype) == object and isinstance(self.pitch, float) else self.pitch
 
 
 @dataclass(frozen=True)
