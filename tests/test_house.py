@@ -14,7 +14,7 @@ TEXT = {p.relative_to(SOURCE).as_posix(): p.read_text(encoding="utf-8") for p in
 TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
-    *("errors", "report", "exact", "checks", "newton_euler_3d"),
+    *("errors", "report", "_mimic", "exact", "checks", "newton_euler_3d"),
     *(
         "_scalars",
         "orthonormal",
@@ -55,6 +55,7 @@ ORDER = [
         "floating_base",
         "centroidal",
         "whole_body",
+        "mimic",
     ),
     *("fast", "digits", "tracing", "robots", "plot"),
     *("files", "stopping", "options", "clock", "reduction", "contact", "simulation", "motions", "templates", "scene"),

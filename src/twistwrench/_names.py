@@ -37,6 +37,7 @@ from .inverse_dynamics import gravity, joint_wrenches, nonlinear_effects, rnea, 
 from .joint_types import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .mass_matrix import crba, crba_terms
+from .mimic import MimicModel
 from .model import Model
 from .orthonormal import nearest_rotation
 from .plucker import SE3, force_transform, motion_transform
@@ -70,6 +71,7 @@ __all__ = [
     "FreeFlyer",
     "Helical",
     "Impact",
+    "MimicModel",
     "Model",
     "ModelError",
     "NameNotFound",

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
 from .errors import SingularError
@@ -39,6 +40,7 @@ def centroidal_composite(tree: Tree, X: list[Array]) -> CentroidalTerms:
     return CentroidalTerms(tuple(X), matrices(IC, tree.batch), np.concatenate(A_G, axis=-1))
 
 
+@also_of_mimics
 def center_of_mass(model: Model, q: ArrayLike) -> Array:
     """Return the centre of mass p_G of everything that moves, in the world.
 
@@ -82,6 +84,7 @@ def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
     return p_G
 
 
+@also_of_mimics
 def centroidal_map(model: Model, q: ArrayLike) -> Array:
     """Return the centroidal momentum matrix A_G(q): h_G = A_G v, by the CCRBA.
 
@@ -149,6 +152,7 @@ def centroidal_terms(model: Model, q: ArrayLike) -> CentroidalTerms:
     return centroidal_composite(tree, _to_center_of_mass(model, tree, q))
 
 
+@also_of_mimics
 def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """Return the momentum h_G = (k_G, l_G) at the centre of mass, in the axes of the world.
 
@@ -183,6 +187,7 @@ def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     return h_G[..., 0]
 
 
+@also_of_mimics
 def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
     """Return ḣ_G = A_G a + Ȧ_G v, the rate of the centroidal momentum in a given motion.
 

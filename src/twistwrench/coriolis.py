@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
 from .formulas import cross_force, cross_motion
@@ -34,6 +35,7 @@ def christoffel(tree: Tree, qd: list[Array]) -> Array:
     return C
 
 
+@also_of_mimics
 def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """Return a C(q, v) with C v = h − g and Ṁ − 2C skew-symmetric.
 

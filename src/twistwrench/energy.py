@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
 from .kinematics import motion, placements
@@ -15,6 +16,7 @@ from .tree import columns, joint_placements, walk
 __all__ = ["kinetic_energy", "potential_energy"]
 
 
+@also_of_mimics
 def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """Return T = ½ Σ Vᵢᵀ Iᵢ Vᵢ, rotors included; equal to ½ vᵀ M v.
 
@@ -51,6 +53,7 @@ def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     return twice / 2
 
 
+@also_of_mimics
 def potential_energy(model: Model, q: ArrayLike) -> Array:
     """Return U = −Σ mᵢ g · cᵢ, zero where the centre of mass is at the world's origin.
 

@@ -114,6 +114,8 @@ def no_model(value: object, what: str = "model", expected: str = "a Model") -> T
         came, hint = f"the {kind.__name__} {str(value)!r}", f"; did you mean tw.load({str(value)!r})?"
     elif (package, kind.__name__) == ("pinocchio", "Model"):
         hint = "; tw.bridge.from_pinocchio_model makes one of it"
+    elif package == "twistwrench" and hasattr(value, "full") and hasattr(value, "laws"):
+        hint = ", whose joints follow others, which this function does not know; its .full has them free"
     elif package == "twistwrench" and hasattr(value, "model"):
         hint = "; did you mean its .model?"
     return TypeError(f"{what}: expected {expected}, got {came}{hint}")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array, as_names, resolution
 from .door import check_model, one_configuration, state_of
 from .errors import SingularError
@@ -47,6 +48,7 @@ def _unactuated(model: Model) -> int:
     return 6 if model.base == "floating" else 0
 
 
+@also_of_mimics
 def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Array:
     """Return J_c of point contacts: the velocities of the contact points are J_c v.
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
 from .formulas import bias_wrench, cross_motion, inverse, symmetric
@@ -56,6 +57,7 @@ def articulated_body(tree: Tree, qd: list[Array], tau: list[Array], f_ext: list[
     )
 
 
+@also_of_mimics
 def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
     """Return the acceleration under given joint forces: q̈ = M⁻¹ (τ − h + Σ Jᵢᵀ f_ext[i]).
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array
 from .door import check_model, state_of
 from .formulas import bias_wrench, cross_motion
@@ -42,6 +43,7 @@ def newton_euler(tree: Tree, qd: list[Array], qdd: list[Array], f_ext: list[Arra
     return RneaTerms.of(tree.batch, V, A, B, F, stacked(tau))  # 49.6 RNEA
 
 
+@also_of_mimics
 def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
     """Return the joint forces that make a motion happen: τ = M(q) a + h(q, v) − Σ Jᵢᵀ f_ext[i].
 
@@ -121,6 +123,7 @@ def rnea_terms(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: Ar
     return newton_euler(walk(model, q), columns(model, v), columns(model, a), wrenches(f_ext))
 
 
+@also_of_mimics
 def joint_wrenches(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
     """Return the wrench that each joint transmits to its body, in the body's frame.
 
@@ -150,6 +153,7 @@ def joint_wrenches(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext
     return np.stack(rnea_terms(model, q, v, a, f_ext).F, axis=-2)
 
 
+@also_of_mimics
 def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """Return h(q, v) = C(q, v) v + g(q), what is left of τ without acceleration (49.9).
 
@@ -181,6 +185,7 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     return rnea(model, q, v, np.zeros(model.nv, int))  # 49.6 h
 
 
+@also_of_mimics
 def gravity(model: Model, q: ArrayLike) -> Array:
     """Return g(q), the joint forces that hold the model at rest against gravity.
 

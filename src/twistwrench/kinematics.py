@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array
 from .constants import cast
 from .door import state_of
@@ -56,6 +57,7 @@ class Kinematics(NamedTuple):
         return f"<Kinematics{of}: {', '.join([f'{len(self.placement)} placements', *given])}>"
 
 
+@also_of_mimics
 def forward_kinematics(
     model: Model, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
 ) -> Kinematics:
@@ -131,6 +133,7 @@ def _motion(model: Model, tree: Tree, v: Array, a: Array) -> tuple[list[Array], 
     return [x[..., 0] for x in V], [x[..., 0] for x in A]
 
 
+@also_of_mimics
 def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     """Return the placement of a named frame in the world.
 
@@ -170,6 +173,7 @@ def _frame_placement(model: Model, relative: list[SE3], body: int, T: SE3) -> SE
     return T
 
 
+@also_of_mimics
 def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference = "local") -> Array:
     """Return the Jacobian of a named frame: its twist is J(q) v.
 
@@ -214,6 +218,7 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
     return _to_reference(reference, _frame_placement(model, tree.placement, at.body, T)) @ J
 
 
+@also_of_mimics
 def frame_bias_acceleration(
     model: Model, q: ArrayLike, v: ArrayLike, frame: str, reference: Reference = "local"
 ) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
 from .formulas import symmetric
@@ -39,6 +40,7 @@ def composite_rigid_body(tree: Tree) -> CrbaTerms:
     return CrbaTerms.of(tree.batch, IC, F, M, tree.nv)  # 49.8 CRBA
 
 
+@also_of_mimics
 def crba(model: Model, q: ArrayLike) -> Array:
     """Return the mass matrix M(q), full and symmetric.
 

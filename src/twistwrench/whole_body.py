@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._mimic import also_of_mimics
 from .centroidal import centroidal_map
 from .checks import Array, as_names
 from .door import state_of
@@ -48,6 +49,7 @@ class Dynamics:
         return f"Dynamics({', '.join(f'{name}: {shape}' for name, shape in shapes.items())})"
 
 
+@also_of_mimics
 def dynamics(
     model: Model,
     q: ArrayLike,

@@ -161,7 +161,7 @@ def take(model: Any, **given: ArrayLike | None) -> State:
     ValueError
         If an argument is not numeric, not finite, or a wrench on the world.
     """
-    if not hasattr(model, "joint_names"):
+    if not hasattr(model, "joint_names") or hasattr(model, "laws"):  # joints that follow others are not known here
         raise no_model(model)
     shapes = {"q": (model.nq,), "v": (model.nv,), "a": (model.nv,), "tau": (model.nv,), "f_ext": (model.nbodies, 6)}
     came = {name: _as_array(value, name) for name, value in given.items() if value is not None}

@@ -9,9 +9,9 @@ from __future__ import annotations
 from os import PathLike
 from os.path import exists
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
-from ..errors import ModelError, no_model
+from ..errors import ModelError, NameNotFound, no_model
 from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
 
 if TYPE_CHECKING:  # `import twistwrench` passes here: what the catalogue does not need is imported by `load`
@@ -28,14 +28,14 @@ def load(
     base: Literal["fixed", "floating"] | None = None,
     gravity: ArrayLike = (0.0, 0.0, -9.81),
     physical: bool = True,
-    mimic: Literal["independent"] | None = None,
+    mimic: Literal["independent", "reduce"] | None = None,
     strict: bool = False,
 ) -> Model:
     """Load a robot of the catalogue, or a URDF.
 
     Masses, centres of mass, inertias, joints and limits are read; meshes are not, and need not exist. Links
     welded by fixed joints are merged and stay as frames: every link and every joint of the file is one. A link
-    without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own, as in Pinocchio; damping and
+    without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own unless told otherwise; damping and
     friction are kept as `Model.damping` and `Model.friction`, and no algorithm applies them.
 
     What has one meaning is read, even where the format has it otherwise, and `Model.report` is the table of it. What
@@ -55,9 +55,11 @@ def load(
     physical : bool
         Refuse a moving body, welded links merged, that cannot exist: its inertia about the centre of mass must be
         positive definite and obey the triangle inequality. False drops these two conditions and no other.
-    mimic : {"independent"}, optional
-        Where a joint should follow one that is not there, or itself, the file is refused; "independent" says that
-        you know that joints with ``<mimic>`` move on their own, and loads it either way.
+    mimic : {"independent", "reduce"}, optional
+        "reduce" makes the smaller model in which joints with ``<mimic>`` have no coordinate of their own and follow
+        their leaders, q = multiplier · q_leader + offset. "independent" says that you know that they move on their
+        own, as they do with a warning by default, as in Pinocchio; it also loads a file in which a joint should
+        follow one that is not there, or itself.
     strict : bool
         Refuse what would otherwise be read, with a warning, in the one way that it can be meant: all that is in
         the report, but for what these arguments asked for.
@@ -65,7 +67,7 @@ def load(
     Returns
     -------
     Model
-        With ``postures`` and ``feet`` for the legged robots of the catalogue.
+        With ``postures`` and ``feet`` for the legged robots of the catalogue. A `MimicModel` with ``mimic="reduce"``.
 
     Raises
     ------
@@ -74,7 +76,7 @@ def load(
     ModelError
         If the file is missing or broken: the message names file, line, link or joint, and what was expected.
     ValueError
-        If `mimic` asks for joints that follow others.
+        If `mimic` is neither.
     TypeError
         If `source` is neither a name nor a path.
 
@@ -94,24 +96,35 @@ def load(
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown robot 'go3'; did you mean 'go2', 'go1', ...
     """
+    from ..mimic import follow
     from .srdf import read_states, with_stance, with_states
     from .urdf import load_urdf
 
     if base not in (None, "fixed", "floating"):
         raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
-    if mimic not in (None, "independent"):
-        raise ValueError(f"mimic: expected 'independent' (joints that follow others are not modelled), got {mimic!r}")
+    if mimic not in (None, "independent", "reduce"):
+        raise ValueError(f"mimic: expected 'independent' or 'reduce', got {mimic!r}")
     if not isinstance(source, str | PathLike):
         raise no_model(source, "source", "a name or a path")
     options: dict[str, Any] = {"gravity": gravity, "physical": physical, "mimic": mimic, "strict": strict}
     if not isinstance(source, str) or _is_path(source):
         _refuse_folder_before_name(source)
-        return load_urdf(Path(source), base=base or "fixed", quiet=False, **options)
-    robot = find(source)
-    model = load_urdf(robot.path, base=base or robot.base, quiet=True, **options)
-    if robot.srdf is not None:
-        model = with_states(model, read_states(robot.srdf))
-    return with_stance(model, robot.stance) if robot.stance is not None else model
+        path = Path(source)
+        model, laws = load_urdf(path, base=base or "fixed", quiet=False, **options)
+    else:
+        robot = find(source)
+        path = robot.path
+        model, laws = load_urdf(path, base=base or robot.base, quiet=True, **options)
+        if robot.srdf is not None:
+            model = with_states(model, read_states(robot.srdf))
+        model = with_stance(model, robot.stance) if robot.stance is not None else model
+    if mimic != "reduce":
+        return model
+    try:
+        reduced: Any = follow(model, laws)
+    except (ModelError, NameNotFound) as error:
+        raise ModelError(f"{path}: {error} (mimic='independent' loads it, free to move on its own)") from None
+    return cast("Model", reduced)
 
 
 def _is_path(source: str) -> bool:

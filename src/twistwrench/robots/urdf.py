@@ -14,6 +14,7 @@ from ..builder import Builder
 from ..errors import ModelError, unknown_name
 from ..joint import Joint
 from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute
+from ..mimic import Law
 from ..model import Model
 from ..report import Entry, Report
 from .parsing import read_urdf
@@ -22,14 +23,16 @@ from .records import UrdfJoint, UrdfRobot
 __all__ = ["load_urdf"]
 
 Base = Literal["fixed", "floating"]
-Mimic = Literal["independent"]
+Mimic = Literal["independent", "reduce"]
 
-FREE = "free to move on its own, as in Pinocchio (mimic='independent' says that you know)"
+FREE = (
+    "free to move on its own, as in Pinocchio (mimic='independent' says that you know, mimic='reduce' lets it follow)"
+)
 
 
 def load_urdf(
     path: Path, *, base: Base, gravity: ArrayLike, physical: bool, mimic: Mimic | None, strict: bool, quiet: bool
-) -> Model:
+) -> tuple[Model, dict[str, Law]]:
     """Load a URDF. The arguments are those of `twistwrench.load`.
 
     Parameters
@@ -40,7 +43,8 @@ def load_urdf(
         In the world, m/s².
     physical : bool
         Refuse bodies that cannot exist.
-    mimic : {"independent"}, optional
+    mimic : {"independent", "reduce"}, optional
+        Of no effect on the joints, which are free here: the laws say whom they should follow.
     strict : bool
         Refuse what would be reported.
     quiet : bool
@@ -49,6 +53,8 @@ def load_urdf(
     Returns
     -------
     Model
+    dict of str to (str, float, float)
+        For each joint with ``<mimic>`` its leader, the multiplier and the offset.
 
     Raises
     ------
@@ -57,20 +63,21 @@ def load_urdf(
     """
     with np.errstate(over="ignore", invalid="ignore"):
         robot = read_urdf(path)
-        if mimic is None and not quiet:
+        if mimic == "reduce" or (mimic is None and not quiet):
             _check_mimics(path, robot)
         try:
             model, remarks = _build(robot, base, gravity, physical)
         except ModelError as error:
             raise ModelError(f"{path}: {error}") from None
-    model = replace(model, report=Report([*robot.remarks, *remarks, *_free(robot, mimic), *model.report]))
+    model = replace(model, report=Report([*robot.remarks, *remarks, *_mimics(robot, mimic), *model.report]))
     odd = model.report.warnings
     if odd and strict:
         raise ModelError(f"{path}: strict=True refuses what is not as it should be:{odd.summary()}")
     if odd and not quiet:
         told = "model.report has the table, strict=True refuses them"
         warnings.warn(f"{path}: not all is as it should be ({told}):{odd.summary()}", stacklevel=3)
-    return model
+    followers = [(joint.name, joint.mimic) for joint in robot.joints if joint.mimic is not None]
+    return model, {name: (law.leader, law.multiplier, law.offset) for name, law in followers}
 
 
 def _build(robot: UrdfRobot, base: Base, gravity: ArrayLike, physical: bool) -> tuple[Model, list[Entry]]:
@@ -131,10 +138,16 @@ def _check_mimics(path: Path, robot: UrdfRobot) -> None:
             raise ModelError(f"{what}: {unknown_name('joint', joint.mimic.leader, names)} {free}")
 
 
-def _free(robot: UrdfRobot, mimic: Mimic | None) -> list[Entry]:
-    """Say which joints should follow others and do not."""
+def _mimics(robot: UrdfRobot, mimic: Mimic | None) -> list[Entry]:
+    """Say which joints should follow others, and whether they do."""
     return [
-        Entry(f"joint {j.name!r}", f"a <mimic> of {j.mimic.leader!r}", FREE, j.mimic.line, warns=mimic is None)
-        for j in robot.joints
-        if j.mimic is not None
+        Entry(
+            f"joint {joint.name!r}",
+            f"a <mimic> of {law.leader!r}",
+            f"q = {law.multiplier:g} q_leader + {law.offset:g}" if mimic == "reduce" else FREE,
+            law.line,
+            warns=mimic is None,
+        )
+        for joint in robot.joints
+        if (law := joint.mimic) is not None
     ]
