@@ -49,6 +49,11 @@ class Decomposition(NamedTuple):
         asked = np.matvec(self.V.mT, change) * self.s_inv
         return np.matvec(self.U, asked), np.matvec(self.V, asked * self.s_inv)
 
+    def within(self, change: Array) -> Array:
+        """Return the part of `change` that some J a is: all of it where the rows of J are independent."""
+        part: Array = np.matvec(self.V, np.matvec(self.V.mT, change) * (self.s_inv > 0))
+        return part
+
     def unwhiten(self, x: Array) -> Array:
         """Return a of x = Lᵀ a."""
         return np.asarray(np.linalg.solve(self.L.mT, x[..., None])[..., 0])
