@@ -54,7 +54,7 @@ def test_what_contradicts_itself_without_drift_is_still_refused():
     q, v, rest = straight(plumb=True), np.zeros(18), np.zeros(18)
     v[GO2.v_slice[GO2.joint_id("FL_thigh_joint")]], v[GO2.v_slice[GO2.joint_id("FL_calf_joint")]] = -1, 2
     for more in (0.0, 1e-3, 0.1):  # with drift on top, too
-        with pytest.raises(tw.SingularError, match="the contacts contradict each other: .* 'FL_foot' .* is left"):
+        with pytest.raises(tw.SingularError, match=r"the contacts contradict each other: .* 'FL_foot' .* is left"):
             tw.contact_forward_dynamics(GO2, q, v + np.r_[0, more, np.zeros(16)], rest, FEET)
     spring = tw.Baumgarte(20.0, tw.contact_placements(GO2, GO2.integrate(q, np.full(18, 1e-3)), FEET))
     with pytest.raises(tw.SingularError, match="the contacts contradict each other"):
@@ -65,6 +65,6 @@ def test_in_a_batch_only_the_state_that_contradicts_is_named():
     q, v = np.stack([straight(plumb=True)] * 3), np.zeros((3, 18))
     v[1, 0] = 1e-3
     v[2, GO2.v_slice[GO2.joint_id("FL_thigh_joint")]], v[2, GO2.v_slice[GO2.joint_id("FL_calf_joint")]] = -1, 2
-    with pytest.raises(tw.SingularError, match=r"contradict each other at index 2|contradict each other.*\b2\b"):
+    with pytest.raises(tw.SingularError, match=r"contradict each other at index \(2,\)"):
         tw.contact_forward_dynamics(GO2, q, v, 0 * v, FEET)
     tw.contact_forward_dynamics(GO2, q[:2], v[:2], 0 * v[:2], FEET)

@@ -179,9 +179,7 @@ def contact_forward_dynamics(
     residual = np.matvec(J, qdd) - target
     terms = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION * (terms + largest(np.matvec(W, target)))).any():
-        still = v - parts.unwhiten(
-            parts.respond(np.matvec(W, slip))[0]
-        )  # contacts that hold, and no drift to bring back
+        still = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
         asked = np.matvec(W, -touching(model, q, still, contacts).bias)
         refuse_contradiction(contacts, asked - parts.within(asked), CONTRADICTION * (terms + largest(asked)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
