@@ -41,6 +41,7 @@ PHYSICS_AND_ORACLES = [
     "test_motions.py",
     "test_accuracy.py",
     "test_extremes.py",
+    "test_terms.py",
 ]
 TESTED_BY = {"digits": "accuracy", "fast": "extremes"}
 """Sections whose tests go by another name."""

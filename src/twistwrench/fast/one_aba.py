@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..checks import Array
+from ..formulas import bias_wrench
 from .articulated import NearlySingular, floors
 from .links import Index, index
 from .one import placements, turned
@@ -191,7 +192,7 @@ def _start(aba: AbaPlan, q: Array, v: Array) -> tuple[Array, Array, Array, Array
     V6 = V[:, :6]
     cross = V6.dot(CROSS).reshape(-1, 6, 6)
     Y[:, :6, 6] = np.matmul(cross.take(aba.last, axis=0), moving[:, :6, None])[:, :, 0]
-    bias = -np.matmul(cross.mT, np.matmul(I, V6[:, :, None]))[:, :, 0]
+    bias = bias_wrench(I, V6[:, :, None])[:, :, 0]
     K[:, :6, :6], K[:, :6, 6], K[:, 6, :6] = I, bias, bias
     a[0] = 0, 0, 0, *-one.gravity.dot(turned(one, q).reshape(3, 3)), 1  # the world rises
     return S, K, Y, a, offset

@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from .anchors import anchor_of
+
 __all__ = ["Place", "Step", "places"]
 
 
@@ -43,6 +45,11 @@ class Step:
     name: str
     index: int | tuple[int, ...]
     value: Any
+
+    @property
+    def anchor(self) -> str | None:
+        """The chapter's step, by the comment at the end of the line: ``"49.7 D"``."""
+        return anchor_of(self.source)
 
 
 @dataclass(frozen=True)
