@@ -25,13 +25,14 @@ into one matrix X, do away with the centripetal part of 2 by what they call an a
 
 It is written apart from all that follows and shares no formula with it, so that an error there has no
 twin here. It takes each sum as it stands and takes no step to be fast. And it works in any kind of
-number: given mpmath's, it gives the truth to as many digits as mpmath is set to. All constants of the
-model are taken as the exact numbers that their doubles are; rotations, joint axes and the quaternions
-of q, which doubles hold only nearly at length 1, are first made so to the last digit.
+number: given mpmath's, it gives the truth to as many digits as mpmath is set to; given SymPy's, a
+formula; given fractions, a fraction, where there is one (the cosine of 0 is one, that of 1/3 is not).
+All constants of the model are taken as the exact numbers that their doubles are; rotations, joint axes
+and the quaternions of q, which doubles hold only nearly at length 1, are first made so to the last digit.
 
 One state per call, no batches. All vectors are ordered (ω, v) and (τ, f), as everywhere in twistwrench.
 
-- `arithmetic`: which numbers a call works in.
+- `arithmetic`, `exact`, `state`: which numbers a call works in.
 - `joints`: how each kind of joint moves.
 - `bodies`: every body in the world, and its Jacobians. Start here.
 - `kinematics`, `frames`: placements, twists, accelerations; named frames.
@@ -50,6 +51,15 @@ are doubles, and this is what those doubles add up to, times the double nearest 
 >>> with mpmath.workdps(50):
 ...     print(gravity(model, as_mpmath(model.neutral()))[5])
 157.79385000000002289963774160241958323749740674906
+
+What lifts 3 kg up a rail at a third of a m/s², as a fraction:
+
+>>> from fractions import Fraction
+>>> rail = tw.Builder("rail", gravity=[0, 0, -10])
+>>> load = tw.SpatialInertia(3.0, [0, 0, 0], [[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+>>> rail.link("load", parent="base_link", joint=tw.Prismatic("z"), inertia=load)
+>>> inverse_dynamics(rail.build(), [0], [0], [Fraction(1, 3)])
+array([Fraction(31, 1)], dtype=object)
 """
 
 from .arithmetic import as_mpmath

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 
 from ..checks import Array
-from .arithmetic import Arithmetic, State
+from .arithmetic import Arithmetic
 from .joints import joint_columns, joint_pose
+from .state import State
 
 __all__ = ["Body", "Hinges", "cross", "walk"]
 

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
-from .arithmetic import State, take
 from .bodies import Body, cross, walk
+from .state import State, take
 
 __all__ = ["gravity", "inverse_dynamics", "joint_wrenches", "nonlinear_effects", "virtual_power"]
 

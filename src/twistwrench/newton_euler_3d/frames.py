@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..errors import check_known, unknown_name
-from .arithmetic import Arithmetic, State, take
+from .arithmetic import Arithmetic
 from .bodies import Body, walk
 from .kinematics import spatial_acceleration
+from .state import State, take
 
 __all__ = ["frame_bias_acceleration", "frame_jacobian", "frame_placement"]
 

@@ -56,9 +56,9 @@ def joint_pose(number: Arithmetic, joint: Any, q: Array, name: str) -> tuple[Arr
         case "planar":
             return _about(number, one[2], *_direction(number, q[2:], name)), one[0] * q[0] + one[1] * q[1]
         case "spherical":
-            return _quaternion(_direction(number, q, name)), none
+            return _turn(number, q, name), none
         case "free_flyer":
-            return _quaternion(_direction(number, q[3:], name)), q[:3]
+            return _turn(number, q[3:], name), q[:3]
     if _has_one_coordinate(joint):
         return _along(number, *_screw(number, joint), q[0])
     raise ModelError(f"joint {name!r}: unknown kind {joint.kind!r}")
@@ -156,21 +156,19 @@ def _about(number: Arithmetic, axis: Array, c: Any, s: Any) -> Array:
     return rotation
 
 
-def _quaternion(xyzw: Array) -> Array:
-    """Turn by a quaternion of length 1."""
-    x, y, z, w = xyzw
-    return np.array(
-        [
-            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
-        ]
-    )
+def _turn(number: Arithmetic, q: Array, name: str) -> Array:
+    """Turn by a quaternion: exact numbers need no root for it."""
+    _refuse_zero(q, name)
+    return number.quaternion(q if number.exact else number.unit(q))
 
 
 def _direction(number: Arithmetic, q: Array, name: str) -> Array:
-    """Return a quaternion or a (cos, sin) at length 1, of which rounding has left it a little short."""
+    """Return a (cos, sin) at length 1, of which rounding has left it a little short."""
+    _refuse_zero(q, name)
+    return number.unit(q)
+
+
+def _refuse_zero(q: Array, name: str) -> None:
     if not (q != 0).any():
         what = "quaternion" if len(q) == 4 else "(cos, sin)"
         raise ValueError(f"q: joint {name!r}: the {what} is zero and has no direction")
-    return number.unit(q)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
-from .arithmetic import take
 from .bodies import Body, cross, walk
+from .state import take
 
 __all__ = ["Motion", "body_accelerations", "body_twists", "motion", "placements", "spatial_acceleration"]
 

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..errors import SingularError
-from .arithmetic import State, take
 from .bodies import Body, cross, walk
 from .forces import virtual_power
+from .state import State, take
 
 __all__ = ["coriolis_matrix", "forward_dynamics", "mass_matrix"]
 
@@ -159,7 +159,7 @@ def _solve(state: State, M: Array, b: Array) -> Array:
     M, ratio = M.copy(), state.number.zeros(n, n)
     least = [n * state.number.eps * abs(M[k, k]) for k in range(n)]
     for k in reversed(range(n)):
-        if abs(M[k, k]) <= least[k]:
+        if state.number.nothing(M[k, k], least[k]):
             free.append(_joint_of(state.model, k))
             continue
         ratio[k, :k] = M[k, :k] / M[k, k]

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array
 from ..errors import SingularError
-from .arithmetic import State, take
 from .bodies import Body, cross, walk
+from .state import State, take
 
 __all__ = [
     "center_of_mass",

@@ -18,9 +18,9 @@ from ... import newton_euler_3d as ne
 from ...checks import Array
 from ...errors import SingularError
 from ...model import Model
-from ...newton_euler_3d.arithmetic import take
 from ...newton_euler_3d.bodies import Body, walk
 from ...newton_euler_3d.forces import virtual_power
+from ...newton_euler_3d.state import take
 from .robots import State
 
 __all__ = ["Truth", "truth"]
