@@ -492,7 +492,7 @@ FAULTS = [
     ("bodies", "carrier.rotation @ number.rotation(", "number.rotation("),
     ("bodies", "seat @ p_joint", "p_joint"),
     ("joints", "[[x * 0, -z, y], [z, x * 0, -x], [-y, x, x * 0]]", "[[x * 0, z, -y], [-z, x * 0, x], [y, -x, x * 0]]"),
-    ("joints", "x, y, z, w = xyzw", "w, x, y, z = xyzw"),
+    ("arithmetic", "x, y, z, w = xyzw", "w, x, y, z = xyzw"),
     ("joints", "np.hstack([one, none]), np.hstack([none, one])", "np.hstack([none, one]), np.hstack([one, none])"),
     ("kinematics", "acceleration - cross(body.omega, velocity)", "acceleration"),
     ("frames", "return number.zeros(3), number.identity()", "return p, number.identity()"),

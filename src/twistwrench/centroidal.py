@@ -13,6 +13,7 @@ from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
 from .errors import SingularError
+from .exact import convert
 from .formulas import bias_wrench
 from .kinematics import motion, placements
 from .model import Model
@@ -78,9 +79,9 @@ def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
         raise SingularError(f"centre of mass of {model.name!r}: nothing that moves has mass")
     moment = np.zeros((*q.shape[:-1], 3), q.dtype)
     for T, inertia in zip(placement, model.inertia):
-        com = placed_point(T.rotation, T.translation, inertia.com.astype(q.dtype))
-        moment = moment + inertia.mass.astype(q.dtype) * com
-    p_G: Array = moment / np.sum([inertia.mass.astype(q.dtype) for inertia in model.inertia])  # 49.10 p_G
+        com = placed_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
+        moment = moment + convert(inertia.mass, q.dtype) * com
+    p_G: Array = moment / np.sum([convert(inertia.mass, q.dtype) for inertia in model.inertia])  # 49.10 p_G
     return p_G
 
 

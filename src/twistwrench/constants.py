@@ -49,8 +49,6 @@ class Constants:
     @classmethod
     def of(cls, model: Model, dtype: np.dtype[Any]) -> Constants:
         """Convert the constants of `model`."""
-        if np.dtype(dtype).kind == "O":
-            return cls._objects(model.constants(np.float64))
         inertia = [
             SpatialInertia(convert(i.mass, dtype), convert(i.com, dtype), convert(i.inertia_at_com, dtype))
             for i in model.inertia
@@ -63,21 +61,6 @@ class Constants:
             armature=fixed(convert(model.armature, dtype)),
             rotor=tuple(fixed(np.diag(convert(model.armature[s], dtype))) for s in model.v_slice),
         )
-
-    @classmethod
-    def _objects(cls, c: Constants) -> Constants:
-        """Make Python's own numbers of constants, for objects of any kind."""
-        S, I, rotor = (tuple(fixed(as_objects(x)) for x in xs) for xs in (c.S, c.I, c.rotor))
-        T = tuple(SE3._trusted(as_objects(T.rotation), as_objects(T.translation)) for T in c.placement)
-        return cls(S, I, T, fixed(as_objects(c.gravity)), fixed(as_objects(c.armature)), rotor)
-
-
-def as_objects(x: Array) -> Array:
-    """Return an array of Python's own numbers, whole ones as integers: these mix with fractions and symbols."""
-    objects = np.empty(x.shape, object)
-    for k, number in np.ndenumerate(x):
-        objects[k] = int(number) if number == int(number) else float(number)
-    return objects
 
 
 def fixed(x: Array) -> Array:

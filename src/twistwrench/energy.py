@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
+from .exact import convert
 from .kinematics import motion, placements
 from .model import Model
 from .plucker import placed_point
@@ -83,6 +84,6 @@ def potential_energy(model: Model, q: ArrayLike) -> Array:
     weight = -model.constants(q.dtype).gravity[3:]
     energy = np.zeros(q.shape[:-1], q.dtype)
     for T, inertia in zip(placements(model.parent, joint_placements(model, q)), model.inertia):
-        com = placed_point(T.rotation, T.translation, inertia.com.astype(q.dtype))
-        energy = energy + inertia.mass.astype(q.dtype) * (com * weight).sum(axis=-1)  # 49.5 U
+        com = placed_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
+        energy = energy + convert(inertia.mass, q.dtype) * (com * weight).sum(axis=-1)  # 49.5 U
     return energy

@@ -49,9 +49,9 @@ class Exact(Arithmetic):
         return elementary("sqrt", x)
 
     def nothing(self, x: Any, least: Any) -> bool:
-        """Return whether a number is zero, of what is known of it: SymPy is asked whether an expression is."""
+        """Return whether a number is zero, which `least` is here: SymPy is asked whether an expression is."""
         equals = getattr(x, "equals", None)
-        return bool(equals(0) if equals else x == 0)
+        return bool(equals(least) if equals else x == least)
 
     def unit(self, x: ArrayLike) -> Array:
         """Divide a vector by its length; doubles become the nearest fractions of length 1."""
