@@ -7,9 +7,8 @@ import subprocess
 import sys
 from dataclasses import replace
 from functools import cache, wraps
-from importlib import import_module
 from itertools import combinations, cycle
-from pkgutil import iter_modules
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -22,11 +21,12 @@ from twistwrench.exercises.compare import agree
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.layouts import JACOBIAN
 from twistwrench.exercises.progress import Row, Status
+from twistwrench.exercises.prose import read
 from twistwrench.exercises.slips import SLIPS
 from twistwrench.exercises.table import slip_table
 from twistwrench.exercises.text import Text
 from twistwrench.exercises.workbook import Workbook
-from twistwrench.exercises.wrong import after, swap
+from twistwrench.exercises.wrong import after, faulty, swap
 
 from .weak_answers import ANSWERS as WEAK
 
@@ -34,6 +34,7 @@ HERE = [catalogue.exercise(number) for number in catalogue.available()]
 PARTS = [pytest.param(e, part, id=f"{e.id.replace('.', '_')}-{part.name}") for e in HERE for part in e.parts]
 CELLS = [pytest.param(*c, id=f"{c.exercise.id.replace('.', '_')}-{c.part.name}-{c.slip}") for c in slip_table()]
 SEEDS = (0, 1, 2)
+DATA = sorted(Path(slips.__file__).parents[1].glob("*/*.toml"))
 
 CHAPTER = {
     *("49.0.1", "49.0.2", "49.0.3", "49.0.4", "49.0.5"),
@@ -56,7 +57,7 @@ def test_there_are_no_others():
     assert set(catalogue.IDS) == CHAPTER
     assert set(catalogue.available()) == CHAPTER
     files = importlib.resources.files("twistwrench.exercises.items").iterdir()
-    found = {file.name for file in files if file.name.startswith("ex_")}
+    found = {file.name for file in files if file.name.startswith("ex_") and file.name.endswith(".py")}
     assert found == {f"ex_{number.replace('.', '_')}.py" for number in CHAPTER}
 
 
@@ -94,10 +95,44 @@ def test_the_catalogue_of_slips():
 
 
 def test_no_two_files_define_one_slip():
-    files = [import_module(f"twistwrench.exercises.slips.{m.name}") for m in iter_modules(slips.__path__)]
-    tables = [value for file in files for value in vars(file).values() if isinstance(value, dict) and value]
-    keys = [key for table in tables for key, value in table.items() if isinstance(value, slips.Slip)]
+    keys = [key for name in slips.FILES for key in read("slips", name)]
     assert sorted(keys) == sorted(SLIPS)
+    assert sorted(file.stem for file in DATA if file.parent.name == "slips") == sorted(slips.FILES)
+
+
+def leaves(table, path=""):
+    """Yield every text of a data file with where it stands, as "count.reasons.base-missing.en"."""
+    for key, entry in table.items() if isinstance(table, dict) else enumerate(table):
+        where = f"{path}.{key}".lstrip(".")
+        if isinstance(entry, str):
+            yield where, entry
+        else:
+            yield from leaves(entry, where)
+
+
+@pytest.mark.parametrize("file", DATA, ids=lambda file: file.stem)
+def test_a_data_file_holds_what_is_used_and_nothing_else(file):
+    found = dict(leaves(read(file.parent.name, file.stem)))
+    places = [where.rpartition(".") for where in found]
+    assert {where for where, _, language in places if language == "en"} == {
+        where for where, _, language in places if language == "zh"
+    }
+    assert {language for _, _, language in places} <= {"en", "zh", "section"}
+    if file.parent.name == "items" and file.stem != "shared":
+        owners = {e.id: e for e in HERE if f"ex_{e.id.replace('.', '_')}" == file.stem}
+        own = {part.name: part for e in HERE for part in e.parts if part.solution.__module__.endswith(f".{file.stem}")}
+        for where in found:
+            first, _, rest = where.partition(".")
+            kind = rest.split(".")[0]
+            assert (first in own and kind in ("doc", "reasons", "properties")) or (
+                owners and first in ("title", "text", "answer", "hints")
+            ), where
+        assert all(len(part.properties) == len(part.residuals) for part in own.values())
+
+
+def test_a_fault_must_find_its_line():
+    with pytest.raises(ValueError, match="swap: expected 'k < 4' once in its source, found it 0 times"):
+        faulty(swap, ("k < 4", "k < 5"))([1.0] * 6)
 
 
 def test_every_slip_of_the_catalogue_occurs_somewhere():

@@ -226,7 +226,9 @@ def test_the_wheel_holds_every_section_and_every_robot_and_nothing_else(built):
     names = set(zipfile.ZipFile(built[1]).namelist())
     inside = {name for name in names if ".dist-info/" not in name}
     sections = {
-        path.relative_to(ROOT / "src").as_posix() for kind in ("*.py", "*.md") for path in (ROOT / "src").rglob(kind)
+        path.relative_to(ROOT / "src").as_posix()
+        for kind in ("*.py", "*.md", "*.toml")
+        for path in (ROOT / "src").rglob(kind)
     }
     robots = {f"twistwrench/models/{path.name}" for path in (ROOT / "models").iterdir() if path.is_file()}
     assert inside == sections | robots | {"twistwrench/py.typed"}

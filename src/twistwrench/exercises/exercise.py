@@ -1,15 +1,17 @@
-"""What an exercise is: its texts, and the functions that the student writes."""
+"""What an exercise is: the functions that the student writes; its texts are in the data file beside it."""
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
 
 from .layouts import PLAIN, Layout
+from .prose import as_text, read
 from .text import Text
 
 __all__ = ["Exercise", "Kind", "Part", "Property", "Quantity"]
@@ -46,8 +48,6 @@ class Part:
     ----------
     solution : callable
         The reference. Its name and its signature are those of the student's function; its source is the solution.
-    doc : Text
-        The docstring of the skeleton: shape, unit and frame of every argument and of what is returned.
     returns : tuple of Quantity
         What it returns; a tuple of several where there are several.
     cases : callable
@@ -56,10 +56,9 @@ class Part:
         Name of a slip of `slips.SLIPS` to a wrong implementation with the same signature.
     alike : tuple
         Groups of those names that cannot be told apart here: the message then names all of a group.
-    reasons : mapping
-        Why, for slips whose own reason speaks of another situation.
-    properties : tuple of Property
-        What a right answer fulfils. They explain a wrong answer that is no known slip.
+    residuals : tuple of callable
+        Of the properties, in the order of their texts in the data file: ``residual(answer, *arguments)`` is zero, entry
+        by entry, for every right answer, whoever computed it. They explain a wrong answer that is no known slip.
     canonical : callable, optional
         ``canonical(answer, *arguments)``: what is compared where more than one answer is right.
     call : callable, optional
@@ -71,13 +70,11 @@ class Part:
     """
 
     solution: Callable[..., Any]
-    doc: Text
     returns: tuple[Quantity, ...]
     cases: Cases
     slips: Mapping[str, Callable[..., Any]]
     alike: tuple[frozenset[str], ...] = ()
-    reasons: Mapping[str, Text] = field(default_factory=dict)
-    properties: tuple[Property, ...] = ()
+    residuals: tuple[Callable[..., Any], ...] = ()
     canonical: Callable[..., Any] | None = None
     call: Callable[..., Any] | None = None
     given: str = ""
@@ -87,6 +84,30 @@ class Part:
     def name(self) -> str:
         """The name of the student's function."""
         return self.solution.__name__
+
+    @cached_property
+    def _prose(self) -> Mapping[str, Any]:
+        """The table of the function in the data file beside its module."""
+        found: Mapping[str, Any] = read("items", self.solution.__module__.rpartition(".")[2])[self.name]
+        return found
+
+    @cached_property
+    def doc(self) -> Text:
+        """The docstring of the skeleton: shape, unit and frame of every argument and of what is returned."""
+        return as_text(self._prose["doc"])
+
+    @cached_property
+    def reasons(self) -> Mapping[str, Text]:
+        """Why, for slips whose own reason speaks of another situation."""
+        return {slip: as_text(entry) for slip, entry in self._prose.get("reasons", {}).items()}
+
+    @cached_property
+    def properties(self) -> tuple[Property, ...]:
+        """What a right answer fulfils."""
+        entries = self._prose.get("properties", [])
+        return tuple(
+            Property(as_text(entry), residual) for entry, residual in zip(entries, self.residuals, strict=True)
+        )
 
     @property
     def arguments(self) -> str:
@@ -103,32 +124,46 @@ class Part:
 
 @dataclass(frozen=True, kw_only=True)
 class Exercise:
-    """An exercise of the chapter.
+    """An exercise of the chapter. Its texts, hints and model answer are in the data file beside its module.
 
     Attributes
     ----------
     id : str
         The chapter's number, as "49.3.1"; the project's stages are "project.1" to "project.4".
     kind : {"code", "number", "explain", "prove"}
-    title, text : Text
-        The text in our own words, with the chapter's numbers. Where the chapter is wrong it says so.
     parts : tuple of Part
-    hints : tuple of Text
-        From a nudge to nearly the answer.
-    answer : Text, optional
-        The model answer, where the student writes one in words; shown after the attempt.
     uses : tuple of str
         Functions of earlier exercises that the skeleton offers through `mine`.
     """
 
     id: str
     kind: Kind
-    title: Text
-    text: Text
     parts: tuple[Part, ...]
-    hints: tuple[Text, ...]
-    answer: Text | None = None
     uses: tuple[str, ...] = field(default=())
+
+    @cached_property
+    def _prose(self) -> Mapping[str, Any]:
+        return read("items", f"ex_{self.id.replace('.', '_')}")
+
+    @property
+    def title(self) -> Text:
+        """The title."""
+        return as_text(self._prose["title"])
+
+    @property
+    def text(self) -> Text:
+        """What is asked, in our own words, with the chapter's numbers. Where the chapter is wrong it says so."""
+        return as_text(self._prose["text"])
+
+    @property
+    def hints(self) -> tuple[Text, ...]:
+        """From a nudge to nearly the answer."""
+        return tuple(map(as_text, self._prose["hints"]))
+
+    @property
+    def answer(self) -> Text | None:
+        """The model answer, where the student writes one in words; shown after the attempt."""
+        return as_text(self._prose["answer"]) if "answer" in self._prose else None
 
     @property
     def section(self) -> str:

@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from ..exercise import Exercise, Part, Property, Quantity
-from ..text import Text
+from ..exercise import Exercise, Part, Quantity
 
 __all__ = ["EXERCISE", "count"]
 
@@ -34,28 +33,9 @@ def _cases(rng: Any) -> Any:
 EXERCISE = Exercise(
     id="49.0.4",
     kind="explain",
-    title=Text("nq and nv", "nq 与 nv"),
-    text=Text(
-        """What do nq and nv mean in Pinocchio, and why do they differ when the model has a free-flyer?
-        Count both for any list of joints; a revolute or prismatic joint has one number in q and one in v.""",
-        """Pinocchio 中 nq 和 nv 分别表示什么？为什么含 FreeFlyer 关节的模型中两者不同？
-        对任意一串关节数出 nq 和 nv；转动关节和移动关节在 q、v 中各占 1 个数。""",
-    ),
     parts=(
         Part(
             solution=count,
-            doc=Text(
-                """Return nq and nv, counted as Pinocchio counts.
-
-                kinds: list of "revolute", "prismatic", "continuous" (turns without end), "spherical",
-                "free_flyer".
-                Returns: two whole numbers.""",
-                """按 Pinocchio 的方式返回 nq 和 nv。
-
-                kinds：列表，元素为 "revolute"、"prismatic"、"continuous"（可无限旋转）、"spherical"、
-                "free_flyer"。
-                返回：两个整数。""",
-            ),
             returns=(Quantity("nq"), Quantity("nv")),
             cases=_cases,
             slips={
@@ -66,43 +46,11 @@ EXERCISE = Exercise(
                 "base-missing": lambda kinds: count([kind for kind in kinds if kind != "free_flyer"]),
                 "base-assumed": lambda kinds: count(["free_flyer", *(kind for kind in kinds if kind != "free_flyer")]),
             },
-            reasons={
-                "base-missing": Text(
-                    "A free-flyer is a joint as well: 7 numbers in q, 6 in v.",
-                    "FreeFlyer 也是关节：q 中 7 个数，v 中 6 个。",
-                ),
-            },
-            properties=(
-                Property(
-                    Text(
-                        "nq − nv counts the quaternions and the (cos, sin) pairs",
-                        "nq − nv 等于四元数与 (cos, sin) 对的个数",
-                    ),
-                    lambda answer, kinds: (
-                        answer[0] - answer[1] - sum(k in ("free_flyer", "spherical", "continuous") for k in kinds)
-                    ),
+            residuals=(
+                lambda answer, kinds: (
+                    answer[0] - answer[1] - sum(k in ("free_flyer", "spherical", "continuous") for k in kinds)
                 ),
             ),
         ),
-    ),
-    hints=(
-        Text(
-            "v counts the directions in which a joint can move; q the numbers that say where it is.",
-            "v 数的是关节可以运动的方向；q 数的是描述其位置所用的数。",
-        ),
-        Text(
-            """A quaternion is four numbers, for three directions. A joint that turns without end is stored as
-            (cos, sin), so that q does not jump at 360°.""",
-            """四元数用 4 个数描述 3 个方向。可无限旋转的关节以 (cos, sin) 存储，这样 q 在 360° 处不会跳变。""",
-        ),
-    ),
-    answer=Text(
-        """nq is the number of entries of q, which says where the robot is; nv that of v, the velocities, and so the
-        number of degrees of freedom. A free-flyer has 7 in q (three for the position, four of a unit quaternion) and
-        6 in v (ω and v): nq = nv + 1. Positions live on a curved set, velocities in its flat tangent space, so q̇ and v
-        are not the same thing, and q is stepped by `integrate`, not by q + v dt.""",
-        """nq 是 q 的分量个数，描述机器人在哪里；nv 是速度 v 的分量个数，也就是自由度数。FreeFlyer 在 q 中占 7 个
-        （位置 3 个，单位四元数 4 个），在 v 中占 6 个（ω 与 v）：nq = nv + 1。位形在弯曲的流形上，
-        速度在平直的切空间中，所以 q̇ 与 v 不是一回事；更新 q 要用 `integrate`，而不是 q + v dt。""",
     ),
 )

@@ -7,10 +7,9 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Exercise, Part, Property, Quantity
+from ..exercise import Exercise, Part, Quantity
 from ..layouts import TWIST
 from ..robots import robot
-from ..text import Text
 from ..wrong import swapped
 
 __all__ = ["EXERCISE", "foot_speed", "foot_twist"]
@@ -62,19 +61,6 @@ def _cases(rng: Any) -> Any:
 
 TWIST_OF_FOOT = Part(
     solution=foot_twist,
-    doc=Text(
-        """Return the body twist of FR_foot while only the base turns, about its own z axis.
-
-        model: Go2, as `tw.load("go2")` gives it. q: array (19,). omega_z: number, rad/s.
-        `tw.frame_placement(model, q, "base")` places the base in the world; "FR_foot" is another
-        frame.
-        Returns: array (6,), (ω, v), rad/s and m/s, along the axes and at the origin of FR_foot.""",
-        """返回基座只绕自身 z 轴转动时 FR_foot 的 body twist。
-
-        model：`tw.load("go2")` 得到的 Go2。q：数组 (19,)。omega_z：数，rad/s。
-        `tw.frame_placement(model, q, "base")` 给出基座在世界中的位姿；"FR_foot" 是另一个坐标系。
-        返回：数组 (6,)，(ω, v)，rad/s 与 m/s，用 FR_foot 的坐标轴和原点表达。""",
-    ),
     returns=(Quantity("V", TWIST),),
     cases=_cases,
     slips={
@@ -99,29 +85,16 @@ TWIST_OF_FOOT = Part(
         "degrees": lambda model, q, omega_z: foot_twist(model, q, np.degrees(omega_z)),
     },
     alike=(frozenset({"coupling-dropped", "force-for-motion"}),),  # X* leaves a twist without v without v
-    properties=(
-        Property(
-            Text("ω has the same length everywhere on a rigid body", "刚体上各处 ω 的大小相同"),
-            lambda answer, model, q, omega_z: (answer[:3] ** 2).sum() - omega_z**2,
-        ),
-        Property(
-            Text(
-                "the Jacobian gives the same: V = J v with v[2] = omega_z",
-                "与雅可比的结果一致：V = J v，其中 v[2] = omega_z",
-            ),
-            lambda answer, model, q, omega_z: (
-                tw.frame_jacobian(model, q, "FR_foot", reference="local")[:, 2] * omega_z - answer
-            ),
+    residuals=(
+        lambda answer, model, q, omega_z: (answer[:3] ** 2).sum() - omega_z**2,
+        lambda answer, model, q, omega_z: (
+            tw.frame_jacobian(model, q, "FR_foot", reference="local")[:, 2] * omega_z - answer
         ),
     ),
 )
 
 SPEED_OF_FOOT = Part(
     solution=foot_speed,
-    doc=Text(
-        "Return the speed of FR_foot at the neutral posture, with the base turning at 0.5 rad/s: a number, m/s.",
-        "返回零位形下、基座以 0.5 rad/s 转动时 FR_foot 的速度大小：一个数，m/s。",
-    ),
     returns=(Quantity("|v|", unit="m/s"),),
     cases=lambda rng: [()],
     rtol=1e-3,
@@ -136,40 +109,5 @@ SPEED_OF_FOOT = Part(
 EXERCISE = Exercise(
     id="49.2.1",
     kind="explain",
-    title=Text("The base turns, the foot moves", "基座转动，脚在运动"),
-    text=Text(
-        """The base of a Go2 turns about its own z axis with ω_z = 0.5 rad/s; nothing else moves. Find the body twist
-        of the
-        right front foot, FR_foot, and its speed at the neutral posture. Why has the foot a linear velocity, when only
-        the base turns? Use twistwrench or Pinocchio, as you like; mind the order (ω, v).""",
-        """Go2 的基座绕自身 z 轴以 ω_z = 0.5 rad/s 转动，其余都不动。求右前脚 FR_foot 的 body twist，
-        以及零位形下脚的速度大小。
-        为什么只有基座在转动，脚却有线速度？可用 twistwrench 或 Pinocchio；注意 (ω, v) 的顺序。""",
-    ),
     parts=(TWIST_OF_FOOT, SPEED_OF_FOOT),
-    hints=(
-        Text(
-            "Base and foot are one rigid body here. Its twist is known in the base's frame: bring it to the foot's.",
-            "此时基座和脚是同一个刚体。twist 在基座坐标系中已知，把它变到脚坐标系。",
-        ),
-        Text(
-            """`foot_base = world_foot.inverse() @ world_base` places the base in the foot's frame;
-            `foot_base.motion_transform()` is the X that takes the base's twist to the foot.""",
-            """`foot_base = world_foot.inverse() @ world_base` 是基座在脚坐标系中的位姿；
-            `foot_base.motion_transform()` 就是把基座 twist 变到脚的 X。""",
-        ),
-        Text(
-            "A point at the distance r from the axis moves with ω r. How far is the foot from the base's z axis?",
-            "离转轴距离为 r 的点速度为 ω r。脚离基座 z 轴多远？",
-        ),
-    ),
-    answer=Text(
-        """A body twist names the velocity of the body's point at its own origin. The foot is 0.240 m away from the axis
-        about which everything turns, so that its origin moves on a circle, at 0.5 rad/s × 0.240 m = 0.120 m/s. In the
-        formula this is the coupling term of X: v_foot = p × ω with p from the foot to the base. ω itself is the same
-        for base and foot, only along other axes.""",
-        """body twist 的线分量是该刚体自身原点处的速度。脚离转轴 0.240 m，它的原点沿圆周运动，速度为
-        0.5 rad/s × 0.240 m = 0.120 m/s。公式中这就是 X 的耦合项：v_脚 = p × ω，p 从脚指向基座。
-        ω 本身对基座和脚相同，只是坐标轴不同。""",
-    ),
 )

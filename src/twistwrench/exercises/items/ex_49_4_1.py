@@ -6,10 +6,9 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Exercise, Part, Property, Quantity
+from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
 from ..robots import robot
-from ..text import Text
 from ..wrong import as_column, negated, swapped, times
 
 __all__ = ["EXERCISE", "foot_loads", "foot_wrench"]
@@ -64,16 +63,6 @@ def _cases(rng: Any) -> Any:
 
 LOADS = Part(
     solution=foot_loads,
-    doc=Text(
-        """Return the force of the ground on one foot: with 12 kg, and with the model's mass.
-
-        `tw.load("go2")` is the model; its `.inertia` is a list of bodies, each with a `.mass` in kg.
-        Returns: two numbers, N, positive.""",
-        """返回地面对一只脚的力：质量为 12 kg 时，以及按模型的质量。
-
-        `tw.load("go2")` 是模型；它的 `.inertia` 是刚体列表，每个刚体有 `.mass`(kg)。
-        返回：两个数，N，取正。""",
-    ),
     returns=(Quantity("f_z (12 kg)", unit="N"), Quantity("f_z (model)", unit="N")),
     cases=lambda rng: [()],
     rtol=5e-4,
@@ -93,24 +82,6 @@ LOADS = Part(
 
 OF_FOOT = Part(
     solution=foot_wrench,
-    doc=Text(
-        """Return the wrench of the ground on one foot, in the foot's own frame.
-
-        A point contact that carries a quarter of the weight; the ground pushes straight up.
-
-        model: Go2, as `tw.load("go2")` gives it. `model.inertia` lists its bodies, `model.gravity`
-        is (0, 0, -9.81) m/s². q: array (19,). foot: string, as "FR_foot".
-        `tw.frame_placement(model, q, foot)` places the foot in the world; its `.rotation` is R.
-        Returns: array (6,), (τ, f), N m and N, along the axes and about the origin of the foot.""",
-        """返回地面对一只脚的 wrench，在脚自身坐标系中表达。
-
-        点接触，承担四分之一体重，地面竖直向上推。
-
-        model：`tw.load("go2")` 得到的 Go2。`model.inertia` 列出各刚体，
-        `model.gravity` 为 (0, 0, -9.81) m/s²。q：数组 (19,)。foot：字符串，如 "FR_foot"。
-        `tw.frame_placement(model, q, foot)` 是脚在世界中的位姿，`.rotation` 就是 R。
-        返回：数组 (6,)，(τ, f)，N m 与 N，用脚坐标系的坐标轴，对脚的原点取矩。""",
-    ),
     returns=(Quantity("F", WRENCH),),
     cases=_cases,
     slips={
@@ -129,23 +100,11 @@ OF_FOOT = Part(
         "g-rounded": times(foot_wrench, 9.8 / 9.81),
         "column-vector": as_column(foot_wrench),
     },
-    properties=(
-        Property(
-            Text("a point contact has no moment about itself", "点接触对接触点没有力矩"),
-            lambda answer, model, q, foot: answer[:3],
-        ),
-        Property(
-            Text("in the axes of the world the force points straight up", "在世界坐标轴中力竖直向上"),
-            lambda answer, model, q, foot: (tw.frame_placement(model, q, foot).rotation @ answer[3:])[:2],
-        ),
-        Property(
-            Text(
-                "four such feet carry the weight that RNEA finds at the base",
-                "四只这样的脚正好托住 RNEA 在基座处算出的重力",
-            ),
-            lambda answer, model, q, foot: (
-                4 * np.sqrt((answer[3:] ** 2).sum()) - np.sqrt((tw.gravity(model, q)[3:6] ** 2).sum())
-            ),
+    residuals=(
+        lambda answer, model, q, foot: answer[:3],
+        lambda answer, model, q, foot: (tw.frame_placement(model, q, foot).rotation @ answer[3:])[:2],
+        lambda answer, model, q, foot: (
+            4 * np.sqrt((answer[3:] ** 2).sum()) - np.sqrt((tw.gravity(model, q)[3:6] ** 2).sum())
         ),
     ),
 )
@@ -153,34 +112,5 @@ OF_FOOT = Part(
 EXERCISE = Exercise(
     id="49.4.1",
     kind="number",
-    title=Text("What one foot carries", "一只脚承受多少"),
-    text=Text(
-        """A Go2 of 12 kg stands on level ground, and its four feet share the weight evenly. Which force acts on each
-        foot?
-
-        The 12 kg are the chapter's. The model that it loads weighs more: give the force for that as well.
-        Then write it as a wrench in the frame of one foot. That frame is fixed to the calf and leans with it,
-        so the force is not simply (0, 0, f_z).""",
-        """质量 12 kg 的 Go2 站在水平地面上，四只脚均匀承重。每只脚受到多大的力？
-
-        12 kg 是本章给的数；本章加载的模型其实更重，请把按模型质量得到的力也写出来。
-        然后写成脚坐标系中的 wrench。脚坐标系固定在小腿上，随小腿倾斜，
-        所以力并不就是 (0, 0, f_z)。""",
-    ),
     parts=(LOADS, OF_FOOT),
-    hints=(
-        Text(
-            "At rest the ground carries the whole weight, m g, and here each foot a quarter of it.",
-            "静止时地面承担全部重力 m g，这里每只脚承担四分之一。",
-        ),
-        Text(
-            "The mass of the model is the sum over all its bodies: not one link, and not the number on the data sheet.",
-            "模型的质量要对所有刚体求和：不是某个连杆的质量，也不是说明书上的数。",
-        ),
-        Text(
-            "Upward is (0, 0, 1) in the world. The foot's R takes coordinates in the foot to the world, so Rᵀ takes "
-            "them back.",
-            "竖直向上在世界中是 (0, 0, 1)。脚的 R 把脚坐标变为世界坐标，所以变回去用 Rᵀ。",
-        ),
-    ),
 )

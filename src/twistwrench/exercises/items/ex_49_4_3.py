@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Property, Quantity
+from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
-from ..text import Text
 from ..workbook import mine
 from ..wrong import before, negated, swap, swapped
 
@@ -77,18 +76,6 @@ def _wrenches(rng: Any) -> Any:
 
 SUM = Part(
     solution=sole_wrench,
-    doc=Text(
-        """Return the wrench of several forces on a sole, about its centre.
-
-        points: array (n, 3), m, where the forces act, seen from the centre of the sole; z = 0.
-        forces: array (n, 3), N. Both in the axes of the sole, z upward.
-        Returns: array (6,), (τ, f), N m and N.""",
-        """返回作用在脚底的若干个力对脚底中心的合 wrench。
-
-        points：数组 (n, 3)，单位 m，各力的作用点，从脚底中心量起，z = 0。
-        forces：数组 (n, 3)，N。都用脚底坐标轴，z 向上。
-        返回：数组 (6,)，(τ, f)，N m 与 N。""",
-    ),
     returns=(Quantity("F", WRENCH),),
     cases=lambda rng: [_forces_of(rng) for _ in range(4)],
     slips={
@@ -103,17 +90,6 @@ SUM = Part(
 
 PRESSURE = Part(
     solution=center_of_pressure,
-    doc=Text(
-        """Return the centre of pressure of a sole.
-
-        F: array (6,), (τ, f), N m and N, of the ground on the sole, about the sole's centre, z
-        upward; f_z is not zero.
-        Returns: array (2,), m, x and y of the point of the sole about which τ_x and τ_y vanish.""",
-        """返回脚底的压力中心（COP）。
-
-        F：数组 (6,)，(τ, f)，N m 与 N，地面对脚底的 wrench，对脚底中心取矩；z 向上，f_z 不为零。
-        返回：数组 (2,)，单位 m，脚底上使 τ_x、τ_y 为零的点的 x、y 坐标。""",
-    ),
     returns=(Quantity("p", unit="m"),),
     cases=lambda rng: [(sole_wrench(*_forces_of(rng)),) for _ in range(4)],
     slips={
@@ -126,28 +102,11 @@ PRESSURE = Part(
         "swapped-halves": before(center_of_pressure, swap, which=0),
         "thousand": lambda F: 1000 * center_of_pressure(F),
     },
-    properties=(
-        Property(
-            Text("about this point the moment has no x and no y component", "对该点的力矩没有 x、y 分量"),
-            lambda answer, F: (F[:3] - np.cross([*answer, 0], F[3:]))[:2],
-        ),
-    ),
+    residuals=(lambda answer, F: (F[:3] - np.cross([*answer, 0], F[3:]))[:2],),
 )
 
 HOLDS = Part(
     solution=sole_holds,
-    doc=Text(
-        """Return whether the ground can exert a wrench on a sole by its pressure; friction aside.
-
-        F: array (6,), (τ, f), N m and N, about the centre of the sole, z upward.
-        d_x, d_y: numbers, m, half the length and half the width of the sole.
-        Returns: True or False. The edge itself is allowed. p(F) gives the centre of pressure.""",
-        """返回仅就压力而言地面能否对脚底施加该 wrench（不考虑摩擦）。
-
-        F：数组 (6,)，(τ, f)，N m 与 N，对脚底中心取矩，z 向上。
-        d_x、d_y：数，单位 m，脚底的半长与半宽。
-        返回：True 或 False，恰在边缘上算可以。p(F) 给出压力中心。""",
-    ),
     returns=(Quantity("holds"),),
     cases=_wrenches,
     given='p = mine("center_of_pressure")',
@@ -166,51 +125,5 @@ HOLDS = Part(
 EXERCISE = Exercise(
     id="49.4.3",
     kind="explain",
-    title=Text("The centre of pressure", "压力中心（COP）"),
-    text=Text(
-        """A humanoid stands on flat soles of half length d_x and half width d_y. Its contact wrench must satisfy
-        −d_y ≤ τ_x/f_z ≤ d_y and −d_x ≤ τ_y/f_z ≤ d_x. Add up the wrench of some forces on a sole, find its centre
-        of pressure, and decide whether the ground can exert a given wrench. Then explain the two conditions, and
-        why the centre of pressure must lie within the area of support.
-
-        Mind a third condition, which the two ratios do not show: the ground can push, but it cannot pull.""",
-        """人形机器人用平的脚底站立，半长 d_x，半宽 d_y。接触 wrench 必须满足
-        −d_y ≤ τ_x/f_z ≤ d_y，−d_x ≤ τ_y/f_z ≤ d_x。先把作用在脚底的几个力合成 wrench，再求压力中心，
-        并判断地面能否施加给定的 wrench。然后解释这两个条件，以及压力中心为什么必须在支撑多边形内。
-
-        注意两个比值看不出的第三个条件：地面只能推，不能拉。""",
-    ),
     parts=(SUM, PRESSURE, HOLDS),
-    hints=(
-        Text(
-            "Look for the point p of the sole about which the same forces have a moment around z only.",
-            "寻找脚底上这样一点 p：同一组力对它只有绕 z 的力矩。",
-        ),
-        Text(
-            "τ = p × f with p = (p_x, p_y, 0): τ_x = p_y f_z and τ_y = −p_x f_z.",
-            "由 τ = p × f，p = (p_x, p_y, 0)：τ_x = p_y f_z，τ_y = −p_x f_z。",
-        ),
-        Text(
-            "For forces straight up, p is the mean of the points, weighted by f_z. Can a mean with positive weights "
-            "lie outside?",
-            "对竖直的力，p 是各点以 f_z 为权的加权平均。权为正的平均值会落在外面吗？",
-        ),
-    ),
-    answer=Text(
-        """The ground pushes on the sole at points (x, y, 0) with f_z ≥ 0. Then τ_x = Σ y f_z and τ_y = −Σ x f_z, and
-        the centre of pressure p = (−τ_y, τ_x)/f_z is the mean of the points, weighted by what each carries. All weights
-        are positive and add up to 1, so p lies among the points: in the smallest convex area that holds them all,
-        the polygon of support. For a sole that is the rectangle |p_x| ≤ d_x, |p_y| ≤ d_y, which are the two
-        conditions; the signs do not matter since the rectangle is symmetric. A wrench beyond it would need f_z < 0
-        somewhere: the ground would have to pull. It does not, and the foot tips over its edge. Hence f_z > 0 as well.
-
-        The horizontal forces do not enter, since they act in the plane of the sole. They have limits of their own:
-        the friction cone, and a bound on τ_z, which the chapter's table leaves out.""",
-        """地面在脚底各点 (x, y, 0) 处施加 f_z ≥ 0。于是 τ_x = Σ y f_z，τ_y = −Σ x f_z，压力中心
-        p = (−τ_y, τ_x)/f_z 就是各点以承力为权的加权平均。权都非负且和为 1，所以 p 落在这些点的凸包即支撑多边形之内。
-        对矩形脚底就是 |p_x| ≤ d_x、|p_y| ≤ d_y，即题中两个条件；矩形对称，所以符号无关紧要。
-        超出它的 wrench 要求某处 f_z < 0，即地面拉住脚；地面做不到，脚会绕边缘翻转。因此还要求 f_z > 0。
-
-        水平力在脚底平面内，不影响压力中心；它们另有限制：摩擦锥，以及本章表格漏掉的 τ_z 的限制。""",
-    ),
 )

@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Property, Quantity
+from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA
-from ..text import Text
 from ..workbook import mine
 from ..wrong import before, swapped
 from .ex_49_0_1 import skew
@@ -72,18 +71,6 @@ def _of_link(wrong: Any, *, m: float = 2.0) -> Any:
 
 BY_HAND = Part(
     solution=link_inertia,
-    doc=Text(
-        """Return the spatial inertia of the link in the text, and its smallest eigenvalue.
-
-        build(m, c, I_c) is your `spatial_inertia`; or write the matrix down, number by number.
-        Returns: array (6, 6), in the order (ω, v), kg m², kg m and kg; and a number.
-        An eigenvalue of this matrix mixes units: only its sign means something.""",
-        """返回题中连杆的空间惯量矩阵及其最小特征值。
-
-        build(m, c, I_c) 就是你的 `spatial_inertia`；也可以直接逐个写出矩阵的数。
-        返回：数组 (6, 6)，顺序 (ω, v)，单位 kg m²、kg m 与 kg；以及一个数。
-        这个矩阵的特征值混合了不同单位，只有正负号有意义。""",
-    ),
     given='build = mine("spatial_inertia")',
     returns=(Quantity("I", INERTIA), Quantity("smallest eigenvalue")),
     cases=lambda rng: [()],
@@ -94,32 +81,14 @@ BY_HAND = Part(
         "determinant-for-eigenvalue": lambda: (link_inertia()[0], np.linalg.det(link_inertia()[0])),
         "largest-eigenvalue": lambda: (link_inertia()[0], np.linalg.eigvalsh(link_inertia()[0])[-1]),
     },
-    properties=(
-        Property(Text("the matrix is symmetric", "矩阵对称"), lambda answer: answer[0] - answer[0].mT),
-        Property(
-            Text(
-                "turning about its own centre of mass, the link does not move there",
-                "连杆绕自身质心转动时，质心速度为零",
-            ),
-            lambda answer: (answer[0] @ [1, 0, 0, 0, 0.1, 0])[3:],
-        ),
+    residuals=(
+        lambda answer: answer[0] - answer[0].mT,
+        lambda answer: (answer[0] @ [1, 0, 0, 0, 0.1, 0])[3:],
     ),
 )
 
 IN_GENERAL = Part(
     solution=spatial_inertia,
-    doc=Text(
-        """Return the spatial inertia of a body about the origin of its frame.
-
-        m: number, kg. c: array (3,), m, the centre of mass.
-        I_c: array (3, 3), kg m², about the centre of mass, along the axes of the frame.
-        Returns: array (6, 6), in the order (ω, v).""",
-        """返回刚体关于本体坐标系原点的空间惯量矩阵。
-
-        m：数，kg。c：数组 (3,)，单位 m，质心位置。
-        I_c：数组 (3, 3)，kg m²，关于质心，用本体坐标轴。
-        返回：数组 (6, 6)，顺序 (ω, v)。""",
-    ),
     returns=(Quantity("I", INERTIA),),
     cases=lambda rng: [random_body(rng) for _ in range(5)],
     slips={
@@ -127,15 +96,9 @@ IN_GENERAL = Part(
         "products-sign": before(spatial_inertia, lambda I_c: 2 * np.diag(I_c.diagonal()) - I_c, which=2),
         "products-dropped": before(spatial_inertia, lambda I_c: np.diag(I_c.diagonal()), which=2),
     },
-    properties=(
-        Property(Text("the matrix is symmetric", "矩阵对称"), lambda answer, m, c, I_c: answer - answer.mT),
-        Property(
-            Text(
-                "½ VᵀIV is the kinetic energy ½ m v_c² + ½ ωᵀI_cω, with v_c = v + ω × c",
-                "½ VᵀIV 等于动能 ½ m v_c² + ½ ωᵀI_cω，其中 v_c = v + ω × c",
-            ),
-            lambda answer, m, c, I_c: _energies(answer, m, c, I_c),
-        ),
+    residuals=(
+        lambda answer, m, c, I_c: answer - answer.mT,
+        lambda answer, m, c, I_c: _energies(answer, m, c, I_c),
     ),
 )
 
@@ -150,33 +113,6 @@ def _energies(I6: Any, m: Any, c: Any, I_c: Any) -> Any:
 EXERCISE = Exercise(
     id="49.5.1",
     kind="number",
-    title=Text("Ten numbers, a 6 × 6 matrix", "十个数与一个 6 × 6 矩阵"),
     uses=("skew",),
-    text=Text(
-        """A link has the mass m = 2 kg, its centre of mass at c = (0, 0, 0.1) m, and the inertia
-        I_c = diag(0.01, 0.01, 0.005) kg m² about that. Write down its spatial inertia by hand. Is it symmetric and
-        positive definite? The smallest eigenvalue tells.
-
-        First write the formula as a function: later exercises use it.""",
-        """一个连杆质量 m = 2 kg，质心 c = (0, 0, 0.1) m，关于质心的惯量 I_c = diag(0.01, 0.01, 0.005) kg m²。
-        手算写出它的空间惯量矩阵。它对称正定吗？由最小特征值判断。
-
-        先把公式写成函数，后面的练习要用。""",
-    ),
     parts=(IN_GENERAL, BY_HAND),
-    hints=(
-        Text(
-            "Momentum is I V. The linear half is m v_c with v_c = v + ω × c, the velocity of the centre of mass.",
-            "动量是 I V。线动量为 m v_c，其中质心速度 v_c = v + ω × c。",
-        ),
-        Text(
-            "ω × c = −[c]× ω gives the bottom row, (−m [c]×, m 1). Symmetry gives the block top right.",
-            "由 ω × c = −[c]× ω 得下面一行 (−m [c]×, m 1)；由对称性得右上块。",
-        ),
-        Text(
-            "Top left stands the inertia about the origin: I_c − m [c]×². By hand: add m (|c|² 1 − c cᵀ). About the z "
-            "axis, along which c points, that is nothing.",
-            "左上是关于原点的惯量 I_c − m [c]×²。手算：加上 m (|c|² 1 − c cᵀ)；c 沿 z 轴，所以绕 z 轴不增加。",
-        ),
-    ),
 )

@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Exercise, Part, Property, Quantity
+from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import robot, small_robot
 from ..stopwatch import Machine, Task
@@ -129,18 +129,6 @@ def _plausible(answer: Any) -> Any:
 
 TWO_WAYS = Part(
     solution=forward_dynamics_two_ways,
-    doc=Text(
-        """Return the acceleration under given forces: by ABA, and with the mass matrix.
-
-        model: a robot with a floating base. q: array (nq,). v, tau: arrays (nv,).
-        `tw.aba(model, q, v, tau)`, `tw.crba(model, q)`, `tw.nonlinear_effects(model, q, v)` is h.
-        Returns: two arrays (nv,), the base's rates of ω and v, then the joints'.""",
-        """返回给定力作用下的加速度：用 ABA，以及用质量矩阵求解。
-
-        model：浮动基座机器人。q：数组 (nq,)。v、tau：数组 (nv,)。
-        `tw.aba(model, q, v, tau)`、`tw.crba(model, q)`；`tw.nonlinear_effects(model, q, v)` 就是 h。
-        返回：两个数组 (nv,)，先是基座 ω、v 的变化率，然后是各关节的。""",
-    ),
     returns=(Quantity("q̈ by ABA", JOINT_SPACE), Quantity("q̈ by CRBA", JOINT_SPACE)),
     rtol=1e-7,
     cases=lambda rng: [
@@ -160,32 +148,11 @@ TWO_WAYS = Part(
         "base-held": _held,
         "swapped-halves": swapped(forward_dynamics_two_ways),
     },
-    properties=(
-        Property(
-            Text("RNEA undoes it: it gives τ back", "逆动力学是其逆：RNEA 应还原 τ"),
-            lambda answer, model, q, v, tau: tw.rnea(model, q, v, answer[1]) - tau,
-        ),
-    ),
+    residuals=(lambda answer, model, q, v, tau: tw.rnea(model, q, v, answer[1]) - tau,),
 )
 
 RATIO = Part(
     solution=time_ratio,
-    doc=Text(
-        """Measure how many times as long the second function takes as the first.
-
-        first, second: functions without arguments. calls: how often to call each, 100 or so.
-        clock: function without arguments that returns the time in s, as `time.perf_counter` does.
-        Read this clock and no other: the check hands in clocks of machines that start slowly, slow
-        down or are interrupted, and your ratio must come out right on each of them.
-        Returns: number, time of the second over time of the first.""",
-        """测量第二个函数的耗时是第一个的多少倍。
-
-        first、second：不带参数的函数。calls：各调用多少次，例如 100。
-        clock：不带参数、返回当前时间（s）的函数，如 `time.perf_counter`。
-        只能用这个时钟：检验时会传入几台机器的时钟，它们起步慢、中途变慢或被打断，
-        你的比值在每台机器上都应正确。
-        返回：数，第二个的时间除以第一个的时间。""",
-    ),
     returns=(Quantity("ratio"),),
     cases=_machines,
     call=_timed,
@@ -203,18 +170,6 @@ RATIO = Part(
 
 MEASURED = Part(
     solution=measured_ratio,
-    doc=Text(
-        """Return what you have measured for Go2: the time of CRBA, h and solve over that of ABA.
-
-        Measure with `time_ratio` and `time.perf_counter`, with twistwrench or Pinocchio, and write
-        the number down here. Machines and libraries differ: any plausible number will do.
-        Returns: number.""",
-        """返回你对 Go2 测得的比值：CRBA、h 加求解的时间除以 ABA 的时间。
-
-        用 `time_ratio` 和 `time.perf_counter` 测量 twistwrench 或 Pinocchio，把数写在这里。
-        机器和库各不相同：数量级合理即可。
-        返回：数。""",
-    ),
     returns=(Quantity("ratio"),),
     cases=lambda rng: [()],
     canonical=_plausible,
@@ -224,50 +179,5 @@ MEASURED = Part(
 EXERCISE = Exercise(
     id="49.7.2",
     kind="explain",
-    title=Text("ABA against CRBA and a solver", "ABA 与“先 CRBA 再求解”"),
-    text=Text(
-        """Forward dynamics can be had in O(N) by ABA, or by building M with CRBA and h with RNEA and solving
-        M q̈ = τ − h, which is O(N³). Compare how long they take for Go2 with its 18 degrees of freedom, 100 calls each,
-        and draw the times as bars if you like. How large is the difference?
-
-        A time is easily measured wrong. So write the measurement as a function first. It is checked on machines
-        whose clocks we know; your own machine's speed is not.""",
-        """正向动力学可以用 ABA 在 O(N) 内得到，也可以用 CRBA 构造 M、用 RNEA 求 h，再解 M q̈ = τ − h，复杂度 O(N³)。
-        对 18 自由度的 Go2 比较两者的耗时，各调用 100 次，可以画成柱状图。差异有多大？
-
-        时间很容易测错。所以先把测量写成函数，用时钟已知的机器来检验它；不检验你自己机器的快慢。""",
-    ),
     parts=(TWO_WAYS, RATIO, MEASURED),
-    hints=(
-        Text(
-            "Whatever else a machine does only adds time. Which number out of 100 times is not moved by one that is "
-            "far too long?",
-            "机器的其他活动只会使时间变长。100 个时间中，哪个统计量不受一个过长值的影响？",
-        ),
-        Text(
-            "Call the two in turn, reading the clock before and after each. A machine that slows down then slows both.",
-            "轮流调用两者，每次前后都读时钟。这样机器变慢时两者一起变慢。",
-        ),
-        Text(
-            "M q̈ + h = τ. `np.linalg.solve(M, tau - h)`, with all of M: it reads both triangles.",
-            "M q̈ + h = τ。用 `np.linalg.solve(M, tau - h)`，要用完整的 M：它读取两个三角。",
-        ),
-    ),
-    answer=Text(
-        """Hardly any, at 18 degrees of freedom. Where this was written the way by CRBA took 1.1 times as long as ABA
-        with twistwrench, 1.3 times with Pinocchio and its Cholesky, and 2.3 times with Pinocchio and
-        `np.linalg.solve`, most of which is the price of calling NumPy. O(N³) against O(N) says how these times grow,
-        not how long they are. The N³ has a small factor: solving for 18 unknowns is quick, and Go2's short legs leave
-        M mostly zeros between them. ABA does more for each joint: it moves 6 × 6 inertias.
-
-        With more joints the orders do show: for a chain of 100, Pinocchio's ABA was 5.6 times as fast. And speed is
-        not all: on a long chain with heavy tips ABA keeps more digits than solving with M.""",
-        """18 自由度时几乎没有差异。在写作本文的机器上，经由 CRBA 的做法与 ABA 的耗时之比：twistwrench 为 1.1，
-        Pinocchio 配其 Cholesky 分解为 1.3，Pinocchio 配 `np.linalg.solve` 为 2.3（多出的大部分是调用 NumPy 的开销）。
-        O(N³) 与 O(N) 说明的是时间怎样增长，而不是有多长。N³ 前的系数很小：解 18 个未知数很快，而 Go2 的腿短，
-        M 中各腿之间都是零。ABA 对每个关节要做更多工作：变换 6 × 6 的惯量。
-
-        关节更多时阶数才显现出来：100 个关节的链上，Pinocchio 的 ABA 快 5.6 倍。速度也不是全部：
-        对末端很重的长链，ABA 比用 M 求解保留更多有效数字。""",
-    ),
 )

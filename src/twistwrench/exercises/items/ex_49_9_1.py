@@ -6,10 +6,9 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Exercise, Part, Property, Quantity
+from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import robot
-from ..text import Text
 from ..wrong import after, swapped
 
 __all__ = ["EXERCISE", "net_wrench", "out_of_balance"]
@@ -101,22 +100,6 @@ def _of_base(model: Any, q: Any, forces: Any) -> Any:
 
 BALANCE = Part(
     solution=out_of_balance,
-    doc=Text(
-        """Return what is left over of the equation of a robot at rest: g − Sᵀτ − J_cᵀλ.
-
-        model: Go2. q: array (19,). tau: array (12,), N m, of the motors.
-        forces: array (4, 3), N, of the ground on each of `model.feet`, in the axes of the world.
-        `tw.selection_matrix(model)`, `tw.contact_jacobian(model, q, model.feet)` and
-        `tw.gravity(model, q)` are there.
-        Returns: array (18,), N m and N. It is zero where the robot stays at rest.""",
-        """返回静止机器人方程的剩余量：g − Sᵀτ − J_cᵀλ。
-
-        model：Go2。q：数组 (19,)。tau：数组 (12,)，N m，电机力矩。
-        forces：数组 (4, 3)，N，地面对 `model.feet` 各脚的力，用世界坐标轴。
-        可用 `tw.selection_matrix(model)`、`tw.contact_jacobian(model, q, model.feet)`、
-        `tw.gravity(model, q)`。
-        返回：数组 (18,)，N m 与 N；保持静止时为零。""",
-    ),
     returns=(Quantity("g − Sᵀτ − J_cᵀλ", JOINT_SPACE),),
     cases=_cases,
     slips={
@@ -133,43 +116,11 @@ BALANCE = Part(
         "joint-for-frame": _jacobian(frames=CALVES),
         "swapped-halves": swapped(out_of_balance),
     },
-    reasons={
-        "gravity-missing": Text(
-            "At rest h is g(q): the weight is what has to be held.", "静止时 h 就是 g(q)：需要托住的正是重力。"
-        ),
-        "gravity-sign": Text(
-            "g(q) is what would hold the robot, so it stands beside M q̈, and Sᵀτ and J_cᵀλ are taken off.",
-            "g(q) 是托住机器人所需的力，与 M q̈ 在同一边；再减去 Sᵀτ 和 J_cᵀλ。",
-        ),
-        "external-sign": Text(
-            "What the ground gives, nobody else need: it is taken off.", "地面提供的力，无需别处再提供：应当减去。"
-        ),
-    },
-    properties=(
-        Property(
-            Text("the base's rows do not know the motors", "基座的六行与电机无关"),
-            lambda answer, model, q, tau, forces: answer[:6] - out_of_balance(model, q, 0 * tau, forces)[:6],
-        ),
-    ),
+    residuals=(lambda answer, model, q, tau, forces: answer[:6] - out_of_balance(model, q, 0 * tau, forces)[:6],),
 )
 
 NET = Part(
     solution=net_wrench,
-    doc=Text(
-        """Return the wrench of all that acts on the robot from outside: its weight and the ground's
-        forces.
-
-        model: Go2. q: array (19,). forces: array (4, 3), N, of the ground on each of `model.feet`,
-        in the world's axes.
-        `model.mass` is in kg, `model.gravity` is (0, 0, −9.81) m/s².
-        Returns: array (6,), (τ, f), N m and N, about the centre of mass, in the axes of the world.""",
-        """返回外界对机器人的全部作用力（重力与地面力）的合 wrench。
-
-        model：Go2。q：数组 (19,)。forces：数组 (4, 3)，N，地面对 `model.feet` 各脚的力，用世界坐标
-        轴。
-        `model.mass` 单位 kg，`model.gravity` 为 (0, 0, −9.81) m/s²。
-        返回：数组 (6,)，(τ, f)，N m 与 N，对质心取矩，用世界坐标轴。""",
-    ),
     returns=(Quantity("F", WRENCH),),
     cases=lambda rng: [(model, q, forces) for model, q, _, forces in _cases(rng)],
     slips={
@@ -186,66 +137,12 @@ NET = Part(
         "averaged": lambda model, q, forces: net_wrench(model, q, forces / 4),
         "swapped-halves": swapped(net_wrench),
     },
-    reasons={
-        "gravity-missing": Text(
-            "The weight acts from outside as well: m g, at the centre of mass.", "重力也是外力：m g，作用在质心。"
-        ),
-        "base-for-com": Text(
-            "q[:3] is the base's origin. The moments are about the centre of mass, `tw.center_of_mass`.",
-            "q[:3] 是基座原点；力矩是对质心取的，用 `tw.center_of_mass`。",
-        ),
-        "coupling-dropped": Text(
-            "Each force has a moment about the centre of mass: (p_k − p_G) × f_k.",
-            "每个力对质心都有力矩：(p_k − p_G) × f_k。",
-        ),
-    },
     alike=(frozenset({"lever-reversed", "cross-order"}),),
-    properties=(
-        Property(
-            Text(
-                "carried to the base's frame, it is what the base's rows of J_cᵀλ − g say",
-                "变到基座坐标系后，应等于 J_cᵀλ − g 的基座六行",
-            ),
-            lambda answer, model, q, forces: answer - _of_base(model, q, forces),
-        ),
-    ),
+    residuals=(lambda answer, model, q, forces: answer - _of_base(model, q, forces),),
 )
 
 EXERCISE = Exercise(
     id="49.9.1",
     kind="explain",
-    title=Text("The equation at rest", "静止时的方程"),
-    text=Text(
-        """Go2 stands still: q̇ = 0, q̈ = 0. Write down what is left of its equation of motion, and compute by how much
-        given torques and contact forces miss it. Then add up the wrench of weight and ground about the centre of mass,
-        and explain why the contact forces must balance gravity, whatever the motors do.""",
-        """Go2 静止站立：q̇ = 0，q̈ = 0。写出此时的动力学方程，并计算给定力矩和接触力时方程的剩余量。
-        然后求重力与地面力对质心的合 wrench，并解释为什么无论电机怎样出力，接触力都必须与重力平衡。""",
-    ),
     parts=(BALANCE, NET),
-    hints=(
-        Text(
-            "Go through M q̈ + h = Sᵀτ + J_cᵀλ term by term. Which of them vanish at rest, and what is left of h?",
-            "逐项看 M q̈ + h = Sᵀτ + J_cᵀλ：静止时哪些项为零？h 还剩什么？",
-        ),
-        Text(
-            "λ stacks the four forces, as `forces.ravel()` does. The first six rows have no τ in them.",
-            "λ 由四个力依次排成，即 `forces.ravel()`。前六行中没有 τ。",
-        ),
-        Text(
-            "Each force has the moment (p_k − p_G) × f_k about the centre of mass. The weight has none.",
-            "每个力对质心的力矩是 (p_k − p_G) × f_k；重力对质心没有力矩。",
-        ),
-    ),
-    answer=Text(
-        """With q̇ = q̈ = 0 the inertial and velocity terms vanish and h is g(q). What is left is g(q) = Sᵀτ + J_cᵀλ.
-        The first six rows, those of the base, have no τ in them: g_b = J_cbᵀ λ. They say that the wrench of the contact
-        forces is the opposite of the weight's: Σ f_k = −m g = (0, 0, 157.8) N, and Σ (p_k − p_G) × f_k = 0. No motor
-        can help, since motors act between two bodies of the robot, with equal and opposite wrenches: over the whole
-        robot they cancel. What they do is found in the other twelve rows, τ = g_j − J_cjᵀ λ, once λ is known.""",
-        """q̇ = q̈ = 0 时惯性项和速度项为零，h 只剩 g(q)，方程成为 g(q) = Sᵀτ + J_cᵀλ。
-        前六行（基座）不含 τ：g_b = J_cbᵀ λ，即接触力的合 wrench 与重力相反：
-        Σ f_k = −m g = (0, 0, 157.8) N，Σ (p_k − p_G) × f_k = 0。电机帮不上忙：它作用在机器人的两个刚体之间，
-        大小相等、方向相反，对整机互相抵消。电机力矩由其余十二行给出：λ 已知后 τ = g_j − J_cjᵀ λ。""",
-    ),
 )

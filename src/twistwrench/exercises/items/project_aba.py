@@ -6,11 +6,10 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Part, Property, Quantity
-from ..text import Text
+from ..exercise import Part, Quantity
 from ..wrong import faulty
 from .project_rnea import tree_rnea
-from .project_trees import described, pieces, previous, trees
+from .project_trees import pieces, previous, trees
 
 __all__ = ["ABA", "tree_aba"]
 
@@ -55,17 +54,6 @@ def _back(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a
 ABA = Part(
     solution=tree_aba,
     rtol=1e-8,
-    doc=described(
-        Text("Return the accelerations under given joint forces, by ABA.", "用 ABA 返回给定关节力下的加速度。"),
-        Text(
-            """qd, tau: lists of n arrays (k,), velocities, rad/s or m/s, and joint forces, N m or N.
-            a0: array (6,), −g as a spatial acceleration of the world: (0, 0, 0, 0, 0, 9.81).
-            Returns: array (nv,), rad/s² and m/s², the joints one after the other.""",
-            """qd、tau：n 个数组 (k,) 的列表：速度，rad/s 或 m/s；关节力，N m 或 N。
-            a0：数组 (6,)，把 −g 作为世界的空间加速度：(0, 0, 0, 0, 0, 9.81)。
-            返回：数组 (nv,)，rad/s² 与 m/s²，按关节顺序排列。""",
-        ),
-    ),
     returns=(Quantity("q̈"),),
     cases=_loads,
     slips={
@@ -86,20 +74,5 @@ ABA = Part(
         "inertia-half-rotated": faulty(tree_aba, ("X[i].mT @ Ia @ X[i]", "X[i].mT @ Ia")),
         "chain-for-tree": lambda parent, *rest: tree_aba(previous(parent), *rest),
     },
-    reasons={
-        "gravity-sign": Text(
-            "a0 is −g already, and points up: begin with it as it is.", "a0 已经是 −g，方向向上：直接用它作为初值。"
-        ),
-        "gravity-missing": Text("Begin with A[0] = a0, which is −g.", "从 A[0] = a0 开始，它就是 −g。"),
-        "bias-sign": Text(
-            "u = τ − Sᵀ p: the joint must overcome the bias force before it accelerates anything.",
-            "u = τ − Sᵀ p：关节先要克服偏置力，余下的才产生加速度。",
-        ),
-        "children-dropped": Text(
-            "Each body feels what hangs on it: pass on I^a and p^a.",
-            "每个物体都感受到挂在它上面的部分：要传递 I^a 和 p^a。",
-        ),
-        "inertia-half-rotated": Text("X[i]ᵀ I^a X[i]: from both sides.", "X[i]ᵀ I^a X[i]：两侧都要乘。"),
-    },
-    properties=(Property(Text("RNEA with these accelerations gives τ back", "把这些加速度代入 RNEA 应还原 τ"), _back),),
+    residuals=(_back,),
 )

@@ -4,11 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Part, Property, Quantity
-from ..text import Text
+from ..exercise import Part, Quantity
 from ..wrong import after, faulty
 from .project_rnea import tree_energy
-from .project_trees import described, previous, trees
+from .project_trees import previous, trees
 
 __all__ = ["CRBA", "tree_crba"]
 
@@ -40,13 +39,6 @@ def _energies(answer: Any, parent: Any, S: Any, I: Any, X: Any) -> Any:
 
 CRBA = Part(
     solution=tree_crba,
-    doc=described(
-        Text("Return the mass matrix M, full and symmetric, by CRBA.", "用 CRBA 返回质量矩阵 M，完整且对称。"),
-        Text(
-            "Returns: array (nv, nv), kg m², kg m and kg, rows and columns one joint after the other.",
-            "返回：数组 (nv, nv)，kg m²、kg m 与 kg，行列按关节顺序排列。",
-        ),
-    ),
     returns=(Quantity("M"),),
     cases=lambda rng: [tuple(lists) for _, *lists in trees(rng)],
     slips={
@@ -67,28 +59,8 @@ CRBA = Part(
         "one-triangle": after(tree_crba, np.triu),
         "doubled-off-diagonal": after(tree_crba, lambda M: M + M.mT - np.diag(np.diag(M))),
     },
-    reasons={
-        "inverse-transform": Text(
-            "X[i] leads outward: inertias come inward by X[i]ᵀ I X[i], wrenches by X[i]ᵀ.",
-            "X[i] 方向向外：惯量用 X[i]ᵀ I X[i] 向内传，wrench 用 X[i]ᵀ。",
-        ),
-        "inertia-like-motion": Text(
-            "Inward it is X[i]ᵀ I X[i]: twists go out by X[i], momenta come back by X[i]ᵀ.",
-            "向内传是 X[i]ᵀ I X[i]：twist 用 X[i] 向外，动量用 X[i]ᵀ 向内。",
-        ),
-        "inertia-half-rotated": Text(
-            "X[i]ᵀ I X[i]: X on the right brings the twist in, Xᵀ on the left brings the momentum back.",
-            "X[i]ᵀ I X[i]：右边的 X 把 twist 变进来，左边的 Xᵀ 把动量变回去。",
-        ),
-        "motion-for-force": Text(
-            "A wrench comes inward by X[i]ᵀ; X[i]⁻¹ is for twists.", "wrench 用 X[i]ᵀ 向内传；X[i]⁻¹ 是用于 twist 的。"
-        ),
-    },
-    properties=(
-        Property(Text("M is symmetric", "M 对称"), lambda answer, *lists: answer - answer.mT),
-        Property(
-            Text("½ q̇ᵀM q̇ is the energy of all bodies", "½ q̇ᵀM q̇ 等于全部刚体的动能"),
-            _energies,
-        ),
+    residuals=(
+        lambda answer, *lists: answer - answer.mT,
+        _energies,
     ),
 )

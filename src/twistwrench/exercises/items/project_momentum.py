@@ -6,10 +6,9 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Part, Property, Quantity
+from ..exercise import Part, Quantity
 from ..layouts import CENTROIDAL_MAP, MOMENTUM
 from ..robots import robot, small_robot
-from ..text import Text
 from ..wrong import faulty, swapped
 
 __all__ = ["MAP", "RATE", "momentum_rate", "own_centroidal_map"]
@@ -74,23 +73,6 @@ def _motions(rng: Any) -> Any:
 
 MAP = Part(
     solution=own_centroidal_map,
-    doc=Text(
-        """Return the centroidal momentum matrix A_G, without `tw.centroidal_map`: the sum of the
-        momenta of all bodies.
-
-        model: with a floating base. q: array (nq,).
-        `tw.frame_jacobian(model, q, model.joint_names[i], reference="local")` is the body Jacobian
-        of body i, `model.inertia[i].matrix()` its inertia, `tw.forward_kinematics(model,
-        q).placement[i]` its placement, and `tw.center_of_mass(model, q)` is p_G.
-        Returns: array (6, nv), rows (k, l), about the centre of mass, in the axes of the world.""",
-        """不用 `tw.centroidal_map`，返回质心动量矩阵 A_G：全部刚体动量之和。
-
-        model：浮动基座模型。q：数组 (nq,)。
-        `tw.frame_jacobian(model, q, model.joint_names[i], reference="local")` 是物体 i 的 body 雅可
-        比，`model.inertia[i].matrix()` 是其惯量，`tw.forward_kinematics(model, q).placement[i]` 是其
-        位姿，`tw.center_of_mass(model, q)` 是 p_G。
-        返回：数组 (6, nv)，行 (k, l)，对质心取矩，用世界坐标轴。""",
-    ),
     returns=(Quantity("A_G", CENTROIDAL_MAP),),
     cases=_postures,
     slips={
@@ -111,52 +93,12 @@ MAP = Part(
         "orbital-missing": faulty(own_centroidal_map, ("model.inertia[i].matrix()", "_spin(model.inertia[i])")),
         "rows-only": _rows,
     },
-    reasons={
-        "untransformed": Text(
-            "I_i J_i is in frame i: X* takes it to the centre of mass.", "I_i J_i 在坐标系 i 中：用 X* 变到质心。"
-        ),
-        "local-for-world": Text(
-            "X* of (R_i, p_i − p_G): its R turns the momentum into the axes of the world.",
-            "X* 用 (R_i, p_i − p_G)：其中的 R 把动量变到世界坐标轴。",
-        ),
-        "motion-for-force": Text(
-            "Momenta transform like wrenches: X*, not X.", "动量按 wrench 的方式变换：用 X*，不是 X。"
-        ),
-        "inverse-transform": Text(
-            "(R_i, p_i − p_G) places frame i at the centre of mass: its X* leads there, no inverse needed.",
-            "(R_i, p_i − p_G) 是坐标系 i 在质心坐标系中的位姿，它的 X* 正好变到质心，不需要求逆。",
-        ),
-        "rows-only": Text(
-            "The rows here are (k, l): angular first. Pinocchio has (l, k).",
-            "这里的行是 (k, l)：角动量在前；Pinocchio 是 (l, k)。",
-        ),
-    },
-    properties=(
-        Property(
-            Text("its linear rows are m times the Jacobian of the centre of mass", "其线动量行等于 m 乘质心的雅可比"),
-            lambda answer, model, q: answer[3:] - tw.newton_euler_3d.centroidal_map(model, q)[3:],
-        ),
-    ),
+    residuals=(lambda answer, model, q: answer[3:] - tw.newton_euler_3d.centroidal_map(model, q)[3:],),
 )
 
 
 RATE = Part(
     solution=momentum_rate,
-    doc=Text(
-        """Return ḣ_G, the rate of the centroidal momentum in a given motion: the sum of what all bodies
-        need.
-
-        model: with a floating base. q: array (nq,). v, a: arrays (nv,).
-        `tw.forward_kinematics(model, q, v, a)` gives, for each body, placements in the world, body
-        twists, and spatial accelerations without gravity.
-        Returns: array (6,), (k̇, l̇), N m and N, about the centre of mass, in the axes of the world.""",
-        """返回给定运动中质心动量的变化率 ḣ_G：全部刚体所需 wrench 之和。
-
-        model：浮动基座模型。q：数组 (nq,)。v、a：数组 (nv,)。
-        `tw.forward_kinematics(model, q, v, a)` 依次给出各物体在世界中的位姿、body twist 和空间加速度
-        （不含重力）。
-        返回：数组 (6,)，(k̇, l̇)，N m 与 N，对质心取矩，用世界坐标轴。""",
-    ),
     returns=(Quantity("ḣ_G", MOMENTUM),),
     cases=_motions,
     slips={
@@ -175,15 +117,7 @@ RATE = Part(
             tw.centroidal_momentum_rate(model, q, v, a) - np.concatenate([np.zeros(3), model.mass * model.gravity])
         ),
     },
-    reasons={
-        "velocity-for-acceleration": Text(
-            "A_G v is the momentum itself; its rate is A_G a + Ȧ_G v.", "A_G v 是动量本身；其变化率是 A_G a + Ȧ_G v。"
-        ),
-    },
-    properties=(
-        Property(
-            Text("its linear half is m times the acceleration of the centre of mass", "其线分量等于 m 乘质心加速度"),
-            lambda answer, model, q, v, a: (answer - tw.newton_euler_3d.centroidal_momentum_rate(model, q, v, a))[3:],
-        ),
+    residuals=(
+        lambda answer, model, q, v, a: (answer - tw.newton_euler_3d.centroidal_momentum_rate(model, q, v, a))[3:],
     ),
 )

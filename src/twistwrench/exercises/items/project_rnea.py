@@ -6,10 +6,9 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Part, Property, Quantity
-from ..text import Text
+from ..exercise import Part, Quantity
 from ..wrong import faulty
-from .project_trees import described, pieces, previous, trees
+from .project_trees import pieces, previous, trees
 
 __all__ = ["ENERGY", "RNEA", "tree_energy", "tree_rnea"]
 
@@ -58,20 +57,6 @@ def _power(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, qdd: Any, 
 
 RNEA = Part(
     solution=tree_rnea,
-    doc=described(
-        Text(
-            "Return the joint forces that make a motion happen, by RNEA.",
-            "用 RNEA 返回产生给定运动所需的关节力。",
-        ),
-        Text(
-            """qd, qdd: lists of n arrays (k,), rad/s and rad/s² or m/s and m/s².
-            a0: array (6,), −g as a spatial acceleration of the world: (0, 0, 0, 0, 0, 9.81).
-            Returns: array (nv,), N m and N, the joints one after the other: `np.concatenate(tau[1:])`.""",
-            """qd、qdd：n 个数组 (k,) 的列表，rad/s 与 rad/s²，或 m/s 与 m/s²。
-            a0：数组 (6,)，把 −g 作为世界的空间加速度：(0, 0, 0, 0, 0, 9.81)。
-            返回：数组 (nv,)，N m 与 N，按关节顺序排列：`np.concatenate(tau[1:])`。""",
-        ),
-    ),
     returns=(Quantity("τ"),),
     cases=_motions,
     slips={
@@ -100,45 +85,12 @@ RNEA = Part(
             parent, S, I, X, [0 * rate for rate in qd], qdd, a0
         ),
     },
-    reasons={
-        "gravity-sign": Text(
-            "a0 is −g already, and points up: begin with it as it is.", "a0 已经是 −g，方向向上：直接用它作为初值。"
-        ),
-        "gravity-missing": Text("Begin with A[0] = a0, which is −g.", "从 A[0] = a0 开始，它就是 −g。"),
-        "force-sign": Text(
-            "What the child needs the parent must give in addition: add.", "子物体所需的，父物体要额外提供：应当相加。"
-        ),
-        "velocity-terms-missing": Text(
-            "Without qd the terms V × S q̇ and V ×* I V vanish.", "不用 qd，V × S q̇ 和 V ×* I V 就都没有了。"
-        ),
-        "motion-for-force": Text(
-            "A wrench comes inward by X[i]ᵀ; X[i]⁻¹ is for twists.", "wrench 用 X[i]ᵀ 向内传；X[i]⁻¹ 是用于 twist 的。"
-        ),
-    },
     alike=(frozenset({"children-overwritten", "children-dropped", "visited-outward"}),),  # lost in any case
-    properties=(
-        Property(
-            Text(
-                "the power of the joints is what the bodies take: τ·q̇ = Σ Vᵀ I A",
-                "关节功率等于各刚体所需：τ·q̇ = Σ Vᵀ I A",
-            ),
-            _power,
-        ),
-    ),
+    residuals=(_power,),
 )
 
 ENERGY = Part(
     solution=tree_energy,
-    doc=described(
-        Text(
-            "Return the kinetic energy, body by body. It is ½ q̇ᵀM q̇, and so it checks M.",
-            "逐个刚体返回动能：它等于 ½ q̇ᵀM q̇，可用来检验用别的方法得到的 M。",
-        ),
-        Text(
-            "qd: list of n arrays (k,), rad/s or m/s.\nReturns: a number, J.",
-            "qd：n 个数组 (k,) 的列表，rad/s 或 m/s。\n返回：一个数，J。",
-        ),
-    ),
     returns=(Quantity("T", unit="J"),),
     cases=lambda rng: [(*lists, pieces(model, rng)) for model, *lists in trees(rng)],
     slips={
@@ -150,14 +102,5 @@ ENERGY = Part(
         "inverse-transform": lambda parent, S, I, X, qd: tree_energy(parent, S, I, [*map(np.linalg.inv, X)], qd),
         "force-for-motion": lambda parent, S, I, X, qd: tree_energy(parent, S, I, [np.linalg.inv(x).mT for x in X], qd),
         "chain-for-tree": lambda parent, *rest: tree_energy(previous(parent), *rest),
-    },
-    reasons={
-        "untransformed": Text(
-            "V of the parent is in the parent's frame: X[i] brings it into frame i.",
-            "父物体的 V 在父坐标系中：用 X[i] 变到坐标系 i。",
-        ),
-        "inverse-transform": Text(
-            "X[i] already leads from the parent's frame to frame i.", "X[i] 本来就是从父坐标系到坐标系 i。"
-        ),
     },
 )

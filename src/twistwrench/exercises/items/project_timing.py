@@ -71,21 +71,6 @@ def _near(answer: Any, task: Any) -> Any:
 
 TIME = Part(
     solution=time_per_call,
-    doc=Text(
-        """Return how long a call takes, measured so that a slow first call or an interruption does not
-        matter.
-
-        task: function without arguments. calls: how often to call it, 100 or so.
-        clock: function without arguments that returns the time in s, as `time.perf_counter` does.
-        Read this clock and no other: the check hands in machines whose speed is known.
-        Returns: a number, s.""",
-        """返回一次调用的耗时；首次调用较慢或中途被打断都不应影响结果。
-
-        task：不带参数的函数。calls：调用次数，例如 100。
-        clock：不带参数、返回当前时间（s）的函数，如 `time.perf_counter`。只能用这个时钟：检验时传入的机
-        器速度已知。
-        返回：一个数，s。""",
-    ),
     returns=(Quantity("time", unit="s"),),
     cases=_machines,
     call=_timed,

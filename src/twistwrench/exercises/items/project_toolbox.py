@@ -6,9 +6,8 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..exercise import Part, Property, Quantity
+from ..exercise import Part, Quantity
 from ..layouts import POSE
-from ..text import Text
 from ..wrong import swap
 
 __all__ = ["POSE_OF_BASE", "POSE_OF_URDF", "VECTOR", "SpatialVector", "base_pose", "urdf_pose"]
@@ -144,19 +143,6 @@ class _Forgetting(SpatialVector):
 VECTOR = Part(
     solution=SpatialVector,
     call=_use,
-    doc=Text(
-        """A twist or a wrench, which knows what it is.
-
-        kind: "twist" or "wrench". vector: array (6,), (ω, v) or (τ, f).
-        a + b and a − b are of the same kind as a and b; two of different kinds raise a TypeError.
-        wrench.power(twist) and twist.power(wrench) are FᵀV, a number, W; two of the same kind raise
-        a TypeError.""",
-        """一个 twist 或 wrench，知道自己是哪一种。
-
-        kind:"twist" 或 "wrench"。vector：数组 (6,)，(ω, v) 或 (τ, f)。
-        a + b 与 a − b 的种类与 a、b 相同；种类不同时抛出 TypeError。
-        wrench.power(twist) 与 twist.power(wrench) 给出 FᵀV，一个数，W；种类相同时抛出 TypeError。""",
-    ),
     given="""
         def __init__(self, kind, vector):
             self.kind, self.vector = kind, np.asarray(vector)
@@ -189,11 +175,6 @@ VECTOR = Part(
         "difference-reversed": _Reversing,
         "kind-lost": _Forgetting,
     },
-    reasons={
-        "swapped-halves": Text(
-            "FᵀV pairs τ with ω and f with v: first half with first half.", "FᵀV 中 τ 与 ω、f 与 v 相配：前半配前半。"
-        ),
-    },
 )
 
 # ---------------------------------------------------------------- placements and transforms
@@ -221,17 +202,6 @@ def _configuration(rng: Any) -> Any:
 
 POSE_OF_BASE = Part(
     solution=base_pose,
-    doc=Text(
-        """Return the placement of a floating base in the world.
-
-        q: array (nq,); the base has the first seven entries, x, y, z in m and the unit quaternion qx,
-        qy, qz, qw.
-        Returns: array (4, 4).""",
-        """返回浮动基座在世界中的位姿。
-
-        q：数组 (nq,)；前七个分量属于基座：x、y、z (m) 和单位四元数 qx、qy、qz、qw。
-        返回：数组 (4, 4)。""",
-    ),
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [(_configuration(rng),) for _ in range(4)],
     slips={
@@ -240,15 +210,7 @@ POSE_OF_BASE = Part(
         "half-angle": _posed(lambda xyzw: tw.exp3(tw.log3(_rotated(xyzw)) / 2)),
         "translation-dropped": lambda q: base_pose(np.concatenate([np.zeros(3), q[3:]])),
     },
-    reasons={
-        "translation-dropped": Text("q[:3] is the position of the base.", "q[:3] 是基座的位置。"),
-    },
-    properties=(
-        Property(
-            Text("R is a rotation: Rᵀ R = 1", "R 是旋转矩阵：Rᵀ R = 1"),
-            lambda answer, q: answer[:3, :3].mT @ answer[:3, :3] - np.eye(3),
-        ),
-    ),
+    residuals=(lambda answer, q: answer[:3, :3].mT @ answer[:3, :3] - np.eye(3),),
 )
 
 
@@ -266,18 +228,6 @@ def _origin(R: Any, p: Any = lambda R, xyz: xyz) -> Any:
 
 POSE_OF_URDF = Part(
     solution=urdf_pose,
-    doc=Text(
-        """Return the placement that a URDF's <origin xyz="..." rpy="..."/> means.
-
-        xyz: array (3,), m. rpy: array (3,), rad: roll about x, pitch about y, yaw about z, all of
-        them fixed axes.
-        Returns: array (4, 4).""",
-        """返回 URDF 中 <origin xyz="..." rpy="..."/> 表示的位姿。
-
-        xyz：数组 (3,)，单位 m。rpy：数组 (3,)，rad：绕 x 的 roll、绕 y 的 pitch、绕 z 的 yaw，都绕固
-        定轴。
-        返回：数组 (4, 4)。""",
-    ),
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [tuple(rng.uniform(-1.2, 1.2, (2, 3))) for _ in range(4)],
     slips={
@@ -286,8 +236,5 @@ POSE_OF_URDF = Part(
         "degrees": lambda xyz, rpy: urdf_pose(xyz, np.radians(rpy)),
         "translation-first": _origin(lambda x, y, z: z @ y @ x, lambda R, xyz: R @ xyz),
         "translation-dropped": _origin(lambda x, y, z: z @ y @ x, lambda R, xyz: 0 * xyz),
-    },
-    reasons={
-        "translation-dropped": Text("xyz is the origin's position.", "xyz 是原点的位置。"),
     },
 )

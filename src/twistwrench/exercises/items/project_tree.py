@@ -6,9 +6,8 @@ import numpy as np
 
 from ...tree import joint_placements, split
 from ...trees import random_tree
-from ..exercise import Part, Property, Quantity
+from ..exercise import Part, Quantity
 from ..robots import robot
-from ..text import Text
 from ..workbook import mine
 from ..wrong import after, swap
 
@@ -127,19 +126,6 @@ def _with_wrenches(rng: Any) -> Any:
 PLACEMENTS = Part(
     solution=body_placements,
     rtol=1e-12,
-    doc=Text(
-        """Return the placement of each body in the world: Pinocchio's `data.oMi`.
-
-        parent: tuple of n whole numbers: parent[i] carries body i and comes before it; 0 is the
-        world, parent[0] is −1.
-        T: array (n, 4, 4): T[i] is the placement of body i in its parent; T[0] is 1.
-        Returns: array (n, 4, 4).""",
-        """返回每个物体在世界中的位姿：即 Pinocchio 的 `data.oMi`。
-
-        parent：n 个整数的元组：parent[i] 承载物体 i 并排在它前面；0 是世界，parent[0] 为 −1。
-        T：数组 (n, 4, 4)：T[i] 是物体 i 在父物体中的位姿，T[0] 为单位阵。
-        返回：数组 (n, 4, 4)。""",
-    ),
     returns=(Quantity("oMi"),),
     cases=lambda rng: [(parent, T) for parent, T, _ in _robots(rng)],
     slips={
@@ -150,34 +136,11 @@ PLACEMENTS = Part(
         "inverse-transform": after(body_placements, np.linalg.inv),
         "untransformed": lambda parent, T: T,
     },
-    reasons={
-        "untransformed": Text(
-            "T[i] is seen from the parent: multiply by the parent's own placement.",
-            "T[i] 是在父物体中的位姿：要左乘父物体自身的位姿。",
-        ),
-        "translation-dropped": Text(
-            "Each step also moves the origin: p_AC = p_AB + R_AB p_BC.", "每一步原点也在移动：p_AC = p_AB + R_AB p_BC。"
-        ),
-    },
 )
 
 TWISTS = Part(
     solution=body_twists,
     rtol=1e-12,
-    doc=Text(
-        """Return the twist of each body: Pinocchio's `data.v`. Twists add up once they are in one frame.
-
-        parent, T: as in `body_placements`.
-        V_joint: array (n, 6), (ω, v), S q̇ of each joint: body i against its parent, in frame i; row
-        0 is zero.
-        Returns: array (n, 6), (ω, v), rad/s and m/s: the twist of body i in frame i; row 0 is zero.""",
-        """返回每个物体的 twist：即 Pinocchio 的 `data.v`。twist 变到同一坐标系后才能相加。
-
-        parent、T：同 `body_placements`。
-        V_joint：数组 (n, 6)，(ω, v)，各关节的 S q̇：物体 i 相对父物体的 twist，在坐标系 i 中；第 0 行
-        为零。
-        返回：数组 (n, 6)，(ω, v)，rad/s 与 m/s：物体 i 在坐标系 i 中的 twist；第 0 行为零。""",
-    ),
     given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
     returns=(Quantity("V"),),
     cases=_robots,
@@ -203,20 +166,6 @@ def _halves(rows: Any) -> Any:
 WRENCHES = Part(
     solution=carried_wrenches,
     rtol=1e-12,
-    doc=Text(
-        """Return the wrench that each joint passes on to its body: Pinocchio's `data.f`.
-
-        parent, T: as in `body_placements`.
-        F: array (n, 6), (τ, f), N m and N: what each body needs by itself, in frame i; row 0 is zero.
-        Returns: array (n, 6): what joint i must bear for body i and all that it carries, in frame i;
-        row 0 is what the ground bears, in the world.""",
-        """返回每个关节传给其物体的 wrench：即 Pinocchio 的 `data.f`。
-
-        parent、T：同 `body_placements`。
-        F：数组 (n, 6)，(τ, f)，N m 与 N：每个物体自身所需的 wrench，在坐标系 i 中；第 0 行为零。
-        返回：数组 (n, 6)：关节 i 为物体 i 及其承载的全部物体所需承担的 wrench，在坐标系 i 中；第 0 行
-        是地面承担的。""",
-    ),
     given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
     returns=(Quantity("F"),),
     cases=_with_wrenches,
@@ -232,20 +181,9 @@ WRENCHES = Part(
         "chain-for-tree": lambda parent, T, F: carried_wrenches(_previous(parent), T, F),
         "swapped-halves": lambda parent, T, F: _halves(carried_wrenches(parent, T, F)),
     },
-    reasons={
-        "force-sign": Text(
-            "What the child needs the parent must give in addition: add.", "子物体所需的，父物体要额外提供：应当相加。"
-        ),
-    },
-    properties=(
-        Property(
-            Text(
-                "the ground bears the sum of all wrenches, seen from the world",
-                "地面承担全部 wrench 之和（在世界中表达）",
-            ),
-            lambda answer, parent, T, F: (
-                answer[0] - sum(_transforms(P)[1] @ f for P, f in zip(body_placements(parent, T), F))
-            ),
+    residuals=(
+        lambda answer, parent, T, F: (
+            answer[0] - sum(_transforms(P)[1] @ f for P, f in zip(body_placements(parent, T), F))
         ),
     ),
 )

@@ -1,29 +1,20 @@
-"""The catalogue of slips, and helpers that make wrong implementations out of right ones."""
+"""The catalogue of slips: a TOML file for each kind, a table for each slip."""
 
-from .algebra import ALGEBRA
-from .bodies import BODIES
-from .contact import CONTACT
-from .dynamics import DYNAMICS
-from .floating import FLOATING
-from .inertia import INERTIA
-from .measuring import MEASURING
-from .order import ORDER
-from .pipeline import PIPELINE
-from .recursion import RECURSION
+from __future__ import annotations
+
+from ..prose import as_text, read
 from .slip import Slip
 
-__all__ = ["SLIPS", "Slip"]
+__all__ = ["FILES", "SLIPS", "Slip"]
 
-SLIPS: dict[str, Slip] = {
-    **ORDER,
-    **ALGEBRA,
-    **CONTACT,
-    **INERTIA,
-    **BODIES,
-    **DYNAMICS,
-    **RECURSION,
-    **MEASURING,
-    **FLOATING,
-    **PIPELINE,
+FILES = (
+    *("order", "algebra", "contact", "inertia", "bodies", "dynamics"),
+    *("recursion", "measuring", "floating", "pipeline"),
+)
+
+SLIPS = {
+    key: Slip(as_text(entry["title"]), as_text(entry["why"]), entry["section"])
+    for name in FILES
+    for key, entry in read("slips", name).items()
 }
 """Every slip by its key. An exercise maps the keys that can occur in it to wrong implementations."""
