@@ -165,6 +165,56 @@ def test_the_forces_at_the_contacts_are_those_of_the_motion_whatever_becomes_of_
     assert (b.contact_forces["FL_foot"] == expected).all()
 
 
+class Noisy:
+    """A controller that says something else whenever it is asked."""
+
+    def __init__(self, policy, integral):
+        self.policy, self.integral, self.rng, self.sum, self.said = policy, integral, np.random.default_rng(0), 0.0, []
+
+    def __call__(self, t, q, v):
+        self.sum = self.sum + v
+        drive = np.r_[np.zeros(6), self.rng.normal(size=12) * 3] if not self.integral else -0.1 * self.sum
+        self.said.append((t, self.policy(t, q, v) + np.r_[np.zeros(6), drive[6:]]))
+        return self.said[-1][1]
+
+
+@pytest.mark.parametrize("integral", [False, True])
+def test_forces_and_torques_are_those_that_were_applied(integral):
+    """Their sum is what the momentum changes by, and the policy is not asked again."""
+    model, policy, feet = standing_go2()
+    noisy, dt = Noisy(policy, integral), 1e-3
+    v = tw.impact(model, model.standing(), np.r_[0, 0, 0, 0.3, 0.2, 0, np.zeros(12)], feet).v
+    s = tw.simulate(model, model.standing(), v, dt=dt, steps=30, contacts=feet, tau=noisy, method="semi-implicit")
+    asked = len(noisy.said)
+    assert asked == s.evaluations == 31
+    assert (s.tau == [tau for _, tau in noisy.said[:30]]).all()
+    pushed = sum(s.contact_forces.values())
+    assert len(noisy.said) == asked
+    gained = np.diff(s.momentum[:, 3:], axis=0) / dt
+    assert np.abs(pushed[:-1] + model.mass * model.gravity - gained).max() < 0.02 * model.mass * 9.81
+    for k, (_, tau) in enumerate(noisy.said):  # and exactly so, as the equation of motion has it
+        want = tw.contact_forward_dynamics(model, s.q[k], s.v[k], tau, feet).forces
+        assert all((want[foot] == s.contact_forces[foot][k]).all() for foot in model.feet)
+
+
+@pytest.mark.parametrize("method", ORDERS)
+def test_the_torques_of_each_step_are_kept(method):
+    said = []
+    s = tw.simulate(
+        *(tw.load("double_pendulum"), [0.3, -0.5], [0.0, 1.0]),
+        dt=0.01,
+        steps=4,
+        method=method,
+        tau=lambda t, q, v: said.append((t, -v)) or -v,
+    )
+    assert s.tau.shape == (4, 2)
+    assert s.contact_forces == {}
+    if method == "variational":  # in the middle of the step, where it was found
+        assert np.abs(s.tau + (s.v[1:] + s.v[:-1]) / 2).max() < 1e-3
+    else:
+        assert (s.tau == -s.v[:-1]).all()
+
+
 # ---------------------------------------------------------------- what is refused
 
 

@@ -40,6 +40,12 @@ class Simulation:
         Times, s.
     q : ndarray, shape (n, ..., nq)
     v : ndarray, shape (n, ..., nv)
+    tau : ndarray, shape (n − 1, ..., nv)
+        The joint forces of each step: those of its first evaluation, at the state where it begins; of a variational
+        step those in its middle.
+    contact_forces : dict of str to ndarray, shape (n, ..., 3) or (n, ..., 6)
+        Forces on the robot by the contact's frame, axes of the world, (τ, f) of a surface: those that went with `tau`,
+        and in the last state those with what the policy says there. Empty without contacts.
     evaluations : int
         How often forces and accelerations were computed.
     seconds : float
@@ -51,6 +57,8 @@ class Simulation:
     t: Array
     q: Array
     v: Array
+    tau: Array
+    contact_forces: dict[str, Array]
     evaluations: int
     seconds: float
 
@@ -75,15 +83,6 @@ class Simulation:
         """Angular momentum about the world's origin, and linear momentum, shape (n, ..., 6): k_G + p_G × l_G, l_G."""
         k, l = self.momentum[..., :3], self.momentum[..., 3:]
         return np.concatenate([k + np.cross(center_of_mass(self.model, self.q), l), l], axis=-1)
-
-    @cached_property
-    def contact_forces(self) -> dict[str, Array]:
-        """Forces on the robot by the contact's frame, axes of the world, each (n, ..., 3) or (n, ..., 6) as (τ, f).
-
-        Computed when they are first asked for: the policy is asked once more at every state.
-        """
-        states = [self.system.held(float(t), q, v) for t, q, v in zip(self.t, self.q, self.v)]
-        return {frame: np.stack([s.forces[frame] for s in states]) for frame in states[0].forces}
 
     def __repr__(self) -> str:
         batch = "" if self.q.ndim == 2 else f", a batch of {self.q.shape[1:-1]}"

@@ -69,7 +69,8 @@ def simulate(
     Returns
     -------
     Simulation
-        t, q, v, energy and momentum; printed, how far the last two changed.
+        t, q, v, energy and momentum, τ and the forces at the contacts as they were applied; printed, how far energy and
+        momentum changed.
 
     Raises
     ------
@@ -115,10 +116,26 @@ def simulate(
     system, step = System(model, contacts, push, tau, q, v, float(dt)), METHODS[method].step
     qs, vs = np.empty((count + 1, *q.shape), q.dtype), np.empty((count + 1, *v.shape), v.dtype)
     qs[0], vs[0], start = q, v, perf_counter()
+    taus = np.empty((count, *v.shape), v.dtype)
+    held: list[dict[str, Array]] = []
     for k in _bar(count, progress):
+        system.begin()
         qs[k + 1], vs[k + 1] = _advance(step, system, k, qs[k].copy(), vs[k].copy())
+        taus[k] = system.tau
+        held.append(system.forces)
     t = np.arange(count + 1) * float(dt)
-    return Simulation(system, method, t, qs, vs, system.evaluations, perf_counter() - start)
+    if contacts:
+        held.append(_at_the_end(system, float(t[-1]), qs[-1].copy(), vs[-1].copy()))
+    forces = {c.frame: np.stack([at[c.frame] for at in held]) for c in contacts}
+    return Simulation(system, method, t, qs, vs, taus, forces, system.evaluations, perf_counter() - start)
+
+
+def _at_the_end(system: System, t: float, q: Array, v: Array) -> dict[str, Array]:
+    """Return the forces at the contacts in the last state, from which no step begins."""
+    try:
+        return system.held(t, q, v).forces
+    except SingularError as error:
+        raise SingularError(f"the end, t = {t:.6g} s: {error}") from error
 
 
 def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Array, Array]:

@@ -54,6 +54,11 @@ class System:
     ----------
     evaluations : int
         How often forces were asked for.
+    tau : ndarray, shape (..., nv)
+        The joint forces that count for the step being made: those of its first evaluation, or where a method looks for
+        them, of its last.
+    forces : dict of str to ndarray
+        λ of that evaluation, by the contact's frame.
     """
 
     def __init__(
@@ -70,8 +75,14 @@ class System:
         self.anchors = contact_placements(model, q, contacts)
         self._policy = tau if callable(tau) else None
         constant = np.zeros_like(v) if tau is None or callable(tau) else self._checked("tau", tau, v)
-        self._constant = np.broadcast_to(constant, v.shape).copy()
+        self._constant = self.tau = np.broadcast_to(constant, v.shape).copy()
+        self.forces: dict[str, Array] = {}
+        self._first = True
         self._refuse_slip(q, v)
+
+    def begin(self) -> None:
+        """Begin a step: what is evaluated next counts."""
+        self._first = True
 
     def force(self, t: float, q: Array, v: Array) -> Array:
         """Return what policy and wrenches from outside do to the joints in a state: τ + Σ Jᵀ f, shape (..., nv)."""
@@ -81,6 +92,8 @@ class System:
             for x in (q, v):
                 x.flags.writeable = False  # a policy cannot change the state behind our back
             tau = self._checked("tau(t, q, v)", self._policy(t, q, v), v, f" at t = {t:.6g}")
+        if self._first:
+            self.tau = np.broadcast_to(tau, v.shape).copy()
         if self.push is None:
             return np.broadcast_to(tau, v.shape)
         rest = np.zeros_like(v)
@@ -89,11 +102,18 @@ class System:
     def acceleration(self, t: float, q: Array, v: Array) -> Array:
         """Return the acceleration in a state, shape (..., nv) (49.7)."""
         refuse_divergence(self.model, "v", v, dt=self.dt)
-        return self.held(t, q, v).qdd if self.contacts else aba(self.model, q, v, self.force(t, q, v))
+        if self.contacts:
+            return self.held(t, q, v).qdd
+        tau = self.force(t, q, v)
+        self._first = False
+        return aba(self.model, q, v, tau)
 
     def held(self, t: float, q: Array, v: Array) -> ContactDynamics:
         """Return acceleration and contact forces in a state (49.9)."""
-        return contact_forward_dynamics(self.model, q, v, self.force(t, q, v), self.contacts)
+        found = contact_forward_dynamics(self.model, q, v, self.force(t, q, v), self.contacts)
+        if self._first:
+            self.forces, self._first = found.forces, False
+        return found
 
     def settle(self, q: Array, v: Array) -> tuple[Array, Array]:
         """Return the state near by in which the contacts are where they stick, and still."""
