@@ -7,21 +7,11 @@ import pytest
 
 import twistwrench as tw
 
+from .invariants import H
+from .touching import on_bodies
+
 GO2 = tw.load("go2")
 STAND, REST = GO2.standing(), np.zeros(18)
-H = 1e-20
-
-
-def on_bodies(model, q, contacts, forces):
-    """Return forces at contact points, in the axes of the world, as wrenches on the bodies that carry them."""
-    f_ext = np.zeros((model.nbodies, 6))
-    placement = tw.forward_kinematics(model, q).placement
-    for name, force in zip(contacts, forces, strict=True):
-        body = model.frame(name).body
-        R, p = placement[body].rotation, placement[body].translation
-        arm = tw.frame_placement(model, q, name).translation - p
-        f_ext[body] += np.concatenate([R.T @ np.cross(arm, force), R.T @ force])
-    return f_ext
 
 
 def test_selection_matrix_drives_the_joints_and_not_the_base():
@@ -83,25 +73,6 @@ def test_three_feet_stand_where_the_centre_of_mass_is_above_them_and_the_choice_
     assert not np.allclose(three.tau, tw.static_equilibrium(GO2, STAND).tau)
 
 
-def test_dynamics_returns_what_the_separate_functions_do():
-    rng = np.random.default_rng(2)
-    q, v = GO2.random_configuration(rng=rng), rng.standard_normal(18)
-    d = tw.dynamics(GO2, q, v)
-    assert (tw.crba(GO2, q) == d.M).all()
-    assert (d.h == tw.nonlinear_effects(GO2, q, v)).all()
-    assert (d.J_c == tw.contact_jacobian(GO2, q, GO2.feet)).all()
-    assert (tw.centroidal_map(GO2, q) == d.A_G).all()
-    two = tw.dynamics(GO2, q, v, contacts=["FR_foot", "base"])
-    assert (two.J_c == tw.contact_jacobian(GO2, q, ["FR_foot", "base"])).all()
-
-
-@pytest.mark.parametrize("wanted", [[], ["h"], ("M", "A_G"), {"J_c"}], ids=str)
-def test_dynamics_returns_what_is_wanted_and_nothing_else(wanted):
-    d = tw.dynamics(GO2, STAND, REST, want=wanted)
-    for name in ("M", "h", "J_c", "A_G"):
-        assert (getattr(d, name) is not None) == (name in wanted)
-
-
 def test_contact_forces_that_hold_the_feet_solve_the_equation_of_the_floating_base():
     # M a + h = Sᵀ τ + J_cᵀ λ and J_c a + J̇_c v = 0, solved as one system, against aba under the forces found.
     rng = np.random.default_rng(3)
@@ -116,3 +87,24 @@ def test_contact_forces_that_hold_the_feet_solve_the_equation_of_the_floating_ba
     later = GO2.integrate(STAND, 1j * H * v)
     velocities = tw.contact_jacobian(GO2, later, feet) @ (v + 1j * H * a)
     assert np.abs(velocities.imag / H).max() < 1e-11 * np.abs(x).max()  # the feet do not speed up
+
+
+def test_contacts_are_a_list_of_frames_even_where_there_is_one():
+    for function in (tw.contact_jacobian, tw.static_equilibrium):
+        with pytest.raises(ValueError, match="contacts: expected a sequence"):
+            function(GO2, STAND, "FR_foot")
+
+
+def test_static_equilibrium_that_does_not_exist_is_refused():
+    with pytest.raises(tw.SingularError, match=r"no forces at .* balance the weight"):
+        tw.static_equilibrium(GO2, STAND, ["FR_foot"])
+    with pytest.raises(ValueError, match="expected a floating base"):
+        tw.static_equilibrium(tw.chain(3), np.zeros(3), ["tip"])
+    with pytest.raises(ValueError, match="at least one contact"):
+        tw.static_equilibrium(GO2, STAND, [])
+
+
+@pytest.mark.parametrize("q", [np.stack([STAND] * 2), STAND + 0j], ids=["batch", "complex"])
+def test_static_equilibrium_is_asked_of_one_real_configuration(q):
+    with pytest.raises(tw.ShapeError, match=rf"^q: expected one real configuration, shape \(19,\), got {q.dtype} of"):
+        tw.static_equilibrium(GO2, q)

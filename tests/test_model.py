@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -228,3 +228,28 @@ def test_state_brings_all_to_one_type_and_one_batch_shape_and_copies_nothing():
     assert not checked_q.flags.writeable
     (alone,) = model.state([0, 1, 2])
     assert alone.dtype == np.float64
+
+
+# ---------------------------------------------------------------- frozen
+
+
+def test_model_is_frozen():
+    go2 = tw.load("go2")
+    with pytest.raises(FrozenInstanceError):
+        go2.name = "dog"
+    for array in (go2.gravity, go2.armature, go2.lower, go2.upper, go2.velocity_limit, go2.effort_limit):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    for inertia, placement in zip(go2.inertia, go2.placement, strict=True):
+        with pytest.raises(ValueError, match="read-only"):
+            inertia.com[0] = 1.0
+        with pytest.raises(ValueError, match="read-only"):
+            placement.translation[0] = 1.0
+
+
+def test_standing_posture_is_a_copy():
+    go2 = tw.load("go2")
+    stand = go2.standing()
+    go2.standing()[:] = 0
+    assert (go2.standing() == stand).all()
+    assert go2.standing()[2] > 0

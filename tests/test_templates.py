@@ -28,7 +28,7 @@ from twistwrench.templates.reading import com_acceleration, locked_inertia
 
 from .pages import blocks, page, run
 from .strategies import BATCHES
-from .test_floating_base import on_bodies
+from .touching import on_bodies
 
 GO2 = tw.load("go2")
 STAND, REST = GO2.standing(), np.zeros(18)

@@ -131,3 +131,15 @@ def error(ours, true, size=0.0) -> float:
 def motors(model, rng) -> np.ndarray:
     """Random joint forces, none on the base."""
     return tw.selection_matrix(model).T @ rng.standard_normal(model.nv - 6)
+
+
+def on_bodies(model, q, contacts, forces):
+    """Return forces at contact points, in the axes of the world, as wrenches on the bodies that carry them."""
+    f_ext = np.zeros((model.nbodies, 6))
+    placement = tw.forward_kinematics(model, q).placement
+    for name, force in zip(contacts, forces, strict=True):
+        body = model.frame(name).body
+        R, p = placement[body].rotation, placement[body].translation
+        arm = tw.frame_placement(model, q, name).translation - p
+        f_ext[body] += np.concatenate([R.T @ np.cross(arm, force), R.T @ force])
+    return f_ext
