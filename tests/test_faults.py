@@ -20,9 +20,15 @@ from .faults import FAULTS, Fault
 ROOT = Path(__file__).parents[1]
 # Closed forms and invariants first: they are quick, and need no Pinocchio.
 PHYSICS_AND_ORACLES = [
-    "test_physics.py",
-    "test_textbook.py",
+    "test_kinematics.py",
+    "test_rnea.py",
+    "test_aba.py",
+    "test_crba.py",
+    "test_coriolis.py",
+    "test_energy.py",
     "test_floating_base.py",
+    "test_centroidal.py",
+    "test_every_algorithm.py",
     "test_joint.py",
     "test_random_trees.py",
     "test_rotation.py",
@@ -43,8 +49,32 @@ PHYSICS_AND_ORACLES = [
     "test_extremes.py",
     "test_terms.py",
 ]
-TESTED_BY = {"digits": "accuracy", "fast": "extremes"}
-"""Sections whose tests go by another name."""
+TESTED_BY = {
+    "inverse_dynamics": "rnea",
+    "forward_dynamics": "aba",
+    "mass_matrix": "crba",
+    "formulas": "terms",
+    "tree": "kinematics",
+    "joint_types": "joint",
+    "joints": "joint",
+    "digits": "accuracy",
+    "fast": "extremes",
+}
+"""Files and folders of the source whose tests go by another name."""
+
+
+def distance(test: str, file: str) -> int:
+    """Return 0 where tests have the name of a file of the source, 1 where that of its folder, and so on outward."""
+    *folders, stem = Path(file).with_suffix("").parts
+    names = [TESTED_BY.get(name, name) for name in (stem, *reversed(folders))]
+    words = Path(test).with_suffix("").parts  # of a file of tests, and of its folder where it lies in one
+    near = (k for k, name in enumerate(names) if any(w == name or w.startswith(f"test_{name}") for w in words))
+    return min(near, default=len(names))
+
+
+def nearest(file: str) -> list[str]:
+    """Return the files of tests, those nearest to a file of the source first."""
+    return sorted(PHYSICS_AND_ORACLES, key=lambda test: distance(test, file))
 
 
 def run_on_copy(folder: Path, fault: Fault | None) -> subprocess.CompletedProcess[str]:
@@ -54,8 +84,7 @@ def run_on_copy(folder: Path, fault: Fault | None) -> subprocess.CompletedProces
     if fault:
         file = package / fault.file
         file.write_text(file.read_text(encoding="utf-8").replace(fault.right, fault.wrong), encoding="utf-8")
-    section = fault.file.split("/")[0].removesuffix(".py") if fault else ""
-    nearest_first = sorted(PHYSICS_AND_ORACLES, key=lambda name: TESTED_BY.get(section, section) not in name)
+    nearest_first = nearest(fault.file) if fault else PHYSICS_AND_ORACLES
     first = run_tests(folder, nearest_first[:3])  # most faults need no more
     return first if first.returncode else run_tests(folder, nearest_first[3:])
 
@@ -89,6 +118,30 @@ def test_a_fault_is_a_slip_and_no_misspelling():
         if fault.right in [line.strip() for line in text.splitlines()]:
             used = {node.id for node in ast.walk(ast.parse(textwrap.dedent(fault.wrong))) if isinstance(node, ast.Name)}
             assert used <= set(re.findall(r"\w+", text)), fault.slip
+
+
+@pytest.mark.parametrize("file", sorted({fault.file for fault in FAULTS}))
+def test_a_fault_meets_the_tests_of_its_own_file_first(file):
+    names = Path(file).with_suffix("").parts
+    if not {"cross"} & set(names):  # the cross products have no tests of their own: every algorithm needs them
+        assert distance(nearest(file)[0], file) < len(names), f"{file}: which of the tests are its own?"
+
+
+@pytest.mark.parametrize(
+    ("file", "tests"),
+    [
+        ("inverse_dynamics.py", "test_rnea"),
+        ("algorithms/rnea.py", "test_rnea"),
+        ("forward_dynamics.py", "test_aba"),
+        ("algorithms/aba.py", "test_aba"),
+        ("mass_matrix.py", "test_crba"),
+        ("algorithms/crba.py", "test_crba"),
+        ("algorithms/centroidal.py", "test_centroidal"),
+        ("contact/impacts.py", "test_contact_"),
+    ],
+)
+def test_the_tests_of_an_algorithm_bear_its_name(file, tests):
+    assert Path(nearest(file)[0]).stem.startswith(tests)
 
 
 @pytest.mark.slow
