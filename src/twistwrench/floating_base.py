@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._mimic import also_of_mimics
-from .checks import Array, as_names, resolution
+from .checks import Array, as_names, tolerance
 from .door import check_model, one_configuration, state_of
 from .errors import SingularError
 from .inverse_dynamics import gravity
@@ -168,6 +168,6 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     b = _unactuated(model)
     forces = np.linalg.lstsq(J_c[:, :b].mT.astype(np.float64), g[:b].astype(np.float64))[0].astype(q.dtype)
     left = g[:b] - J_c[:, :b].mT @ forces
-    if np.abs(left).max() > np.sqrt(resolution(q.dtype)) * np.abs(g[:b]).max():
+    if np.abs(left).max() > tolerance(q.dtype) * np.abs(g[:b]).max():
         raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
     return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3), contacts=contacts)

@@ -131,8 +131,8 @@ def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -
         bad = np.abs(norm - 1) > tolerance
         if bad.any():
             what = "(cos, sin)" if joint.unit.stop - joint.unit.start == 2 else "quaternion"
-            first = float(norm[bad].flat[0])
-            close = f"which is 1 {first - 1:+.2g}" if abs(first - 1) < 1e-5 else "expected 1"
+            first, off = float(norm[bad].flat[0]), float((norm - 1)[bad].flat[0])
+            close = f"which is 1 {off:+.2g}" if abs(off) < 1e-5 else "expected 1"
             mend = "normalize(q) repairs it" if first else "neutral() has the one that turns nothing"
             raise ValueError(
                 f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
