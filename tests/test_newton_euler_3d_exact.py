@@ -64,6 +64,13 @@ def test_spatial_algebra_and_vectors_agree_in_fractions_to_the_last_digit():
     assert (tw.rnea(model, q, v, a) == slow.inverse_dynamics(model, q, v, a)).all()
     assert (tw.crba(model, q) == slow.mass_matrix(model, q)).all()
     assert (tw.centroidal_map(model, q) == slow.centroidal_map(model, q)).all()
+    assert (tw.coriolis_matrix(model, q, v) == slow.coriolis_matrix(model, q, v)).all()
+    assert (tw.aba(model, q, v, tw.rnea(model, q, v, a)) == a).all()
+    assert tw.potential_energy(model, q) == slow.potential_energy(model, q)
+    assert tw.kinetic_energy(model, q, v) == slow.kinetic_energy(model, q, v)
+    J = tw.frame_jacobian(model, q, "FR_foot", "world")
+    assert all(isinstance(one, F | int) for one in J.flat)
+    same(J @ v + 0, tw.frame_jacobian(model, (at := doubles(model, q, v))[0], "FR_foot", "world") @ at[1])
 
 
 def test_spatial_algebra_and_vectors_agree_in_symbols():
@@ -72,6 +79,9 @@ def test_spatial_algebra_and_vectors_agree_in_symbols():
     fast = sympy.Matrix(tw.rnea(TWO, q, v, a)) - sympy.Matrix(slow.inverse_dynamics(TWO, q, v, a))
     assert fast.applyfunc(sympy.simplify) == sympy.zeros(2, 1)
     M, u = slow.mass_matrix(TWO, q), sympy.symbols("u1 u2")
+    assert (sympy.Matrix(tw.aba(TWO, q, v, u)) - sympy.Matrix(slow.forward_dynamics(TWO, q, v, u))).subs(
+        dict(zip((*q, *v, *u), (0.3, -0.8, 1.1, 0.7, 0.2, -0.4)))
+    ).norm() < 1e-13
     pushed = sympy.Matrix(slow.forward_dynamics(TWO, q, v, u))
     left = sympy.Matrix(M) * pushed + sympy.Matrix(slow.nonlinear_effects(TWO, q, v)) - sympy.Matrix(u)
     assert left.applyfunc(sympy.simplify) == sympy.zeros(2, 1)
@@ -86,6 +96,8 @@ def test_a_joint_that_moves_nothing_is_refused_in_symbols_too():
     for q in (sympy.symbols("q1 q2"), [F(0), 0]):
         with pytest.raises(tw.SingularError, match="no inertia resists the joints 'tip"):
             slow.forward_dynamics(model, q, [0, 0], [0, 0])
+        with pytest.raises(tw.SingularError, match="no inertia behind joint 'tip"):
+            tw.aba(model, q, [0, 0], [0, 0])
 
 
 def test_placements_of_a_model_become_rotations_exactly():

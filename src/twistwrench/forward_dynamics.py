@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike
 from ._mimic import also_of_mimics
 from .checks import Array
 from .door import state_of
+from .errors import SingularError
 from .formulas import bias_wrench, cross_motion, inverse, symmetric
 from .model import Model
-from .singular import refuse_singular
+from .singular import refuse_singular, refuse_weightless
 from .terms import AbaTerms
 from .tree import Tree, columns, stacked, walk, wrenches
 
@@ -137,7 +138,11 @@ def aba_terms(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: A
     """
     q, v, tau, f_ext = state_of(model, q, v=v, tau=tau, f_ext=f_ext)
     tree = walk(model, q)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # where D is singular, which the guard says
-        terms = articulated_body(tree, columns(model, v), columns(model, tau), wrenches(f_ext))
+    try:
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # where D is singular, which the guard says
+            terms = articulated_body(tree, columns(model, v), columns(model, tau), wrenches(f_ext))
+    except ZeroDivisionError:  # of fractions
+        refuse_weightless(model, tree)
+        raise SingularError("a joint accelerates nothing but its outboard joints: q̈ is not determined there") from None
     refuse_singular(model, tree, terms)
     return terms

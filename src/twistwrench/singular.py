@@ -12,6 +12,7 @@ import numpy as np
 from ._scalars import which
 from .checks import Array, resolution
 from .errors import SingularError
+from .exact import judged
 from .model import Model
 from .terms import AbaTerms
 from .tree import Tree, composite_inertias
@@ -25,6 +26,8 @@ ROUNDINGS = 100
 def refuse_singular(model: Model, tree: Tree, terms: AbaTerms) -> None:
     """Raise SingularError where a D of the ABA is singular to rounding: q̈ is not determined there."""
     refuse_weightless(model, tree)
+    if tree.I[0].dtype == object:  # not rounded: where D is zero, the division has said so
+        return
     S, X, IA, U, D_inv = tree.S, tree.X, terms.IA, terms.U, terms.D_inv
     bound = [error_bound(I) for I in tree.I]
     for i in tree.inward:
@@ -39,7 +42,7 @@ def refuse_weightless(model: Model, tree: Tree) -> None:
     locked = [
         ((IC @ S) * S).sum(axis=-2) + r.diagonal() for IC, S, r in zip(composite_inertias(tree), tree.S, tree.rotor)
     ]
-    names = [model.joint_names[i] for i in tree.outward if (locked[i].real <= 0).any()]
+    names = [model.joint_names[i] for i in tree.outward if (judged(locked[i]) <= 0).any()]
     if names:
         raise SingularError(f"no inertia behind joint {', '.join(map(repr, names))}: q̈ is not determined there")
 
