@@ -96,11 +96,12 @@ def forward_kinematics(
         if a is not None:
             raise ValueError("a: an acceleration needs the velocity as well, got v = None")
         (q,) = state_of(model, q)
-        return Kinematics(_placements(model, joint_placements(model, q)), None, None)
+        return Kinematics(placements(model.parent, joint_placements(model, q)), None, None)
     q, v, *rest = state_of(model, q, v=v) if a is None else state_of(model, q, v=v, a=a)
     tree = walk(model, q)
-    V, A = _motion(model, tree, v, rest[0] if rest else np.zeros_like(v))
-    return Kinematics(_placements(model, tree.placement), np.stack(V, axis=-2), np.stack(A, axis=-2) if rest else None)
+    V, A = motion(tree, columns(model, v), columns(model, rest[0] if rest else np.zeros_like(v)))
+    twist, acceleration = (np.stack(x, axis=-3)[..., 0] for x in (V, A))
+    return Kinematics(placements(model.parent, tree.placement), twist, acceleration if rest else None)
 
 
 def placements(parent: tuple[int, ...], relative: list[SE3]) -> list[SE3]:
@@ -123,17 +124,6 @@ def motion(tree: Tree, qd: list[Array], qdd: list[Array]) -> tuple[list[Array], 
     return V, A
 
 
-def _placements(model: Model, relative: list[SE3]) -> list[SE3]:
-    return placements(model.parent, relative)
-
-
-def _motion(model: Model, tree: Tree, v: Array, a: Array) -> tuple[list[Array], list[Array]]:
-    """Return twist and spatial acceleration of each body in its own frame, as vectors."""
-    V, A = motion(tree, columns(model, v), columns(model, a))
-    return [x[..., 0] for x in V], [x[..., 0] for x in A]
-
-
-@also_of_mimics
 def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     """Return the placement of a named frame in the world.
 
@@ -257,7 +247,7 @@ def frame_bias_acceleration(
     q, v = state_of(model, q, v=v)
     at = model.frame(frame)
     tree, T = walk(model, q), cast(at.placement, q.dtype)
-    V, A = (motion[at.body] for motion in _motion(model, tree, v, np.zeros_like(v)))
+    V, A = (x[at.body][..., 0] for x in motion(tree, columns(model, v), columns(model, np.zeros_like(v))))
     X = T.inverse().motion_transform()
     V, A = np.matvec(X, V), np.matvec(X, A)
     if reference == "local_world_aligned":

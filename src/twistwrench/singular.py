@@ -33,12 +33,12 @@ def refuse_singular(model: Model, tree: Tree, terms: AbaTerms) -> None:
     for i in tree.inward:
         p = tree.parent[i]
         refuse_lost(terms.D[i], S[i].mT @ bound[i] @ S[i], model.joint_names[i])
-        left = X[i] - S[i] @ D_inv[i] @ U[i].mT @ X[i]  # of the parent's motion, behind the free joint
+        left = X[i] - S[i] @ D_inv[i] @ U[i].mT @ X[i]  # of the parent's motion, outboard of the free joint
         bound[p] = bound[p] + propagated_bound(bound[i], left, X[i], IA[i], U[i] @ D_inv[i] @ U[i].mT)
 
 
 def refuse_weightless(model: Model, tree: Tree) -> None:
-    """Raise SingularError with the names of all joints behind which nothing has inertia."""
+    """Raise SingularError with the names of all joints outboard of which nothing has inertia."""
     locked = [
         ((IC @ S) * S).sum(axis=-2) + r.diagonal() for IC, S, r in zip(composite_inertias(tree), tree.S, tree.rotor)
     ]
@@ -61,8 +61,8 @@ def error_bound(*terms: Array) -> Array:
 def propagated_bound(bound: Array, left: Array, X: Array, IA: Array, lost: Array) -> Array:
     """Return a bound on the rounding of Xᵀ (IA − lost) X, where lost = U D⁻¹ Uᵀ, in units of the resolution.
 
-    The bound of IA goes inward with it: `left` = X − S D⁻¹ Uᵀ X takes the parent's motion to what is left of it behind
-    the free joint. To that comes the rounding of the terms of the sum here.
+    The bound of IA goes inward with it: `left` = X − S D⁻¹ Uᵀ X takes the parent's motion to what is left of it
+    outboard of the free joint. To that comes the rounding of the terms of the sum here.
     """
     X = np.abs(X.real)
     here = X.mT @ (np.abs(IA.real) + np.abs(lost.real)) @ X
@@ -73,7 +73,7 @@ def propagated_bound(bound: Array, left: Array, X: Array, IA: Array, lost: Array
 def refuse_lost(D: Array, bound: Array, name: str) -> None:
     """Raise SingularError where a motion of a joint has no more inertia than a hundred times the bound on its rounding.
 
-    Nothing could tell it from zero: it is one of the motions of the joints behind.
+    Nothing could tell it from zero: it is one of the motions of the outboard joints.
     """
     size = np.abs(np.diagonal(D.real, axis1=-2, axis2=-1)) + np.diagonal(bound.real, axis1=-2, axis2=-1)
     unit = np.sqrt(np.where(size == 0, 1, size))

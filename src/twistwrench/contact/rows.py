@@ -17,11 +17,11 @@ from ..checks import Array
 from ..constants import cast
 from ..door import check_model, in_double
 from ..errors import unknown_name
-from ..kinematics import _motion, _placements, frame_placement
+from ..kinematics import frame_placement, motion, placements
 from ..model import Model
 from ..plucker import SE3
 from ..rotation import log3
-from ..tree import Tree, walk
+from ..tree import Tree, columns, walk
 from .types import Contact
 
 __all__ = [
@@ -153,8 +153,8 @@ class Touching(NamedTuple):
 def touching(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> Touching:
     """Return what all contacts do, from one walk along the tree."""
     tree = walk(model, q)
-    bodies = _placements(model, tree.placement)
-    V, A = _motion(model, tree, v, np.zeros_like(v))
+    bodies = placements(model.parent, tree.placement)
+    V, A = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
     place: list[SE3] = []
     J = [np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)]
     bias = [np.zeros((*q.shape[:-1], 0), q.dtype)]
@@ -162,7 +162,7 @@ def touching(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> T
         body, own = model.frame(c.frame).body, cast(model.frame(c.frame).placement, q.dtype)
         place.append(bodies[body] @ own)
         J.append(_jacobian(model, bodies, tree, body, own.translation)[..., c.rows, :])
-        bias.append(_bias(bodies[body], V[body], A[body], own.translation)[..., c.rows])
+        bias.append(_bias(bodies[body], V[body][..., 0], A[body][..., 0], own.translation)[..., c.rows])
     return Touching(place, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
 
 
