@@ -114,6 +114,24 @@ FAULTS = [
         "np.concatenate([np.zeros(3, dtype), self._axis(dtype)])",
         "np.concatenate([self._axis(dtype), np.zeros(3, dtype)])",
     ),
+    Fault(
+        "screw of the other hand in S",
+        "joint_types.py",
+        "np.concatenate([axis, self._pitch(dtype) * axis])",
+        "np.concatenate([axis, -self._pitch(dtype) * axis])",
+    ),
+    Fault(
+        "screw that slides the other way",
+        "joint_types.py",
+        "self._pitch(q.dtype) * q * axis",
+        "-self._pitch(q.dtype) * q * axis",
+    ),
+    Fault(
+        "3-D: p of a screw without what the turn takes along",
+        "newton_euler_3d/joints.py",
+        "(beside - R @ beside + w",
+        "(beside - beside + w",
+    ),
     Fault("X from child to parent", "tree.py", "T.inverse().motion_transform() for T", "T.motion_transform() for T"),
     Fault(
         "joint before tree transform",
