@@ -32,7 +32,7 @@ def refuse_singular(model: Model, tree: Tree, terms: AbaTerms) -> None:
     bound = [error_bound(I) for I in tree.I]
     for i in tree.inward:
         p = tree.parent[i]
-        refuse_lost(terms.D[i], S[i].mT @ bound[i] @ S[i], model.joint_names[i])
+        refuse_lost(terms.D[i], S[i].mT @ bound[i] @ S[i], model.joint_names[i], massless_base(model, i))
         left = X[i] - S[i] @ D_inv[i] @ U[i].mT @ X[i]  # of the parent's motion, outboard of the free joint
         bound[p] = bound[p] + propagated_bound(bound[i], left, X[i], IA[i], U[i] @ D_inv[i] @ U[i].mT)
 
@@ -70,7 +70,14 @@ def propagated_bound(bound: Array, left: Array, X: Array, IA: Array, lost: Array
     return inward
 
 
-def refuse_lost(D: Array, bound: Array, name: str) -> None:
+def massless_base(model: Model, i: int) -> str:
+    """Return what helps where body i is a floating base without mass, and nothing for any other."""
+    if i != 1 or model.base != "floating" or model.inertia[1].mass:
+        return ""
+    return "; the base has no mass of its own: give its link an inertia, weld it to one that has it, or load base='fixed'"
+
+
+def refuse_lost(D: Array, bound: Array, name: str, hint: str = "") -> None:
     """Raise SingularError where a motion of a joint has no more inertia than a hundred times the bound on its rounding.
 
     Nothing could tell it from zero: it is one of the motions of the outboard joints.
@@ -81,5 +88,5 @@ def refuse_lost(D: Array, bound: Array, name: str) -> None:
     lost = np.asarray((np.linalg.eigvalsh(scaled) < ROUNDINGS * resolution(D.dtype)).any(axis=-1))
     if lost.any():
         raise SingularError(
-            f"joint {name!r}: with the joints behind it free it feels no inertia beyond rounding{which(lost)}"
+            f"joint {name!r}: with the joints behind it free it feels no inertia beyond rounding{which(lost)}{hint}"
         )
