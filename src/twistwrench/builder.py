@@ -20,6 +20,7 @@ from .errors import ModelError, ShapeError, check_known
 from .inertia import SpatialInertia
 from .joint import Joint
 from .joint_types import FreeFlyer
+from .kinds import as_flag, check_choice, check_kind
 from .links import WORLD, Link
 from .model import PER_DOF, Model
 from .numbering import Numbered
@@ -79,10 +80,10 @@ class Builder:
         root_joint: str = "root_joint",
         gravity: ArrayLike = (0.0, 0.0, -9.81),
     ) -> None:
-        if base not in ("fixed", "floating"):
-            raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
+        check_choice(base, "base", ("fixed", "floating"), ModelError)
         if not isinstance(name, str):
             raise TypeError(f"name: expected a name, got {type(name).__name__} {name!r}")
+        check_kind(root_joint, "root_joint", str, "a name")
         self._name = name
         self._base = base
         self._gravity = as_exactly(gravity, "gravity", 3)
@@ -196,6 +197,9 @@ class Builder:
         ModelError
             If a body cannot exist, numbers overflow where links are merged, or two frames want one name.
         """
+        postures = {} if postures is None else postures
+        check_kind(postures, "postures", Mapping, "configurations by name")
+        feet, physical = as_names(feet, "feet", "frame names"), as_flag(physical, "physical")
         with np.errstate(over="ignore", invalid="ignore"):
             tree = Numbered(self._links)
             tree.check_finite()
@@ -214,13 +218,13 @@ class Builder:
             lower=_join([link.lower for link in moved]),
             upper=_join([link.upper for link in moved]),
             postures={},
-            feet=as_names(feet, "feet", "frame names"),
+            feet=feet,
             report=report,
             **{name: _join([getattr(link, name) for link in moved]) for name in PER_DOF},
         )
         for foot in model.feet:
             model.frame(foot)
-        return replace(model, postures={name: _posture(model, name, q) for name, q in (postures or {}).items()})
+        return replace(model, postures={name: _posture(model, name, q) for name, q in postures.items()})
 
 
 def _posture(model: Model, name: str, q: ArrayLike) -> Array:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import ShapeError
 from .exact import exact_numbers, has_objects
+from .kinds import as_sequence
 
 __all__ = [
     "Array",
@@ -221,7 +222,7 @@ def as_number(value: object, name: str) -> float:
 
 
 def as_count(value: object, name: str, least: int) -> int:
-    """Return a whole number that is not below `least`.
+    """Return a whole number that is not below `least`; what is beyond 2**53 is a slip, and no count.
 
     Examples
     --------
@@ -230,7 +231,7 @@ def as_count(value: object, name: str, least: int) -> int:
     ValueError: samples: expected a whole number of at least 2, got 1.5
     """
     x = as_number(value, name)
-    if not least <= x < np.inf or x != round(x):
+    if not least <= x <= 2**53 or x != round(x):
         raise ValueError(f"{name}: expected a whole number of at least {least}, got {value}")
     return int(x)
 
@@ -260,9 +261,7 @@ def as_names(value: Iterable[str], name: str, expected: str) -> tuple[str, ...]:
     Traceback (most recent call last):
     ValueError: contacts: expected a sequence of frame names, got the string 'FR_foot'
     """
-    if isinstance(value, str):
-        raise ValueError(f"{name}: expected a sequence of {expected}, got the string {value!r}")
-    return tuple(value)
+    return as_sequence(value, name, expected, letters=False)
 
 
 def _numeric(value: ArrayLike, name: str) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,7 +11,7 @@ from ._mimic import also_of_mimics
 from .checks import Array
 from .constants import cast
 from .door import state_of
-from .errors import unknown_name
+from .errors import check_known
 from .formulas import cross_motion
 from .model import Model
 from .plucker import SE3
@@ -198,6 +198,7 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
     (6, 3)
     """
     (q,) = state_of(model, q)
+    check_known("reference", reference, get_args(Reference))
     at = model.frame(frame)
     tree, T = walk(model, q), cast(at.placement, q.dtype)
     J = np.zeros((*q.shape[:-1], 6, model.nv), q.dtype)
@@ -245,6 +246,7 @@ def frame_bias_acceleration(
     array([0., 0., 4.])
     """
     q, v = state_of(model, q, v=v)
+    check_known("reference", reference, get_args(Reference))
     at = model.frame(frame)
     tree, T = walk(model, q), cast(at.placement, q.dtype)
     V, A = (x[at.body][..., 0] for x in motion(tree, columns(model, v), columns(model, np.zeros_like(v))))
@@ -265,6 +267,4 @@ def _to_reference(reference: str, T: SE3) -> Array:
         return np.eye(6, dtype=zero.dtype)
     if reference == "world":
         return T.motion_transform()  # 49.2 world
-    if reference == "local_world_aligned":
-        return SE3._trusted(T.rotation, zero).motion_transform()  # 49.9 aligned
-    raise unknown_name("reference", reference, ["local", "world", "local_world_aligned"])
+    return SE3._trusted(T.rotation, zero).motion_transform()  # 49.9 aligned

@@ -13,6 +13,7 @@ from .constants import cast
 from .errors import ModelError, ShapeError
 from .inertia import SpatialInertia
 from .joint import Joint
+from .kinds import check_kind
 from .model import PER_DOF
 from .plucker import SE3
 
@@ -66,12 +67,13 @@ class Link:
         numbers = UNLIMITED | dict(numbers)
         _expect_names(name, joint_name)
         if joint is not None:
-            _expect(joint, Joint, f"link {name!r}: joint", "a joint such as Revolute('z')")
-        _expect(placement, SE3, f"link {name!r}: placement", "an SE3")
-        _expect(inertia, SpatialInertia, f"link {name!r}: inertia", "a SpatialInertia")
+            check_kind(joint, f"link {name!r}: joint", Joint, "a joint such as Revolute('z')")
+        check_kind(placement, f"link {name!r}: placement", SE3, "an SE3")
+        check_kind(inertia, f"link {name!r}: inertia", SpatialInertia, "a SpatialInertia")
         _expect_one(placement.translation, f"link {name!r}: placement")
         _expect_one(inertia.com, f"link {name!r}: inertia")
-        if joint is None and any((np.asarray(numbers[key]) != x).any() for key, x in UNLIMITED.items()):
+        limits = {key: as_constant(x, f"link {name!r}: {key}") for key, x in numbers.items()}
+        if joint is None and any((limits[key] != x).any() for key, x in UNLIMITED.items()):
             raise ModelError(f"link {name!r}: limits and armature belong to a joint, and this link is welded on")
         own = SpatialInertia._trusted(
             *(x.astype(np.float64) for x in (inertia.mass, inertia.com, inertia.inertia_at_com))
@@ -86,13 +88,6 @@ def _expect_names(name: str, joint_name: str) -> None:
             raise TypeError(f"{what}: expected a name, got {type(x).__name__} {x!r}")
         if x == WORLD:
             raise ModelError(f"{what} {x!r}: the name belongs to the world")
-
-
-def _expect(value: object, kind: type, what: str, expected: str) -> None:
-    """Refuse a value of another kind where it comes in, not where it is first used."""
-    if not isinstance(value, kind):
-        came = f"the class {value.__name__}" if isinstance(value, type) else f"{type(value).__name__} {value!r}"
-        raise TypeError(f"{what}: expected {expected}, got {came}")
 
 
 def _expect_one(vector: Array, what: str) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from .checks import Array, as_constant
+from .checks import Array, as_constant, as_count
 from .constants import Constants, fixed
 from .coordinates import Coordinates
 from .errors import check_known
@@ -191,7 +191,20 @@ class Model(Coordinates):
         return self.joint_names.index(name)
 
     def support(self, body: int) -> list[int]:
-        """Return the bodies from `body` down to the one that the world carries.
+        """Return the bodies from `body` down to the one that the world carries; of the world, 0, none.
+
+        Parameters
+        ----------
+        body : int
+
+        Returns
+        -------
+        list of int
+
+        Raises
+        ------
+        ValueError
+            If the model has no such body.
 
         Examples
         --------
@@ -199,7 +212,9 @@ class Model(Coordinates):
         >>> tw.load("go2").support(7)
         [7, 6, 5, 1]
         """
-        path = []
+        body, path = as_count(body, "body", 0), []
+        if body >= self.nbodies:
+            raise ValueError(f"body: expected a whole number from 0 to {self.nbodies - 1}, got {body}")
         while body > 0:
             path.append(body)
             body = self.parent[body]

@@ -185,12 +185,12 @@ def _merged(model: Model, carrier: list[int], in_carrier: list[SE3], n: int) -> 
     return tuple(merged)
 
 
-def matching_joints(model: Model, patterns: Iterable[str]) -> tuple[str, ...]:
+def matching_joints(model: Model, patterns: Iterable[str], argument: str = "joints") -> tuple[str, ...]:
     """Return the joints that fit any of the patterns, in the model's order; refuse a pattern that fits none."""
     names, held = model.joint_names[1:], set[str]()
-    for pattern in as_names(patterns, "joints", "names or patterns"):
+    for pattern in as_names(patterns, argument, "names or patterns"):
         if not isinstance(pattern, str):
-            raise NameNotFound(f"joints: expected names or patterns, got {type(pattern).__name__} {pattern!r}")
+            raise NameNotFound(f"{argument}: expected names or patterns, got {type(pattern).__name__} {pattern!r}")
         exact = pattern in names  # a name may hold what is a sign of patterns elsewhere: "arm[1]"
         fits = {pattern} if exact else {name for name in names if fnmatchcase(name, pattern)}
         if not fits:

@@ -15,6 +15,7 @@ from ._scalars import which
 from .checks import WIDENED, Array, as_arrays, as_number_arrays, resolution
 from .errors import ShapeError
 from .exact import judged
+from .reals import check_size
 
 if TYPE_CHECKING:
     from .coordinates import Coordinates
@@ -37,7 +38,7 @@ def check_state(model: Coordinates, any_number: bool = False, /, **named: ArrayL
         listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches) if shape)
         raise ShapeError(f"batch axes do not broadcast: {listed}") from None
     for k, name in enumerate(names if arrays[0].dtype != object else ()):
-        _check_size(arrays[k], name)
+        check_size(arrays[k], name)
         if name.startswith("q"):
             arrays[k] = _with_norm_1(model, arrays[k], name, came=np.asarray(named[name]).dtype)
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
@@ -98,22 +99,6 @@ def _shape(value: Any) -> tuple[int, ...]:
         return np.shape(value)
     except ValueError:  # rows of different lengths: as_arrays says so
         return ()
-
-
-def _check_size(x: Array, name: str) -> None:
-    """Refuse numbers that could make m (p × ω)² overflow.
-
-    With lengths p below the fourth root of the largest number, and rates and forces below its fifth,
-    a tenth of the exponents is left for m.
-    """
-    largest = np.finfo(x.dtype).max ** (1 / 4 if name.startswith("q") else 1 / 5)
-    huge = np.abs(x) > largest
-    if huge.any():
-        where = tuple(int(k) for k in np.argwhere(huge)[0])
-        limit = np.format_float_scientific(largest, 1)
-        raise ValueError(
-            f"{name}: expected at most {limit}, as products overflow in {x.dtype}, got {x[where]} at {where}"
-        )
 
 
 def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -> Array:

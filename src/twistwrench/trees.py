@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Set
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .builder import Base, Builder
-from .checks import Array, as_generator, as_number
+from .checks import Array, as_generator, as_names, as_number
 from .errors import ModelError, check_known
 from .inertia import SpatialInertia
 from .joint import Joint
 from .joint_types import Continuous, Prismatic, Revolute
+from .kinds import check_choice
 from .model import Model
 from .plucker import SE3
 from .rotation import quaternion_to_rotation
@@ -22,6 +23,9 @@ __all__ = ["KINDS", "chain", "random_tree"]
 
 KINDS = tuple(Joint.kinds)
 """The kinds of joint that `random_tree` draws from, if not told otherwise: those of the package."""
+
+HUGE = 1e60
+"""Masses, lengths and their ratios are below this: products of several must not overflow."""
 
 AXIAL: dict[str, Callable[[str | ArrayLike], Joint]] = {kind.kind: kind for kind in (Revolute, Prismatic, Continuous)}
 
@@ -74,9 +78,11 @@ def chain(
     7.0
     """
     _check_count(n)
+    check_choice(base, "base", ("fixed", "floating"), ModelError)
     for name, value in (("mass", mass), ("length", length), ("mass_ratio", mass_ratio)):
-        if not 0 < as_number(value, name) < np.inf:
-            raise ModelError(f"{name}: expected a positive number, got {value}")
+        if not 1 / HUGE < as_number(value, name) < HUGE:
+            raise ModelError(f"{name}: expected a positive number, and no astronomical one, got {value}")
+    mass, length, mass_ratio = float(mass), float(length), float(mass_ratio)
     if not isinstance(joint, str) or joint not in AXIAL:
         raise ModelError(f"joint: expected one of {list(AXIAL)}, got {joint!r}")
     names = [f"rod_{k:0{max(2, len(str(n)))}d}" for k in range(1, n + 1)]
@@ -160,8 +166,11 @@ def random_tree(
     """
     rng = as_generator(rng)
     _check_count(n)
-    if not 0 <= as_number(branching, "branching") <= 1 or isinstance(kinds, str) or not len(kinds):
-        raise ModelError(f"expected branching from 0 to 1 and a list of kinds, got {branching} and {kinds!r}")
+    check_choice(base, "base", ("fixed", "floating"), ModelError)
+    if not 0 <= as_number(branching, "branching") <= 1:
+        raise ModelError(f"branching: expected a number from 0 to 1, got {branching}")
+    if isinstance(kinds, str | Set) or not len(kinds := as_names(kinds, "kinds", "kinds")):
+        raise ModelError(f"kinds: expected a list of kinds, in an order that the seed can choose by, got {kinds!r}")
     for kind in kinds:
         check_known("kind of joint", kind, Joint.kinds)
     links, joints = ([f"{what}_{k}" for k in rng.permutation(n)] for what in ("link", "joint"))

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..checks import Array, as_array
 from ..door import check_model
 from ..errors import ShapeError
 from ..inertia import SpatialInertia
 from ..model import Model
 from ..plucker import SE3
 from ..state import check_arrays
-from .spatial import from_pinocchio_force, to_pinocchio_force
+from .spatial import HALVES, to_pinocchio_force, vectors
 
 __all__ = [
     "from_pinocchio_f_ext",
@@ -243,7 +243,7 @@ def from_pinocchio_f_ext(model: Model, f_ext: Any) -> Array:
     array([3., 4., 5., 0., 1., 2.])
     """
     check_model(model)
-    F = from_pinocchio_force(f_ext)
+    F = as_array(vectors(f_ext, "f_ext", "Force"), "f_ext", 6)[..., HALVES]
     return check_arrays(model, f_ext=F)[0]
 
 

@@ -7,6 +7,7 @@ own so that a line of code says which way it goes.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -81,7 +82,7 @@ def from_pinocchio_motion(V: Any) -> Array:
     >>> from_pinocchio_motion([4, 5, 6, 1, 2, 3])
     array([1., 2., 3., 4., 5., 6.])
     """
-    return as_array(_vectors(V, "V", "Motion"), "V", 6)[..., HALVES]
+    return as_array(vectors(V, "V", "Motion"), "V", 6)[..., HALVES]
 
 
 def to_pinocchio_force(F: ArrayLike) -> Array:
@@ -137,10 +138,10 @@ def from_pinocchio_force(F: Any) -> Array:
     >>> from_pinocchio_force([0, 0, 9.81, 0.5, 0, 0])
     array([0.5 , 0.  , 0.  , 0.  , 0.  , 9.81])
     """
-    return as_array(_vectors(F, "F", "Force"), "F", 6)[..., HALVES]
+    return as_array(vectors(F, "F", "Force"), "F", 6)[..., HALVES]
 
 
-def _vectors(value: Any, name: str, kind: str) -> Any:
+def vectors(value: Any, name: str, kind: str) -> Any:
     """Take the six numbers out of Pinocchio's own type, or out of each of a sequence."""
     if isinstance(value, SpatialVector):
         raise TypeError(f"{name}: expected a pin.{kind} or an array, got a {type(value).__name__}, angular part first")
@@ -148,8 +149,9 @@ def _vectors(value: Any, name: str, kind: str) -> Any:
         if type(value).__name__ != kind:
             raise TypeError(f"{name}: expected a pin.{kind} or an array, got a pin.{type(value).__name__}")
         return np.array(value.vector)
-    if not isinstance(value, np.ndarray) and hasattr(value, "__len__") and len(value) and hasattr(value[0], "vector"):
-        return np.stack([_vectors(one, name, kind) for one in value])
+    listed = not isinstance(value, np.ndarray | Set | Mapping) and hasattr(value, "__getitem__") and len(value)
+    if listed and hasattr(value[0], "vector"):
+        return np.stack([vectors(one, name, kind) for one in value])
     return value
 
 

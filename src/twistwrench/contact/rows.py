@@ -17,6 +17,7 @@ from ..checks import Array
 from ..constants import cast
 from ..door import check_model, in_double
 from ..errors import unknown_name
+from ..kinds import as_sequence, check_kind
 from ..kinematics import frame_placement, motion, placements
 from ..model import Model
 from ..plucker import SE3
@@ -194,11 +195,13 @@ def _bias(at: SE3, V: Array, A: Array, arm: Array) -> Array:
 
 def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Mapping[str, SE3]) -> Array:
     """Return how far the contacts are from their anchors, in the order of the rows of J, rad and m."""
+    check_kind(anchors, "anchors", Mapping, "placements by frame, as from contact_placements")
     missing = [c.frame for c in contacts if c.frame not in anchors]
     if missing:
         raise unknown_name("anchor", missing[0], anchors)
     parts = [np.zeros((*now[0].translation.shape[:-1], 0))] if now else [np.zeros(0)]
     for c, T in zip(contacts, now):
+        check_kind(anchors[c.frame], f"anchors[{c.frame!r}]", SE3, "an SE3")
         anchor = cast(anchors[c.frame], np.float64)
         turned = log3(T.rotation @ anchor.rotation.mT)
         parts.append(np.concatenate([turned, T.translation - anchor.translation], axis=-1)[..., c.rows])
@@ -210,7 +213,7 @@ def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...
     check_model(model)
     if isinstance(contacts, str | Contact):
         raise ValueError(f"contacts: expected a sequence of contacts, got the single {contacts!r}")
-    contacts = tuple(contacts)
+    contacts = as_sequence(contacts, "contacts", "contacts")
     for c in contacts:
         if not isinstance(c, Contact):
             hint = f"; PointContact({c!r}, mu) makes one of a frame" if isinstance(c, str) else ""

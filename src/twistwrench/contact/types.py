@@ -266,7 +266,7 @@ def _checked(sides: int, pyramid: Pyramid) -> int:
     """Return the number of sides, or say what is wrong with it or with the pyramid."""
     if not isinstance(sides, int | np.integer) or sides < 3:
         raise ValueError(f"sides: expected a whole number, at least 3, got {sides!r}")
-    if pyramid not in ("inner", "outer"):
+    if not isinstance(pyramid, str) or pyramid not in ("inner", "outer"):
         raise ValueError(f"pyramid: expected 'inner' or 'outer', got {pyramid!r}")
     return int(sides)
 

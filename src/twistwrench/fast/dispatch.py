@@ -148,7 +148,7 @@ def _aba_plan(model: Model) -> AbaPlan:
 
 def _touching(model: Model, plan: OnePlan, contacts: tuple[str, ...]) -> Touching:
     """Look up contacts, or remember them."""
-    known = plan.known.get(contacts)
+    known = plan.known.get(contacts) if all(isinstance(name, str) for name in contacts) else None
     if known is None:
         known = touching(plan, contacts_of(model, plan_of(model, DOUBLE), contacts))
         if len(plan.known) >= REMEMBERED:

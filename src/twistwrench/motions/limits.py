@@ -6,7 +6,7 @@ import numpy as np
 
 from ..door import floats_of
 from ..model import Model
-from .motion import Motion
+from .motion import Motion, check_motion
 
 __all__ = ["limits_broken"]
 
@@ -39,6 +39,7 @@ def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]
     >>> limits_broken(model, tw.motions.trot(model))
     {}
     """
+    check_motion(motion)
     q, v = floats_of(model, motion.q, v=motion.v)
     beyond = np.maximum(np.maximum(model.lower - q, q - model.upper), 0).max(axis=0)
     limit = np.where(model.velocity_limit > 0, model.velocity_limit, np.inf)

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..checks import Array
+import numpy as np
 
-__all__ = ["Motion"]
+from ..checks import Array, as_names
+from ..errors import ShapeError
+from ..kinds import check_kind
+from ..reals import as_real
+
+__all__ = ["Motion", "check_motion"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -29,6 +34,11 @@ class Motion:
     contacts : ndarray of bool, shape (n, k)
         Which of them stand, at each time. What stands does not move.
 
+    Raises
+    ------
+    ShapeError, ValueError, TypeError
+        If an array has not a row for each time or is not finite, the times do not grow, or a name is not a name.
+
     Examples
     --------
     >>> import twistwrench as tw
@@ -48,9 +58,35 @@ class Motion:
     feet: tuple[str, ...]
     contacts: Array
 
+    def __post_init__(self) -> None:
+        check_kind(self.name, "name", str, "a name")
+        object.__setattr__(self, "feet", as_names(self.feet, "feet", "frame names"))
+        for foot in self.feet:
+            check_kind(foot, "feet", str, "frame names")
+        for name in ("t", "q", "v", "a"):
+            object.__setattr__(self, name, as_real(getattr(self, name), name))
+        try:
+            contacts, n = np.asarray(self.contacts), self.t.size
+        except ValueError:
+            raise ShapeError("contacts: expected a rectangular array, got rows of different lengths") from None
+        object.__setattr__(self, "contacts", contacts)
+        if self.t.ndim != 1 or n == 0 or (np.diff(self.t) <= 0).any():
+            raise ValueError(f"t: expected times that grow, shape (n,) with n of at least 1, got shape {self.t.shape}")
+        if contacts.dtype != bool or contacts.shape != (n, len(self.feet)):
+            got = f"{contacts.dtype} of shape {contacts.shape}"
+            raise ShapeError(f"contacts: expected bools of shape {n, len(self.feet)}, one for each foot, got {got}")
+        for name, x in (("q", self.q), ("v", self.v), ("a", self.a)):
+            if x.ndim != 2 or len(x) != n or (name == "a" and x.shape != self.v.shape):
+                raise ShapeError(f"{name}: expected a row for each of {n} times, got shape {x.shape}")
+
     def __len__(self) -> int:
         return len(self.t)
 
     def __repr__(self) -> str:
         duration = self.t[-1] - self.t[0]
         return f"<Motion {self.name!r}: {len(self)} states in {duration:.3g} s, {len(self.feet)} feet>"
+
+
+def check_motion(motion: object) -> None:
+    """Refuse what is not a motion, where it comes in."""
+    check_kind(motion, "motion", Motion, "a Motion, as motions.walk(model) makes one")

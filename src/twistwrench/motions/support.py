@@ -13,7 +13,7 @@ from ..door import check_model
 from ..errors import ModelError
 from ..kinematics import frame_placement
 from ..model import Model
-from .motion import Motion
+from .motion import Motion, check_motion
 
 __all__ = ["Ground", "ground"]
 
@@ -79,6 +79,7 @@ def ground(model: Model, motion: Motion) -> Ground:
     (True, True, True)
     """
     check_model(model)
+    check_motion(motion)
     if not (model.gravity[2] < 0 and not model.gravity[:2].any()):
         raise ModelError(f"{model.name!r}: expected gravity along -z, got {model.gravity.tolist()}")
     wrench = centroidal_momentum_rate(model, motion.q, motion.v, motion.a)

@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, resolution
+from ..checks import Array, as_array, resolution
 from ..errors import ModelError
 
 __all__ = ["Arithmetic", "as_mpmath"]
@@ -26,12 +26,17 @@ def as_mpmath(x: ArrayLike) -> Array:
     Parameters
     ----------
     x : array_like
-        Of any shape.
+        Of any shape, finite.
 
     Returns
     -------
     ndarray of mpmath.mpf or mpmath.mpc
         Of the same shape. The number of digits of what is computed from it is ``mpmath.mp.dps``.
+
+    Raises
+    ------
+    ValueError
+        If these are not finite numbers.
 
     Examples
     --------
@@ -44,7 +49,12 @@ def as_mpmath(x: ArrayLike) -> Array:
     """
     from mpmath import mp
 
-    return Arithmetic(np.dtype(object), mp).array(x)
+    try:
+        given = np.asarray(x)
+        return Arithmetic(np.dtype(object), mp).array(given if given.dtype == object else as_array(x, "x"))
+    except (TypeError, ValueError) as error:
+        said = str(error)
+        raise ValueError(said if said.startswith("x: ") else f"x: expected numbers, got {x!r}") from None
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
-from ..errors import check_known, unknown_name
+from ..errors import check_known
 from .arithmetic import Arithmetic
 from .bodies import Body, walk
 from .kinematics import spatial_acceleration
@@ -145,11 +145,11 @@ def _frame(state: State, name: str) -> tuple[Body, Array, Array]:
 
 def _seen_from(number: Arithmetic, reference: str, R: Array, p: Array) -> tuple[Array, Array]:
     """Return the point whose velocity is meant, and the axes in which it is written."""
+    check_known("reference", reference, REFERENCES)
     match reference:
         case "local":
             return p, R
         case "world":
             return number.zeros(3), number.identity()
-        case "local_world_aligned":
+        case _:
             return p, number.identity()
-    raise unknown_name("reference", reference, REFERENCES)

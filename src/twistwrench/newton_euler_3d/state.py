@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Array, as_number_arrays
 from ..errors import ShapeError, no_model
+from ..reals import check_size
 from .arithmetic import Arithmetic
 from .exact import Exact
 
@@ -36,7 +37,7 @@ def take(model: Any, **given: ArrayLike | None) -> State:
     ----------
     model : Model
     **given : array_like or None
-        `q`, and as needed `v`, `a`, `tau`, `f_ext`; None stands for zeros.
+        `q`, and as needed `v`, `a`, `tau`, `f_ext`; None stands for zeros in `f_ext` only.
 
     Returns
     -------
@@ -50,12 +51,12 @@ def take(model: Any, **given: ArrayLike | None) -> State:
     ShapeError
         If an argument is not that of one state of this model.
     ValueError
-        If an argument is not numeric, not finite, or a wrench on the world.
+        If an argument is not numeric, not finite, so large that products overflow, or a wrench on the world.
     """
     if not hasattr(model, "joint_names") or hasattr(model, "laws"):  # joints that follow others are not known here
         raise no_model(model)
     shapes = {"q": (model.nq,), "v": (model.nv,), "a": (model.nv,), "tau": (model.nv,), "f_ext": (model.nbodies, 6)}
-    came = {name: _as_array(value, name) for name, value in given.items() if value is not None}
+    came = {name: _as_array(value, name) for name, value in given.items() if value is not None or name != "f_ext"}
     for name, x in came.items():
         if x.shape != shapes[name]:
             raise ShapeError(f"{name}: expected shape {shapes[name]}, got {x.shape}{_hint(model, name, x)}")
@@ -72,6 +73,9 @@ def _common(came: dict[str, Array]) -> tuple[Arithmetic, dict[str, Array]]:
     context = next((entry.context for entry in entries if hasattr(entry, "context")), None)
     if context is None:
         converted = as_number_arrays(**{name: (x, x.shape) for name, x in came.items()})
+        for name, x in zip(came, converted, strict=True):
+            if x.dtype != object:
+                check_size(x, name)
         kind = Exact if converted[0].dtype == object else Arithmetic
         return kind(converted[0].dtype), dict(zip(came, converted, strict=True))
     number = Arithmetic(np.dtype(object), context)
@@ -86,7 +90,7 @@ def _common(came: dict[str, Array]) -> tuple[Arithmetic, dict[str, Array]]:
     return number, arrays
 
 
-def _as_array(value: ArrayLike, name: str) -> Array:
+def _as_array(value: Any, name: str) -> Array:
     try:
         return np.asanyarray(value)  # a mask stays, for `as_arrays` to refuse
     except ValueError:

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._spatial_vector import as_spatial
-from ..checks import Array, as_array, as_exactly, as_number
+from ..checks import Array, as_exactly
 from ..errors import ShapeError, SingularError
 from ..wrench import Wrench
-from .style import COLOURS, axes_2d, axes_3d, fit
+from .style import COLOURS, axes_2d, axes_3d, drawn, drawn_number, fit
 
 __all__ = ["center_of_pressure", "friction_cone", "sole"]
 
@@ -90,9 +90,9 @@ def friction_cone(
     >>> np.hypot(rim[:, 0], rim[:, 1]).max().round(3), rim[0, 2]
     (np.float64(0.6), np.float64(1.0))
     """
-    mu = as_number(mu, "mu")
-    height = as_number(height, "height")
-    p = as_exactly(point, "point", 3)
+    mu = drawn_number(mu, "mu")
+    height = drawn_number(height, "height")
+    p = drawn(as_exactly(point, "point", 3), "point")
     angle = np.linspace(0, 2 * np.pi, 49)
     rim = p + height * np.stack([mu * np.cos(angle), mu * np.sin(angle), np.ones(49)], axis=-1)
     ax = axes_3d(ax)
@@ -142,7 +142,7 @@ def sole(
     >>> ax.lines[0].get_xydata()  # (y, x)
     array([[0.  , 0.01]])
     """
-    c = as_array(corners, "corners", 3).astype(float)
+    c = drawn(corners, "corners", 3)
     if c.ndim != 2:
         raise ShapeError(f"corners: expected shape (n, 3), got {c.shape}")
     ax = axes_2d(ax, size=(3.0, 4.0))
@@ -150,7 +150,7 @@ def sole(
     ax.set(xlabel="y [m]", ylabel="x [m]", aspect="equal")
     ax.xaxis.set_inverted(True)
     if F is not None:
-        x, y, _ = center_of_pressure(as_exactly(as_spatial(F, "F"), "F", 6))
+        x, y, _ = drawn(center_of_pressure(as_exactly(as_spatial(F, "F"), "F", 6)), "F")
         ax.plot(y, x, "o", color=colour, markersize=8)
         ax.annotate(text, (y, x), xytext=(6, 4), textcoords="offset points", fontsize=8)
     return ax

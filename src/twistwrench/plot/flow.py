@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
+from ..checks import Array, as_names
 from ..door import check_model
 from ..errors import ShapeError
 from ..model import Model
-from .style import COLOURS, axes_2d
+from .style import COLOURS, axes_2d, drawn
 
 __all__ = ["flow", "seats"]
 
@@ -93,7 +93,8 @@ def flow(
     ['world', 'slide', 'hinge', '1 kg', '0.1 kg']
     """
     seat = seats(model)
-    size = np.ones(model.nbodies) if amounts is None else as_array(amounts, "amounts", model.nbodies).astype(float)
+    size = np.ones(model.nbodies) if amounts is None else drawn(amounts, "amounts", model.nbodies)
+    texts = as_names(texts, "texts", "texts")
     if len(texts) != model.nbodies or size.ndim != 1:
         raise ShapeError(f"texts, amounts: expected {model.nbodies} of each, got {len(texts)} and {size.shape}")
     width = 1 + 4 * np.sqrt(np.abs(size) / (np.abs(size[1:]).max(initial=0) or 1.0))

@@ -8,20 +8,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_arrays, as_number
+from ..checks import as_names
 from ..errors import ShapeError
 from ..plucker import SE3
-from .style import COLOURS, XYZ, axes_3d, fit
+from .style import COLOURS, XYZ, as_placement, axes_3d, drawn, drawn_number, fit
 
 __all__ = ["arrows", "triad"]
 
 
-def triad(T: SE3, name: str = "", *, size: float = 0.1, ax: Any = None) -> Any:
+def triad(T: SE3 | ArrayLike, name: str = "", *, size: float = 0.1, ax: Any = None) -> Any:
     """Draw a frame as its three unit vectors: x vermilion, y green, z blue.
 
     Parameters
     ----------
-    T : SE3
+    T : SE3 or array_like of shape (4, 4)
         Placement of the frame in the frame of the picture.
     name : str
         Written at its origin.
@@ -45,14 +45,14 @@ def triad(T: SE3, name: str = "", *, size: float = 0.1, ax: Any = None) -> Any:
     >>> len(ax.lines), ax.texts[0].get_text().strip()
     (3, 'world')
     """
-    size = as_number(size, "size")
+    size, T = drawn_number(size, "size"), as_placement(T, "T")
     if T.translation.ndim != 1:
         raise ShapeError(f"T: expected one placement, got a batch of shape {T.translation.shape[:-1]}")
     ax = axes_3d(ax)
     origin = T.translation.astype(float)
     for axis, colour in zip(T.rotation.mT.astype(float), XYZ):  # column k of R is axis k
         ax.plot(*np.stack([origin, origin + size * axis], axis=-1), color=colour, linewidth=2)
-    if name:
+    if str(name):
         ax.text(*origin, f" {name}", fontsize=9, verticalalignment="top")
     return fit(ax)
 
@@ -100,8 +100,9 @@ def arrows(
     >>> arrows([0, 0, 0], [0, 0, 40], scale=0.01, texts=["40 N"], ax=ax).texts[0].get_position_3d()
     (np.float64(0.0), np.float64(0.0), np.float64(0.4))
     """
-    scale = as_number(scale, "scale")
-    p, x = as_arrays(points=(points, (3,)), vectors=(vectors, (3,)))
+    scale = drawn_number(scale, "scale")
+    p, x = drawn(points, "points", 3), drawn(vectors, "vectors", 3)
+    texts = as_names(texts, "texts", "texts")
     try:
         p, x = (a.reshape(-1, 3) for a in np.broadcast_arrays(p, x))
     except ValueError:

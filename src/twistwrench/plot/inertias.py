@@ -9,22 +9,25 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array, as_exactly, as_names, as_number
+from ..door import one_configuration
 from ..errors import ShapeError
 from ..inertia import SpatialInertia
+from ..kinds import as_sequence
 from ..kinematics import forward_kinematics
 from ..model import Model
 from ..plucker import SE3
-from .style import COLOURS, axes_2d, axes_3d, fit
+from ..reals import as_finite
+from .style import COLOURS, as_placement, axes_2d, axes_3d, drawn, drawn_number, fit
 
 __all__ = ["ellipsoid", "ellipsoids", "felt_mass", "semi_axes"]
 
 
-def semi_axes(inertia: SpatialInertia, link: str = "body") -> tuple[Array, Array]:
+def semi_axes(inertia: SpatialInertia | ArrayLike, link: str = "body") -> tuple[Array, Array]:
     """Return the ellipsoid of uniform density that moves as the body does: same mass, same moments of inertia (49.5).
 
     Parameters
     ----------
-    inertia : SpatialInertia
+    inertia : SpatialInertia or array_like of shape (6, 6)
         One body.
     link : str
         Its name, for the error.
@@ -51,6 +54,7 @@ def semi_axes(inertia: SpatialInertia, link: str = "body") -> tuple[Array, Array
     >>> lengths.round(12)
     array([0.1, 0.1, 0.1])
     """
+    inertia = _as_inertia(inertia)
     if inertia.mass.ndim:
         raise ShapeError(f"inertia: expected one body, got a batch of shape {inertia.mass.shape}")
     inertia.check_physical(link)
@@ -59,9 +63,16 @@ def semi_axes(inertia: SpatialInertia, link: str = "body") -> tuple[Array, Array
     return np.sqrt(np.maximum(squares[::-1], 0)), axes[:, ::-1]  # the largest moment has the shortest axis
 
 
+def _as_inertia(inertia: SpatialInertia | ArrayLike) -> SpatialInertia:
+    """Return the inertia, made from its matrix where that was given."""
+    if isinstance(inertia, SpatialInertia):
+        return inertia
+    return SpatialInertia.from_matrix(as_exactly(inertia, "inertia", 6, 6))
+
+
 def ellipsoid(
-    inertia: SpatialInertia,
-    T: SE3 | None = None,
+    inertia: SpatialInertia | ArrayLike,
+    T: SE3 | ArrayLike | None = None,
     name: str = "",
     *,
     colour: str = COLOURS["sky"],
@@ -72,9 +83,9 @@ def ellipsoid(
 
     Parameters
     ----------
-    inertia : SpatialInertia
+    inertia : SpatialInertia or array_like of shape (6, 6)
         One body.
-    T : SE3, optional
+    T : SE3 or array_like of shape (4, 4), optional
         Placement of its frame in the frame of the picture.
     name : str
         Written at the centre of mass, and in the error.
@@ -100,8 +111,9 @@ def ellipsoid(
     >>> ax.texts[0].get_position_3d()
     (np.float64(0.0), np.float64(0.0), np.float64(0.5))
     """
-    alpha = as_number(alpha, "alpha")
-    placed = inertia if T is None else inertia.transform(T)
+    alpha, name = as_finite(alpha, "alpha"), str(name)
+    inertia = _as_inertia(inertia)
+    placed = inertia if T is None else inertia.transform(as_placement(T, "T"))
     lengths, axes = semi_axes(placed, name or "body")
     azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, 25), np.linspace(0, np.pi, 13))
     sphere = np.stack([np.cos(azimuth) * np.sin(height), np.sin(azimuth) * np.sin(height), np.cos(height)])
@@ -153,7 +165,7 @@ def ellipsoids(
     >>> len(ax.collections)
     2
     """
-    placement = forward_kinematics(model, q).placement
+    placement = forward_kinematics(model, one_configuration(model, q)).placement
     labels = {model.joint_id(name): name for name in as_names(names, "names", "joint names")}
     ax = axes_3d(ax)
     for i in range(1, model.nbodies):
@@ -211,13 +223,14 @@ def felt_mass(
     >>> np.linalg.norm(ax.lines[0].get_xydata(), axis=-1).round(12).max()
     np.float64(2.0)
     """
-    scale = as_number(scale, "scale")
-    if not len(plane) == 2 == len({0, 1, 2} & set(plane)):
+    scale = drawn_number(scale, "scale")
+    axes = [as_number(k, "plane") for k in as_sequence(plane, "plane", "axes")]
+    if not len(axes) == 2 == len({0, 1, 2} & set(axes)):
         raise ValueError(f"plane: expected two of the axes 0, 1, 2, got {plane}")
-    M = as_exactly(inertia, "inertia", 6, 6)
-    block = M[np.ix_(3 + np.array(plane), 3 + np.array(plane))]
+    M = drawn(as_exactly(inertia, "inertia", 6, 6), "inertia")
+    block = M[np.ix_(3 + np.array(axes, int), 3 + np.array(axes, int))]
     angle = np.linspace(0, 2 * np.pi, 73)
-    curve = as_exactly(at, "at", 2) + scale * np.stack([np.cos(angle), np.sin(angle)], axis=-1) @ block.mT
+    curve = drawn(as_exactly(at, "at", 2), "at") + scale * np.stack([np.cos(angle), np.sin(angle)], axis=-1) @ block.mT
     ax = axes_2d(ax)
     ax.plot(*curve.mT, color=colour, label=label, linewidth=1.8)
     ax.set_aspect("equal")

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_array, as_number
+from ..checks import as_count
 from ..errors import ShapeError
-from .style import COLOURS, axes_2d
+from ..kinds import as_sequence
+from .style import COLOURS, axes_2d, drawn, drawn_number
 
 __all__ = ["ANGULAR_LINEAR", "matrix"]
 
@@ -68,10 +69,13 @@ def matrix(
     >>> [text.get_text() for text in ax.texts]
     ['1', '-1']
     """
-    if limit is not None and not as_number(limit, "limit") > 0:
+    limit = None if limit is None else drawn_number(limit, "limit")
+    if limit is not None and not limit > 0:
         raise ValueError(f"limit: expected a number above zero, got {limit}")
-    rounding = as_number(rounding, "rounding")
-    A = as_array(A, "A").astype(float)
+    rounding, A = drawn_number(rounding, "rounding"), drawn(A, "A")
+    rows, columns = as_sequence(rows, "rows", "names"), as_sequence(columns, "columns", "names")
+    lines = [as_count(k, "lines", 0) for k in as_sequence(lines, "lines", "rows and columns")]
+    _check_format(numbers)
     if A.ndim != 2 or len(rows) not in (0, A.shape[0]) or len(columns) not in (0, A.shape[1]):
         raise ShapeError(f"A, rows, columns: {A.shape} with {len(rows)} and {len(columns)} names do not go together")
     A = np.where(np.abs(A) > rounding, A, 0)
@@ -91,3 +95,11 @@ def matrix(
             dark = abs(shade[i, k]) > 0.7
             ax.text(k, i, format(A[i, k], numbers), ha="center", va="center", fontsize=8, color="w" if dark else "k")
     return ax
+
+
+def _check_format(numbers: object) -> None:
+    """Refuse what no number can be written with."""
+    try:
+        format(1.0, "" if numbers is None else numbers)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise ValueError(f"numbers: expected a format such as '.2f', got {numbers!r}") from None

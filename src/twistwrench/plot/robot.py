@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
 from ..checks import Array, as_names
-from ..door import floats_of
-from ..errors import ShapeError
+from ..door import one_configuration
 from ..kinematics import forward_kinematics, frame_placement
 from ..model import Model
 from .style import COLOURS, axes_3d, fit
@@ -47,9 +46,7 @@ def sticks(model: Model, q: ArrayLike) -> Array:
     >>> sticks(model, model.standing()).shape
     (16, 2, 3)
     """
-    (q,) = floats_of(model, q)
-    if q.ndim != 1:
-        raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
+    q = one_configuration(model, q)
     T = forward_kinematics(model, q).placement
     first = 2 if model.base == "floating" else 1
     lines = [(T[model.parent[i]].translation, T[i].translation) for i in range(first, model.nbodies)]

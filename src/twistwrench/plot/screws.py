@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._spatial_vector import as_spatial
-from ..checks import Array, as_array, as_arrays, as_exactly, as_number
+from ..checks import Array, as_arrays, as_exactly
 from ..errors import ShapeError
 from ..twist import Twist, screw
 from ..wrench import Wrench
 from .frames import arrows
-from .style import COLOURS, axes_3d, fit
+from .style import COLOURS, axes_3d, drawn, drawn_number, fit
 
 __all__ = ["point_velocity", "screw_axis", "twist_field"]
 
@@ -46,6 +46,10 @@ def point_velocity(V: Twist | ArrayLike, points: ArrayLike) -> Array:
     array([0., 2., 0.])
     """
     V, p = as_arrays(V=(as_spatial(V, "V"), (6,)), points=(points, (3,)))
+    try:
+        np.broadcast_shapes(V.shape[:-1], p.shape[:-1])
+    except ValueError:
+        raise ShapeError(f"V and points: shapes {V.shape} and {p.shape} do not broadcast") from None
     return np.asarray(V[..., 3:] + np.cross(V[..., :3], p))
 
 
@@ -90,12 +94,12 @@ def screw_axis(
     array([[ 1.,  0., -1.],
            [ 1.,  0.,  1.]])
     """
-    length = as_number(length, "length")
-    x, kind = as_array(V, "V", 6), "wrench" if isinstance(V, Wrench) else "twist"
+    length = drawn_number(length, "length")
+    x, kind = drawn(V, "V", 6), "wrench" if isinstance(V, Wrench) else "twist"
     if x.ndim != 1:
         raise ShapeError(f"V: expected one {kind}, got a batch of shape {x.shape[:-1]}")
     axis, point = (part.astype(float) for part in screw(V if kind == "wrench" else x)[:2])
-    point = point + axis * (axis * (as_exactly(near, "near", 3) - point)).sum(-1)
+    point = point + axis * (axis * (drawn(as_exactly(near, "near", 3), "near") - point)).sum(-1)
     ax = axes_3d(ax)
     ends = point + length / 2 * np.stack([-axis, axis])
     ax.plot(*ends.mT, "--", color=colour, linewidth=1.6, label=label)
@@ -143,5 +147,6 @@ def twist_field(
     >>> twist_field([0, 0, 1, 0, 0, 0], [[1, 0, 0], [0, 1, 0]], ax=ax) is ax
     True
     """
-    p = as_array(points, "points", 3)
+    p, scale = drawn(points, "points", 3), drawn_number(scale, "scale")
+    V = drawn(as_spatial(V, "V"), "V", 6)
     return fit(arrows(p, point_velocity(V, p), scale=scale, colour=colour, label=label, ax=ax))

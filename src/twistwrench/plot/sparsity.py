@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array, as_number
+from ..checks import Array
 from ..door import check_model
+from ..errors import ShapeError
 from ..model import Model
 from .matrices import ANGULAR_LINEAR, matrix
-from .style import COLOURS, axes_2d
+from .style import COLOURS, axes_2d, drawn, drawn_number
 
 __all__ = ["mass_matrix", "same_branch"]
 
@@ -85,10 +86,12 @@ def mass_matrix(
     >>> [text.get_text() for text in ax.texts]
     ['slide', 'hinge']
     """
-    rounding = as_number(rounding, "rounding")
-    indent = as_number(indent, "indent")
+    rounding = drawn_number(rounding, "rounding")
+    indent = drawn_number(indent, "indent")
     check_model(model)
-    M = as_array(M, "M", model.nv, model.nv).astype(float).reshape(-1, model.nv, model.nv)
+    M = drawn(M, "M", model.nv, model.nv).reshape(-1, model.nv, model.nv)
+    if not len(M):
+        raise ShapeError("M: expected at least one matrix, got none")
     largest = np.take_along_axis(M, np.abs(M).argmax(axis=0)[None], axis=0)[0]
     size = np.sqrt(np.abs(largest.diagonal()))
     largest = np.where(np.abs(largest) > rounding * np.multiply.outer(size, size), largest, 0)

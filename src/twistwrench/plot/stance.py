@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
-from ..checks import Array, as_array, as_exactly, as_names, as_number
-from ..door import check_model
+from ..checks import Array, as_exactly, as_names
+from ..door import one_configuration
 from ..errors import ShapeError
 from ..kinematics import frame_placement
 from ..model import Model
 from .frames import arrows
 from .robot import robot
-from .style import COLOURS, axes_3d, fit, newtons
+from .style import COLOURS, axes_3d, drawn, drawn_number, fit, newtons
 
 __all__ = ["foot_forces", "hull", "support_polygon"]
 
@@ -51,8 +51,10 @@ def hull(points: ArrayLike) -> Array:
            [1., 1.],
            [0., 1.]])
     """
-    p = np.asarray(points, dtype=float)
-    p = as_array(p, "points", 3 if p.shape[-1:] == (3,) else 2)
+    p = drawn(points, "points")
+    p = drawn(p, "points", 3 if p.shape[-1:] == (3,) else 2)
+    if p.ndim != 2:
+        raise ShapeError(f"points: expected shape (n, 2) or (n, 3), got {p.shape}")
     ordered = np.unique(p, axis=0)  # by x, then y
     return np.concatenate([_side(ordered), _side(ordered[::-1])]) if len(ordered) > 1 else ordered
 
@@ -109,7 +111,7 @@ def support_polygon(
     >>> len(ax.collections), len(ax.lines)
     (1, 3)
     """
-    p = as_array(points, "points", 3).astype(float)
+    p = drawn(points, "points", 3)
     if p.ndim != 2 or not len(p):
         raise ShapeError(f"points: expected shape (n, 3) with n of at least 1, got {p.shape}")
     corners = hull(p)
@@ -119,7 +121,7 @@ def support_polygon(
         fan = [(0, k, k + 1) for k in range(1, len(corners) - 1)]
         ax.plot_trisurf(*corners.mT, triangles=fan, color=colour, alpha=0.35, linewidth=0, shade=False)
     if com is not None:
-        c = as_exactly(com, "com", 3)
+        c = drawn(as_exactly(com, "com", 3), "com")
         floor = np.array([c[0], c[1], corners[:, 2].mean()])
         ax.plot(*np.stack([c, floor], axis=-1), ":", color=COLOURS["purple"], linewidth=1.5)
         ax.plot(*floor[:, None], "o", color=COLOURS["purple"], markersize=5)
@@ -173,10 +175,9 @@ def foot_forces(
     >>> [text.get_text().strip() for text in ax.texts]
     ['39.1 N', '39.1 N', '39.8 N', '39.8 N']
     """
-    scale = as_number(scale, "scale")
-    check_model(model)
+    scale, q = drawn_number(scale, "scale"), one_configuration(model, q)
     contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names")
-    f = as_exactly(forces, "forces", len(contacts), 3)
+    f = drawn(as_exactly(forces, "forces", len(contacts), 3), "forces")
     places = np.array([frame_placement(model, q, name).translation for name in contacts], dtype=float)
     ax = robot(model, q, ax=ax)
     support_polygon(places, center_of_mass(model, q), ax=ax)

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..centroidal import center_of_mass
-from ..checks import Array, as_number
+from ..checks import Array
 from ..model import Model
 from .robot import sticks
-from .style import COLOURS, axes_2d
+from .style import COLOURS, axes_2d, drawn_number
 
 __all__ = ["side_view"]
 
@@ -53,7 +53,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     >>> len(ax.lines)  # sixteen sticks, and the centre of mass
     17
     """
-    shift = as_number(shift, "shift")
+    shift = drawn_number(shift, "shift")
     ax = axes_2d(ax, size=(10.0, 2.6))
     lines = sticks(model, q)
     side = _sides(model)

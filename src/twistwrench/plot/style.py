@@ -7,9 +7,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_array
+from ..checks import Array, as_array, as_exactly
+from ..plucker import SE3
+from ..reals import as_finite, as_real
 
-__all__ = ["COLOURS", "NO_MATPLOTLIB", "XYZ", "axes_2d", "axes_3d", "fit", "newtons"]
+__all__ = [
+    "COLOURS",
+    "NO_MATPLOTLIB",
+    "XYZ",
+    "as_placement",
+    "axes_2d",
+    "axes_3d",
+    "drawn",
+    "drawn_number",
+    "fit",
+    "newtons",
+]
+
+LARGEST = 1e100
+"""What is larger cannot be drawn: products of it overflow."""
 
 COLOURS = {
     "black": "#000000",
@@ -50,7 +66,10 @@ def axes_2d(ax: Any = None, *, size: tuple[float, float] = (6.0, 3.5)) -> Any:
     >>> axes_2d(ax) is ax
     True
     """
-    return ax if ax is not None else _pyplot().subplots(figsize=size, layout="constrained")[1]
+    if ax is not None:
+        _check_axes(ax)
+        return ax
+    return _pyplot().subplots(figsize=_size(size), layout="constrained")[1]
 
 
 def axes_3d(ax: Any = None, *, size: tuple[float, float] = (6.5, 5.0)) -> Any:
@@ -78,12 +97,61 @@ def axes_3d(ax: Any = None, *, size: tuple[float, float] = (6.5, 5.0)) -> Any:
     'z [m]'
     """
     if ax is None:
-        ax = _pyplot().figure(figsize=size, layout="constrained").add_subplot(projection="3d")
+        ax = _pyplot().figure(figsize=_size(size), layout="constrained").add_subplot(projection="3d")
         ax.view_init(elev=20, azim=-60)
+    _check_axes(ax)
     if not hasattr(ax, "get_zlabel"):
         raise TypeError(f"ax: expected axes with projection='3d', got {type(ax).__name__}")
     ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
     return ax
+
+
+def _check_axes(ax: Any) -> None:
+    """Refuse what nothing can be drawn on."""
+    from matplotlib.axes import Axes
+
+    if not isinstance(ax, Axes):
+        raise TypeError(f"ax: expected matplotlib axes, got {type(ax).__name__} {ax!r}")
+
+
+def _size(size: Any) -> Any:
+    """Check width and height of a figure."""
+    width, height = as_exactly(size, "size", 2)
+    if not (0 < width < 1000 and 0 < height < 1000):
+        raise ValueError(f"size: expected width and height in inches, from 0 to 1000, got {size}")
+    return width, height
+
+
+def drawn(value: ArrayLike, name: str, *tail: int) -> Array:
+    """Convert what is to be drawn to float64: real, finite and small enough, with these last axes.
+
+    Examples
+    --------
+    >>> drawn([0, 0, 1e300], "point", 3)
+    Traceback (most recent call last):
+    ValueError: point: expected at most 1e+100, which can be drawn, got 1e+300
+    """
+    x = as_real(value, name, *tail)
+    if np.abs(x).max(initial=0) > LARGEST:
+        raise ValueError(f"{name}: expected at most {LARGEST:.0e}, which can be drawn, got {np.abs(x).max():.3g}")
+    return x
+
+
+def drawn_number(value: object, name: str) -> float:
+    """Return a number that is to be drawn: see `drawn`.
+
+    Examples
+    --------
+    >>> drawn_number(np.inf, "scale")
+    Traceback (most recent call last):
+    ValueError: scale: expected a finite number, got inf
+    """
+    return float(drawn(as_finite(value, name), name))
+
+
+def as_placement(T: SE3 | ArrayLike, name: str) -> SE3:
+    """Return a placement, made from its 4 × 4 matrix where that was given."""
+    return T if isinstance(T, SE3) else SE3.from_matrix(as_array(T, name, 4, 4))
 
 
 def _pyplot() -> Any:
@@ -122,8 +190,10 @@ def fit(ax: Any, points: ArrayLike | None = None) -> Any:
     >>> bool(low <= 0 < 4 <= high)
     True
     """
+    if not hasattr(ax, "get_zlabel"):
+        raise TypeError(f"ax: expected axes with projection='3d', got {type(ax).__name__}")
     if points is not None:
-        p = as_array(points, "points", 3).reshape(-1, 3)
+        p = drawn(points, "points", 3).reshape(-1, 3)
         ax.auto_scale_xyz(p[:, 0], p[:, 1], p[:, 2], had_data=ax.has_data())
     ax.set_aspect("equal")
     axes = (ax.xaxis, ax.yaxis, ax.zaxis)

@@ -96,14 +96,16 @@ def load(
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown robot 'go3'; did you mean 'go2', 'go1', ...
     """
+    from ..kinds import as_flag, check_choice
     from ..mimic import follow
     from .srdf import read_states, with_stance, with_states
     from .urdf import load_urdf
 
-    if base not in (None, "fixed", "floating"):
-        raise ModelError(f"base: expected 'fixed' or 'floating', got {base!r}")
-    if mimic not in (None, "independent", "reduce"):
-        raise ValueError(f"mimic: expected 'independent' or 'reduce', got {mimic!r}")
+    if base is not None:
+        check_choice(base, "base", ("fixed", "floating"), ModelError)
+    if mimic is not None:
+        check_choice(mimic, "mimic", ("independent", "reduce"))
+    physical, strict = as_flag(physical, "physical"), as_flag(strict, "strict")
     if not isinstance(source, str | PathLike):
         raise no_model(source, "source", "a name or a path")
     options: dict[str, Any] = {"gravity": gravity, "physical": physical, "mimic": mimic, "strict": strict}

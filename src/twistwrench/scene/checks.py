@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..checks import Array, as_exactly
 from ..contact import Contact
 from ..errors import ModelError
+from ..kinds import as_sequence
 from ..model import Model
 
 __all__ = ["SAME_PLACE", "checked_contacts", "checked_wrenches", "expect_movable"]
@@ -33,7 +34,7 @@ def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact
     """
     if isinstance(contacts, str | Contact):
         raise TypeError(f"contacts: expected a sequence of contacts, got {contacts!r}")
-    contacts = tuple(contacts)
+    contacts = as_sequence(contacts, "contacts", "contacts")
     for contact in contacts:
         if not isinstance(contact, Contact):
             came = f"{type(contact).__name__} {contact!r}"

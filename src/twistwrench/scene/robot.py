@@ -18,7 +18,7 @@ __all__ = ["posture", "whole_robot"]
 
 def whole_robot(robot: str | PathLike[str] | Model, base: str | None, gravity: ArrayLike | None) -> Model:
     """Return the robot with the gravity of the scene, and with a floating base where the scene needs one."""
-    if base not in (None, "fixed", "floating", "planar"):
+    if not isinstance(base, str | None) or base not in (None, "fixed", "floating", "planar"):
         raise ModelError(f"base: expected 'fixed', 'floating' or 'planar', got {base!r}")
     if not isinstance(robot, str | PathLike | Model):
         raise no_model(robot, "robot", "a name, a path or a Model")

@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import Array
+from ..kinds import check_kind
 from ..kinematics import frame_placement
 from ..motions import Motion
+from ..motions.motion import check_motion
 from ..whole_body import QUANTITIES, Dynamics, wanted
 from .costs import Costs, costs, limbs
 from .once import scene_dynamics
@@ -219,9 +221,11 @@ class Scene(SmallestModel):
         """
         if self._base != "floating":
             raise ValueError(f"cheapest: templates need a floating base, and this scene has a {self._base} one")
+        check_motion(motion)
         self.full_model.state(motion.q, v=motion.v, a=motion.a)  # says so where it is another robot's
         feet = [contact.frame for contact in self.contacts] or motion.feet
         groups = limbs(self.full_model, feet) if groups is None else groups
+        check_kind(groups, "groups", Mapping, "names of joints by the name of a group")
         held = {f"hold {name}": joints for name, joints in groups.items()}
         if self.held or self.idle:
             held["this scene"] = [*self.held, *self.idle]

@@ -43,7 +43,7 @@ class SmallestModel:
         self.full_model = full = whole_robot(robot, base, gravity)
         self.q = posture(full, q)
         self.contacts = checked_contacts(full, contacts)
-        self.wrenches = checked_wrenches(full, wrenches or {})
+        self.wrenches = checked_wrenches(full, {} if wrenches is None else wrenches)
         self.held = _held(full, hold)
         self._base = base or full.base
         self._floor = OnTheFloor.of(full, self.q) if base == "planar" else None
@@ -124,7 +124,7 @@ class SmallestModel:
 
 def _held(model: Model, hold: Iterable[str]) -> tuple[str, ...]:
     """Return the joints that fit; a floating base is none of them, as the scene's base says what becomes of it."""
-    held = matching_joints(model, hold)
+    held = matching_joints(model, hold, "hold")
     base = model.joint_names[1:2] if model.base == "floating" else ()
     if held and held == base:
         raise ModelError(f"hold: {base[0]!r} is the floating base; base='fixed' holds it")

@@ -21,6 +21,9 @@ from .system import Policy, System
 
 __all__ = ["simulate"]
 
+LONGEST = 1e60
+"""Seconds: with a longer step products overflow."""
+
 
 def simulate(
     robot: Model | SceneLike,
@@ -151,7 +154,7 @@ def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Ar
 
 def _count(dt: float, steps: int | None, duration: float | None) -> int:
     """Return the number of steps, or say what is wrong with it."""
-    if not 0 < as_number(dt, "dt") < np.inf:
+    if not 0 < as_number(dt, "dt") < LONGEST:
         raise ValueError(f"dt: expected a positive number of seconds, got {dt}")
     if steps is not None and duration is None:
         return as_count(steps, "steps", 0)

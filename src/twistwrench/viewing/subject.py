@@ -13,10 +13,11 @@ from ..checks import Array, as_exactly
 from ..contact import Contact, PointContact, contact_inverse_dynamics, contact_placements
 from ..door import in_double
 from ..errors import ShapeError, SingularError, no_model
+from ..kinds import as_sequence
 from ..kinematics import forward_kinematics
 from ..model import Model
 from ..motions import Motion
-from ..plot.style import newtons
+from ..plot.style import drawn, newtons
 from ..robots import load
 from ..scene import Scene
 from ..simulation import Simulation
@@ -156,7 +157,7 @@ def subject(
         t = motion.t if t is None else t
         motion = motion.q
     q = _configuration(model, motion)
-    given = None if forces is None else as_exactly(forces, "forces", *q.shape[:-1], len(touching), 3)
+    given = None if forces is None else drawn(as_exactly(forces, "forces", *q.shape[:-1], len(touching), 3), "forces")
     stands = np.ones((*q.shape[:-1], len(touching)), bool) if standing is None else standing
     stands = stands if given is None else (given != 0).any(axis=-1)
     return Subject(model, q, _times(q, t), touching, stands, given)
@@ -167,7 +168,7 @@ def _configuration(model: Model, q: ArrayLike | None) -> Array:
     if q is None:
         return model.postures["standing"] if "standing" in model.postures else model.neutral()
     (q,) = model.state(q)
-    if q.ndim > 2 or q.size == 0:
+    if q.ndim > 2 or (q.ndim == 2 and not len(q)):
         raise ShapeError(f"q: expected shape ({model.nq},), or (n, {model.nq}) for a motion, got {q.shape}")
     if q.dtype.kind == "c":
         raise ValueError("q: expected real numbers, got complex ones")
@@ -190,9 +191,8 @@ def _contacts(model: Model, contacts: Iterable[str | Contact] | None) -> tuple[C
     """Make points of names; take the model's feet where nothing was said."""
     if isinstance(contacts, str):
         raise ValueError(f"contacts: expected several contacts, got the string {contacts!r}; [{contacts!r}] is one")
-    made = [
-        c if isinstance(c, Contact) else PointContact(c, 0.0) for c in (model.feet if contacts is None else contacts)
-    ]
+    given = model.feet if contacts is None else as_sequence(contacts, "contacts", "contacts or frame names")
+    made = [c if isinstance(c, Contact) else PointContact(c, 0.0) for c in given]
     for contact in made:
         model.frame(contact.frame)
     return tuple(made)
