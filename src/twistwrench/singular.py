@@ -74,7 +74,9 @@ def massless_base(model: Model, i: int) -> str:
     """Return what helps where body i is a floating base without mass, and nothing for any other."""
     if i != 1 or model.base != "floating" or model.inertia[1].mass:
         return ""
-    return "; the base has no mass of its own: give its link an inertia, weld it to one that has it, or load base='fixed'"
+    return (
+        "; the base has no mass of its own: give its link an inertia, weld it to one that has one, or take base='fixed'"
+    )
 
 
 def refuse_lost(D: Array, bound: Array, name: str, hint: str = "") -> None:
