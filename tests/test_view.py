@@ -663,8 +663,8 @@ def test_the_command_takes_postures_frames_contacts_and_a_base(tmp_path, monkeyp
     seen = {}
     monkeypatch.setattr("twistwrench.viewing.showing.view", lambda *args, **how: seen.update(args=args, **how))
     monkeypatch.setattr(Figure, "savefig", lambda *args, **how: None)
-    words = "view go2 --base fixed --frame base --frame FL_foot --contact FL_foot --contact FL_foot --output x.svg"
-    assert main([*words.split(), "--posture", "standing"]) == 0
+    words = "view go2 --base fixed --frame base --frame FL_foot --contact FL_foot --contact FL_foot --posture standing"
+    assert main([*words.split(), "--output", str(tmp_path / "x.svg")]) == 0
     model, q = seen["args"]
     assert (model.base, seen["frames"], seen["contacts"]) == ("fixed", ["base", "FL_foot"], ["FL_foot"])
     np.testing.assert_array_equal(q, model.postures["standing"])
