@@ -102,6 +102,13 @@ def test_the_mass_matrix_of_the_double_pendulum_is_a_formula():
     np.testing.assert_allclose(np.array(M.subs(at), float), tw.crba(TWO, [0.3, -0.8]), rtol=1e-14)
 
 
+def test_the_formula_of_the_readme_is_what_comes_out():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
+    M = sympy.Matrix(tw.crba(tw.load("double_pendulum"), sympy.symbols("q1 q2"))).applyfunc(sympy.trigsimp)
+    told = ("0.36*cos(q2) + 0.6002", "0.18*cos(q2) + 0.1201", "0.18*cos(q2) + 0.1201", "0.1201")
+    assert tuple(str(sympy.N(one, 4)) for one in M) == told
+
+
 def test_bias_forces_of_symbols_are_lagranges():
     sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
     q, v, a = (np.array(sympy.symbols(f"{name}1 {name}2")) for name in "qva")
