@@ -20,7 +20,7 @@ from .tree import Tree, composite_inertias
 __all__ = ["refuse_lost", "refuse_singular", "refuse_weightless"]
 
 ROUNDINGS = 100
-"""An inertia of fewer times the rounding in it counts as none."""
+"""Less than so many times the bound on its rounding counts as zero: an inertia, and a singular value of contacts."""
 
 
 def refuse_singular(model: Model, tree: Tree, terms: AbaTerms) -> None:

@@ -16,12 +16,10 @@ from ..checks import Array
 from ..errors import SingularError
 from ..model import Model
 from ..plucker import SE3
+from ..singular import ROUNDINGS
 from .types import Contact
 
 __all__ = ["Decomposition", "block_diagonal", "decompose", "lever", "point_map"]
-
-ROUNDINGS = 100
-"""A singular value of fewer times the rounding in Y counts as zero."""
 
 
 class Decomposition(NamedTuple):
@@ -81,8 +79,8 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
         raise SingularError(f"the mass matrix is not positive definite: {_without_inertia(model, M)}") from None
     Y = np.linalg.solve(L, J.mT)
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
-    doubt = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
-    noise = np.finfo(np.float64).eps * np.sqrt((doubt**2).sum(axis=(-2, -1)))[..., None]
+    bound = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
+    noise = np.finfo(np.float64).eps * np.sqrt((bound**2).sum(axis=(-2, -1)))[..., None]
     kept = s > ROUNDINGS * noise
     return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
 
