@@ -123,14 +123,48 @@ def test_a_signal_ends_the_work_and_is_as_before_afterwards():
     assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
 
 
-def test_an_interrupt_is_held_back_not_lost():
-    reached = []
+def test_processes_that_are_started_without_interrupts_do_not_get_them():
+    script = "import os, signal; os.kill(os.getpid(), signal.SIGINT); print('still there')"
+    with without_interrupts():
+        child = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert (child.returncode, child.stdout) == (0, "still there\n")
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_that_a_library_swallows_comes_again(number):
+    """As where C code asks Python for a number: mpmath's went on with a NaN, and the viewer with its page."""
+    swallowed, tidied = [], []
 
     def interrupted():
-        with without_interrupts():
-            os.kill(os.getpid(), signal.SIGINT)
-            reached.append("the end")
+        with heeded():
+            try:
+                os.kill(os.getpid(), number)
+                time.sleep(SOON)
+            except BaseException as error:
+                swallowed.append(error)
+            try:
+                time.sleep(SOON)
+            finally:
+                time.sleep(1)  # while it is tidied up it is not raised again
+                tidied.append(True)
 
-    with pytest.raises(KeyboardInterrupt):
+    before = signal.getsignal(number)
+    with pytest.raises(Stopped) as stopped:
         interrupted()
-    assert reached == ["the end"]
+    assert stopped.value.status == 128 + number
+    assert (len(swallowed), tidied) == (1, [True])
+    assert signal.getsignal(number) is before
+    assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
+
+
+def test_an_interrupt_while_the_package_is_imported_is_no_trace():
+    script = (
+        "import builtins, sys; from twistwrench.__main__ import run; whole = builtins.__import__\n"
+        "def interrupted(name, *others):\n"
+        "    if name == 'cli': raise KeyboardInterrupt\n"
+        "    return whole(name, *others)\n"
+        "builtins.__import__ = interrupted; sys.exit(run())"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (130, "")

@@ -2,9 +2,20 @@
 
 import sys
 
-from .cli import main
+__all__ = ["run"]
 
-__all__: list[str] = []
+INTERRUPTED = 130
+
+
+def run() -> int:
+    """Run the command line of the process; Ctrl-C while it is still being imported is one as well."""
+    try:
+        from .cli import main
+
+        return main()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run())

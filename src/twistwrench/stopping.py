@@ -16,8 +16,11 @@ __all__ = ["INTERRUPTED", "UNREAD", "Stopped", "heeded", "without_interrupts"]
 INTERRUPTED, UNREAD = 130, 141
 """Exit statuses, as a shell reports them: 128 and the number of the signal, SIGINT or SIGPIPE."""
 
-SIGNALS = ("SIGTERM", "SIGHUP")
+SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+NOBODYS = (signal.SIG_DFL, signal.default_int_handler)
 POLL_MS = 300
+AGAIN = 0.4
+"""Seconds until an exception that somebody has swallowed is raised again."""
 
 
 class Stopped(KeyboardInterrupt):
@@ -36,29 +39,44 @@ class Stopped(KeyboardInterrupt):
 
 @contextmanager
 def heeded() -> Iterator[None]:
-    """Let SIGTERM, SIGHUP and a closed pipe behind stdout end the work by raising `Stopped`, so that it is tidied up.
+    """Let Ctrl-C, SIGTERM, SIGHUP and a closed pipe behind stdout end the work by raising `Stopped`: it is tidied up.
 
-    Does nothing outside the main thread, and leaves a signal alone that somebody else has a use for.
+    The exception is raised wherever the main thread is, and libraries lose it there: in C code that asks Python for a
+    number, in a bare ``except``. It is raised again until it gets through. Does nothing outside the main thread, and
+    leaves a signal alone that somebody else has a use for.
     """
     unread, done = threading.Event(), threading.Event()
+    timer = hasattr(signal, "setitimer")
 
     def stop(*received: Any) -> None:
-        raise Stopped(UNREAD if unread.is_set() else 128 + received[0])
+        stopped = Stopped(UNREAD if unread.is_set() else 128 + received[0])
+        if timer and signal.getsignal(signal.SIGALRM) is signal.SIG_DFL:
+            before[signal.SIGALRM] = signal.signal(signal.SIGALRM, lambda *_: _again(stopped))
+            signal.setitimer(signal.ITIMER_REAL, AGAIN, AGAIN)
+        raise stopped
 
-    ours: list[int] = []
+    before: dict[int, Any] = {}
     if threading.current_thread() is threading.main_thread():
-        ours = [number for name in SIGNALS if (number := getattr(signal, name, None)) is not None]
-        ours = [number for number in ours if signal.getsignal(number) is signal.SIG_DFL]
-    for number in ours:
+        known = [number for name in SIGNALS if (number := getattr(signal, name, None)) is not None]
+        before = {number: signal.getsignal(number) for number in known if signal.getsignal(number) in NOBODYS}
+    for number in list(before):
         signal.signal(number, stop)
-    if signal.SIGTERM in ours and _is_pipe(sys.stdout):
+    if signal.SIGTERM in before and _is_pipe(sys.stdout):
         threading.Thread(target=_watch, args=(sys.stdout.fileno(), unread, done), daemon=True).start()
     try:
         yield
     finally:
         done.set()
-        for number in ours:
-            signal.signal(number, signal.SIG_DFL)
+        if timer and signal.SIGALRM in before:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _again(stopped: Stopped) -> None:
+    """Raise an exception that has been swallowed; not where it is being tidied up after."""
+    if not isinstance(sys.exc_info()[1], KeyboardInterrupt):
+        raise stopped
 
 
 def _is_pipe(stream: Any) -> bool:
@@ -85,7 +103,7 @@ def _watch(fd: int, unread: threading.Event, done: threading.Event) -> None:
 
 @contextmanager
 def without_interrupts() -> Iterator[None]:
-    """Hold Ctrl-C back for a moment. Processes that are started meanwhile never get it: their parent stops them."""
+    """Within: processes that are started never get Ctrl-C, which a terminal sends to all. Their parent stops them."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
