@@ -552,6 +552,114 @@ def test_groups_and_motions_that_do_not_fit_are_refused(walking):
         tw.Scene("go2").cheapest(0.1, motion)
 
 
+# ---------------------------------------------------------------- robots of every kind
+
+
+def rows(found):
+    return {option.name: option for option in found.options}
+
+
+def unfit(found):
+    return {option.name: option.unfit for option in found.options if option.unfit}
+
+
+def swing(model, samples=12):
+    """A motion of any robot: each joint swings at a rate of its own, about where it stands."""
+    rng, t = np.random.default_rng(5), np.linspace(0, 1, samples)
+    rate, size = rng.uniform(1, 3, model.nv), rng.uniform(0.1, 0.4, model.nv)
+    u, v, a = (
+        size * f
+        for f in (np.sin(np.outer(t, rate)), rate * np.cos(np.outer(t, rate)), -(rate**2) * np.sin(np.outer(t, rate)))
+    )
+    if model.base == "floating":
+        u[:, :6] = v[:, :6] = a[:, :6] = 0
+    q = np.stack([model.integrate(model.neutral(), du) for du in u])
+    return motions.Motion("swing", t, q, v, a, (), np.zeros((samples, 0), bool))
+
+
+def test_a_robot_loaded_from_a_file_is_judged_as_the_one_of_the_catalogue():
+    """It knows no feet; the height of the pendulum is that above the scene's contacts."""
+    known = tw.load("go2")
+    unknown = replace(known, feet=(), postures={})
+    assert unknown.feet == ()
+    walk = motions.walk(known, samples=8)
+    feet = [tw.PointContact(foot, 0.7) for foot in known.feet]
+    here, there = (tw.Scene(model, contacts=feet).cheapest(0.1, walk) for model in (unknown, known))
+    assert unfit(here) == unfit(there) == {}
+    assert all(
+        np.allclose(rows(here)[name].residual, o.residual, rtol=0, atol=1e-14) for name, o in rows(there).items()
+    )
+    without = tw.Scene(unknown).cheapest(0.1, walk)
+    assert unfit(without) == {"lipm": "height: 'go2' has no feet, so it must be given"}
+    assert "  lipm         does not apply: height: 'go2' has no feet" in str(without)
+
+
+def test_without_gravity_the_pendulum_does_not_apply_and_the_rest_does():
+    go2 = tw.load("go2")
+    found = tw.Scene(go2, gravity=[0, 0, 0]).cheapest(0.1, motions.walk(go2, samples=8))
+    assert unfit(found) == {"lipm": "'go2' has no gravity: a pendulum needs one"}
+    assert str(found).startswith("walk: wrench missed, as a share of the largest ḣ_G of the motion; tolerance 1.0e-01")
+    assert rows(found)["centroidal"].worst < 1e-12
+    assert rows(found)["point_mass"].worst <= 1  # it has the force right, and misses what the moment is
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the picture is not made")
+    assert len(found.plot().patches) == len(found.options) - 1
+    still = replace(motions.walk(go2, samples=8))
+    still = replace(still, q=still.q[:1].repeat(8, 0), v=0 * still.v, a=0 * still.a)
+    assert tw.Scene(go2, gravity=[0, 0, 0]).cheapest(0.0, still).best.worst == 0  # nothing moves, nothing is missed
+
+
+def test_an_arm_has_no_templates_but_held_joints():
+    arm = tw.load("planar_arm")
+    motion = swing(arm)
+    found = tw.Scene(arm).cheapest(0.1, motion, groups={"tip": [arm.joint_names[-1]], "all": ["*"]})
+    assert set(unfit(found)) == {"point_mass", "lipm", "srbm_frozen", "srbm", "centroidal", "hold all"}
+    assert unfit(found)["srbm"] == "'planar_arm': expected a floating base, got a fixed one"
+    assert unfit(found)["hold all"] == "nothing is left to move"
+    assert rows(found)["full"].worst == 0
+    assert found.best.tells_torques
+    small = tw.lock_joints(arm, [arm.joint_names[-1]], motion.q[0])
+    q, v = small.reduce(motion.q, motion.v)
+    a = small.reduce(motion.q, motion.a)[1]
+    missed = np.zeros((len(motion), 6))  # about the world's origin, and then about the whole arm's centre of mass
+    for sign, model, x in ((1, small.model, (q, v, a)), (-1, arm, (motion.q, motion.v, motion.a))):
+        rate = tw.centroidal_momentum_rate(model, *x)
+        moment = rate[:, :3] + np.cross(tw.center_of_mass(model, x[0]), rate[:, 3:])
+        missed += sign * np.concatenate([moment, rate[:, 3:]], axis=-1)
+    moment = missed[:, :3] - np.cross(tw.center_of_mass(arm, motion.q), missed[:, 3:])
+    weight = arm.mass * 9.81
+    share = (
+        np.hypot(*(np.linalg.norm(x, axis=-1) for x in (missed[:, 3:], moment / _gyration(arm, motion.q[0])))) / weight
+    )
+    np.testing.assert_allclose(rows(found)["hold tip"].residual, share, rtol=1e-9, atol=1e-15)
+
+
+def _gyration(model, q):
+    from twistwrench.scene.anchored import radius_of_gyration
+
+    return radius_of_gyration(model, q)
+
+
+def test_the_radius_of_gyration_is_that_of_the_templates():
+    go2 = tw.load("go2")
+    assert np.isclose(_gyration(go2, go2.standing()), TEMPLATES["full"].of(go2, go2.standing()).length, rtol=1e-12)
+
+
+@pytest.mark.parametrize("base", ["planar", "fixed"])
+def test_what_another_base_costs_is_a_row(base):
+    go2 = tw.load("go2")
+    walk = motions.walk(go2, samples=8)
+    scene = tw.Scene(go2, base=base)
+    found = scene.cheapest(0.1, walk)
+    assert unfit(found) == {}
+    mine = rows(found)["this scene"]
+    assert (
+        mine.leaves_out == {"planar": "The height and the tilt of the base.", "fixed": "The motion of the base."}[base]
+    )
+    assert 1e-3 < mine.worst < 1
+    level = replace(walk, q=walk.q[:1].repeat(8, 0), v=0 * walk.v, a=0 * walk.a)
+    assert rows(tw.Scene(go2, base=base, q=walk.q[0]).cheapest(0.1, level))["this scene"].worst < 1e-12
+
+
 # ---------------------------------------------------------------- its page
 
 

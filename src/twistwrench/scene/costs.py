@@ -6,23 +6,28 @@ to happen, ḣ_G. The templates of 49.10 answer no other; a robot with held join
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..centroidal import center_of_mass
 from ..checks import Array, as_number
 from ..clock import round_robin
+from ..contact import Contact
+from ..kinematics import frame_placement
 from ..model import Model
 from ..motions import Motion
 from ..reduction import lock_joints
 from ..templates import TEMPLATES, Residual
-from ..templates.template import Template, full_rate
+from ..templates.pendulum import LinearPendulum
+from ..templates.template import Template
 from ..templates.whole import Full
+from .anchored import Anchored, radius_of_gyration
 
-__all__ = ["Costs", "Option", "costs", "limbs"]
+__all__ = ["Candidate", "Costs", "Option", "State", "costs", "limbs"]
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,9 @@ class Option:
         At each state of the motion, the wrench that it misses as a share of the weight (`Residual.relative`).
     seconds : float
         For one state, when all states are done at once.
+    unfit : str
+        Why it does not apply to this robot, with nothing then in `residual` and no number in `seconds`; empty where it
+        does.
     """
 
     name: str
@@ -48,11 +56,12 @@ class Option:
     tells_torques: bool
     residual: Array
     seconds: float
+    unfit: str = ""
 
     @property
     def worst(self) -> float:
-        """The largest residual over the motion."""
-        return float(self.residual.max())
+        """The largest residual over the motion; infinite where the model does not apply."""
+        return np.inf if self.unfit else float(self.residual.max(initial=0))
 
 
 @dataclass(frozen=True)
@@ -65,11 +74,15 @@ class Costs:
     tolerance : float
         The largest residual that is allowed, as a share of the weight.
     options : tuple of Option
+        Those that do not apply come last, and say why.
+    share_of : str
+        What the residuals are a share of: the weight, or without gravity the largest ḣ_G of the motion.
     """
 
     motion: str
     tolerance: float
     options: tuple[Option, ...]
+    share_of: str = "the weight"
 
     @property
     def best(self) -> Option:
@@ -83,9 +96,11 @@ class Costs:
             f"  {option.worst:8.1e} {'  ' if option.worst <= self.tolerance else '> '}{option.seconds * 1e6:8.2f}"
             f"  {'ḣ_G, τ' if option.tells_torques else 'ḣ_G':6}  {option.leaves_out}"
             for option in self.options
+            if not option.unfit
         ]
+        rows += [f"  {option.name:{width}}  does not apply: {option.unfit}" for option in self.options if option.unfit]
         head = f"  {'model':{width}}    median     worst     µs/state  tells   leaves out"
-        title = f"{self.motion}: wrench missed, as a share of the weight; tolerance {self.tolerance:.1e}"
+        title = f"{self.motion}: wrench missed, as a share of {self.share_of}; tolerance {self.tolerance:.1e}"
         return "\n".join([title, head, *(row.rstrip() for row in rows)])
 
     def plot(self, ax: Any = None) -> Any:
@@ -109,42 +124,109 @@ class Costs:
         return draw(self, ax)
 
 
+State = tuple[Array, Array, Array]
+
+
 class Candidate(NamedTuple):
-    """A model to be tried, and the states of the motion as it knows them."""
+    """A model to be tried, and the states of the motion as it knows them; or why it cannot be tried."""
 
     name: str
     leaves_out: str
-    template: Template
-    state: tuple[Array, Array, Array]
+    template: Template | Anchored | None
+    state: State
+    unfit: str = ""
 
 
-def costs(model: Model, motion: Motion, tolerance: float, groups: Mapping[str, Iterable[str]]) -> Costs:
-    """Do what `Scene.cheapest` says, for a model with a floating base."""
+def costs(
+    model: Model,
+    motion: Motion,
+    tolerance: float,
+    groups: Mapping[str, Iterable[str]],
+    feet: Sequence[Contact] = (),
+    scene: Callable[[State], Candidate] | None = None,
+) -> Costs:
+    """Do what `Scene.cheapest` says; `scene` is one more candidate, of the states of the motion."""
     if not as_number(tolerance, "tolerance") >= 0:
         raise ValueError(f"tolerance: expected a share of the weight, 0 or more, got {tolerance!r}")
     q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
-    true, size = full_rate(model, q, v, a), Full.of(model, q[0])
-    tried = candidates(model, q, v, a, groups)
-    known = [one.template.read(*one.state) for one in tried]
-    laps = round_robin([partial(one.template.law, *x) for one, x in zip(tried, known)], rounds=7, least=0)
+    state = (q, v, a)
+    whole = _whole(model, state)
+    true = whole.law(*whole.read(*state))
+    scale, length, share_of = _scale(whole, q[0], true)
+    tried = candidates(model, state, groups, feet) + ([scene(state)] if scene else [])
+    fit = [(one.template, one) for one in tried if one.template is not None]
+    known = [template.read(*one.state) for template, one in fit]
+    laps = round_robin([partial(template.law, *x) for (template, _), x in zip(fit, known)], rounds=7, least=0)
     options = []
-    for one, x, lap in zip(tried, known, laps):
-        e = one.template.law(*x) - true
-        residual = Residual(e[..., :3], e[..., 3:], size.weight, size.length).relative
-        seconds = float(lap.seconds.min()) / len(q)
-        options.append(Option(one.name, one.leaves_out, isinstance(one.template, Full), residual, seconds))
-    return Costs(motion.name, float(tolerance), tuple(sorted(options, key=lambda option: option.seconds)))
+    for (template, one), x, lap in zip(fit, known, laps):
+        e = template.law(*x) - true
+        residual = Residual(e[..., :3], e[..., 3:], scale, length).relative
+        seconds = float(lap.seconds.min()) / len(true)
+        options.append(Option(one.name, one.leaves_out, isinstance(template, Full | Anchored), residual, seconds))
+    options.sort(key=lambda option: option.seconds)
+    unfit = [Option(one.name, one.leaves_out, False, np.zeros(0), np.nan, one.unfit) for one in tried if one.unfit]
+    return Costs(motion.name, float(tolerance), (*options, *unfit), share_of)
 
 
-def candidates(model: Model, q: Array, v: Array, a: Array, groups: Mapping[str, Iterable[str]]) -> list[Candidate]:
+def candidates(
+    model: Model, state: State, groups: Mapping[str, Iterable[str]], feet: Sequence[Contact]
+) -> list[Candidate]:
     """Return the templates, and the full model with each group of joints held where the motion begins."""
-    tried = [Candidate(name, kind.assumes, kind.of(model, q[0]), (q, v, a)) for name, kind in TEMPLATES.items()]
+    (q, v, a), about = state, center_of_mass(model, state[0])
+    tried = [_template(name, kind, model, state, feet) for name, kind in TEMPLATES.items()]
     for name, joints in groups.items():
         small = lock_joints(model, joints, q[0])
-        leaves_out = f"The motion of {len(small.held)} of {model.nbodies - 2} joints."
-        state = (q[..., small.kept_q], v[..., small.kept_v], a[..., small.kept_v])
-        tried.append(Candidate(name, leaves_out, Full.of(small.model, state[0][0]), state))
+        leaves_out = f"The motion of {len(small.held)} of {len(_movable(model))} joints."
+        known = (q[..., small.kept_q], v[..., small.kept_v], a[..., small.kept_v])
+        if model.base == "floating":
+            tried.append(Candidate(name, leaves_out, Full.of(small.model, known[0][0]), known))
+        elif small.model.nv == 0:
+            tried.append(Candidate(name, leaves_out, None, known, "nothing is left to move"))
+        else:
+            tried.append(Candidate(name, leaves_out, Anchored(small.model, about), known))
     return tried
+
+
+def _template(name: str, kind: type[Template], model: Model, state: State, feet: Sequence[Contact]) -> Candidate:
+    """Return a template, or why there is none of this robot."""
+    if kind is Full:
+        return Candidate(name, kind.assumes, _whole(model, state), state)
+    try:
+        if kind is LinearPendulum and feet and not model.feet:
+            pendulum = LinearPendulum.of(model, state[0][0], height=_height(model, state[0][0], feet))
+            return Candidate(name, kind.assumes, pendulum, state)
+        return Candidate(name, kind.assumes, kind.of(model, state[0][0]), state)
+    except ValueError as error:
+        return Candidate(name, kind.assumes, None, state, str(error))
+
+
+def _height(model: Model, q: Array, feet: Sequence[Contact]) -> float:
+    """Return how far the centre of mass is above the lowest point that touches, against gravity, m."""
+    places = [(c, frame_placement(model, q, c.frame)) for c in feet]
+    points = np.concatenate([T.translation + c.points @ c.axes(T.rotation).mT for c, T in places])
+    up = -model.gravity / max(float(np.sqrt(model.gravity @ model.gravity)), np.finfo(float).tiny)
+    return float(((center_of_mass(model, q) - points) @ up).max())
+
+
+def _whole(model: Model, state: State) -> Template | Anchored:
+    """Return the model that all others are held against."""
+    return Full.of(model, state[0][0]) if model.base == "floating" else Anchored(model, center_of_mass(model, state[0]))
+
+
+def _scale(whole: Template | Anchored, q: Array, true: Array) -> tuple[float, float, str]:
+    """Return the force, N, and the length, m, that wrenches are compared with, and what the force is."""
+    model = whole.model
+    length = whole.length if isinstance(whole, Template) else radius_of_gyration(model, q)
+    weight = model.mass * float(np.sqrt((model.gravity**2).sum()))
+    if weight > 0:
+        return weight, length, "the weight"
+    largest = float(Residual(true[..., :3], true[..., 3:], 1.0, length).relative.max(initial=0))
+    return largest or 1.0, length, "the largest ḣ_G of the motion"
+
+
+def _movable(model: Model) -> range:
+    """Return the bodies whose joints can be held: all but a floating base."""
+    return range(2 if model.base == "floating" else 1, model.nbodies)
 
 
 def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
@@ -169,7 +251,7 @@ def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
     >>> list(limbs(model, model.feet))
     ['waist_yaw', 'left_shoulder_pitch', 'right_shoulder_pitch']
     """
-    busy = {0, 1, *(i for name in feet for i in model.support(model.frame(name).body))}
+    busy = {*range(_movable(model).start), *(i for name in feet for i in model.support(model.frame(name).body))}
     heads = [
         i
         for i in range(1, model.nbodies)

@@ -7,13 +7,15 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..centroidal import center_of_mass
 from ..checks import Array
 from ..kinds import check_kind
 from ..kinematics import frame_placement
 from ..motions import Motion
 from ..motions.motion import check_motion
 from ..whole_body import QUANTITIES, Dynamics, wanted
-from .costs import Costs, costs, limbs
+from .anchored import Anchored
+from .costs import Candidate, Costs, State, costs, limbs
 from .once import scene_dynamics
 from .robot import posture
 from .smallest import SmallestModel
@@ -179,6 +181,10 @@ class Scene(SmallestModel):
     def cheapest(self, tolerance: float, motion: Motion, *, groups: Mapping[str, Iterable[str]] | None = None) -> Costs:
         """Return what each smaller model of the robot costs over a motion, and the quickest that is exact enough.
 
+        A model that does not apply (no pendulum without gravity, no template without a floating base) says so in its
+        row. Without gravity the largest ḣ_G of the motion takes the place of the weight. The base of the motion is
+        that of `full_model`; what a planar or fixed base of the scene costs is the row "this scene".
+
         Compared are the templates of 49.10, the full model, and the full model with groups of joints held where the
         motion begins. The residual is the wrench ḣ_G that a model misses, force and moment together, as a share of the
         weight; the time is that of the model's law for one state of the motion, with all states done at once and its
@@ -202,9 +208,9 @@ class Scene(SmallestModel):
         Raises
         ------
         ValueError
-            If the tolerance is below zero, or the base does not float.
+            If the tolerance is below zero.
         SingularError
-            If there is no gravity, and so no weight to compare with.
+            If nothing that moves has mass.
         NameNotFound, ShapeError
             As `lock_joints` and `Model.state`.
 
@@ -219,14 +225,26 @@ class Scene(SmallestModel):
         >>> scene.cheapest(0.0, motions.walk(go2, samples=50)).best.name
         'full'
         """
-        if self._base != "floating":
-            raise ValueError(f"cheapest: templates need a floating base, and this scene has a {self._base} one")
         check_motion(motion)
         self.full_model.state(motion.q, v=motion.v, a=motion.a)  # says so where it is another robot's
         feet = [contact.frame for contact in self.contacts] or motion.feet
-        groups = limbs(self.full_model, feet) if groups is None else groups
+        if groups is None:
+            groups = limbs(self.full_model, feet)
+            whole = len(self.full_model.joint_names) - 1
+            groups = {name: joints for name, joints in groups.items() if len(joints) < whole}
         check_kind(groups, "groups", Mapping, "names of joints by the name of a group")
         held = {f"hold {name}": joints for name, joints in groups.items()}
-        if self.held or self.idle:
+        same = self._base == self.full_model.base
+        if same and (self.held or self.idle):
             held["this scene"] = [*self.held, *self.idle]
-        return costs(self.full_model, motion, tolerance, held)
+        return costs(self.full_model, motion, tolerance, held, self.contacts, None if same else self._candidate)
+
+    def _candidate(self, state: State) -> Candidate:
+        """Return this scene as a model of the whole robot's motion, where its base is another."""
+        q, v, a = state
+        known = (*self.reduce(q, v), self.reduce(q, a)[1])
+        leaves_out = {"planar": "The height and the tilt of the base", "fixed": "The motion of the base"}[self._base]
+        held = len({*self.held, *self.idle})
+        joints = f", and of {held} joints" if held else ""
+        about = center_of_mass(self.full_model, q)
+        return Candidate("this scene", f"{leaves_out}{joints}.", Anchored(self.model, about), known)
