@@ -534,7 +534,6 @@ def test_limbs_are_what_touches_nothing():
 @pytest.mark.parametrize(
     ("given", "tolerance", "said"),
     [
-        ({"base": "planar"}, 0.1, "templates need a floating base, and this scene has a planar one"),
         ({}, -0.1, "tolerance: expected a share of the weight, 0 or more, got -0.1"),
         ({}, np.nan, "tolerance: expected"),
     ],
