@@ -67,6 +67,12 @@ def test_terms_cannot_be_exchanged_and_take_no_memory_of_the_caller():
         terms.qdd = tau
 
 
+def test_a_record_prints_the_names_of_its_terms():
+    model = tw.load("double_pendulum")
+    assert repr(tw.rnea_terms(model, [0, 0], [0, 0], [0, 0])) == "RneaTerms(V, A, B, F, tau)"
+    assert repr(tw.crba_terms(model, [0, 0])) == "CrbaTerms(IC, F, M)"
+
+
 # ---------------------------------------------------------------- V ×* I V, without v × m v
 
 

@@ -7,7 +7,7 @@ axes of the state. A record is made anew by each call: unlike a workspace, it ca
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Self
 
 import numpy as np
@@ -21,8 +21,15 @@ Entries = Sequence[Array]
 Pair = tuple[int, int]
 
 
+class Terms:
+    """What the records have in common: how they print."""
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f.name for f in fields(self))})"  # type: ignore[arg-type]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class RneaTerms:
+class RneaTerms(Terms):
     """What `rnea_terms` returns.
 
     Attributes
@@ -52,7 +59,7 @@ class RneaTerms:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AbaTerms:
+class AbaTerms(Terms):
     """What `aba_terms` returns.
 
     Attributes
@@ -106,7 +113,7 @@ class AbaTerms:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CrbaTerms:
+class CrbaTerms(Terms):
     """What `crba_terms` returns.
 
     Attributes
@@ -134,7 +141,7 @@ class CrbaTerms:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CentroidalTerms:
+class CentroidalTerms(Terms):
     """What `centroidal_terms` returns.
 
     Attributes
