@@ -15,6 +15,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import bridge
+from twistwrench.model import PER_DOF
 
 if importlib.util.find_spec("pinocchio") is not None:
     import pinocchio as pin
@@ -500,7 +501,7 @@ def same_model(a, b, axis=0.0):
     for name, frame in a.frames.items():
         assert frame.body == b.frames[name].body
         assert (frame.placement.matrix() == b.frames[name].placement.matrix()).all()
-    for name in ("gravity", "armature", "lower", "upper", "velocity_limit", "effort_limit"):
+    for name in ("gravity", "lower", "upper", *PER_DOF):
         assert (getattr(a, name) == getattr(b, name)).all(), name
     assert a.postures.keys() == b.postures.keys()
     assert all((a.postures[name] == b.postures[name]).all() for name in a.postures)
@@ -512,6 +513,19 @@ def test_model_comes_back_as_it_left(tree):
     model = tw.random_tree(**tree)
     # Pinocchio normalises the axis of an oblique continuous joint once more.
     same_model(model, bridge.from_pinocchio_model(bridge.to_pinocchio_model(model)), axis=2.3e-16)
+
+
+@needs_pinocchio
+def test_damping_and_friction_cross_both_ways():
+    builder = tw.Builder("stiff", base="floating", root_inertia=tw.SpatialInertia(1, [0, 0, 0], np.eye(3)))
+    body = tw.SpatialInertia(1, [0, 0, 0.1], np.eye(3))
+    builder.link("a", parent="base_link", joint=tw.Revolute("x"), inertia=body, damping=0.5, friction=0.25)
+    builder.link("b", parent="a", joint=tw.FreeFlyer(), inertia=body, damping=[1, 2, 3, 4, 5, 6])
+    model = builder.build()
+    there = bridge.to_pinocchio_model(model)
+    assert there.damping.tolist() == [0] * 6 + [0.5, 4, 5, 6, 1, 2, 3]
+    assert there.upperDryFrictionLimit[6] == 0.25 == -there.lowerDryFrictionLimit[6]
+    same_model(model, bridge.from_pinocchio_model(there))
 
 
 @needs_pinocchio
@@ -693,7 +707,7 @@ def test_model_handed_over_is_the_one_that_pinocchio_reads_from_the_urdf(robot, 
     for i in range(1, ours.njoints):
         assert close(ours.jointPlacements[i].homogeneous, theirs.jointPlacements[i].homogeneous)
         assert close(ours.inertias[i].matrix(), theirs.inertias[i].matrix())
-    for name in ("lowerPositionLimit", "upperPositionLimit", "velocityLimit", "effortLimit", "armature"):
+    for name in ("lowerPositionLimit", "upperPositionLimit", "velocityLimit", "effortLimit", "armature", "damping"):
         bounded = np.abs(getattr(theirs, name)) < np.finfo(float).max
         assert (getattr(ours, name)[bounded] == getattr(theirs, name)[bounded]).all(), name
 

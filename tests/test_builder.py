@@ -473,3 +473,26 @@ def test_random_tree_that_cannot_be_is_refused():
 def test_random_tree_of_one_kind_has_that_kind(kind):
     model = tw.random_tree(5, rng=0, kinds=[kind])
     assert {joint.kind for joint in model.joints[1:]} == {kind}
+
+
+# ---------------------------------------------------------------- damping, friction, the base's joint
+
+
+def test_damping_and_friction_are_kept_for_each_degree_of_freedom():
+    builder = tw.Builder("slow", base="floating", root_joint="float")
+    builder.link("a", parent="base_link", joint=tw.Planar(), inertia=lump(1), damping=[1, 2, 3], friction=0.5)
+    model = builder.build()
+    assert model.joint_names == ("universe", "float", "a")
+    assert model.damping.tolist() == [0] * 6 + [1, 2, 3]
+    assert model.friction.tolist() == [0] * 6 + [0.5] * 3
+    assert not model.damping.flags.writeable
+    assert not tw.chain(2).damping.any()
+
+
+@pytest.mark.parametrize("number", ["damping", "friction"])
+def test_damping_that_cannot_be_is_refused(number):
+    for value, message in ((-1.0, "is below zero"), (np.inf, "is not finite"), (np.nan, "is not a number")):
+        with pytest.raises(tw.ModelError, match=f"joint 'a': {number}.*{message}"):
+            tw.Builder("b").link("a", parent="base_link", joint=tw.Revolute("x"), **{number: value})
+    with pytest.raises(tw.ModelError, match="limits and armature belong to a joint"):
+        tw.Builder("b").link("a", parent="base_link", **{number: 1.0})

@@ -19,7 +19,7 @@ from ..inertia import SpatialInertia
 from ..joint import AxisJoint, Joint
 from ..joint_types import Continuous, FreeFlyer
 from ..links import WORLD, Link
-from ..model import Frame, Model
+from ..model import PER_DOF, Frame, Model
 from ..plucker import SE3
 from .objects import (
     from_pinocchio_inertia,
@@ -51,10 +51,10 @@ def to_pinocchio_model(model: Model) -> Any:
     Returns
     -------
     pin.Model
-        Joints with the same ids and the same q; placements, inertias, armature, gravity, limits, named
-        configurations. Every frame has one name: that of a joint is a JOINT frame, all others are OP_FRAMEs,
-        since a `Model` does not keep which of them were links (``"link:a"`` and ``"joint:a"`` become the BODY
-        and the joint frame ``"a"`` again). What Pinocchio has no place for, `Model.feet`, stays behind.
+        Joints with the same ids and the same q; placements, inertias, armature, damping, friction, gravity,
+        limits, named configurations. Every frame has one name: that of a joint is a JOINT frame, all others are
+        OP_FRAMEs, since a `Model` does not keep which of them were links (``"link:a"`` and ``"joint:a"`` become
+        the BODY and the joint frame ``"a"`` again). What Pinocchio has no place for, `Model.feet`, stays behind.
 
     Raises
     ------
@@ -88,7 +88,8 @@ def to_pinocchio_model(model: Model) -> Any:
         limits = effort[vs], velocity[vs], model.lower[qs], model.upper[qs]
         name, placement = model.joint_names[i], to_pinocchio_se3(model.placement[i])
         there.addJoint(model.parent[i], _joint_there(pin, joint, name), placement, name, *limits)
-    there.armature = model.armature[order]
+    there.armature, there.damping = model.armature[order], model.damping[order]
+    there.lowerDryFrictionLimit, there.upperDryFrictionLimit = -model.friction[order], model.friction[order]
     there.gravity = pin.Motion(model.gravity.copy(), np.zeros(3))
     _frames_there(pin, model, there)
     for i in range(1, model.nbodies):  # last: each frame adds an inertia of its own, and to add zero rounds
@@ -157,8 +158,8 @@ def from_pinocchio_model(there: Any) -> Model:
     Model
         Bodies with the same ids and the same q; placements, inertias, armature, gravity, frames and named
         configurations. Limits of velocity and effort are Pinocchio's upper ones; its largest double is
-        infinity. What is welded to the world, friction, damping and rotors given apart from the armature
-        take no part in the chapter's dynamics and are left out.
+        infinity; so is its friction the upper limit of it. What is welded to the world and rotors given apart
+        from the armature take no part in the chapter's dynamics and are left out.
 
     Raises
     ------
@@ -195,6 +196,8 @@ def from_pinocchio_model(there: Any) -> Model:
         frames=_frames_here(there),
         gravity=there.gravity.linear,
         armature=there.armature[order],
+        damping=there.damping[order],
+        friction=there.upperDryFrictionLimit[order],
         lower=_limits(there.lowerPositionLimit),
         upper=_limits(there.upperPositionLimit),
         velocity_limit=_limits(there.velocityLimit[order]),
@@ -214,7 +217,7 @@ def _check_joints(model: Model) -> None:
         if name in model.joint_names[1:i]:
             raise ModelError(f"joint {name!r}: the name is taken")
         over_q = {key: getattr(model, key)[at[0]] for key in ("lower", "upper")}
-        over_v = {key: getattr(model, key)[at[1]] for key in ("velocity_limit", "effort_limit", "armature")}
+        over_v = {key: getattr(model, key)[at[1]] for key in PER_DOF}
         Link.checked("", WORLD, model.joints[i], name, model.placement[i], model.inertia[i], over_q | over_v)
 
 
