@@ -139,6 +139,8 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "motions.Motion": {name: getattr(WALK, name) for name in ("name", "t", "q", "v", "a", "feet", "contacts")},
     "Reduction.expand": {"q": HELD.reduce(STAND, REST)[0], "v": REST[:-1]},
     "SE3.from_matrix": {"T": np.eye(4)},
+    "force_transform": {"p": np.zeros(3)},
+    "motion_transform": {"p": np.zeros(3)},
     "bridge.from_pinocchio_force": {"F": np.ones(6)},
     "plot.arrows": {"points": np.zeros(3), "texts": ["a"]},
     "plot.felt_mass": {"inertia": BODY.matrix()},

@@ -255,3 +255,13 @@ def test_a_placement_shows_itself():
     for shape in [(4,), (2, 5)]:
         assert repr(placements(18, shape)) == f"<SE3: a batch of placements, shape {shape}>"
     assert placements(18)._repr_latex_() is None
+
+
+def test_a_placement_in_the_place_of_a_rotation_is_led_to_its_own_method():
+    for function in (motion_transform, force_transform):
+        with pytest.raises(
+            TypeError, match=rf"R, p: expected .*, got SE3 and None; did you mean T\.{function.__name__}"
+        ):
+            function(SE3.identity())
+        with pytest.raises(TypeError, match=r"R, p: expected a rotation matrix and a point, got ndarray and None$"):
+            function(np.eye(3))

@@ -21,7 +21,7 @@ from .rotation import cross_matrix
 __all__ = ["SE3", "force_transform", "motion_transform"]
 
 
-def motion_transform(R: ArrayLike, p: ArrayLike) -> Array:
+def motion_transform(R: ArrayLike, p: ArrayLike | None = None) -> Array:
     """Plücker transform of twists, X = [[R, 0], [[p]×R, R]] (section 49.3).
 
     Parameters
@@ -47,10 +47,18 @@ def motion_transform(R: ArrayLike, p: ArrayLike) -> Array:
     >>> X @ [0, 0, 1, 0, 0, 0]  # turning about z at (1, 0, 0): the origin of A moves along −y
     array([ 0.,  0.,  1.,  0., -1.,  0.])
     """
-    return SE3(R, p).motion_transform()
+    return _placed(R, p, "motion_transform").motion_transform()
 
 
-def force_transform(R: ArrayLike, p: ArrayLike) -> Array:
+def _placed(R: ArrayLike, p: ArrayLike | None, name: str) -> SE3:
+    """Return the placement; of an SE3 in the place of R say which method is meant."""
+    if isinstance(R, SE3) or p is None:
+        hint = f"; did you mean T.{name}()?" if isinstance(R, SE3) else ""
+        raise TypeError(f"R, p: expected a rotation matrix and a point, got {type(R).__name__} and {p!r}{hint}")
+    return SE3(R, p)
+
+
+def force_transform(R: ArrayLike, p: ArrayLike | None = None) -> Array:
     """Plücker transform of wrenches, X* = X⁻ᵀ = [[R, [p]×R], [0, R]] (sections 49.3 and 49.4).
 
     Parameters
@@ -76,7 +84,7 @@ def force_transform(R: ArrayLike, p: ArrayLike) -> Array:
     >>> Xf @ [0, 0, 0, 0, 0, 1]  # a unit force along z at (1, 0, 0) has the moment −1 about y
     array([ 0., -1.,  0.,  0.,  0.,  1.])
     """
-    return SE3(R, p).force_transform()
+    return _placed(R, p, "force_transform").force_transform()
 
 
 @dataclass(frozen=True, slots=True, eq=False, init=False)
