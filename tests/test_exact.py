@@ -161,6 +161,19 @@ def test_a_wrench_on_the_world_is_refused_whatever_its_numbers():
             tw.rnea(TWO, [F(0), 0], [0, 0], [0, 0], f_ext)
 
 
+def test_a_quaternion_of_fractions_may_have_any_length_but_zero():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed")
+    go2, q = tw.load("go2"), [F(0)] * 19
+    for zero in (F(0), sympy.Integer(0)):
+        q[3:7] = [zero] * 4
+        with pytest.raises(ValueError, match=r"^q: q\[3:7\] is zero, no direction; model\.neutral\(\) has one"):
+            tw.crba(go2, q)
+    with pytest.raises(ValueError, match=r"q\[3:7\] is zero at index \(1,\), no direction"):
+        tw.crba(go2, np.array([[*q[:6], F(2), *q[7:]], q], object))
+    q[6] = F(2)
+    same(tw.crba(go2, q), tw.crba(go2, go2.neutral()))
+
+
 def test_functions_of_floats_say_so():
     for call in (
         lambda x: tw.exp3(x), lambda x: tw.exp6([*x, *x]), lambda x: tw.fast.crba(tw.chain(3), x),

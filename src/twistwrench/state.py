@@ -27,7 +27,7 @@ def check_state(model: Coordinates, any_number: bool = False, /, **named: ArrayL
     """Check a state and bring it to one dtype and one batch shape: see `Model.state`.
 
     With `any_number`, fractions, SymPy's numbers and the like pass, as arrays of objects: of these only shapes are
-    checked, and that each is a finite number.
+    checked, that each is a finite number, and no quaternion zero; any other length is divided out exactly.
     """
     arrays, names = list(check_arrays(model, any_number, **named)), tuple(named)
     tails = [2 if name == "f_ext" else 1 for name in names]
@@ -37,7 +37,10 @@ def check_state(model: Coordinates, any_number: bool = False, /, **named: ArrayL
     except ValueError:
         listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches) if shape)
         raise ShapeError(f"batch axes do not broadcast: {listed}") from None
-    for k, name in enumerate(names if arrays[0].dtype != object else ()):
+    for k, name in enumerate(names):
+        if arrays[k].dtype == object:
+            _refuse_zero(model, arrays[k], name)
+            continue
         check_size(arrays[k], name)
         if name.startswith("q"):
             arrays[k] = _with_norm_1(model, arrays[k], name, came=np.asarray(named[name]).dtype)
@@ -99,6 +102,18 @@ def _shape(value: Any) -> tuple[int, ...]:
         return np.shape(value)
     except ValueError:  # rows of different lengths: as_arrays says so
         return ()
+
+
+def _refuse_zero(model: Coordinates, q: Array, name: str) -> None:
+    """Refuse a quaternion or a (cos, sin) that is known to be zero, among numbers that are objects."""
+    for joint, s in zip(model.joints, model.q_slice):
+        if joint is None or joint.unit is None or not name.startswith("q"):
+            continue
+        part = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
+        bad = np.asarray((judged(q[..., part]) == 0).all(-1))
+        if bad.any():
+            mend = "model.neutral() has one that turns nothing"
+            raise ValueError(f"{name}: {name}[{part.start}:{part.stop}] is zero{which(bad)}, no direction; {mend}")
 
 
 def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -> Array:
