@@ -8,6 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..robots import robot, small_robot
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "linear_momentum", "momentum_of_links", "pinocchio_linear_momentum"]
 
@@ -32,18 +33,7 @@ def momentum_of_links(model: Any, q: Any, v: Any) -> Any:
     return total
 
 
-def _bodies(of_body: Any) -> Any:
-    """Sum over the bodies something of mass, centre, rotation, ω and v."""
-
-    def wrong(model: Any, q: Any, v: Any) -> Any:
-        motion = tw.forward_kinematics(model, q, v)
-        bodies = list(zip(model.inertia, motion.placement, np.array(motion.twist)))[1:]
-        return sum(of_body(float(body.mass), body.com, T.rotation, V[:3], V[3:]) for body, T, V in bodies)
-
-    return wrong
-
-
-MASSLESS = _bodies(lambda m, c, R, w, u: R @ (u + np.cross(w, c)))
+MASSLESS = faulty(momentum_of_links, ("body.mass * ", ""))
 
 
 def _unweighted(model: Any, q: Any, v: Any) -> Any:
@@ -106,11 +96,11 @@ LINKS = Part(
         for model in (robot("go2"), small_robot(rng), small_robot(rng))
     ],
     slips={
-        "frame-for-com": _bodies(lambda m, c, R, w, u: m * R @ u),
-        "cross-order": _bodies(lambda m, c, R, w, u: m * R @ (u + np.cross(c, w))),
-        "local-for-world": _bodies(lambda m, c, R, w, u: m * (u + np.cross(w, c))),
-        "rotation-transposed": _bodies(lambda m, c, R, w, u: m * R.mT @ (u + np.cross(w, c))),
-        "angular-for-linear": _bodies(lambda m, c, R, w, u: m * R @ w),
+        "frame-for-com": faulty(momentum_of_links, (" + np.cross(V[:3], body.com)", "")),
+        "cross-order": faulty(momentum_of_links, ("np.cross(V[:3], body.com)", "np.cross(body.com, V[:3])")),
+        "local-for-world": faulty(momentum_of_links, ("T.rotation @ velocity", "velocity")),
+        "rotation-transposed": faulty(momentum_of_links, ("T.rotation @", "T.rotation.mT @")),
+        "angular-for-linear": faulty(momentum_of_links, ("T.rotation @ velocity", "T.rotation @ V[:3]")),
         "mass-dropped": MASSLESS,
         "unweighted-mean": _unweighted,
         "base-for-com": _base,

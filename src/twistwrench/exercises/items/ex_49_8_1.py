@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA
 from ..robots import robot
-from ..wrong import after, before, swap, swapped
+from ..wrong import after, before, faulty, swap, swapped
 
 __all__ = ["EXERCISE", "base_block", "whole_robot"]
 
@@ -31,17 +31,6 @@ def whole_robot(block: Any) -> Any:
     return m, c, block[:3, :3] + m * tw.skew(c) @ tw.skew(c)
 
 
-def _summed(moved: Any) -> Any:
-    """Sum over the bodies what becomes of a body's inertia, given its placement in the base and in the world."""
-
-    def wrong(model: Any, q: Any) -> Any:
-        placement = tw.forward_kinematics(model, q).placement
-        bodies = zip(model.inertia[1:], placement[1:])
-        return sum(moved(body, placement[1].inverse() @ T, T, placement[1]) for body, T in bodies)
-
-    return wrong
-
-
 def _about_the_origin(T: Any, base: Any) -> Any:
     """Return a placement seen from a frame at the base with the axes of the world."""
     return tw.SE3(T.rotation, T.translation - base.translation)
@@ -53,16 +42,6 @@ def _parts(change: Any) -> Any:
     def wrong(model: Any, q: Any) -> Any:
         block = base_block(model, q)
         return np.block(change(block[:3, :3], block[:3, 3:], block[3:, 3:]))
-
-    return wrong
-
-
-def _moved(I_c: Any) -> Any:
-    """Return whole_robot with another inertia about the centre of mass."""
-
-    def wrong(block: Any) -> Any:
-        m, c, _ = whole_robot(block)
-        return m, c, I_c(block[:3, :3], m, c)
 
     return wrong
 
@@ -82,16 +61,20 @@ BLOCK = Part(
     cases=_cases,
     slips={
         "legs-left-out": lambda model, q: model.inertia[1].matrix(),
-        "untransformed": _summed(lambda body, T, world, base: body.matrix()),
-        "world-for-local": _summed(lambda body, T, world, base: body.transform(world).matrix()),
-        "aligned-for-local": _summed(
-            lambda body, T, world, base: body.transform(_about_the_origin(world, base)).matrix()
+        "untransformed": faulty(base_block, ("body.transform(base @ T).matrix()", "body.matrix()")),
+        "world-for-local": faulty(base_block, ("base @ T", "T")),
+        "aligned-for-local": faulty(base_block, ("base @ T", "_about_the_origin(T, placement[1])")),
+        "inverse-transform": faulty(base_block, ("base @ T", "(base @ T).inverse()")),
+        "inertia-like-motion": faulty(
+            base_block,
+            (
+                "body.transform(base @ T).matrix()",
+                "(base @ T).motion_transform() @ body.matrix() @ (base @ T).inverse().motion_transform()",
+            ),
         ),
-        "inverse-transform": _summed(lambda body, T, world, base: body.transform(T.inverse()).matrix()),
-        "inertia-like-motion": _summed(
-            lambda body, T, world, base: T.motion_transform() @ body.matrix() @ T.inverse().motion_transform()
+        "inertia-half-rotated": faulty(
+            base_block, ("body.transform(base @ T).matrix()", "(base @ T).force_transform() @ body.matrix()")
         ),
-        "inertia-half-rotated": _summed(lambda body, T, world, base: T.force_transform() @ body.matrix()),
         "parallel-axis-dropped": _parts(
             lambda I, mc, m: [[I + mc @ mc / m[0, 0], mc], [-mc, m]],
         ),
@@ -120,10 +103,10 @@ WHOLE = Part(
     slips={
         "mass-dropped": lambda block: (block[3, 3], tw.unskew(block[:3, 3:]), whole_robot(block)[2]),
         "com-sign": lambda block: (block[3, 3], -whole_robot(block)[1], whole_robot(block)[2]),
-        "parallel-axis-sign": _moved(lambda I, m, c: I - m * tw.skew(c) @ tw.skew(c)),
-        "parallel-axis-dropped": _moved(lambda I, m, c: I),
-        "parallel-axis-all": _moved(lambda I, m, c: I - m * (c @ c) * np.eye(3)),
-        "parallel-axis-outer": _moved(lambda I, m, c: I - m * np.outer(c, c)),
+        "parallel-axis-sign": faulty(whole_robot, ("+ m", "- m")),
+        "parallel-axis-dropped": faulty(whole_robot, (" + m * tw.skew(c) @ tw.skew(c)", "")),
+        "parallel-axis-all": faulty(whole_robot, ("+ m * tw.skew(c) @ tw.skew(c)", "- m * (c @ c) * np.eye(3)")),
+        "parallel-axis-outer": faulty(whole_robot, ("+ m * tw.skew(c) @ tw.skew(c)", "- m * np.outer(c, c)")),
         "swapped-halves": before(whole_robot, swap, which=0),
     },
     residuals=(lambda answer, block: tw.SpatialInertia(*answer).matrix() - block,),

@@ -9,7 +9,7 @@ from ...trees import random_tree
 from ..exercise import Part, Quantity
 from ..robots import robot
 from ..workbook import mine
-from ..wrong import after, swap
+from ..wrong import after, faulty, swap
 
 __all__ = ["PLACEMENTS", "TWISTS", "WRENCHES", "body_placements", "body_twists", "carried_wrenches"]
 
@@ -42,25 +42,9 @@ def carried_wrenches(parent: Any, T: Any, F: Any) -> Any:
     return carried
 
 
-def _transforms(T: Any) -> Any:
-    return mine("transforms_of")(T)
-
-
 def _previous(parent: Any) -> Any:
     """Return the parents that a chain would have."""
     return tuple(range(-1, len(parent) - 1))
-
-
-def _placed(step: Any) -> Any:
-    """Place a body otherwise, given its parent's placement and its own in the parent."""
-
-    def wrong(parent: Any, T: Any) -> Any:
-        placed = [np.eye(4)]
-        for i in range(1, len(parent)):
-            placed.append(step(placed[parent[i]], T[i]))
-        return np.array(placed)
-
-    return wrong
 
 
 def _unmoved(before: Any, T: Any) -> Any:
@@ -74,31 +58,6 @@ def _added(before: Any, T: Any) -> Any:
     placed = before @ T
     placed[:3, 3] = before[:3, 3] + T[:3, 3]
     return placed
-
-
-def _outward(step: Any) -> Any:
-    """Carry a twist otherwise, given T, the parent's twist and the joint's."""
-
-    def wrong(parent: Any, T: Any, V_joint: Any) -> Any:
-        V = [np.zeros(6)]
-        for i in range(1, len(parent)):
-            V.append(step(T[i], V[parent[i]], V_joint[i]))
-        return np.array(V)
-
-    return wrong
-
-
-def _inward(step: Any, *, reverse: bool = True) -> Any:
-    """Carry a wrench otherwise, given T, the parent's wrench so far and the body's."""
-
-    def wrong(parent: Any, T: Any, F: Any) -> Any:
-        carried = F.copy()
-        bodies = range(1, len(parent))
-        for i in reversed(bodies) if reverse else bodies:
-            carried[parent[i]] = step(T[i], carried[parent[i]], carried[i])
-        return carried
-
-    return wrong
 
 
 def _uncoupled(X: Any) -> Any:
@@ -129,10 +88,14 @@ PLACEMENTS = Part(
     returns=(Quantity("oMi"),),
     cases=lambda rng: [(parent, T) for parent, T, _ in _robots(rng)],
     slips={
-        "composition-order": _placed(lambda before, T: T @ before),
+        "composition-order": faulty(body_placements, ("placed[parent[i]] @ T[i]", "T[i] @ placed[parent[i]]")),
         "chain-for-tree": lambda parent, T: body_placements(_previous(parent), T),
-        "translation-unrotated": _placed(_added),
-        "translation-dropped": _placed(_unmoved),
+        "translation-unrotated": faulty(
+            body_placements, ("placed[parent[i]] @ T[i]", "_added(placed[parent[i]], T[i])")
+        ),
+        "translation-dropped": faulty(
+            body_placements, ("placed[parent[i]] @ T[i]", "_unmoved(placed[parent[i]], T[i])")
+        ),
         "inverse-transform": after(body_placements, np.linalg.inv),
         "untransformed": lambda parent, T: T,
     },
@@ -145,11 +108,13 @@ TWISTS = Part(
     returns=(Quantity("V"),),
     cases=_robots,
     slips={
-        "inverse-transform": _outward(lambda T, V, V_joint: _transforms(T)[0] @ V + V_joint),
-        "force-for-motion": _outward(lambda T, V, V_joint: _transforms(np.linalg.inv(T))[1] @ V + V_joint),
-        "transpose-for-inverse": _outward(lambda T, V, V_joint: _transforms(T)[0].mT @ V + V_joint),
-        "coupling-dropped": _outward(lambda T, V, V_joint: _uncoupled(_transforms(T)[0].mT) @ V + V_joint),
-        "untransformed": _outward(lambda T, V, V_joint: V + V_joint),
+        "inverse-transform": faulty(body_twists, ("np.linalg.inv(T[i])", "T[i]")),
+        "force-for-motion": faulty(body_twists, ("X, _ =", "_, X =")),
+        "transpose-for-inverse": faulty(
+            body_twists, ("X, _ = transforms(np.linalg.inv(T[i]))", "X = transforms(T[i])[0].mT")
+        ),
+        "coupling-dropped": faulty(body_twists, ("X @ V", "_uncoupled(X) @ V")),
+        "untransformed": faulty(body_twists, ("X @ V", "V")),
         "twist-not-carried": lambda parent, T, V_joint: V_joint,
         "chain-for-tree": lambda parent, T, V_joint: body_twists(_previous(parent), T, V_joint),
         "swapped-halves": lambda parent, T, V_joint: _halves(body_twists(parent, T, V_joint)),
@@ -170,20 +135,20 @@ WRENCHES = Part(
     returns=(Quantity("F"),),
     cases=_with_wrenches,
     slips={
-        "force-outward": _inward(lambda T, before, F: before + _transforms(np.linalg.inv(T))[1] @ F),
-        "motion-for-force": _inward(lambda T, before, F: before + _transforms(T)[0] @ F),
-        "coupling-dropped": _inward(lambda T, before, F: before + _uncoupled(_transforms(T)[0]) @ F),
-        "untransformed": _inward(lambda T, before, F: before + F),
-        "children-overwritten": _inward(lambda T, before, F: _transforms(T)[1] @ F),
+        "force-outward": faulty(carried_wrenches, ("transforms(T[i])", "transforms(np.linalg.inv(T[i]))")),
+        "motion-for-force": faulty(carried_wrenches, ("_, X_star =", "X_star, _ =")),
+        "coupling-dropped": faulty(carried_wrenches, ("X_star @ carried", "_uncoupled(X_star) @ carried")),
+        "untransformed": faulty(carried_wrenches, ("X_star @ carried", "carried")),
+        "children-overwritten": faulty(carried_wrenches, ("+=", "=")),
         "children-dropped": lambda parent, T, F: F,
-        "force-sign": _inward(lambda T, before, F: before - _transforms(T)[1] @ F),
-        "visited-outward": _inward(lambda T, before, F: before + _transforms(T)[1] @ F, reverse=False),
+        "force-sign": faulty(carried_wrenches, ("+=", "-=")),
+        "visited-outward": faulty(carried_wrenches, ("range(len(parent) - 1, 0, -1)", "range(1, len(parent))")),
         "chain-for-tree": lambda parent, T, F: carried_wrenches(_previous(parent), T, F),
         "swapped-halves": lambda parent, T, F: _halves(carried_wrenches(parent, T, F)),
     },
     residuals=(
         lambda answer, parent, T, F: (
-            answer[0] - sum(_transforms(P)[1] @ f for P, f in zip(body_placements(parent, T), F))
+            answer[0] - sum(mine("transforms_of")(P)[1] @ f for P, f in zip(body_placements(parent, T), F))
         ),
     ),
 )
