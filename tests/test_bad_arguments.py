@@ -64,3 +64,27 @@ def test_wrench_that_is_not_a_number_is_no_wrench_on_the_world():
     for function in (tw.rnea, tw.aba, tw.joint_wrenches):
         with pytest.raises(ValueError, match=r"f_ext: expected finite numbers, got nan at index \(0, 0\)"):
             function(GO2, STAND, REST, REST, np.full((14, 6), np.nan))
+
+
+def test_a_set_of_contacts_has_no_order_and_is_refused():
+    """Rows of J, h and λ come in the order of the contacts; that of a set changes from run to run."""
+    names, contacts = set(GO2.feet), {tw.PointContact(foot, 0.6) for foot in GO2.feet}
+    for function in (
+        lambda: tw.contact_jacobian(GO2, STAND, names),
+        lambda: tw.dynamics(GO2, STAND, REST, contacts=frozenset(names)),
+        lambda: tw.fast.dynamics(GO2, STAND, REST, contacts=names),
+        lambda: tw.static_equilibrium(GO2, STAND, names),
+        lambda: tw.constraint_jacobian(GO2, STAND, contacts),
+        lambda: tw.contact_forward_dynamics(GO2, STAND, REST, REST, contacts),
+        lambda: tw.stance_margins(GO2, STAND, contacts),
+        lambda: tw.project_state(GO2, STAND, REST, contacts, {}),
+        lambda: tw.simulate(GO2, STAND, REST, dt=0.01, steps=1, contacts=contacts),
+        lambda: tw.Scene(GO2, contacts=contacts),
+    ):
+        with pytest.raises(
+            TypeError, match=r"contacts: expected a sequence of (contacts|frame names), got a (frozen)?set"
+        ):
+            function()
+    assert tw.dynamics(GO2, STAND, REST, want={"M", "h"}).M.shape == (18, 18)  # where order does not count
+    in_order = tw.contact_jacobian(GO2, STAND, dict.fromkeys(GO2.feet))  # a dict has one
+    assert (in_order == tw.contact_jacobian(GO2, STAND, GO2.feet)).all()

@@ -199,7 +199,7 @@ class Builder:
         """
         postures = {} if postures is None else postures
         check_kind(postures, "postures", Mapping, "configurations by name")
-        feet, physical = as_names(feet, "feet", "frame names"), as_flag(physical, "physical")
+        feet, physical = as_names(feet, "feet", "frame names", ordered=True), as_flag(physical, "physical")
         with np.errstate(over="ignore", invalid="ignore"):
             tree = Numbered(self._links)
             tree.check_finite()

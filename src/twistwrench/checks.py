@@ -252,8 +252,8 @@ def as_generator(rng: np.random.Generator | int | None) -> np.random.Generator:
         raise ValueError(f"rng: expected {expected}, got {rng!r}") from None
 
 
-def as_names(value: Iterable[str], name: str, expected: str) -> tuple[str, ...]:
-    """Return several names as a tuple; refuse a string, which is a sequence of letters.
+def as_names(value: Iterable[str], name: str, expected: str, *, ordered: bool = False) -> tuple[str, ...]:
+    """Return several names as a tuple; refuse a string, which is a sequence of letters, and where order counts a set.
 
     Examples
     --------
@@ -261,7 +261,7 @@ def as_names(value: Iterable[str], name: str, expected: str) -> tuple[str, ...]:
     Traceback (most recent call last):
     ValueError: contacts: expected a sequence of frame names, got the string 'FR_foot'
     """
-    return as_sequence(value, name, expected, letters=False)
+    return as_sequence(value, name, expected, letters=False, ordered=ordered)
 
 
 def _numeric(value: ArrayLike, name: str) -> Array:

@@ -85,7 +85,7 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     ((12, 18), 12)
     """
     (q,) = state_of(model, q)
-    contacts = as_names(contacts, "contacts", "frame names")
+    contacts = as_names(contacts, "contacts", "frame names", ordered=True)
     rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
 
@@ -155,7 +155,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     np.float64(157.794)
     """
     check_model(model)
-    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names", ordered=True)
     if model.base != "floating":
         raise ValueError(
             f"{model.name!r}: expected a floating base, got a {model.base} one, which holds the robot; "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Set
 from typing import Any
 
 import numpy as np
@@ -52,8 +52,12 @@ def as_flag(value: object, name: str) -> bool:
     return bool(one)
 
 
-def as_sequence(value: Iterable[Any], name: str, expected: str, *, letters: bool = True) -> tuple[Any, ...]:
+def as_sequence(
+    value: Iterable[Any], name: str, expected: str, *, letters: bool = True, ordered: bool = False
+) -> tuple[Any, ...]:
     """Return several things as a tuple; refuse one of them alone, and unless single letters will do a string.
+
+    Where their order counts (`ordered`), refuse a set as well: it has none.
 
     Examples
     --------
@@ -63,6 +67,9 @@ def as_sequence(value: Iterable[Any], name: str, expected: str, *, letters: bool
     """
     if isinstance(value, str) and not letters:
         raise ValueError(f"{name}: expected a sequence of {expected}, got the string {value!r}")
+    if ordered and isinstance(value, Set):
+        kind = type(value).__name__
+        raise TypeError(f"{name}: expected a sequence of {expected}, got a {kind}, which has no order; a list has one")
     try:
         return tuple(value)
     except TypeError:

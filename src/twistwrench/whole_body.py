@@ -91,7 +91,7 @@ def dynamics(
     ((18, 18), (12, 18), None)
     """
     state_of(model, q, v=v)  # also where no wanted quantity depends on v
-    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names")
+    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names", ordered=True)
     want = wanted(want)
     compute = {
         "M": lambda: crba(model, q),

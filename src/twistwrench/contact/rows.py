@@ -213,7 +213,7 @@ def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...
     check_model(model)
     if isinstance(contacts, str | Contact):
         raise ValueError(f"contacts: expected a sequence of contacts, got the single {contacts!r}")
-    contacts = as_sequence(contacts, "contacts", "contacts")
+    contacts = as_sequence(contacts, "contacts", "contacts", ordered=True)
     for c in contacts:
         if not isinstance(c, Contact):
             hint = f"; PointContact({c!r}, mu) makes one of a frame" if isinstance(c, str) else ""

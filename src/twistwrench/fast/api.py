@@ -200,7 +200,7 @@ def dynamics(
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
     want = wanted(want)
-    contacts = None if contacts is None else as_names(contacts, "contacts", "frame names")
+    contacts = None if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
     given = {} if out is None else {name: x for name, x in vars(out).items() if x is not None}

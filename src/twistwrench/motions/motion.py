@@ -60,7 +60,7 @@ class Motion:
 
     def __post_init__(self) -> None:
         check_kind(self.name, "name", str, "a name")
-        object.__setattr__(self, "feet", as_names(self.feet, "feet", "frame names"))
+        object.__setattr__(self, "feet", as_names(self.feet, "feet", "frame names", ordered=True))
         for foot in self.feet:
             check_kind(foot, "feet", str, "frame names")
         for name in ("t", "q", "v", "a"):

@@ -94,7 +94,7 @@ def flow(
     """
     seat = seats(model)
     size = np.ones(model.nbodies) if amounts is None else drawn(amounts, "amounts", model.nbodies)
-    texts = as_names(texts, "texts", "texts")
+    texts = as_names(texts, "texts", "texts", ordered=True)
     if len(texts) != model.nbodies or size.ndim != 1:
         raise ShapeError(f"texts, amounts: expected {model.nbodies} of each, got {len(texts)} and {size.shape}")
     width = 1 + 4 * np.sqrt(np.abs(size) / (np.abs(size[1:]).max(initial=0) or 1.0))

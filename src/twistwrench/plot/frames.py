@@ -102,7 +102,7 @@ def arrows(
     """
     scale = drawn_number(scale, "scale")
     p, x = drawn(points, "points", 3), drawn(vectors, "vectors", 3)
-    texts = as_names(texts, "texts", "texts")
+    texts = as_names(texts, "texts", "texts", ordered=True)
     try:
         p, x = (a.reshape(-1, 3) for a in np.broadcast_arrays(p, x))
     except ValueError:

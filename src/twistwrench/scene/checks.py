@@ -34,7 +34,7 @@ def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact
     """
     if isinstance(contacts, str | Contact):
         raise TypeError(f"contacts: expected a sequence of contacts, got {contacts!r}")
-    contacts = as_sequence(contacts, "contacts", "contacts")
+    contacts = as_sequence(contacts, "contacts", "contacts", ordered=True)
     for contact in contacts:
         if not isinstance(contact, Contact):
             came = f"{type(contact).__name__} {contact!r}"
