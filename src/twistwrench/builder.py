@@ -88,6 +88,7 @@ class Builder:
         self._base = base
         self._gravity = as_exactly(gravity, "gravity", 3)
         self._links: dict[str, Link] = {}
+        self._joint_names: set[str] = set()
         flyer, joint_name = (FreeFlyer(), root_joint) if base == "floating" else (None, "")
         inertia = SpatialInertia.zero() if root_inertia is None else root_inertia
         self._add(Link.checked(root, WORLD, flyer, joint_name, SE3.identity(), inertia, {}))
@@ -167,9 +168,10 @@ class Builder:
     def _add(self, link: Link) -> None:
         if link.name in self._links:
             raise ModelError(f"link {link.name!r}: the name is taken")
-        if link.joint_name in (other.joint_name for other in self._links.values()):
+        if link.joint_name in self._joint_names:
             raise ModelError(f"link {link.name!r}: the joint name {link.joint_name!r} is taken")
         self._links[link.name] = link
+        self._joint_names.add(link.joint_name)
 
     def build(
         self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = (), physical: bool = True

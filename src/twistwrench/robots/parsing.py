@@ -144,7 +144,7 @@ def _placement(element: Element) -> SE3:
         return SE3.identity()
     nothing = (0.0, 0.0, 0.0)
     xyz, rpy = origin.numbers("xyz", nothing), origin.numbers("rpy", nothing)
-    return SE3(rpy_to_rotation(np.array(rpy)), np.array(xyz))
+    return SE3._trusted(rpy_to_rotation(np.array(rpy)), np.array(xyz))
 
 
 def _axis(joint: Element, kind: str) -> tuple[float, ...]:
