@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Any
 
 from ...files import write_text
 from ...options import at_least, check_writable
+from .report import Trade
 from .run import FULL, KEYS, SHORT, weigh
 
 __all__ = ["add_trade"]
@@ -32,6 +34,14 @@ def add_trade(studies: Any) -> None:
     parser.set_defaults(run=run_trade)
 
 
+def _keep(trade: Trade, path: Path | None) -> None:
+    """Print what was measured before the study was stopped, and write it beside the file that was asked for."""
+    if path is not None:
+        write_text(f"{path}.part", trade.to_json() + "\n")
+        print(f"twistwrench: stopped; what was finished is in {path}.part", file=sys.stderr)
+    print(f"{trade}\n\nstopped: the other quantities were not measured")
+
+
 def run_trade(args: argparse.Namespace) -> int:
     """Measure, print, write, draw."""
     check_writable("--json", args.json)
@@ -42,7 +52,21 @@ def run_trade(args: argparse.Namespace) -> int:
         check_format(args.plot)
     effort = SHORT if args.short else FULL
     progress = True if args.progress else None
-    trade = weigh(args.robot, base=args.base, only=args.only, effort=effort, rng=args.seed, progress=progress)
+    measured: list[Trade] = []
+    try:
+        trade = weigh(
+            args.robot,
+            base=args.base,
+            only=args.only,
+            effort=effort,
+            rng=args.seed,
+            progress=progress,
+            after_quantity=measured.append,
+        )
+    except KeyboardInterrupt:
+        if measured:
+            _keep(measured[-1], args.json)
+        raise
     print(trade)
     if args.json is not None:
         write_text(args.json, trade.to_json() + "\n")

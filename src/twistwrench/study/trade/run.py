@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from dataclasses import replace
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike
@@ -48,6 +49,7 @@ def weigh(
     effort: Effort = FULL,
     rng: int = 0,
     progress: bool | None = False,
+    after_quantity: Callable[[Trade], object] = lambda trade: None,
 ) -> Trade:
     """Measure speed against accuracy: every quantity, every way, every number type.
 
@@ -64,6 +66,8 @@ def weigh(
         Seed of the random states.
     progress : bool, optional
         Show a bar on stderr; None: if that is a terminal.
+    after_quantity : callable
+        Called with what was measured so far, after each quantity.
 
     Returns
     -------
@@ -98,6 +102,17 @@ def weigh(
     oracle = _oracle(model)
     quantities = [q for q in _quantities(model, oracle, effort, rng) if not only or q.key in only]
     points, left_out = [], []
+    trade = Trade(
+        robot=model.name if isinstance(robot, Model) else str(robot),
+        description=repr(model).partition(": ")[2],
+        names={},
+        points=(),
+        left_out=(),
+        missing=_missing(),
+        versions=_versions(),
+        effort=effort,
+        seconds=0.0,
+    )
     steps = sum(len(candidates(q)) + effort.rounds for q in quantities)
     hidden = None if progress is None else not progress
     with tqdm(total=steps, unit="step", leave=False, disable=hidden) as bar:
@@ -106,17 +121,11 @@ def weigh(
             found, refused = measure(quantity, effort, bar.update)
             points += found
             left_out += refused
-    return Trade(
-        robot=model.name if isinstance(robot, Model) else str(robot),
-        description=repr(model).partition(": ")[2],
-        names={q.key: q.name for q in quantities},
-        points=tuple(points),
-        left_out=tuple(left_out),
-        missing=_missing(),
-        versions=_versions(),
-        effort=effort,
-        seconds=time.perf_counter() - start,
-    )
+            names = {**trade.names, quantity.key: quantity.name}
+            seconds = time.perf_counter() - start
+            trade = replace(trade, names=names, points=tuple(points), left_out=tuple(left_out), seconds=seconds)
+            after_quantity(trade)
+    return trade
 
 
 def _load(robot: Model | str | PathLike[str], base: Literal["fixed", "floating"] | None) -> Model:
