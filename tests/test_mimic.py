@@ -134,6 +134,17 @@ def test_virtual_work_is_the_same_in_both_coordinates(save):
     assert tw.rnea(model, q, v, a) @ v == pytest.approx(work, rel=1e-13)
 
 
+def test_a_leader_may_follow_another_joint(save):
+    model = tw.load(save(CHAIN), mimic="reduce")
+    q, _ = model.expand([0.3], [0.0])
+    c = -3 * 0.3 + 0.2
+    assert q == pytest.approx([0.3, 2 * c + 0.1, c], rel=1e-15)
+    assert model.G.ravel().tolist() == [1, -6, -3]
+    wheels = tw.load(save(WHEELS), mimic="reduce")
+    q, _ = wheels.expand([np.cos(2.0), np.sin(2.0)], [0.0])
+    assert q == pytest.approx([np.cos(2.0), np.sin(2.0), np.cos(0.4 - 2.0), np.sin(0.4 - 2.0), 4.0], rel=1e-14)
+
+
 def test_forces_from_outside_and_batches_and_number_types(save):
     model = tw.load(save(FINGER), mimic="reduce")
     rng = np.random.default_rng(1)
