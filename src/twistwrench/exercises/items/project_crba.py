@@ -52,6 +52,8 @@ CRBA = Part(
         ),
         "force-outward": faulty(tree_crba, ("X[j].mT @ F", "np.linalg.inv(X[j]).mT @ F")),
         "motion-for-force": faulty(tree_crba, ("X[j].mT @ F", "np.linalg.inv(X[j]) @ F")),
+        "untransposed": faulty(tree_crba, ("X[j].mT @ F", "X[j] @ F")),
+        "congruence-reversed": faulty(tree_crba, ("X[i].mT @ IC[i] @ X[i]", "X[i] @ IC[i] @ X[i].mT")),
         "visited-outward": faulty(tree_crba, ("range(n - 1, 0, -1)", "range(1, n)")),
         "joints-missing": faulty(tree_crba, ("parent[j] > 0", "parent[j] > 1")),
         "off-diagonal-missing": faulty(tree_crba, ("while parent[j] > 0", "while False")),

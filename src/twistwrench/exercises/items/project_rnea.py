@@ -79,6 +79,9 @@ RNEA = Part(
         ),
         "children-dropped": faulty(tree_rnea, (" + X[i].mT @ F[i]", "")),
         "force-sign": faulty(tree_rnea, ("+ X[i].mT @ F[i]", "- X[i].mT @ F[i]")),
+        "untransposed": faulty(tree_rnea, ("X[i].mT @ F[i]", "X[i] @ F[i]")),
+        "own-overwritten": faulty(tree_rnea, ("F[parent[i]] + X[i].mT", "X[i].mT")),
+        "twist-not-carried": faulty(tree_rnea, ("X[i] @ V[p] + S[i]", "S[i]")),
         "visited-outward": faulty(tree_rnea, ("range(n - 1, 0, -1)", "range(1, n)")),
         "chain-for-tree": lambda parent, *rest: tree_rnea(previous(parent), *rest),
         "velocity-terms-missing": lambda parent, S, I, X, qd, qdd, a0: tree_rnea(
