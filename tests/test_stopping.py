@@ -99,6 +99,16 @@ def test_a_sweep_that_nobody_reads_stops():
     process.stderr.close()
 
 
+def test_a_sweep_that_meets_the_closed_pipe_while_it_prints_is_quiet():
+    process = started(*SWEEP)
+    for _ in range(3):
+        process.stdout.readline()
+    process.stdout.close()
+    assert process.wait(30) == 141
+    assert process.stderr.read() == ""
+    process.stderr.close()
+
+
 @pytest.mark.parametrize(
     "arguments",
     [["study", "trade", "go2"], ["study", "extremes"], ["study", "speed"], ["study", "templates"]],

@@ -49,6 +49,8 @@ def heeded() -> Iterator[None]:
     timer = hasattr(signal, "setitimer")
 
     def stop(*received: Any) -> None:
+        if unread.is_set() and _is_tidied():
+            return  # what was printed has met the closed pipe, too
         stopped = Stopped(UNREAD if unread.is_set() else 128 + received[0])
         if timer and signal.getsignal(signal.SIGALRM) is signal.SIG_DFL:
             before[signal.SIGALRM] = signal.signal(signal.SIGALRM, lambda *_: _again(stopped))
@@ -75,8 +77,13 @@ def heeded() -> Iterator[None]:
 
 def _again(stopped: Stopped) -> None:
     """Raise an exception that has been swallowed; not where it is being tidied up after."""
-    if not isinstance(sys.exc_info()[1], KeyboardInterrupt):
+    if not _is_tidied():
         raise stopped
+
+
+def _is_tidied() -> bool:
+    """Whether the main thread is on its way out, in a ``finally`` or the like."""
+    return isinstance(sys.exc_info()[1], KeyboardInterrupt | BrokenPipeError | GeneratorExit)
 
 
 def _is_pipe(stream: Any) -> bool:
