@@ -16,7 +16,9 @@ from pathlib import Path
 import numpy as np
 
 import twistwrench as tw
-from twistwrench.fast import dispatch, door, one
+from twistwrench.fast import arguments as door
+from twistwrench.fast import dispatch
+from twistwrench.fast import single as one
 from twistwrench.study.cases import random_states
 
 RESULTS = Path(__file__).parent / "results"

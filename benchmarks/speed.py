@@ -25,8 +25,8 @@ from pathlib import Path
 import numpy as np
 
 import twistwrench as tw
-from twistwrench.clock import Race, race, round_robin
 from twistwrench.study.cases import QUANTITIES, ours, pinocchio, random_states
+from twistwrench.timing import Race, race, round_robin
 
 RESULTS = Path(__file__).parent / "results"
 BATCHES = (1, 10, 100, 1000, 10_000, 100_000)

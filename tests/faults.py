@@ -21,108 +21,121 @@ def step(slip: str, anchor: str, wrong: str) -> Fault:
 
 FAULTS = [
     # 49.2: rotations, exponentials, quaternions
-    Fault("sign of the cross product", "rotation.py", "return M - M.mT", "return M.mT - M"),
-    Fault("Rodrigues: sign of sin", "rotation.py", "+ A * W +", "- A * W +"),
-    Fault("Rodrigues: half of 1 − cos", "rotation.py", "+ 2 * (H * W) @ (H * W))", "+ (H * W) @ (H * W))"),
+    Fault("sign of the cross product", "spatial/rotation.py", "return M - M.mT", "return M.mT - M"),
+    Fault("Rodrigues: sign of sin", "spatial/rotation.py", "+ A * W +", "- A * W +"),
+    Fault("Rodrigues: half of 1 − cos", "spatial/rotation.py", "+ 2 * (H * W) @ (H * W))", "+ (H * W) @ (H * W))"),
     Fault(
         "quaternion as wxyz",
-        "rotation.py",
+        "spatial/rotation.py",
         "cross_matrix(q[..., :3]), q[..., 3, None, None]",
         "cross_matrix(q[..., 1:]), q[..., 0, None, None]",
     ),
-    Fault("quaternion: conjugate", "rotation.py", "2 * (w * U + U @ U)", "2 * (-w * U + U @ U)"),
-    Fault("roll and yaw swapped", "rotation.py", "(cr, cp, cy), (sr, sp, sy) =", "(cy, cp, cr), (sy, sp, sr) ="),
-    Fault("log: whole angle for half of it", "rotation.py", "2 * atan2(n, w)", "atan2(n, w)"),
-    Fault("exp: no ω × v", "exponential.py", "v + 2 * H * np.cross(H * w, v) +", "v +"),
-    Fault("log: sign of ½ ω × p", "exponential.py", "p - wp / 2", "p + wp / 2"),
+    Fault("quaternion: conjugate", "spatial/rotation.py", "2 * (w * U + U @ U)", "2 * (-w * U + U @ U)"),
+    Fault(
+        "roll and yaw swapped", "spatial/rotation.py", "(cr, cp, cy), (sr, sp, sy) =", "(cy, cp, cr), (sy, sp, sr) ="
+    ),
+    Fault("log: whole angle for half of it", "spatial/rotation.py", "2 * atan2(n, w)", "atan2(n, w)"),
+    Fault("exp: no ω × v", "spatial/exponential.py", "v + 2 * H * np.cross(H * w, v) +", "v +"),
+    Fault("log: sign of ½ ω × p", "spatial/exponential.py", "p - wp / 2", "p + wp / 2"),
     # 49.3: Plücker transforms
     Fault(
         "X without its coupling",
-        "plucker.py",
+        "spatial/plucker.py",
         "np.zeros_like(R), cross_matrix(self.translation) @ R, R)",
         "np.zeros_like(R), np.zeros_like(R), R)",
     ),
     Fault(
         "X: R [p]× for [p]× R",
-        "plucker.py",
+        "spatial/plucker.py",
         "np.zeros_like(R), cross_matrix(self.translation) @ R, R)",
         "np.zeros_like(R), R @ cross_matrix(self.translation), R)",
     ),
     Fault(
         "X* as the transpose of X",
-        "plucker.py",
+        "spatial/plucker.py",
         "return blocks(R, cross_matrix(self.translation) @ R, np.zeros_like(R), R)",
         "return self.motion_transform().mT",
     ),
     Fault(
         "X* as X",
-        "plucker.py",
+        "spatial/plucker.py",
         "return blocks(R, cross_matrix(self.translation) @ R, np.zeros_like(R), R)",
         "return self.motion_transform()",
     ),
     Fault(
-        "inverse without turning p", "plucker.py", "-np.matvec(self.rotation.mT, self.translation)", "-self.translation"
+        "inverse without turning p",
+        "spatial/plucker.py",
+        "-np.matvec(self.rotation.mT, self.translation)",
+        "-self.translation",
     ),
     Fault(
-        "product in the wrong order", "plucker.py", "self.rotation @ other.rotation", "other.rotation @ self.rotation"
+        "product in the wrong order",
+        "spatial/plucker.py",
+        "self.rotation @ other.rotation",
+        "other.rotation @ self.rotation",
     ),
     # 49.5: cross products, inertia
     Fault(
         "V×: [v]× at the top right",
-        "cross.py",
+        "spatial/cross.py",
         "blocks(W, np.zeros_like(W), cross_matrix(V[..., 3:]), W)",
         "blocks(W, cross_matrix(V[..., 3:]), np.zeros_like(W), W)",
     ),
-    Fault("V×* as +(V×)ᵀ", "cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V).mT"),
-    Fault("V×* as V×", "cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V)"),
+    Fault("V×* as +(V×)ᵀ", "spatial/cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V).mT"),
+    Fault("V×* as V×", "spatial/cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V)"),
     Fault(
         "parallel axes subtracted",
-        "inertia.py",
+        "spatial/inertia.py",
         "blocks(self.inertia_at_com - m * (C @ C)",
         "blocks(self.inertia_at_com + m * (C @ C)",
     ),
-    Fault("coupling of the inertia transposed", "inertia.py", "m * C, -m * C, m * np.eye", "-m * C, m * C, m * np.eye"),
+    Fault(
+        "coupling of the inertia transposed",
+        "spatial/inertia.py",
+        "m * C, -m * C, m * np.eye",
+        "-m * C, m * C, m * np.eye",
+    ),
     Fault(
         "welded inertia turned backwards",
-        "inertia.py",
+        "spatial/inertia.py",
         "T.rotation @ self.inertia_at_com @ T.rotation.mT",
         "T.rotation.mT @ self.inertia_at_com @ T.rotation",
     ),
     Fault(
         "sum of inertias without parallel axes",
-        "inertia.py",
+        "spatial/inertia.py",
         "other.inertia_at_com - reduced * (D @ D)",
         "other.inertia_at_com - 0 * reduced * (D @ D)",
     ),
     # the tree
     Fault(
         "joint turned by the axis of another sign",
-        "joint.py",
+        "model/joint.py",
         "sin[..., None] * cross_matrix(axis)",
         "sin[..., None] * -cross_matrix(axis)",
     ),
-    Fault("planar: v in the world's axes (S swapped)", "joint_types.py", "[:, [3, 4, 2]]", "[:, [4, 3, 2]]"),
+    Fault("planar: v in the world's axes (S swapped)", "model/joints.py", "[:, [3, 4, 2]]", "[:, [4, 3, 2]]"),
     Fault(
         "free-flyer: (v, ω)",
-        "joint_types.py",
+        "model/joints.py",
         "return np.eye(6, dtype=dtype)\n",
         "return np.eye(6, dtype=dtype)[:, [3, 4, 5, 0, 1, 2]]\n",
     ),
     Fault(
         "prismatic axis among the angular rows",
-        "joint_types.py",
+        "model/joints.py",
         "np.concatenate([np.zeros(3, dtype), self._axis(dtype)])",
         "np.concatenate([self._axis(dtype), np.zeros(3, dtype)])",
     ),
     Fault(
         "screw of the other hand in S",
-        "joint_types.py",
+        "model/joints.py",
         "np.concatenate([axis, self._pitch(dtype) * axis])",
         "np.concatenate([axis, -self._pitch(dtype) * axis])",
     ),
     Fault(
         "screw that slides the other way",
-        "joint_types.py",
+        "model/joints.py",
         "self._pitch(q.dtype) * q * axis",
         "-self._pitch(q.dtype) * q * axis",
     ),
@@ -132,10 +145,12 @@ FAULTS = [
         "(beside - R @ beside + w",
         "(beside - beside + w",
     ),
-    Fault("X from child to parent", "tree.py", "T.inverse().motion_transform() for T", "T.motion_transform() for T"),
+    Fault(
+        "X from child to parent", "model/tree.py", "T.inverse().motion_transform() for T", "T.motion_transform() for T"
+    ),
     Fault(
         "joint before tree transform",
-        "tree.py",
+        "model/tree.py",
         "T @ joint.transform(q[..., s]) if",
         "joint.transform(q[..., s]) @ T if",
     ),
@@ -159,11 +174,13 @@ FAULTS = [
     step("rotor forgotten in RNEA", "49.6 tau", "tau[i] = S[i].mT @ F[i]"),
     Fault(
         "bias wrench: moment of ω × v forgotten",
-        "formulas.py",
+        "spatial/formulas.py",
         "turning + I[..., :, 3:]",
         "turning + 0 * I[..., :, 3:]",
     ),
-    Fault("bias wrench: ω × for half of the momentum", "formulas.py", "w @ h[..., 3:, :]]", "0 * h[..., 3:, :]]"),
+    Fault(
+        "bias wrench: ω × for half of the momentum", "spatial/formulas.py", "w @ h[..., 3:, :]]", "0 * h[..., 3:, :]]"
+    ),
     # 49.7: ABA
     step("bias acceleration forgotten in pa", "49.7 pa", "pa[i] = pA[i] + U[i] @ D_inv[i] @ u[i]"),
     step("Schur complement forgotten", "49.7 Ia", "Ia[i] = symmetric(IA[i])"),
@@ -194,19 +211,27 @@ FAULTS = [
     # 49.9, 49.10
     Fault(
         "angular for linear rows in J_c",
-        "floating_base.py",
+        "algorithms/floating_base.py",
         '"local_world_aligned")[..., 3:, :]',
         '"local_world_aligned")[..., :3, :]',
     ),
     Fault(
-        "foot forces of the wrong sign", "floating_base.py", "tau=(g - J_c.mT @ forces)", "tau=(g + J_c.mT @ forces)"
+        "foot forces of the wrong sign",
+        "algorithms/floating_base.py",
+        "tau=(g - J_c.mT @ forces)",
+        "tau=(g + J_c.mT @ forces)",
     ),
-    Fault("momentum about the world's origin", "centroidal.py", "T.translation - p_G", "T.translation"),
-    Fault("levers as differences of world coordinates", "centroidal.py", "-first.translation", "0 * first.translation"),
+    Fault("momentum about the world's origin", "algorithms/centroidal.py", "T.translation - p_G", "T.translation"),
+    Fault(
+        "levers as differences of world coordinates",
+        "algorithms/centroidal.py",
+        "-first.translation",
+        "0 * first.translation",
+    ),
     step("momentum rate without V ×* h", "49.10 F", "F = [I[i] @ A[i] for i in range(model.nbodies)]"),
     step("own inertia for the composite one in A_G", "49.10 IC", "IC = tree.I"),
-    Fault("potential energy of the wrong sign", "energy.py", "weight = -model", "weight = model"),
-    Fault("kinetic energy not halved", "energy.py", "return twice / 2", "return twice"),
+    Fault("potential energy of the wrong sign", "algorithms/energy.py", "weight = -model", "weight = model"),
+    Fault("kinetic energy not halved", "algorithms/energy.py", "return twice / 2", "return twice"),
     # 49.9: contact
     Fault(
         "contact: spatial acceleration for the classical one",
@@ -227,23 +252,28 @@ FAULTS = [
     # scenes: held joints
     Fault(
         "held body added in its own frame",
-        "reduction.py",
+        "model/reduction.py",
         "merged[body] = merged[body] + inertia.transform(T)",
         "merged[body] = merged[body] + inertia",
     ),
     Fault(
         "held body where the joint is neutral",
-        "reduction.py",
+        "model/reduction.py",
         "in_carrier[p] @ relative[i])",
         "in_carrier[p] @ model.placement[i])",
     ),
     Fault(
         "wrench from outside added to h",
-        "scene/once.py",
+        "scene/dynamics.py",
         "h = h - np.matvec(angular",
         "h = h + np.matvec(angular",
     ),
-    Fault("planar base: slides swapped", "scene/floor.py", "FLOOR_IN_FLYER = [3, 4, 2]", "FLOOR_IN_FLYER = [4, 3, 2]"),
+    Fault(
+        "planar base: slides swapped",
+        "scene/planar_base.py",
+        "FLOOR_IN_FLYER = [3, 4, 2]",
+        "FLOOR_IN_FLYER = [4, 3, 2]",
+    ),
     # 49.1: the truth itself
     Fault(
         "3-D: velocity of a point without its lever",
@@ -295,7 +325,7 @@ FAULTS = [
     # templates, motions
     Fault(
         "parallel axes added to an inertia taken to the centre of mass",
-        "templates/reading.py",
+        "templates/com_motion.py",
         "composite[..., :3, :3] + mass[..., None, None] * C @ C",
         "composite[..., :3, :3] - mass[..., None, None] * C @ C",
     ),
@@ -313,21 +343,21 @@ FAULTS = [
     ),
     Fault(
         "turning frame: ω in the world's axes",
-        "motions/turning.py",
+        "motions/orientation.py",
         "np.eye(3) - B(square) * K",
         "np.eye(3) + B(square) * K",
     ),
     # digits
     Fault(
         "condition of M with its units",
-        "digits.py",
+        "accuracy.py",
         "eigh(M / unit[..., :, None] / unit[..., None, :])",
         "eigh(M / np.trace(M, axis1=-2, axis2=-1)[..., None, None])",
     ),
-    Fault("condition for its inverse", "digits.py", "DIVIDED * eps / np.where(", "DIVIDED * eps * np.where("),
+    Fault("condition for its inverse", "accuracy.py", "DIVIDED * eps / np.where(", "DIVIDED * eps * np.where("),
     Fault(
         "solve in kg and m",
-        "fast/one_aba.py",
+        "fast/single_aba.py",
         "np.linalg.solve(feels / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit",
         "np.linalg.solve(feels, tau - K[:6, 6] - I.dot(rising))",
     ),

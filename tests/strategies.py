@@ -12,7 +12,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 import twistwrench as tw
-from twistwrench.trees import KINDS
+from twistwrench.model import KINDS
 
 BATCHES = [(), (1,), (3, 1, 2), (0,)]
 REFERENCES = ["local", "world", "local_world_aligned"]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.trees import KINDS
+from twistwrench.model import KINDS
 
 from .strategies import random_state
 from .truth import textbook

@@ -8,7 +8,7 @@ from scipy.optimize import linprog, nnls
 
 import twistwrench as tw
 from twistwrench.contact.inverse import Task, limits
-from twistwrench.contact.programme import least_within
+from twistwrench.contact.qp import least_within
 
 from .touching import (
     BOX,

@@ -9,7 +9,7 @@ import pytest
 import twistwrench as tw
 from twistwrench.contact.inverse import Task
 from twistwrench.contact.nonnegative import nonnegative_least_squares
-from twistwrench.contact.programme import least_breach
+from twistwrench.contact.qp import least_breach
 
 from .test_contact_types import Grasp
 from .touching import BOX, FEET, GO2, HUMANOID, SOLES, points, posed

@@ -137,7 +137,7 @@ def test_pinocchio_has_every_name_of_the_map() -> None:
         ({"call": "SpatialInertia.weight"}, "no SpatialInertia.weight"),
         ({"call": "kinematics._to_reference"}, "private"),
         ({"file": "rnea.py"}, "no file rnea.py"),
-        ({"file": "forward_dynamics.py"}, "no such line in forward_dynamics.py"),
+        ({"file": "algorithms/aba.py"}, "no such line in forward_dynamics.py"),
         ({"line": "49.6 taus"}, "no such line in inverse_dynamics.py"),
     ],
 )

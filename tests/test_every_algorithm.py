@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.rotation import rotation_to_quaternion
+from twistwrench.spatial import rotation_to_quaternion
 
 from .invariants import body_frame, close, floating, several, trees
 from .strategies import REFERENCES

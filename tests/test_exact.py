@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.exact import convert, elementary, exact_unit
-from twistwrench.rotation import exact_rotation
+from twistwrench.arrays import convert, elementary, exact_unit
+from twistwrench.spatial.rotation import exact_rotation
 
 TWO = tw.chain(2)
 QUARTER = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])

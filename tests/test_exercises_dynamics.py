@@ -8,7 +8,8 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as mechanics
 from twistwrench.exercises import catalogue
-from twistwrench.tree import joint_placements, split, walk
+from twistwrench.model import joint_placements, walk
+from twistwrench.model.tree import split
 
 GO2 = tw.load("go2")
 WORLD = np.zeros(3)

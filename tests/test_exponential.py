@@ -3,13 +3,9 @@
 import numpy as np
 import pytest
 
-from twistwrench._scalars import cosine_defect, sine_defect_root
-from twistwrench.cross import cross_motion
 from twistwrench.errors import ShapeError
-from twistwrench.exponential import exp6, log6
-from twistwrench.plucker import SE3
-from twistwrench.rotation import exp3
-from twistwrench.twist import hat
+from twistwrench.spatial import SE3, cross_motion, exp3, exp6, hat, log6
+from twistwrench.spatial._elementary import cosine_defect, sine_defect_root
 
 EPS = 2.0**-52
 SHAPES = [(), (1,), (3, 1, 2), (0,)]

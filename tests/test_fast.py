@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import twistwrench as tw
 from twistwrench import bridge, fast
 from twistwrench import newton_euler_3d as slow
-from twistwrench.trees import KINDS
+from twistwrench.model import KINDS
 
 from .strategies import BATCHES, Recipe, random_state, recipes
 from .truth import largest, skeel

@@ -9,7 +9,8 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import fast
-from twistwrench.fast import dispatch, many, plan
+from twistwrench.fast import batch as many
+from twistwrench.fast import dispatch, plan
 
 from .strategies import Recipe, random_state
 

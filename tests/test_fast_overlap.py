@@ -65,7 +65,7 @@ def small_chunks():
     """Chunks of 4 states, where there are chunks."""
     with pytest.MonkeyPatch.context() as patch:
         try:
-            many = importlib.import_module("twistwrench.fast.many")
+            many = importlib.import_module("twistwrench.fast.batch")
         except ImportError:
             pass
         else:

@@ -6,16 +6,14 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.centroidal import _to_center_of_mass, centroidal_composite
-from twistwrench.coriolis import christoffel
-from twistwrench.forward_dynamics import articulated_body
-from twistwrench.inverse_dynamics import newton_euler
-from twistwrench.joint import Joint
-from twistwrench.kinematics import motion, placements
-from twistwrench.mass_matrix import composite_rigid_body
-from twistwrench.plucker import SE3
-from twistwrench.tree import columns, composite_inertias, joint_placements, walk, wrenches
-from twistwrench.trees import KINDS
+from twistwrench.algorithms.aba import articulated_body
+from twistwrench.algorithms.centroidal import _to_center_of_mass, centroidal_composite
+from twistwrench.algorithms.coriolis import christoffel
+from twistwrench.algorithms.crba import composite_rigid_body
+from twistwrench.algorithms.kinematics import motion, placements
+from twistwrench.algorithms.rnea import newton_euler
+from twistwrench.model import KINDS, Joint, columns, composite_inertias, joint_placements, walk, wrenches
+from twistwrench.spatial import SE3
 
 
 class Blind:
@@ -189,8 +187,8 @@ def test_nothing_is_checked_twice(call, most, monkeypatch):
     q, v = model.standing(), np.zeros(model.nv)
     call(model, q, v)  # what is made once for a model is made
     counted = []
-    import twistwrench.checks as checks
-    import twistwrench.state as entrance
+    import twistwrench.arrays.conversion as checks
+    import twistwrench.model.state as entrance
 
     original = checks.as_arrays
 

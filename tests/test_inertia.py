@@ -6,11 +6,7 @@ import numpy as np
 import pytest
 
 from twistwrench.errors import ModelError, ShapeError
-from twistwrench.exponential import exp6
-from twistwrench.inertia import SpatialInertia, cross_force, cross_motion
-from twistwrench.plucker import SE3
-from twistwrench.rotation import exp3
-from twistwrench.twist import Twist, hat, vee
+from twistwrench.spatial import SE3, SpatialInertia, Twist, cross_force, cross_motion, exp3, exp6, hat, vee
 
 EPS = 2.0**-52
 SHAPES = [(), (1,), (3, 1, 2), (0,)]

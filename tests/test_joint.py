@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 
 import twistwrench as tw
 from twistwrench import bridge
-from twistwrench.joint import AxisJoint, Joint
-from twistwrench.trees import KINDS
+from twistwrench.model import KINDS, AxisJoint, Joint
 
 from .strategies import examples
 

@@ -9,9 +9,8 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import bridge, fast, newton_euler_3d
-from twistwrench.exponential import exp6
-from twistwrench.joint import AxisJoint, GroupJoint, Joint, placement, turn, unit
-from twistwrench.trees import KINDS
+from twistwrench.model import KINDS, AxisJoint, GroupJoint, Joint, placement, turn, unit
+from twistwrench.spatial import exp6
 
 from .strategies import random_state
 

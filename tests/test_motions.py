@@ -12,11 +12,11 @@ from numpy.polynomial import Polynomial
 import twistwrench as tw
 from twistwrench.motions import MOTIONS, Motion, ground, limits_broken
 from twistwrench.motions.curves import Harmonics, Pieces, between, hop, stair
-from twistwrench.motions.following import follow
 from twistwrench.motions.gaits import CRAWL, TROT, WALK, Steps
+from twistwrench.motions.inverse_kinematics import follow
 from twistwrench.motions.jumping import FOUR_LEGS, Leap
 from twistwrench.motions.legs import stand
-from twistwrench.motions.turning import body_rates
+from twistwrench.motions.orientation import body_rates
 
 G, H = 9.81, 1e-20
 OWN = ("go2", "humanoid")

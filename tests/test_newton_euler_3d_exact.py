@@ -7,7 +7,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
-from twistwrench.exact import convert
+from twistwrench.arrays import convert
 from twistwrench.newton_euler_3d.exact import Exact
 
 EXACT = Exact(np.dtype(object))

@@ -5,8 +5,10 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench import checks, rotation, state
-from twistwrench._scalars import series
+from twistwrench.arrays import conversion as checks
+from twistwrench.model import state
+from twistwrench.spatial import rotation
+from twistwrench.spatial._elementary import series
 
 BITS_113 = 2.0**-112
 """Spacing of the numbers next to 1 in a long double of Linux on ARM and of WebAssembly."""

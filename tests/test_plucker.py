@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from twistwrench.errors import ShapeError
-from twistwrench.plucker import SE3, force_transform, motion_transform
-from twistwrench.rotation import exp3, skew
+from twistwrench.spatial import SE3, exp3, force_transform, motion_transform, skew
 
 EPS = 2.0**-52
 SHAPES = [(), (1,), (3, 1, 2), (0,)]

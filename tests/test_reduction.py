@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
-from twistwrench.reduction import idle_joints
+from twistwrench.model import idle_joints
 
 from .strategies import examples, random_state, recipes
 from .truth import ULPS, double, largest, skeel

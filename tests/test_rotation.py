@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from twistwrench.errors import ShapeError, SingularError
-from twistwrench.rotation import (
+from twistwrench.spatial import (
     exp3,
     log3,
     quaternion_to_rotation,

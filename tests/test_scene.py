@@ -10,11 +10,11 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import fast, motions
-from twistwrench.fast import one
-from twistwrench.joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
-from twistwrench.scene import once
+from twistwrench.fast import single as one
+from twistwrench.model import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from twistwrench.scene import dynamics as once
 from twistwrench.scene.costs import limbs
-from twistwrench.scene.once import angular_rows
+from twistwrench.scene.dynamics import angular_rows
 from twistwrench.templates import TEMPLATES
 
 from .pages import DOCS, blocks, names_author_and_licence, page, run

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.rotation import rotation_to_quaternion
 from twistwrench.simulation import METHODS
 from twistwrench.simulation.tangent import bracket
 from twistwrench.simulation.variational import momentum_and_force
+from twistwrench.spatial import rotation_to_quaternion
 
 from .strategies import Recipe
 

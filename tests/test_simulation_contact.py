@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.rotation import rotation_to_quaternion
+from twistwrench.spatial import rotation_to_quaternion
 
 from .test_simulation import ORDERS, pendulum
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.singular import refuse_lost
+from twistwrench.algorithms.singular import refuse_lost
 
 # ---------------------------------------------------------------- links without mass
 

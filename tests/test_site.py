@@ -67,12 +67,12 @@ def test_both_languages_tell_the_same_steps(name):
 )
 def test_a_step_that_is_gone_is_noticed(steps, said):
     with pytest.raises(LookupError, match=said):
-        beside.cut(beside.body("inverse_dynamics.py", "newton_euler"), steps, "inverse_dynamics.py")
+        beside.cut(beside.body("algorithms/rnea.py", "newton_euler"), steps, "algorithms/rnea.py")
 
 
 def test_a_function_that_is_gone_is_noticed():
     with pytest.raises(LookupError, match="no function rneaa"):
-        beside.body("inverse_dynamics.py", "rneaa")
+        beside.body("algorithms/rnea.py", "rneaa")
 
 
 # ---------------------------------------------------------------- pages

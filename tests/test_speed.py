@@ -10,9 +10,9 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.clock import round_robin
 from twistwrench.study.cases import QUANTITIES, ours, random_states
 from twistwrench.study.speed import Speed, speed, table
+from twistwrench.timing import round_robin
 
 HUMANOID = tw.load("humanoid")
 

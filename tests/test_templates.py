@@ -11,7 +11,6 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 from twistwrench.cli import main
-from twistwrench.clock import Lap
 from twistwrench.study.templates import _table
 from twistwrench.templates import (
     TEMPLATES,
@@ -24,7 +23,8 @@ from twistwrench.templates import (
     RigidBody,
     Template,
 )
-from twistwrench.templates.reading import com_acceleration, locked_inertia
+from twistwrench.templates.com_motion import com_acceleration, locked_inertia
+from twistwrench.timing import Lap
 
 from .pages import blocks, page, run
 from .strategies import BATCHES

@@ -6,7 +6,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as exact
-from twistwrench.formulas import bias_wrench, cross_force
+from twistwrench.spatial.formulas import bias_wrench, cross_force
 
 MODELS = [
     tw.load("go2"),

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench import clock
+from twistwrench import timing as clock
 from twistwrench.cli import main
 
 from .pages import blocks, page, run

@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from twistwrench.errors import FrameError, ShapeError, SingularError
-from twistwrench.exponential import exp6
-from twistwrench.inertia import SpatialInertia
-from twistwrench.plucker import SE3
-from twistwrench.rotation import exp3
-from twistwrench.twist import Screw, Twist, hat, screw, vee
-from twistwrench.wrench import Wrench
+from twistwrench.spatial import SE3, Screw, SpatialInertia, Twist, Wrench, exp3, exp6, hat, screw, vee
 
 SHAPES = [(), (1,), (3, 1, 2), (0,)]
 DTYPES = [np.float32, np.float64, np.longdouble, np.complex64, np.complex128, np.clongdouble]

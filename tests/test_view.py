@@ -16,12 +16,12 @@ import twistwrench as tw
 from twistwrench import motions, plot
 from twistwrench.cli import main
 from twistwrench.robots.catalogue import PREFIX, find
-from twistwrench.rotation import quaternion_to_rotation
+from twistwrench.spatial import quaternion_to_rotation
 from twistwrench.viewing.controls import add_joints, add_time
 from twistwrench.viewing.origin import only_own_page
+from twistwrench.viewing.scene import build
 from twistwrench.viewing.shapes import shapes
-from twistwrench.viewing.stage import build
-from twistwrench.viewing.subject import subject
+from twistwrench.viewing.state import subject
 
 from .pages import FENCE, names_author_and_licence, page, run
 
@@ -661,7 +661,7 @@ def test_the_command_writes_a_picture(tmp_path):
 
 def test_the_command_takes_postures_frames_contacts_and_a_base(tmp_path, monkeypatch):
     seen = {}
-    monkeypatch.setattr("twistwrench.viewing.showing.view", lambda *args, **how: seen.update(args=args, **how))
+    monkeypatch.setattr("twistwrench.viewing.viewer.view", lambda *args, **how: seen.update(args=args, **how))
     monkeypatch.setattr(Figure, "savefig", lambda *args, **how: None)
     words = "view go2 --base fixed --frame base --frame FL_foot --contact FL_foot --contact FL_foot --posture standing"
     assert main([*words.split(), "--output", str(tmp_path / "x.svg")]) == 0

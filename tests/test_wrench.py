@@ -3,14 +3,20 @@
 import numpy as np
 import pytest
 
-from twistwrench.cross import cross_force, cross_motion
 from twistwrench.errors import FrameError, ShapeError
-from twistwrench.exponential import exp6
-from twistwrench.inertia import SpatialInertia
-from twistwrench.plucker import SE3
-from twistwrench.rotation import exp3
-from twistwrench.twist import Twist, hat, screw
-from twistwrench.wrench import Wrench, power
+from twistwrench.spatial import (
+    SE3,
+    SpatialInertia,
+    Twist,
+    Wrench,
+    cross_force,
+    cross_motion,
+    exp3,
+    exp6,
+    hat,
+    power,
+    screw,
+)
 
 SHAPES = [(), (1,), (3, 1, 2), (0,)]
 DTYPES = [np.float32, np.float64, np.longdouble, np.complex64, np.complex128, np.clongdouble]

@@ -18,8 +18,8 @@ import numpy as np
 
 import twistwrench as tw
 from twistwrench import plot
-from twistwrench.inverse_dynamics import newton_euler
-from twistwrench.tree import walk
+from twistwrench.algorithms.rnea import newton_euler
+from twistwrench.model import walk
 
 model = tw.load("go2")
 q = model.standing()

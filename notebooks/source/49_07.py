@@ -18,7 +18,7 @@ import numpy as np
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d, plot
-from twistwrench.forward_dynamics import articulated_body
+from twistwrench.algorithms.aba import articulated_body
 
 model = tw.load("go2")
 q = model.standing()

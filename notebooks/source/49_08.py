@@ -17,7 +17,7 @@ import numpy as np
 
 import twistwrench as tw
 from twistwrench import plot
-from twistwrench.mass_matrix import composite_rigid_body
+from twistwrench.algorithms.crba import composite_rigid_body
 
 model = tw.load("go2")
 rng = np.random.default_rng(8)

@@ -18,7 +18,7 @@ import numpy as np
 
 import twistwrench as tw
 from twistwrench import plot
-from twistwrench.centroidal import centroidal_composite
+from twistwrench.algorithms.centroidal import centroidal_composite
 
 model = tw.load("go2")
 rng = np.random.default_rng(10)

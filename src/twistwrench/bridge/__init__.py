@@ -24,7 +24,7 @@ ids, τ of a joint with one degree of freedom, the centre of mass and the energi
 The functions on arrays do not need Pinocchio.
 """
 
-from .handover import from_pinocchio_model, to_pinocchio_model
+from .model import from_pinocchio_model, to_pinocchio_model
 from .objects import (
     from_pinocchio_f_ext,
     from_pinocchio_inertia,

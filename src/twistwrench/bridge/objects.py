@@ -8,13 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
-from ..door import check_model
+from ..arrays import Array, as_array
 from ..errors import ShapeError
-from ..inertia import SpatialInertia
-from ..model import Model
-from ..plucker import SE3
-from ..state import check_arrays
+from ..model import Model, check_arrays, check_model
+from ..spatial import SE3, SpatialInertia
 from .spatial import HALVES, to_pinocchio_force, vectors
 
 __all__ = [

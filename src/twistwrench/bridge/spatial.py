@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._spatial_vector import SpatialVector, as_spatial
-from ..checks import Array, as_array
+from ..arrays import Array, as_array
+from ..spatial._vector import SpatialVector, as_spatial
 
 __all__ = [
     "from_pinocchio_force",

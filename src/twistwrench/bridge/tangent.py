@@ -11,12 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
-from ..door import check_model
+from ..arrays import Array, as_array
 from ..errors import ShapeError
-from ..joint import Joint
-from ..joint_types import FreeFlyer
-from ..model import Model
+from ..model import FreeFlyer, Joint, Model, check_model
 from .spatial import HALVES
 
 __all__ = [

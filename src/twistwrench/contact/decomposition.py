@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..algorithms.singular import ROUNDINGS
+from ..arrays import Array
 from ..errors import SingularError
 from ..model import Model
-from ..plucker import SE3
-from ..singular import ROUNDINGS
+from ..spatial import SE3
 from .types import Contact
 
 __all__ = ["Decomposition", "block_diagonal", "decompose", "lever", "point_map"]

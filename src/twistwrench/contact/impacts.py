@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_number
+from ..arrays import Array, as_number
 from ..fast import crba
 from ..model import Model
 from .decomposition import decompose, lever

@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._scalars import which
-from ..checks import Array
+from ..arrays import Array
 from ..errors import ShapeError, SingularError
 from ..fast import crba, rnea
 from ..model import Model
+from ..spatial._elementary import which
 from .decomposition import Decomposition, block_diagonal, decompose, point_map
-from .programme import least_breach, least_within
+from .qp import least_breach, least_within
 from .reach import NEAR, Reach, reach
 from .rows import as_contacts, per_contact, real_state, touching
 from .types import Contact, Pyramid

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 
 __all__ = ["nonnegative_least_squares"]
 

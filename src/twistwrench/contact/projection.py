@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._scalars import which
-from ..checks import Array, as_count, as_number
+from ..arrays import Array, as_count, as_number
 from ..errors import SingularError
 from ..fast import crba
 from ..model import Model
-from ..plucker import SE3
+from ..spatial import SE3
+from ..spatial._elementary import which
 from .decomposition import decompose, lever
 from .impacts import impact
 from .rows import as_contacts, contact_errors, per_contact, real_state, touching

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .decomposition import block_diagonal
 from .nonnegative import nonnegative_least_squares
 from .types import Contact, Pyramid

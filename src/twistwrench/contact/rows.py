@@ -13,16 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
-from ..constants import cast
-from ..door import check_model, in_double
+from ..algorithms.kinematics import frame_placement, motion, placements
+from ..arrays import Array, as_sequence, check_kind
 from ..errors import unknown_name
-from ..kinds import as_sequence, check_kind
-from ..kinematics import frame_placement, motion, placements
-from ..model import Model
-from ..plucker import SE3
-from ..rotation import log3
-from ..tree import Tree, columns, walk
+from ..model import Model, Tree, cast, check_model, columns, in_double, walk
+from ..spatial import SE3, log3
 from .types import Contact
 
 __all__ = [

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import center_of_mass
-from ..checks import Array
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import frame_placement
+from ..arrays import Array
 from ..errors import ShapeError
-from ..kinematics import frame_placement
 from ..model import Model
 from .inverse import Task, Unbalanced, limits
 from .rows import as_contacts, real_state

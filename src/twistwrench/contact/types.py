@@ -17,9 +17,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_exactly
+from ..arrays import Array, as_exactly
 from ..errors import unknown_name
-from ..rotation import cross_matrix, exp3
+from ..spatial import exp3
+from ..spatial.rotation import cross_matrix
 
 __all__ = ["Contact", "PointContact", "Pyramid", "SurfaceContact"]
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .exercise import Part, Quantity
 
 __all__ = ["Value", "agree", "close", "pieces", "to_do", "values"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .compare import FLOOR, Value
 from .layouts import Layout
 from .phrases import say

@@ -5,9 +5,8 @@ from functools import cache
 
 import numpy as np
 
-from ..model import Model
+from ..model import Model, random_tree
 from ..robots import load
-from ..trees import random_tree
 
 __all__ = ["robot", "small_robot", "weightless"]
 

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 
 __all__ = ["after", "as_column", "before", "faulty", "negated", "swap", "swapped", "times", "transposed"]
 

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_names
+from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
+from ..arrays import Array, as_names
 from ..model import Model
-from ..whole_body import QUANTITIES, Dynamics, wanted
 from .dispatch import accelerations, parts, torques
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]

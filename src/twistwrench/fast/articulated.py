@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import Array, resolution
+from ..arrays import Array, resolution
+from .dofs import Level
 from .forces import add_external, base_acceleration, coriolis, rates, spins
 from .frames import Frames, Inertias
-from .links import Level
 from .plan import Plan
 from .vectors import CYCLE, SYMMETRIC, cross, dot, symmetric_times, times, transposed_times, unfold
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from ..model import Model
 from .frames import Frames
 from .plan import Plan

@@ -13,21 +13,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import centroidal_map
-from ..checks import Array
+from ..algorithms.aba import aba
+from ..algorithms.centroidal import centroidal_map
+from ..arrays import Array
 from ..errors import SingularError
-from ..forward_dynamics import aba
 from ..model import Model
+from .arguments import PLAIN, admit
 from .articulated import NearlySingular
+from .batch import fill
 from .contacts import contacts_of
-from .door import PLAIN, admit
 from .kernels import forward_dynamics, inverse_dynamics, quantities
-from .many import fill
-from .one import Parts, one_dynamics, one_rnea
-from .one_aba import AbaPlan, make_aba_plan, one_aba
-from .one_plan import OnePlan, Touching, make_one_plan, touching
 from .outputs import Tail, check_outputs, finish, targets
 from .plan import plan_of
+from .single import Parts, one_dynamics, one_rnea
+from .single_aba import AbaPlan, make_aba_plan, one_aba
+from .single_plan import OnePlan, Touching, make_one_plan, touching
 
 __all__ = ["accelerations", "parts", "torques"]
 

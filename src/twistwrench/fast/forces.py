@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .frames import Frames, Inertias
 from .plan import Plan
 from .vectors import CYCLE, cross, dot, times, transposed_times, unfold

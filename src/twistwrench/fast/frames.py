@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .plan import Placed, Plan
 from .vectors import SYMMETRIC, rotation
 

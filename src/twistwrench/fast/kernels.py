@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import Array
-from ..forward_dynamics import aba
+from ..algorithms.aba import aba
+from ..arrays import Array
 from ..model import Model
 from .articulated import NearlySingular, accelerations
 from .contacts import Contacts, contact_jacobian

@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
+from .dofs import Index
 from .forces import inward
 from .frames import Frames, Inertias
-from .links import Index
 from .plan import Plan
 from .vectors import CYCLE, cross, dot, matrix_product, symmetric_times, unfold
 

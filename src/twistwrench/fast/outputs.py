@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from ..checks import Array
+from ..arrays import Array
 from ..errors import ShapeError
 
 __all__ = ["Tail", "batch_first", "check_outputs", "empty", "finish", "targets"]

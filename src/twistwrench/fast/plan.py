@@ -7,10 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..checks import Array
-from ..joint import Joint
-from ..model import Model
-from .links import Index, Level, Link, Step, base_floats, index, levels_of, links_of, parents_of, steps_of
+from ..arrays import Array
+from ..model import Joint, Model
+from .dofs import Index, Level, Link, Step, base_floats, index, levels_of, links_of, parents_of, steps_of
 
 __all__ = ["Placed", "Plan", "plan_of"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .vectors import CYCLE
 
 __all__ = ["MOMENTUM", "TURN", "TWISTS"]

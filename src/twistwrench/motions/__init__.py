@@ -16,7 +16,7 @@ motion     four legs                                           two legs
 
 from .limits import limits_broken
 from .motion import Motion
-from .performing import MOTIONS, jump, trot, walk
 from .support import Ground, ground
+from .walking import MOTIONS, jump, trot, walk
 
 __all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "limits_broken", "trot", "walk"]

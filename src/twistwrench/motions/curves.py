@@ -13,7 +13,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..arrays import Array
 
 __all__ = ["Harmonics", "Pieces", "between", "hop", "stair"]
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..checks import Array
+from ..algorithms.kinematics import forward_kinematics
+from ..arrays import Array
 from ..errors import ModelError
-from ..kinematics import forward_kinematics
 from .curves import Harmonics, hop, stair
-from .following import Goal
+from .inverse_kinematics import Goal
 from .legs import Stand
 
 __all__ = ["BRISK_WALK", "CRAWL", "TROT", "WALK", "Gait", "Steps"]

@@ -14,13 +14,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from ..checks import Array
+from ..arrays import Array
 from ..errors import SingularError
 from ..fast import centroidal_map
 from .curves import Pieces, between, hop, stair
-from .following import Goal, free_columns, nearer, place, solve, targets, tasks, turned
+from .inverse_kinematics import Goal, free_columns, nearer, place, solve, targets, tasks, turned
 from .legs import Stand
-from .turning import turning_jacobian
+from .orientation import turning_jacobian
 
 __all__ = ["FOUR_LEGS", "TWO_LEGS", "Jump", "Leap"]
 

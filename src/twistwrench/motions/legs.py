@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..centroidal import center_of_mass
-from ..checks import Array
-from ..door import check_model
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import frame_placement
+from ..arrays import Array
 from ..errors import ModelError
-from ..kinematics import frame_placement
-from ..model import Model
+from ..model import Model, check_model
 
 __all__ = ["Leg", "Stand", "stand"]
 

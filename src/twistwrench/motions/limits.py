@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..door import floats_of
-from ..model import Model
+from ..model import Model, floats_of
 from .motion import Motion, check_motion
 
 __all__ = ["limits_broken"]

@@ -6,10 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..checks import Array, as_names
+from ..arrays import Array, as_names, as_real, check_kind
 from ..errors import ShapeError
-from ..kinds import check_kind
-from ..reals import as_real
 
 __all__ = ["Motion", "check_motion"]
 

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..centroidal import center_of_mass, centroidal_momentum_rate
-from ..checks import Array
+from ..algorithms.centroidal import center_of_mass, centroidal_momentum_rate
+from ..algorithms.kinematics import frame_placement
+from ..arrays import Array
 from ..contact.stance import inside
-from ..door import check_model
 from ..errors import ModelError
-from ..kinematics import frame_placement
-from ..model import Model
+from ..model import Model, check_model
 from .motion import Motion, check_motion
 
 __all__ = ["Ground", "ground"]

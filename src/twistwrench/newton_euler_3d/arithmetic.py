@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array, resolution
+from ..arrays import Array, as_array, resolution
 from ..errors import ModelError
 
 __all__ = ["Arithmetic", "as_mpmath"]

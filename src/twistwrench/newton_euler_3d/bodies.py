@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .arithmetic import Arithmetic
 from .joints import joint_columns, joint_pose
 from .state import State

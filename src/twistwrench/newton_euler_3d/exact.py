@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
-from ..exact import elementary, exact_numbers, exact_unit
+from ..arrays import Array, elementary, exact_numbers, exact_unit
 from .arithmetic import Arithmetic
 
 __all__ = ["Exact"]

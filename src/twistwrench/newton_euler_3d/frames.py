@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..arrays import Array
 from ..errors import check_known
 from .arithmetic import Arithmetic
 from .bodies import Body, walk

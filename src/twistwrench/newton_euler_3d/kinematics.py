@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..arrays import Array
 from .bodies import Body, cross, walk
 from .state import take
 

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_number_arrays
+from ..arrays import Array, as_number_arrays, check_size
 from ..errors import ShapeError, no_model
-from ..reals import check_size
 from .arithmetic import Arithmetic
 from .exact import Exact
 

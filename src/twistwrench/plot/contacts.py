@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._spatial_vector import as_spatial
-from ..checks import Array, as_exactly
+from ..arrays import Array, as_exactly
 from ..errors import ShapeError, SingularError
-from ..wrench import Wrench
+from ..spatial import Wrench
+from ..spatial._vector import as_spatial
 from .style import COLOURS, axes_2d, axes_3d, drawn, drawn_number, fit
 
 __all__ = ["center_of_pressure", "friction_cone", "sole"]

@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_names
-from ..door import check_model
+from ..arrays import Array, as_names
 from ..errors import ShapeError
-from ..model import Model
+from ..model import Model, check_model
 from .style import COLOURS, axes_2d, drawn
 
 __all__ = ["flow", "seats"]

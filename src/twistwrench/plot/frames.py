@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_names
+from ..arrays import as_names
 from ..errors import ShapeError
-from ..plucker import SE3
+from ..spatial import SE3
 from .style import COLOURS, XYZ, as_placement, axes_3d, drawn, drawn_number, fit
 
 __all__ = ["arrows", "triad"]

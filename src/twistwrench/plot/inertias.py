@@ -8,15 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_exactly, as_names, as_number
-from ..door import one_configuration
+from ..algorithms.kinematics import forward_kinematics
+from ..arrays import Array, as_exactly, as_finite, as_names, as_number, as_sequence
 from ..errors import ShapeError
-from ..inertia import SpatialInertia
-from ..kinds import as_sequence
-from ..kinematics import forward_kinematics
-from ..model import Model
-from ..plucker import SE3
-from ..reals import as_finite
+from ..model import Model, one_configuration
+from ..spatial import SE3, SpatialInertia
 from .style import COLOURS, as_placement, axes_2d, axes_3d, drawn, drawn_number, fit
 
 __all__ = ["ellipsoid", "ellipsoids", "felt_mass", "semi_axes"]

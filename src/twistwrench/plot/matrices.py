@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_count
+from ..arrays import as_count, as_sequence
 from ..errors import ShapeError
-from ..kinds import as_sequence
 from .style import COLOURS, axes_2d, drawn, drawn_number
 
 __all__ = ["ANGULAR_LINEAR", "matrix"]

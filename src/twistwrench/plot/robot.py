@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import center_of_mass
-from ..checks import Array, as_names
-from ..door import one_configuration
-from ..kinematics import forward_kinematics, frame_placement
-from ..model import Model
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import forward_kinematics, frame_placement
+from ..arrays import Array, as_names
+from ..model import Model, one_configuration
 from .style import COLOURS, axes_3d, fit
 
 __all__ = ["robot", "sticks"]

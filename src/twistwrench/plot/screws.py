@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._spatial_vector import as_spatial
-from ..checks import Array, as_arrays, as_exactly
+from ..arrays import Array, as_arrays, as_exactly
 from ..errors import ShapeError
-from ..twist import Twist, screw
-from ..wrench import Wrench
+from ..spatial import Twist, Wrench, screw
+from ..spatial._vector import as_spatial
 from .frames import arrows
 from .style import COLOURS, axes_3d, drawn, drawn_number, fit
 

@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
-from ..door import check_model
+from ..arrays import Array
 from ..errors import ShapeError
-from ..model import Model
+from ..model import Model, check_model
 from .matrices import ANGULAR_LINEAR, matrix
 from .style import COLOURS, axes_2d, drawn, drawn_number
 

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import center_of_mass
-from ..checks import Array, as_exactly, as_names
-from ..door import one_configuration
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import frame_placement
+from ..arrays import Array, as_exactly, as_names
 from ..errors import ShapeError
-from ..kinematics import frame_placement
-from ..model import Model
+from ..model import Model, one_configuration
 from .frames import arrows
 from .robot import robot
 from .style import COLOURS, axes_3d, drawn, drawn_number, fit, newtons

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import center_of_mass
-from ..checks import Array
+from ..algorithms.centroidal import center_of_mass
+from ..arrays import Array
 from ..model import Model
 from .robot import sticks
 from .style import COLOURS, axes_2d, drawn_number

@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array, as_exactly
-from ..plucker import SE3
-from ..reals import as_finite, as_real
+from ..arrays import Array, as_array, as_exactly, as_finite, as_real
+from ..spatial import SE3
 
 __all__ = [
     "COLOURS",

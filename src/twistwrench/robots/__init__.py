@@ -96,8 +96,8 @@ def load(
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown robot 'go3'; did you mean 'go2', 'go1', ...
     """
-    from ..kinds import as_flag, check_choice
-    from ..mimic import follow
+    from ..algorithms.mimic import follow
+    from ..arrays import as_flag, check_choice
     from .srdf import read_states, with_stance, with_states
     from .urdf import load_urdf
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import ModelError
-from ..report import Entry
+from ..model import Entry
 from .reading import XML
 from .urdf_words import ATTRIBUTES, CHILDREN, meant
 

@@ -13,9 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ModelError, unknown_name
-from ..inertia import SpatialInertia
-from ..plucker import SE3
-from ..rotation import rpy_to_rotation
+from ..spatial import SE3, SpatialInertia, rpy_to_rotation
 from .element import Element
 from .reading import read_document
 from .records import UrdfJoint, UrdfLink, UrdfMimic, UrdfRobot

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ModelError
-from ..report import Entry
+from ..model import Entry
 from .urdf_words import NOT_DYNAMICS, words_of
 
 __all__ = ["XML", "read_document", "read_robot_xml"]

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..inertia import SpatialInertia
-from ..plucker import SE3
-from ..report import Entry
+from ..model import Entry
+from ..spatial import SE3, SpatialInertia
 
 __all__ = ["UrdfJoint", "UrdfLink", "UrdfMimic", "UrdfRobot"]
 

@@ -8,11 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..checks import Array
+from ..algorithms.kinematics import frame_placement
+from ..arrays import Array
 from ..errors import ModelError
-from ..joint_types import Continuous
-from ..kinematics import frame_placement
-from ..model import Model
+from ..model import Continuous, Model
 from .reading import read_robot_xml
 from .stances import Stance
 

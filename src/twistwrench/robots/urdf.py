@@ -10,13 +10,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..builder import Builder
+from ..algorithms.mimic import Law
 from ..errors import ModelError, unknown_name
-from ..joint import Joint
-from ..joint_types import Continuous, FreeFlyer, Planar, Prismatic, Revolute
-from ..mimic import Law
-from ..model import Model
-from ..report import Entry, Report
+from ..model import Builder, Continuous, Entry, FreeFlyer, Joint, Model, Planar, Prismatic, Report, Revolute
 from .parsing import read_urdf
 from .records import UrdfJoint, UrdfRobot
 

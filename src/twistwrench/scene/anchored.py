@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..centroidal import center_of_mass, centroidal_momentum_rate
-from ..checks import Array
-from ..inverse_dynamics import rnea
-from ..kinematics import forward_kinematics
+from ..algorithms.centroidal import center_of_mass, centroidal_momentum_rate
+from ..algorithms.kinematics import forward_kinematics
+from ..algorithms.rnea import rnea
+from ..arrays import Array
 from ..model import Model
 
 __all__ = ["Anchored", "radius_of_gyration"]

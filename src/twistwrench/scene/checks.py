@@ -8,10 +8,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_exactly
+from ..arrays import Array, as_exactly, as_sequence
 from ..contact import Contact
 from ..errors import ModelError
-from ..kinds import as_sequence
 from ..model import Model
 
 __all__ = ["SAME_PLACE", "checked_contacts", "checked_wrenches", "expect_movable"]

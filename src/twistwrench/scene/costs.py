@@ -13,18 +13,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..centroidal import center_of_mass
-from ..checks import Array, as_number
-from ..clock import round_robin
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import frame_placement
+from ..arrays import Array, as_number
 from ..contact import Contact
-from ..kinematics import frame_placement
-from ..model import Model
+from ..model import Model, lock_joints
 from ..motions import Motion
-from ..reduction import lock_joints
 from ..templates import TEMPLATES, Residual
+from ..templates.full_model import Full
 from ..templates.pendulum import LinearPendulum
 from ..templates.template import Template
-from ..templates.whole import Full
+from ..timing import round_robin
 from .anchored import Anchored, radius_of_gyration
 
 __all__ = ["Candidate", "Costs", "Option", "State", "costs", "limbs"]

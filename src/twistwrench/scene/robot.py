@@ -7,10 +7,9 @@ from os import PathLike
 
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_exactly
-from ..door import in_double, one_configuration
+from ..arrays import Array, as_exactly
 from ..errors import ModelError, no_model
-from ..model import Model
+from ..model import Model, in_double, one_configuration
 from ..robots import load
 
 __all__ = ["posture", "whole_robot"]

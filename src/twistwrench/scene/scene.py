@@ -7,18 +7,17 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import center_of_mass
-from ..checks import Array
-from ..kinds import check_kind
-from ..kinematics import frame_placement
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import frame_placement
+from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
+from ..arrays import Array, check_kind
 from ..motions import Motion
 from ..motions.motion import check_motion
-from ..whole_body import QUANTITIES, Dynamics, wanted
 from .anchored import Anchored
 from .costs import Candidate, Costs, State, costs, limbs
-from .once import scene_dynamics
+from .dynamics import scene_dynamics
+from .reduced_model import SmallestModel
 from .robot import posture
-from .smallest import SmallestModel
 from .standing import Standing, standing
 
 __all__ = ["Scene"]

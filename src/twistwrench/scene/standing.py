@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from ..contact import Contact, stance_margins
 from ..contact.inverse import Task, friction_inverse_dynamics
 from ..errors import SingularError

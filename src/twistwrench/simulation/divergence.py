@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._scalars import which
-from ..checks import Array
+from ..arrays import Array
 from ..model import Model
+from ..spatial._elementary import which
 
 __all__ = ["DivergenceError", "refuse_divergence"]
 

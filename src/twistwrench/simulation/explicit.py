@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .system import System
 from .tangent import bracket, dexp_inverse
 

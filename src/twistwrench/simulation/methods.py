@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from ..checks import Array
+from ..arrays import Array
 from .explicit import EULER, MIDPOINT, RK4, runge_kutta, semi_implicit
 from .system import System
 from .variational import variational

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ..centroidal import center_of_mass, centroidal_momentum
-from ..checks import Array
-from ..energy import kinetic_energy, potential_energy
+from ..algorithms.centroidal import center_of_mass, centroidal_momentum
+from ..algorithms.energy import kinetic_energy, potential_energy
+from ..arrays import Array
 from ..errors import check_known
 from ..model import Model
 from .methods import METHODS

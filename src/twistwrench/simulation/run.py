@@ -8,7 +8,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_count, as_number
+from ..arrays import Array, as_count, as_number
 from ..contact import Contact
 from ..contact.rows import as_contacts
 from ..errors import SingularError, check_known

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..arrays import Array
 from ..contact import Contact
 from ..errors import no_model
 from ..model import Model

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array, as_array
+from ..arrays import Array, as_array
 from ..contact import (
     Contact,
     ContactDynamics,

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import Array, resolution
-from ..cross import cross_motion
+from ..arrays import Array, resolution
 from ..model import Model
+from ..spatial import cross_motion
 from .divergence import DivergenceError
 
 __all__ = ["bracket", "dexp_inverse", "dexp_transposed", "exp_transposed"]

@@ -17,11 +17,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import Array, resolution
-from ..cross import cross_force
+from ..arrays import Array, resolution
 from ..fast import aba, crba
-from ..model import Model
-from ..tree import join, split, walk
+from ..model import Model, walk
+from ..model.tree import join, split
+from ..spatial import cross_force
 from .divergence import DivergenceError, refuse_divergence
 from .system import System
 from .tangent import bracket, dexp_transposed, exp_transposed

@@ -11,7 +11,7 @@ from numpy.typing import DTypeLike
 
 import twistwrench as tw
 
-from ..checks import Array
+from ..arrays import Array
 
 __all__ = ["QUANTITIES", "States", "ours", "pinocchio", "random_states"]
 

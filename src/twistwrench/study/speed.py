@@ -15,7 +15,7 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..clock import round_robin
+from ..timing import round_robin
 from .cases import QUANTITIES, ours, pinocchio, random_states
 
 __all__ = ["Speed", "add_speed", "speed"]

@@ -13,10 +13,10 @@ import numpy as np
 
 import twistwrench as tw
 
-from ..clock import round_robin
 from ..motions import MOTIONS, Motion
 from ..options import at_least, check_writable
 from ..templates import TEMPLATES
+from ..timing import round_robin
 from .trade.picture import check_format
 
 __all__ = ["ROBOTS", "Loss", "add_templates", "losses"]

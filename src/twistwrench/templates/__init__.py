@@ -32,12 +32,12 @@ full         0.0e+00
 """
 
 from .frozen_body import FrozenRigidBody
+from .full_model import Full
 from .momentum import Centroidal
 from .pendulum import LinearPendulum
 from .point_mass import PointMass
 from .rigid_body import RigidBody
 from .template import Residual, Template
-from .whole import Full
 
 __all__ = [
     "TEMPLATES",

@@ -8,9 +8,9 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
+from ..arrays import Array
 from ..model import Model
-from .reading import locked_inertia
+from .com_motion import locked_inertia
 from .rigid_body import RigidBody
 from .template import checked
 

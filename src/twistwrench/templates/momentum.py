@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from ..centroidal import centroidal_momentum_rate
-from ..checks import Array
+from ..algorithms.centroidal import centroidal_momentum_rate
+from ..arrays import Array
 from .template import Template
 
 __all__ = ["Centroidal"]

@@ -8,12 +8,12 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import center_of_mass
-from ..checks import Array, as_arrays, as_number
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import frame_placement
+from ..arrays import Array, as_arrays, as_number
 from ..errors import SingularError
-from ..kinematics import frame_placement
 from ..model import Model
-from .reading import com_acceleration
+from .com_motion import com_acceleration
 from .template import Template, checked
 
 __all__ = ["LinearPendulum"]

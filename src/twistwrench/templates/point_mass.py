@@ -6,8 +6,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..checks import Array
-from .reading import com_acceleration
+from ..arrays import Array
+from .com_motion import com_acceleration
 from .template import Template
 
 __all__ = ["PointMass"]

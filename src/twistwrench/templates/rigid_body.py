@@ -6,9 +6,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..checks import Array
-from ..floating_base import base_placement
-from .reading import com_acceleration, locked_inertia
+from ..algorithms.floating_base import base_placement
+from ..arrays import Array
+from .com_motion import com_acceleration, locked_inertia
 from .template import Template
 
 __all__ = ["RigidBody"]

@@ -9,15 +9,14 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..centroidal import center_of_mass
-from ..checks import Array
-from ..door import one_configuration
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.floating_base import base_placement
+from ..algorithms.rnea import rnea
+from ..arrays import Array
 from ..errors import SingularError
-from ..floating_base import base_placement
-from ..inverse_dynamics import rnea
-from ..model import Model
-from ..plucker import SE3
-from .reading import locked_inertia
+from ..model import Model, one_configuration
+from ..spatial import SE3
+from .com_motion import locked_inertia
 
 __all__ = ["Residual", "Template", "full_rate"]
 

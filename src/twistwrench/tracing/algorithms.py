@@ -8,15 +8,13 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import Array
-from ..door import check_model
+from ..algorithms.aba import aba_terms, articulated_body
+from ..algorithms.crba import composite_rigid_body, crba_terms
+from ..algorithms.rnea import newton_euler, rnea_terms
+from ..algorithms.terms import AbaTerms, CrbaTerms, RneaTerms
+from ..arrays import Array
 from ..errors import ShapeError, check_known
-from ..forward_dynamics import aba_terms, articulated_body
-from ..inverse_dynamics import newton_euler, rnea_terms
-from ..mass_matrix import composite_rigid_body, crba_terms
-from ..model import Model
-from ..terms import AbaTerms, CrbaTerms, RneaTerms
-from ..tree import Tree, walk
+from ..model import Model, Tree, check_model, walk
 from .ledger import Account, Row, Trace
 from .listing import Step, places
 

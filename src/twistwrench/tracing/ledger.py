@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..checks import Array
+from ..arrays import Array
 from ..errors import unknown_name
 from ..model import Model
 from .listing import Step

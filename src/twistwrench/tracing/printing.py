@@ -8,7 +8,7 @@ from html import escape
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from .ledger import Account, Row, Trace
 
 __all__ = ["html", "table", "tree"]

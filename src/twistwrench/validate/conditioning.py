@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import newton_euler_3d as ne
-from ..checks import Array, resolution
+from ..arrays import Array, resolution
 from ..model import Model
 from .exact import contact_jacobian
 from .states import States

@@ -10,7 +10,7 @@ import twistwrench as tw
 
 from .. import bridge
 from .. import newton_euler_3d as ne
-from ..checks import Array
+from ..arrays import Array
 from ..model import Model
 from . import exact
 from .conditioning import (

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import newton_euler_3d as ne
-from ..checks import Array
+from ..arrays import Array
 from ..errors import SingularError
 from ..model import Model
 from ..newton_euler_3d.bodies import cross

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from .. import fast
-from ..checks import Array
+from ..arrays import Array
 from ..model import Model
 from .quantities import QUANTITIES
 from .states import States

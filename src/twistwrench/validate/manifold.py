@@ -9,11 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from ..errors import ModelError
-from ..joint import Joint
-from ..joint_types import Continuous, FreeFlyer, Planar, Spherical
-from ..model import Model
+from ..model import Continuous, FreeFlyer, Joint, Model, Planar, Spherical
 from ..newton_euler_3d.bodies import cross
 
 __all__ = ["integrate"]

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..checks import Array
+from ..arrays import Array
 from ..errors import ShapeError, SingularError
 from ..model import Model
 from .conditioning import CANCELLED, ROUNDINGS

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import bridge
-from ..checks import Array
+from ..arrays import Array
 from ..errors import ModelError
 from ..model import Model
 from .states import States

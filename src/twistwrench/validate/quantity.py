@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from ..checks import Array
+from ..arrays import Array
 from ..errors import SingularError
 from ..model import Model
 from .oracle import Oracle

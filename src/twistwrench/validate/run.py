@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ..checks import as_count
+from ..arrays import as_count
 from ..errors import NameNotFound, no_model
 from ..model import Model
 from ..robots import load

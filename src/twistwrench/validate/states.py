@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import Array, as_generator
+from ..arrays import Array, as_generator
 from ..model import Model
 
 __all__ = ["States", "random_states", "sample_frames"]

@@ -9,6 +9,6 @@
 - `commands`: ``twistwrench view``.
 """
 
-from .showing import view
+from .viewer import view
 
 __all__ = ["view"]

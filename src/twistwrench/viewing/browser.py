@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 from ..files import write_text
 from .controls import add_joints, add_time
 from .origin import only_own_page
+from .scene import build
 from .shapes import Shape
-from .stage import build
-from .subject import Subject
+from .state import Subject
 
 __all__ = ["Browser", "import_viser"]
 

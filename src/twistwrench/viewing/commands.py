@@ -54,7 +54,7 @@ def _view(args: argparse.Namespace, **how: Any) -> Any:
     """Call `view` as the command line says."""
     from ..errors import unknown_name
     from ..robots import load
-    from .showing import view
+    from .viewer import view
 
     model, q = load(args.robot, base=args.base, physical=False), None
     if args.posture is not None:

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import Array
-from .subject import Subject
+from ..arrays import Array
+from .state import Subject
 
 __all__ = ["add_joints", "add_time"]
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ..centroidal import center_of_mass
-from ..kinematics import forward_kinematics, frame_placement
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.kinematics import forward_kinematics, frame_placement
 from ..plot.frames import arrows, triad
 from ..plot.robot import robot
 from ..plot.stance import support_polygon
 from ..plot.style import COLOURS, axes_3d, fit
-from .subject import Subject
+from .state import Subject
 
 __all__ = ["LONGEST_FORCE", "draw"]
 

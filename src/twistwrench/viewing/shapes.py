@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from ..model import Model
-from ..plucker import SE3
 from ..robots.catalogue import PREFIX, find, known
 from ..robots.reading import read_robot_xml
+from ..spatial import SE3
 from .meshes import Unseen, find_mesh, read_mesh
 
 __all__ = ["Shape", "shapes"]

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ...rotation import exp3
+from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..wrong import as_column
 

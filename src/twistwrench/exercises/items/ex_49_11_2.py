@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from ...trees import chain
+from ...model import chain
 from ..exercise import Exercise, Part, Quantity
 from ..robots import robot, small_robot
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from ...rotation import exp3
+from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
 from ..wrong import before, swapped

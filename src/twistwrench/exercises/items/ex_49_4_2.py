@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-from ...rotation import exp3
+from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
 from ..wrong import swapped

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from ...rotation import exp3
+from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA
 from ..workbook import mine

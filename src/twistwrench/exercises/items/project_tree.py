@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ...tree import joint_placements, split
-from ...trees import random_tree
+from ...model import joint_placements, random_tree
+from ...model.tree import split
 from ..exercise import Part, Quantity
 from ..robots import robot
 from ..workbook import mine

@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ...model import Model
-from ...tree import split, walk
-from ...trees import random_tree
+from ...model import Model, random_tree, walk
+from ...model.tree import split
 from ..robots import robot
 
 __all__ = ["pieces", "previous", "trees"]

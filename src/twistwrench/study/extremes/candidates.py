@@ -11,7 +11,7 @@ import numpy as np
 import twistwrench as tw
 
 from ... import bridge
-from ...checks import Array, resolution
+from ...arrays import Array, resolution
 from ...errors import SingularError
 from ...model import Model
 from .robots import State

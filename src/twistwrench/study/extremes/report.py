@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...checks import resolution
+from ...arrays import resolution
 from .candidates import ALGORITHMS, CANDIDATES
 from .cell import Outcome
 from .rotations import Turns

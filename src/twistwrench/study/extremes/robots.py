@@ -8,12 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...builder import Builder
-from ...checks import Array
-from ...inertia import SpatialInertia
-from ...joint_types import Revolute
-from ...model import Model
-from ...plucker import SE3
+from ...arrays import Array
+from ...model import Builder, Model, Revolute
+from ...spatial import SE3, SpatialInertia
 
 __all__ = ["QUATERNION", "Recipe", "State"]
 

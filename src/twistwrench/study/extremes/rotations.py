@@ -10,8 +10,8 @@ import numpy as np
 import twistwrench as tw
 
 from ... import newton_euler_3d as ne
+from ...arrays import Array
 from ...bridge import from_pinocchio_motion, import_pinocchio, to_pinocchio_motion
-from ...checks import Array
 from ...newton_euler_3d.arithmetic import Arithmetic
 
 __all__ = ["Turns", "rotations"]

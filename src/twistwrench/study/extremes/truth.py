@@ -15,7 +15,7 @@ import numpy as np
 import twistwrench as tw
 
 from ... import newton_euler_3d as ne
-from ...checks import Array
+from ...arrays import Array
 from ...errors import SingularError
 from ...model import Model
 from ...newton_euler_3d.bodies import Body, walk

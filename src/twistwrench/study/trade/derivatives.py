@@ -10,7 +10,7 @@ import numpy as np
 import twistwrench as tw
 
 from ... import newton_euler_3d as ne
-from ...checks import Array, resolution
+from ...arrays import Array, resolution
 from ...model import Model
 from ...validate.manifold import integrate
 from ...validate.oracle import Oracle

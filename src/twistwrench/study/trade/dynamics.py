@@ -13,8 +13,8 @@ import twistwrench as tw
 
 from ... import bridge
 from ... import newton_euler_3d as ne
-from ...checks import Array
-from ...kinematics import Reference
+from ...algorithms.kinematics import Reference
+from ...arrays import Array
 from ...model import Model
 from ...validate.oracle import Oracle
 from .numbers import DIGITS, FLOATS, HARDWARE

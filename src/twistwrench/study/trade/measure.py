@@ -8,8 +8,8 @@ from textwrap import shorten
 
 import numpy as np
 
-from ...checks import Array
-from ...clock import Lap, round_robin
+from ...arrays import Array
+from ...timing import Lap, round_robin
 from .quantity import Quantity, Way
 
 __all__ = ["Effort", "LeftOut", "Point", "Unusable", "measure", "relative_error"]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...checks import Array, resolution
+from ...arrays import Array, resolution
 
 __all__ = ["DIGITS", "FLOATS", "HARDWARE", "TRUTH", "convert", "digits", "epsilon", "exactly"]
 

@@ -7,7 +7,7 @@ import numpy as np
 import twistwrench as tw
 
 from ... import bridge
-from ...checks import Array
+from ...arrays import Array
 from .numbers import DIGITS, HARDWARE, TRUTH, convert, digits
 from .quantity import Arrays, Quantity, Way, repeated
 

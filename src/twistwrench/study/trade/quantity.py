@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...checks import Array
+from ...arrays import Array
 from .numbers import FLOATS
 
 __all__ = ["Arrays", "Inputs", "Quantity", "Way", "repeated"]

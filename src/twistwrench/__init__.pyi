@@ -1,0 +1,162 @@
+"""The public names, and the file that holds each; a file is loaded when the first of its names is used."""
+
+from . import bridge, exercises, fast, motions, newton_euler_3d, plot, templates
+from .accuracy import Accuracy, accuracy
+from .algorithms.aba import aba, aba_terms
+from .algorithms.centroidal import (
+    center_of_mass,
+    centroidal_map,
+    centroidal_momentum,
+    centroidal_momentum_rate,
+    centroidal_terms,
+)
+from .algorithms.coriolis import coriolis_matrix
+from .algorithms.crba import crba, crba_terms
+from .algorithms.energy import kinetic_energy, potential_energy
+from .algorithms.floating_base import Equilibrium, contact_jacobian, selection_matrix, static_equilibrium
+from .algorithms.kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
+from .algorithms.mimic import MimicModel
+from .algorithms.rnea import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
+from .algorithms.whole_body import Dynamics, dynamics
+from .contact import (
+    Baumgarte,
+    ContactDynamics,
+    ContactForces,
+    Impact,
+    PointContact,
+    StanceMargins,
+    SurfaceContact,
+    constraint_bias,
+    constraint_jacobian,
+    contact_forward_dynamics,
+    contact_inverse_dynamics,
+    contact_placements,
+    friction_inverse_dynamics,
+    impact,
+    project_state,
+    stance_margins,
+)
+from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
+from .model.builder import Builder
+from .model.joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
+from .model.model import Model
+from .model.reduction import Reduction, lock_joints
+from .model.samples import chain, random_tree
+from .robots import load, robots
+from .scene import Scene
+from .simulation import DivergenceError, Simulation, simulate
+from .spatial.cross import cross_force, cross_motion
+from .spatial.exponential import exp6, log6
+from .spatial.inertia import SpatialInertia
+from .spatial.orthonormal import nearest_rotation
+from .spatial.plucker import SE3, force_transform, motion_transform
+from .spatial.rotation import exp3, log3, skew, unskew
+from .spatial.twist import Screw, Twist, hat, screw, vee
+from .spatial.wrench import Wrench, power
+from .tracing import Trace, trace
+from .viewing import view
+
+__version__: str
+
+__all__ = [
+    "SE3",
+    "Accuracy",
+    "Baumgarte",
+    "Builder",
+    "ContactDynamics",
+    "ContactForces",
+    "Continuous",
+    "DivergenceError",
+    "Dynamics",
+    "Equilibrium",
+    "FrameError",
+    "FreeFlyer",
+    "Helical",
+    "Impact",
+    "MimicModel",
+    "Model",
+    "ModelError",
+    "NameNotFound",
+    "Planar",
+    "PointContact",
+    "Prismatic",
+    "Reduction",
+    "Revolute",
+    "Scene",
+    "Screw",
+    "ShapeError",
+    "Simulation",
+    "SingularError",
+    "SpatialInertia",
+    "Spherical",
+    "StanceMargins",
+    "SurfaceContact",
+    "Trace",
+    "Twist",
+    "Wrench",
+    "aba",
+    "aba_terms",
+    "accuracy",
+    "bridge",
+    "center_of_mass",
+    "centroidal_map",
+    "centroidal_momentum",
+    "centroidal_momentum_rate",
+    "centroidal_terms",
+    "chain",
+    "constraint_bias",
+    "constraint_jacobian",
+    "contact_forward_dynamics",
+    "contact_inverse_dynamics",
+    "contact_jacobian",
+    "contact_placements",
+    "coriolis_matrix",
+    "crba",
+    "crba_terms",
+    "cross_force",
+    "cross_motion",
+    "dynamics",
+    "exercises",
+    "exp3",
+    "exp6",
+    "fast",
+    "force_transform",
+    "forward_kinematics",
+    "frame_bias_acceleration",
+    "frame_jacobian",
+    "frame_placement",
+    "friction_inverse_dynamics",
+    "gravity",
+    "hat",
+    "impact",
+    "joint_wrenches",
+    "kinetic_energy",
+    "load",
+    "lock_joints",
+    "log3",
+    "log6",
+    "motion_transform",
+    "motions",
+    "nearest_rotation",
+    "newton_euler_3d",
+    "nonlinear_effects",
+    "plot",
+    "potential_energy",
+    "power",
+    "project_state",
+    "random_tree",
+    "rnea",
+    "rnea_terms",
+    "robots",
+    "screw",
+    "selection_matrix",
+    "simulate",
+    "skew",
+    "stance_margins",
+    "static_equilibrium",
+    "templates",
+    "trace",
+    "unskew",
+    "vee",
+    "view",
+]

@@ -1,0 +1,24 @@
+"""The algorithms of the chapter (49.6 to 49.11), one file each, in its order.
+
+Each file imports only from those above it in this table.
+
+==============  =======  ==============================================================================
+file            section  what it answers
+==============  =======  ==============================================================================
+_mimic                   how a function also takes a model whose joints follow others
+terms                    what the recursions return: `RneaTerms`, `AbaTerms`, `CrbaTerms`, …
+kinematics      49.6     where are the bodies, and how do they move: placements, twists, Jacobians
+rnea            49.6     which forces make a motion happen
+singular                 where is q̈ not determined: what `aba` refuses, by the joint's name
+aba             49.7     how does the robot accelerate
+crba            49.8     the mass matrix M
+coriolis        49.8     the Coriolis matrix C
+energy          49.8     kinetic and potential energy
+floating_base   49.9     the selection matrix S, contact Jacobians J_c, static equilibrium
+centroidal      49.10    the centre of mass, the centroidal momentum h_G, its map A_G and its rate
+whole_body      49.11    M, h, J_c and A_G at once
+mimic                    joints that follow others: a smaller model, projected
+==============  =======  ==============================================================================
+
+Import from the file: `from twistwrench.algorithms.aba import aba`. Most files have the name of their function.
+"""

@@ -1,0 +1,246 @@
+"""Centre of mass, centroidal momentum and its matrix (49.10).
+
+Everything that the whole robot does to the outside passes through six numbers: its momentum
+h_G = (k_G, l_G) at the centre of mass G, in the axes of the world.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, convert
+from ..errors import SingularError
+from ..model import Model, Tree, columns, composite_inertias, joint_placements, state_of, walk
+from ..spatial import SE3
+from ..spatial.formulas import bias_wrench
+from ..spatial.plucker import placed_point
+from ._mimic import also_of_mimics
+from .kinematics import motion, placements
+from .terms import CentroidalTerms, matrices
+
+__all__ = [
+    "center_of_mass",
+    "centroidal_composite",
+    "centroidal_map",
+    "centroidal_momentum",
+    "centroidal_momentum_rate",
+    "centroidal_terms",
+]
+
+
+def centroidal_composite(tree: Tree, X: list[Array]) -> CentroidalTerms:
+    """Run the CCRBA: a unit velocity of joint i moves its subtree as one rigid body, with the momentum IC[i] S[i].
+
+    X[i] is the chapter's ᴳX*_i: it takes a momentum from frame i to the centre of mass, in the axes of the world.
+    """
+    IC = composite_inertias(tree)  # 49.10 IC
+    A_G = [X[i] @ IC[i] @ tree.S[i] for i in range(len(X))]  # 49.10 A_G
+    return CentroidalTerms(tuple(X), matrices(IC, tree.batch), np.concatenate(A_G, axis=-1))
+
+
+@also_of_mimics
+def center_of_mass(model: Model, q: ArrayLike) -> Array:
+    """Return the centre of mass p_G of everything that moves, in the world.
+
+    The base link of a fixed base never moves and does not count (nor does it in Pinocchio).
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        m.
+
+    Raises
+    ------
+    SingularError
+        If nothing that moves has mass.
+    ShapeError, ValueError
+        As `Model.state`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> tw.center_of_mass(tw.load("pendulum"), [0.0])
+    array([ 0.,  0., -1.])
+    """
+    (q,) = state_of(model, q)
+    return _center_of_mass(model, placements(model.parent, joint_placements(model, q)), q)
+
+
+def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
+    if model.mass == 0:
+        raise SingularError(f"centre of mass of {model.name!r}: nothing that moves has mass")
+    moment = np.zeros((*q.shape[:-1], 3), q.dtype)
+    for T, inertia in zip(placement, model.inertia):
+        com = placed_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
+        moment = moment + convert(inertia.mass, q.dtype) * com
+    p_G: Array = moment / np.sum([convert(inertia.mass, q.dtype) for inertia in model.inertia])  # 49.10 p_G
+    return p_G
+
+
+@also_of_mimics
+def centroidal_map(model: Model, q: ArrayLike) -> Array:
+    """Return the centroidal momentum matrix A_G(q): h_G = A_G v, by the CCRBA.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+
+    Returns
+    -------
+    ndarray, shape (..., 6, nv)
+        Rows (angular, linear), at the centre of mass, in the axes of the world (Pinocchio's
+        ``data.Ag`` has the linear rows first).
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `center_of_mass`.
+
+    Notes
+    -----
+    Section 49.10; D. E. Orin, A. Goswami and S.-H. Lee, Centroidal dynamics of a humanoid robot,
+    2013. A unit velocity of joint i moves its subtree as one rigid body, whose momentum I^C S is
+    then seen from the centre of mass. No walk to the base as in `crba`: O(N).
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> tw.centroidal_map(model, model.standing())[3:, 3:6].round(12) + 0.0  # linear momentum of the base's motion
+    array([[16.085,  0.   ,  0.   ],
+           [ 0.   , 16.085,  0.   ],
+           [ 0.   ,  0.   , 16.085]])
+    """
+    return centroidal_terms(model, q).A_G
+
+
+def centroidal_terms(model: Model, q: ArrayLike) -> CentroidalTerms:
+    """Return what the CCRBA computes on its way: transforms to the centre of mass, composite inertias, and A_G.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+
+    Returns
+    -------
+    CentroidalTerms
+        X and IC for each body, and A_G.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `centroidal_map`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> tw.centroidal_terms(model, model.standing()).IC[1][5, 5].round(3)  # with the joints locked, the whole mass
+    np.float64(16.085)
+    """
+    (q,) = state_of(model, q)
+    tree = walk(model, q)
+    return centroidal_composite(tree, _to_center_of_mass(model, tree, q))
+
+
+@also_of_mimics
+def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
+    """Return the momentum h_G = (k_G, l_G) at the centre of mass, in the axes of the world.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        Angular momentum, kg m²/s, and linear momentum, kg m/s. Pinocchio's ``data.hg.vector`` has
+        the linear part first.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `center_of_mass`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> tw.centroidal_momentum(tw.load("pendulum"), [0.0], [2.0]).round(12) + 0.0  # a ball of 1 kg at 2 m/s
+    array([ 0.   ,  0.002,  0.   , -2.   ,  0.   ,  0.   ])
+    """
+    q, v = state_of(model, q, v=v)
+    tree = walk(model, q)
+    X, I = _to_center_of_mass(model, tree, q), tree.I
+    V, _ = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
+    h_G: Array = np.sum([X[i] @ I[i] @ V[i] for i in range(model.nbodies)], axis=0)  # 49.10 h_G
+    return h_G[..., 0]
+
+
+@also_of_mimics
+def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
+    """Return ḣ_G = A_G a + Ȧ_G v, the rate of the centroidal momentum in a given motion.
+
+    A matter of motion alone: at rest with a = 0 it is zero, whatever gravity and contacts do (the
+    chapter expects the weight there). That it equals the wrench of all forces at G is Newton's and
+    Euler's law.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v, a : array_like, shape (..., nv)
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        N m and N.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `center_of_mass`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> rest = np.zeros(model.nv)
+    >>> free_fall = tw.aba(model, model.standing(), rest, rest)
+    >>> tw.centroidal_momentum_rate(model, model.standing(), rest, free_fall)[5].round(3)  # −m g
+    np.float64(-157.794)
+    """
+    q, v, a = state_of(model, q, v=v, a=a)
+    tree = walk(model, q)
+    X, I = _to_center_of_mass(model, tree, q), tree.I
+    V, A = motion(tree, columns(model, v), columns(model, a))
+    F = [I[i] @ A[i] + bias_wrench(I[i], V[i]) for i in range(model.nbodies)]  # 49.10 F
+    rate: Array = np.sum([X[i] @ F[i] for i in range(model.nbodies)], axis=0)  # 49.10 rate
+    return rate[..., 0]
+
+
+def _to_center_of_mass(model: Model, tree: Tree, q: Array) -> list[Array]:
+    """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
+    placement = _placements_from_first_body(model, tree)
+    p_G = _center_of_mass(model, placement, q)
+    return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]  # 49.10 X
+
+
+def _placements_from_first_body(model: Model, tree: Tree) -> list[SE3]:
+    """Return the placement of each body, in the world's axes but about the origin of the first body that moves.
+
+    A lever p_i − p_G does not depend on where the robot stands. As the difference of two world coordinates it would
+    lose digits with the distance from the world's origin: 1e-10 of A_G at 1000 km, in float32 1e-4 at 1 km (a Go2).
+    """
+    world, first = tree.placement[0], tree.placement[min(1, model.nbodies - 1)]  # the world itself where nothing moves
+    about_first = SE3._trusted(world.rotation, -first.translation)
+    return placements(model.parent, [about_first, *tree.placement[1:]])

@@ -1,0 +1,171 @@
+"""The equation of a floating base: M q̈ + h = Sᵀ τ + J_cᵀ λ (49.9)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_names, tolerance
+from ..errors import SingularError
+from ..model import FreeFlyer, Model, check_model, one_configuration, state_of
+from ..spatial import SE3
+from ._mimic import also_of_mimics
+from .kinematics import frame_jacobian
+from .rnea import gravity
+
+__all__ = ["Equilibrium", "base_placement", "contact_jacobian", "selection_matrix", "static_equilibrium"]
+
+
+def selection_matrix(model: Model) -> Array:
+    """Return S, which picks the actuated entries of v: Sᵀ τ is what the motors do.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    ndarray, shape (n, nv)
+        n = nv − 6 with a floating base, whose six entries have no motor; n = nv with a fixed base.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> S = tw.selection_matrix(tw.load("go2"))
+    >>> S.shape, bool((S.T @ np.ones(12))[:6].any())
+    ((12, 18), False)
+    """
+    check_model(model)
+    return np.eye(model.nv)[_unactuated(model) :]
+
+
+def _unactuated(model: Model) -> int:
+    return 6 if model.base == "floating" else 0
+
+
+@also_of_mimics
+def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Array:
+    """Return J_c of point contacts: the velocities of the contact points are J_c v.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    contacts : iterable of str
+        The frames at whose origins the robot touches its surroundings.
+
+    Returns
+    -------
+    ndarray, shape (..., 3 k, nv)
+        For each of the k contacts the three linear rows, in the axes of the world.
+
+    Raises
+    ------
+    NameNotFound
+        If the model has no such frame.
+    ShapeError, ValueError
+        As `Model.state`; or if `contacts` is a single string.
+
+    Notes
+    -----
+    Section 49.9. The linear rows are the last three of our 6 × nv Jacobians and the first three of
+    Pinocchio's; the chapter's listing in 49.11 takes the wrong ones, and a J_c of rank 9.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> J_c = tw.contact_jacobian(model, model.standing(), model.feet)
+    >>> J_c.shape, int(np.linalg.matrix_rank(J_c))
+    ((12, 18), 12)
+    """
+    (q,) = state_of(model, q)
+    contacts = as_names(contacts, "contacts", "frame names", ordered=True)
+    rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
+    return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+
+
+def base_placement(model: Model, q: Array) -> SE3:
+    """Return the placement of a floating base in the world, at a checked q."""
+    return model.constants(q.dtype).placement[1] @ FreeFlyer().transform(q[..., model.q_slice[1]])
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """What `static_equilibrium` returns.
+
+    Attributes
+    ----------
+    tau : ndarray, shape (n,)
+        Torques of the actuated joints, N m or N.
+    forces : ndarray, shape (k, 3)
+        Of the ground on each contact, in the axes of the world, N.
+    contacts : tuple of str
+        The frames of the k contacts, in the order of the rows of `forces`.
+    """
+
+    tau: Array
+    forces: Array
+    contacts: tuple[str, ...]
+
+
+def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | None = None) -> Equilibrium:
+    """Return the torques and the contact forces that hold a robot with a floating base at rest.
+
+    g(q) = Sᵀ τ + J_cᵀ λ. The six base rows have no τ: they give the contact forces, of all that would
+    do the ones of least norm. The other rows then give the torques. Forces may pull; friction is
+    not looked at.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (nq,)
+        One configuration, real. The least squares are done in float64 whatever its number type.
+    contacts : iterable of str, optional
+        Frames at which the robot touches the ground; `model.feet` unless given.
+
+    Returns
+    -------
+    Equilibrium
+        tau, forces and the names of the contacts.
+
+    Raises
+    ------
+    SingularError
+        If no forces at these contacts balance the weight; the message says what is left over.
+    NameNotFound, ShapeError, ValueError
+        As `contact_jacobian`; or if the base is fixed, there are no contacts, or q is a batch or complex.
+
+    Notes
+    -----
+    Section 49.9, and exercise 49.11.3, where the chapter leaves out Sᵀ τ: least squares over all 18 rows then
+    cannot balance anything.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> held = tw.static_equilibrium(model, model.standing())
+    >>> held.forces[:, 2].sum().round(3)  # the feet carry the whole weight
+    np.float64(157.794)
+    """
+    check_model(model)
+    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names", ordered=True)
+    if model.base != "floating":
+        raise ValueError(
+            f"{model.name!r}: expected a floating base, got a {model.base} one, which holds the robot; "
+            'twistwrench.load(..., base="floating") makes it float, and gravity(model, q) are the torques as it is'
+        )
+    if not contacts:
+        raise ValueError(f"{model.name!r}: expected at least one contact, got none")
+    q = one_configuration(model, q)
+    g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
+    b = _unactuated(model)
+    forces = np.linalg.lstsq(J_c[:, :b].mT.astype(np.float64), g[:b].astype(np.float64))[0].astype(q.dtype)
+    left = g[:b] - J_c[:, :b].mT @ forces
+    if np.abs(left).max() > tolerance(q.dtype) * np.abs(g[:b]).max():
+        raise SingularError(f"no forces at {list(contacts)} balance the weight: (τ, f) = {left} is left over")
+    return Equilibrium(tau=(g - J_c.mT @ forces)[b:], forces=forces.reshape(-1, 3), contacts=contacts)

@@ -1,0 +1,109 @@
+"""What a whole-body controller asks for, in one call: the chapter's getDynamics (49.11 and the project)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_names
+from ..errors import check_known
+from ..model import Model, state_of
+from ._mimic import also_of_mimics
+from .centroidal import centroidal_map
+from .crba import crba
+from .floating_base import contact_jacobian
+from .rnea import nonlinear_effects
+
+__all__ = ["QUANTITIES", "Dynamics", "dynamics", "wanted"]
+
+QUANTITIES = ("M", "h", "J_c", "A_G")
+
+
+@dataclass(frozen=True, repr=False)
+class Dynamics:
+    """What `dynamics` returns; what was not asked for is None.
+
+    Attributes
+    ----------
+    M : ndarray, shape (..., nv, nv)
+        Mass matrix.
+    h : ndarray, shape (..., nv)
+        Coriolis, centrifugal and gravity forces.
+    J_c : ndarray, shape (..., 3 k, nv)
+        Contact Jacobian, linear rows in the axes of the world; k = 0 where a robot has no contacts.
+    A_G : ndarray, shape (..., 6, nv)
+        Centroidal momentum matrix, rows (angular, linear).
+    """
+
+    M: Array | None = None
+    h: Array | None = None
+    J_c: Array | None = None
+    A_G: Array | None = None
+
+    def __repr__(self) -> str:
+        shapes = {f.name: np.shape(x) for f in fields(self) if (x := getattr(self, f.name)) is not None}
+        return f"Dynamics({', '.join(f'{name}: {shape}' for name, shape in shapes.items())})"
+
+
+@also_of_mimics
+def dynamics(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    *,
+    contacts: Iterable[str] | None = None,
+    want: Iterable[str] = QUANTITIES,
+) -> Dynamics:
+    """Return what a whole-body controller needs: M, h, J_c and A_G (the chapter's getDynamics).
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+    contacts : iterable of str, optional
+        Frames of the point contacts; `model.feet` unless given.
+    want : iterable of {"M", "h", "J_c", "A_G"}
+        Only these are computed.
+
+    Returns
+    -------
+    Dynamics
+
+    Raises
+    ------
+    NameNotFound
+        If `want` names something else, or the model has no such contact frame.
+    ShapeError, ValueError
+        As `Model.state`; or if `contacts` or `want` is a single string.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> d = tw.dynamics(model, model.standing(), np.zeros(model.nv), want={"M", "J_c"})
+    >>> d.M.shape, d.J_c.shape, d.h
+    ((18, 18), (12, 18), None)
+    """
+    state_of(model, q, v=v)  # also where no wanted quantity depends on v
+    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names", ordered=True)
+    want = wanted(want)
+    compute = {
+        "M": lambda: crba(model, q),
+        "h": lambda: nonlinear_effects(model, q, v),
+        "J_c": lambda: contact_jacobian(model, q, contacts),
+        "A_G": lambda: centroidal_map(model, q),
+    }
+    return Dynamics(**{name: compute[name]() for name in want})
+
+
+def wanted(want: Iterable[str]) -> tuple[str, ...]:
+    """Return which quantities are wanted; refuse a name that is none of them."""
+    want = as_names(want, "want", "quantities")
+    for name in want:
+        check_known("quantity", name, QUANTITIES)
+    return want

@@ -1,0 +1,61 @@
+"""What an argument must be: arrays of numbers, numbers, names and kinds of things.
+
+Each file imports only from those above it in this table.
+
+==============  ======================================================================================
+file            what it checks
+==============  ======================================================================================
+exact           arrays of objects that are numbers: fractions, SymPy's expressions
+kinds           what is not an array: flags, sequences, one of a few words
+conversion      arguments become finite arrays of one number type
+bounds          real numbers, finite numbers, numbers whose products cannot overflow
+==============  ======================================================================================
+"""
+
+from .bounds import as_finite, as_real, check_size
+from .conversion import (
+    Array,
+    as_array,
+    as_arrays,
+    as_constant,
+    as_count,
+    as_exactly,
+    as_generator,
+    as_names,
+    as_number,
+    as_number_array,
+    as_number_arrays,
+    resolution,
+    tolerance,
+)
+from .exact import convert, elementary, exact_numbers, exact_unit, has_objects, judged
+from .kinds import as_flag, as_sequence, check_choice, check_kind
+
+__all__ = [
+    "Array",
+    "as_array",
+    "as_arrays",
+    "as_constant",
+    "as_count",
+    "as_exactly",
+    "as_finite",
+    "as_flag",
+    "as_generator",
+    "as_names",
+    "as_number",
+    "as_number_array",
+    "as_number_arrays",
+    "as_real",
+    "as_sequence",
+    "check_choice",
+    "check_kind",
+    "check_size",
+    "convert",
+    "elementary",
+    "exact_numbers",
+    "exact_unit",
+    "has_objects",
+    "judged",
+    "resolution",
+    "tolerance",
+]

@@ -1,0 +1,92 @@
+"""The model: a tree of bodies and joints, its configuration, and how to make one.
+
+Each file imports only from those above it in this table.
+
+==============  ======================================================================================
+file            what it holds
+==============  ======================================================================================
+joint           `Joint`: the motion subspace S, and the placement that a joint makes of its q
+joints          the joints that there are, one class each
+constants       the numbers of a model in one number type
+state           what a state must be: shapes, finite numbers, quaternions of norm 1
+configuration   the manifold of q: `integrate`, `difference`, `normalize`, `random_configuration`
+report          what a loader read in its own way
+model           `Model`, frozen, and its frames
+arguments       what an algorithm accepts: a model and a state of it
+tree            what a recursion reads of a model: S, X, I and the parents
+link            a link of a model that is being built
+numbering       the order of the joints; links that are welded together
+builder         `Builder`: a model made in Python
+samples         `chain` and `random_tree`
+reduction       `lock_joints`: a smaller model
+==============  ======================================================================================
+"""
+
+from .arguments import check_model, floats_of, in_double, one_configuration, state_of
+from .builder import Builder
+from .configuration import Coordinates
+from .constants import Constants, cast, fixed
+from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
+from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
+from .link import UNLIMITED, WORLD, Link
+from .model import PER_DOF, Frame, Model
+from .numbering import Numbered
+from .reduction import Reduction, idle_joints, lock_joints, matching_joints
+from .report import Entry, Report, html_table, text_table
+from .samples import KINDS, chain, random_tree
+from .state import check_arrays, check_state
+from .tree import Tree, columns, composite_inertias, joint_placements, stacked, walk, wrenches
+
+__all__ = [
+    "KINDS",
+    "PER_DOF",
+    "UNLIMITED",
+    "WORLD",
+    "AxisJoint",
+    "Builder",
+    "Constants",
+    "Continuous",
+    "Coordinates",
+    "Entry",
+    "Frame",
+    "FreeFlyer",
+    "GroupJoint",
+    "Helical",
+    "Joint",
+    "Link",
+    "Model",
+    "Numbered",
+    "Planar",
+    "Prismatic",
+    "Reduction",
+    "Report",
+    "Revolute",
+    "Spherical",
+    "Tree",
+    "cast",
+    "chain",
+    "check_arrays",
+    "check_model",
+    "check_state",
+    "columns",
+    "composite_inertias",
+    "fixed",
+    "floats_of",
+    "html_table",
+    "idle_joints",
+    "in_double",
+    "joint_placements",
+    "lock_joints",
+    "matching_joints",
+    "one_configuration",
+    "placement",
+    "random_tree",
+    "same_side",
+    "stacked",
+    "state_of",
+    "text_table",
+    "turn",
+    "unit",
+    "walk",
+    "wrenches",
+]

@@ -1,0 +1,47 @@
+"""What every algorithm lets in: a model, and a state of it."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_constant
+from ..errors import ShapeError, no_model
+from .model import Model
+from .state import check_state
+
+__all__ = ["check_model", "floats_of", "in_double", "one_configuration", "state_of"]
+
+
+def check_model(model: object) -> None:
+    """Refuse what is no model, where it comes in."""
+    if not isinstance(model, Model):
+        raise no_model(model)
+
+
+def state_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
+    """Check a model and a state of it, in numbers of any type: see `Model.state` and `exact`."""
+    check_model(model)
+    return check_state(model, True, q=q, **others)
+
+
+def floats_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
+    """Check a model and a state of it, in floating-point numbers: see `Model.state`."""
+    check_model(model)
+    return model.state(q, **others)
+
+
+def one_configuration(model: Model, q: ArrayLike) -> Array:
+    """Check a model and one configuration of it, real and without batch axes, shape (nq,)."""
+    (q,) = floats_of(model, q)
+    if q.ndim != 1 or q.dtype.kind == "c":
+        raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
+    return q
+
+
+def in_double(model: Model, q: Array) -> Array:
+    """Return a copy of a checked q in double precision; refuse complex numbers.
+
+    What came in singles gets quaternions of norm 1 to all the digits that it has now.
+    """
+    double = as_constant(q, "q")
+    return double if q.dtype == double.dtype else model.normalize(double)

@@ -1,0 +1,242 @@
+"""Make a model in a few lines of Python. The URDF loader goes through here as well.
+
+Links are added one by one; each is carried by a parent through a joint, or welded to it. `Builder.build`
+merges welded links into the body that carries them and numbers the bodies as Pinocchio does: depth
+first, siblings in the order of their joints' names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_exactly, as_flag, as_names, check_choice, check_kind
+from ..errors import ModelError, ShapeError, check_known
+from ..spatial import SE3, SpatialInertia
+from .arguments import in_double
+from .joint import Joint
+from .joints import FreeFlyer
+from .link import WORLD, Link
+from .model import PER_DOF, Model
+from .numbering import Numbered
+from .report import Report
+
+__all__ = ["Builder"]
+
+Base = Literal["fixed", "floating"]
+
+
+class Builder:
+    """Collects links; `build` makes the model.
+
+    Parameters
+    ----------
+    name : str
+        Of the model.
+    base : {"fixed", "floating"}
+        Whether the root link is welded to the world or flies freely.
+    root : str
+        Name of the root link.
+    root_inertia : SpatialInertia, optional
+        Of the root link, in its frame. Of no effect on a fixed base: it never moves.
+    root_joint : str
+        Name of the joint of a floating base.
+    gravity : array_like, shape (3,)
+        In the world, m/s².
+
+    Raises
+    ------
+    ModelError
+        If `base` is neither, or `root` is the world's name.
+    ShapeError, ValueError
+        If `gravity` is not three real numbers.
+    TypeError
+        If `name` or `root` is no name, or `root_inertia` no inertia.
+
+    Examples
+    --------
+    >>> from twistwrench import Revolute
+    >>> rod = SpatialInertia(1.0, [0, 0, -0.5], np.diag([1 / 12, 1 / 12, 0.001]))
+    >>> double = Builder("double pendulum")
+    >>> double.link("upper", parent="base_link", joint=Revolute("y"), inertia=rod)
+    >>> double.link("lower", parent="upper", joint=Revolute("y"), inertia=rod, placement=SE3(np.eye(3), [0, 0, -1]))
+    >>> double.build()
+    Model 'double pendulum': fixed base, 2 moving bodies, nq = 2, nv = 2, 2 kg
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        base: Base = "fixed",
+        root: str = "base_link",
+        root_inertia: SpatialInertia | None = None,
+        root_joint: str = "root_joint",
+        gravity: ArrayLike = (0.0, 0.0, -9.81),
+    ) -> None:
+        check_choice(base, "base", ("fixed", "floating"), ModelError)
+        if not isinstance(name, str):
+            raise TypeError(f"name: expected a name, got {type(name).__name__} {name!r}")
+        check_kind(root_joint, "root_joint", str, "a name")
+        self._name = name
+        self._base = base
+        self._gravity = as_exactly(gravity, "gravity", 3)
+        self._links: dict[str, Link] = {}
+        self._joint_names: set[str] = set()
+        flyer, joint_name = (FreeFlyer(), root_joint) if base == "floating" else (None, "")
+        inertia = SpatialInertia.zero() if root_inertia is None else root_inertia
+        self._add(Link.checked(root, WORLD, flyer, joint_name, SE3.identity(), inertia, {}))
+
+    def link(
+        self,
+        name: str,
+        *,
+        parent: str,
+        joint: Joint | None = None,
+        joint_name: str | None = None,
+        placement: SE3 | None = None,
+        inertia: SpatialInertia | None = None,
+        lower: ArrayLike = -np.inf,
+        upper: ArrayLike = np.inf,
+        velocity_limit: ArrayLike = np.inf,
+        effort_limit: ArrayLike = np.inf,
+        armature: ArrayLike = 0.0,
+        damping: ArrayLike = 0.0,
+        friction: ArrayLike = 0.0,
+    ) -> None:
+        """Add a link.
+
+        Parameters
+        ----------
+        name : str
+        parent : str
+            The link that carries this one; it must have been added before.
+        joint : Joint, optional
+            What moves the link; without one it is welded to its parent.
+        joint_name : str, optional
+            The link's own name unless given.
+        placement : SE3, optional
+            Of the joint's frame in the parent link's frame; the identity unless given.
+        inertia : SpatialInertia, optional
+            In the link's frame; zero unless given.
+        lower, upper : array_like, shape () or (joint.nq,)
+            Limits of the joint's entries of q.
+        velocity_limit, effort_limit : array_like, shape () or (joint.nv,)
+        armature : array_like, shape () or (joint.nv,)
+            Inertia of the rotor as seen at the joint, kg m² or kg.
+        damping, friction : array_like, shape () or (joint.nv,)
+            Kept as `Model.damping` and `Model.friction`; no algorithm applies them.
+
+        Raises
+        ------
+        ModelError
+            A name that is taken or the world's; limits that cross; a limit of speed or effort, an armature, damping
+            or friction below zero; any of them on a weld; complex numbers.
+        ShapeError
+            A batch of placements or inertias, or limits of a wrong shape.
+        TypeError
+            A name, joint, placement or inertia that is none.
+        NameNotFound
+            If the parent is not known.
+        """
+        check_known("parent link", parent, self._links)
+        numbers = {
+            "lower": lower,
+            "upper": upper,
+            "velocity_limit": velocity_limit,
+            "effort_limit": effort_limit,
+            "armature": armature,
+            "damping": damping,
+            "friction": friction,
+        }
+        placement = SE3.identity() if placement is None else placement
+        inertia = SpatialInertia.zero() if inertia is None else inertia
+        joint_name = name if joint_name is None else joint_name
+        self._add(Link.checked(name, parent, joint, joint_name, placement, inertia, numbers))
+
+    def __repr__(self) -> str:
+        counts = (len(self._links), "link"), (sum(link.joint is not None for link in self._links.values()), "joint")
+        parts = ", ".join(f"{n} {what}{'s' * (n != 1)}" for n, what in counts)
+        return f"<Builder {self._name!r}: {self._base} base, {parts}>"
+
+    def _add(self, link: Link) -> None:
+        if link.name in self._links:
+            raise ModelError(f"link {link.name!r}: the name is taken")
+        if link.joint_name in self._joint_names:
+            raise ModelError(f"link {link.name!r}: the joint name {link.joint_name!r} is taken")
+        self._links[link.name] = link
+        self._joint_names.add(link.joint_name)
+
+    def build(
+        self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = (), physical: bool = True
+    ) -> Model:
+        """Make the model.
+
+        Parameters
+        ----------
+        postures : mapping of str to array_like, shape (nq,), optional
+            Named configurations.
+        feet : sequence of str
+            The frames on which a legged robot stands.
+        physical : bool
+            Refuse a moving body, welded links merged, that cannot exist (`SpatialInertia.check_physical`).
+            A body without mass may be there all the same, and `Model.report` says so where it has an inertia.
+
+        Returns
+        -------
+        Model
+
+        Raises
+        ------
+        NameNotFound, ShapeError, ValueError
+            If a foot is no frame, or a posture is no configuration.
+        ModelError
+            If a body cannot exist, numbers overflow where links are merged, or two frames want one name.
+        """
+        postures = {} if postures is None else postures
+        check_kind(postures, "postures", Mapping, "configurations by name")
+        feet, physical = as_names(feet, "feet", "frame names", ordered=True), as_flag(physical, "physical")
+        with np.errstate(over="ignore", invalid="ignore"):
+            tree = Numbered(self._links)
+            tree.check_finite()
+        report = Report(tree.check_bodies(physical))
+        moved = tree.moved
+        model = Model(
+            name=self._name,
+            base=self._base,
+            joint_names=(WORLD, *(link.joint_name for link in moved)),
+            joints=(None, *(link.joint for link in moved)),
+            parent=tuple(tree.parent),
+            placement=tuple(tree.placement),
+            inertia=tuple(tree.inertia),
+            frames=tree.frames,
+            gravity=self._gravity,
+            lower=_join([link.lower for link in moved]),
+            upper=_join([link.upper for link in moved]),
+            postures={},
+            feet=feet,
+            report=report,
+            **{name: _join([getattr(link, name) for link in moved]) for name in PER_DOF},
+        )
+        for foot in model.feet:
+            model.frame(foot)
+        return replace(model, postures={name: _posture(model, name, q) for name, q in postures.items()})
+
+
+def _posture(model: Model, name: str, q: ArrayLike) -> Array:
+    """Return one configuration, checked."""
+    try:
+        checked = in_double(model, *model.state(q))
+    except ValueError as error:
+        raise type(error)(f"posture {name!r}: {error}") from None
+    if checked.ndim != 1:
+        raise ShapeError(f"posture {name!r}: expected one configuration, shape ({model.nq},), got {checked.shape}")
+    return checked
+
+
+def _join(pieces: list[Array]) -> Array:
+    return np.concatenate([np.zeros(0), *pieces])

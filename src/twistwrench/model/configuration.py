@@ -1,0 +1,257 @@
+"""The coordinates of a model: which numbers q and v have, and the manifold on which q lives.
+
+A q is no vector: the sum of two quaternions is no rotation. A step from q is one along a twist of each joint,
+q ⊕ v dt, and two configurations differ by such a step, q₁ ⊖ q₀.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_generator
+from ..errors import NameNotFound
+from .joint import Joint
+from .state import check_arrays, check_state
+
+__all__ = ["Coordinates"]
+
+
+class Coordinates:
+    """What a `Model` knows of its q and v. The attributes are the model's, and told there."""
+
+    name: str
+    base: str
+    joint_names: tuple[str, ...]
+    joints: tuple[Joint | None, ...]
+    parent: tuple[int, ...]
+    lower: Array
+    upper: Array
+    postures: Mapping[str, Array]
+
+    @property
+    def nbodies(self) -> int:
+        """Number of bodies, the world included."""
+        return len(self.parent)
+
+    @cached_property
+    def nq(self) -> int:
+        """Number of entries of q."""
+        return sum(joint.nq for joint in self.joints if joint)
+
+    @cached_property
+    def nv(self) -> int:
+        """Number of degrees of freedom: entries of v, a and tau."""
+        return sum(joint.nv for joint in self.joints if joint)
+
+    @cached_property
+    def q_slice(self) -> tuple[slice, ...]:
+        """Where joint i's entries stand in q; empty for the world."""
+        return _slices([joint.nq if joint else 0 for joint in self.joints])
+
+    @cached_property
+    def v_slice(self) -> tuple[slice, ...]:
+        """Where joint i's entries stand in v; empty for the world."""
+        return _slices([joint.nv if joint else 0 for joint in self.joints])
+
+    def neutral(self) -> Array:
+        """Return the configuration in which no joint moves anything. It may be outside the limits.
+
+        Returns
+        -------
+        ndarray, shape (nq,)
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> tw.load("go2").neutral()[:7]  # the base at the world's origin, with the quaternion (0, 0, 0, 1)
+        array([0., 0., 0., 0., 0., 0., 1.])
+        """
+        return np.concatenate([np.zeros(0), *(joint.neutral() for joint in self.joints if joint)])
+
+    def standing(self) -> Array:
+        """Return a posture within the limits with the feet on z = 0.
+
+        Returns
+        -------
+        ndarray, shape (nq,)
+
+        Raises
+        ------
+        NameNotFound
+            If the model has none: only the legged robots of the catalogue do.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> tw.load("go2").standing()[2].round(3)  # how high the base is, m
+        np.float64(0.265)
+        """
+        if "standing" not in self.postures:
+            raise NameNotFound(f"model {self.name!r} has no standing posture; there is neutral()")
+        return self.postures["standing"].copy()
+
+    def random_configuration(self, *, rng: np.random.Generator | int | None = None) -> Array:
+        """Draw a configuration.
+
+        Uniform between the limits; uniform over the turns of a quaternion or a (cos, sin). A range without end, or
+        one of more than 100 turns or 200 m, is cut to one turn or 2 m of it, as near to 0 as it goes: to ±π or ±1 m
+        where 0 is well inside (Pinocchio returns infinities there).
+
+        Parameters
+        ----------
+        rng : numpy Generator or int, optional
+            Where the randomness comes from.
+
+        Returns
+        -------
+        ndarray, shape (nq,)
+
+        Raises
+        ------
+        ValueError
+            If `rng` is neither.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> model = tw.load("go2")
+        >>> q = model.random_configuration(rng=0)
+        >>> bool(((model.lower <= q) & (q <= model.upper)).all())
+        True
+        """
+        rng = as_generator(rng)
+        joints = zip(self.joints, self.q_slice)
+        parts = [joint.random(rng, self.lower[s], self.upper[s]) for joint, s in joints if joint]
+        return np.concatenate([np.zeros(0), *parts])
+
+    def integrate(self, q: ArrayLike, v_dt: ArrayLike) -> Array:
+        """Go from q along v_dt: q ⊕ v_dt.
+
+        Parameters
+        ----------
+        q : array_like, shape (..., nq)
+        v_dt : array_like, shape (..., nv)
+            Velocity times duration, rad and m; a floating base goes along its twist, (ω, v) in its own axes.
+
+        Returns
+        -------
+        ndarray, shape (..., nq)
+
+        Raises
+        ------
+        ShapeError, ValueError
+            As `Model.state`.
+
+        Examples
+        --------
+        A base at rest that turns by 90° about its z:
+
+        >>> import twistwrench as tw
+        >>> model = tw.load("go2")
+        >>> step = np.array([0, 0, np.pi / 2, 0, 0, 0, *np.zeros(12)])
+        >>> model.integrate(model.neutral(), step)[3:7].round(3)
+        array([0.   , 0.   , 0.707, 0.707])
+        """
+        q, v_dt = check_state(self, q=q, v_dt=v_dt)
+        return self._by_joint(lambda joint, qs, vs: joint.integrate(q[..., qs], v_dt[..., vs]), q)
+
+    def difference(self, q0: ArrayLike, q1: ArrayLike) -> Array:
+        """Return the v_dt that leads from q0 to q1: q1 ⊖ q0, the inverse of `integrate`.
+
+        Parameters
+        ----------
+        q0, q1 : array_like, shape (..., nq)
+
+        Returns
+        -------
+        ndarray, shape (..., nv)
+            rad and m; a turn by at most π.
+
+        Raises
+        ------
+        ShapeError, ValueError
+            As `Model.state`.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> model, step = tw.load("go2"), np.linspace(-1, 1, 18)
+        >>> q = model.standing()
+        >>> bool(np.allclose(model.difference(q, model.integrate(q, step)), step, rtol=0, atol=1e-14))
+        True
+        """
+        q0, q1 = check_state(self, q0=q0, q1=q1)
+        return self._by_joint(lambda joint, qs, vs: joint.difference(q0[..., qs], q1[..., qs]), q0)
+
+    def normalize(self, q: ArrayLike) -> Array:
+        """Scale the quaternions and the (cos, sin) in q to norm 1.
+
+        Parameters
+        ----------
+        q : array_like, shape (..., nq)
+
+        Returns
+        -------
+        ndarray, shape (..., nq)
+
+        Raises
+        ------
+        ShapeError, ValueError
+            As `Model.state`; but of the norms only zero is refused, which has no direction.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> model = tw.load("go2")
+        >>> model.normalize(2 * model.neutral())[3:7]
+        array([0., 0., 0., 1.])
+        """
+        (q,) = check_arrays(self, q=q)
+        pieces = []
+        for joint, name, s in zip(self.joints, self.joint_names, self.q_slice):
+            try:
+                pieces.append(joint.normalize(q[..., s]) if joint else q[..., s])
+            except ValueError as error:
+                raise ValueError(f"joint {name!r} (q[{s.start}:{s.stop}]): {error}") from None
+        return np.concatenate(pieces, axis=-1)
+
+    def _by_joint(self, function: Callable[[Joint, slice, slice], Array], like: Array) -> Array:
+        """Put together what a function gives for each joint from where its q and its v stand."""
+        pieces = [function(joint, qs, vs) for joint, qs, vs in zip(self.joints, self.q_slice, self.v_slice) if joint]
+        return np.concatenate([like[..., :0], *pieces], axis=-1)
+
+    def state(self, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
+        """Check a state and bring it to one dtype and one batch shape.
+
+        Parameters
+        ----------
+        q : array_like, shape (..., nq)
+        **others : array_like
+            By the name of the argument: ``f_ext`` (..., nbodies, 6), zero where it is None; names that
+            begin with ``q`` (..., nq), all others (..., nv).
+
+        Returns
+        -------
+        tuple of ndarray
+            q and the others, in their order, broadcast against each other. Read-only views.
+
+        Raises
+        ------
+        ShapeError
+            A wrong last axis (with a hint where nq and nv were confused), or batch axes that do
+            not broadcast.
+        ValueError
+            An infinity or a NaN; a wrench on the world; a quaternion or (cos, sin) that is off norm 1 by more than the
+            root of the number type's resolution (1.5e-8 in float64).
+        """
+        return check_state(self, q=q, **others)
+
+
+def _slices(sizes: list[int]) -> tuple[slice, ...]:
+    ends = np.cumsum([0, *sizes]).tolist()
+    return tuple(slice(a, b) for a, b in pairwise(ends))

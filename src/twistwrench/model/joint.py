@@ -1,0 +1,200 @@
+"""What every joint offers: how q places the moved frame, and which motions the joint leaves free.
+
+Each joint is a subgroup of the rigid motions. `Joint.transform` gives the placement of the moved frame
+in the joint's frame; the columns of `Joint.subspace` are the twists S that the joint allows, constant in
+the moved frame, so that the joint's own twist is S q̇ (49.6) and a step of length one along v leads to
+T(q) exp(S v). The joints themselves are in `joint_types`.
+
+A joint is one class: whatever else must be known of it is read from its S, nq, nv and unit part, and its
+`kind` puts it into the table `Joint.kinds`, from which `random_tree` and the bridge take it.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
+
+from ..arrays import Array, as_array, as_constant, exact_unit
+from ..errors import ModelError
+from ..spatial import SE3, exp6, log6
+from ..spatial._elementary import sqrt, which
+from ..spatial.rotation import cross_matrix
+
+__all__ = ["AxisJoint", "GroupJoint", "Joint", "placement", "same_side", "turn", "unit"]
+
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+class Joint(ABC):
+    """What every joint offers. `q` is (..., nq) and `dv` is (..., nv) throughout."""
+
+    kind: ClassVar[str]
+    nq: ClassVar[int]
+    nv: ClassVar[int]
+    unit: ClassVar[slice | None] = None
+    """The entries of q that have norm 1: a quaternion, or a (cos, sin)."""
+    pinocchio: ClassVar[tuple[str, ...]] = ()
+    """What follows ``JointModel`` in Pinocchio's names: one name, or that before X, Y, Z and that with any axis."""
+    kinds: ClassVar[dict[str, type[Joint]]] = {}
+    """Every class of joint by its `kind`."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        """Enter a class that has a `kind` of its own into `kinds`.
+
+        Raises
+        ------
+        ModelError
+            If another class has that kind.
+        """
+        super().__init_subclass__(**options)
+        if "kind" in vars(cls):
+            other = Joint.kinds.get(cls.kind, cls)
+            if (other.__module__, other.__qualname__) != (cls.__module__, cls.__qualname__):
+                raise ModelError(f"kind of {cls.__name__}: {cls.kind!r} is taken by {other.__qualname__}")
+            Joint.kinds[cls.kind] = cls
+            cls.pinocchio = vars(cls).get("pinocchio", ())  # another kind has another name there, or none
+
+    @classmethod
+    def sample(cls, rng: np.random.Generator) -> Self:
+        """Draw a joint of this class: an axis in any direction where it has one."""
+        return cls(rng.standard_normal(3)) if issubclass(cls, AxisJoint) else cls()
+
+    @abstractmethod
+    def subspace(self, dtype: DTypeLike = np.float64) -> Array:
+        """Return S, shape (6, nv): the twists that the joint allows, in the moved frame."""
+
+    @abstractmethod
+    def transform(self, q: Array) -> SE3:
+        """Return the placement of the moved frame in the joint's frame: arithmetic alone, for numbers of any type."""
+
+    def neutral(self) -> Array:
+        """Return the q that moves nothing, shape (nq,)."""
+        q = np.zeros(self.nq)
+        if self.unit is not None:
+            q[self._one] = 1.0
+        return q
+
+    _one: ClassVar[int] = -1
+    """The entry that is 1 in the neutral configuration, where `unit` is set."""
+
+    def integrate(self, q: Array, dv: Array) -> Array:
+        """Go from q along the twist S dv for one unit of time."""
+        return q + dv
+
+    def difference(self, q0: Array, q1: Array) -> Array:
+        """Return the dv that leads from q0 to q1: the inverse of `integrate`."""
+        return q1 - q0
+
+    def normalize(self, q: Array) -> Array:
+        """Scale the unit part of q to norm 1, without overflow."""
+        if self.unit is None:
+            return q.copy()
+        q = q.copy()
+        part = q[..., self.unit]
+        size = np.abs(part.real).max(axis=-1, keepdims=True)
+        if (size == 0).any():
+            where = f"{self.unit.start}:{self.unit.stop} of its q are all zero" + which(size[..., 0] == 0)
+            raise ValueError(f"the entries {where}: no direction")
+        q[..., self.unit] = unit(part / size)
+        return q
+
+    def random(self, rng: np.random.Generator, lower: Array, upper: Array) -> Array:
+        """Draw a q, uniform between the limits; where they are wide, see `Model.random_configuration`."""
+        span = np.ones(self.nq)
+        if self.nq == self.nv:  # entry k of q goes along column k of S: an angle, or a length
+            span[self.subspace()[:3].any(axis=0)] = np.pi
+        near_zero = np.clip(0.0, lower + span, upper - span)
+        wide = upper / 2 - lower / 2 > 100 * span  # halved before, so that nothing overflows
+        low = np.where(wide, np.maximum(near_zero - span, lower), lower)
+        high = np.where(wide, np.minimum(near_zero + span, upper), upper)
+        q = low + (high - low) * rng.random(self.nq)
+        if self.unit is not None:
+            part = rng.standard_normal(self.unit.stop - self.unit.start)  # uniform on the sphere
+            q[self.unit] = part / np.sqrt((part**2).sum())
+        return q
+
+
+class GroupJoint(Joint):
+    """A joint whose q has a unit part, so that a step is no addition but T(q) exp(S dv).
+
+    The columns of its S are orthonormal: Sᵀ reads dv off the twist S dv.
+    """
+
+    @abstractmethod
+    def coordinates(self, T: SE3, near: Array) -> Array:
+        """Return the q with ``transform(q) == T``; of two quaternions, the one closer to `near`."""
+
+    def integrate(self, q: Array, dv: Array) -> Array:
+        """Go from q along the twist S dv for one unit of time: T(q) exp(S dv)."""
+        S = self.subspace(dv.dtype)
+        return self.coordinates(self.transform(q) @ exp6(np.matvec(S, dv)), near=q)
+
+    def difference(self, q0: Array, q1: Array) -> Array:
+        """Return the dv that leads from q0 to q1: Sᵀ log(T(q0)⁻¹ T(q1)), a turn of at most π."""
+        S = self.subspace(q1.dtype)
+        dv: Array = np.matvec(S.mT, log6(self.transform(q0).inverse() @ self.transform(q1)))
+        return dv
+
+
+@dataclass(frozen=True)
+class AxisJoint(Joint):
+    """A joint with one degree of freedom, along or about a unit axis of its frame."""
+
+    axis: tuple[float, float, float]
+    """Unit vector, the same in the joint's frame and in the moved frame."""
+
+    nv: ClassVar[int] = 1
+
+    def __init__(self, axis: str | ArrayLike) -> None:
+        if isinstance(axis, str) and axis not in AXES:
+            raise ModelError(f"axis: expected 'x', 'y', 'z' or a vector of 3, got {axis!r}")
+        a = as_constant(as_array(AXES[axis] if isinstance(axis, str) else axis, "axis", 3), "axis")
+        if a.ndim != 1 or not a.any():
+            raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
+        size = np.abs(a).max()
+        if size > 2 or abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # what is normalised stays, to the bit
+            a = unit(a / size)
+        object.__setattr__(self, "axis", (float(a[0]), float(a[1]), float(a[2])))
+
+    def _axis(self, dtype: DTypeLike) -> Array:
+        """Return the axis in a number type, of norm 1 to that type's own precision.
+
+        Objects are numbers that need not mix with floats: for them it is the fractions nearest to it of norm 1.
+        """
+        if np.dtype(dtype) == object:
+            axis = np.array(self.axis)
+            return axis if axis.dtype == object else exact_unit(axis)
+        a = np.asarray(self.axis).astype(dtype)
+        return unit(a) if np.finfo(a.dtype).eps < np.finfo(np.float64).eps else a
+
+
+def unit(x: Array) -> Array:
+    """Divide by the norm over the last axis, differentiably in complex numbers."""
+    unit: Array = x / sqrt((x * x).sum(axis=-1, keepdims=True))
+    return unit
+
+
+def turn(axis: Array, cos: Array, sin: Array) -> SE3:
+    """Turn about a unit axis, with cos and sin of shape (..., 1): the part along it stays, the part across it turns.
+
+    R = aaᵀ + cos (1 − aaᵀ) + sin [a]×, which for a coordinate axis holds cos and sin untouched.
+    """
+    along = axis[:, None] * axis
+    across = np.eye(3, dtype=axis.dtype) - along
+    R = along + cos[..., None] * across + sin[..., None] * cross_matrix(axis)
+    return placement(R, np.zeros(3, R.dtype))
+
+
+def placement(R: Array, p: Array) -> SE3:
+    """Make a placement of one batch shape and dtype."""
+    batch = np.broadcast_shapes(R.shape[:-2], p.shape[:-1])
+    return SE3._trusted(np.broadcast_to(R, (*batch, 3, 3)), np.broadcast_to(p, (*batch, 3)))
+
+
+def same_side(quaternion: Array, near: Array) -> Array:
+    """Of q and −q, which are the same turn, take the one closer to `near`."""
+    return np.where((quaternion * near).sum(axis=-1, keepdims=True).real < 0, -quaternion, quaternion)

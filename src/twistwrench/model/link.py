@@ -1,0 +1,123 @@
+"""What `Builder` is told of a link, checked: behind this door a link is right by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_constant, check_kind
+from ..errors import ModelError, ShapeError
+from ..spatial import SE3, SpatialInertia
+from .constants import cast
+from .joint import Joint
+from .model import PER_DOF
+
+__all__ = ["UNLIMITED", "WORLD", "Link"]
+
+WORLD = "universe"
+"""The name of what carries the root; nothing else may have it."""
+
+UNLIMITED = {
+    "lower": -np.inf,
+    "upper": np.inf,
+    "velocity_limit": np.inf,
+    "effort_limit": np.inf,
+    "armature": 0.0,
+    "damping": 0.0,
+    "friction": 0.0,
+}
+"""Limits, armature, damping and friction of a joint of which nothing was said."""
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link, the joint or the weld that carries it, and the joint's limits: all in float64."""
+
+    name: str
+    parent: str
+    joint: Joint | None
+    joint_name: str
+    placement: SE3
+    inertia: SpatialInertia
+    lower: Array
+    upper: Array
+    velocity_limit: Array
+    effort_limit: Array
+    armature: Array
+    damping: Array
+    friction: Array
+
+    @classmethod
+    def checked(
+        cls,
+        name: str,
+        parent: str,
+        joint: Joint | None,
+        joint_name: str,
+        placement: SE3,
+        inertia: SpatialInertia,
+        numbers: Mapping[str, ArrayLike],
+    ) -> Link:
+        """Make a link, or say what is wrong with it. `numbers` are those of `UNLIMITED` that were given."""
+        numbers = UNLIMITED | dict(numbers)
+        _expect_names(name, joint_name)
+        if joint is not None:
+            check_kind(joint, f"link {name!r}: joint", Joint, "a joint such as Revolute('z')")
+        check_kind(placement, f"link {name!r}: placement", SE3, "an SE3")
+        check_kind(inertia, f"link {name!r}: inertia", SpatialInertia, "a SpatialInertia")
+        _expect_one(placement.translation, f"link {name!r}: placement")
+        _expect_one(inertia.com, f"link {name!r}: inertia")
+        limits = {key: as_constant(x, f"link {name!r}: {key}") for key, x in numbers.items()}
+        if joint is None and any((limits[key] != x).any() for key, x in UNLIMITED.items()):
+            raise ModelError(f"link {name!r}: limits and armature belong to a joint, and this link is welded on")
+        own = SpatialInertia._trusted(
+            *(x.astype(np.float64) for x in (inertia.mass, inertia.com, inertia.inertia_at_com))
+        )
+        vectors = _vectors(joint, f"joint {joint_name!r}", numbers)
+        return cls(name, parent, joint, joint_name, cast(placement, np.float64), own, **vectors)
+
+
+def _expect_names(name: str, joint_name: str) -> None:
+    for what, x in (("link", name), ("joint", joint_name)):
+        if not isinstance(x, str):
+            raise TypeError(f"{what}: expected a name, got {type(x).__name__} {x!r}")
+        if x == WORLD:
+            raise ModelError(f"{what} {x!r}: the name belongs to the world")
+
+
+def _expect_one(vector: Array, what: str) -> None:
+    """Refuse a batch of placements or inertias, and one with imaginary parts: a model has one of each, and real."""
+    if vector.ndim != 1:
+        raise ShapeError(f"{what}: expected a single one, got a batch of shape {vector.shape[:-1]}")
+    if vector.dtype.kind == "c":
+        raise ModelError(f"{what}: expected real numbers, got {vector.dtype}")
+
+
+def _vectors(joint: Joint | None, what: str, numbers: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    """Return limits and armature as float64 vectors; a scalar counts for every entry."""
+    nq, nv = (joint.nq, joint.nv) if joint else (0, 0)
+    sizes = {key: nq if key in ("lower", "upper") else nv for key in UNLIMITED}
+    x = {key: _vector(numbers[key], size, f"{what}: {key}") for key, size in sizes.items()}
+    if (x["lower"] > x["upper"]).any():
+        raise ModelError(f"{what}: lower limit {x['lower']} is above upper limit {x['upper']}")
+    if (x["lower"] == np.inf).any() or (x["upper"] == -np.inf).any():
+        raise ModelError(f"{what}: no number lies between lower limit {x['lower']} and upper limit {x['upper']}")
+    for key in PER_DOF:
+        if (x[key] < 0).any():
+            raise ModelError(f"{what}: {key} {numbers[key]!r} is below zero")
+    for key in ("armature", "damping", "friction"):
+        if np.isinf(x[key]).any():
+            raise ModelError(f"{what}: {key} {numbers[key]!r} is not finite")
+    return x
+
+
+def _vector(value: ArrayLike, size: int, what: str) -> Array:
+    x = as_constant(value, what)
+    if x.shape not in ((), (size,)):
+        raise ShapeError(f"{what}: expected shape () or ({size},), got {x.shape}")
+    if np.isnan(x).any():
+        raise ModelError(f"{what}: is not a number")
+    return np.broadcast_to(x, size).copy()

@@ -1,0 +1,140 @@
+"""The check at the door of every algorithm.
+
+What comes out is finite and stays so when multiplied, of one number type, of the right last axes,
+broadcast to one batch shape, and its quaternions have norm 1: behind this door nothing is checked again.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_arrays, as_number_arrays, check_size, judged, resolution
+from ..arrays.conversion import WIDENED
+from ..errors import ShapeError
+from ..spatial._elementary import which
+
+if TYPE_CHECKING:
+    from .configuration import Coordinates
+
+__all__ = ["check_arrays", "check_state"]
+
+
+def check_state(model: Coordinates, any_number: bool = False, /, **named: ArrayLike | None) -> tuple[Array, ...]:
+    """Check a state and bring it to one dtype and one batch shape: see `Model.state`.
+
+    With `any_number`, fractions, SymPy's numbers and the like pass, as arrays of objects: of these only shapes are
+    checked, that each is a finite number, and no quaternion zero; any other length is divided out exactly.
+    """
+    arrays, names = list(check_arrays(model, any_number, **named)), tuple(named)
+    tails = [2 if name == "f_ext" else 1 for name in names]
+    batches = [x.shape[: x.ndim - tail] for x, tail in zip(arrays, tails)]
+    try:
+        batch = np.broadcast_shapes(*batches)
+    except ValueError:
+        listed = ", ".join(f"{name} {shape}" for name, shape in zip(names, batches) if shape)
+        raise ShapeError(f"batch axes do not broadcast: {listed}") from None
+    for k, name in enumerate(names):
+        if arrays[k].dtype == object:
+            _refuse_zero(model, arrays[k], name)
+            continue
+        check_size(arrays[k], name)
+        if name.startswith("q"):
+            arrays[k] = _with_norm_1(model, arrays[k], name, came=np.asarray(named[name]).dtype)
+    return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
+
+
+def check_arrays(model: Coordinates, any_number: bool = False, /, **named: ArrayLike | None) -> tuple[Array, ...]:
+    """Convert to finite arrays of one dtype with the right last axes, or say what is wrong.
+
+    The name of an argument says what it is: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
+    (..., nq), all others (..., nv).
+    """
+    expected: dict[str, tuple[Any, tuple[int, ...]]] = {}
+    for name, value in named.items():
+        if name == "f_ext":
+            expected[name] = (_external(model, value), (model.nbodies, 6))
+            continue
+        _check_not_swapped(model, name, value)
+        expected[name] = (value, (model.nq if name.startswith("q") else model.nv,))
+    return (as_number_arrays if any_number else as_arrays)(**expected)
+
+
+def _check_not_swapped(model: Coordinates, name: str, value: ArrayLike | None) -> None:
+    """Say so where a v came for a q, a q for a v, the joints without the base, or a column for a row."""
+    (kind, size), (other, came) = ("q", model.nq), ("v", model.nv)
+    if not name.startswith("q"):
+        (kind, size), (other, came) = (other, came), (kind, size)
+    shape = _shape(value)
+    base = size - 7 if kind == "q" else size - 6
+    if size != came and shape[-1:] == (came,):
+        hint = f"this looks like n{other}: {kind} has n{kind} = {size}, {other} has n{other} = {came}"
+    elif model.base == "floating" and shape[-1:] == (base,):
+        hint = f"the {size - base} entries of the floating base come before those of the joints"
+    elif len(shape) == 2 and shape[0] == size != shape[1]:
+        hint = f"the axis of length {size} must be the last"
+    else:
+        return
+    raise ShapeError(f"{name}: expected shape (..., {size}), got {shape}; {hint}")
+
+
+def _external(model: Coordinates, f_ext: ArrayLike | None) -> ArrayLike:
+    """Return the wrenches on the bodies, zero where none came; refuse one on the world, or no row for it."""
+    if f_ext is None:
+        return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
+    shape = _shape(f_ext)
+    if shape[-2:] == (model.nbodies - 1, 6):
+        raise ShapeError(f"f_ext: expected shape (..., {model.nbodies}, 6), got {shape}; row 0 is the world's, zero")
+    world = np.asarray(f_ext)[..., 0, :] if shape[-2:] == (model.nbodies, 6) else np.zeros(6)
+    if world.dtype == object:
+        world = judged(world)
+        world = np.where(np.isnan(world), 1, world)  # of what has no value, nobody knows that it is zero
+    if ((world != 0) & (world == world)).any():  # what is not a number, `as_arrays` refuses
+        raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
+    return f_ext
+
+
+def _shape(value: Any) -> tuple[int, ...]:
+    try:
+        return np.shape(value)
+    except ValueError:  # rows of different lengths: as_arrays says so
+        return ()
+
+
+def _refuse_zero(model: Coordinates, q: Array, name: str) -> None:
+    """Refuse a quaternion or a (cos, sin) that is known to be zero, among numbers that are objects."""
+    for joint, s in zip(model.joints, model.q_slice):
+        if joint is None or joint.unit is None or not name.startswith("q"):
+            continue
+        part = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
+        bad = np.asarray((judged(q[..., part]) == 0).all(-1))
+        if bad.any():
+            mend = "model.neutral() has one that turns nothing"
+            raise ValueError(f"{name}: {name}[{part.start}:{part.stop}] is zero{which(bad)}, no direction; {mend}")
+
+
+def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -> Array:
+    """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it came with.
+
+    What came with fewer digits than it has now gets norm 1 to all of these.
+    """
+    digits = resolution(came if came.kind in "fc" else np.float64)
+    tolerance = max(np.sqrt(digits), WIDENED)
+    for joint, joint_name, s in zip(model.joints, model.joint_names, model.q_slice):
+        if joint is None or joint.unit is None:
+            continue
+        part = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
+        norm = np.hypot.reduce(q[..., part].real, axis=-1)
+        bad = np.abs(norm - 1) > tolerance
+        if bad.any():
+            what = "(cos, sin)" if joint.unit.stop - joint.unit.start == 2 else "quaternion"
+            first, off = float(norm[bad].flat[0]), float((norm - 1)[bad].flat[0])
+            close = f"which is 1 {off:+.2g}" if abs(off) < 1e-5 else "expected 1"
+            mend = "normalize(q) repairs it" if first else "neutral() has the one that turns nothing"
+            raise ValueError(
+                f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
+                f"{which(bad)}, {close}; model.{mend}"
+            )
+    return model.normalize(q) if digits > resolution(q.dtype) or tolerance == WIDENED else q

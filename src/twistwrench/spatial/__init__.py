@@ -1,0 +1,57 @@
+"""Spatial algebra: rotations, twists, Plücker transforms, wrenches and inertias (49.2 to 49.5).
+
+Each file imports only from those above it in this table.
+
+==============  =======  ==============================================================================
+file            section  what it holds
+==============  =======  ==============================================================================
+_elementary              functions of one number that lose no digits
+orthonormal     49.2     `nearest_rotation`, and what is refused as one
+rotation        49.2     `skew` [ω]×, `exp3`, `log3`; quaternions, roll, pitch and yaw
+_physical       49.5     which inertias a body can have
+_vector                  what twists and wrenches share
+twist           49.2     `Twist`, `hat` [V], `vee`, `screw`
+plucker         49.3     `SE3`, `motion_transform` X, `force_transform` X*
+exponential     49.3     `exp6`, `log6`
+wrench          49.4     `Wrench`, `power`
+cross           49.5     `cross_motion` V×, `cross_force` V×*
+inertia         49.5     `SpatialInertia` Î
+formulas                 what the recursions use of all this: V×, V×*, V ×* Î V on columns, without checks
+==============  =======  ==============================================================================
+"""
+
+from .cross import cross_force, cross_motion
+from .exponential import exp6, log6
+from .inertia import SpatialInertia
+from .orthonormal import check_rotation, nearest_rotation
+from .plucker import SE3, force_transform, motion_transform
+from .rotation import exp3, log3, quaternion_to_rotation, rotation_to_quaternion, rpy_to_rotation, skew, unskew
+from .twist import Screw, Twist, hat, screw, vee
+from .wrench import Wrench, power
+
+__all__ = [
+    "SE3",
+    "Screw",
+    "SpatialInertia",
+    "Twist",
+    "Wrench",
+    "check_rotation",
+    "cross_force",
+    "cross_motion",
+    "exp3",
+    "exp6",
+    "force_transform",
+    "hat",
+    "log3",
+    "log6",
+    "motion_transform",
+    "nearest_rotation",
+    "power",
+    "quaternion_to_rotation",
+    "rotation_to_quaternion",
+    "rpy_to_rotation",
+    "screw",
+    "skew",
+    "unskew",
+    "vee",
+]

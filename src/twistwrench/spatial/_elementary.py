@@ -1,0 +1,103 @@
+"""Functions of one number that the rotations need, each good to the last few bits everywhere.
+
+All are analytic: a complex argument gives the complex value, so that a complex step differentiates
+what is built on them. Only the real part decides which formula is used.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Array, elementary, resolution
+
+__all__ = ["atan2", "cos", "cosine_defect", "largest", "length", "sin", "sinc", "sine_defect_root", "sqrt", "which"]
+
+
+def cos(x: Array) -> Array:
+    """Return the cosine of each entry, of any number type: see `exact.elementary`."""
+    return np.cos(x) if x.dtype != object else _of_each(x, "cos")
+
+
+def sin(x: Array) -> Array:
+    """Return the sine of each entry, of any number type: see `exact.elementary`."""
+    return np.sin(x) if x.dtype != object else _of_each(x, "sin")
+
+
+def sqrt(x: Array) -> Array:
+    """Return the square root of each entry, of any number type: see `exact.elementary`."""
+    return np.sqrt(x) if x.dtype != object else _of_each(x, "sqrt")
+
+
+def _of_each(x: Array, name: str) -> Array:
+    """Apply an elementary function to each object of an array, which stays an array where it has no axis."""
+    values = np.empty(x.shape, object)
+    for k in np.ndindex(x.shape):
+        values[k] = elementary(name, x[k])
+    return values
+
+
+def length(x: Array) -> Array:
+    """Return the Euclidean length over the last axis: no under- or overflow, no conjugate."""
+    size = np.maximum(largest(x.real, 1), largest(x.imag, 1))
+    exponent = np.frexp(np.maximum(size, np.finfo(x.dtype).tiny))[1] - 1
+    unit = np.ldexp(np.ones((), size.dtype), exponent)  # a power of two: dividing by it is exact
+    scaled = x / unit[..., None]
+    return np.asarray(unit * np.sqrt((scaled * scaled).sum(-1)))
+
+
+def sinc(x: Array) -> Array:
+    """Return sin x / x, and 1 at 0."""
+    safe = np.where(x == 0, 1, x)
+    return np.where(x == 0, 1, np.sin(safe) / safe)
+
+
+def sine_defect_root(x: Array) -> Array:
+    """Return √((x − sin x)/x³), which is √⅙ at 0: its series below 1, where the difference would cancel.
+
+    The root, about 1/x, since the quotient itself is lost where x³ is beyond the largest number.
+    """
+    small = np.abs(x.real) < 1
+    near, far = np.where(small, x, 0), np.where(small, 1, x)
+    return np.where(
+        small, np.sqrt(series(near, 4, 5, resolution(x.dtype)) / 6), np.sqrt((far - np.sin(far)) / far) / far
+    )
+
+
+def cosine_defect(x: Array) -> Array:
+    """Return (sin x − x cos x)/x³, which is 1/3 at 0: its series below 1, where the difference would cancel."""
+    small = np.abs(x.real) < 1
+    near, far = np.where(small, x, 0), np.where(small, 1, x)
+    return np.where(small, series(near, 2, 5, resolution(x.dtype)) / 3, (np.sin(far) - far * np.cos(far)) / far**3)
+
+
+def series(x: Array, a: int, b: int, eps: float) -> Array:
+    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)) for |x| ≤ 1, with all terms that reach a quarter of eps."""
+    terms, left = 0, 1.0
+    while left > eps / 4 or terms < 15:
+        left, terms = left / ((a + 2 * terms) * (b + 2 * terms)), terms + 1
+    total = np.ones_like(x)
+    for k in range(2 * terms - 2, -1, -2):
+        total = 1 - x * x / ((a + k) * (b + k)) * total
+    return total
+
+
+def atan2(s: Array, c: Array) -> Array:
+    """Return the angle of the point (c, s).
+
+    NumPy has no complex arctan2. Here the value comes from the real parts, and the imaginary part is the
+    first-order change (c ds − s dc)/(c² + s²), which is all that a complex step asks for.
+    """
+    if s.dtype.kind != "c":
+        return np.asarray(np.arctan2(s, c))
+    change = (c.real * s.imag - s.real * c.imag) / (c.real**2 + s.real**2)
+    return np.asarray(np.arctan2(s.real, c.real) + 1j * change)
+
+
+def largest(x: Array, axes: int) -> Array:
+    """Return the largest magnitude over that many last axes of a real array."""
+    return np.asarray(np.abs(x).max(axis=tuple(range(-axes, 0))))
+
+
+def which(wrong: Array) -> str:
+    """Say which item of a batch is wrong, and nothing where there is only one."""
+    return f" at index {tuple(int(k) for k in np.argwhere(wrong)[0])}" if wrong.ndim else ""

@@ -1,0 +1,59 @@
+"""Whether a rigid body with a given mass and inertia can exist (section 49.5)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Array, judged, tolerance
+from ..errors import ModelError
+from ._elementary import largest, which
+
+__all__ = ["check_not_negative", "check_numbers", "check_physical"]
+
+# Relative room for rounding: a thin rod (0, I, I) and a thin plate (I, I, 2I) lie on the edge, and pass.
+ROOM = 1e-9
+
+
+def check_numbers(mass: Array, inertia_at_com: Array) -> None:
+    """Raise ModelError where a mass is negative, or an inertia not symmetric."""
+    wrong = np.asarray(judged(mass) < 0)
+    if wrong.any():
+        raise ModelError(f"mass: expected no negative mass, got {judged(mass)[wrong][0]:.6g} kg" + which(wrong))
+    off = largest(judged(inertia_at_com - inertia_at_com.mT), 2)
+    wrong = off > tolerance(inertia_at_com.dtype) * largest(judged(inertia_at_com), 2)
+    if wrong.any():
+        raise ModelError(
+            f"inertia_at_com: expected a symmetric matrix, got |I − Iᵀ| = {off[wrong][0]:.3g} kg m²" + which(wrong)
+        )
+
+
+def check_physical(link: str, mass: Array, inertia_at_com: Array) -> None:
+    """Raise ModelError, with the link, the condition and its numbers, unless a body with this inertia can exist."""
+    mass = judged(mass)
+    if (mass <= 0).any():
+        raise ModelError(f"link {link!r}: the mass must be positive, got {mass.min():.6g} kg")
+    moments = check_not_negative(link, inertia_at_com)
+    a, b, c = np.moveaxis(moments, -1, 0)
+    broken = c > (a + b) * (1 + ROOM)
+    if broken.any():
+        raise ModelError(
+            f"link {link!r}: the largest principal moment must not exceed the sum of the other two "
+            f"(triangle inequality), got {_numbers(moments[broken][0])} kg m²"
+        )
+
+
+def check_not_negative(link: str, inertia_at_com: Array) -> Array:
+    """Return the principal moments; raise ModelError where one of them is negative. All are zero for a point mass."""
+    # NumPy has eigenvalues in single and double precision only: double is enough to judge by.
+    moments: Array = np.linalg.eigvalsh(judged(inertia_at_com).astype(np.float64))
+    negative = moments[..., 0] < -ROOM * np.abs(moments[..., 2])
+    if negative.any():
+        raise ModelError(
+            f"link {link!r}: the inertia about the centre of mass must be positive definite, "
+            f"got principal moments {_numbers(moments[negative][0])} kg m²"
+        )
+    return moments
+
+
+def _numbers(moments: Array) -> str:
+    return ", ".join(f"{x:.6g}" for x in moments)

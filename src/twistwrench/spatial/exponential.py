@@ -1,0 +1,82 @@
+"""Exponential and logarithm of SE(3): from a constant twist to a placement and back (section 49.3)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_array
+from ._elementary import cosine_defect, length, sinc, sine_defect_root
+from ._vector import as_spatial
+from .plucker import SE3
+from .rotation import exp3, log3
+
+__all__ = ["exp6", "log6"]
+
+
+def exp6(V: ArrayLike) -> SE3:
+    """Placement reached in unit time at the constant body twist V (sections 49.2 and 49.3).
+
+    R = exp3(ω) and p = v + B ω×v + C ω×(ω×v), where B = (1 − cos θ)/θ² and C = (θ − sin θ)/θ³. B comes as 2 H²,
+    H = sin ½θ / θ, and H and √C go to one ω each: a product that stays near 1 however fast the turn.
+
+    Parameters
+    ----------
+    V : Twist or array_like of shape (..., 6)
+        (ω, v): rad and m, that is a twist times a time.
+
+    Returns
+    -------
+    SE3
+        T_AB: where frame B is, in the frame A it started from.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    TypeError
+        If `V` is a Wrench.
+
+    Examples
+    --------
+    >>> exp6([0, 0, 0, 1, 2, 3]).translation
+    array([1., 2., 3.])
+    """
+    V = as_array(as_spatial(V, "V"), "V", 6)
+    w, v = V[..., :3], V[..., 3:]
+    theta = length(w)[..., None]
+    H, c = sinc(theta / 2) / 2, sine_defect_root(theta) * w
+    return SE3._trusted(exp3(w), v + 2 * H * np.cross(H * w, v) + np.cross(c, np.cross(c, v)))
+
+
+def log6(T: SE3 | ArrayLike) -> Array:
+    """Twist that leads to a placement in unit time: the inverse of `exp6` for angles up to π (section 49.3).
+
+    ω = log3(R) and v = p − ½ ω×p + D ω×(ω×p), where D = (1 − ½θ cot ½θ)/θ².
+
+    Parameters
+    ----------
+    T : SE3 or array_like of shape (..., 4, 4)
+        Placement T_AB.
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        (ω, v): rad and m, in frame B as in frame A.
+
+    Raises
+    ------
+    ShapeError
+        If the shape is wrong or the matrix is not in SE(3).
+
+    Examples
+    --------
+    >>> log6(exp6([0, 0, 3, 1, 0, 0])).round(15) + 0.0
+    array([0., 0., 3., 1., 0., 0.])
+    """
+    T = T if isinstance(T, SE3) else SE3.from_matrix(T)
+    w, p = log3(T.rotation), T.translation
+    half = length(w)[..., None] / 2
+    D = cosine_defect(half) / (4 * sinc(half))
+    wp = np.cross(w, p)
+    return np.concatenate([w, p - wp / 2 + D * np.cross(w, wp)], axis=-1)

@@ -1,0 +1,300 @@
+"""Spatial inertia, momentum and kinetic energy of one body; with the cross products of `cross` (section 49.5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NoReturn
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_array, as_number_arrays, tolerance
+from ..errors import ModelError, ShapeError
+from ._elementary import largest, which
+from ._physical import check_numbers, check_physical
+from ._vector import aligned, as_spatial
+from .cross import cross_force, cross_motion
+from .plucker import SE3, blocks, placed_point
+from .rotation import cross_matrix, skew_part
+from .twist import Twist, check_placement
+from .wrench import Wrench
+
+__all__ = ["SpatialInertia", "cross_force", "cross_motion"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, init=False)
+class SpatialInertia:
+    """Mass, centre of mass and inertia about it: ten numbers, kept apart (section 49.5).
+
+    Parameters
+    ----------
+    mass : array_like, shape (...)
+        kg, not below zero.
+    com : array_like, shape (..., 3)
+        Centre of mass in the body's frame, m.
+    inertia_at_com : array_like, shape (..., 3, 3)
+        Inertia about the centre of mass, along the axes of the body's frame, kg m².
+
+    Raises
+    ------
+    ShapeError
+        If a shape is wrong or the batch axes do not broadcast.
+    ModelError
+        If the mass is negative, or the inertia is not symmetric to within the square root of the resolution of its
+        dtype, relative to its largest entry.
+
+    Examples
+    --------
+    >>> body = SpatialInertia(2.0, [0, 0, 0.1], np.diag([0.01, 0.01, 0.005]))
+    >>> body.matrix()[0, :5]
+    array([ 0.03,  0.  ,  0.  ,  0.  , -0.2 ])
+    """
+
+    mass: Array
+    com: Array
+    inertia_at_com: Array
+
+    __array_ufunc__ = None  # NumPy arrays leave the operators to this class
+
+    def __init__(self, mass: ArrayLike, com: ArrayLike, inertia_at_com: ArrayLike) -> None:
+        m, c, I_c = as_number_arrays(mass=(mass, ()), com=(com, (3,)), inertia_at_com=(inertia_at_com, (3, 3)))
+        try:
+            batch = np.broadcast_shapes(m.shape, c.shape[:-1], I_c.shape[:-2])
+        except ValueError:
+            axes = f"batch axes {m.shape}, {c.shape[:-1]} and {I_c.shape[:-2]} do not broadcast"
+            raise ShapeError(f"mass, com and inertia_at_com: {axes}") from None
+        check_numbers(m, I_c)
+        self._set(
+            np.array(np.broadcast_to(m, batch)),
+            np.array(np.broadcast_to(c, (*batch, 3))),
+            np.array(np.broadcast_to((I_c + I_c.mT) / 2, (*batch, 3, 3))),
+        )
+
+    def _set(self, mass: Array, com: Array, inertia_at_com: Array) -> None:
+        for name, x in (("mass", mass), ("com", com), ("inertia_at_com", inertia_at_com)):
+            x.setflags(write=False)
+            object.__setattr__(self, name, x)
+
+    @classmethod
+    def _trusted(cls, mass: Array, com: Array, inertia_at_com: Array) -> SpatialInertia:
+        """Make an inertia from arrays known to be right, without checks: they become read-only."""
+        (body := object.__new__(cls))._set(np.asarray(mass), com, inertia_at_com)
+        return body
+
+    @classmethod
+    def zero(cls) -> SpatialInertia:
+        """Return the inertia of nothing, which changes no sum.
+
+        Examples
+        --------
+        >>> SpatialInertia.zero().mass
+        array(0.)
+        """
+        return cls._trusted(np.zeros(()), np.zeros(3), np.zeros((3, 3)))
+
+    @classmethod
+    def from_matrix(cls, I6: ArrayLike) -> SpatialInertia:
+        """Recover the ten numbers from the 6 × 6 matrix: the inverse of `matrix`.
+
+        Far from the origin the matrix hides I_c behind m[c]×², and what rounding took there is lost.
+
+        Parameters
+        ----------
+        I6 : array_like, shape (..., 6, 6)
+            In the order (ω, v).
+
+        Returns
+        -------
+        SpatialInertia
+
+        Raises
+        ------
+        ShapeError
+            If the shape is wrong.
+        ModelError
+            If the matrix is not a spatial inertia.
+
+        Examples
+        --------
+        >>> body = SpatialInertia(2.0, [0, 0, 0.1], np.diag([0.01, 0.01, 0.005]))
+        >>> SpatialInertia.from_matrix(body.matrix()).com
+        array([0. , 0. , 0.1])
+        """
+        M = as_array(I6, "I6", 6, 6)
+        mass = M[..., 5, 5]
+        com = skew_part(M[..., :3, 3:]) / np.where(mass == 0, 1, mass)[..., None]
+        C = cross_matrix(com)
+        about_origin = (M[..., :3, :3] + M[..., :3, :3].mT) / 2
+        body = cls(mass, com, about_origin + mass[..., None, None] * (C @ C))
+        off = largest((body.matrix() - M).real, 2)
+        wrong = off > tolerance(M.dtype) * largest(M.real, 2)
+        if wrong.any():
+            raise ModelError(
+                f"I6: expected [[I_c − m[c]×², m[c]×], [−m[c]×, m 1]], got a matrix {off[wrong][0]:.3g} away from it"
+                + which(wrong)
+            )
+        return body
+
+    def matrix(self) -> Array:
+        """Return [[I_c − m[c]×², m[c]×], [−m[c]×, m 1]], shape (..., 6, 6), in the order (ω, v).
+
+        Examples
+        --------
+        >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).matrix().diagonal()
+        array([1., 1., 1., 2., 2., 2.])
+        """
+        m, C = self.mass[..., None, None], cross_matrix(self.com)
+        return blocks(self.inertia_at_com - m * (C @ C), m * C, -m * C, m * np.eye(3, dtype=m.dtype))
+
+    def transform(self, T: SE3) -> SpatialInertia:
+        """Return the same body's inertia in another frame: I_A = X* I_B X⁻¹.
+
+        Done on the ten numbers, c' = R c + p and I_c' = R I_c Rᵀ, so that nothing is lost far from the origin.
+
+        Parameters
+        ----------
+        T : SE3
+            T_AB: the present frame B, placed in A.
+
+        Returns
+        -------
+        SpatialInertia
+
+        Raises
+        ------
+        TypeError
+            If `T` is no SE3.
+
+        Examples
+        --------
+        >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).transform(SE3(np.eye(3), [1, 0, 0])).com
+        array([1., 0., 0.])
+        """
+        check_placement(T)
+        turned = T.rotation @ self.inertia_at_com @ T.rotation.mT
+        com = placed_point(T.rotation, T.translation, self.com)
+        mass = np.broadcast_to(self.mass.astype(com.dtype), com.shape[:-1])
+        return SpatialInertia._trusted(mass, com, (turned + turned.mT) / 2)
+
+    def __eq__(self, other: object) -> bool:  # by value; like an array, without a hash
+        if not isinstance(other, SpatialInertia):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, x), getattr(other, x)) for x in ("mass", "com", "inertia_at_com"))
+
+    def __add__(self, other: SpatialInertia) -> SpatialInertia:
+        if not isinstance(other, SpatialInertia):
+            raise TypeError(f"SpatialInertia + {type(other).__name__}: only inertias add, once they are in one frame")
+        m1, m2, m = self.mass, other.mass, self.mass + other.mass
+        nonzero = np.where(m == 0, 1, m)
+        com = (m1 / nonzero)[..., None] * self.com + (m2 / nonzero)[..., None] * other.com
+        # Parallel axes from each centre of mass to the common one come to m₁m₂/m times the square of their distance.
+        D, reduced = cross_matrix(other.com - self.com), (m1 * m2 / nonzero)[..., None, None]
+        return SpatialInertia._trusted(m, com, self.inertia_at_com + other.inertia_at_com - reduced * (D @ D))
+
+    def __radd__(self, other: object) -> SpatialInertia:
+        if type(other) is int and other == 0:  # where Python's sum starts
+            return self
+        raise TypeError(f"{type(other).__name__} + SpatialInertia: only inertias add, once they are in one frame")
+
+    def __matmul__(self, V: Twist) -> Wrench:
+        if not isinstance(V, Twist):
+            use = "I.momentum(V) of arrays, I.matrix() for other products, I.transform(T) for another frame"
+            raise TypeError(f"SpatialInertia @ {type(V).__name__}: expected a Twist; use {use}")
+        return Wrench(self.momentum(V), frame=V.frame)
+
+    def __rmatmul__(self, other: object) -> NoReturn:
+        raise TypeError(f"{type(other).__name__} @ SpatialInertia: use I.matrix() for products of arrays")
+
+    def momentum(self, V: ArrayLike) -> Array:
+        """Return the momentum I V: angular, about the origin of the frame, and linear.
+
+        Parameters
+        ----------
+        V : Twist or array_like of shape (..., 6)
+            (ω, v) in the frame of the inertia, rad/s and m/s.
+
+        Returns
+        -------
+        ndarray, shape (..., 6)
+            kg m²/s and kg m/s. It changes frame as a wrench does: of a Twist, ``I @ V`` is the momentum as a Wrench.
+
+        Raises
+        ------
+        ShapeError
+            If the last axis is not 6 long.
+        TypeError
+            If `V` is a Wrench.
+
+        Examples
+        --------
+        >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).momentum([0, 0, 1, 3, 0, 0])
+        array([0., 0., 1., 6., 0., 0.])
+        """
+        w, v_c = self._velocity_of_com(V)
+        p = self.mass[..., None] * v_c
+        return np.concatenate([np.matvec(self.inertia_at_com, w) + np.cross(self.com, p), p], axis=-1)
+
+    def kinetic_energy(self, V: ArrayLike) -> Array:
+        """Return the kinetic energy ½ VᵀI V, as ½ m v_c² + ½ ωᵀI_c ω.
+
+        Parameters
+        ----------
+        V : Twist or array_like of shape (..., 6)
+            (ω, v) in the frame of the inertia, rad/s and m/s.
+
+        Returns
+        -------
+        ndarray, shape (...)
+            J.
+
+        Raises
+        ------
+        ShapeError
+            If the last axis is not 6 long.
+        TypeError
+            If `V` is a Wrench.
+
+        Examples
+        --------
+        >>> SpatialInertia(2.0, [0, 0, 0], np.eye(3)).kinetic_energy([0, 0, 1, 3, 0, 0])
+        array(9.5)
+        """
+        w, v_c = self._velocity_of_com(V)
+        spin = (w * np.matvec(self.inertia_at_com, w)).sum(-1)
+        return np.asarray((self.mass * (v_c * v_c).sum(-1) + spin) / 2)
+
+    def _velocity_of_com(self, V: ArrayLike) -> tuple[Array, Array]:
+        """Return ω and the velocity v + ω×c of the centre of mass, over the batch axes of both."""
+        V = as_spatial(V, "V")
+        v_c = V[..., 3:] + np.cross(V[..., :3], self.com)
+        return np.broadcast_to(V[..., :3], v_c.shape), v_c
+
+    def check_physical(self, link: str) -> None:
+        """Raise ModelError unless a body with this inertia can exist.
+
+        The mass is positive; no principal moment is negative; the largest is at most the sum of the other two. Each to
+        a relative 1e-9: point masses, thin rods and plates lie on the edge, and pass.
+
+        Parameters
+        ----------
+        link : str
+            The link's name, for the error.
+
+        Raises
+        ------
+        ModelError
+            Names the link, the condition that fails and its numbers.
+
+        Examples
+        --------
+        >>> SpatialInertia(1.0, [0, 0, 0], np.diag([1, 1, 10])).check_physical("calf")
+        Traceback (most recent call last):
+        twistwrench.errors.ModelError: link 'calf': the largest principal moment must not exceed ...
+        """
+        check_physical(link, self.mass, self.inertia_at_com)
+
+    def __repr__(self) -> str:
+        if self.mass.ndim:
+            return f"<SpatialInertia: a batch, shape {self.mass.shape}>"
+        com, I_c = aligned("    com=", self.com), aligned("    inertia_at_com=", self.inertia_at_com)
+        return f"SpatialInertia(mass={self.mass},\n{com},\n{I_c})"

@@ -1,0 +1,254 @@
+"""Twists: 6-D velocities (ω, v), their 4 × 4 matrices, their screws, and a thin type (section 49.2)."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_array, as_number, tolerance
+from ..errors import ShapeError, SingularError
+from ._elementary import largest, length, which
+from ._vector import SpatialVector, as_spatial
+from .rotation import cross_matrix, unskew
+
+__all__ = ["Screw", "Twist", "hat", "screw", "vee"]
+
+
+class Placement(Protocol):
+    """What a change of frame must offer: `twistwrench.SE3` does."""
+
+    def motion_transform(self) -> Array: ...
+
+    def force_transform(self) -> Array: ...
+
+
+def check_placement(T: object) -> None:
+    """Refuse what is no placement, and say how a matrix becomes one."""
+    if not hasattr(T, "motion_transform"):
+        raise TypeError(f"T: expected an SE3, got {type(T).__name__}; SE3.from_matrix makes one of a 4 × 4 matrix")
+
+
+class Screw(NamedTuple):
+    """The screw of a twist or of a wrench (sections 49.2 and 49.4): what `screw` returns.
+
+    Attributes
+    ----------
+    axis : ndarray, shape (..., 3)
+        Unit vector along ω, or along f.
+    point : ndarray, shape (..., 3)
+        The point of the axis that is nearest to the origin, m.
+    pitch : ndarray, shape (...)
+        Advance along the axis per radian, m; of a wrench, moment per force, m. Infinite for a translation or a couple.
+    magnitude : ndarray, shape (...)
+        rad/s, or N; of a translation m/s, of a couple N m.
+    """
+
+    axis: Array
+    point: Array
+    pitch: Array
+    magnitude: Array
+
+
+def hat(V: ArrayLike) -> Array:
+    """Matrix [[ω]×, v; 0, 0] in se(3) of a twist (section 49.2).
+
+    Parameters
+    ----------
+    V : Twist or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s.
+
+    Returns
+    -------
+    ndarray, shape (..., 4, 4)
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    TypeError
+        If `V` is a Wrench.
+
+    Examples
+    --------
+    >>> hat([0, 0, 2, 1, 0, 0])
+    array([[ 0., -2.,  0.,  1.],
+           [ 2.,  0.,  0.,  0.],
+           [ 0.,  0.,  0.,  0.],
+           [ 0.,  0.,  0.,  0.]])
+    """
+    V = as_spatial(V, "V")
+    M = np.zeros((*V.shape[:-1], 4, 4), V.dtype)
+    M[..., :3, :3], M[..., :3, 3] = cross_matrix(V[..., :3]), V[..., 3:]
+    return M
+
+
+def vee(M: ArrayLike) -> Array:
+    """Twist of a matrix in se(3): the inverse of `hat` (section 49.2).
+
+    Parameters
+    ----------
+    M : array_like, shape (..., 4, 4)
+        [[ω]×, v; 0, 0], rad/s and m/s.
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        (ω, v).
+
+    Raises
+    ------
+    ShapeError
+        If the shape is wrong or the matrix is not in se(3).
+
+    Examples
+    --------
+    >>> vee(hat([1, 2, 3, 4, 5, 6]))
+    array([1., 2., 3., 4., 5., 6.])
+    """
+    M = as_array(M, "M", 4, 4)
+    off = largest(M[..., 3, :].real, 1)
+    wrong = off > tolerance(M.dtype) * largest(M.real, 2)
+    if wrong.any():
+        raise ShapeError(f"M: expected a last row of zeros, got up to {off[wrong][0]:.3g}" + which(wrong))
+    return np.concatenate([unskew(M[..., :3, :3]), M[..., :3, 3]], axis=-1)
+
+
+def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None = None, noise: float = 0.0) -> Screw:
+    """Axis, point, pitch and magnitude of a twist or a wrench (sections 49.2 and 49.4).
+
+    Of a twist: axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|², magnitude |ω|. Without rotation the axis is v/|v|, the
+    pitch infinite and the magnitude |v|; every parallel line would do, and the point is the origin.
+    Of a wrench the same, with f for ω and τ for v. The point is only as sure as v divided by |ω|: an error of
+    1e-16 m/s in v moves the axis of a twist with 1e-8 rad/s by 1e-8 m.
+
+    Parameters
+    ----------
+    x : Twist, Wrench or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s, or (τ, f), N m and N.
+    of : {"twist", "wrench"}, optional
+        What a plain array is; a twist where it is not said. A Twist or a Wrench knows.
+    noise : float
+        By how much ω may be wrong, rad/s, or f, N. Where it is no longer than that, there is none: what is left is a
+        translation or a couple, and the infinite pitch says so. ω that came out of sums of terms of 1 rad/s is
+        wrong by some 1e-16.
+
+    Returns
+    -------
+    Screw
+        In the frame of `x`.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    SingularError
+        If the twist or wrench is zero, or its axis is too far away for a floating-point number.
+    TypeError
+        If `of` contradicts the type of `x`.
+    ValueError
+        If `of` is neither, or `noise` below zero.
+
+    Examples
+    --------
+    >>> screw([0, 0, 2, 0, -2, 1])
+    Screw(axis=array([0., 0., 1.]), point=array([ 1.,  0., -0.]), pitch=array(0.5), magnitude=array(2.))
+    >>> V = np.array([0, 0, 0.1 + 0.2 - 0.3, 0, 1, 0])  # the rotation is all rounding
+    >>> screw(V).pitch, screw(V, noise=1e-15).pitch
+    (array(0.), array(inf))
+    """
+    if not as_number(noise, "noise") >= 0:
+        raise ValueError(f"noise: expected a number that is not below zero, got {noise}")
+    if isinstance(x, SpatialVector):
+        kind = type(x).__name__.lower()
+        line, free = (as_array(half, "x", 3) for half in x._line_and_free())
+        if of not in (None, kind):
+            raise TypeError(f"screw: of={of!r}, but x is a {type(x).__name__}")
+        return _screw(line, free, kind, noise)
+    if of not in (None, "twist", "wrench"):
+        raise ValueError(f"of: expected 'twist' or 'wrench', got {of!r}")
+    V = as_array(x, "x", 6)
+    if of == "wrench":
+        return _screw(V[..., 3:], V[..., :3], "wrench", noise)
+    return _screw(V[..., :3], V[..., 3:], "twist", noise)
+
+
+def _screw(line: Array, free: Array, kind: str, noise: float) -> Screw:
+    """Screw of (ω, v) or of (f, τ): first the part that acts along a line, then the part that depends on the point."""
+    without = np.asarray(length(line).real <= noise)[..., None]
+    along = np.where(without, free, line)
+    magnitude = length(along)[..., None]
+    nothing = np.asarray(magnitude.real == 0)[..., 0]
+    if nothing.any():
+        raise SingularError(f"screw: a zero {kind} has no axis" + which(nothing))
+    axis = along / magnitude
+    with np.errstate(over="ignore", invalid="ignore"):
+        lever = np.where(without, 0, free / magnitude)
+        point, pitch = np.cross(axis, lever), (axis * lever).sum(-1)
+    lost = np.asarray(~np.isfinite(lever).all(-1))
+    if lost.any():
+        raise SingularError(f"screw: the axis of the {kind} is further away than numbers reach" + which(lost))
+    return Screw(axis, point, np.where(without[..., 0], np.inf, pitch), magnitude[..., 0])
+
+
+class Twist(SpatialVector):
+    """Velocity of a rigid body, (ω, v): how fast it turns, and the velocity of its point at the origin (49.2).
+
+    Parameters
+    ----------
+    vector : array_like, shape (..., 6)
+        (ω, v), rad/s and m/s.
+    frame : str, optional
+        The frame that the numbers are expressed in. A sum checks it where both sides have one.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    TypeError
+        If two halves came in the place of one array.
+
+    Examples
+    --------
+    >>> Twist([0, 0, 1, 0, 0, 0], frame="base") + Twist([0, 0, 0, 1, 0, 0], frame="base")
+    Twist([0.0, 0.0, 1.0, 1.0, 0.0, 0.0], frame='base')
+    """
+
+    __slots__ = ()
+    _symbol = "V"
+
+    def transform(self, T: Placement, *, frame: str | None = None) -> Twist:
+        """Return the twist in another frame, V_A = X V_B (section 49.3).
+
+        Parameters
+        ----------
+        T : SE3
+            T_AB: the present frame B, placed in A.
+        frame : str, optional
+            The name of A.
+
+        Returns
+        -------
+        Twist
+
+        Raises
+        ------
+        TypeError
+            If `T` is no SE3.
+
+        Examples
+        --------
+        >>> from twistwrench.spatial.plucker import SE3
+        >>> Twist([0, 0, 1, 0, 0, 0]).transform(SE3(np.eye(3), [1, 0, 0]), frame="world")
+        Twist([0.0, 0.0, 1.0, 0.0, -1.0, 0.0], frame='world')
+        """
+        check_placement(T)
+        return Twist(np.matvec(T.motion_transform(), self._vector), frame=frame)
+
+    def screw(self) -> Screw:
+        """Return axis, point, pitch and magnitude: see `twistwrench.screw`."""
+        return screw(self)
+
+    def _line_and_free(self) -> tuple[Array, Array]:
+        return self.angular, self.linear

@@ -1,0 +1,133 @@
+"""Wrenches: 6-D forces (τ, f), and the power they spend on a twist (section 49.4)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array, as_number_arrays
+from ._vector import SpatialVector, as_spatial, common_frame
+from .twist import Placement, Screw, Twist, check_placement, screw
+
+__all__ = ["Wrench", "power"]
+
+
+def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
+    """Power of a wrench on a twist, FᵀV = τ·ω + f·v (section 49.4).
+
+    Parameters
+    ----------
+    F : Wrench or array_like of shape (..., 6)
+        (τ, f), N m and N.
+    V : Twist or array_like of shape (..., 6)
+        (ω, v), rad/s and m/s, in the frame of `F`.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        W.
+
+    Raises
+    ------
+    ShapeError
+        If a last axis is not 6 long.
+    FrameError
+        If both are given with a frame, and the frames differ.
+    TypeError
+        If `F` is a Twist or `V` a Wrench.
+
+    Examples
+    --------
+    >>> power([0, 0, 2, 0, 0, 0], [0, 0, 3, 1, 0, 0])
+    array(6.)
+    """
+    if isinstance(F, Twist) or isinstance(V, Wrench):
+        raise TypeError(f"power({type(F).__name__}, {type(V).__name__}): expected a wrench, then a twist")
+    if isinstance(F, SpatialVector) and isinstance(V, SpatialVector):
+        common_frame(F, "·", V)
+    f, v = as_number_arrays(F=(as_spatial(F, "F"), (6,)), V=(as_spatial(V, "V"), (6,)))
+    return np.asarray((f * v).sum(-1))
+
+
+class Wrench(SpatialVector):
+    """Force on a rigid body, (τ, f): its moment about the origin and the force (section 49.4).
+
+    Parameters
+    ----------
+    vector : array_like, shape (..., 6)
+        (τ, f), N m and N.
+    frame : str, optional
+        The frame that the numbers are expressed in. A sum or a power checks it where both sides have one.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    TypeError
+        If two halves came in the place of one array.
+
+    Examples
+    --------
+    >>> Wrench([0, 0, 2, 0, 0, 0]) @ Twist([0, 0, 3, 1, 0, 0])
+    array(6.)
+    """
+
+    __slots__ = ()
+    _symbol = "F"
+
+    @property
+    def moment(self) -> Array:
+        """The moment τ about the origin, shape (..., 3), N m: another name for `angular`."""
+        return self.angular
+
+    @property
+    def force(self) -> Array:
+        """The force f, shape (..., 3), N: another name for `linear`."""
+        return self.linear
+
+    def transform(self, T: Placement, *, frame: str | None = None) -> Wrench:
+        """Return the wrench in another frame, F_A = X* F_B (section 49.4).
+
+        Parameters
+        ----------
+        T : SE3
+            T_AB: the present frame B, placed in A.
+        frame : str, optional
+            The name of A.
+
+        Returns
+        -------
+        Wrench
+
+        Raises
+        ------
+        TypeError
+            If `T` is no SE3.
+
+        Examples
+        --------
+        >>> from twistwrench.spatial.plucker import SE3
+        >>> Wrench([0, 0, 0, 0, 0, 10]).transform(SE3(np.eye(3), [0.5, 0, 0]), frame="world")
+        Wrench([0.0, -5.0, 0.0, 0.0, 0.0, 10.0], frame='world')
+        """
+        check_placement(T)
+        return Wrench(np.matvec(T.force_transform(), self._vector), frame=frame)
+
+    def screw(self) -> Screw:
+        """Return axis, point, pitch and magnitude: see `twistwrench.screw`."""
+        return screw(self)
+
+    def _line_and_free(self) -> tuple[Array, Array]:
+        return self.linear, self.angular
+
+    def power(self, twist: Twist | ArrayLike) -> Array:
+        """Return the power spent on a twist, W: see `twistwrench.wrench.power`."""
+        return power(self, twist)
+
+    def __matmul__(self, twist: object) -> Array:
+        if not isinstance(twist, Twist):
+            raise TypeError(f"Wrench @ {type(twist).__name__}: expected a Twist; .power() also takes an array")
+        return power(self, twist)
+
+    def __rmatmul__(self, other: object) -> Array:
+        return power(self, other) if isinstance(other, Twist) else super().__rmatmul__(other)
