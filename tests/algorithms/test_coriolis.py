@@ -1,0 +1,50 @@
+"""The Coriolis matrix: Christoffel's, that of the double pendulum, and the one with Ṁ − 2C skew-symmetric."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import twistwrench as tw
+
+from ..invariants import H, close, hinges_and_slides, rate, several, step, trees
+from ..mechanisms import agrees, double_pendulum_equations, mechanisms, states, two_bars
+
+
+@mechanisms
+@states
+def test_coriolis_matrix_times_velocity_is_that_of_the_textbook(mechanism, q, v, a):
+    motion = mechanism(q, v, a)
+    assert agrees(tw.coriolis_matrix(motion.model, motion.q, motion.v) @ motion.v, motion.C_v)
+
+
+@states
+def test_coriolis_matrix_of_the_double_pendulum_is_christoffels(q, v, a):
+    assert agrees(tw.coriolis_matrix(two_bars(), q, v), double_pendulum_equations(q, v)[1])
+
+
+@trees
+@several
+def test_coriolis_matrix_makes_the_forces_and_does_no_work(recipe):
+    model, s = recipe.model, recipe.state()
+    C, M_rate = tw.coriolis_matrix(model, s.q, s.v), rate(tw.crba(model, step(model, s.q, s.v)))
+    size = np.abs(tw.crba(model, s.q)).max() * np.abs(s.v).max()
+    bias = tw.nonlinear_effects(model, s.q, s.v) - tw.gravity(model, s.q)
+    assert close(C @ s.v, bias, size=size * np.abs(s.v).max() + model.mass * 9.81)
+    assert close(C + C.T, M_rate, size=size)  # Ṁ − 2C is skew-symmetric
+
+
+@hinges_and_slides
+@several
+def test_coriolis_matrix_has_christoffels_symbols_and_lagranges_equations_hold(recipe):
+    # Where v = q̇: C_ij = ½ Σ_k (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) v_k.
+    model, s = recipe.model, recipe.state()
+    dM = rate(tw.crba(model, s.q + 1j * H * np.eye(model.nv)))  # [k, i, j]: ∂M_ij/∂q_k
+    christoffel = (np.einsum("kij,k->ij", dM, s.v) + np.einsum("jik,k->ij", dM, s.v)) / 2
+    christoffel -= np.einsum("ijk,k->ij", dM, s.v) / 2
+    size = np.abs(tw.crba(model, s.q)).max() * np.abs(s.v).max()
+    assert close(tw.coriolis_matrix(model, s.q, s.v), christoffel, size=size)
+    # d/dt (∂T/∂v) − ∂T/∂q + ∂U/∂q, with a = 0
+    forces = np.einsum("kij,k,j->i", dM, s.v, s.v) - np.einsum("ijk,j,k->i", dM, s.v, s.v) / 2
+    forces += rate(tw.potential_energy(model, s.q + 1j * H * np.eye(model.nv)))
+    weight = model.mass * 9.81
+    assert close(tw.nonlinear_effects(model, s.q, s.v), forces, size=size * np.abs(s.v).max() + weight)

@@ -1,0 +1,371 @@
+"""How the fast way is called: what it refuses, where it writes, how it is spread, what it keeps."""
+
+import gc
+import weakref
+from itertools import permutations
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench import fast
+from twistwrench.fast import batch as many
+from twistwrench.fast import dispatch, plan
+
+from ..strategies import Recipe, random_state
+
+GO2 = tw.load("go2")
+CALLS = {
+    "rnea": lambda package, model, q, v, **options: package.rnea(model, q, v, v, **options),
+    "aba": lambda package, model, q, v, **options: package.aba(model, q, v, v, **options),
+    "nonlinear_effects": lambda package, model, q, v, **options: package.nonlinear_effects(model, q, v, **options),
+    "crba": lambda package, model, q, v, **options: package.crba(model, q, **options),
+    "centroidal_map": lambda package, model, q, v, **options: package.centroidal_map(model, q, **options),
+}
+TAILS = {"rnea": (18,), "aba": (18,), "nonlinear_effects": (18,), "crba": (18, 18), "centroidal_map": (6, 18)}
+
+
+@pytest.fixture
+def small_chunks(monkeypatch):
+    """Chunks of 10 states, so that a short batch has several, the last of them not full."""
+    monkeypatch.setattr(many, "FEWEST", 10)
+    monkeypatch.setattr(many, "CACHED", 1)
+
+
+@pytest.fixture
+def states():
+    return random_state(GO2, rng=0, batch=(37,))
+
+
+# ---------------------------------------------------------------- what is refused
+
+
+def spoil(x, index, value):
+    x = x.copy()
+    x[index] = value
+    return x
+
+
+Q, V = GO2.standing(), np.zeros(18)
+WRONG = {
+    "a NaN in q": (spoil(Q, 8, np.nan), V),
+    "an infinity in v": (Q, spoil(V, 3, np.inf)),
+    "two infinities in v": (Q, spoil(V, slice(3, 5), [np.inf, -np.inf])),
+    "a q whose square overflows": (spoil(Q, 0, 1e78), V),
+    "a v whose fifth power overflows": (Q, spoil(V, 3, -1e62)),
+    "a quaternion off norm 1": (spoil(Q, 6, 1.001), V),
+    "a quaternion just off norm 1": (spoil(Q, slice(3, 7), Q[3:7] * (1 + 1.6e-8)), V),
+    "a zero quaternion": (spoil(Q, slice(3, 7), 0), V),
+    "v for q": (V, V),
+    "q for v": (Q, Q),
+    "too short": (Q[:-1], V),
+    "batches that do not fit": (np.tile(Q, (3, 1)), np.tile(V, (2, 1))),
+    "text": (["a"] * 19, V),
+    "rows of different lengths": ([[1.0], [1.0, 2.0]], V),
+    "a mask": (Q, np.ma.array(V, mask=True)),
+    "a mask in a batch": (np.tile(Q, (12, 1)), np.ma.array(np.ones((12, 18)), mask=True)),
+    "a masked configuration": (np.ma.array(np.tile(Q, (2, 1)), mask=np.arange(19) > 7 * np.ones((2, 1))), V),
+    "a bad state in a batch": (spoil(np.tile(Q, (3, 1)), (1, 6), 1.1), np.tile(V, (3, 1))),
+}
+
+
+@pytest.mark.parametrize("name", ["rnea", "aba", "nonlinear_effects"])
+@pytest.mark.parametrize("wrong", WRONG)
+def test_what_the_textbook_refuses_is_refused_in_the_same_words(name, wrong):
+    q, v = WRONG[wrong]
+    with pytest.raises(ValueError) as textbook:  # noqa: PT011 - the message is compared below
+        CALLS[name](tw, GO2, q, v)
+    with pytest.raises(type(textbook.value)) as ours:
+        CALLS[name](fast, GO2, q, v)
+    assert str(ours.value) == str(textbook.value)
+
+
+@pytest.mark.parametrize("q", [spoil(Q, slice(3, 7), Q[3:7] * (1 + 1.4e-8)), Q.tolist(), Q.astype(np.float16)])
+def test_what_the_textbook_takes_is_taken(q):
+    np.testing.assert_allclose(fast.crba(GO2, q), tw.crba(GO2, q), rtol=0, atol=1e-6)
+    assert fast.crba(GO2, q).dtype == tw.crba(GO2, q).dtype
+
+
+def test_the_largest_numbers_that_pass_give_no_infinity():
+    q, v = spoil(Q, 0, 1e77), np.full(18, 4e61)
+    h = fast.nonlinear_effects(GO2, q, v)
+    np.testing.assert_allclose(h, tw.nonlinear_effects(GO2, q, v), rtol=0, atol=1e-12 * np.abs(h).max())
+
+
+def test_number_types_are_brought_together_as_in_the_textbook():
+    q, v = Q.astype(np.float32), np.ones(18)
+    for a in (np.zeros(18, int), np.zeros(18, np.float32), [0] * 18):
+        ours, book = fast.rnea(GO2, q, v, a), tw.rnea(GO2, q, v, a)
+        assert ours.dtype == book.dtype == np.float64
+        np.testing.assert_allclose(ours, book, rtol=0, atol=1e-9)
+    assert fast.rnea(GO2, q, q[1:], [0] * 18).dtype == np.float32
+
+
+def test_a_wrench_on_the_world_is_refused():
+    f_ext = np.zeros((GO2.nbodies, 6))
+    f_ext[0, 0] = 1
+    for function in (fast.rnea, fast.aba):
+        with pytest.raises(ValueError, match="row 0 is a wrench on the world"):
+            function(GO2, Q, V, V, f_ext)
+
+
+def test_unknown_names_are_refused():
+    with pytest.raises(KeyError, match="unknown quantity 'm'"):
+        fast.dynamics(GO2, Q, V, want={"m"})
+    with pytest.raises(KeyError, match="did you mean 'FR_foot'"):
+        fast.dynamics(GO2, Q, V, contacts=["FR_fot"])
+    with pytest.raises(KeyError, match="quantity: expected a name, got list"):
+        fast.dynamics(GO2, Q, V, want=[["M"]])
+    with pytest.raises(ValueError, match="want: expected a sequence of quantities, got the string 'M'"):
+        fast.dynamics(GO2, Q, V, want="M")
+    for want in (["J_c"], ["M"]):
+        with pytest.raises(ValueError, match="contacts: expected a sequence of frame names, got the string 'FR_foot'"):
+            fast.dynamics(GO2, Q, V, contacts="FR_foot", want=want)
+    fast.dynamics(GO2, Q, V, contacts=["FR_fot"], want={"h"})  # nobody asked for J_c
+
+
+@pytest.mark.parametrize("n", [1, 10])
+def test_names_may_come_from_an_iterator(n):
+    q, v = np.tile(Q, (n, 1)), np.tile(V, (n, 1))
+    d = fast.dynamics(GO2, q, v, contacts=iter(GO2.feet), want=iter(["J_c", "M"]))
+    assert (d.J_c == fast.dynamics(GO2, q, v).J_c).all()
+    assert (fast.crba(GO2, q) == d.M).all()
+    assert d.h is d.A_G is None
+
+
+def massless():
+    """A joint that moves nothing with mass, beyond one that does."""
+    rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
+    builder = tw.Builder("massless")
+    builder.link("heavy", parent="base_link", joint=tw.Revolute("x"), inertia=rod)
+    builder.link("light", parent="heavy", joint=tw.Revolute("y"))
+    return builder.build()
+
+
+def parallel():
+    """Two joints about one axis, the mass behind both: the outer one moves, the inner one feels nothing."""
+    rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
+    builder = tw.Builder("parallel")
+    builder.link("inner", parent="base_link", joint=tw.Revolute("x"))
+    builder.link("outer", parent="inner", joint=tw.Revolute("x"), inertia=rod)
+    return builder.build()
+
+
+@pytest.mark.parametrize("make", [massless, parallel])
+def test_singular_models_are_refused_in_the_same_words(make):
+    model = make()
+    q = np.array([[0.3, 0.4], [0.5, 0.6]])
+    with pytest.raises(tw.SingularError) as textbook:
+        tw.aba(model, q, q, q)
+    with pytest.raises(tw.SingularError) as ours:
+        fast.aba(model, q, q, q)
+    assert str(ours.value) == str(textbook.value)
+    np.testing.assert_allclose(fast.crba(model, q), tw.crba(model, q), rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("batch", [(), (60,)], ids=str)
+def test_a_massless_base_is_refused_in_the_same_words(batch):
+    """The base can turn and its leg turn back without anything that has inertia moving."""
+    rod = tw.SpatialInertia(1.0, [0.1, 0.2, 0.5], np.diag([0.1, 0.2, 0.25]))
+    builder = tw.Builder("hopper", base="floating")
+    builder.link("leg", parent="base_link", joint=tw.Revolute([1, 2, 3]), inertia=rod)
+    model = builder.build()
+    s = random_state(model, rng=0, batch=batch)
+    with pytest.raises(tw.SingularError, match="'root_joint': with the joints behind it free") as textbook:
+        tw.aba(model, s.q, s.v, s.tau)
+    with pytest.raises(tw.SingularError) as ours:
+        fast.aba(model, s.q, s.v, s.tau)
+    assert str(ours.value) == str(textbook.value)
+
+
+def test_what_is_only_nearly_singular_is_solved():
+    """What the inner joint feels is its rotor: too little for the quick check, enough for the textbook."""
+    rod = tw.SpatialInertia(1.0, [0, 0, 0.5], np.eye(3) * 0.1)
+    builder = tw.Builder("nearly")
+    builder.link("inner", parent="base_link", joint=tw.Revolute("x"), armature=5e-14)
+    builder.link("outer", parent="inner", joint=tw.Revolute("x"), inertia=rod)
+    model, q = builder.build(), np.array([[0.3, 0.4], [0.5, 0.6]])
+    np.testing.assert_array_equal(fast.aba(model, q, q, q), tw.aba(model, q, q, q))
+
+
+def test_states_in_single_precision_that_are_nearly_singular_are_solved():
+    """One by one and in double precision, in which their quaternions are not quite of norm 1."""
+    builder = tw.Builder("whip", base="floating", root_inertia=tw.SpatialInertia(1, [0, 0, -1], np.eye(3)))
+    parent = "base_link"
+    for k, axis in enumerate("xyx", 1):
+        rod = tw.SpatialInertia(1e3**k, [0, 0, -1], np.eye(3) * 1e3**k)
+        builder.link(f"rod {k}", parent=parent, joint=tw.Revolute(axis), inertia=rod)
+        parent = f"rod {k}"
+    model = builder.build()
+    for seed in range(10):
+        s = random_state(model, rng=seed, dtype=np.float32)
+        q, v, tau = (x.astype(np.float64) for x in (s.q, s.v, s.tau))
+        expected = tw.aba(model, model.normalize(q), v, tau)
+        found = fast.aba(model, s.q, s.v, s.tau)
+        assert found.dtype == np.float32
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6 * np.abs(expected).max())
+
+
+def test_no_mass_has_no_centroidal_map():
+    builder = tw.Builder("nothing")
+    builder.link("light", parent="base_link", joint=tw.Revolute("y"))
+    with pytest.raises(tw.SingularError, match="nothing that moves has mass"):
+        fast.centroidal_map(builder.build(), [0.0])
+
+
+# ---------------------------------------------------------------- what is written where
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_inputs_are_only_read(name, states):
+    q, v = states.q.copy(), states.v.copy()
+    q.flags.writeable = v.flags.writeable = False
+    CALLS[name](fast, GO2, q, v)
+    np.testing.assert_array_equal(q, states.q)
+    np.testing.assert_array_equal(v, states.v)
+
+
+@pytest.mark.parametrize("order", ["states first", "states last", "every second"])
+@pytest.mark.parametrize("name", CALLS)
+def test_out_is_filled_and_returned(name, order, states, small_chunks):
+    shape = (37, *TAILS[name])
+    out = {
+        "states first": lambda: np.full(shape, np.nan),
+        "states last": lambda: np.moveaxis(np.full((*TAILS[name], 37), np.nan), -1, 0),
+        "every second": lambda: np.full((2 * 37, *TAILS[name]), np.nan)[::2],
+    }[order]()
+    returned = CALLS[name](fast, GO2, states.q, states.v, out=out)
+    assert returned is out
+    np.testing.assert_array_equal(out, CALLS[name](fast, GO2, states.q, states.v))
+
+
+@pytest.mark.parametrize("count", [4, 40])
+def test_out_with_batch_axes_that_cannot_be_one_is_filled(count):
+    s = random_state(GO2, rng=0, batch=(3, count))
+    out = np.full((3, 2 * count + 1, 18), np.nan)[:, 1::2]
+    assert fast.rnea(GO2, s.q, s.v, s.a, out=out) is out
+    np.testing.assert_array_equal(out, fast.rnea(GO2, s.q, s.v, s.a))
+
+
+def test_out_of_dynamics_is_filled_where_it_is_given(states):
+    mine = tw.Dynamics(M=np.empty((37, 18, 18)), h=np.empty((2, 2)))  # h is not asked for
+    d = fast.dynamics(GO2, states.q, states.v, out=mine, want={"M", "A_G"})
+    assert d.M is mine.M
+    assert d.h is None
+    np.testing.assert_array_equal(d.M, fast.crba(GO2, states.q))
+    np.testing.assert_allclose(d.A_G, fast.centroidal_map(GO2, states.q), rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("out", [np.empty((37, 17)), np.empty((37, 18), np.float32), np.empty((2, 18)), [0.0] * 18])
+def test_an_out_that_does_not_fit_is_refused(out, states):
+    with pytest.raises(tw.ShapeError, match=r"out: expected for tau an array of float64 of shape \(37, 18\)"):
+        fast.rnea(GO2, states.q, states.v, states.a, out=out)
+    with pytest.raises(TypeError, match="out: expected a Dynamics, got "):
+        fast.dynamics(GO2, states.q, states.v, out=out)
+
+
+@pytest.mark.parametrize("count", [3, 37])
+def test_out_may_be_an_input(states, count):
+    states = type(states)(*(x[:count] for x in states))
+    qdd = fast.aba(GO2, states.q, states.v, states.tau)
+    tau = states.tau.copy()
+    fast.aba(GO2, states.q, states.v, tau, out=tau)
+    np.testing.assert_array_equal(tau, qdd)
+
+
+@pytest.mark.parametrize("batch", [(), (3,), (12,)])
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_contacts_may_be_none_or_on_the_world(batch, base):
+    model = Recipe(5, seed=1, base=base).model
+    s = random_state(model, rng=0, batch=batch)
+    for contacts in ((), ("base_link",)):  # the latter only where the base is fixed
+        if set(contacts) <= set(model.frame_names):
+            ours, book = (package.dynamics(model, s.q, s.v, contacts=contacts) for package in (fast, tw))
+            assert ours.J_c.shape == book.J_c.shape
+            np.testing.assert_array_equal(ours.J_c, book.J_c)
+
+
+# ---------------------------------------------------------------- how it is spread
+
+
+def assert_equal_to_rounding(x, y):
+    """Sums of three terms are added in another order where a chunk ends."""
+    np.testing.assert_allclose(x, y, rtol=0, atol=1e-14 * np.abs(y).max())
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_chunks_change_nothing(name, states, small_chunks, monkeypatch):
+    chunks = CALLS[name](fast, GO2, states.q, states.v)
+    monkeypatch.setattr(many, "FEWEST", 1000)
+    assert_equal_to_rounding(chunks, CALLS[name](fast, GO2, states.q, states.v))
+
+
+@pytest.mark.parametrize("name", CALLS)
+@pytest.mark.parametrize("count", [1, 8, 9])
+def test_few_states_and_many_agree(name, count, states, monkeypatch):
+    q, v = states.q[:count], states.v[:count]
+    one_way = CALLS[name](fast, GO2, q, v)
+    monkeypatch.setattr(dispatch, "FEW", 0 if count <= dispatch.FEW else count)
+    monkeypatch.setattr(dispatch, "FEW_ABA", 0 if count <= dispatch.FEW_ABA else count)
+    other_way = CALLS[name](fast, GO2, q, v)
+    size = 10 if name == "aba" else 1  # the condition of M
+    np.testing.assert_allclose(one_way, other_way, rtol=0, atol=size * 1e-14 * np.abs(other_way).max())
+
+
+def test_memory_does_not_grow_with_the_batch(states):
+    """Besides the results, as much for 20 000 states as for 4000: what a chunk needs."""
+    import tracemalloc
+
+    peaks = []
+    for n in (4000, 20_000):
+        q, out = np.tile(Q, (n, 1)), np.empty((n, 18, 18))
+        tracemalloc.start()
+        fast.crba(GO2, q, out=out)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.2 * peaks[0]
+
+
+# ---------------------------------------------------------------- what is kept
+
+
+def test_a_plan_is_made_once_for_each_number_type():
+    model = tw.chain(3)
+    assert plan.plan_of(model, np.dtype(float)) is plan.plan_of(model, np.dtype(float))
+    assert plan.plan_of(model, np.dtype(float)) is not plan.plan_of(model, np.dtype(np.float32))
+    assert plan.plan_of(model, np.dtype(np.float32)).mass.dtype == np.float32
+
+
+def test_a_plan_goes_with_its_model():
+    model = tw.chain(3)
+    fast.crba(model, [0.1, 0.2, 0.3])
+    kept = weakref.ref(plan.plan_of(model, np.dtype(float))), weakref.ref(model)
+    del model
+    gc.collect()
+    assert [reference() for reference in kept] == [None, None]
+
+
+def test_levels_of_legs_are_slices():
+    """Slices copy nothing. The legs of Go2 are the picture of the package's docstring."""
+    levels = plan.plan_of(GO2, np.dtype(float)).levels
+    assert [(level.here, level.up) for level in levels] == [
+        (slice(1, 5), slice(0, 1)),
+        (slice(5, 9), slice(1, 5)),
+        (slice(9, 13), slice(5, 9)),
+    ]
+
+
+def test_every_link_has_its_parent_before_it():
+    for seed in range(5):
+        model = Recipe(30, seed=seed).model
+        made = plan.plan_of(model, np.dtype(float))
+        assert sorted(made.entry[1:]) == list(range(model.nv))
+        assert all(parent < link for link, parent in enumerate(made.parent[1:], start=1))
+
+
+def test_more_sets_of_contacts_than_are_remembered_are_right():
+    for contacts in list(permutations(GO2.feet)) + list(permutations(GO2.feet, 2)):
+        np.testing.assert_array_equal(
+            fast.dynamics(GO2, Q, V, contacts=contacts, want={"J_c"}).J_c,
+            np.concatenate([fast.dynamics(GO2, Q, V, contacts=[foot], want={"J_c"}).J_c for foot in contacts]),
+        )

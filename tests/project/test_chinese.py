@@ -1,0 +1,56 @@
+"""Chinese is set with its own punctuation: commas, colons and brackets as wide as the characters beside them."""
+
+import ast
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+HAN = "\u4e00-\u9fff"
+NOT_WORDS = re.compile(r"`[^`\n]+`|\$\$[^$]+\$\$|\$[^$\n]+\$|\]\([^)\s]*\)")
+NARROW = re.compile(rf"[{HAN}][,;:!?()]|[,;:!?()](?=[{HAN}])")
+PATTERNS = ("*.md", "benchmarks/*.md", "docs/**/*.md", "docs/website/*/*.toml", "models/*.md")
+PATTERNS += ("notebooks/zh/*.ipynb", "src/**/*.md", "src/**/*.py", "src/**/*.toml")
+FILES = sorted(path for pattern in PATTERNS for path in ROOT.glob(pattern))
+
+
+def texts(path: Path) -> list[str]:
+    """The texts of a file: of a Python file its strings, of a notebook its cells of text."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        found = (node.value for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Constant))
+        return [value for value in found if isinstance(value, str)]
+    if path.suffix == ".ipynb":
+        return ["".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == "markdown"]
+    return [text]
+
+
+def narrow(text: str) -> list[str]:
+    """Where a mark as narrow as those of English stands beside a Chinese character, outside code and formulas."""
+    words = NOT_WORDS.sub("x", text)
+    return [words[max(0, found.start() - 10) : found.end() + 10] for found in NARROW.finditer(words)]
+
+
+def test_chinese_has_its_own_punctuation():
+    every = {path.relative_to(ROOT).as_posix(): texts(path) for path in FILES}
+    assert sum(bool(re.search(f"[{HAN}]", "".join(own))) for own in every.values()) > 80
+    assert {
+        name: found for name, own in every.items() if (found := [place for text in own for place in narrow(text)])
+    } == {}
+
+
+@pytest.mark.parametrize(
+    ("text", "places"),
+    [
+        ("质心,脚", 1),
+        ("质心(脚)", 2),
+        ("(质心)", 2),
+        ("质心\uff08脚\uff09", 0),
+        ("转动 (ω, v)", 0),
+        ("见 `f(质心)`:", 0),
+    ],
+)
+def test_a_narrow_mark_is_noticed(text, places):
+    assert len(narrow(text)) == places

@@ -1,0 +1,158 @@
+"""The test-suite is tested: each fault of faults.py, put in on purpose, must be noticed.
+
+A copy of the package gets one wrong line, and the tests of physics and those against an outside oracle
+run on it, not the ones that compare the package with itself or its examples. One of them must fail.
+"""
+
+import ast
+import os
+import re
+import shutil
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+
+from ..faults import FAULTS, Fault
+
+ROOT = Path(__file__).parents[2]
+# Closed forms and invariants first: they are quick, and need no Pinocchio.
+PHYSICS_AND_ORACLES = [
+    "algorithms/test_kinematics.py",
+    "algorithms/test_rnea.py",
+    "algorithms/test_aba.py",
+    "algorithms/test_crba.py",
+    "algorithms/test_coriolis.py",
+    "algorithms/test_energy.py",
+    "algorithms/test_floating_base.py",
+    "algorithms/test_centroidal.py",
+    "algorithms/test_every_algorithm.py",
+    "model/test_joint.py",
+    "algorithms/test_random_trees.py",
+    "spatial/test_rotation.py",
+    "spatial/test_exponential.py",
+    "spatial/test_plucker.py",
+    "spatial/test_inertia.py",
+    "robots/test_urdf.py",
+    "simulation/test_simulation.py",
+    "newton_euler_3d/test_newton_euler_3d.py",
+    "contact/test_contact_dynamics.py",
+    "contact/test_contact_impacts.py",
+    "contact/test_contact_friction.py",
+    "model/test_reduction.py",
+    "scene/test_scene.py",
+    "templates/test_templates.py",
+    "motions/test_motions.py",
+    "test_accuracy.py",
+    "study/test_extremes.py",
+    "algorithms/test_terms.py",
+]
+TESTED_BY = {
+    "inverse_dynamics": "rnea",
+    "forward_dynamics": "aba",
+    "mass_matrix": "crba",
+    "formulas": "terms",
+    "tree": "kinematics",
+    "joint_types": "joint",
+    "joints": "joint",
+    "digits": "accuracy",
+    "fast": "extremes",
+}
+"""Files and folders of the source whose tests go by another name."""
+
+
+def distance(test: str, file: str) -> int:
+    """Return 0 where tests have the name of a file of the source, 1 where that of its folder, and so on outward."""
+    *folders, stem = Path(file).with_suffix("").parts
+    names = [TESTED_BY.get(name, name) for name in (stem, *reversed(folders))]
+    words = Path(test).with_suffix("").parts  # of a file of tests, and of its folder where it lies in one
+    near = (k for k, name in enumerate(names) if any(w == name or w.startswith(f"test_{name}") for w in words))
+    return min(near, default=len(names))
+
+
+def nearest(file: str) -> list[str]:
+    """Return the files of tests, those nearest to a file of the source first."""
+    return sorted(PHYSICS_AND_ORACLES, key=lambda test: distance(test, file))
+
+
+def run_on_copy(folder: Path, fault: Fault | None) -> subprocess.CompletedProcess[str]:
+    package = folder / "twistwrench"
+    shutil.copytree(ROOT / "src/twistwrench", package)  # with its __pycache__: but for one file it is still true
+    shutil.copytree(ROOT / "models", package / "models", dirs_exist_ok=True)
+    if fault:
+        file = package / fault.file
+        file.write_text(file.read_text(encoding="utf-8").replace(fault.right, fault.wrong), encoding="utf-8")
+    nearest_first = nearest(fault.file) if fault else PHYSICS_AND_ORACLES
+    first = run_tests(folder, nearest_first[:3])  # most faults need no more
+    return first if first.returncode else run_tests(folder, nearest_first[3:])
+
+
+def run_tests(folder: Path, names: list[str]) -> subprocess.CompletedProcess[str]:
+    tests = [str(ROOT / "tests" / name) for name in names]
+    options = ["-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "-p", "no:xdist"]
+    options += ["--hypothesis-profile=no_shrinking"]  # that it fails is all that is asked
+    options += ["-W", "ignore:mypy_extensions:DeprecationWarning"]  # of libcst, which hypothesis loads on a failure
+    return subprocess.run(
+        [sys.executable, "-m", "pytest", "-o", "addopts=--import-mode=importlib", *options, *tests],
+        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": str(folder), "HYPOTHESIS_STORAGE_DIRECTORY": str(folder / "hypothesis")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_each_fault_changes_one_line_of_the_source():
+    for fault in FAULTS:
+        text = (ROOT / "src/twistwrench" / fault.file).read_text(encoding="utf-8")
+        assert text.count(fault.right) == 1, f"{fault.slip}: found {text.count(fault.right)} times in {fault.file}"
+        assert fault.wrong != fault.right, fault.slip
+    assert len({fault.slip for fault in FAULTS}) == len(FAULTS) >= 30
+
+
+def test_a_fault_is_a_slip_and_no_misspelling():
+    """A line with a name that its file does not know would be noticed by any test."""
+    for fault in FAULTS:
+        text = (ROOT / "src/twistwrench" / fault.file).read_text(encoding="utf-8")
+        if fault.right in [line.strip() for line in text.splitlines()]:
+            used = {node.id for node in ast.walk(ast.parse(textwrap.dedent(fault.wrong))) if isinstance(node, ast.Name)}
+            assert used <= set(re.findall(r"\w+", text)), fault.slip
+
+
+@pytest.mark.parametrize("file", sorted({fault.file for fault in FAULTS}))
+def test_a_fault_meets_the_tests_of_its_own_file_first(file):
+    names = Path(file).with_suffix("").parts
+    if not {"cross"} & set(names):  # the cross products have no tests of their own: every algorithm needs them
+        assert distance(nearest(file)[0], file) < len(names), f"{file}: which of the tests are its own?"
+
+
+@pytest.mark.parametrize(
+    ("file", "tests"),
+    [
+        ("inverse_dynamics.py", "test_rnea"),
+        ("algorithms/rnea.py", "test_rnea"),
+        ("forward_dynamics.py", "test_aba"),
+        ("algorithms/aba.py", "test_aba"),
+        ("mass_matrix.py", "test_crba"),
+        ("algorithms/crba.py", "test_crba"),
+        ("algorithms/centroidal.py", "test_centroidal"),
+        ("contact/impacts.py", "test_contact_"),
+    ],
+)
+def test_the_tests_of_an_algorithm_bear_its_name(file, tests):
+    assert Path(nearest(file)[0]).stem.startswith(tests)
+
+
+@pytest.mark.slow
+def test_the_copy_without_a_fault_passes(tmp_path):
+    run = run_on_copy(tmp_path, None)
+    assert run.returncode == 0, run.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: f"{fault.file}: {fault.slip}")
+def test_fault_is_noticed(fault, tmp_path):
+    run = run_on_copy(tmp_path, fault)
+    assert run.returncode == 1, f"nothing noticed {fault.slip!r}\n{run.stdout[-2000:]}{run.stderr[-2000:]}"

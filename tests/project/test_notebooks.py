@@ -1,0 +1,218 @@
+"""The notebooks: in step with their sources, alike in both languages, and right when they are run."""
+
+import ast
+import importlib.util
+import json
+import re
+import time
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import twistwrench as tw
+
+nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: the notebooks are not checked")
+pytest.importorskip("jupytext", reason="jupytext is not installed: the notebooks are not checked")
+
+FOLDER = Path(__file__).resolve().parents[2] / "notebooks"
+spec = importlib.util.spec_from_file_location("build", FOLDER / "build.py")
+build = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(build)
+
+SOURCES = build.sources()
+SECTIONS = [source for source in SOURCES if source.stem.startswith("49")]
+SLOWEST = 60  # s, a notebook
+
+
+def by_name(source):
+    return source.stem
+
+
+def notebook(source, language):
+    return nbformat.read(build.target(source, language), as_version=4)
+
+
+def code(source):
+    return [cell.source for cell in build.cells(source) if cell.cell_type == "code"]
+
+
+def texts(source, language):
+    return [cell.source for cell in notebook(source, language).cells if cell.cell_type == "markdown"]
+
+
+# ---------------------------------------------------------------- in step
+
+
+def test_every_source_is_built_and_every_notebook_has_a_source():
+    assert {path.stem for path in (FOLDER / "source").glob("*.py")} == {source.stem for source in SOURCES}
+    for language in build.LANGUAGES:
+        kept = {path.name for path in (FOLDER / language).glob("*.ipynb")}
+        assert kept == {build.target(source, language).name for source in SOURCES}
+
+
+@pytest.mark.parametrize("language", build.LANGUAGES)
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_a_notebook_is_what_its_source_says(source, language):
+    kept = build.target(source, language).read_text(encoding="utf-8")
+    assert kept == build.build(source, language), "run: python notebooks/build.py"
+
+
+def test_a_stale_notebook_is_noticed_and_mended(tmp_path, monkeypatch, capsys):
+    (tmp_path / "source").mkdir()
+    (tmp_path / "source" / "00_first.py").write_text("# %%\n1 + 1\n", encoding="utf-8")
+    monkeypatch.setattr(build, "HERE", tmp_path)
+    assert build.main(["--check"]) == 1
+    assert not (tmp_path / "en").exists()
+    assert build.main([]) == 0
+    assert build.main(["--check"]) == 0
+    stale = tmp_path / "zh" / "00_first.ipynb"
+    stale.write_text(stale.read_text(encoding="utf-8").replace("1 + 1", "1 + 2"), encoding="utf-8")
+    capsys.readouterr()
+    assert build.main(["--check"]) == 1
+    assert capsys.readouterr().out == "zh/00_first.ipynb: out of step with its source\n"
+
+
+# ---------------------------------------------------------------- in both languages
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_both_languages_have_the_same_code_and_as_much_text(source):
+    english, chinese = (notebook(source, language).cells for language in build.LANGUAGES)
+    assert [cell.cell_type for cell in english] == [cell.cell_type for cell in chinese]
+    for one, other in zip(english, chinese):
+        assert (one.source == other.source) == (one.cell_type == "code")
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_each_language_is_that_language(source):
+    assert not any(re.search("[\u4e00-\u9fff]", text) for text in texts(source, "en"))
+    assert all(re.search("[\u4e00-\u9fff]", text) for text in texts(source, "zh"))
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_both_languages_show_the_same_formulas(source):
+    def formulas(text):
+        displayed = re.findall(r"\$\$(.+?)\$\$", text, re.DOTALL)
+        return [re.sub(r"\\(text|mathrm|quad|qquad)\b(\{[^}]*\})?|[\s.,;]", "", formula) for formula in displayed]
+
+    for english, chinese in zip(texts(source, "en"), texts(source, "zh"), strict=True):
+        assert formulas(english) == formulas(chinese)
+
+
+@pytest.mark.parametrize(
+    ("cells", "message"),
+    [
+        ('# %% [markdown] lang="en"\n# yes\n', "the last English cell"),
+        ('# %% [markdown] lang="en"\n# yes\n# %%\n1\n', "cell 1: each English cell is followed"),
+        ('# %% [markdown] lang="zh"\n# 是\n', "cell 0: each English cell is followed"),
+        ("# %% [markdown]\n# yes\n", 'cell 0: expected lang="en"'),
+    ],
+)
+def test_a_text_without_its_twin_is_refused(tmp_path, cells, message):
+    source = tmp_path / "49_01.py"
+    source.write_text(cells, encoding="utf-8")
+    with pytest.raises(ValueError, match=message):
+        build.cells(source)
+
+
+@pytest.mark.parametrize(
+    ("typed", "set_"),
+    [
+        ("质心在\n脚的中间", "质心在脚的中间"),
+        ("质心,\n脚", "质心\uff0c脚"),
+        ("用 `q`,\n然后", "用 `q`\uff0c然后"),
+        ("转动:\n$\\omega$ 是", "转动\uff1a$\\omega$ 是"),
+        ("如下:\n\n$$x$$", "如下\uff1a\n\n$$x$$"),
+        ("如下:\n- 一\n- 二", "如下\uff1a\n- 一\n- 二"),
+        ("# 题目\n正文", "# 题目\n正文"),
+        ("| 量 |\n| 力 |", "| 量 |\n| 力 |"),
+        ("算 `f(x, y)` 与 (ω, v)", "算 `f(x, y)` 与 (ω, v)"),
+        ("七个数(位置):`nq`", "七个数\uff08位置\uff09\uff1a`nq`"),
+        ("用它 (见 $f(x)$ 与 (ω, v)) 算", "用它\uff08见 $f(x)$ 与 (ω, v)\uff09算"),
+        ("矩阵(49.3)", "矩阵\uff0849.3\uff09"),
+        ("[这里](docs/x.md)", "[这里](docs/x.md)"),
+        ("1. 忘记 $p$;\n2. 运行 `a`;`b`", "1. 忘记 $p$\uff1b\n2. 运行 `a`\uff1b`b`"),
+        ('说"对偶"', "说“对偶”"),
+        ("真的吗?真的!", "真的吗\uff1f真的\uff01"),
+    ],
+)
+def test_chinese_is_set_as_chinese(typed, set_):
+    assert build.chinese(typed) == set_
+
+
+# ---------------------------------------------------------------- what is in them
+
+
+@pytest.mark.parametrize("language", build.LANGUAGES)
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_a_notebook_carries_no_outputs(source, language):
+    cells = json.loads(build.target(source, language).read_text(encoding="utf-8"))["cells"]
+    assert [cell["outputs"] for cell in cells if cell.get("outputs")] == []
+    assert {cell["execution_count"] for cell in cells if cell["cell_type"] == "code"} == {None}
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_every_code_cell_compiles_and_claims_are_asserted(source):
+    trees = [ast.parse(cell) for cell in code(source)]
+    asserts = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Assert)]
+    assert len(asserts) >= 5
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_nothing_that_the_package_has_is_defined_again(source):
+    nodes = [node for cell in code(source) for node in ast.walk(ast.parse(cell))]
+    defined = {node.name for node in nodes if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    assert defined & (set(dir(tw)) | set(dir(tw.newton_euler_3d))) == set()
+
+
+@pytest.mark.parametrize(
+    ("name", "listing"),
+    [
+        ("49_06", "newton_euler"),
+        ("49_07", "articulated_body"),
+        ("49_08", "composite_rigid_body"),
+        ("49_10", "centroidal_composite"),
+    ],
+)
+def test_the_algorithms_are_shown_as_they_stand_in_the_package(name, listing):
+    (source,) = (source for source in SOURCES if source.stem == name)
+    text = "\n".join(code(source))
+    assert f"print(inspect.getsource({listing}))" in text
+    assert "settrace" not in text
+
+
+@pytest.mark.parametrize("language", build.LANGUAGES)
+@pytest.mark.parametrize("source", SECTIONS, ids=by_name)
+def test_a_section_ends_with_its_exercises(source, language):
+    number = source.stem.replace("_0", ".").replace("_", ".")
+    last = texts(source, language)[-1]
+    assert f"{number}.1" in last
+    assert "twistwrench exercises start" in last
+
+
+# ---------------------------------------------------------------- run
+
+
+def test_the_extra_of_the_notebooks_brings_the_solver_that_one_of_them_asks():
+    """Whether a scene can stand is a quadratic programme; the tests have its solver from an extra of their own."""
+    assert any("can_stand()" in source.read_text(encoding="utf-8") for source in SOURCES)
+    project = tomllib.loads((FOLDER.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    brought = re.findall(r"\w+", " ".join(extras["notebooks"]))
+    assert "qp" in brought
+    assert any(solver.startswith("daqp") for solver in extras["qp"])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_a_notebook_runs_in_a_minute_and_its_claims_hold(source, tmp_path):
+    """The English one: the code of the other is the same."""
+    nbclient = pytest.importorskip("nbclient", reason="nbclient is not installed: the notebooks are not run")
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the notebooks are not run")
+    client = nbclient.NotebookClient(
+        notebook(source, "en"), timeout=SLOWEST, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}
+    )
+    start = time.perf_counter()
+    client.execute()
+    assert time.perf_counter() - start < SLOWEST

@@ -1,0 +1,63 @@
+"""The README runs, prints what its comments say, and is the same in both languages."""
+
+import contextlib
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+
+ROOT = Path(__file__).parents[2]
+ENGLISH, CHINESE = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "README.zh-CN.md"))
+
+
+def blocks(text, language):
+    return re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+
+
+def test_fifteen_lines_print_what_their_comments_say():
+    (code,) = blocks(ENGLISH, "python")
+    assert sum(bool(line.strip()) for line in code.splitlines()) == 15
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(code, {})
+    equation, back, forces, derivative, shape = printed.getvalue().splitlines()
+    assert float(equation) < 1e-13
+    assert float(back) < 1e-12
+    assert np.fromstring(forces.strip("[]"), sep=" ") == pytest.approx([39.1, 39.1, 39.8, 39.8], abs=0.05)
+    assert abs(float(derivative)) < 1e-13
+    assert shape == "(1000, 18)"
+
+
+def test_both_languages_hold_the_same_commands_and_code():
+    assert blocks(ENGLISH, "sh") == blocks(CHINESE, "sh")
+    assert len(blocks(ENGLISH, "sh")) >= 2
+    code, twin = ([re.sub(r" *#.*", "", block) for block in blocks(text, "python")] for text in (ENGLISH, CHINESE))
+    assert code == twin
+
+
+def rows(text):
+    table = re.findall(r"^\| (?:49\.\d+)? ?\|(.*)\|(.*)\|.*\|$", text, re.MULTILINE)
+    return [(re.findall(r"`([\w./]+)`", files), re.findall(r"`(\w+)`", names)) for files, names in table]
+
+
+def test_the_map_of_the_chapter_names_files_and_functions_that_exist():
+    assert rows(ENGLISH) == rows(CHINESE)
+    assert len(rows(ENGLISH)) == 29
+    for files, names in rows(ENGLISH):
+        assert files
+        for file in files:
+            assert (ROOT / "src/twistwrench" / file).exists(), file
+        for name in names:
+            assert hasattr(tw, name), name
+
+
+def test_the_numbers_of_robots_are_right():
+    own = [robot for robot in tw.robots() if robot.source == "models"]
+    others = [robot for robot in tw.robots() if robot.source != "models"]
+    assert (len(own), len(others)) == (6, 68)
+    assert "six robots" in ENGLISH
+    assert "the 68 of" in ENGLISH

@@ -1,0 +1,221 @@
+"""The site: algorithms quoted line by line, links that lead somewhere, one page in both languages, and checks that see.
+
+`python docs/build.py --check` builds all of it with warnings as errors, and is a stage of .ci/run.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "docs"))
+
+from website import beside, browser, links, pages, steps  # noqa: E402
+
+TEXTS = sorted(path.name for path in pages.TEXT.glob("*.md") if not path.stem.endswith(".zh-CN"))
+
+
+# ---------------------------------------------------------------- the source beside the chapter
+
+
+@pytest.mark.parametrize("name", beside.names())
+def test_every_line_of_an_algorithm_stands_beside_its_step(name):
+    for part in beside.read(name)["part"]:
+        lines = beside.body(part["file"], part["function"])
+        pieces = beside.cut(lines, [step["at"] for step in part["step"]], part["file"])
+        assert [line for piece in pieces for line in piece.text] == lines.text
+        source = (beside.SOURCE / part["file"]).read_text(encoding="utf-8").splitlines()
+        for piece in pieces:
+            assert source[piece.first - 1 : piece.first - 1 + len(piece.text)] == piece.text
+
+
+def test_the_values_on_a_go2_are_told_in_chinese():
+    english, chinese = ("".join(steps.section(beside.read(name), k) for name in steps.CODE) for k in pages.LANGUAGES)
+    assert all(english.count(word) for word in steps.CHINESE)
+    assert set(re.findall("<caption>.*?</caption>", chinese, re.DOTALL)) == {
+        f"<caption>{steps.CAPTION['zh'].format(name)}</caption>" for name in steps.CODE
+    }
+    assert not any(word in table for table in chinese.split("<details>")[1:] for word in steps.CHINESE)
+
+
+def test_the_algorithms_of_the_chapter_have_their_page():
+    assert {"rnea", "aba", "crba"} <= set(beside.names())
+    assert {path.stem for path in beside.FOLDER.glob("*.toml")} == set(beside.ORDER)
+
+
+@pytest.mark.parametrize("name", beside.names())
+def test_both_languages_tell_the_same_steps(name):
+    said = beside.read(name)
+    for part in said["part"]:
+        for step in part["step"]:
+            assert re.search("[\u4e00-\u9fff]", step["zh"])
+            assert not re.search("[\u4e00-\u9fff]", step["en"])
+            assert sorted(re.findall(r"\$[^$]+\$", step["en"])) == sorted(re.findall(r"\$[^$]+\$", step["zh"]))
+    shown = [re.findall(r"^```\{code-block\}.*?^```", beside.page(name, k), re.M | re.S) for k in pages.LANGUAGES]
+    assert shown[0] == shown[1]
+
+
+@pytest.mark.parametrize(
+    ("steps", "said"),
+    [
+        (["49.6 A0", "49.6 V", "49.6 speed"], "49.6 speed is told, 49.6 A stands there"),
+        (["49.6 A0, 49.6 V"], "None is told, 49.6 A stands there"),
+        (["49.6 A0"] * 2, "49.6 A0 is told, 49.6 V stands there"),
+    ],
+)
+def test_a_step_that_is_gone_is_noticed(steps, said):
+    with pytest.raises(LookupError, match=said):
+        beside.cut(beside.body("algorithms/rnea.py", "newton_euler"), steps, "algorithms/rnea.py")
+
+
+def test_a_function_that_is_gone_is_noticed():
+    with pytest.raises(LookupError, match="no function rneaa"):
+        beside.body("algorithms/rnea.py", "rneaa")
+
+
+# ---------------------------------------------------------------- pages
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_both_languages_have_a_page_with_the_same_links(name):
+    texts = [(pages.TEXT / pages.twin(name, language)).read_text(encoding="utf-8") for language in pages.LANGUAGES]
+    targets = [sorted(re.findall(r"\]\(([^)]+)\)", text)) for text in texts]
+    assert targets[0] == targets[1]
+    entries = [re.findall(r"<([\w/]+)>\n", text) + re.findall(r"^<!-- .* -->$", text, re.M) for text in texts]
+    assert entries[0] == entries[1]
+
+
+def test_links_between_files_become_links_between_pages(tmp_path):
+    text = "[简体中文](README.zh-CN.md) · [README](README.md)\n\n[a](docs/map.md#x) [b](notebooks/en/00_first.ipynb) [c](https://d.org/e.md)\n"
+    text += "```sh\n[f](docs/map.md)\n```\n[g](LICENSE) [h](docs/no.md)\n"
+    moved = pages.moved(text, "README.md", "readme", tmp_path)
+    assert moved == (
+        "[a](map.md#x) [b](chapter/00_first.ipynb) [c](https://d.org/e.md)\n"
+        "```sh\n[f](docs/map.md)\n```\n[g](files/LICENSE) [h](docs/no.md)\n"
+    )
+    assert (tmp_path / "files" / "LICENSE").read_bytes() == (ROOT / "LICENSE").read_bytes()
+
+
+def test_chinese_pages_link_to_chinese_pages(tmp_path):
+    assert pages.moved("[a](../README.zh-CN.md) [b](map.zh-CN.md)", "docs/traps.zh-CN.md", "traps", tmp_path) == (
+        "[a](readme.md) [b](map.md)"
+    )
+
+
+def test_lines_of_chinese_are_joined_without_a_blank(tmp_path):
+    text = "# 标题\n第一行，\n第二行\n\n第三行\n- 一\n- 二\n"
+    assert pages.moved(text, "docs/x.zh-CN.md", "x", tmp_path) == "# 标题\n第一行，第二行\n\n第三行\n- 一\n- 二\n"
+    listed = "- 第一行，\n  第二行\uff1b\n  model 与\n- **二**\n"
+    assert pages.moved(listed, "docs/x.zh-CN.md", "x", tmp_path) == "- 第一行，第二行；model 与\n- **二**\n"
+    assert pages.moved("中文\n中文\n", "docs/x.md", "x", tmp_path) == "中文\n中文\n"
+
+
+def test_headings_follow_each_other(tmp_path):
+    assert pages.moved("# A\n### 1. B\n", "docs/x.md", "x", tmp_path) == "# A\n## 1. B\n"
+    assert pages.moved("# A\n## B\n### C\n", "docs/x.md", "x", tmp_path) == "# A\n## B\n### C\n"
+
+
+def test_a_page_without_a_chinese_file_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr(pages, "pages", lambda: {"CHANGELOG.md": "changelog"})
+    pages.write_pages(tmp_path, "zh")
+    assert "本页只有英文" in (tmp_path / "changelog.md").read_text(encoding="utf-8")
+
+
+def test_the_log_of_changes_alone_is_in_english_only():
+    assert [path for path in pages.pages() if not (ROOT / pages.twin(path, "zh")).exists()] == ["CHANGELOG.md"]
+
+
+def test_every_public_name_has_a_line_of_chinese():
+    pytest.importorskip("sphinx", reason="Sphinx is not installed: the interface is not checked")
+    from website import interface
+
+    assert set(interface.chinese()) == {name for names in interface.by_section().values() for name in names}
+
+
+def test_only_what_differs_is_touched_and_what_is_gone_goes(tmp_path):
+    old, new = tmp_path / "old", tmp_path / "new"
+    for tree, files in (
+        (old, {"same": "1", "other": "1", "gone": "1"}),
+        (new, {"same": "1", "other": "2", "a/b": "3"}),
+    ):
+        for name, text in files.items():
+            pages.write(tree / name, text)
+    before = (old / "same").stat()
+    assert pages.replace(old, new)
+    assert {p.relative_to(old).as_posix(): p.read_text() for p in old.rglob("*") if p.is_file()} == {
+        "same": "1",
+        "other": "2",
+        "a/b": "3",
+    }
+    assert (old / "same").stat().st_ino == before.st_ino
+    assert not pages.replace(old, old)
+
+
+def test_chinese_is_found_by_pairs_of_characters():
+    pytest.importorskip("sphinx", reason="Sphinx is not installed: the site's search is not checked")
+    from website.chinese import PairsOfCharacters
+
+    search = PairsOfCharacters({})
+    assert search.split("质量矩阵 M(q), CRBA。") == ["质量", "量矩", "矩阵", "M", "q", "CRBA"]
+
+
+# ---------------------------------------------------------------- notebooks
+
+
+def test_outputs_are_shared_by_equal_code_only():
+    nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: the notebooks are not checked")
+    from website import notebooks
+
+    def notebook(code, outputs=()):
+        return nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(code, outputs=list(outputs))])
+
+    printed = nbformat.v4.new_output("stream", text="2")
+    assert notebooks.with_outputs(notebook("1 + 1"), notebook("1 + 1", [printed])).cells[0].outputs == [printed]
+    with pytest.raises(ValueError, match="different code"):
+        notebooks.with_outputs(notebook("1 + 1"), notebook("1 + 2", [printed]))
+    assert len({notebooks.key(notebook(c), k) for c in ("1 + 1", "1 + 2") for k in "ab"}) == 4
+
+
+# ---------------------------------------------------------------- the checks see what is wrong
+
+
+def test_links_that_lead_nowhere_are_found(tmp_path):
+    (tmp_path / "a.html").write_text(
+        '<h1 id="top"></h1><a href="#top"></a><a href="b.html#here"></a><a href="https://x.org"></a>'
+        '<a href="c.html"></a><a href="b.html#there"></a><script src="https://x.org/y.js"></script><img src="z.png">'
+    )
+    (tmp_path / "b.html").write_text('<a id="here" href="a.html"></a>')
+    assert sorted(links.check(tmp_path)) == [
+        "a.html: fetches https://x.org/y.js",
+        "a.html: no file for c.html",
+        "a.html: no file for z.png",
+        "a.html: no such place: b.html#there",
+    ]
+
+
+BAD = """<!doctype html><html lang="en"><title>A page</title><body style="background: white">
+<main><h1>Bad</h1><p style="color: #bbb">pale</p><img src="no.png" alt=""><div style="width: 3000px">wide</div>
+<span class="math">\\(x\\)</span><script>console.error("something is wrong")</script></main></body></html>"""
+
+
+@pytest.mark.slow
+def test_what_is_wrong_with_a_page_is_seen_in_the_browser(tmp_path):
+    if reason := browser.missing():
+        pytest.skip(reason)
+    from playwright.sync_api import sync_playwright
+
+    (tmp_path / "bad.html").write_text(BAD, encoding="utf-8")
+    with sync_playwright() as play:
+        chromium = play.chromium.launch(executable_path=browser.chromium(), args=["--no-sandbox"])
+        page = chromium.new_page(viewport=browser.NARROW)
+        looks = "\n".join(browser.looks(page, tmp_path / "bad.html"))
+        reach, accessible = list(browser.reach(page)), "\n".join(browser.accessible(page, "bad"))
+        chromium.close()
+    assert "1 formulas not set" in looks
+    assert "figures not shown: ['no.png']" in looks
+    assert "px wider than the window" in looks
+    assert "on the console: something is wrong" in looks
+    assert reach == [f"the language switch is not reached with {browser.MOST_TABS} tabs"]
+    assert "color-contrast" in accessible

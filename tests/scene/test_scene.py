@@ -1,0 +1,708 @@
+"""A scene: the smallest model with its contacts and wrenches, what it computes, and what it refuses."""
+
+import importlib.util
+import re
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench import fast, motions
+from twistwrench.fast import single as one
+from twistwrench.model import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from twistwrench.scene import dynamics as once
+from twistwrench.scene.costs import limbs
+from twistwrench.scene.dynamics import angular_rows
+from twistwrench.templates import TEMPLATES
+
+from ..pages import DOCS, blocks, names_author_and_licence, page, run
+from ..strategies import random_state
+from ..truth import largest
+
+SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
+FEET = [tw.PointContact(f"{leg}_foot", mu=0.7) for leg in ("FL", "FR", "RL", "RR")]
+PAGES = [page("scenes", language) for language in ("", ".zh-CN")]
+ARMS = ["*_shoulder_*", "*_elbow"]
+EVERYTHING = {"M", "h", "J_c", "A_G"}
+
+
+def close(ours, right, bound=2e-14):
+    assert np.shape(ours) == np.shape(right)
+    assert largest(ours - right) <= bound * largest(right)
+
+
+# ---------------------------------------------------------------- the smallest model
+
+
+def test_the_scene_holds_the_smallest_model_and_keeps_all_frames():
+    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS)
+    full = tw.load("humanoid")
+    assert (scene.full_model.nv, scene.model.nv, scene.model.nbodies) == (27, 19, 15)
+    assert scene.held == tuple(n for n in full.joint_names if "shoulder" in n or "elbow" in n)
+    assert scene.contacts == tuple(SOLES)
+    assert scene.model.frame_names == full.frame_names
+    assert scene.model.mass == pytest.approx(full.mass, rel=1e-15)
+    np.testing.assert_array_equal(scene.q, full.standing())
+    hand = tw.frame_placement(scene.model, scene.model.standing(), "left_hand").matrix()
+    np.testing.assert_allclose(
+        hand, tw.frame_placement(full, full.standing(), "left_hand").matrix(), rtol=0, atol=1e-14
+    )
+
+
+def test_links_that_carry_nothing_are_dropped_unless_something_touches_them():
+    builder = tw.Builder("mast", base="floating", root_inertia=tw.SpatialInertia(1, [0, 0, 0], np.eye(3)))
+    builder.link("mast", parent="base_link", joint=tw.Revolute("z"), inertia=tw.SpatialInertia(1, [0, 0, 1], np.eye(3)))
+    builder.link("camera", parent="mast", joint=tw.Revolute("y"))
+    builder.link("weight", parent="camera", joint=tw.Revolute("x"), inertia=tw.SpatialInertia(1, [0, 0, 1], np.eye(3)))
+    builder.link("flag", parent="mast", joint=tw.Revolute("y"))
+    model = builder.build()
+    scene = tw.Scene(model)
+    assert (scene.idle, scene.model.nv) == (("flag",), 9)
+    assert "flag" in scene.model.frames
+    assert tw.Scene(model, hold=["weight"]).idle == ("flag",)
+    assert tw.Scene(model, contacts=[tw.PointContact("flag", 0.5)]).idle == ()
+    assert tw.Scene(model, wrenches={"flag": [0, 0, 0, 1, 0, 0]}).idle == ()
+    assert "1 joint that carries nothing dropped, nv = 9 of 10" in repr(scene)
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating", "planar"])
+def test_states_go_both_ways_on_every_base(base):
+    scene = tw.Scene("go2", base=base, hold=["F*"])
+    q, v = scene.model.random_configuration(rng=1), np.arange(scene.model.nv) + 1.0
+    Q, V = scene.expand(q, v)
+    assert (Q.shape, V.shape) == ((19,), (18,))
+    np.testing.assert_array_equal(Q[7:13], scene.q[7:13])
+    for ours, right in zip(scene.reduce(Q, V), (q, v), strict=True):
+        np.testing.assert_allclose(ours, right, rtol=0, atol=1e-14)
+    assert scene.actuated.sum() == 6
+    assert f"{base} base" in repr(scene)
+
+
+def test_a_planar_base_slides_and_turns_on_the_floor_as_high_and_tilted_as_it_stood():
+    """Beside the floating robot in the state that belongs to it: placements, twists, energy; M = XᵀM X."""
+    full = tw.load("go2")
+    stood = full.standing()
+    stood[:7] = [1, 2, 0.4, *(np.array([0.1, -0.2, 0.5, 1.0]) / np.sqrt(1.3))]
+    scene = tw.Scene(full, base="planar", q=stood)
+    rest = np.zeros(18)
+    close(scene.expand(*scene.reduce(stood, rest))[0], stood)
+    model = scene.model
+    q, v, a, *_ = random_state(model, rng=3)
+    (Q, V), (_, A) = scene.expand(q, v), scene.expand(q, a)
+    for frame in ("base", "FL_foot"):
+        close(tw.frame_placement(model, q, frame).matrix(), tw.frame_placement(full, Q, frame).matrix())
+        close(tw.frame_jacobian(model, q, frame) @ v, tw.frame_jacobian(full, Q, frame) @ V)
+    close(tw.kinetic_energy(model, q, v), tw.kinetic_energy(full, Q, V))
+    close(tw.potential_energy(model, q), tw.potential_energy(full, Q))
+    columns = np.array([scene.expand(q, unit)[1] for unit in np.eye(15)]).T
+    close(tw.crba(model, q), columns.T @ tw.crba(full, Q) @ columns)
+    close(tw.rnea(model, q, v, a), columns.T @ tw.rnea(full, Q, V, A), 1e-13)
+    assert np.ptp([scene.expand(model.random_configuration(rng=k), v)[0][2] for k in range(5)]) < 1e-15
+
+
+def test_a_base_whose_x_axis_points_up_has_no_heading_and_still_goes_both_ways():
+    full = tw.load("go2")
+    stood = full.standing()
+    stood[3:7] = [0, -np.sqrt(0.5), 0, np.sqrt(0.5)]
+    scene = tw.Scene(full, base="planar", q=stood)
+    close(scene.expand(*scene.reduce(stood, np.ones(18)))[0], stood)
+
+
+def test_a_base_held_where_it_stands_is_fixed_to_the_world():
+    scene = tw.Scene("go2", base="fixed")
+    model = scene.model
+    assert (model.base, model.nv, scene.held) == ("fixed", 12, ())
+    full = scene.full_model
+    q, v, a, *_ = random_state(model, rng=0)
+    (Q, V), (_, A) = scene.expand(q, v), scene.expand(q, a)
+    close(tw.rnea(model, q, v, a), tw.rnea(full, Q, V, A)[6:])
+    assert scene.actuated.all()
+
+
+def test_a_pattern_that_fits_all_joints_leaves_the_base_what_it_is():
+    scene = tw.Scene("go2", hold=["*_joint"])
+    assert (scene.model.nbodies, scene.model.nv, len(scene.held)) == (2, 6, 12)
+    close(scene.model.inertia[1].matrix(), tw.crba(scene.full_model, scene.q)[:6, :6])
+
+
+def test_gravity_is_the_scenes():
+    moon = tw.Scene("humanoid", gravity=[0, 0, -1.62], hold=ARMS)
+    q = moon.model.standing()
+    h = moon.dynamics(q, np.zeros(19), want=["h"]).h
+    close(h * 9.81 / 1.62, tw.Scene("humanoid", hold=ARMS).dynamics(q, np.zeros(19), want=["h"]).h)
+    assert moon.full_model.gravity.tolist() == moon.model.gravity.tolist() == [0, 0, -1.62]
+
+
+# ---------------------------------------------------------------- what it computes
+
+
+@pytest.mark.parametrize("batch", [(), (1,), (3, 1, 2), (20,), (0,)])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble, complex])
+def test_dynamics_are_the_textbooks(batch, dtype):
+    mixed = [SOLES[0], tw.PointContact("right_sole", 0.5), tw.PointContact("left_hand", 0.2)]
+    scene = tw.Scene("humanoid", contacts=mixed, hold=["waist_yaw", "right_elbow"])
+    q, v, *_ = random_state(scene.model, rng=4, batch=batch, dtype=dtype)
+    d = scene.dynamics(q, v)
+    right = tw.dynamics(scene.model, q, v)
+    bound = 500 * np.finfo(dtype).eps
+    close(d.J_c, tw.constraint_jacobian(scene.model, q, mixed), bound)
+    for name in ("M", "h", "A_G"):
+        close(getattr(d, name), getattr(right, name), bound)
+    assert {x.dtype for x in vars(d).values()} == {np.dtype(dtype)}
+
+
+def test_wrenches_from_outside_are_in_h():
+    """The load on the hand and the push on the torso, by the virtual power of their world-aligned wrenches."""
+    wrenches = {"left_hand": [0, 0, 0, 0, 0, -20.0], "torso": [3.0, 0, -2.0, 30.0, 0, 0]}
+    scene = tw.Scene("humanoid", contacts=SOLES, hold=["*shoulder*"], wrenches=wrenches)
+    model = scene.model
+    q, v, a, *_ = random_state(model, rng=6)
+    d = scene.dynamics(q, v)
+    push = sum(tw.frame_jacobian(model, q, name, "local_world_aligned").T @ F for name, F in wrenches.items())
+    close(d.h, tw.nonlinear_effects(model, q, v) - push)
+    close(d.J_c, tw.constraint_jacobian(model, q, SOLES))
+    close(d.M @ a + d.h, tw.rnea(model, q, v, a, scene.f_ext(q)))
+    Q, V = scene.expand(q, v)
+    whole = tw.Scene("humanoid", wrenches=wrenches)
+    kept = [*range(6), *np.flatnonzero(np.isin(whole.model.joint_names[2:], model.joint_names[2:])) + 6]
+    close(d.h, whole.dynamics(Q, V, want={"h"}).h[kept])
+    batch = np.stack([q, q])
+    close(scene.dynamics(batch, v, want={"h"}).h[1], d.h)
+    assert scene.f_ext(batch).shape == (2, model.nbodies, 6)
+
+
+def test_a_scene_may_have_wrenches_and_no_contacts():
+    scene = tw.Scene("go2", wrenches={"base": [1.0, 2.0, 3.0, 0, 0, 5.0]})
+    q, v, a, *_ = random_state(scene.model, rng=8)
+    d = scene.dynamics(q, v)
+    assert d.J_c.shape == (0, 18)
+    close(d.M @ a + d.h, tw.rnea(scene.model, q, v, a, scene.f_ext(q)))
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_angular_rows_are_those_of_the_jacobian(base):
+    model = tw.random_tree(12, rng=2, base=base)
+    q = model.random_configuration(rng=2)
+    frames = list(model.frame_names)[::3]
+    right = [tw.frame_jacobian(model, q, name, "local_world_aligned")[:3] for name in frames]
+    np.testing.assert_allclose(angular_rows(model, q, frames), right, rtol=0, atol=1e-14)
+
+
+# ---------------------------------------------------------------- how much work that is
+
+
+@pytest.fixture
+def work(monkeypatch):
+    """Counts the calls of what costs: the parts of `fast` for one state, and each joint's transform."""
+    counts = Counter()
+
+    def counted(name, function):
+        def call(*args, **kwargs):
+            counts[name] += 1
+            return function(*args, **kwargs)
+
+        return call
+
+    for name in ("place", "_inertias", "forces", "mass_matrix", "centroidal_matrix", "contact_jacobian"):
+        monkeypatch.setattr(one, name, counted(name, getattr(one, name)))
+    monkeypatch.setattr(once, "frames_of", counted("frames_of", once.frames_of))
+    for kind in (Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical):
+
+        def transform(self, q, before=kind.transform):
+            counts[id(self)] += 1
+            return before(self, q)
+
+        monkeypatch.setattr(kind, "transform", transform)
+    return counts
+
+
+@pytest.mark.parametrize(
+    ("want", "parts"),
+    [
+        ({"J_c"}, {"contact_jacobian"}),
+        ({"M"}, {"_inertias", "mass_matrix"}),
+        ({"h"}, {"_inertias", "forces"}),
+        ({"M", "J_c"}, {"_inertias", "mass_matrix", "contact_jacobian"}),
+        (EVERYTHING, {"_inertias", "mass_matrix", "centroidal_matrix", "forces", "contact_jacobian"}),
+    ],
+)
+def test_only_what_is_wanted_is_computed_and_kinematics_once(work, want, parts):
+    scene = tw.Scene("go2", contacts=FEET, hold=["RR_*"])
+    q, v = scene.model.standing(), np.ones(15)
+    work.clear()
+    d = scene.dynamics(q, v, want=want)
+    assert work == dict.fromkeys({"place", *parts}, 1)
+    assert {name for name, x in vars(d).items() if x is not None} == want
+
+
+def test_held_joints_are_no_work_and_soles_place_the_links_once_more(work):
+    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS, wrenches={"left_foot": [1.0, 0, 0, 0, 0, 0]})
+    q, v = scene.model.standing(), np.ones(19)
+    scene.dynamics(q, v)
+    plan = scene.model._constants["fast, one"]
+    assert len(plan.J) == 1 + 13  # links: the base, six in each leg, the torso with its arms
+    for want, parts in (
+        ({"M", "J_c"}, {"place", "_inertias", "mass_matrix", "contact_jacobian", "frames_of"}),
+        ({"M", "A_G"}, {"place", "_inertias", "mass_matrix", "centroidal_matrix"}),
+    ):
+        work.clear()
+        scene.dynamics(q, v, want=want)
+        assert work == dict.fromkeys(parts, 1)
+
+
+# ---------------------------------------------------------------- whether it can stand
+
+
+def test_a_robot_stands_within_its_polygon_and_its_friction_cones():
+    tilt = tw.load("go2").standing()
+    tilt[3:7] = [0, np.sin(0.3), 0, np.cos(0.3)]  # the trunk and the slope under it, by 0.6 rad
+
+    def slope(mu):
+        normal = (np.sin(0.6), 0, np.cos(0.6))
+        return [tw.PointContact(foot.frame, mu, normal=normal) for foot in FEET]
+
+    assert tw.Scene("go2", contacts=FEET).can_stand()
+    assert str(tw.Scene("go2", contacts=FEET).can_stand()) == "it stands"
+    assert tw.Scene("go2", contacts=slope(0.75)).can_stand(tilt)  # tan 0.6 = 0.68, the pyramid keeps 0.98 of μ
+    slips = tw.Scene("go2", contacts=slope(0.65)).can_stand(tilt)
+    assert not slips
+    assert str(slips).startswith("cannot stand: it slips: it would need 1.07 times the friction")
+    tips = tw.Scene("humanoid", contacts=SOLES[:1], hold=ARMS).can_stand()
+    assert "the centre of mass is 0.02 m outside the support polygon" in str(tips)
+    pair = tw.Scene("go2", contacts=[FEET[0], FEET[3]]).can_stand()
+    assert "no forces at ['FL_foot', 'RR_foot'] do this" in str(pair)
+
+
+def test_a_pose_beyond_the_limits_is_none():
+    scene = tw.Scene("go2", contacts=FEET)
+    q = scene.model.standing()
+    q[9] = 0.5
+    assert "joint 'FL_calf_joint' is at [0.5], outside its limits [-2.723] to [-0.838]" in str(scene.can_stand(q))
+
+
+def weakened(limits: dict[str, float]) -> tw.Model:
+    """Go2 with weaker motors: the limit of each joint named, N m."""
+    model = tw.load("go2")
+    effort = model.effort_limit.copy()
+    for name, limit in limits.items():
+        effort[model.v_slice[model.joint_id(name)]] = limit
+    return replace(model, effort_limit=effort)
+
+
+def test_on_three_smooth_feet_the_torques_are_what_they_are_and_a_motor_is_strong_enough_or_not():
+    """Three vertical forces follow from the weight alone, so the knee needs one torque."""
+    smooth = [tw.PointContact(foot.frame, 0.0) for foot in FEET[1:]]
+    model = tw.load("go2")
+    p, G = (np.array([tw.frame_placement(model, model.standing(), f.frame).translation for f in smooth]), None)
+    G = tw.center_of_mass(model, model.standing())
+    f = np.linalg.solve(np.stack([np.ones(3), *p[:, :2].T]), 9.81 * model.mass * np.array([1, *G[:2]]))
+    J = np.stack([tw.contact_jacobian(model, model.standing(), [c.frame])[2] for c in smooth])
+    tau = tw.gravity(model, model.standing()) - J.T @ f
+    np.testing.assert_allclose(tau[:6], 0, rtol=0, atol=1e-11)
+    knee = "RL_calf_joint"
+    need = abs(float(tau[model.v_slice[model.joint_id(knee)]][0]))
+    assert tw.Scene(weakened({knee: 1.001 * need}), contacts=smooth).can_stand()
+    weak = tw.Scene(weakened({knee: 0.999 * need}), contacts=smooth).can_stand()
+    assert f"that of {knee!r} would have to hold {need:.3g}" in str(weak)
+
+
+def test_weak_motors_are_spared_where_other_forces_do():
+    """The smallest limit of all four knees with which it stands, by a linear programme and a second solver."""
+    optimize = pytest.importorskip("scipy.optimize", reason="scipy is not installed: there is no second solver")
+    model = tw.load("go2")
+    q, rest, knees = model.standing(), np.zeros(18), [f"{leg}_calf_joint" for leg in ("FL", "FR", "RL", "RR")]
+    J, g, k = tw.constraint_jacobian(model, q, FEET), tw.gravity(model, q), [model.joint_id(name) + 4 for name in knees]
+    corners = np.pi / 8 * np.arange(16)
+    pyramid = np.stack([np.cos(corners), np.sin(corners), np.full(16, -0.7 * np.cos(np.pi / 16))], axis=-1)
+    cones = np.pad(np.kron(np.eye(4), pyramid), ((0, 0), (0, 1)))  # f, and last the largest torque t
+    torques = [np.column_stack([sign * -J[:, k].T, -np.ones(4)]) for sign in (1, -1)]  # ±(g − Jᵀ f) ≤ t
+    found = optimize.linprog(
+        np.eye(13)[12],
+        A_ub=np.concatenate([cones, *torques]),
+        b_ub=np.concatenate([np.zeros(64), -g[k], g[k]]),
+        A_eq=np.pad(J[:, :6].T, ((0, 0), (0, 1))),
+        b_eq=g[:6],
+        bounds=(None, None),
+    )
+    least = tw.friction_inverse_dynamics(model, q, rest, rest, FEET).tau[k]
+    assert 0.1 < 1.001 * found.fun < 0.995 * abs(least).max()
+    assert tw.Scene(weakened(dict.fromkeys(knees, 1.001 * found.fun)), contacts=FEET).can_stand()
+    assert not tw.Scene(weakened(dict.fromkeys(knees, 0.999 * found.fun)), contacts=FEET).can_stand()
+
+
+def test_what_pushes_the_robot_counts():
+    feet = {"contacts": FEET}
+    assert tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, -400.0]}).can_stand()
+    heavy = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, -4000.0]}).can_stand()
+    assert "no forces at the contacts spare the motors" in str(heavy)
+    pushed = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 300.0, 0, 0]}).can_stand()
+    assert "no forces within the limits do this; they would have to break lift-off at" in str(pushed)
+    lifted = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, 160.0]})  # more than its weight of 157.8 N
+    assert not lifted.can_stand()
+
+
+@pytest.mark.parametrize("given", [{"base": "fixed", "contacts": FEET}, {}, {"contacts": FEET, "gravity": [0, 0, 0]}])
+def test_to_stand_takes_a_floating_base_gravity_and_contacts(given):
+    with pytest.raises(ValueError, match="takes a floating base, gravity and at least one contact"):
+        tw.Scene("go2", **given).can_stand()
+
+
+# ---------------------------------------------------------------- what it refuses
+
+
+@pytest.mark.parametrize(
+    ("given", "error", "said"),
+    [
+        (
+            {"contacts": [tw.PointContact("FL_fot", 0.7)]},
+            tw.NameNotFound,
+            "unknown frame 'FL_fot'.*did you mean 'FL_foot'",
+        ),
+        (
+            {"hold": ["arm_*"]},
+            tw.NameNotFound,
+            r"'arm_\*' fits no joint of 'go2'; its joints are root_",
+        ),
+        ({"wrenches": {"hand": np.zeros(6)}}, tw.NameNotFound, "unknown frame 'hand'"),
+        ({"wrenches": {"base": np.zeros(3)}}, tw.ShapeError, r"wrenches\['base'\]: expected shape"),
+        ({"wrenches": {"base": np.zeros((2, 6))}}, tw.ShapeError, r"wrenches\['base'\]: expected shape \(6,\)"),
+        ({"wrenches": {"base": [0, 0, 0, 0, 0, np.nan]}}, ValueError, r"wrenches\['base'\]: expected finite"),
+        ({"contacts": FEET[:1], "base": "fixed", "hold": ["FL_*"]}, tw.ModelError, "frame 'FL_foot': the scene holds"),
+        ({"base": "fixed", "wrenches": {"base": np.ones(6)}}, tw.ModelError, "wrench on frame 'base': the scene holds"),
+        ({"contacts": [FEET[0], FEET[0]]}, tw.ModelError, "the same contact twice"),
+        ({"contacts": [FEET[0], tw.PointContact("FL_foot", 0.3)]}, tw.ModelError, "contradict each other"),
+        (
+            {"contacts": [FEET[0], tw.SurfaceContact("FL_foot", (0.1, 0.1), 0.7)]},
+            tw.ModelError,
+            "contradict each other",
+        ),
+        (
+            {"contacts": [FEET[0], tw.PointContact("FL_foot", 0.7, normal=(1, 0, 0))]},
+            tw.ModelError,
+            "contradict each other",
+        ),
+        ({"contacts": ["FL_foot"]}, TypeError, "expected contacts such as PointContact"),
+        ({"contacts": FEET[0]}, TypeError, "expected a sequence of contacts"),
+        ({"hold": "RR_*"}, ValueError, "got the string 'RR_"),
+        ({"base": "flying"}, tw.ModelError, "base: expected 'fixed', 'floating' or 'planar', got 'flying'"),
+        ({"hold": ["root_*"]}, tw.ModelError, "hold: 'root_joint' is the floating base; base='fixed' holds it"),
+        ({"base": "fixed", "hold": ["*_joint"]}, tw.ModelError, "nothing is left to move"),
+        ({"gravity": [0, 0]}, tw.ShapeError, "gravity: expected shape"),
+        ({"gravity": np.zeros((2, 3))}, tw.ShapeError, r"gravity: expected shape \(3,\)"),
+        ({"q": np.zeros(18)}, tw.ShapeError, "this looks like nv"),
+        ({"q": np.tile(tw.load("go2").standing(), (2, 1))}, tw.ShapeError, "expected one real configuration"),
+    ],
+)
+def test_a_scene_that_cannot_be_is_refused(given, error, said):
+    with pytest.raises(error, match=said):
+        tw.Scene("go2", **given)
+
+
+def test_friction_below_zero_is_refused_where_the_contact_is_made():
+    with pytest.raises(ValueError, match=r"mu: expected at least 0, got -0\.1"):
+        tw.Scene("go2", contacts=[tw.PointContact("FL_foot", -0.1)])
+
+
+def test_one_place_of_a_body_under_two_names_is_one_place():
+    frames = tw.load("humanoid").frames
+    assert frames["left_sole"].body == frames["left_sole_joint"].body
+    with pytest.raises(tw.ModelError, match="the same contact twice"):
+        tw.Scene("humanoid", contacts=[tw.PointContact("left_sole", 0.7), tw.PointContact("left_sole_joint", 0.7)])
+
+
+def test_a_robot_that_is_none_or_has_no_such_base_is_refused():
+    with pytest.raises(tw.NameNotFound, match="did you mean 'go2'"):
+        tw.Scene("go3")
+    for base in ("floating", "planar"):
+        with pytest.raises(tw.ModelError, match="has a fixed base, not a " + base):
+            tw.Scene(tw.load("planar_arm"), base=base)
+    assert tw.Scene("planar_arm", base="floating").model.nv == 9
+
+
+def test_a_quantity_or_a_state_that_is_none_is_refused():
+    scene = tw.Scene("go2", contacts=FEET, wrenches={"base": [0, 0, 0, 1, 0, 0]})
+    q, v = scene.model.standing(), np.zeros(18)
+    with pytest.raises(tw.NameNotFound, match="unknown quantity 'C'"):
+        scene.dynamics(q, v, want={"M", "C"})
+    with pytest.raises(ValueError, match="got the string 'M'"):
+        scene.dynamics(q, v, want="M")
+    with pytest.raises(tw.ShapeError, match="v: expected shape"):
+        scene.dynamics(q, q)
+    with pytest.raises(tw.ShapeError):
+        scene.reduce(q, q)
+    with pytest.raises(tw.ShapeError):
+        scene.expand(v, v)
+    with pytest.raises(tw.ShapeError):
+        scene.f_ext(v)
+    assert fast.dynamics(scene.model, q, v, want={"M"}).M.shape == (18, 18)
+
+
+# ---------------------------------------------------------------- what it costs to leave something out
+
+
+@pytest.fixture(scope="module")
+def walking():
+    """A humanoid of the catalogue of this package, its arms swinging as it walks."""
+    model = tw.load("humanoid")
+    return model, motions.walk(model, samples=24)
+
+
+def test_the_cheapest_is_the_quickest_within_the_tolerance(walking):
+    model, motion = walking
+    scene = tw.Scene(model, contacts=SOLES, hold=ARMS)
+    found = scene.cheapest(0.02, motion)
+    inside = [option for option in found.options if option.worst <= 0.02]
+    assert found.best is inside[0]
+    assert [o.seconds for o in found.options] == sorted(o.seconds for o in found.options)
+    assert {o.name for o in found.options} == {
+        *TEMPLATES,
+        "hold waist_yaw",
+        "hold left_shoulder_pitch",
+        "hold right_shoulder_pitch",
+        "this scene",
+    }
+    worst = {o.name: o.worst for o in found.options}
+    assert worst["full"] == 0
+    assert worst["centroidal"] < 1e-14
+    assert worst["hold left_shoulder_pitch"] < worst["this scene"] < worst["srbm_frozen"]
+    assert replace(found, tolerance=0.0).best.name == "full"
+    assert replace(found, tolerance=np.inf).best is found.options[0]
+
+
+def test_the_residuals_are_those_of_the_whole_robots_dynamics(walking):
+    """Of a template as it says itself; of held arms by finite differences of both momenta."""
+    model, motion = walking
+    found = {o.name: o for o in tw.Scene(model, hold=ARMS).cheapest(0.02, motion).options}
+    template = TEMPLATES["srbm"].of(model, motion.q[0])
+    np.testing.assert_array_equal(found["srbm"].residual, template.residual(motion.q, motion.v, motion.a).relative)
+    small = tw.lock_joints(model, ARMS, motion.q[0])
+    size = template.residual(motion.q[0], motion.v[0], motion.a[0])
+
+    def missed(k, h=1e-5):
+        rate = np.zeros(6)
+        for sign in (1, -1):
+            dv = sign * h * motion.v[k] + h * h / 2 * motion.a[k]
+            q, v = model.integrate(motion.q[k], dv), motion.v[k] + sign * h * motion.a[k]
+            held = tw.centroidal_momentum(small.model, *small.reduce(q, v))
+            rate += sign * (held - tw.centroidal_momentum(model, q, v)) / (2 * h)
+        return np.sqrt((rate[3:] ** 2).sum() + (rate[:3] ** 2).sum() / size.length**2) / size.weight
+
+    for k in (3, 11, 20):
+        assert found["this scene"].residual[k] == pytest.approx(missed(k), rel=1e-5)
+
+
+def test_held_joints_that_are_still_cost_nothing(walking):
+    model, motion = walking
+    arms = [k for k, name in enumerate(model.joint_names) if "shoulder" in name or "elbow" in name]
+    q, v, a = motion.q.copy(), motion.v.copy(), motion.a.copy()
+    for k in arms:
+        q[:, model.q_slice[k]] = q[0, model.q_slice[k]]
+        v[:, model.v_slice[k]] = a[:, model.v_slice[k]] = 0
+    still = replace(motion, q=q, v=v, a=a)
+    found = {o.name: o for o in tw.Scene(model).cheapest(1e-12, still, groups={"arms": ARMS}).options}
+    assert set(found) == {*TEMPLATES, "hold arms"}
+    assert found["hold arms"].worst < 1e-14
+    assert found["hold arms"].leaves_out == "The motion of 8 of 21 joints."
+
+
+def test_the_table_and_the_picture_show_every_option_and_the_choice(walking):
+    figure = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed: the picture is not made")
+    model, motion = walking
+    found = tw.Scene(model, contacts=SOLES).cheapest(0.02, motion)
+    lines = str(found).splitlines()
+    assert lines[0] == "walk: wrench missed, as a share of the weight; tolerance 2.0e-02"
+    assert len(lines) == 2 + len(found.options)
+    assert [line.split()[1] for line in lines if line.startswith("→")] == [found.best.name.split()[0]]
+    assert sum(" > " in line for line in lines) == sum(o.worst > 0.02 for o in found.options)
+    ax = figure.Figure().add_subplot()
+    assert found.plot(ax) is ax
+    ends = sorted(bar.get_x() + bar.get_width() for bar in ax.patches)
+    np.testing.assert_allclose(ends, [1e6 * o.seconds for o in found.options], rtol=1e-12)
+    assert [label.get_text() for label in ax.get_yticklabels()] == [o.name for o in found.options]
+    assert [float(text.get_text().split()[0]) for text in ax.texts] == [float(f"{o.worst:.2g}") for o in found.options]
+
+
+def test_limbs_are_what_touches_nothing():
+    humanoid, talos = tw.load("humanoid"), limbs(tw.load("humanoid"), [])
+    assert list(limbs(humanoid, ["left_hand", *humanoid.feet])) == ["right_shoulder_pitch"]
+    assert set(talos) >= {"left_hip_yaw", "right_hip_yaw", "waist_yaw"}
+    assert limbs(tw.load("go2"), tw.load("go2").feet) == {}
+
+
+@pytest.mark.parametrize(
+    ("given", "tolerance", "said"),
+    [
+        ({}, -0.1, "tolerance: expected a share of the weight, 0 or more, got -0.1"),
+        ({}, np.nan, "tolerance: expected"),
+    ],
+)
+def test_a_question_that_is_none_is_refused(walking, given, tolerance, said):
+    with pytest.raises(ValueError, match=said):
+        tw.Scene(walking[0], **given).cheapest(tolerance, walking[1])
+
+
+def test_groups_and_motions_that_do_not_fit_are_refused(walking):
+    model, motion = walking
+    with pytest.raises(tw.NameNotFound, match="fits no joint"):
+        tw.Scene(model).cheapest(0.1, motion, groups={"tail": ["tail_*"]})
+    with pytest.raises(tw.ShapeError):
+        tw.Scene("go2").cheapest(0.1, motion)
+
+
+# ---------------------------------------------------------------- robots of every kind
+
+
+def rows(found):
+    return {option.name: option for option in found.options}
+
+
+def unfit(found):
+    return {option.name: option.unfit for option in found.options if option.unfit}
+
+
+def swing(model, samples=12):
+    """A motion of any robot: each joint swings at a rate of its own, about where it stands."""
+    rng, t = np.random.default_rng(5), np.linspace(0, 1, samples)
+    rate, size = rng.uniform(1, 3, model.nv), rng.uniform(0.1, 0.4, model.nv)
+    u, v, a = (
+        size * f
+        for f in (np.sin(np.outer(t, rate)), rate * np.cos(np.outer(t, rate)), -(rate**2) * np.sin(np.outer(t, rate)))
+    )
+    if model.base == "floating":
+        u[:, :6] = v[:, :6] = a[:, :6] = 0
+    q = np.stack([model.integrate(model.neutral(), du) for du in u])
+    return motions.Motion("swing", t, q, v, a, (), np.zeros((samples, 0), bool))
+
+
+def test_a_robot_loaded_from_a_file_is_judged_as_the_one_of_the_catalogue():
+    """It knows no feet; the height of the pendulum is that above the scene's contacts."""
+    known = tw.load("go2")
+    unknown = replace(known, feet=(), postures={})
+    assert unknown.feet == ()
+    walk = motions.walk(known, samples=8)
+    feet = [tw.PointContact(foot, 0.7) for foot in known.feet]
+    here, there = (tw.Scene(model, contacts=feet).cheapest(0.1, walk) for model in (unknown, known))
+    assert unfit(here) == unfit(there) == {}
+    assert all(
+        np.allclose(rows(here)[name].residual, o.residual, rtol=0, atol=1e-14) for name, o in rows(there).items()
+    )
+    without = tw.Scene(unknown).cheapest(0.1, walk)
+    assert unfit(without) == {"lipm": "height: 'go2' has no feet, so it must be given"}
+    assert "  lipm         does not apply: height: 'go2' has no feet" in str(without)
+
+
+def test_without_gravity_the_pendulum_does_not_apply_and_the_rest_does():
+    go2 = tw.load("go2")
+    found = tw.Scene(go2, gravity=[0, 0, 0]).cheapest(0.1, motions.walk(go2, samples=8))
+    assert unfit(found) == {"lipm": "'go2' has no gravity: a pendulum needs one"}
+    assert str(found).startswith("walk: wrench missed, as a share of the largest ḣ_G of the motion; tolerance 1.0e-01")
+    assert rows(found)["centroidal"].worst < 1e-12
+    assert rows(found)["point_mass"].worst <= 1  # it has the force right, and misses what the moment is
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the picture is not made")
+    assert len(found.plot().patches) == len(found.options) - 1
+    still = replace(motions.walk(go2, samples=8))
+    still = replace(still, q=still.q[:1].repeat(8, 0), v=0 * still.v, a=0 * still.a)
+    assert tw.Scene(go2, gravity=[0, 0, 0]).cheapest(0.0, still).best.worst == 0  # nothing moves, nothing is missed
+
+
+def test_an_arm_has_no_templates_but_held_joints():
+    arm = tw.load("planar_arm")
+    motion = swing(arm)
+    found = tw.Scene(arm).cheapest(0.1, motion, groups={"tip": [arm.joint_names[-1]], "all": ["*"]})
+    assert set(unfit(found)) == {"point_mass", "lipm", "srbm_frozen", "srbm", "centroidal", "hold all"}
+    assert unfit(found)["srbm"] == "'planar_arm': expected a floating base, got a fixed one"
+    assert unfit(found)["hold all"] == "nothing is left to move"
+    assert rows(found)["full"].worst == 0
+    assert found.best.tells_torques
+    small = tw.lock_joints(arm, [arm.joint_names[-1]], motion.q[0])
+    q, v = small.reduce(motion.q, motion.v)
+    a = small.reduce(motion.q, motion.a)[1]
+    missed = np.zeros((len(motion), 6))  # about the world's origin, and then about the whole arm's centre of mass
+    for sign, model, x in ((1, small.model, (q, v, a)), (-1, arm, (motion.q, motion.v, motion.a))):
+        rate = tw.centroidal_momentum_rate(model, *x)
+        moment = rate[:, :3] + np.cross(tw.center_of_mass(model, x[0]), rate[:, 3:])
+        missed += sign * np.concatenate([moment, rate[:, 3:]], axis=-1)
+    moment = missed[:, :3] - np.cross(tw.center_of_mass(arm, motion.q), missed[:, 3:])
+    weight = arm.mass * 9.81
+    share = (
+        np.hypot(*(np.linalg.norm(x, axis=-1) for x in (missed[:, 3:], moment / _gyration(arm, motion.q[0])))) / weight
+    )
+    np.testing.assert_allclose(rows(found)["hold tip"].residual, share, rtol=1e-9, atol=1e-15)
+
+
+def _gyration(model, q):
+    from twistwrench.scene.anchored import radius_of_gyration
+
+    return radius_of_gyration(model, q)
+
+
+def test_the_radius_of_gyration_is_that_of_the_templates():
+    go2 = tw.load("go2")
+    assert np.isclose(_gyration(go2, go2.standing()), TEMPLATES["full"].of(go2, go2.standing()).length, rtol=1e-12)
+
+
+@pytest.mark.parametrize("base", ["planar", "fixed"])
+def test_what_another_base_costs_is_a_row(base):
+    go2 = tw.load("go2")
+    walk = motions.walk(go2, samples=8)
+    scene = tw.Scene(go2, base=base)
+    found = scene.cheapest(0.1, walk)
+    assert unfit(found) == {}
+    mine = rows(found)["this scene"]
+    assert (
+        mine.leaves_out == {"planar": "The height and the tilt of the base.", "fixed": "The motion of the base."}[base]
+    )
+    assert 1e-3 < mine.worst < 1
+    level = replace(walk, q=walk.q[:1].repeat(8, 0), v=0 * walk.v, a=0 * walk.a)
+    assert rows(tw.Scene(go2, base=base, q=walk.q[0]).cheapest(0.1, level))["this scene"].worst < 1e-12
+
+
+# ---------------------------------------------------------------- its page
+
+
+def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
+    english, chinese = PAGES
+    sources, twins = (blocks(path.read_text(encoding="utf-8"), 0, 10**6) for path in (english, chinese))
+    assert len(sources) == 5
+    assert [block.strip("\n") for block in sources] == [block.strip("\n") for block in twins]
+    rows = ([line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("| ")] for path in PAGES)
+    ours, theirs = ([re.findall(r"\d[\d.e-]*", row) for row in of_page] for of_page in rows)
+    assert ours == theirs
+    assert sum(map(bool, ours)) >= 10
+    assert repr(run(english, sources)["scene"]) in english.read_text(encoding="utf-8")
+    assert names_author_and_licence(english)
+    assert names_author_and_licence(chinese)
+
+
+@pytest.mark.slow
+def test_the_tables_of_the_page_are_what_its_command_finds():
+    """The errors; times are of the day."""
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the command of the page is not run")
+    if "talos_reduced" not in [robot.name for robot in tw.robots()]:
+        pytest.skip("example-robot-data is not installed: the tables of the page are not made again")
+    path = DOCS / "pictures" / "scenes.py"
+    spec = importlib.util.spec_from_file_location("scenes", path)
+    command = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(command)
+    text, talos = PAGES[0].read_text(encoding="utf-8"), tw.load("talos_reduced")
+    scene = tw.Scene(talos, hold=command.HOLD)
+    moving = command.Moving(scene)
+    for rate in command.RATES[1:]:
+        row = re.search(rf"^\| {rate:g} \|(.*)\|$", text, re.MULTILINE)[1].split("|")
+        said = [float(x.strip(" %")) / (100 if "%" in x else 1) for x in row]
+        found = [f(x) for x in moving.errors(rate) for f in (np.median, np.max)]
+        np.testing.assert_allclose(said, found, rtol=0.06)
+    found = {o.name: o for o in scene.cheapest(0.01, motions.walk(talos)).options}
+    rows = re.findall(r"^[ →] (\w[\w ]*?) +(\S+e-\d+) +(\S+e-\d+) ", text, re.MULTILINE)
+    assert {row[0] for row in rows} == set(found) - {"full"}
+    for name, median, worst in rows:
+        option = found[name]
+        got = np.array([np.median(option.residual), option.worst])
+        np.testing.assert_allclose([float(median), float(worst)], got, rtol=0.05, atol=2e-15)
+
+
+def test_wrenches_without_frames_are_refused():
+    with pytest.raises(TypeError, match="wrenches: expected a mapping of frames to wrenches, got list"):
+        tw.Scene("go2", wrenches=[[0, 0, 0, 1, 0, 0]])

@@ -1,0 +1,83 @@
+"""`twistwrench study speed`: what it times is what it says, and what it prints."""
+
+import importlib
+import re
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.cli import main
+from twistwrench.study.cases import QUANTITIES, ours, random_states
+from twistwrench.study.speed import Speed, speed, table
+from twistwrench.timing import round_robin
+
+HUMANOID = tw.load("humanoid")
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_both_ways_are_asked_for_the_same(quantity):
+    s = random_states(HUMANOID, 3)
+    book, fast = (ours(package, HUMANOID, quantity, s)() for package in (tw, tw.fast))
+    books, fasts = (list(vars(x).values()) if quantity == "set" else [x] for x in (book, fast))
+    for b, f in zip(books, fasts, strict=True):
+        np.testing.assert_allclose(f, b, rtol=0, atol=1e-12 * np.abs(b).max())
+
+
+def test_random_states_are_repeated_when_there_are_many():
+    s = random_states(tw.load("pendulum"), 1500)
+    np.testing.assert_array_equal(s.q[1000:], s.q[:500])
+    assert len(np.unique(s.v)) == 1000
+
+
+def test_what_does_ten_times_the_work_takes_longer():
+    little, much = round_robin([lambda: sum(range(1000)), lambda: sum(range(10_000))], rounds=5, least=1e-3)
+    assert 2 < np.median(much.seconds) / np.median(little.seconds) < 50
+
+
+def test_every_quantity_is_timed_in_every_way_and_shown():
+    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: there is nothing to compare with")
+    model = tw.load("pendulum")
+    found = list(speed(model, rounds=1, states=10))
+    assert [row.way for row in found[:5]] == ["Pinocchio", "textbook", "fast", "fast, 10 states", "fast, 10 float32"]
+    assert len(found) == 5 * len(QUANTITIES)
+    assert all(row.us > 0 and row.us_q1 <= row.us <= row.us_q3 and row.ratio > 0 for row in found)
+    text = table(model, found)
+    assert all(meaning in text for meaning in QUANTITIES.values())
+
+
+def test_without_pinocchio_times_stand_alone(monkeypatch):
+    text = table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, disturbed=True)])
+    assert "Pinocchio is not installed" in text
+    assert "~12.3" in text
+    assert "other things to do" in text
+    assert "other things to do" not in table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, False)])
+    monkeypatch.setattr("twistwrench.study.speed.find_spec", lambda name: None)
+    monkeypatch.setattr("twistwrench.study.speed.round_robin", partial(round_robin, least=0, most=0))
+    found = list(speed(tw.load("pendulum"), rounds=1, states=2))
+    assert len(found) == 4 * len(QUANTITIES)
+    assert {row.ratio for row in found} == {None}
+
+
+def test_the_command_has_a_row_for_every_quantity_of_a_robot_with_feet(monkeypatch, capsys):
+    monkeypatch.setattr("twistwrench.study.speed.round_robin", partial(round_robin, least=0, most=0))
+    assert main(["study", "speed", "go2"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("go2, nv = 18: microseconds for one state")
+    rows = {line[:26].strip(): re.findall(r"\d[\d.]*(?= \(|$|  )", line[26:]) for line in out.splitlines()}
+    assert all(len(rows[meaning]) > 3 for meaning in QUANTITIES.values())
+    assert err == ""
+    assert main(["study", "speed", "pendulum", "--base", "floating"]) == 2
+    assert "joint 'root_joint': with the joints behind it free it feels no inertia" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["README.md", "README.zh-CN.md"])
+def test_the_tables_of_the_page_are_those_of_the_results(name, monkeypatch):
+    folder = Path(__file__).parents[2] / "benchmarks"
+    monkeypatch.syspath_prepend(str(folder))
+    tables = importlib.import_module("tables")
+    page = (folder / name).read_text(encoding="utf-8")
+    assert tables.fill(page) == page
+    assert page.count("<!-- table") == len(tables.tables())
