@@ -1,8 +1,9 @@
 """The notebooks with their outputs: each run once, for both languages, and again when its code or ours has changed.
 
-The English one is run; the Chinese one has the same code cells (tests/project/test_notebooks.py asks for it) and is given the
-outputs. A result is kept under the hash of what it depends on: the code cells, the package's source, its robots, and
-the versions of what draws and computes. (jupyter-cache looks at the code cells alone, and would show old numbers.)
+The English one is run; the Chinese one has the same code cells (tests/project/test_notebooks.py asks for it) and is
+given the outputs. A result is kept under the hash of what it depends on: the code cells, the package's source, its
+robots, and the versions of what draws and computes. (jupyter-cache looks at the code cells alone, and would show old
+numbers.)
 """
 
 from __future__ import annotations

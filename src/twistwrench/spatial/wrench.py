@@ -121,7 +121,7 @@ class Wrench(SpatialVector):
         return self.linear, self.angular
 
     def power(self, twist: Twist | ArrayLike) -> Array:
-        """Return the power spent on a twist, W: see `twistwrench.wrench.power`."""
+        """Return the power spent on a twist, W: see `twistwrench.power`."""
         return power(self, twist)
 
     def __matmul__(self, twist: object) -> Array:
