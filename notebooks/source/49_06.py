@@ -19,7 +19,7 @@ import numpy as np
 import twistwrench as tw
 from twistwrench import plot
 from twistwrench.algorithms.rnea import newton_euler
-from twistwrench.model import walk
+from twistwrench.model import tree_terms
 
 model = tw.load("go2")
 q = model.standing()
@@ -43,7 +43,7 @@ for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs
 # 把 twist 从父坐标系换到坐标系 $i$ 的矩阵 $X_i$,以及关节所允许的运动的子空间 $S_i$,转动关节是 6 × 1,自由的基座是
 # 6 × 6。`walk` 负责算出它们。因为 $\lambda(i) < i$,编号从小到大就是由内向外。
 # %%
-tree = walk(model, q)
+tree = tree_terms(model, q)
 parent, S, I, X = tree.parent, tree.S, tree.I, tree.X
 print("body            parent          S")
 for i in range(1, 5):

@@ -12,7 +12,7 @@ from twistwrench.algorithms.coriolis import christoffel
 from twistwrench.algorithms.crba import composite_rigid_body
 from twistwrench.algorithms.kinematics import motion, placements
 from twistwrench.algorithms.rnea import newton_euler
-from twistwrench.model import KINDS, Joint, columns, composite_inertias, joint_placements, walk, wrenches
+from twistwrench.model import KINDS, Joint, columns, composite_inertias, joint_placements, tree_terms, wrenches
 from twistwrench.spatial import SE3
 
 
@@ -142,7 +142,7 @@ def test_the_random_trees_have_every_joint():
 
 def test_every_recursion_is_arithmetic(state):
     model, q, v, a, f_ext = state
-    tree = walk(model, blind(q))
+    tree = tree_terms(model, blind(q))
     qd, qdd, wrench = columns(model, blind(v)), columns(model, blind(a)), wrenches(blind(f_ext))
 
     inverse, expected = newton_euler(tree, qd, qdd, wrench), tw.rnea_terms(model, q, v, a, f_ext)
@@ -161,7 +161,7 @@ def test_every_recursion_is_arithmetic(state):
     close(np.stack(A)[..., 0], kinematics.acceleration, "A")
     for x, y in zip(placements(model.parent, joint_placements(model, blind(q))), kinematics.placement, strict=True):
         close(x.matrix(), y.matrix())
-    close(composite_inertias(tree)[0], composite_inertias(walk(model, q))[0], "IC")
+    close(composite_inertias(tree)[0], composite_inertias(tree_terms(model, q))[0], "IC")
 
 
 # ---------------------------------------------------------------- checked once

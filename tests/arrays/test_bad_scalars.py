@@ -104,7 +104,7 @@ def test_every_taker_of_a_number_or_a_name_is_found():
     assert len(TAKERS) > 65
     known = {
         "simulate(dt)",
-        "Coordinates.random_configuration(rng)",
+        "ConfigurationSpace.random_configuration(rng)",
         "templates.LinearPendulum(height)",
     }
     assert known <= set(TAKERS)

@@ -8,7 +8,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as mechanics
 from twistwrench.exercises import catalogue
-from twistwrench.model import joint_placements, walk
+from twistwrench.model import joint_placements, tree_terms
 from twistwrench.model.tree import split
 
 GO2 = tw.load("go2")
@@ -31,7 +31,7 @@ TREES = [pytest.param(*state, id=state[0].name + " " + state[0].base) for state 
 
 
 def lists(model, q):
-    tree = walk(model, q)
+    tree = tree_terms(model, q)
     return tree.parent, [*tree.S], [*tree.I], [*tree.X]
 
 
@@ -49,7 +49,7 @@ def test_placements_and_twists_are_those_of_ordinary_vectors(model, q, v, a):
     oMi = reference("body_placements")(model.parent, T)
     near(oMi[:, :3, :3], R)
     near(oMi[:, :3, 3], p)
-    V_joint = np.array([S @ rate for S, rate in zip(walk(model, q).S, split(model, v), strict=True)])
+    V_joint = np.array([S @ rate for S, rate in zip(tree_terms(model, q).S, split(model, v), strict=True)])
     near(reference("body_twists")(model.parent, T, V_joint), mechanics.body_twists(model, q, v))
 
 
@@ -155,7 +155,7 @@ def test_the_toolbox_gives_pinocchios_data(theirs):
     pin.rnea(model, data, q, *(tw.bridge.to_pinocchio_tangent(GO2, x) for x in (v, a)))
     pin.forwardKinematics(model, data, q, tw.bridge.to_pinocchio_tangent(GO2, v))
     T = np.array([placement.matrix() for placement in joint_placements(GO2, q)])
-    V_joint = np.array([S @ rate for S, rate in zip(walk(GO2, q).S, split(GO2, v), strict=True)])
+    V_joint = np.array([S @ rate for S, rate in zip(tree_terms(GO2, q).S, split(GO2, v), strict=True)])
     near(reference("body_placements")(GO2.parent, T), [M.homogeneous for M in data.oMi])
     V = reference("body_twists")(GO2.parent, T, V_joint)
     near(V, [np.r_[V.angular, V.linear] for V in data.v])

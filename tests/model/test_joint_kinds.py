@@ -82,7 +82,7 @@ class Sined(GroupJoint):
         sc = unit(q)
         return turn(np.eye(3, dtype=q.dtype)[2], sc[..., 1:], sc[..., :1])
 
-    def coordinates(self, T, near):
+    def from_placement(self, T, near):
         return unit(T.rotation[..., [1, 0], 0])
 
 

@@ -194,7 +194,7 @@ def test_the_world_may_be_turned_about_gravity_and_shifted(name):
     q, v, a = states(5)
     T = tw.SE3(tw.exp3([0, 0, 1.1]), [3.0, -2, 5])
     there = T @ tw.forward_kinematics(GO2, q).placement[1]
-    moved = np.concatenate([GO2.joints[1].coordinates(there, q[:, :7]), q[:, 7:]], axis=1)
+    moved = np.concatenate([GO2.joints[1].from_placement(there, q[:, :7]), q[:, 7:]], axis=1)
     here, turned = template.residual(q, v, a), template.residual(moved, v, a)
     assert np.allclose(turned.moment, np.matvec(T.rotation, here.moment), rtol=0, atol=1e-11)
     assert np.allclose(turned.force, np.matvec(T.rotation, here.force), rtol=0, atol=1e-11)
@@ -210,7 +210,7 @@ def test_the_base_may_fly_from_any_frame_of_the_world(name):
 
     def there(q):
         placed = seat.inverse() @ tw.forward_kinematics(GO2, q).placement[1]
-        return np.concatenate([GO2.joints[1].coordinates(placed, q[..., :7]), q[..., 7:]], axis=-1)
+        return np.concatenate([GO2.joints[1].from_placement(placed, q[..., :7]), q[..., 7:]], axis=-1)
 
     q, v, a = states(6)
     here, moved = TEMPLATES[name].of(GO2, STAND), TEMPLATES[name].of(other, there(STAND))

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import SingularError
-from ..model import Model, Tree, columns, stacked, state_of, walk, wrenches
+from ..model import Model, Tree, check_state, columns, stacked, tree_terms, wrenches
 from ..spatial.formulas import bias_wrench, cross_motion, inverse, symmetric
 from ._mimic import also_of_mimics
 from .singular import refuse_singular, refuse_weightless
@@ -134,8 +134,8 @@ def aba_terms(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: A
     >>> tw.aba_terms(model, model.standing(), rest, rest).IA[1][5, 5].round(1)
     np.float64(13.4)
     """
-    q, v, tau, f_ext = state_of(model, q, v=v, tau=tau, f_ext=f_ext)
-    tree = walk(model, q)
+    q, v, tau, f_ext = check_state(model, q, v=v, tau=tau, f_ext=f_ext)
+    tree = tree_terms(model, q)
     try:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # where D is singular, which the guard says
             terms = articulated_body(tree, columns(model, v), columns(model, tau), wrenches(f_ext))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, convert
 from ..errors import SingularError
-from ..model import Model, Tree, columns, composite_inertias, joint_placements, state_of, walk
+from ..model import Model, Tree, check_state, columns, composite_inertias, joint_placements, tree_terms
 from ..spatial import SE3
 from ..spatial.formulas import bias_wrench
 from ..spatial.plucker import placed_point
@@ -68,7 +68,7 @@ def center_of_mass(model: Model, q: ArrayLike) -> Array:
     >>> tw.center_of_mass(tw.load("pendulum"), [0.0])
     array([ 0.,  0., -1.])
     """
-    (q,) = state_of(model, q)
+    (q,) = check_state(model, q)
     return _center_of_mass(model, placements(model.parent, joint_placements(model, q)), q)
 
 
@@ -146,8 +146,8 @@ def centroidal_terms(model: Model, q: ArrayLike) -> CentroidalTerms:
     >>> tw.centroidal_terms(model, model.standing()).IC[1][5, 5].round(3)  # with the joints locked, the whole mass
     np.float64(16.085)
     """
-    (q,) = state_of(model, q)
-    tree = walk(model, q)
+    (q,) = check_state(model, q)
+    tree = tree_terms(model, q)
     return centroidal_composite(tree, _to_center_of_mass(model, tree, q))
 
 
@@ -178,8 +178,8 @@ def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> tw.centroidal_momentum(tw.load("pendulum"), [0.0], [2.0]).round(12) + 0.0  # a ball of 1 kg at 2 m/s
     array([ 0.   ,  0.002,  0.   , -2.   ,  0.   ,  0.   ])
     """
-    q, v = state_of(model, q, v=v)
-    tree = walk(model, q)
+    q, v = check_state(model, q, v=v)
+    tree = tree_terms(model, q)
     X, I = _to_center_of_mass(model, tree, q), tree.I
     V, _ = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
     h_G: Array = np.sum([X[i] @ I[i] @ V[i] for i in range(model.nbodies)], axis=0)  # 49.10 h_G
@@ -219,8 +219,8 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
     >>> tw.centroidal_momentum_rate(model, model.standing(), rest, free_fall)[5].round(3)  # −m g
     np.float64(-157.794)
     """
-    q, v, a = state_of(model, q, v=v, a=a)
-    tree = walk(model, q)
+    q, v, a = check_state(model, q, v=v, a=a)
+    tree = tree_terms(model, q)
     X, I = _to_center_of_mass(model, tree, q), tree.I
     V, A = motion(tree, columns(model, v), columns(model, a))
     F = [I[i] @ A[i] + bias_wrench(I[i], V[i]) for i in range(model.nbodies)]  # 49.10 F

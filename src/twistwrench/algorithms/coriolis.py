@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..model import Model, Tree, columns, state_of, walk
+from ..model import Model, Tree, check_state, columns, tree_terms
 from ..spatial.formulas import cross_force, cross_motion
 from ..spatial.plucker import blocks
 from ..spatial.rotation import cross_matrix
@@ -71,8 +71,8 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> np.allclose(C @ v, tw.nonlinear_effects(model, q, v) - tw.gravity(model, q), rtol=0, atol=1e-15)
     True
     """
-    q, v = state_of(model, q, v=v)
-    return christoffel(walk(model, q), columns(model, v))
+    q, v = check_state(model, q, v=v)
+    return christoffel(tree_terms(model, q), columns(model, v))
 
 
 def _cross_bar(h: Array) -> Array:

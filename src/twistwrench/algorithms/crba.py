@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..model import Model, Tree, state_of, walk
+from ..model import Model, Tree, check_state, tree_terms
 from ..spatial.formulas import symmetric
 from ._mimic import also_of_mimics
 from .terms import CrbaTerms
@@ -105,5 +105,5 @@ def crba_terms(model: Model, q: ArrayLike) -> CrbaTerms:
     >>> tw.crba_terms(tw.load("double_pendulum"), [0.0, 0.0]).IC[1][3, 3]
     np.float64(2.0)
     """
-    (q,) = state_of(model, q)
-    return composite_rigid_body(walk(model, q))
+    (q,) = check_state(model, q)
+    return composite_rigid_body(tree_terms(model, q))

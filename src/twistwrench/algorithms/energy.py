@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, convert
-from ..model import Model, columns, joint_placements, state_of, walk
+from ..model import Model, check_state, columns, joint_placements, tree_terms
 from ..spatial.plucker import placed_point
 from ._mimic import also_of_mimics
 from .kinematics import motion, placements
@@ -42,9 +42,9 @@ def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     >>> tw.kinetic_energy(tw.load("pendulum"), [0.5], [2.0])
     np.float64(2.002)
     """
-    q, v = state_of(model, q, v=v)
+    q, v = check_state(model, q, v=v)
     constants = model.constants(q.dtype)
-    V, _ = motion(walk(model, q), columns(model, v), columns(model, np.zeros_like(v)))
+    V, _ = motion(tree_terms(model, q), columns(model, v), columns(model, np.zeros_like(v)))
     twice: Array = (constants.armature * v * v).sum(axis=-1)
     for I, Vi in zip(constants.I, V):
         twice = twice + (Vi * (I @ Vi)).sum(axis=(-2, -1))  # 49.5 T
@@ -77,7 +77,7 @@ def potential_energy(model: Model, q: ArrayLike) -> Array:
     >>> float(tw.potential_energy(pendulum, [np.pi]) - tw.potential_energy(pendulum, [0.0]))  # 2 m · 9.81 N
     19.62
     """
-    (q,) = state_of(model, q)
+    (q,) = check_state(model, q)
     weight = -model.constants(q.dtype).gravity[3:]
     energy = np.zeros(q.shape[:-1], q.dtype)
     for T, inertia in zip(placements(model.parent, joint_placements(model, q)), model.inertia):

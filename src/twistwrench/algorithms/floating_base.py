@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_names, tolerance
 from ..errors import SingularError
-from ..model import FreeFlyer, Model, check_model, one_configuration, state_of
+from ..model import FreeFlyer, Model, check_model, check_state, one_configuration
 from ..spatial import SE3
 from ._mimic import also_of_mimics
 from .kinematics import frame_jacobian
@@ -82,7 +82,7 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     >>> J_c.shape, int(np.linalg.matrix_rank(J_c))
     ((12, 18), 12)
     """
-    (q,) = state_of(model, q)
+    (q,) = check_state(model, q)
     contacts = as_names(contacts, "contacts", "frame names", ordered=True)
     rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import check_known
-from ..model import Model, Tree, cast, columns, joint_placements, state_of, walk
+from ..model import Model, Tree, cast, check_state, columns, joint_placements, tree_terms
 from ..spatial import SE3
 from ..spatial.formulas import cross_motion
 from ._mimic import also_of_mimics
@@ -92,10 +92,10 @@ def forward_kinematics(
     if v is None:
         if a is not None:
             raise ValueError("a: an acceleration needs the velocity as well, got v = None")
-        (q,) = state_of(model, q)
+        (q,) = check_state(model, q)
         return Kinematics(placements(model.parent, joint_placements(model, q)), None, None)
-    q, v, *rest = state_of(model, q, v=v) if a is None else state_of(model, q, v=v, a=a)
-    tree = walk(model, q)
+    q, v, *rest = check_state(model, q, v=v) if a is None else check_state(model, q, v=v, a=a)
+    tree = tree_terms(model, q)
     V, A = motion(tree, columns(model, v), columns(model, rest[0] if rest else np.zeros_like(v)))
     twist, acceleration = (np.stack(x, axis=-3)[..., 0] for x in (V, A))
     return Kinematics(placements(model.parent, tree.placement), twist, acceleration if rest else None)
@@ -149,7 +149,7 @@ def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     >>> tw.frame_placement(model, model.standing(), "FR_foot").translation.round(3) + 0.0
     array([ 0.193, -0.142,  0.   ])
     """
-    (q,) = state_of(model, q)
+    (q,) = check_state(model, q)
     at = model.frame(frame)
     return _frame_placement(model, joint_placements(model, q), at.body, cast(at.placement, q.dtype))
 
@@ -194,10 +194,10 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
     >>> tw.frame_jacobian(arm, arm.neutral(), "tool", "world").shape
     (6, 3)
     """
-    (q,) = state_of(model, q)
+    (q,) = check_state(model, q)
     check_known("reference", reference, get_args(Reference))
     at = model.frame(frame)
-    tree, T = walk(model, q), cast(at.placement, q.dtype)
+    tree, T = tree_terms(model, q), cast(at.placement, q.dtype)
     J = np.zeros((*q.shape[:-1], 6, model.nv), q.dtype)
     X = T.inverse().motion_transform()
     for i in model.support(at.body):  # from the frame to the base
@@ -242,10 +242,10 @@ def frame_bias_acceleration(
     >>> tw.frame_bias_acceleration(tw.load("pendulum"), [0.0], [2.0], "bob", "local_world_aligned")[3:].round(12)
     array([0., 0., 4.])
     """
-    q, v = state_of(model, q, v=v)
+    q, v = check_state(model, q, v=v)
     check_known("reference", reference, get_args(Reference))
     at = model.frame(frame)
-    tree, T = walk(model, q), cast(at.placement, q.dtype)
+    tree, T = tree_terms(model, q), cast(at.placement, q.dtype)
     V, A = (x[at.body][..., 0] for x in motion(tree, columns(model, v), columns(model, np.zeros_like(v))))
     X = T.inverse().motion_transform()
     V, A = np.matvec(X, V), np.matvec(X, A)

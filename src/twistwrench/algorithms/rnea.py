@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..model import Model, Tree, check_model, columns, stacked, state_of, walk, wrenches
+from ..model import Model, Tree, check_model, check_state, columns, stacked, tree_terms, wrenches
 from ..spatial.formulas import bias_wrench, cross_motion
 from ._mimic import also_of_mimics
 from .terms import RneaTerms
@@ -117,8 +117,8 @@ def rnea_terms(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: Ar
     >>> terms.F[1].round(3) + 0.0, terms.F[2].round(3) + 0.0
     (array([ 0.  ,  0.  ,  0.  ,  0.  ,  0.  , 19.62]), array([0.  , 0.  , 0.  , 0.  , 0.  , 9.81]))
     """
-    q, v, a, f_ext = state_of(model, q, v=v, a=a, f_ext=f_ext)
-    return newton_euler(walk(model, q), columns(model, v), columns(model, a), wrenches(f_ext))
+    q, v, a, f_ext = check_state(model, q, v=v, a=a, f_ext=f_ext)
+    return newton_euler(tree_terms(model, q), columns(model, v), columns(model, a), wrenches(f_ext))
 
 
 @also_of_mimics

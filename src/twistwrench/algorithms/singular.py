@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import Array, judged, resolution
 from ..errors import SingularError
 from ..model import Model, Tree, composite_inertias
-from ..spatial._elementary import which
+from ..spatial._elementary import at_first_index
 from .terms import AbaTerms
 
 __all__ = ["refuse_lost", "refuse_singular", "refuse_weightless"]
@@ -88,5 +88,6 @@ def refuse_lost(D: Array, bound: Array, name: str, hint: str = "") -> None:
     lost = np.asarray((np.linalg.eigvalsh(scaled) < ROUNDINGS * resolution(D.dtype)).any(axis=-1))
     if lost.any():
         raise SingularError(
-            f"joint {name!r}: with the joints behind it free it feels no inertia beyond rounding{which(lost)}{hint}"
+            f"joint {name!r}: with its outboard joints free it moves no inertia beyond rounding"
+            f"{at_first_index(lost)}{hint}"
         )

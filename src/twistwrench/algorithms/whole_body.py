@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_names
 from ..errors import check_known
-from ..model import Model, state_of
+from ..model import Model, check_state
 from ._mimic import also_of_mimics
 from .centroidal import centroidal_map
 from .crba import crba
@@ -89,7 +89,7 @@ def dynamics(
     >>> d.M.shape, d.J_c.shape, d.h
     ((18, 18), (12, 18), None)
     """
-    state_of(model, q, v=v)  # also where no wanted quantity depends on v
+    check_state(model, q, v=v)  # also where no wanted quantity depends on v
     contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names", ordered=True)
     want = wanted(want)
     compute = {

@@ -18,9 +18,9 @@ from ..errors import SingularError
 from ..fast import aba, crba
 from ..model import Model
 from ..spatial import SE3
-from ..spatial._elementary import which
+from ..spatial._elementary import at_first_index
 from .decomposition import decompose, lever
-from .rows import as_contacts, contact_errors, per_contact, real_state, touching
+from .rows import as_contacts, contact_errors, contact_rows, per_contact, real_state
 from .types import Contact
 
 __all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
@@ -163,7 +163,7 @@ def contact_forward_dynamics(
     """
     contacts = as_contacts(model, contacts)
     q, v, tau, *pushed = real_state(model, q, f_ext, v=v, tau=tau)
-    at, J, bias = touching(model, q, v, contacts)
+    at, J, bias = contact_rows(model, q, v, contacts)
     W, slip, target = lever(contacts, at), np.matvec(J, v), -bias
     if stabilise is not None:
         if not isinstance(stabilise, Baumgarte):
@@ -180,7 +180,7 @@ def contact_forward_dynamics(
     terms = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION * (terms + largest(np.matvec(W, target)))).any():
         still = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
-        asked = np.matvec(W, -touching(model, q, still, contacts).bias)
+        asked = np.matvec(W, -contact_rows(model, q, still, contacts).bias)
         refuse_contradiction(contacts, asked - parts.within(asked), CONTRADICTION * (terms + largest(asked)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)
@@ -200,5 +200,6 @@ def refuse_contradiction(contacts: Sequence[Contact], left: Array, rounding: Arr
         least = 0.01 * max(worst.values())
         missing = ", ".join(f"{frame!r} {miss:.3g} m/s²" for frame, miss in worst.items() if miss > least)
         raise SingularError(
-            f"the contacts contradict each other{which(wrong)}: no acceleration keeps all still; {missing} is left"
+            f"the contacts contradict each other{at_first_index(wrong)}: no acceleration keeps all still; "
+            f"{missing} is left"
         )

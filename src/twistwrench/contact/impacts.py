@@ -12,7 +12,7 @@ from ..arrays import Array, as_number
 from ..fast import crba
 from ..model import Model
 from .decomposition import decompose, lever
-from .rows import as_contacts, per_contact, real_state, touching
+from .rows import as_contacts, contact_rows, per_contact, real_state
 from .types import Contact
 
 __all__ = ["Impact", "impact"]
@@ -93,7 +93,7 @@ def impact(
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
     contacts = as_contacts(model, contacts)
     q, v = real_state(model, q, v=v)
-    at, J, _ = touching(model, q, v, contacts)
+    at, J, _ = contact_rows(model, q, v, contacts)
     W = lever(contacts, at)
     parts = decompose(model, crba(model, q), W @ J)
     x, mu = parts.respond(np.matvec(W @ J, v))  # what the contacts take out at e = 0, with its sign turned

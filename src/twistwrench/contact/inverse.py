@@ -16,11 +16,11 @@ from ..arrays import Array
 from ..errors import ShapeError, SingularError
 from ..fast import crba, rnea
 from ..model import Model
-from ..spatial._elementary import which
+from ..spatial._elementary import at_first_index
 from .decomposition import Decomposition, block_diagonal, decompose, point_map
 from .qp import least_breach, least_within
 from .reach import NEAR, Reach, reach
-from .rows import as_contacts, per_contact, real_state, touching
+from .rows import as_contacts, contact_rows, per_contact, real_state
 from .types import Contact, Pyramid
 
 __all__ = ["ContactForces", "Task", "contact_inverse_dynamics", "friction_inverse_dynamics"]
@@ -236,7 +236,7 @@ class Task:
         """Set up and solve the base rows; raise SingularError if no forces at these contacts do."""
         contacts = as_contacts(model, contacts)
         q, v, a, *pushed = real_state(model, q, f_ext, v=v, a=a)
-        at, J, bias = touching(model, q, v, contacts)
+        at, J, bias = contact_rows(model, q, v, contacts)
         b, P = rnea(model, q, v, a, *pushed), point_map(contacts, at)
         base = slice(0, 6 if model.base == "floating" else 0)
         parts = decompose(model, crba(model, q)[..., base, base], P.mT @ J[..., base])
@@ -249,7 +249,7 @@ class Task:
             names = [c.frame for c in contacts]
             over = ", ".join(f"{x:.3g}" for x in left[missed][0])
             raise Unbalanced(
-                f"no forces at {names} do this{which(missed)}: (τ, f) = ({over}) is left over", left, parts.L
+                f"no forces at {names} do this{at_first_index(missed)}: (τ, f) = ({over}) is left over", left, parts.L
             )
         size = max(float(np.abs(f).max(initial=0)) for f in (least, parts.balance(weight)))
         asked = float(np.maximum(*terms).max(initial=0))

@@ -12,10 +12,10 @@ from ..errors import SingularError
 from ..fast import crba
 from ..model import Model
 from ..spatial import SE3
-from ..spatial._elementary import which
+from ..spatial._elementary import at_first_index
 from .decomposition import decompose, lever
 from .impacts import impact
-from .rows import as_contacts, contact_errors, per_contact, real_state, touching
+from .rows import as_contacts, contact_errors, contact_rows, per_contact, real_state
 from .types import Contact
 
 __all__ = ["project_state"]
@@ -83,7 +83,7 @@ def project_state(
     contacts = as_contacts(model, contacts)
     q, v = real_state(model, q, v=v)
     for _ in range(steps + 1):
-        at, J, _ = touching(model, q, v, contacts)
+        at, J, _ = contact_rows(model, q, v, contacts)
         W = lever(contacts, at)
         error = np.matvec(W, contact_errors(contacts, at, anchors))
         far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
@@ -94,5 +94,6 @@ def project_state(
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])
     raise SingularError(
-        f"the contacts do not come to their anchors in {steps} steps{which(far)}: {worst!r} is {left[worst]:.3g} m away"
+        f"the contacts do not come to their anchors in {steps} steps{at_first_index(far)}: "
+        f"{worst!r} is {left[worst]:.3g} m away"
     )

@@ -16,20 +16,20 @@ from numpy.typing import ArrayLike
 from ..algorithms.kinematics import frame_placement, motion, placements
 from ..arrays import Array, as_sequence, check_kind
 from ..errors import unknown_name
-from ..model import Model, Tree, cast, check_model, columns, in_double, walk
+from ..model import Model, Tree, cast, check_model, columns, in_double, tree_terms
 from ..spatial import SE3, log3
 from .types import Contact
 
 __all__ = [
-    "Touching",
+    "ContactRows",
     "as_contacts",
     "constraint_bias",
     "constraint_jacobian",
     "contact_errors",
     "contact_placements",
+    "contact_rows",
     "per_contact",
     "real_state",
-    "touching",
 ]
 
 
@@ -73,7 +73,7 @@ def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact])
     """
     contacts = as_contacts(model, contacts)
     (q,) = model.state(q)
-    return touching(model, q, np.zeros(model.nv, q.dtype), contacts).J
+    return contact_rows(model, q, np.zeros(model.nv, q.dtype), contacts).J
 
 
 def constraint_bias(model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact]) -> Array:
@@ -105,7 +105,7 @@ def constraint_bias(model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable
     """
     contacts = as_contacts(model, contacts)
     q, v = model.state(q, v=v)
-    return touching(model, q, v, contacts).bias
+    return contact_rows(model, q, v, contacts).bias
 
 
 def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> dict[str, SE3]:
@@ -138,7 +138,7 @@ def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) 
     return {c.frame: frame_placement(model, q, c.frame) for c in as_contacts(model, contacts)}
 
 
-class Touching(NamedTuple):
+class ContactRows(NamedTuple):
     """Where the contacts' frames are in the world, their J and their J̇ v."""
 
     placement: list[SE3]
@@ -146,9 +146,9 @@ class Touching(NamedTuple):
     bias: Array
 
 
-def touching(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> Touching:
+def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> ContactRows:
     """Return what all contacts do, from one walk along the tree."""
-    tree = walk(model, q)
+    tree = tree_terms(model, q)
     bodies = placements(model.parent, tree.placement)
     V, A = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
     place: list[SE3] = []
@@ -159,7 +159,7 @@ def touching(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> T
         place.append(bodies[body] @ own)
         J.append(_jacobian(model, bodies, tree, body, own.translation)[..., c.rows, :])
         bias.append(_bias(bodies[body], V[body][..., 0], A[body][..., 0], own.translation)[..., c.rows])
-    return Touching(place, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
+    return ContactRows(place, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
 
 
 def _jacobian(model: Model, bodies: Sequence[SE3], tree: Tree, body: int, point: Array) -> Array:

@@ -133,12 +133,12 @@ def survey(book: Workbook) -> Status:
     """Return the status of a folder that is open."""
     rows = []
     for section in catalogue.SECTIONS:
-        states = {e.id: state_of(v.state for v in book.verdicts(e).values()) for e in catalogue.of_section(section)}
+        states = {e.id: check_state(v.state for v in book.verdicts(e).values()) for e in catalogue.of_section(section)}
         rows.append(Row(section, states))
     return Status(tuple(rows), book.language, tuple(sorted(book.borrowed)))
 
 
-def state_of(states: Iterable[State]) -> State:
+def check_state(states: Iterable[State]) -> State:
     """Return the state of an exercise with several parts: wrong if one is, done if all are."""
     found = set(states)
     if "wrong" in found:

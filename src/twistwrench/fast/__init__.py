@@ -40,7 +40,7 @@ constant matrices with 4 × 4 matrices that hold all links: `one` explains.
 
 The files, in the order in which they are best read: `links` and `plan` (the constants); `vectors`, `frames` (where the
 links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `articulated` (ABA), `kernels`, `outputs`
-(arrays of the caller), `many` (chunks); for one state `one_sums`, `one_plan`, `one`, `one_aba`; `door` (checks),
+(arrays of the caller), `many` (chunks); for one state `one_sums`, `single_plan`, `one`, `one_aba`; `door` (checks),
 `dispatch`, `api`.
 
 Which to take: the textbook to read, for a state now and then, and where an intermediate result is wanted; this for

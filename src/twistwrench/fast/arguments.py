@@ -17,7 +17,7 @@ from ..arrays import Array, resolution
 from ..model import Model, floats_of
 from .plan import Plan, plan_of
 
-__all__ = ["admit"]
+__all__ = ["validate"]
 
 
 class Limits(NamedTuple):
@@ -37,7 +37,7 @@ PLAIN = {np.dtype(t): _limits(t) for t in (np.float32, np.float64)}
 """The types that pass here, with limits a little narrower than the textbook's (`state`)."""
 
 
-def admit(
+def validate(
     model: Model, q: ArrayLike, *rates: tuple[str, ArrayLike], f_ext: ArrayLike | None = None
 ) -> tuple[Plan, tuple[Array, ...]]:
     """Return the plan for the number type that came; and q, the (name, value) of `rates`, and f_ext where it came.

@@ -123,9 +123,9 @@ def _start(plan: Plan, frames: Frames, inertias: Inertias, v: Array, f_ext: Arra
     felt.n[:], felt.f[:] = cross(w, symmetric_times(inertias.about_origin, w)), times(K, h)
     if f_ext is not None:
         add_external(plan, frames, -f_ext, felt.n, felt.f)
-    angular, kick = np.zeros_like(w), coriolis(plan, frames, w, v)
+    angular, coriolis_term = np.zeros_like(w), coriolis(plan, frames, w, v)
     angular[:, 1:] = cross(w[:, plan.last], frames.spin[:, 1:] * v[plan.entry[1:]])
-    linear = np.zeros_like(w) if kick is None else kick
+    linear = np.zeros_like(w) if coriolis_term is None else coriolis_term
     for level in plan.levels:
         linear[:, level.here] += times(K[:, :, level.up], frames.offset[:, level.here])
     return felt, Bias(angular, linear)

@@ -18,7 +18,7 @@ from ..algorithms.centroidal import centroidal_map
 from ..arrays import Array
 from ..errors import SingularError
 from ..model import Model
-from .arguments import PLAIN, admit
+from .arguments import PLAIN, validate
 from .articulated import NearlySingular
 from .batch import fill
 from .contacts import contacts_of
@@ -27,7 +27,7 @@ from .outputs import Tail, check_outputs, finish, targets
 from .plan import plan_of
 from .single import Parts, one_dynamics, one_rnea
 from .single_aba import AbaPlan, make_aba_plan, one_aba
-from .single_plan import OnePlan, Touching, make_one_plan, touching
+from .single_plan import ContactRows, SinglePlan, contact_rows, make_single_plan
 
 __all__ = ["accelerations", "parts", "torques"]
 
@@ -46,7 +46,7 @@ Given = Mapping[str, Array]
 
 def torques(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None, given: Given) -> Array:
     """Return τ."""
-    plan, states = admit(model, q, ("v", v), ("a", a), f_ext=f_ext)
+    plan, states = validate(model, q, ("v", v), ("a", a), f_ext=f_ext)
     tails = {"tau": (plan.nv,)}
     if f_ext is None and _are_few(states[0], FEW):
         return _one_by_one(partial(_one_torques, _one_plan(model)), states, tails, given)["tau"]
@@ -57,7 +57,7 @@ def accelerations(
     model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None, given: Given
 ) -> Array:
     """Return q̈."""
-    plan, states = admit(model, q, ("v", v), ("tau", tau), f_ext=f_ext)
+    plan, states = validate(model, q, ("v", v), ("tau", tau), f_ext=f_ext)
     tails = {"qdd": (plan.nv,)}
     try:
         if f_ext is None and _are_few(states[0], FEW_ABA):
@@ -76,14 +76,14 @@ def parts(
     given: Given,
 ) -> Parts:
     """Return what is wanted of M, h, J_c and A_G, by name; of `rates` only v counts, and only for h."""
-    plan, states = admit(model, q, *rates)
+    plan, states = validate(model, q, *rates)
     if model.mass == 0 and "A_G" in want:
         centroidal_map(model, q)  # says what is wrong
     contacts = model.feet if contacts is None else contacts
     few = _are_few(states[0], FEW)
     if few:
         one = _one_plan(model)
-        touched = _touching(model, one, contacts) if "J_c" in want else None
+        touched = _contact_rows(model, one, contacts) if "J_c" in want else None
         if states[0].ndim == 1 and _is_plain(states, given):
             return one_dynamics(one, want, touched, *states)
     nv = plan.nv
@@ -119,7 +119,7 @@ def _one_by_one(one: Callable[..., Parts], states: Sequence[Array], tails: Mappi
     return finish(given, filled)
 
 
-def _one_torques(plan: OnePlan, q: Array, v: Array, a: Array) -> Parts:
+def _one_torques(plan: SinglePlan, q: Array, v: Array, a: Array) -> Parts:
     return {"tau": one_rnea(plan, q, v, a)}
 
 
@@ -130,11 +130,11 @@ def _one_accelerations(model: Model, plan: AbaPlan, q: Array, v: Array, tau: Arr
         return {"qdd": aba(model, model.normalize(q), v, tau)}  # of norm 1 in the caller's number type
 
 
-def _one_plan(model: Model) -> OnePlan:
+def _one_plan(model: Model) -> SinglePlan:
     made: dict[Any, Any] = model._constants
-    plan: OnePlan | None = made.get("fast, one")
+    plan: SinglePlan | None = made.get("fast, one")
     if plan is None:
-        plan = made["fast, one"] = make_one_plan(plan_of(model, DOUBLE))
+        plan = made["fast, one"] = make_single_plan(plan_of(model, DOUBLE))
     return plan
 
 
@@ -146,11 +146,11 @@ def _aba_plan(model: Model) -> AbaPlan:
     return plan
 
 
-def _touching(model: Model, plan: OnePlan, contacts: tuple[str, ...]) -> Touching:
+def _contact_rows(model: Model, plan: SinglePlan, contacts: tuple[str, ...]) -> ContactRows:
     """Look up contacts, or remember them."""
     known = plan.known.get(contacts) if all(isinstance(name, str) for name in contacts) else None
     if known is None:
-        known = touching(plan, contacts_of(model, plan_of(model, DOUBLE), contacts))
+        known = contact_rows(plan, contacts_of(model, plan_of(model, DOUBLE), contacts))
         if len(plan.known) >= REMEMBERED:
             plan.known.clear()
         plan.known[contacts] = known

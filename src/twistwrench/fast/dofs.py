@@ -26,7 +26,7 @@ from ..arrays import Array
 from ..model import FreeFlyer, Joint, Model
 from ..spatial import exp6
 
-__all__ = ["Index", "Level", "Link", "Step", "base_floats", "index", "levels_of", "links_of", "parents_of", "steps_of"]
+__all__ = ["Dof", "Index", "Level", "Step", "base_floats", "index", "levels_of", "links_of", "parents_of", "steps_of"]
 
 Way = Literal["coordinate", "circle", "transform"]
 """How q places a joint: T = exp(S q) with one coordinate q; a turn with q = (cos, sin); or `Joint.transform` does."""
@@ -39,7 +39,7 @@ Index = slice | Array
 
 
 @dataclass(eq=False)
-class Link:
+class Dof:
     """One degree of freedom, and the link that it moves.
 
     Attributes
@@ -58,7 +58,7 @@ class Link:
         Whether it is the first, the last of its joint.
     axes : ndarray, shape (3, 3)
         The axes of the link, as columns, in those of the joint's body. Long double.
-    parent : Link or None
+    parent : Dof or None
         What carries it; None is the base.
     """
 
@@ -70,8 +70,8 @@ class Link:
     first: bool
     last: bool
     axes: Array
-    parent: Link | None = None
-    children: list[Link] = field(default_factory=list)
+    parent: Dof | None = None
+    children: list[Dof] = field(default_factory=list)
     height: int = 0
     number: int = 0
 
@@ -119,11 +119,11 @@ def base_floats(model: Model) -> bool:
     return type(joint) is FreeFlyer and model.parent.count(0) == 1
 
 
-def links_of(model: Model) -> list[Link]:
+def links_of(model: Model) -> list[Dof]:
     """Return the links without the base, numbered from 1."""
     start = 2 if base_floats(model) else 1
-    carrier: dict[int, Link | None] = dict.fromkeys(range(start))  # of each body; the base carries itself
-    made: list[Link] = []
+    carrier: dict[int, Dof | None] = dict.fromkeys(range(start))  # of each body; the base carries itself
+    made: list[Dof] = []
     for i in range(start, model.nbodies):
         parent = carrier[model.parent[i]]
         for link in _links_of_joint(model, i):
@@ -137,7 +137,7 @@ def links_of(model: Model) -> list[Link]:
     return _numbered([link for link in made if link.parent is None])
 
 
-def _links_of_joint(model: Model, i: int) -> Iterator[Link]:
+def _links_of_joint(model: Model, i: int) -> Iterator[Dof]:
     """Yield a link for each column of S."""
     joint, start = model.joints[i], model.v_slice[i].start
     if joint is None:
@@ -146,7 +146,7 @@ def _links_of_joint(model: Model, i: int) -> Iterator[Link]:
     screws = [_screw(column) for column in S.mT]
     way = _way(joint) if isinstance(joint, Hashable) else _way.__wrapped__(joint)
     for k, (axes, turn, slide) in enumerate(screws):
-        yield Link(i, start + k, way, turn, slide, first=k == 0, last=k == joint.nv - 1, axes=axes)
+        yield Dof(i, start + k, way, turn, slide, first=k == 0, last=k == joint.nv - 1, axes=axes)
 
 
 def _screw(column: Array) -> tuple[Array, np.longdouble, Array]:
@@ -192,13 +192,13 @@ def _axes_with_z(z: Array) -> Array:
     return np.stack([x, y, z], axis=-1)
 
 
-def _numbered(roots: list[Link]) -> list[Link]:
+def _numbered(roots: list[Dof]) -> list[Dof]:
     """Give the links their numbers, level by level: first children in the order of their parents, then second ones.
 
     The child with the longest way to a tip counts as the first. Those that have children of their own thus
     tend to stand at the head of a level.
     """
-    order: list[Link] = []
+    order: list[Dof] = []
     families = [roots]
     while any(families):
         ranked = [sorted(family, key=lambda link: -link.height) for family in families if family]
@@ -222,12 +222,12 @@ def index(numbers: Sequence[int]) -> Index:
     )
 
 
-def parents_of(links: list[Link]) -> list[int]:
+def parents_of(links: list[Dof]) -> list[int]:
     """Return the number of each link's parent, with an entry for the base."""
     return [0, *(link.parent.number if link.parent else 0 for link in links)]
 
 
-def levels_of(links: list[Link]) -> list[Level]:
+def levels_of(links: list[Dof]) -> list[Level]:
     """Return the levels, from the base to the tips."""
     parent, depth = parents_of(links), [0]
     for i in range(1, len(parent)):
@@ -246,7 +246,7 @@ def levels_of(links: list[Link]) -> list[Level]:
     return levels
 
 
-def steps_of(links: list[Link], levels: list[Level]) -> list[Step]:
+def steps_of(links: list[Dof], levels: list[Level]) -> list[Step]:
     """Return the steps that lead every link to the one below the base."""
     parent = parents_of(links)
     steps, at = [], list(range(len(parent)))

@@ -45,13 +45,13 @@ def forces(
     K = rates(w, dw)
     acc = np.empty_like(w)  # of the origins, the world rising
     acc[:, 0] = base_acceleration(plan, frames, v, a)
-    kick = coriolis(plan, frames, w, v, a)
+    coriolis_term = coriolis(plan, frames, w, v, a)
     for level in plan.levels:
         here, up = level.here, level.up
         acc[:, here] = times(K[:, :, up], frames.offset[:, here])
         acc[:, here] += acc[:, up]
-        if kick is not None:
-            acc[:, here] += kick[:, here]
+        if coriolis_term is not None:
+            acc[:, here] += coriolis_term[:, here]
     I, h = unfold(inertias.about_origin), inertias.moment
     f = acc * plan.mass + times(K, h)  # Newton
     n = times(I, dw) + cross(w, times(I, w)) + cross(h, acc)  # Euler, about the link's origin
@@ -110,11 +110,11 @@ def coriolis(plan: Plan, frames: Frames, w: Array, v: Array, a: Array | None = N
     """
     if frames.slide is None:
         return None
-    kick = np.zeros_like(w)
-    kick[:, 1:] = cross(w[:, plan.before] + w[:, plan.last], frames.slide[:, 1:] * v[plan.entry[1:]])
+    coriolis_term = np.zeros_like(w)
+    coriolis_term[:, 1:] = cross(w[:, plan.before] + w[:, plan.last], frames.slide[:, 1:] * v[plan.entry[1:]])
     if a is not None:
-        kick[:, 1:] += frames.slide[:, 1:] * a[plan.entry[1:]]
-    return kick
+        coriolis_term[:, 1:] += frames.slide[:, 1:] * a[plan.entry[1:]]
+    return coriolis_term
 
 
 def add_external(plan: Plan, frames: Frames, f_ext: Array, n: Array, f: Array) -> None:

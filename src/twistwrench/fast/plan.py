@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..model import Joint, Model
-from .dofs import Index, Level, Link, Step, base_floats, index, levels_of, links_of, parents_of, steps_of
+from .dofs import Dof, Index, Level, Step, base_floats, index, levels_of, links_of, parents_of, steps_of
 
 __all__ = ["Placed", "Plan", "plan_of"]
 
@@ -25,7 +25,7 @@ class Placed(NamedTuple):
     q : slice
         The joint's entries.
     axes : ndarray, shape (3, 3)
-        As `Link.axes`.
+        As `Dof.axes`.
     """
 
     link: int
@@ -76,7 +76,7 @@ class Plan:
     first, second : ndarray, shape (1 + n,)
         Bounds of each link's own moments of mass: the length of the first, the trace of the inertia.
     bodies : list of (int, int, ndarray)
-        Link, body and the body's axes in those of the link, as columns.
+        Dof, body and the body's axes in those of the link, as columns.
     rotor : ndarray, shape (nv, 1)
         `Model.armature`.
     gravity : ndarray, shape (3, 1)
@@ -194,7 +194,7 @@ def _units(model: Model) -> list[slice]:
     ]
 
 
-def _apart(links: list[Link]) -> tuple[Array, Array]:
+def _apart(links: list[Dof]) -> tuple[Array, Array]:
     """Return rows and columns of M where neither link carries the other."""
     related = np.eye(1 + len(links), dtype=bool)
     for link in links:
@@ -205,11 +205,11 @@ def _apart(links: list[Link]) -> tuple[Array, Array]:
     return entry[rows], entry[columns]
 
 
-def _bodies(links: list[Link], dtype: np.dtype[Any]) -> list[tuple[int, int, Array]]:
+def _bodies(links: list[Dof], dtype: np.dtype[Any]) -> list[tuple[int, int, Array]]:
     return [(link.number, link.joint, link.axes.mT.astype(dtype)) for link in links if link.last]
 
 
-def _inertias(model: Model, links: list[Link]) -> tuple[Array, Array]:
+def _inertias(model: Model, links: list[Dof]) -> tuple[Array, Array]:
     """Return inertia and first moment of each link, in its axes about its origin, and its mass."""
     spread, mass = np.zeros((1 + len(links), 4, 3), np.longdouble), np.zeros((1 + len(links), 1), np.longdouble)
     carriers = [(link.number, link.joint, link.axes) for link in links if link.last]
@@ -225,7 +225,7 @@ def _inertias(model: Model, links: list[Link]) -> tuple[Array, Array]:
     return spread, mass
 
 
-def _fixed(model: Model, links: list[Link]) -> Array:
+def _fixed(model: Model, links: list[Dof]) -> Array:
     """Return where each link is in its parent's axes before it moves: the axes as rows, then the offset."""
     constants = model.constants(np.longdouble)
     rows = np.zeros((len(links), 4, 3), np.longdouble)
@@ -243,7 +243,7 @@ def _fixed(model: Model, links: list[Link]) -> Array:
     return rows
 
 
-def _placed(model: Model, links: list[Link], dtype: np.dtype[Any]) -> list[Placed]:
+def _placed(model: Model, links: list[Dof], dtype: np.dtype[Any]) -> list[Placed]:
     """Return what is placed by its joint's `transform` in a level, by its place in the level."""
     return [
         Placed(k, joint, model.q_slice[link.joint], link.axes.astype(dtype))
@@ -252,7 +252,7 @@ def _placed(model: Model, links: list[Link], dtype: np.dtype[Any]) -> list[Place
     ]
 
 
-def _moved(model: Model, links: list[Link]) -> tuple[Index, Array]:
+def _moved(model: Model, links: list[Dof]) -> tuple[Index, Array]:
     """Return the places of links among those without the base, and where their q begins."""
     starts = [model.q_slice[link.joint].start for link in links]
     return index([link.number - 1 for link in links]), np.array(starts, np.intp)

@@ -27,7 +27,7 @@ import numpy as np
 
 from ..arrays import Array
 from .products import TURN, TWISTS
-from .single_plan import Doings, OnePlan, Touching
+from .single_plan import ContactRows, JointTerms, SinglePlan
 
 __all__ = ["one_dynamics", "one_rnea", "placements", "turned"]
 
@@ -55,7 +55,7 @@ class Place(NamedTuple):
     turn: Array
 
 
-def place(plan: OnePlan, q: Array) -> Place:
+def place(plan: SinglePlan, q: Array) -> Place:
     """Place the links of one state."""
     T, stack = placements(plan, q)
     for links, others in plan.chain:
@@ -71,14 +71,14 @@ def place(plan: OnePlan, q: Array) -> Place:
     return Place(stack, S, turned(plan, q))
 
 
-def placements(plan: OnePlan, q: Array) -> tuple[Array, Array]:
+def placements(plan: SinglePlan, q: Array) -> tuple[Array, Array]:
     """Return the placements of the links in their parents' axes, as one vector and, the same memory, as a stack."""
-    done = _done(plan.doings, q)
+    done = _done(plan.joint_terms, q)
     T = plan.pose.copy()
     if plan.local.ndim == 2:
         plan.local.dot(done, out=T[16:])
     else:
-        T[16:] = np.matmul(plan.local, done[plan.doings.looks, None]).reshape(-1)
+        T[16:] = np.matmul(plan.local, done[plan.joint_terms.gather, None]).reshape(-1)
     stack = T.reshape(-1, 4, 4)
     for link, placed, own in plan.placed:
         moved = placed.joint.transform(q[placed.q]).matrix()
@@ -87,20 +87,20 @@ def placements(plan: OnePlan, q: Array) -> tuple[Array, Array]:
     return T, stack
 
 
-def _done(doings: Doings, q: Array) -> Array:
-    """Return what the joints do, `Doings`."""
-    done, angles = doings.still.copy(), q[doings.angles]
+def _done(joint_terms: JointTerms, q: Array) -> Array:
+    """Return what the joints do, `JointTerms`."""
+    done, angles = joint_terms.still.copy(), q[joint_terms.angles]
     n = angles.size
     np.cos(angles, done[1 : n + 1])
     np.sin(angles, done[n + 1 : 2 * n + 1])
     if 2 * n + 2 < done.size:
-        cos_sin, lengths = q[doings.circles], q[doings.lengths]
+        cos_sin, lengths = q[joint_terms.circles], q[joint_terms.lengths]
         cos_sin /= np.sqrt((cos_sin * cos_sin).sum(axis=0))
         done[2 * n + 1 : -1] = np.concatenate([cos_sin.reshape(-1), lengths])
     return done
 
 
-def turned(plan: OnePlan, q: Array) -> Array:
+def turned(plan: SinglePlan, q: Array) -> Array:
     """Return the rotation from the axes of the base to those of the world, row by row, shape (9,)."""
     if plan.base == 0:
         return UNTURNED
@@ -117,19 +117,19 @@ def turned(plan: OnePlan, q: Array) -> Array:
     return R if plan.under is None else plan.under.dot(R.reshape(3, 3)).reshape(9)
 
 
-def one_rnea(plan: OnePlan, q: Array, v: Array, a: Array) -> Array:
+def one_rnea(plan: SinglePlan, q: Array, v: Array, a: Array) -> Array:
     """Return τ for one motion, shape (nv,)."""
     at = place(plan, q)
     return forces(plan, at, _inertias(plan, at), v, a)
 
 
-def _inertias(plan: OnePlan, at: Place) -> Array:
+def _inertias(plan: SinglePlan, at: Place) -> Array:
     """Return the inertias of the links seen from the base: T J Tᵀ."""
     J: Array = at.pose @ plan.J @ at.pose.mT
     return J
 
 
-def forces(plan: OnePlan, at: Place, J: Array, v: Array, a: Array | None = None) -> Array:
+def forces(plan: SinglePlan, at: Place, J: Array, v: Array, a: Array | None = None) -> Array:
     """Return τ for one motion, shape (nv,), from the inertias seen from the base."""
     joint, around = plan.sums.moving(at.twist * v[:, None])
     B = around @ joint  # (V + V') Ŝq̇
@@ -143,7 +143,7 @@ def forces(plan: OnePlan, at: Place, J: Array, v: Array, a: Array | None = None)
 
 
 def one_dynamics(
-    plan: OnePlan, want: Collection[str], touching: Touching | None, q: Array, v: Array | None = None
+    plan: SinglePlan, want: Collection[str], touching: ContactRows | None, q: Array, v: Array | None = None
 ) -> Parts:
     """Return what is wanted of one state, by name; only h needs v, and only J_c contacts."""
     at, parts = place(plan, q), {}
@@ -167,7 +167,7 @@ def one_dynamics(
     return parts
 
 
-def mass_matrix(plan: OnePlan, felt: Array) -> Array:
+def mass_matrix(plan: SinglePlan, felt: Array) -> Array:
     """Return M, from what joints feel of the momenta of unit rates: above the diagonal what they carry, or nothing."""
     M = felt.take(plan.upper)
     M *= plan.related
@@ -176,14 +176,14 @@ def mass_matrix(plan: OnePlan, felt: Array) -> Array:
     return M
 
 
-def centroidal_matrix(plan: OnePlan, at: Place, momentum: Array, moment: Array) -> Array:
+def centroidal_matrix(plan: SinglePlan, at: Place, momentum: Array, moment: Array) -> Array:
     """Return A_G, from the momenta of unit rates about the origin and in the axes of the base; moment is m (c, 1)."""
     to_com = plan.to_com.dot(at.turn[ROW] * moment[COLUMN]).reshape(6, 6)
     A_G: Array = to_com.dot(momentum)
     return A_G
 
 
-def contact_jacobian(at: Place, touching: Touching) -> Array:
+def contact_jacobian(at: Place, touching: ContactRows) -> Array:
     """Return the linear rows of the contacts, shape (3 k, nv)."""
     if touching.placed is not None:
         points = touching.placed.dot(at.pose.reshape(-1))

@@ -26,7 +26,7 @@ from .articulated import NearlySingular, floors
 from .dofs import Index, index
 from .plan import Plan
 from .single import placements, turned
-from .single_plan import OnePlan
+from .single_plan import SinglePlan
 from .vectors import CYCLE
 
 __all__ = ["AbaPlan", "make_aba_plan", "one_aba"]
@@ -55,11 +55,11 @@ class Stage(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class AbaPlan:
-    """What forward dynamics of one state needs besides `OnePlan`, with the links in the same order.
+    """What forward dynamics of one state needs besides `SinglePlan`, with the links in the same order.
 
     Attributes
     ----------
-    one : OnePlan
+    one : SinglePlan
     stages : list of Stage
         From the base to the tips.
     parent, last : ndarray of int, shape (1 + n,)
@@ -72,7 +72,7 @@ class AbaPlan:
         Gives them where they do.
     """
 
-    one: OnePlan
+    one: SinglePlan
     stages: list[Stage]
     parent: Array
     last: Array
@@ -102,8 +102,8 @@ SPATIAL, CROSS, SHIFT = _constants()
 """From ∫ x̄ x̄ᵀ dm to the 6 × 6 inertia; from V to V×; from r to −r×."""
 
 
-def make_aba_plan(plan: Plan, one: OnePlan) -> AbaPlan:
-    """Put what is needed of a plan in double precision into the order of `OnePlan`."""
+def make_aba_plan(plan: Plan, one: SinglePlan) -> AbaPlan:
+    """Put what is needed of a plan in double precision into the order of `SinglePlan`."""
     order = np.argsort(one.new)
     parent = one.new[np.array(plan.parent)][order]
     last = np.concatenate([[0], one.new[np.arange(1 + plan.n)[plan.last]]])[order]

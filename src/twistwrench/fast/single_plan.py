@@ -17,10 +17,10 @@ from .plan import Placed, Plan
 from .products import MOMENTUM, TWISTS
 from .single_sums import BLOCK, Sums, SumsInBlocks, carried_by, sums_of
 
-__all__ = ["OnePlan", "Touching", "make_one_plan", "touching"]
+__all__ = ["ContactRows", "SinglePlan", "contact_rows", "make_single_plan"]
 
 
-class Touching(NamedTuple):
+class ContactRows(NamedTuple):
     """Points of contact.
 
     Attributes
@@ -45,14 +45,14 @@ class Touching(NamedTuple):
     moved: Array
 
 
-class Doings(NamedTuple):
+class JointTerms(NamedTuple):
     """What the joints do, as one vector: 1, cosines and sines of angles, those of circles, lengths, 0.
 
     Attributes
     ----------
     still : ndarray, shape (m,)
         The vector to be filled.
-    looks : ndarray of int, shape (n, 4)
+    gather : ndarray of int, shape (n, 4)
         Where in it a link finds 1, cosine, sine and length: of what does not turn 1 and 0, of what does not slide 0.
     angles : slice or ndarray of int
         Their entries in q.
@@ -62,21 +62,21 @@ class Doings(NamedTuple):
     """
 
     still: Array
-    looks: Array
+    gather: Array
     angles: Index
     circles: Array
     lengths: Array
 
 
 @dataclass(frozen=True, eq=False)
-class OnePlan:
+class SinglePlan:
     """Constants of a model for one state, in double precision. 1 + n links, the first of which is the base.
 
     Attributes
     ----------
     base : int
         How many entries of v are those of a floating base: 6, or 0.
-    doings : Doings
+    joint_terms : JointTerms
     local : ndarray, shape (16 n, m) or (n, 16, 4)
         From what the joints do to the placement of each link in its parent's axes: one matrix, or, where that would
         be large, a matrix for each link.
@@ -116,7 +116,7 @@ class OnePlan:
     """
 
     base: int
-    doings: Doings
+    joint_terms: JointTerms
     local: Array
     pose: Array
     placed: list[tuple[int, Placed, Array]]
@@ -136,10 +136,10 @@ class OnePlan:
     gravity: Array
     under: Array | None
     new: Array
-    known: dict[tuple[str, ...], Touching] = field(default_factory=dict)
+    known: dict[tuple[str, ...], ContactRows] = field(default_factory=dict)
 
 
-def make_one_plan(plan: Plan) -> OnePlan:
+def make_single_plan(plan: Plan) -> SinglePlan:
     """Put the constants of a plan in double precision into the order of v, and into matrices."""
     base, n = 6 if plan.floats else 0, plan.n
     order = np.argsort(plan.entry)  # old numbers in the new order; the base, with entry -1, stays the first
@@ -150,16 +150,16 @@ def make_one_plan(plan: Plan) -> OnePlan:
         np.concatenate([[end], new[np.arange(1 + n)[links]]])[order]
         for links, end in ((plan.before, -1), (plan.last, 0))
     )
-    doings, local = _doings(plan, new), _local(plan)[order[1:] - 1]
+    joint_terms, local = _doings(plan, new), _local(plan)[order[1:] - 1]
     carried, entries = carried_by(parent)[np.ix_(of, of)], np.indices((len(of), len(of)))
     row, column = np.indices((4, 3)).reshape(2, 12)
     first = 16 * np.arange(1, 1 + n)[:, None]
     slide = np.zeros((n, 3, 1)) if plan.slide is None else plan.slide.swapaxes(0, 1)[order[1:]]
     sliding = np.flatnonzero(slide.any(axis=(1, 2)))
-    return OnePlan(
+    return SinglePlan(
         base=base,
-        doings=doings,
-        local=_side_by_side(local, doings) if n < BLOCK else local,
+        joint_terms=joint_terms,
+        local=_side_by_side(local, joint_terms) if n < BLOCK else local,
         pose=np.concatenate([np.eye(4).reshape(16), np.zeros(16 * n)]),
         placed=_placed(plan, new),
         chain=_chain(parent),
@@ -181,7 +181,7 @@ def make_one_plan(plan: Plan) -> OnePlan:
     )
 
 
-def _doings(plan: Plan, new: Array) -> Doings:
+def _doings(plan: Plan, new: Array) -> JointTerms:
     """Give all that joints do a place in one vector: 1, cosines and sines of angles, of circles, lengths, 0."""
     kinds = []
     for links, entries in (plan.angles, plan.circles, plan.lengths):
@@ -190,23 +190,23 @@ def _doings(plan: Plan, new: Array) -> Doings:
     (angles, _), (circles, _), (lengths, _) = kinds
     columns = [(angles, 1), (angles, 2), (circles, 1), (circles, 2), (lengths, 3)]
     end = 1 + sum(len(links) for links, _ in columns)
-    looks, place = np.tile([0, 0, end, end], (plan.n, 1)), 1
+    gather, place = np.tile([0, 0, end, end], (plan.n, 1)), 1
     for links, column in columns:
-        looks[links, column] = place + np.arange(len(links))
+        gather[links, column] = place + np.arange(len(links))
         place += len(links)
     still = np.zeros(end + 1)
     still[0] = 1
     cosines = kinds[1][1]
-    return Doings(still, looks, index(kinds[0][1].tolist()), np.stack([cosines, cosines + 1]), kinds[2][1])
+    return JointTerms(still, gather, index(kinds[0][1].tolist()), np.stack([cosines, cosines + 1]), kinds[2][1])
 
 
-def _side_by_side(local: Array, doings: Doings) -> Array:
+def _side_by_side(local: Array, joint_terms: JointTerms) -> Array:
     """Return one matrix, shape (16 n, m), for the placements of all links."""
-    out = np.zeros((len(local), 16, len(doings.still)))
-    for mine, matrix, places in zip(out, local, doings.looks):
+    out = np.zeros((len(local), 16, len(joint_terms.still)))
+    for mine, matrix, places in zip(out, local, joint_terms.gather):
         for place, column in zip(places, matrix.mT):
             mine[:, place] += column
-    return out.reshape(-1, len(doings.still))
+    return out.reshape(-1, len(joint_terms.still))
 
 
 def _local(plan: Plan) -> Array:
@@ -262,7 +262,7 @@ def _pseudo_inertias(plan: Plan) -> Array:
     return J
 
 
-def touching(one: OnePlan, contacts: Contacts) -> Touching:
+def contact_rows(one: SinglePlan, contacts: Contacts) -> ContactRows:
     """Put contacts into the order of v."""
     k, n1, link = len(contacts.link), len(one.J), one.new[contacts.link]
     point = np.ones((k, 4, 1))
@@ -274,7 +274,7 @@ def touching(one: OnePlan, contacts: Contacts) -> Touching:
     contact, i, a, b = np.indices((k, 3, 4, 4)).reshape(4, 48 * k)
     moved = np.ones((k, len(one.twist)))
     moved[contacts.still] = 0
-    return Touching(
+    return ContactRows(
         link=link,
         point=point,
         placed=placed.reshape(4 * k, 16 * n1) if small else None,

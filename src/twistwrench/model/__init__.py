@@ -22,20 +22,20 @@ reduction       `lock_joints`: a smaller model
 ==============  ======================================================================================
 """
 
-from .arguments import check_model, floats_of, in_double, one_configuration, state_of
+from .arguments import check_model, check_state, floats_of, in_double, one_configuration
 from .builder import Builder
-from .configuration import Coordinates
-from .constants import Constants, cast, fixed
+from .configuration import ConfigurationSpace
+from .constants import Constants, cast, readonly
 from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
 from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .link import UNLIMITED, WORLD, Link
 from .model import PER_DOF, Frame, Model
-from .numbering import Numbered
+from .numbering import NumberedTree
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
 from .report import Entry, Report, html_table, text_table
 from .samples import KINDS, chain, random_tree
-from .state import check_arrays, check_state
-from .tree import Tree, columns, composite_inertias, joint_placements, stacked, walk, wrenches
+from .state import check_arrays, checked_state
+from .tree import Tree, columns, composite_inertias, joint_placements, stacked, tree_terms, wrenches
 
 __all__ = [
     "KINDS",
@@ -44,9 +44,9 @@ __all__ = [
     "WORLD",
     "AxisJoint",
     "Builder",
+    "ConfigurationSpace",
     "Constants",
     "Continuous",
-    "Coordinates",
     "Entry",
     "Frame",
     "FreeFlyer",
@@ -55,7 +55,7 @@ __all__ = [
     "Joint",
     "Link",
     "Model",
-    "Numbered",
+    "NumberedTree",
     "Planar",
     "Prismatic",
     "Reduction",
@@ -68,9 +68,9 @@ __all__ = [
     "check_arrays",
     "check_model",
     "check_state",
+    "checked_state",
     "columns",
     "composite_inertias",
-    "fixed",
     "floats_of",
     "html_table",
     "idle_joints",
@@ -81,12 +81,12 @@ __all__ = [
     "one_configuration",
     "placement",
     "random_tree",
+    "readonly",
     "same_side",
     "stacked",
-    "state_of",
     "text_table",
+    "tree_terms",
     "turn",
     "unit",
-    "walk",
     "wrenches",
 ]

@@ -7,9 +7,9 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_constant
 from ..errors import ShapeError, no_model
 from .model import Model
-from .state import check_state
+from .state import checked_state
 
-__all__ = ["check_model", "floats_of", "in_double", "one_configuration", "state_of"]
+__all__ = ["check_model", "check_state", "floats_of", "in_double", "one_configuration"]
 
 
 def check_model(model: object) -> None:
@@ -18,10 +18,10 @@ def check_model(model: object) -> None:
         raise no_model(model)
 
 
-def state_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
+def check_state(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
     """Check a model and a state of it, in numbers of any type: see `Model.state` and `exact`."""
     check_model(model)
-    return check_state(model, True, q=q, **others)
+    return checked_state(model, True, q=q, **others)
 
 
 def floats_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:

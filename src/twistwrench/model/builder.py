@@ -22,7 +22,7 @@ from .joint import Joint
 from .joints import FreeFlyer
 from .link import WORLD, Link
 from .model import PER_DOF, Model
-from .numbering import Numbered
+from .numbering import NumberedTree
 from .report import Report
 
 __all__ = ["Builder"]
@@ -201,7 +201,7 @@ class Builder:
         check_kind(postures, "postures", Mapping, "configurations by name")
         feet, physical = as_names(feet, "feet", "frame names", ordered=True), as_flag(physical, "physical")
         with np.errstate(over="ignore", invalid="ignore"):
-            tree = Numbered(self._links)
+            tree = NumberedTree(self._links)
             tree.check_finite()
         report = Report(tree.check_bodies(physical))
         moved = tree.moved

@@ -16,12 +16,12 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_generator
 from ..errors import NameNotFound
 from .joint import Joint
-from .state import check_arrays, check_state
+from .state import check_arrays, checked_state
 
-__all__ = ["Coordinates"]
+__all__ = ["ConfigurationSpace"]
 
 
-class Coordinates:
+class ConfigurationSpace:
     """What a `Model` knows of its q and v. The attributes are the model's, and told there."""
 
     name: str
@@ -157,7 +157,7 @@ class Coordinates:
         >>> model.integrate(model.neutral(), step)[3:7].round(3)
         array([0.   , 0.   , 0.707, 0.707])
         """
-        q, v_dt = check_state(self, q=q, v_dt=v_dt)
+        q, v_dt = checked_state(self, q=q, v_dt=v_dt)
         return self._by_joint(lambda joint, qs, vs: joint.integrate(q[..., qs], v_dt[..., vs]), q)
 
     def difference(self, q0: ArrayLike, q1: ArrayLike) -> Array:
@@ -185,7 +185,7 @@ class Coordinates:
         >>> bool(np.allclose(model.difference(q, model.integrate(q, step)), step, rtol=0, atol=1e-14))
         True
         """
-        q0, q1 = check_state(self, q0=q0, q1=q1)
+        q0, q1 = checked_state(self, q0=q0, q1=q1)
         return self._by_joint(lambda joint, qs, vs: joint.difference(q0[..., qs], q1[..., qs]), q0)
 
     def normalize(self, q: ArrayLike) -> Array:
@@ -249,7 +249,7 @@ class Coordinates:
             An infinity or a NaN; a wrench on the world; a quaternion or (cos, sin) that is off norm 1 by more than the
             root of the number type's resolution (1.5e-8 in float64).
         """
-        return check_state(self, q=q, **others)
+        return checked_state(self, q=q, **others)
 
 
 def _slices(sizes: list[int]) -> tuple[slice, ...]:

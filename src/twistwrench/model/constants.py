@@ -15,7 +15,7 @@ from ..spatial.rotation import exact_rotation
 if TYPE_CHECKING:
     from .model import Model
 
-__all__ = ["Constants", "cast", "fixed"]
+__all__ = ["Constants", "cast", "readonly"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,16 +52,16 @@ class Constants:
             for i in model.inertia
         ]
         return cls(
-            S=tuple(fixed(joint.subspace(dtype) if joint else np.zeros((6, 0), dtype)) for joint in model.joints),
-            I=tuple(fixed(i.matrix()) for i in inertia),
+            S=tuple(readonly(joint.subspace(dtype) if joint else np.zeros((6, 0), dtype)) for joint in model.joints),
+            I=tuple(readonly(i.matrix()) for i in inertia),
             placement=tuple(cast(T, dtype) for T in model.placement),
-            gravity=fixed(convert(np.concatenate([np.zeros(3), model.gravity]), dtype)),
-            armature=fixed(convert(model.armature, dtype)),
-            rotor=tuple(fixed(np.diag(convert(model.armature[s], dtype))) for s in model.v_slice),
+            gravity=readonly(convert(np.concatenate([np.zeros(3), model.gravity]), dtype)),
+            armature=readonly(convert(model.armature, dtype)),
+            rotor=tuple(readonly(np.diag(convert(model.armature[s], dtype))) for s in model.v_slice),
         )
 
 
-def fixed(x: Array) -> Array:
+def readonly(x: Array) -> Array:
     """Return x, read-only: all later results depend on it."""
     x.flags.writeable = False
     return x

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, DTypeLike
 from ..arrays import Array, as_array, as_constant, exact_unit
 from ..errors import ModelError
 from ..spatial import SE3, exp6, log6
-from ..spatial._elementary import sqrt, which
+from ..spatial._elementary import at_first_index, sqrt
 from ..spatial.rotation import cross_matrix
 
 __all__ = ["AxisJoint", "GroupJoint", "Joint", "placement", "same_side", "turn", "unit"]
@@ -97,7 +97,7 @@ class Joint(ABC):
         part = q[..., self.unit]
         size = np.abs(part.real).max(axis=-1, keepdims=True)
         if (size == 0).any():
-            where = f"{self.unit.start}:{self.unit.stop} of its q are all zero" + which(size[..., 0] == 0)
+            where = f"{self.unit.start}:{self.unit.stop} of its q are all zero" + at_first_index(size[..., 0] == 0)
             raise ValueError(f"the entries {where}: no direction")
         q[..., self.unit] = unit(part / size)
         return q
@@ -125,13 +125,13 @@ class GroupJoint(Joint):
     """
 
     @abstractmethod
-    def coordinates(self, T: SE3, near: Array) -> Array:
+    def from_placement(self, T: SE3, near: Array) -> Array:
         """Return the q with ``transform(q) == T``; of two quaternions, the one closer to `near`."""
 
     def integrate(self, q: Array, dv: Array) -> Array:
         """Go from q along the twist S dv for one unit of time: T(q) exp(S dv)."""
         S = self.subspace(dv.dtype)
-        return self.coordinates(self.transform(q) @ exp6(np.matvec(S, dv)), near=q)
+        return self.from_placement(self.transform(q) @ exp6(np.matvec(S, dv)), near=q)
 
     def difference(self, q0: Array, q1: Array) -> Array:
         """Return the dv that leads from q0 to q1: Sᵀ log(T(q0)⁻¹ T(q1)), a turn of at most π."""

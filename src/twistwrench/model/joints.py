@@ -130,7 +130,7 @@ class Continuous(AxisJoint, GroupJoint):
         cs = unit(q)
         return turn(self._axis(q.dtype), cs[..., :1], cs[..., 1:])
 
-    def coordinates(self, T: SE3, near: Array) -> Array:
+    def from_placement(self, T: SE3, near: Array) -> Array:
         """Read cosine and sine off the turn: cos = (tr R − 1)/2, sin = axis · (R − Rᵀ)/2."""
         R = T.rotation
         k = cross_matrix(self._axis(R.dtype))
@@ -218,7 +218,7 @@ class Planar(GroupJoint):
         turned = turn(np.eye(3, dtype=q.dtype)[2], cs[..., :1], cs[..., 1:])
         return placement(turned.rotation, np.concatenate([q[..., :2], np.zeros_like(q[..., :1])], axis=-1))
 
-    def coordinates(self, T: SE3, near: Array) -> Array:
+    def from_placement(self, T: SE3, near: Array) -> Array:
         """Read x, y, cosine and sine off the placement."""
         return np.concatenate([T.translation[..., :2], unit(T.rotation[..., :2, 0])], axis=-1)
 
@@ -246,7 +246,7 @@ class Spherical(GroupJoint):
         """Return the turn of the quaternion."""
         return placement(quaternion_matrix(q), np.zeros(3, q.dtype))
 
-    def coordinates(self, T: SE3, near: Array) -> Array:
+    def from_placement(self, T: SE3, near: Array) -> Array:
         """Read the quaternion off the turn, with the sign that is closer to `near`."""
         return same_side(rotation_to_quaternion(T.rotation), near)
 
@@ -274,7 +274,7 @@ class FreeFlyer(GroupJoint):
         """Return the placement with this position and quaternion."""
         return placement(quaternion_matrix(q[..., 3:]), q[..., :3])
 
-    def coordinates(self, T: SE3, near: Array) -> Array:
+    def from_placement(self, T: SE3, near: Array) -> Array:
         """Read position and quaternion off the placement, the sign closer to `near`."""
         quaternion = same_side(rotation_to_quaternion(T.rotation), near[..., 3:])
         return np.concatenate([T.translation, quaternion], axis=-1)

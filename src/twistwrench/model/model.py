@@ -19,8 +19,8 @@ from numpy.typing import DTypeLike
 from ..arrays import Array, as_constant, as_count
 from ..errors import check_known
 from ..spatial import SE3, SpatialInertia
-from .configuration import Coordinates
-from .constants import Constants, fixed
+from .configuration import ConfigurationSpace
+from .constants import Constants, readonly
 from .joint import Joint
 from .report import Report
 
@@ -47,7 +47,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Model(Coordinates):
+class Model(ConfigurationSpace):
     """A tree of rigid bodies. Frozen; made by `twistwrench.load` or `twistwrench.Builder`.
 
     Attributes
@@ -116,11 +116,11 @@ class Model(Coordinates):
 
     def __post_init__(self) -> None:
         for name in ("gravity", "armature", "lower", "upper", "velocity_limit", "effort_limit"):
-            object.__setattr__(self, name, fixed(as_constant(getattr(self, name), name)))
+            object.__setattr__(self, name, readonly(as_constant(getattr(self, name), name)))
         for name in ("damping", "friction"):
             given = as_constant(getattr(self, name), name)
-            object.__setattr__(self, name, fixed(given if given.size else np.zeros(self.nv)))
-        postures = {name: fixed(as_constant(q, f"posture {name!r}")) for name, q in self.postures.items()}
+            object.__setattr__(self, name, readonly(given if given.size else np.zeros(self.nv)))
+        postures = {name: readonly(as_constant(q, f"posture {name!r}")) for name, q in self.postures.items()}
         object.__setattr__(self, "postures", MappingProxyType(postures))
         object.__setattr__(self, "frames", MappingProxyType(dict(self.frames)))
 

@@ -13,10 +13,10 @@ from .link import WORLD, Link
 from .model import Frame
 from .report import Entry
 
-__all__ = ["Numbered"]
+__all__ = ["NumberedTree"]
 
 
-class Numbered:
+class NumberedTree:
     """The links in their final order, depth first: bodies numbered, welded links merged.
 
     Attributes

@@ -14,15 +14,17 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_arrays, as_number_arrays, check_size, judged, resolution
 from ..arrays.conversion import WIDENED
 from ..errors import ShapeError
-from ..spatial._elementary import which
+from ..spatial._elementary import at_first_index
 
 if TYPE_CHECKING:
-    from .configuration import Coordinates
+    from .configuration import ConfigurationSpace
 
-__all__ = ["check_arrays", "check_state"]
+__all__ = ["check_arrays", "checked_state"]
 
 
-def check_state(model: Coordinates, any_number: bool = False, /, **named: ArrayLike | None) -> tuple[Array, ...]:
+def checked_state(
+    model: ConfigurationSpace, any_number: bool = False, /, **named: ArrayLike | None
+) -> tuple[Array, ...]:
     """Check a state and bring it to one dtype and one batch shape: see `Model.state`.
 
     With `any_number`, fractions, SymPy's numbers and the like pass, as arrays of objects: of these only shapes are
@@ -46,7 +48,9 @@ def check_state(model: Coordinates, any_number: bool = False, /, **named: ArrayL
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
-def check_arrays(model: Coordinates, any_number: bool = False, /, **named: ArrayLike | None) -> tuple[Array, ...]:
+def check_arrays(
+    model: ConfigurationSpace, any_number: bool = False, /, **named: ArrayLike | None
+) -> tuple[Array, ...]:
     """Convert to finite arrays of one dtype with the right last axes, or say what is wrong.
 
     The name of an argument says what it is: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
@@ -62,7 +66,7 @@ def check_arrays(model: Coordinates, any_number: bool = False, /, **named: Array
     return (as_number_arrays if any_number else as_arrays)(**expected)
 
 
-def _check_not_swapped(model: Coordinates, name: str, value: ArrayLike | None) -> None:
+def _check_not_swapped(model: ConfigurationSpace, name: str, value: ArrayLike | None) -> None:
     """Say so where a v came for a q, a q for a v, the joints without the base, or a column for a row."""
     (kind, size), (other, came) = ("q", model.nq), ("v", model.nv)
     if not name.startswith("q"):
@@ -80,7 +84,7 @@ def _check_not_swapped(model: Coordinates, name: str, value: ArrayLike | None) -
     raise ShapeError(f"{name}: expected shape (..., {size}), got {shape}; {hint}")
 
 
-def _external(model: Coordinates, f_ext: ArrayLike | None) -> ArrayLike:
+def _external(model: ConfigurationSpace, f_ext: ArrayLike | None) -> ArrayLike:
     """Return the wrenches on the bodies, zero where none came; refuse one on the world, or no row for it."""
     if f_ext is None:
         return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
@@ -103,7 +107,7 @@ def _shape(value: Any) -> tuple[int, ...]:
         return ()
 
 
-def _refuse_zero(model: Coordinates, q: Array, name: str) -> None:
+def _refuse_zero(model: ConfigurationSpace, q: Array, name: str) -> None:
     """Refuse a quaternion or a (cos, sin) that is known to be zero, among numbers that are objects."""
     for joint, s in zip(model.joints, model.q_slice):
         if joint is None or joint.unit is None or not name.startswith("q"):
@@ -112,10 +116,11 @@ def _refuse_zero(model: Coordinates, q: Array, name: str) -> None:
         bad = np.asarray((judged(q[..., part]) == 0).all(-1))
         if bad.any():
             mend = "model.neutral() has one that turns nothing"
-            raise ValueError(f"{name}: {name}[{part.start}:{part.stop}] is zero{which(bad)}, no direction; {mend}")
+            what = f"{name}[{part.start}:{part.stop}]"
+            raise ValueError(f"{name}: {what} is zero{at_first_index(bad)}, no direction; {mend}")
 
 
-def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -> Array:
+def _with_norm_1(model: ConfigurationSpace, q: Array, name: str, came: np.dtype[Any]) -> Array:
     """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it came with.
 
     What came with fewer digits than it has now gets norm 1 to all of these.
@@ -135,6 +140,6 @@ def _with_norm_1(model: Coordinates, q: Array, name: str, came: np.dtype[Any]) -
             mend = "normalize(q) repairs it" if first else "neutral() has the one that turns nothing"
             raise ValueError(
                 f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
-                f"{which(bad)}, {close}; model.{mend}"
+                f"{at_first_index(bad)}, {close}; model.{mend}"
             )
     return model.normalize(q) if digits > resolution(q.dtype) or tolerance == WIDENED else q

@@ -16,7 +16,7 @@ from ..arrays import Array
 from ..spatial import SE3
 from .model import Model
 
-__all__ = ["Tree", "columns", "composite_inertias", "joint_placements", "stacked", "walk", "wrenches"]
+__all__ = ["Tree", "columns", "composite_inertias", "joint_placements", "stacked", "tree_terms", "wrenches"]
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class Tree:
         return [[zero] * len(self.parent) for _ in range(count)]
 
 
-def walk(model: Model, q: Array) -> Tree:
+def tree_terms(model: Model, q: Array) -> Tree:
     """Return what the recursions need of `model` at a checked `q`, in q's number type."""
     constants = model.constants(q.dtype)
     placement = joint_placements(model, q)

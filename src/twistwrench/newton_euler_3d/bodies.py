@@ -17,7 +17,7 @@ from .arithmetic import Arithmetic
 from .joints import joint_columns, joint_pose
 from .state import State
 
-__all__ = ["Body", "Hinges", "cross", "walk"]
+__all__ = ["Body", "Hinges", "bodies_in_world", "cross"]
 
 
 def cross(a: Array, b: Array) -> Array:
@@ -98,7 +98,7 @@ class Body:
         return velocity, acceleration
 
 
-def walk(state: State) -> list[Body]:
+def bodies_in_world(state: State) -> list[Body]:
     """Place and move every body, from the world outwards. Body 0 is the world, at rest and without mass."""
     bodies = [_world(state.number)]
     for i in range(1, state.model.nbodies):

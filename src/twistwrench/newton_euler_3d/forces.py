@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from .bodies import Body, cross, walk
+from .bodies import Body, bodies_in_world, cross
 from .state import State, take
 
 __all__ = ["gravity", "inverse_dynamics", "joint_wrenches", "nonlinear_effects", "virtual_power"]
@@ -59,7 +59,7 @@ def inverse_dynamics(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext
     157.79
     """
     state = take(model, q=q, v=v, a=a, f_ext=f_ext)
-    return virtual_power(state, walk(state))
+    return virtual_power(state, bodies_in_world(state))
 
 
 def nonlinear_effects(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
@@ -93,7 +93,7 @@ def nonlinear_effects(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
     157.79
     """
     state = take(model, q=q, v=v)
-    return virtual_power(state, walk(state))
+    return virtual_power(state, bodies_in_world(state))
 
 
 def gravity(model: Any, q: ArrayLike) -> Array:
@@ -125,7 +125,7 @@ def gravity(model: Any, q: ArrayLike) -> Array:
     array([1.075])
     """
     state = take(model, q=q)
-    return virtual_power(state, walk(state))
+    return virtual_power(state, bodies_in_world(state))
 
 
 def joint_wrenches(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
@@ -167,7 +167,7 @@ def joint_wrenches(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: 
     array([ 0. ,  0. , 21.6])
     """
     state = take(model, q=q, v=v, a=a, f_ext=f_ext)
-    bodies = walk(state)
+    bodies = bodies_in_world(state)
     wrenches = state.number.zeros(model.nbodies, 6)
     for i in range(1, model.nbodies):
         force, moment = _taken(state, bodies[i], state.f_ext[i])

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from ..errors import check_known
 from .arithmetic import Arithmetic
-from .bodies import Body, walk
+from .bodies import Body, bodies_in_world
 from .kinematics import spatial_acceleration
 from .state import State, take
 
@@ -138,7 +138,7 @@ def _frame(state: State, name: str) -> tuple[Body, Array, Array]:
     """Return the body that carries a frame, and the frame's rotation and position in the world."""
     frames, number = state.model.frames, state.number
     check_known("frame", name, frames)
-    body, place = walk(state)[frames[name].body], frames[name].placement
+    body, place = bodies_in_world(state)[frames[name].body], frames[name].placement
     R = body.rotation @ number.rotation(place.rotation, f"frame {name!r}")
     return body, R, body.origin + body.rotation @ number.array(place.translation)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from .bodies import Body, cross, walk
+from .bodies import Body, bodies_in_world, cross
 from .state import take
 
 __all__ = ["Motion", "body_accelerations", "body_twists", "motion", "placements", "spatial_acceleration"]
@@ -55,7 +55,7 @@ def placements(model: Any, q: ArrayLike) -> tuple[Array, Array]:
     >>> position[model.joint_id("FL_calf_joint")]
     array([ 0.1934,  0.142 , -0.213 ])
     """
-    bodies = walk(take(model, q=q))
+    bodies = bodies_in_world(take(model, q=q))
     return np.stack([b.rotation for b in bodies]), np.stack([b.origin for b in bodies])
 
 
@@ -90,7 +90,7 @@ def motion(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Motion:
     >>> motion(model, model.neutral(), v, 0 * v).acceleration[model.joint_id("FL_hip_joint")]
     array([-0.7736, -0.186 ,  0.    ])
     """
-    bodies = walk(take(model, q=q, v=v, a=a))
+    bodies = bodies_in_world(take(model, q=q, v=v, a=a))
     rows = [(b.omega, b.velocity, b.alpha, b.acceleration) for b in bodies]
     return Motion(*(np.stack(column) for column in zip(*rows, strict=True)))
 
@@ -124,7 +124,7 @@ def body_twists(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
     >>> body_twists(model, q, np.arange(18.0))[1].round(12)
     array([0., 1., 2., 3., 4., 5.])
     """
-    bodies = walk(take(model, q=q, v=v))
+    bodies = bodies_in_world(take(model, q=q, v=v))
     return np.stack([np.concatenate([b.rotation.mT @ b.omega, b.rotation.mT @ b.velocity]) for b in bodies])
 
 
@@ -162,7 +162,7 @@ def body_accelerations(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> 
     >>> body_accelerations(model, q, np.ones(18), np.arange(18.0))[1].round(12)
     array([0., 1., 2., 3., 4., 5.])
     """
-    bodies = walk(take(model, q=q, v=v, a=a))
+    bodies = bodies_in_world(take(model, q=q, v=v, a=a))
     return np.stack([spatial_acceleration(b, b.origin, b.rotation) for b in bodies])
 
 

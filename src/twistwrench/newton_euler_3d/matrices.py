@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import SingularError
-from .bodies import Body, cross, walk
+from .bodies import Body, bodies_in_world, cross
 from .forces import virtual_power
 from .state import State, take
 
@@ -48,7 +48,7 @@ def mass_matrix(model: Any, q: ArrayLike) -> Array:
     array([16.085, 16.085, 16.085])
     """
     state = take(model, q=q)
-    return _mass_matrix(state, walk(state))
+    return _mass_matrix(state, bodies_in_world(state))
 
 
 def coriolis_matrix(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
@@ -88,7 +88,7 @@ def coriolis_matrix(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
     """
     state = take(model, q=q, v=v)
     C = state.number.zeros(model.nv, model.nv)
-    for body in walk(state)[1:]:
+    for body in bodies_in_world(state)[1:]:
         I, w, k = body.inertia, body.omega, body.hinges.index
         Jw, Jv = body.hinges.jacobian(body.com)
         Jw_rate, Jv_rate = body.hinges.jacobian_rate(body.com, body.at(body.com)[0])
@@ -136,7 +136,7 @@ def forward_dynamics(model: Any, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_e
     array([ 0.  ,  0.  ,  0.  ,  0.  ,  0.  , -9.81])
     """
     state = take(model, q=q, v=v, tau=tau, f_ext=f_ext)
-    bodies = walk(state)
+    bodies = bodies_in_world(state)
     return _solve(state, _mass_matrix(state, bodies), state.tau - virtual_power(state, bodies))
 
 

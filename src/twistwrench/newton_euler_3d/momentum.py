@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import SingularError
-from .bodies import Body, cross, walk
+from .bodies import Body, bodies_in_world, cross
 from .state import State, take
 
 __all__ = [
@@ -50,7 +50,7 @@ def center_of_mass(model: Any, q: ArrayLike) -> Array:
     array([ 0.0082,  0.    , -0.0285])
     """
     state = take(model, q=q)
-    return _center(state, walk(state)[1:])
+    return _center(state, bodies_in_world(state)[1:])
 
 
 def centroidal_momentum(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
@@ -85,7 +85,7 @@ def centroidal_momentum(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
     array([ 0.  ,  0.  ,  0.  , 32.17,  0.  ,  0.  ])
     """
     state = take(model, q=q, v=v)
-    bodies = walk(state)[1:]
+    bodies = bodies_in_world(state)[1:]
     center, k, l = _center(state, bodies), state.number.zeros(3), state.number.zeros(3)
     for body in bodies:
         momentum = body.mass * body.at(body.com)[0]
@@ -127,7 +127,7 @@ def centroidal_momentum_rate(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLik
     array([   0.  ,    0.  ,    0.  ,    0.  ,    0.  , -157.79])
     """
     state = take(model, q=q, v=v, a=a)
-    bodies = walk(state)[1:]
+    bodies = bodies_in_world(state)[1:]
     center, k, l = _center(state, bodies), state.number.zeros(3), state.number.zeros(3)
     for body in bodies:
         I, w = body.inertia, body.omega
@@ -166,7 +166,7 @@ def centroidal_map(model: Any, q: ArrayLike) -> Array:
     array([16.085, 16.085, 16.085])
     """
     state = take(model, q=q)
-    bodies = walk(state)[1:]
+    bodies = bodies_in_world(state)[1:]
     center, A = _center(state, bodies), state.number.zeros(6, model.nv)
     for body in bodies:
         Jw, Jv = body.hinges.jacobian(body.com)
@@ -206,7 +206,7 @@ def kinetic_energy(model: Any, q: ArrayLike, v: ArrayLike) -> Any:
     """
     state = take(model, q=q, v=v)
     twice = (state.number.array(model.armature) * state.v**2).sum()
-    for body in walk(state)[1:]:
+    for body in bodies_in_world(state)[1:]:
         velocity = body.at(body.com)[0]
         twice = twice + body.mass * (velocity @ velocity) + body.omega @ body.inertia @ body.omega
     return twice / 2
@@ -244,7 +244,7 @@ def potential_energy(model: Any, q: ArrayLike) -> Any:
     """
     state = take(model, q=q)
     energy = state.number.zeros(1)[0]
-    for body in walk(state)[1:]:
+    for body in bodies_in_world(state)[1:]:
         energy = energy - body.mass * (state.number.array(model.gravity) @ body.com)
     return energy
 

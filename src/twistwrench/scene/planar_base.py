@@ -80,7 +80,7 @@ class OnTheFloor:
         """Return the floating state of a planar one, at the constant height and tilt."""
         base = cast(self.base, q.dtype)
         T = cast(self.full.placement[1], q.dtype).inverse() @ Planar().transform(q[..., :4]) @ base
-        flying = FreeFlyer().coordinates(T, np.broadcast_to(self.near.astype(q.dtype), (*q.shape[:-1], 7)))
+        flying = FreeFlyer().from_placement(T, np.broadcast_to(self.near.astype(q.dtype), (*q.shape[:-1], 7)))
         twist = np.matvec(base.inverse().motion_transform() @ Planar().subspace(q.dtype), v[..., :3])
         return np.concatenate([flying, q[..., 4:]], axis=-1), np.concatenate([twist, v[..., 3:]], axis=-1)
 

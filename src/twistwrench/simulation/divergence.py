@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..model import Model
-from ..spatial._elementary import which
+from ..spatial._elementary import at_first_index
 
 __all__ = ["DivergenceError", "refuse_divergence"]
 
@@ -27,5 +27,5 @@ def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> 
         joint = next(i for i, s in enumerate(model.v_slice) if s.start <= entry[-1] < s.stop)
         raise DivergenceError(
             f"the motion diverges: joint {model.joint_names[joint]!r} has {what}[{entry[-1]}] = {float(x[entry]):.3g}"
-            f"{which(np.asarray(wrong.any(axis=-1)))}; a smaller dt or weaker forces?"
+            f"{at_first_index(np.asarray(wrong.any(axis=-1)))}; a smaller dt or weaker forces?"
         )

@@ -19,7 +19,7 @@ import numpy as np
 
 from ..arrays import Array, resolution
 from ..fast import aba, crba
-from ..model import Model, walk
+from ..model import Model, tree_terms
 from ..model.tree import join, split
 from ..spatial import cross_force
 from .divergence import DivergenceError, refuse_divergence
@@ -40,7 +40,7 @@ def momentum_and_force(model: Model, q: Array, v: Array) -> tuple[Array, Array]:
     by S δ while its carrier still moves it with the twist C: the energy changes by −δ Sᵀ (C ×* h), and by Sᵀ w δ, where
     w is the subtree's weight.
     """
-    tree, qd, n = walk(model, q), split(model, v), model.nbodies
+    tree, qd, n = tree_terms(model, q), split(model, v), model.nbodies
     armature = model.constants(q.dtype).armature
     V, A, carrier, h, w, mu, force = ([np.zeros(6, q.dtype)] * n for _ in range(7))
     A[0], mu[0], force[0] = -model.constants(q.dtype).gravity, v[..., :0], v[..., :0]  # the world rises

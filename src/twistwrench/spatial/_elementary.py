@@ -10,7 +10,18 @@ import numpy as np
 
 from ..arrays import Array, elementary, resolution
 
-__all__ = ["atan2", "cos", "cosine_defect", "largest", "length", "sin", "sinc", "sine_defect_root", "sqrt", "which"]
+__all__ = [
+    "at_first_index",
+    "atan2",
+    "cos",
+    "cosine_defect",
+    "largest",
+    "length",
+    "sin",
+    "sinc",
+    "sine_defect_root",
+    "sqrt",
+]
 
 
 def cos(x: Array) -> Array:
@@ -98,6 +109,6 @@ def largest(x: Array, axes: int) -> Array:
     return np.asarray(np.abs(x).max(axis=tuple(range(-axes, 0))))
 
 
-def which(wrong: Array) -> str:
+def at_first_index(wrong: Array) -> str:
     """Say which item of a batch is wrong, and nothing where there is only one."""
     return f" at index {tuple(int(k) for k in np.argwhere(wrong)[0])}" if wrong.ndim else ""

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import Array, judged, tolerance
 from ..errors import ModelError
-from ._elementary import largest, which
+from ._elementary import at_first_index, largest
 
 __all__ = ["check_not_negative", "check_numbers", "check_physical"]
 
@@ -18,12 +18,14 @@ def check_numbers(mass: Array, inertia_at_com: Array) -> None:
     """Raise ModelError where a mass is negative, or an inertia not symmetric."""
     wrong = np.asarray(judged(mass) < 0)
     if wrong.any():
-        raise ModelError(f"mass: expected no negative mass, got {judged(mass)[wrong][0]:.6g} kg" + which(wrong))
+        got = f"{judged(mass)[wrong][0]:.6g} kg{at_first_index(wrong)}"
+        raise ModelError(f"mass: expected no negative mass, got {got}")
     off = largest(judged(inertia_at_com - inertia_at_com.mT), 2)
     wrong = off > tolerance(inertia_at_com.dtype) * largest(judged(inertia_at_com), 2)
     if wrong.any():
         raise ModelError(
-            f"inertia_at_com: expected a symmetric matrix, got |I − Iᵀ| = {off[wrong][0]:.3g} kg m²" + which(wrong)
+            f"inertia_at_com: expected a symmetric matrix, got |I − Iᵀ| = {off[wrong][0]:.3g} kg m²"
+            + at_first_index(wrong)
         )
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, as_number_arrays, tolerance
 from ..errors import ModelError, ShapeError
-from ._elementary import largest, which
+from ._elementary import at_first_index, largest
 from ._physical import check_numbers, check_physical
 from ._vector import aligned, as_spatial
 from .cross import cross_force, cross_motion
@@ -131,7 +131,7 @@ class SpatialInertia:
         if wrong.any():
             raise ModelError(
                 f"I6: expected [[I_c − m[c]×², m[c]×], [−m[c]×, m 1]], got a matrix {off[wrong][0]:.3g} away from it"
-                + which(wrong)
+                + at_first_index(wrong)
             )
         return body
 

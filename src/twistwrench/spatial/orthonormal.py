@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, judged, tolerance
 from ..errors import ShapeError
-from ._elementary import largest, which
+from ._elementary import at_first_index, largest
 
 __all__ = ["check_rotation", "nearest_rotation"]
 
@@ -81,7 +81,7 @@ def _reflects(R: Array) -> Array:
 
 def _refuse(R: Array, wrong: Array, off: Array, expected: str, mend: str = "") -> None:
     if wrong.any():
-        raise ShapeError(f"{expected}, got |RᵀR − 1| = {off[wrong][0]:.3g}{which(wrong)}{mend}")
+        raise ShapeError(f"{expected}, got |RᵀR − 1| = {off[wrong][0]:.3g}{at_first_index(wrong)}{mend}")
     wrong = _reflects(R)
     if wrong.any():
-        raise ShapeError(f"{expected}, got a reflection, det R = −1{which(wrong)}")
+        raise ShapeError(f"{expected}, got a reflection, det R = −1{at_first_index(wrong)}")

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, as_number_array, as_number_arrays, tolerance
 from ..errors import ShapeError
-from ._elementary import largest, which
+from ._elementary import at_first_index, largest
 from ._vector import aligned, latex_matrix
 from .orthonormal import check_rotation
 from .rotation import cross_matrix
@@ -179,7 +179,8 @@ class SE3:
         M = as_array(T, "T", 4, 4)
         wrong = largest((M[..., 3, :] - [0, 0, 0, 1]).real, 1) > tolerance(M.dtype)
         if wrong.any():
-            raise ShapeError(f"T: expected (0, 0, 0, 1) as the last row, got {M[wrong][0, 3].tolist()}" + which(wrong))
+            got = M[wrong][0, 3].tolist()
+            raise ShapeError(f"T: expected (0, 0, 0, 1) as the last row, got {got}" + at_first_index(wrong))
         return cls(M[..., :3, :3], M[..., :3, 3])
 
     def matrix(self) -> Array:

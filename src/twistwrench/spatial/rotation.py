@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, as_number_array, convert, judged, tolerance
 from ..errors import ShapeError, SingularError
-from ._elementary import atan2, cos, largest, length, sin, sinc, which
+from ._elementary import at_first_index, atan2, cos, largest, length, sin, sinc
 from .orthonormal import check_rotation
 
 __all__ = [
@@ -85,7 +85,8 @@ def unskew(M: ArrayLike) -> Array:
     off = largest((M + M.mT).real, 2)
     wrong = off > tolerance(M.dtype) * largest(M.real, 2)
     if wrong.any():
-        raise ShapeError(f"M: expected a skew-symmetric matrix, got |M + Mᵀ| = {off[wrong][0]:.3g}" + which(wrong))
+        got = f"{off[wrong][0]:.3g}{at_first_index(wrong)}"
+        raise ShapeError(f"M: expected a skew-symmetric matrix, got |M + Mᵀ| = {got}")
     return skew_part(M)
 
 
@@ -185,7 +186,7 @@ def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
     q = as_number_array(xyzw, "xyzw", 4)
     size = largest(judged(q), 1)
     if (size == 0).any():
-        raise SingularError("xyzw: the zero quaternion is no rotation" + which(size == 0))
+        raise SingularError("xyzw: the zero quaternion is no rotation" + at_first_index(size == 0))
     return quaternion_matrix(q if q.dtype == object else q / size[..., None])
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, as_number, tolerance
 from ..errors import ShapeError, SingularError
-from ._elementary import largest, length, which
+from ._elementary import at_first_index, largest, length
 from ._vector import SpatialVector, as_spatial
 from .rotation import cross_matrix, unskew
 
@@ -111,7 +111,7 @@ def vee(M: ArrayLike) -> Array:
     off = largest(M[..., 3, :].real, 1)
     wrong = off > tolerance(M.dtype) * largest(M.real, 2)
     if wrong.any():
-        raise ShapeError(f"M: expected a last row of zeros, got up to {off[wrong][0]:.3g}" + which(wrong))
+        raise ShapeError(f"M: expected a last row of zeros, got up to {off[wrong][0]:.3g}" + at_first_index(wrong))
     return np.concatenate([unskew(M[..., :3, :3]), M[..., :3, 3]], axis=-1)
 
 
@@ -181,14 +181,14 @@ def _screw(line: Array, free: Array, kind: str, noise: float) -> Screw:
     magnitude = length(along)[..., None]
     nothing = np.asarray(magnitude.real == 0)[..., 0]
     if nothing.any():
-        raise SingularError(f"screw: a zero {kind} has no axis" + which(nothing))
+        raise SingularError(f"screw: a zero {kind} has no axis" + at_first_index(nothing))
     axis = along / magnitude
     with np.errstate(over="ignore", invalid="ignore"):
         lever = np.where(without, 0, free / magnitude)
         point, pitch = np.cross(axis, lever), (axis * lever).sum(-1)
     lost = np.asarray(~np.isfinite(lever).all(-1))
     if lost.any():
-        raise SingularError(f"screw: the axis of the {kind} is further away than numbers reach" + which(lost))
+        raise SingularError(f"screw: the axis of the {kind} is further away than numbers reach" + at_first_index(lost))
     return Screw(axis, point, np.where(without[..., 0], np.inf, pitch), magnitude[..., 0])
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..algorithms.kinematics import forward_kinematics
 from ..arrays import Array
-from ..model import Model, composite_inertias, walk
+from ..model import Model, composite_inertias, tree_terms
 from ..spatial import skew
 
 __all__ = ["com_acceleration", "locked_inertia"]
@@ -34,7 +34,7 @@ def locked_inertia(model: Model, q: Array) -> Array:
 
     Of the composite inertia at the base, I_O, m c and m: I_G = I_O + m [c]× [c]×.
     """
-    composite = composite_inertias(walk(model, q))[1]
+    composite = composite_inertias(tree_terms(model, q))[1]
     mass, mc = composite[..., 3, 3], composite[..., [2, 0, 1], [4, 5, 3]]  # m [c]× is the block at the top right
     C = skew(mc / mass[..., None])
     return np.asarray(composite[..., :3, :3] + mass[..., None, None] * C @ C)

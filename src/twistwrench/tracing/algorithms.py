@@ -14,7 +14,7 @@ from ..algorithms.rnea import newton_euler, rnea_terms
 from ..algorithms.terms import AbaTerms, CrbaTerms, RneaTerms
 from ..arrays import Array
 from ..errors import ShapeError, check_known
-from ..model import Model, Tree, check_model, walk
+from ..model import Model, Tree, check_model, tree_terms
 from .ledger import Account, Row, Trace
 from .listing import Step, places
 
@@ -99,7 +99,7 @@ def trace(
     if checked.ndim != 1:
         raise ShapeError(f"{', '.join(('q', *given, *wrenches))}: expected one state, got a batch {checked.shape[:-1]}")
     run, listing, read = _ALGORITHMS[algorithm]
-    terms, tree = run(model, q, *given.values(), **wrenches), walk(model, checked)
+    terms, tree = run(model, q, *given.values(), **wrenches), tree_terms(model, checked)
     rows = tuple(read(model, tree, terms))
     return Trace(algorithm, model, getattr(terms, RESULT[algorithm]), rows, tuple(_steps(listing, model, terms, rows)))
 

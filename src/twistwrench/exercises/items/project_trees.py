@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from ...model import Model, random_tree, walk
+from ...model import Model, random_tree, tree_terms
 from ...model.tree import split
 from ..robots import robot
 
@@ -15,7 +15,7 @@ def trees(rng: np.random.Generator) -> list[tuple[Model, Any, Any, Any, Any]]:
     """Return model and lists of Go2 and of two trees with joints of every kind, each in some posture."""
     found = []
     for model in (robot("go2"), random_tree(6, rng=rng), random_tree(6, rng=rng, base="floating")):
-        tree = walk(model, model.random_configuration(rng=rng))
+        tree = tree_terms(model, model.random_configuration(rng=rng))
         found.append((model, tree.parent, [*tree.S], [*tree.I], [*tree.X]))
     return found
 

@@ -18,7 +18,7 @@ from ... import newton_euler_3d as ne
 from ...arrays import Array
 from ...errors import SingularError
 from ...model import Model
-from ...newton_euler_3d.bodies import Body, walk
+from ...newton_euler_3d.bodies import Body, bodies_in_world
 from ...newton_euler_3d.forces import virtual_power
 from ...newton_euler_3d.state import take
 from .robots import State
@@ -71,7 +71,7 @@ def truth(model: Model, s: State) -> Truth:
     """Return what is right, in as many digits as ``mpmath.mp.dps`` says."""
     exact = State(*(ne.as_mpmath(x) for x in s))
     given = take(model, q=exact.q, v=exact.v, a=exact.a)
-    bodies = walk(given)
+    bodies = bodies_in_world(given)
     tau = virtual_power(given, bodies)
     terms, own, momentum = _sizes(model, bodies, s)
     drives = np.random.default_rng(1).standard_normal(model.nv)
