@@ -350,11 +350,11 @@ FAULTS = [
     # digits
     Fault(
         "condition of M with its units",
-        "accuracy.py",
+        "error_bounds.py",
         "eigh(M / unit[..., :, None] / unit[..., None, :])",
         "eigh(M / np.trace(M, axis1=-2, axis2=-1)[..., None, None])",
     ),
-    Fault("condition for its inverse", "accuracy.py", "DIVIDED * eps / np.where(", "DIVIDED * eps * np.where("),
+    Fault("condition for its inverse", "error_bounds.py", "DIVIDED * eps / np.where(", "DIVIDED * eps * np.where("),
     Fault(
         "solve in kg and m",
         "fast/single_aba.py",

@@ -137,7 +137,7 @@ assert (M[:6, rear] != 0).any()
 # - `twistwrench validate go2` in a terminal compares every quantity with Pinocchio.
 # - `twistwrench exercises start my_answers` puts the chapter's exercises into a folder of yours, and
 #   `python -m pytest` there checks your answers.
-# - The code is meant to be read: `rnea` fits on one screen, in `inverse_dynamics.py`.
+# - The code is meant to be read: `rnea` fits on one screen, in `algorithms/rnea.py`.
 # %% [markdown] lang="zh"
 # ## 接下来去哪里
 #
@@ -145,4 +145,4 @@ assert (M[:6, rear] != 0).any()
 # - `help(tw.rnea)` 给出形状、单位和坐标系;每个函数都有例子。
 # - 在终端运行 `twistwrench validate go2`,把每个量与 Pinocchio 逐一比较。
 # - `twistwrench exercises start my_answers` 把本章练习放进你自己的文件夹,在那里运行 `python -m pytest` 就能检查答案。
-# - 代码是写来读的:`rnea` 一屏就能看完,在 `inverse_dynamics.py` 里。
+# - 代码是写来读的:`rnea` 一屏就能看完,在 `algorithms/rnea.py` 里。

@@ -1,7 +1,6 @@
 """The public names, and the file that holds each; a file is loaded when the first of its names is used."""
 
 from . import bridge, exercises, fast, motions, newton_euler_3d, plot, templates
-from .accuracy import Accuracy, accuracy
 from .algorithms.aba import aba, aba_terms
 from .algorithms.centroidal import (
     center_of_mass,
@@ -36,6 +35,7 @@ from .contact import (
     project_state,
     stance_margins,
 )
+from .error_bounds import Accuracy, accuracy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
 from .model.builder import Builder
 from .model.joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical

@@ -8,7 +8,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.arrays import convert, elementary, exact_unit
-from twistwrench.spatial.rotation import exact_rotation
+from twistwrench.spatial.rotation import exact_rotation, quaternion_to_rotation
 
 TWO = tw.chain(2)
 QUARTER = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
@@ -65,7 +65,7 @@ def test_checks_look_at_what_has_a_value():
     with pytest.raises(tw.ModelError, match=r"mass: expected no negative mass, got -0\.5 kg"):
         tw.SpatialInertia(F(-1, 2), [0, 0, 0], np.eye(3))
     with pytest.raises(tw.SingularError, match="zero quaternion"):
-        tw.rotation.quaternion_to_rotation([F(0)] * 4)
+        quaternion_to_rotation([F(0)] * 4)
 
 
 # ---------------------------------------------------------------- the algorithms

@@ -50,14 +50,10 @@ PHYSICS_AND_ORACLES = [
     "algorithms/test_terms.py",
 ]
 TESTED_BY = {
-    "inverse_dynamics": "rnea",
-    "forward_dynamics": "aba",
-    "mass_matrix": "crba",
     "formulas": "terms",
     "tree": "kinematics",
-    "joint_types": "joint",
     "joints": "joint",
-    "digits": "accuracy",
+    "error_bounds": "accuracy",
     "fast": "extremes",
 }
 """Files and folders of the source whose tests go by another name."""
@@ -131,11 +127,8 @@ def test_a_fault_meets_the_tests_of_its_own_file_first(file):
 @pytest.mark.parametrize(
     ("file", "tests"),
     [
-        ("inverse_dynamics.py", "test_rnea"),
         ("algorithms/rnea.py", "test_rnea"),
-        ("forward_dynamics.py", "test_aba"),
         ("algorithms/aba.py", "test_aba"),
-        ("mass_matrix.py", "test_crba"),
         ("algorithms/crba.py", "test_crba"),
         ("algorithms/centroidal.py", "test_centroidal"),
         ("contact/impacts.py", "test_contact_"),

@@ -14,8 +14,8 @@ TEXT = {p.relative_to(SOURCE).as_posix(): p.read_text(encoding="utf-8") for p in
 TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
-    *("errors", "arrays", "newton_euler_3d", "spatial", "model", "algorithms"),
-    *("fast", "accuracy", "tracing", "robots", "plot"),
+    *("errors", "tables", "arrays", "newton_euler_3d", "spatial", "model", "algorithms"),
+    *("fast", "error_bounds", "tracing", "robots", "plot"),
     *("files", "stopping", "options", "timing", "contact", "simulation", "motions", "templates", "scene"),
     *("bridge", "viewing", "__init__", "validate", "study", "exercises", "cli", "__main__"),
 ]

@@ -70,7 +70,7 @@ def test_the_command_has_a_row_for_every_quantity_of_a_robot_with_feet(monkeypat
     assert all(len(rows[meaning]) > 3 for meaning in QUANTITIES.values())
     assert err == ""
     assert main(["study", "speed", "pendulum", "--base", "floating"]) == 2
-    assert "joint 'root_joint': with the joints behind it free it feels no inertia" in capsys.readouterr().err
+    assert "joint 'root_joint': with its outboard joints free it moves no inertia" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["README.md", "README.zh-CN.md"])

@@ -165,7 +165,8 @@ def friction_inverse_dynamics(
     """
     task = Task.of(model, q, v, a, contacts, f_ext)
     if task.least.ndim != 1:
-        raise ShapeError(f"q, v, a, f_ext: expected one state, got a batch of shape {task.least.shape[:-1]}")
+        asked = "q, v, a" if f_ext is None else "q, v, a, f_ext"
+        raise ShapeError(f"{asked}: expected one state, got a batch of shape {task.least.shape[:-1]}")
     A, names = limits(task.contacts, sides, pyramid)
     free = task.free
     found = least_within(A @ free, -A @ task.least, task.size)

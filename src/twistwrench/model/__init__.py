@@ -32,7 +32,7 @@ from .link import UNLIMITED, WORLD, Link
 from .model import PER_DOF, Frame, Model
 from .numbering import NumberedTree
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
-from .report import Entry, Report, html_table, text_table
+from .report import Entry, Report
 from .samples import KINDS, chain, random_tree
 from .state import check_arrays, checked_state
 from .tree import Tree, columns, composite_inertias, joint_placements, stacked, tree_terms, wrenches
@@ -72,7 +72,6 @@ __all__ = [
     "columns",
     "composite_inertias",
     "floats_of",
-    "html_table",
     "idle_joints",
     "in_double",
     "joint_placements",
@@ -84,7 +83,6 @@ __all__ = [
     "readonly",
     "same_side",
     "stacked",
-    "text_table",
     "tree_terms",
     "turn",
     "unit",

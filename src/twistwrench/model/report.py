@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 
-__all__ = ["Entry", "Report", "html_table", "text_table"]
+from ..tables import html_table, text_table
+
+__all__ = ["Entry", "Report"]
 
 
 @dataclass(frozen=True)
@@ -77,19 +78,3 @@ def _places(entries: Sequence[Entry], shown: int = 4) -> str:
     lines = ["" if e.line is None else f"line {e.line}: " for e in entries]
     places = [f"{e.where} ({line}{e.found})" for e, line in zip(entries[:shown], lines)]
     return ", ".join(places) + (f" and {len(entries) - shown} more" if len(entries) > shown else "")
-
-
-def text_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table as text, its columns under each other."""
-    lines = [head, *rows]
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in lines)
-
-
-def html_table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table as HTML."""
-
-    def row(cells: Iterable[str], tag: str) -> str:
-        return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
-
-    return f"<table>{row(head, 'th')}{''.join(row(cells, 'td') for cells in rows)}</table>"

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..errors import ModelError, NameNotFound, unknown_name
-from ..model import html_table, text_table
+from ..tables import html_table, text_table
 from .stances import STANCES, Stance
 from .table import EXAMPLE_ROBOT_DATA, MODELS, Row
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...accuracy import accuracy
+from ...error_bounds import accuracy
 from ...errors import ModelError
 from .candidates import ALGORITHMS, Candidate, candidates
 from .robots import Recipe
