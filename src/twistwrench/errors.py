@@ -1,7 +1,7 @@
-"""What can be wrong, and how it is said.
+"""The errors of the package, and the wording of their messages.
 
 Every error of the package is a `ValueError`, so that code which catches those keeps working.
-Each message names the argument, joint, link or frame, what was expected and what came.
+Each message names the argument, joint, link or frame, what was expected and what was got.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ class ModelError(ValueError):
 
 
 class ShapeError(ValueError):
-    """An array of the wrong shape. The message says what was expected, what came, and which argument."""
+    """An array of the wrong shape. The message names the argument, what was expected and what was got."""
 
 
 class SingularError(ValueError):
-    """A quantity that does not exist here. The message says what is singular, and where."""
+    """A quantity that does not exist here. The message names what is singular, and where."""
 
 
 class FrameError(ValueError):
@@ -36,7 +36,7 @@ def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "")
     kind : str
         What the name should have named, for example ``"frame"``.
     name : object
-        What came, a string if it is a name at all.
+        The value that was given, a string if it is a name at all.
     known : iterable of str
         The names that exist.
     where : str
@@ -70,7 +70,7 @@ def unknown_name(kind: str, name: object, known: Iterable[str], where: str = "")
 
 
 def check_known(kind: str, name: object, known: Collection[str], where: str = "") -> None:
-    """Refuse what is none of the known names: see `unknown_name`.
+    """Raise NameNotFound unless the name is known: see `unknown_name`.
 
     Examples
     --------
@@ -83,16 +83,16 @@ def check_known(kind: str, name: object, known: Collection[str], where: str = ""
 
 
 def no_model(value: object, what: str = "model", expected: str = "a Model") -> TypeError:
-    """Make the error for what came in the place of a model, with the way from it to one.
+    """Make the error for a value that is not a model, with a hint how to get one from it.
 
     Parameters
     ----------
     value : object
-        What came.
+        The value that was given.
     what : str
         The name of the argument.
     expected : str
-        All that it could have been.
+        Everything that is accepted there.
 
     Returns
     -------
@@ -107,22 +107,22 @@ def no_model(value: object, what: str = "model", expected: str = "a Model") -> T
     """
     kind = type(value)
     package, hint = kind.__module__.partition(".")[0], ""
-    came = f"the {kind.__name__}" if package in ("builtins", "twistwrench") else f"{package}'s {kind.__name__}"
+    got = f"the {kind.__name__}" if package in ("builtins", "twistwrench") else f"{package}'s {kind.__name__}"
     if value is None or isinstance(value, type):
-        came = "None" if value is None else f"the class {value.__name__}"
+        got = "None" if value is None else f"the class {value.__name__}"
     elif isinstance(value, str | PathLike):
-        came, hint = f"the {kind.__name__} {str(value)!r}", f"; did you mean tw.load({str(value)!r})?"
+        got, hint = f"the {kind.__name__} {str(value)!r}", f"; did you mean tw.load({str(value)!r})?"
     elif (package, kind.__name__) == ("pinocchio", "Model"):
         hint = "; tw.bridge.from_pinocchio_model makes one of it"
     elif package == "twistwrench" and hasattr(value, "full") and hasattr(value, "laws"):
-        hint = ", whose joints follow others, which this function does not know; its .full has them free"
+        hint = "; this function does not support joints that follow others; its .full has them free"
     elif package == "twistwrench" and hasattr(value, "model"):
         hint = "; did you mean its .model?"
-    return TypeError(f"{what}: expected {expected}, got {came}{hint}")
+    return TypeError(f"{what}: expected {expected}, got {got}{hint}")
 
 
 def _typed(value: object) -> str:
-    """Return the type and the value, once where the value says its type itself."""
+    """Return the type and the value, the type once where the value's text already names it."""
     kind, text = type(value).__name__, repr(value)
     return text if text.startswith(kind) else f"{kind} {text}"
 

@@ -277,7 +277,7 @@ def test_the_room_for_a_skew_matrix_ends_at_the_square_root_of_the_resolution():
 
 
 def test_the_zero_quaternion_is_refused_with_its_place_in_the_batch():
-    with pytest.raises(SingularError, match=r"zero quaternion is no rotation at index \(1,\)"):
+    with pytest.raises(SingularError, match=r"zero quaternion is not a rotation at index \(1,\)"):
         quaternion_to_rotation([[0, 0, 0, 1], [0, 0, 0, 0]])
 
 

@@ -1,4 +1,4 @@
-"""What an argument must be: arrays of numbers, numbers, names and kinds of things.
+"""Input validation: arrays of numbers, single numbers, names and kinds of values.
 
 Each file imports only from those above it in this table.
 
@@ -6,7 +6,7 @@ Each file imports only from those above it in this table.
 file            what it checks
 ==============  ======================================================================================
 exact           arrays of objects that are numbers: fractions, SymPy's expressions
-kinds           what is not an array: flags, sequences, one of a few words
+kinds           arguments that are not arrays: flags, sequences, one of a few words
 conversion      arguments become finite arrays of one number type
 bounds          real numbers, finite numbers, numbers whose products cannot overflow
 ==============  ======================================================================================

@@ -1,4 +1,4 @@
-"""Numbers in bounds: real and finite what is drawn and what a motion is made of, not huge what is multiplied."""
+"""Numbers in bounds: real and finite ones for drawings and motions, and no products that overflow."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def as_real(value: ArrayLike, name: str, *tail: int) -> Array:
 
 
 def check_size(x: Array, name: str) -> None:
-    """Refuse numbers that could make m (p × ω)² overflow.
+    """Raise ValueError for numbers that could make m (p × ω)² overflow.
 
     With lengths p below the fourth root of the largest number, and rates and forces below its fifth,
     a tenth of the exponents is left for m.

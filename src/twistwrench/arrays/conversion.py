@@ -1,8 +1,8 @@
-"""The checks at the door, so that the algorithms behind it need none.
+"""Input validation at the public functions, so that the formulas they call need no checks.
 
 Every public function of the algebra takes its arrays through `as_array`; every algorithm takes
-its state through `Model.state`, which calls `as_arrays`. What comes out is finite, of a known
-last shape, and of one floating-point type.
+its state through `Model.state`, which calls `as_arrays`. The result is finite, of known
+last axes, and of one floating-point type.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ __all__ = [
 Array = NDArray[Any]
 
 WIDENED = 16 * 2.0**-52
-"""What rounding may leave of a condition on doubles: entries of rotations, norms of quaternions."""
+"""By how much rounding may break a condition on doubles: entries of rotations, norms of quaternions."""
 
 
 def resolution(dtype: np.dtype[Any] | type) -> float:
@@ -55,7 +55,7 @@ def tolerance(dtype: np.dtype[Any] | type) -> float:
     """By how much an argument may miss a condition that rounding breaks: the root of the resolution.
 
     Never less than what rounding leaves of a double: in a long double of 113 bits the root of the resolution is
-    below that, and what was widened from doubles is right all the same.
+    below that, and numbers widened from doubles are valid all the same.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def tolerance(dtype: np.dtype[Any] | type) -> float:
 def as_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
     """Convert several arguments to arrays of one floating-point type and check each.
 
-    float32, float64, longdouble and their complex twins are kept, the widest of those that came
+    float32, float64, longdouble and their complex twins are kept, the widest of those given
     wins; integers do not count (alone, they become float64).
 
     Parameters
@@ -124,7 +124,7 @@ def as_number_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array,
     """
     try:
         arrays = {name: np.asarray(value) for name, (value, _) in named.items()}
-    except ValueError:  # rows of different lengths: as_arrays says so
+    except ValueError:  # rows of different lengths: as_arrays raises for them
         return as_arrays(**named)
     if not any(has_objects(x) for x in arrays.values()):
         return as_arrays(**named)
@@ -222,7 +222,7 @@ def as_number(value: object, name: str) -> float:
 
 
 def as_count(value: object, name: str, least: int) -> int:
-    """Return a whole number that is not below `least`; what is beyond 2**53 is a slip, and no count.
+    """Return a whole number of at least `least`; one above 2**53 is a slip, not a count.
 
     Examples
     --------
@@ -253,7 +253,7 @@ def as_generator(rng: np.random.Generator | int | None) -> np.random.Generator:
 
 
 def as_names(value: Iterable[str], name: str, expected: str, *, ordered: bool = False) -> tuple[str, ...]:
-    """Return several names as a tuple; refuse a string, which is a sequence of letters, and where order counts a set.
+    """Return several names as a tuple; reject a string, which is a sequence of letters, and where order counts a set.
 
     Examples
     --------
@@ -265,7 +265,7 @@ def as_names(value: Iterable[str], name: str, expected: str, *, ordered: bool = 
 
 
 def _numeric(value: ArrayLike, name: str) -> Array:
-    """Turn `value` into an array of numbers, or say why it is none."""
+    """Turn `value` into an array of numbers, or raise ValueError with the reason why it is not one."""
     try:
         x = np.asarray(value)
     except ValueError:
@@ -280,7 +280,7 @@ def _numeric(value: ArrayLike, name: str) -> Array:
 
 
 def _what(x: Array) -> str:
-    """Say what an array of no floating-point type holds."""
+    """Describe what an array that is not of a floating-point type holds."""
     if x.dtype != object:
         return f"an array of {x.dtype}"
     if not has_objects(x):

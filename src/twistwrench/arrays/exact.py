@@ -1,6 +1,6 @@
 """Arrays of numbers that are objects: fractions, SymPy's expressions, numbers that record what is done to them.
 
-A formula of this package is arithmetic, so it takes them as they are. What they need is settled here, before it:
+A formula of this package is arithmetic, so it takes them as they are. What they need is settled here beforehand:
 which objects are numbers, what a float becomes beside them, and their cosine, sine and square root. Nothing here
 compares a number or turns it into a float, unless its type is registered as one of Python's `numbers`.
 """
@@ -19,7 +19,7 @@ from numpy.typing import DTypeLike, NDArray
 __all__ = ["convert", "elementary", "exact_numbers", "exact_unit", "has_objects", "judged"]
 
 ARITHMETIC = ("__radd__", "__rsub__", "__rmul__", "__rtruediv__", "__neg__")
-"""What a type must define to count as one of numbers."""
+"""What a type must define to count as a type of numbers."""
 
 
 def has_objects(x: NDArray[Any]) -> bool:
@@ -76,7 +76,7 @@ def convert(x: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
 
 
 def judged(x: NDArray[Any]) -> NDArray[Any]:
-    """Return what a check can look at: real parts; of objects, doubles, and NaN where the value is not known.
+    """Return values that a check can compare: real parts; of objects, doubles, and NaN where the value is not known.
 
     Examples
     --------
@@ -153,7 +153,7 @@ def _exact(x: Any) -> Any:
 
 
 def _why_not(x: Any) -> str:
-    """Return what was expected in the place of x, and nothing where x is a number."""
+    """Return what was expected in the place of x, or an empty string where x is a number."""
     if type(x).__module__.startswith("mpmath"):
         return "numbers of another kind (for mpmath numbers use twistwrench.newton_euler_3d)"
     if isinstance(x, bool | np.ndarray) or not all(hasattr(type(x), operation) for operation in ARITHMETIC):

@@ -1,4 +1,4 @@
-"""What kind of thing an argument must be, where it is no array: said where it comes in, not where it is first used."""
+"""Validation of arguments that are not arrays, where they are given and not where they are first used."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["as_flag", "as_sequence", "check_choice", "check_kind"]
 
 
 def check_kind(value: object, name: str, kind: type, expected: str) -> None:
-    """Refuse a value of another kind.
+    """Raise TypeError for a value of another kind.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def check_kind(value: object, name: str, kind: type, expected: str) -> None:
 
 
 def check_choice(value: object, name: str, choices: tuple[str, ...], error: type[ValueError] = ValueError) -> None:
-    """Refuse what is none of a few words.
+    """Raise ValueError unless the value is one of a few words.
 
     Examples
     --------
@@ -55,9 +55,9 @@ def as_flag(value: object, name: str) -> bool:
 def as_sequence(
     value: Iterable[Any], name: str, expected: str, *, letters: bool = True, ordered: bool = False
 ) -> tuple[Any, ...]:
-    """Return several things as a tuple; refuse one of them alone, and unless single letters will do a string.
+    """Return several values as a tuple; reject a single one, and a string unless single letters will do.
 
-    Where their order counts (`ordered`), refuse a set as well: it has none.
+    Where their order counts (`ordered`), reject a set as well: it has no order.
 
     Examples
     --------

@@ -6,7 +6,7 @@ Each file imports only from those above it in this table.
 file            section  what it holds
 ==============  =======  ==============================================================================
 _elementary              functions of one number that lose no digits
-orthonormal     49.2     `nearest_rotation`, and what is refused as one
+orthonormal     49.2     `nearest_rotation`, and the test whether a matrix is a rotation
 rotation        49.2     `skew` [ω]×, `exp3`, `log3`; quaternions, roll, pitch and yaw
 _physical       49.5     which inertias a body can have
 _vector                  what twists and wrenches share
@@ -16,7 +16,7 @@ exponential     49.3     `exp6`, `log6`
 wrench          49.4     `Wrench`, `power`
 cross           49.5     `cross_motion` V×, `cross_force` V×*
 inertia         49.5     `SpatialInertia` Î
-formulas                 what the recursions use of all this: V×, V×*, V ×* Î V on columns, without checks
+formulas                 the recursions' own V×, V×*, V ×* Î V: on columns, without checks
 ==============  =======  ==============================================================================
 """
 

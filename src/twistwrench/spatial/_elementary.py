@@ -1,7 +1,7 @@
 """Functions of one number that the rotations need, each good to the last few bits everywhere.
 
 All are analytic: a complex argument gives the complex value, so that a complex step differentiates
-what is built on them. Only the real part decides which formula is used.
+what is built on them. The real part alone decides which formula is used.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def sinc(x: Array) -> Array:
 def sine_defect_root(x: Array) -> Array:
     """Return √((x − sin x)/x³), which is √⅙ at 0: its series below 1, where the difference would cancel.
 
-    The root, about 1/x, since the quotient itself is lost where x³ is beyond the largest number.
+    The root, about 1/x, since the quotient itself is lost where x³ overflows.
     """
     small = np.abs(x.real) < 1
     near, far = np.where(small, x, 0), np.where(small, 1, x)
@@ -96,7 +96,7 @@ def atan2(s: Array, c: Array) -> Array:
     """Return the angle of the point (c, s).
 
     NumPy has no complex arctan2. Here the value comes from the real parts, and the imaginary part is the
-    first-order change (c ds − s dc)/(c² + s²), which is all that a complex step asks for.
+    first-order change (c ds − s dc)/(c² + s²), which is all that a complex step needs.
     """
     if s.dtype.kind != "c":
         return np.asarray(np.arctan2(s, c))
@@ -110,5 +110,5 @@ def largest(x: Array, axes: int) -> Array:
 
 
 def at_first_index(wrong: Array) -> str:
-    """Say which item of a batch is wrong, and nothing where there is only one."""
+    """Return which item of a batch is wrong, or an empty string where there is only one."""
     return f" at index {tuple(int(k) for k in np.argwhere(wrong)[0])}" if wrong.ndim else ""

@@ -10,7 +10,7 @@ from ._elementary import at_first_index, largest
 
 __all__ = ["check_not_negative", "check_numbers", "check_physical"]
 
-# Relative room for rounding: a thin rod (0, I, I) and a thin plate (I, I, 2I) lie on the edge, and pass.
+# Relative room for rounding: a thin rod (0, I, I) and a thin plate (I, I, 2I) are limits, and pass.
 ROOM = 1e-9
 
 

@@ -1,4 +1,4 @@
-"""What the thin types Twist and Wrench have in common, so that each says only where it differs."""
+"""What the thin types Twist and Wrench have in common, so that each defines only where it differs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["SpatialVector", "aligned", "as_spatial", "common_frame", "latex_matr
 LATEX = str.maketrans(
     {c: f"\\{c}" for c in "_#%&${} "} | {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", "\n": r"\ "}
 )
-"""How a name is written in a formula: what LaTeX would take for a command of its own is shown as it is."""
+"""Escapes of the characters that LaTeX would take for commands: a name is printed as it is."""
 
 
 class SpatialVector:
@@ -28,8 +28,8 @@ class SpatialVector:
 
     def __init__(self, vector: ArrayLike, *others: ArrayLike, frame: str | None = None) -> None:
         if others:
-            came = f"{type(self).__name__}: expected one array of shape (..., 6), got {1 + len(others)}"
-            raise TypeError(f"{came}; np.concatenate([angular, linear], axis=-1) makes one of two halves")
+            got = f"{type(self).__name__}: expected one array of shape (..., 6), got {1 + len(others)}"
+            raise TypeError(f"{got}; np.concatenate([angular, linear], axis=-1) makes one of two halves")
         if isinstance(vector, SpatialVector):
             mine, theirs = type(self).__name__, type(vector).__name__
             raise TypeError(f"{mine}({theirs}): expected six numbers; those of the {theirs} are its .vector")
@@ -147,7 +147,7 @@ class SpatialVector:
 
 
 def common_frame(a: SpatialVector, sign: str, b: SpatialVector) -> str | None:
-    """Return the frame of both sides of an expression, or say why they do not go together."""
+    """Return the frame of both sides of an expression, or raise where they cannot be combined."""
     if type(a) is not type(b) and sign in "+-":
         raise TypeError(
             f"{type(a).__name__} {sign} {type(b).__name__}: twists and wrenches live in dual spaces and do not add; "
@@ -171,7 +171,7 @@ def as_spatial(value: ArrayLike, name: Literal["V", "F"]) -> Array:
 
 
 def aligned(before: str, x: Array) -> str:
-    """Return an array with all its digits behind what stands before it, row below row."""
+    """Return an array with all its digits after a label, row below row."""
     return before + np.array2string(x, separator=", ", floatmode="unique", prefix=before, max_line_width=100)
 
 

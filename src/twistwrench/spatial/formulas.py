@@ -1,6 +1,6 @@
 """The formulas that the recursions share: arithmetic on columns and matrices, of any kind of number.
 
-Nothing is checked here and no value is looked at: + − × ÷ are all that is asked of a number. A twist is a column,
+Nothing is checked or compared here: + − × ÷ are all that a number must offer. A twist is a column,
 shape (..., 6, 1), so that a product reads as in the chapter: ``X @ V``.
 """
 
@@ -29,7 +29,7 @@ def bias_wrench(I: Array, V: Array) -> Array:
     """Return V ×* I V, the wrench that keeps up a twist (49.5), without the term v × m v, which is zero.
 
     With v = 0 it is ω × each half of I (ω, 0); v adds I (0, ω × v), as if the body's origin were accelerated by ω × v.
-    In V ×* (I V), taken at its word, v × m v is left as rounding of m v², however slowly the body turns.
+    In V ×* (I V) as written, v × m v leaves rounding of m v², however slowly the body turns.
     """
     w = cross_matrix(V[..., :3, 0])
     h = I[..., :, :3] @ V[..., :3, :]  # momentum of the turning alone

@@ -77,13 +77,13 @@ class SpatialInertia:
 
     @classmethod
     def _trusted(cls, mass: Array, com: Array, inertia_at_com: Array) -> SpatialInertia:
-        """Make an inertia from arrays known to be right, without checks: they become read-only."""
+        """Make an inertia from valid arrays, without checks: they become read-only."""
         (body := object.__new__(cls))._set(np.asarray(mass), com, inertia_at_com)
         return body
 
     @classmethod
     def zero(cls) -> SpatialInertia:
-        """Return the inertia of nothing, which changes no sum.
+        """Return the zero inertia, which changes no sum.
 
         Examples
         --------
@@ -96,7 +96,7 @@ class SpatialInertia:
     def from_matrix(cls, I6: ArrayLike) -> SpatialInertia:
         """Recover the ten numbers from the 6 × 6 matrix: the inverse of `matrix`.
 
-        Far from the origin the matrix hides I_c behind m[c]×², and what rounding took there is lost.
+        Far from the origin m[c]×² drowns I_c in the matrix, and the digits that rounding took are lost.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class SpatialInertia:
         Raises
         ------
         TypeError
-            If `T` is no SE3.
+            If `T` is not an SE3.
 
         Examples
         --------
@@ -187,7 +187,7 @@ class SpatialInertia:
         m1, m2, m = self.mass, other.mass, self.mass + other.mass
         nonzero = np.where(m == 0, 1, m)
         com = (m1 / nonzero)[..., None] * self.com + (m2 / nonzero)[..., None] * other.com
-        # Parallel axes from each centre of mass to the common one come to m₁m₂/m times the square of their distance.
+        # Parallel axes from each centre of mass to the common one add up to m₁m₂/m times the square of their distance.
         D, reduced = cross_matrix(other.com - self.com), (m1 * m2 / nonzero)[..., None, None]
         return SpatialInertia._trusted(m, com, self.inertia_at_com + other.inertia_at_com - reduced * (D @ D))
 
@@ -273,7 +273,7 @@ class SpatialInertia:
         """Raise ModelError unless a body with this inertia can exist.
 
         The mass is positive; no principal moment is negative; the largest is at most the sum of the other two. Each to
-        a relative 1e-9: point masses, thin rods and plates lie on the edge, and pass.
+        a relative 1e-9: point masses, thin rods and plates are limits, and pass.
 
         Parameters
         ----------

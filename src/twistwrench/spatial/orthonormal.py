@@ -1,4 +1,4 @@
-"""Whether a matrix is a rotation, and the rotation nearest to one that is so but for rounding (section 49.2)."""
+"""Whether a matrix is a rotation, and the rotation nearest to one that has lost digits (section 49.2)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NEAR = 0.1
 
 
 def nearest_rotation(R: ArrayLike) -> Array:
-    """Rotation nearest to a matrix that is one but for rounding (section 49.2).
+    """Rotation nearest to a matrix that is a rotation but for rounding (section 49.2).
 
     Newton's step R ← R (3 − RᵀR)/2 doubles the number of digits to which RᵀR is 1; it is repeated until rounding
     leaves nothing to gain. The limit is the orthogonal factor of the polar decomposition, which of all rotations
@@ -40,7 +40,7 @@ def nearest_rotation(R: ArrayLike) -> Array:
     Examples
     --------
     >>> from twistwrench.spatial.rotation import exp3
-    >>> R = exp3([0.3, -0.2, 0.1]).round(7)  # SE3 and log3 refuse it
+    >>> R = exp3([0.3, -0.2, 0.1]).round(7)  # SE3 and log3 reject it
     >>> R = nearest_rotation(R)
     >>> bool(abs(R.T @ R - np.eye(3)).max() < 1e-15)
     True
@@ -60,7 +60,7 @@ def nearest_rotation(R: ArrayLike) -> Array:
 def check_rotation(R: Array, name: str) -> None:
     """Raise ShapeError unless RᵀR = 1 and det R = 1, to the square root of the resolution."""
     off = largest(_defect(R), 2)
-    known = ~np.isnan(judged(R)).any((-2, -1))  # there is nothing to look at in a symbol
+    known = ~np.isnan(judged(R)).any((-2, -1))  # a symbol has no value to check
     mend = f"; nearest_rotation({name}) repairs it" if (off <= NEAR).all() and not _reflects(R).any() else ""
     _refuse(R, ~(off <= tolerance(R.dtype)) & known, off, f"{name}: expected a rotation matrix", mend)
 

@@ -51,7 +51,7 @@ def motion_transform(R: ArrayLike, p: ArrayLike | None = None) -> Array:
 
 
 def _placed(R: ArrayLike, p: ArrayLike | None, name: str) -> SE3:
-    """Return the placement; of an SE3 in the place of R say which method is meant."""
+    """Return the placement; for an SE3 in the place of R, raise with the method that is meant."""
     if isinstance(R, SE3) or p is None:
         hint = f"; did you mean T.{name}()?" if isinstance(R, SE3) else ""
         raise TypeError(f"R, p: expected a rotation matrix and a point, got {type(R).__name__} and {p!r}{hint}")
@@ -137,7 +137,7 @@ class SE3:
 
     @classmethod
     def _trusted(cls, rotation: Array, translation: Array) -> SE3:
-        """Make a placement from arrays known to be right, without checks: they become read-only."""
+        """Make a placement from valid arrays, without checks: they become read-only."""
         T = object.__new__(cls)
         T._set(rotation, translation)
         return T
@@ -169,7 +169,7 @@ class SE3:
         Raises
         ------
         ShapeError
-            If the shape is wrong, the last row is not (0, 0, 0, 1), or the rotation is none.
+            If the shape is wrong, the last row is not (0, 0, 0, 1), or the rotation block is not a rotation matrix.
 
         Examples
         --------

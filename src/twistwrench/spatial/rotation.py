@@ -4,9 +4,9 @@ Nothing here has a small-angle threshold. Every coefficient is written so that n
 and only an angle that is exactly zero is a case of its own. Complex arguments pass through
 analytically, so that a complex step differentiates every function of this file.
 
-The public functions check their arguments. Behind each stands its formula, named after the matrix that it
+The public functions check their arguments and call a formula each, named after the matrix that it
 returns (`cross_matrix`, `quaternion_matrix`, `rpy_matrix`): arithmetic on arrays of any number type, objects
-included, that looks at no value. The recursions call the formulas only.
+included, without comparisons. The recursions call the formulas only.
 """
 
 from __future__ import annotations
@@ -186,7 +186,7 @@ def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
     q = as_number_array(xyzw, "xyzw", 4)
     size = largest(judged(q), 1)
     if (size == 0).any():
-        raise SingularError("xyzw: the zero quaternion is no rotation" + at_first_index(size == 0))
+        raise SingularError("xyzw: the zero quaternion is not a rotation" + at_first_index(size == 0))
     return quaternion_matrix(q if q.dtype == object else q / size[..., None])
 
 
@@ -273,7 +273,7 @@ def quaternion_matrix(q: Array) -> Array:
 
 
 def exact_rotation(R: Array) -> Array:
-    """Return fractions that are a rotation exactly, and within a rounding of this one of doubles, shape (3, 3)."""
+    """Return an exact rotation of fractions, within a rounding of this one of doubles, shape (3, 3)."""
     whole = R.round()
     if np.abs(R - whole).max() < 1e-15:  # along the axes
         return convert(whole, object)

@@ -25,7 +25,7 @@ class Placement(Protocol):
 
 
 def check_placement(T: object) -> None:
-    """Refuse what is no placement, and say how a matrix becomes one."""
+    """Raise TypeError for what is not a placement; the message shows how to make one of a matrix."""
     if not hasattr(T, "motion_transform"):
         raise TypeError(f"T: expected an SE3, got {type(T).__name__}; SE3.from_matrix makes one of a 4 × 4 matrix")
 
@@ -119,8 +119,8 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     """Axis, point, pitch and magnitude of a twist or a wrench (sections 49.2 and 49.4).
 
     Of a twist: axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|², magnitude |ω|. Without rotation the axis is v/|v|, the
-    pitch infinite and the magnitude |v|; every parallel line would do, and the point is the origin.
-    Of a wrench the same, with f for ω and τ for v. The point is only as sure as v divided by |ω|: an error of
+    pitch infinite and the magnitude |v|; every parallel line would do, so the point is the origin.
+    Of a wrench the same, with f for ω and τ for v. The point is only as certain as v divided by |ω|: an error of
     1e-16 m/s in v moves the axis of a twist with 1e-8 rad/s by 1e-8 m.
 
     Parameters
@@ -128,10 +128,10 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     x : Twist, Wrench or array_like of shape (..., 6)
         (ω, v), rad/s and m/s, or (τ, f), N m and N.
     of : {"twist", "wrench"}, optional
-        What a plain array is; a twist where it is not said. A Twist or a Wrench knows.
+        What a plain array is; a twist by default. A Twist or a Wrench needs no `of`.
     noise : float
-        By how much ω may be wrong, rad/s, or f, N. Where it is no longer than that, there is none: what is left is a
-        translation or a couple, and the infinite pitch says so. ω that came out of sums of terms of 1 rad/s is
+        By how much ω may be wrong, rad/s, or f, N. Where it is no longer than that, it is taken as zero: a
+        translation or a couple is left, of infinite pitch. ω computed from sums of terms of 1 rad/s is
         wrong by some 1e-16.
 
     Returns
@@ -188,7 +188,9 @@ def _screw(line: Array, free: Array, kind: str, noise: float) -> Screw:
         point, pitch = np.cross(axis, lever), (axis * lever).sum(-1)
     lost = np.asarray(~np.isfinite(lever).all(-1))
     if lost.any():
-        raise SingularError(f"screw: the axis of the {kind} is further away than numbers reach" + at_first_index(lost))
+        raise SingularError(
+            f"screw: the axis of the {kind} is too far away for floating-point numbers" + at_first_index(lost)
+        )
     return Screw(axis, point, np.where(without[..., 0], np.inf, pitch), magnitude[..., 0])
 
 
@@ -207,7 +209,7 @@ class Twist(SpatialVector):
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If two halves came in the place of one array.
+        If the angular and linear parts were passed as two arguments.
 
     Examples
     --------
@@ -235,7 +237,7 @@ class Twist(SpatialVector):
         Raises
         ------
         TypeError
-            If `T` is no SE3.
+            If `T` is not an SE3.
 
         Examples
         --------

@@ -64,7 +64,7 @@ class Wrench(SpatialVector):
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If two halves came in the place of one array.
+        If the angular and linear parts were passed as two arguments.
 
     Examples
     --------
@@ -102,7 +102,7 @@ class Wrench(SpatialVector):
         Raises
         ------
         TypeError
-            If `T` is no SE3.
+            If `T` is not an SE3.
 
         Examples
         --------
