@@ -7,8 +7,6 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..model import Model, Tree, check_state, columns, tree_terms
-from ..spatial.formulas import cross_force, cross_motion
-from ..spatial.plucker import blocks
 from ..spatial.rotation import cross_matrix
 from ._mimic import also_of_mimics
 
@@ -16,21 +14,50 @@ __all__ = ["christoffel", "coriolis_matrix"]
 
 
 def christoffel(tree: Tree, qd: list[Array]) -> Array:
-    """Add up C = Σ Jᵢᵀ (Iᵢ J̇ᵢ + Bᵢ Jᵢ); J[i] has the columns of the joints on the way to the base, and no others."""
+    """Add up C = Σ Jᵢᵀ (Iᵢ J̇ᵢ + Bᵢ Jᵢ); J[i] has the columns of the joints on the way to the base, and no others.
+
+    Both terms hold Iᵢ (0, v × Jω) for the velocity v of the body's origin, with opposite signs. It is left out of both:
+    dJ[i] is J̇ᵢ − (0, v × Jω), and of Bᵢ there is what acts on the angular rows. So v is never asked for, but only by
+    how much it grows from body to body, and no rounding of m v² is left in C v.
+    """
     parent, S, I, X, end = tree.parent, tree.S, tree.I, tree.X, np.cumsum(tree.nv)
-    V, J, dJ = tree.zeros(3)
-    J[0] = dJ[0] = V[0][..., :0]
+    omega, J, dJ = tree.zeros(3)
+    J[0] = dJ[0] = omega[0][..., :0]
+    omega[0] = omega[0][..., :3, :]
     dofs = [np.arange(0)] * len(parent)
-    C = np.zeros((*tree.batch, end[-1], end[-1]), V[0].dtype)
+    C = np.zeros((*tree.batch, end[-1], end[-1]), omega[0].dtype)
     for i in tree.outward:
         p, own = parent[i], np.broadcast_to(S[i], (*tree.batch, *S[i].shape))
-        V[i] = X[i] @ V[p] + S[i] @ qd[i]
-        J[i] = np.concatenate([X[i] @ J[p], own], axis=-1)
-        dJ[i] = np.concatenate([X[i] @ dJ[p], cross_motion(V[i]) @ own], axis=-1)
+        omega[i] = X[i][..., :3, :3] @ omega[p] + S[i][..., :3, :] @ qd[i]
+        growth = X[i][..., 3:, :3] @ omega[p] + S[i][..., 3:, :] @ qd[i]  # of v on the way from the parent's origin
+        w, carried = cross_matrix(omega[i][..., 0]), X[i] @ J[p]
+        J[i] = np.concatenate([carried, own], axis=-1)
+        dJ[i] = np.concatenate([_moved(X[i] @ dJ[p], growth, carried), _turned(w, own)], axis=-1)
         dofs[i] = np.concatenate([dofs[p], np.arange(end[i - 1], end[i])])
-        B = (cross_force(V[i]) @ I[i] - I[i] @ cross_motion(V[i]) + _cross_bar(I[i] @ V[i])) / 2  # 49.6 B
-        C[..., dofs[i][:, None], dofs[i]] += J[i].mT @ (I[i] @ dJ[i] + B @ J[i])  # 49.6 C
+        B = _turning(I[i], omega[i], w)  # 49.6 B
+        C[..., dofs[i][:, None], dofs[i]] += J[i].mT @ (I[i] @ dJ[i] + B @ J[i][..., :3, :])  # 49.6 C
     return C
+
+
+def _moved(dJ: Array, growth: Array, J: Array) -> Array:
+    """Return dJ − (0, growth × Jω)."""
+    linear = dJ[..., 3:, :] - cross_matrix(growth[..., 0]) @ J[..., :3, :]
+    return np.concatenate([dJ[..., :3, :], linear], axis=-2)
+
+
+def _turned(w: Array, S: Array) -> Array:
+    """Return (ω × Sω, ω × Sv): what V × S is without v."""
+    return np.concatenate([w @ S[..., :3, :], w @ S[..., 3:, :]], axis=-2)
+
+
+def _turning(I: Array, omega: Array, w: Array) -> Array:
+    """Return the angular columns of B without v, shape (..., 6, 3); of the linear columns nothing is left.
+
+    With the momentum (k, l) of the turning alone and the rotational inertia J they are ½ (ω× J − J ω× − k×) and −l×.
+    """
+    J, momentum = I[..., :3, :3], I[..., :, :3] @ omega
+    angular = (w @ J - J @ w - cross_matrix(momentum[..., :3, 0])) / 2
+    return np.concatenate([angular, -cross_matrix(momentum[..., 3:, 0])], axis=-2)
 
 
 @also_of_mimics
@@ -60,7 +87,8 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     C = Σ Jᵢᵀ (Iᵢ J̇ᵢ + Bᵢ Jᵢ), where Bᵢ = ½ (V×* I − I V× + (I V)×̄*) and h×̄* x = x ×* h; S. Echeandia
     and P. M. Wensing, Numerical methods to compute the Coriolis matrix and Christoffel symbols for
     rigid-body systems, 2021. The columns of Jᵢ and J̇ᵢ are those of the parent, moved to frame i,
-    and the joint's own S and V × S. O(N d²) for a tree of depth d.
+    and the joint's own S and V × S. The linear velocity of a floating base cancels, and is left out: C does not
+    depend on it. O(N d²) for a tree of depth d.
 
     Examples
     --------
@@ -73,9 +101,3 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """
     q, v = check_state(model, q, v=v)
     return christoffel(tree_terms(model, q), columns(model, v))
-
-
-def _cross_bar(h: Array) -> Array:
-    """Return h×̄* = −[[τ]×, [f]×; [f]×, 0], shape (..., 6, 6): the matrix that takes a twist x to x ×* h."""
-    moment, force = cross_matrix(h[..., :3, 0]), cross_matrix(h[..., 3:, 0])
-    return -blocks(moment, force, force, np.zeros_like(force))
