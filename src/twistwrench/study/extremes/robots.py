@@ -18,6 +18,9 @@ EARTH = np.array([0.0, 0.0, -9.81])
 QUATERNION = slice(3, 7)
 """Where the base's quaternion stands in q."""
 
+LINEAR = slice(3, 6)
+"""Where the base's linear velocity stands in v."""
+
 
 class State(NamedTuple):
     """What the algorithms are called with: configuration, velocity, acceleration."""
@@ -43,6 +46,8 @@ class Recipe:
         Of the base from the origin, m.
     speed : float
         Of the joints and of the base, rad/s and m/s.
+    base_speed : float
+        By how much faster than that the base flies along, m/s; it does not turn faster.
     length, mass, time : float
         How many metres, kilograms and seconds stand for one: the same robot in other units.
     light : float
@@ -68,6 +73,7 @@ class Recipe:
     mass_ratio: float = 1.0
     distance: float = 1.0
     speed: float = 1.0
+    base_speed: float = 1.0
     length: float = 1.0
     mass: float = 1.0
     time: float = 1.0
@@ -115,8 +121,9 @@ class Recipe:
         place = direction * self.distance * self.length
         q = self.model.normalize(np.concatenate([place, quaternion * self.norm, angles]))
         q[QUATERNION] *= 1 + self.off
-        unit = np.concatenate([np.ones(3), np.full(3, self.length), np.ones(n)])
-        return State(q, v * unit * self.speed / self.time, a * unit / self.time**2)
+        unit, flying = np.ones(n + 6), np.ones(n + 6)
+        unit[LINEAR], flying[LINEAR] = self.length, self.base_speed
+        return State(q, v * unit * self.speed * flying / self.time, a * unit / self.time**2)
 
     def _body(self, k: int) -> SpatialInertia:
         """Return the inertia of a rod along −z that is round but for `edge`, its centre a little off the line."""
