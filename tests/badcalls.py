@@ -307,6 +307,7 @@ def bad_arrays(good: np.ndarray) -> Iterator[tuple[str, Any]]:
     yield "its NaN", np.full_like(good, np.nan)
     yield "its inf", np.full_like(good, np.inf)
     yield "huge", 1e300 * (good + 1)
+    yield "largest", np.full_like(good, np.finfo(good.dtype).max)
     yield "tiny", 1e-300 * (good + 1)
     yield "its complex", good + 1e-20j
     yield "its text", good.astype(str)

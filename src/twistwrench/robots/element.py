@@ -10,20 +10,23 @@ from pathlib import Path
 from ..errors import ModelError
 from ..model import Entry
 from .reading import XML
-from .urdf_words import ATTRIBUTES, CHILDREN, meant
+from .urdf_words import ATTRIBUTES, CHILDREN, SAID_BY_ATTRIBUTES, home_of, ignored_attribute, meant
 
 __all__ = ["Element"]
 
 QUATERNION = "quat_xyzw"
 """An attribute of <origin> in a later version of the format."""
 
+NO_LOSS = {"limit", "dynamics", "origin"}
+"""Children that are reported, and refused no file, where they stand in the wrong place."""
+
 
 @dataclass(frozen=True)
 class Element:
     """An element of which each number is read here, and by whom: `what` is the link or joint, for the messages.
 
-    A misspelt attribute or child is an error from the start. What was odd and had one meaning all the same is
-    added to `remarks`, a list that all elements of a file share.
+    A misspelt attribute or child is an error from the start, and so is a child that belongs elsewhere. What was odd
+    and had one meaning all the same is added to `remarks`, a list that all elements of a file share.
     """
 
     xml: XML
@@ -38,13 +41,27 @@ class Element:
         for key in self.xml.attrib:
             if word := meant(key, ATTRIBUTES.get(tag, ())):
                 raise self.error(f"unknown attribute {key!r} of <{tag}>; did you mean {word!r}?")
-        for child in self.xml.iterchildren("*") if tag in CHILDREN else ():
-            if word := meant(child.tag, CHILDREN[tag]):
-                raise replace(self, xml=child).error(f"unknown element <{child.tag}>; did you mean <{word}>?")
+            if ignored_attribute(tag, key):
+                self.remark(f"attribute {key!r} of <{tag}>", "not URDF")
+        if tag in SAID_BY_ATTRIBUTES and (self.xml.text or "").strip():
+            self.remark(f"text in <{tag}>", "not URDF")
+        for child in self.xml.iterchildren("*"):
+            if word := meant(child.tag, CHILDREN.get(tag, ())):
+                raise self.error(f"unknown element <{child.tag}>; did you mean <{word}>?", child)
+            if home := home_of(child.tag, tag):
+                self._misplaced(child, home)
 
-    def error(self, text: str) -> ModelError:
-        """Return the error that says this of the link or joint."""
-        return ModelError(f"{self.at}: {self.what}: {text}")
+    def _misplaced(self, child: XML, home: str) -> None:
+        """Refuse what the robot would move otherwise for; a limit, friction and a link's own origin mean nothing."""
+        if child.tag not in NO_LOSS:
+            raise self.error(f"a <{child.tag}> stands in <{self.xml.tag}>, expected in <{home}>", child)
+        if any(word.strip("-+.0") for text in child.attrib.values() for word in text.split()):
+            self.remark(f"<{child.tag}> in <{self.xml.tag}>", "not URDF")
+
+    def error(self, text: str, child: XML = None) -> ModelError:
+        """Return the error that says this of the link or joint, or of a child."""
+        line = (self.xml if child is None else child).sourceline
+        return ModelError(f"{self.path}, line {line}: {self.what}: {text}")
 
     @property
     def at(self) -> str:

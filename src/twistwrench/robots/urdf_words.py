@@ -10,13 +10,13 @@ from __future__ import annotations
 import re
 from functools import cache
 
-__all__ = ["ATTRIBUTES", "CHILDREN", "NOT_DYNAMICS", "meant", "words_of"]
+__all__ = ["ATTRIBUTES", "CHILDREN", "NOT_DYNAMICS", "home_of", "ignored_attribute", "meant", "words_of"]
 
 CHILDREN = {
     "robot": ("link", "joint"),
     "link": ("inertial",),
     "inertial": ("origin", "mass", "inertia"),
-    "joint": ("origin", "parent", "child", "axis", "limit", "mimic"),
+    "joint": ("origin", "parent", "child", "axis", "limit", "mimic", "dynamics"),
 }
 """What stands inside what, and counts for the dynamics."""
 
@@ -31,7 +31,11 @@ ATTRIBUTES = {
     "axis": ("xyz",),
     "limit": ("lower", "upper", "effort", "velocity"),
     "mimic": ("joint", "multiplier", "offset"),
+    "dynamics": ("damping", "friction"),
 }
+
+SAID_BY_ATTRIBUTES = {"origin", "mass", "inertia", "parent", "child", "axis", "mimic"}
+"""Elements whose whole meaning is in their attributes, and counts for the dynamics."""
 
 NOT_DYNAMICS = {"visual", "collision", "geometry", "material", "gazebo", "sensor", "camera", "transmission", "plugin"}
 """Elements that change no equation of motion, whatever stands in them."""
@@ -49,6 +53,32 @@ def words_of(name: str) -> set[str]:
     ['gear', 'link', 'ref', 'velocity']
     """
     return {word.lower() for word in re.findall(r"[A-Z]?[^A-Z_\-.]+|[A-Z]+", name)}
+
+
+def home_of(word: str, tag: str) -> str:
+    """Return the element in which a word of the format belongs, and nothing where it may stand in `tag`.
+
+    Examples
+    --------
+    >>> home_of("mass", "link"), home_of("visual", "link")
+    ('inertial', '')
+    """
+    if word in CHILDREN.get(tag, ()):
+        return ""
+    return next((home for home, words in CHILDREN.items() if word in words), "")
+
+
+def ignored_attribute(tag: str, key: str) -> bool:
+    """Return whether an attribute stands where a number of the dynamics may be meant, and is not one of the format.
+
+    Examples
+    --------
+    >>> ignored_attribute("origin", "position"), ignored_attribute("joint", "axis"), ignored_attribute("link", "type")
+    (True, True, False)
+    """
+    if key in ATTRIBUTES.get(tag, ()) or "}" in key or ":" in key:
+        return False
+    return tag in SAID_BY_ATTRIBUTES or (tag in ("link", "joint") and any(key in words for words in CHILDREN.values()))
 
 
 @cache
