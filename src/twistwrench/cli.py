@@ -1,7 +1,7 @@
 """The command line: ``twistwrench validate``, ``robots``, ``view``, ``study``, ``exercises``.
 
 A command is a function that adds its parser; it names in ``set_defaults(run=...)`` what does the work
-and returns the exit status. What a command needs it imports there, so that ``--help`` is quick.
+and returns the exit status. It imports there what it needs, so that ``--help`` is quick.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             status = int(args.run(args))
             sys.stdout.flush()
         return status
-    except BrokenPipeError:  # the reader has seen enough, as in `twistwrench robots | head`
+    except BrokenPipeError:  # the reader has closed the pipe, as in `twistwrench robots | head`
         return _unheard(UNREAD)
     except Stopped as stopped:
         return _unheard(UNREAD) if stopped.status == UNREAD else stopped.status
@@ -91,7 +91,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _unheard(status: int) -> int:
-    """Send what is still to be printed nowhere, and return an exit status."""
+    """Discard what is still to be printed, and return an exit status."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return status
 
@@ -102,7 +102,7 @@ def _is_of_stdout(error: Exception) -> bool:
 
 
 def _said(error: Exception) -> str:
-    """Return the message; of a bare import that failed, what brings the package."""
+    """Return the message; of a bare import that failed, how to install the package."""
     if _is_of_stdout(error):
         return "what is printed goes to a file on a full disk"
     if isinstance(error, ModuleNotFoundError) and error.name == "matplotlib":
@@ -209,7 +209,7 @@ def _validate_some(args: argparse.Namespace, reports: list[Report]) -> None:
 
 
 def _validate_all(args: argparse.Namespace, outcomes: list[Outcome]) -> None:
-    """Validate the whole catalogue, a line each; gather what came of each."""
+    """Validate the whole catalogue, a line each; gather the outcomes."""
     from tqdm import tqdm
 
     from .validate import sweep
@@ -228,7 +228,7 @@ def _validate_all(args: argparse.Namespace, outcomes: list[Outcome]) -> None:
 
 
 def _check_options(args: argparse.Namespace) -> None:
-    """Refuse, before any work, what would be of no effect or come to nothing at the end."""
+    """Raise, before any work, for options that would have no effect or fail at the end."""
     if args.jobs and not args.all:
         args.misuse("argument --jobs: only with --all")
     if args.truths and args.truths > args.states:
@@ -239,7 +239,7 @@ def _check_options(args: argparse.Namespace) -> None:
         raise ImportError(NOTHING_TO_COMPARE_WITH)
     if args.json != "-":
         check_writable("--json", None if args.json is None else Path(args.json))
-    for name in args.robot[1:]:  # the first is met at once
+    for name in args.robot[1:]:  # --jobs is checked at once
         tw.load(name, base=args.base, physical=False, mimic="independent")
 
 

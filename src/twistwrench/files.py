@@ -1,4 +1,4 @@
-"""Write a file beside, then rename: what was there before stays good until the new file is whole."""
+"""Write a file beside, then rename: the old file stays intact until the new one is whole."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from pathlib import Path
 __all__ = ["naming", "replacing", "write_text"]
 
 IN_PLACE = ("/dev/", "/proc/")
-"""Below these a name stands for something that is open already."""
+"""In these folders a name stands for a file that is open already."""
 
 
 @contextmanager
 def naming(path: str | PathLike[str]) -> Iterator[None]:
-    """Say in an error of the operating system which file it was about: "No space left on device" does not.
+    """Name the file in an error of the operating system: "No space left on device" does not.
 
     Raises
     ------
@@ -33,7 +33,7 @@ def naming(path: str | PathLike[str]) -> Iterator[None]:
 
 @contextmanager
 def replacing(path: str | PathLike[str]) -> Iterator[Path]:
-    """Yield a new file to write; it takes the place of `path` once it is written without an error.
+    """Yield a new file to write; it replaces `path` once it is written without an error.
 
     It lies in the same folder and has the same suffix. A link stays, and the file that it leads to is replaced.
     A device or a pipe is yielded itself.
@@ -49,7 +49,7 @@ def replacing(path: str | PathLike[str]) -> Iterator[Path]:
     Raises
     ------
     OSError
-        Naming the file. What was there before is as it was.
+        Naming the file. The old file is unchanged.
 
     Examples
     --------
@@ -97,7 +97,7 @@ def write_text(path: str | PathLike[str], text: str) -> None:
     Raises
     ------
     OSError
-        Naming the file. What was there before is as it was.
+        Naming the file. The old file is unchanged.
     """
     with replacing(path) as beside:
         beside.write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What the commands ask of their options: a whole number, and a file that can be written."""
+"""Types and checks of the commands' options: a whole number, and a file that can be written."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["at_least", "check_writable"]
 
 
 def at_least(least: int) -> Callable[[str], int]:
-    """Return what reads a whole number that is not below another."""
+    """Return a parser of whole numbers that are not below `least`."""
 
     def read(text: str) -> int:
         try:
@@ -26,7 +26,7 @@ def at_least(least: int) -> Callable[[str], int]:
 
 
 def check_writable(option: str, path: Path | None) -> None:
-    """Open the file that will be written, before the work; leave behind what was there.
+    """Open the file that will be written, before the work; do not change its content.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How a command is stopped: Ctrl-C, SIGTERM, a terminal that is closed, and a reader who has seen enough."""
+"""How a command is stopped: Ctrl-C, SIGTERM, a terminal that is closed, and a pipe whose reader has closed it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 NOBODYS = (signal.SIG_DFL, signal.default_int_handler)
 POLL_MS = 300
 AGAIN = 0.4
-"""Seconds until an exception that somebody has swallowed is raised again."""
+"""Seconds until an exception that was swallowed is raised again."""
 
 
 class Stopped(KeyboardInterrupt):
@@ -39,18 +39,18 @@ class Stopped(KeyboardInterrupt):
 
 @contextmanager
 def heeded() -> Iterator[None]:
-    """Let Ctrl-C, SIGTERM, SIGHUP and a closed pipe behind stdout end the work by raising `Stopped`: it is tidied up.
+    """Let Ctrl-C, SIGTERM, SIGHUP and a closed pipe on stdout end the work, with its cleanup, by raising `Stopped`.
 
-    The exception is raised wherever the main thread is, and libraries lose it there: in C code that asks Python for a
-    number, in a bare ``except``. It is raised again until it gets through. Does nothing outside the main thread, and
-    leaves a signal alone that somebody else has a use for.
+    The exception is raised wherever the main thread is, and libraries may swallow it there: C code that calls Python
+    for a number, a bare ``except``. It is raised again until it gets through. Does nothing outside the main thread, nor
+    for a signal that has another handler.
     """
     unread, done = threading.Event(), threading.Event()
     timer = hasattr(signal, "setitimer")
 
     def stop(*received: Any) -> None:
         if unread.is_set() and _is_tidied():
-            return  # what was printed has met the closed pipe, too
+            return  # printing has failed on the closed pipe, too
         stopped = Stopped(UNREAD if unread.is_set() else 128 + received[0])
         if timer and signal.getsignal(signal.SIGALRM) is signal.SIG_DFL:
             before[signal.SIGALRM] = signal.signal(signal.SIGALRM, lambda *_: _again(stopped))
@@ -76,18 +76,18 @@ def heeded() -> Iterator[None]:
 
 
 def _again(stopped: Stopped) -> None:
-    """Raise an exception that has been swallowed; not where it is being tidied up after."""
+    """Raise an exception again that has been swallowed; not while its cleanup runs."""
     if not _is_tidied():
         raise stopped
 
 
 def _is_tidied() -> bool:
-    """Whether the main thread is on its way out, in a ``finally`` or the like."""
+    """Whether the main thread is in the cleanup of an exception, in a ``finally`` or the like."""
     return isinstance(sys.exc_info()[1], KeyboardInterrupt | BrokenPipeError | GeneratorExit)
 
 
 def _is_pipe(stream: Any) -> bool:
-    """Whether a stream is a pipe whose reader can be seen to leave."""
+    """Whether a stream is a pipe on which a closed reading end can be detected."""
     try:
         return hasattr(signal, "pthread_kill") and stat.S_ISFIFO(os.fstat(stream.fileno()).st_mode)
     except (AttributeError, OSError, ValueError):
@@ -95,7 +95,7 @@ def _is_pipe(stream: Any) -> bool:
 
 
 def _watch(fd: int, unread: threading.Event, done: threading.Event) -> None:
-    """Stop the main thread when the reader of a pipe has gone, even while nothing is being printed."""
+    """Stop the main thread when the reading end of a pipe is closed, even while nothing is being printed."""
     import select
 
     waiting = select.poll()
@@ -110,7 +110,7 @@ def _watch(fd: int, unread: threading.Event, done: threading.Event) -> None:
 
 @contextmanager
 def without_interrupts() -> Iterator[None]:
-    """Within: processes that are started never get Ctrl-C, which a terminal sends to all. Their parent stops them."""
+    """Shield processes that are started within from Ctrl-C, which a terminal sends to all: their parent stops them."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

@@ -1,4 +1,4 @@
-"""Timing several ways of doing the same in turns, on a machine that may have other things to do."""
+"""Timing several functions in turns, on a machine that may be busy with other work."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ __all__ = ["Lap", "Race", "race", "round_robin"]
 Call = Callable[[], object]
 
 UNDISTURBED = 0.93
-"""Part of the time on the wall that must have been time on the processor, else a stretch does not count."""
+"""The least share of wall time that must have been processor time for a stretch to count."""
 
 PATIENCE = 4
-"""So many times as many stretches are tried, at most, as are wanted; then disturbed ones count all the same."""
+"""At most this many times the wanted number of stretches are tried; then disturbed ones count all the same."""
 
 
 class Race(NamedTuple):
@@ -47,14 +47,14 @@ def race(
     least: float = 0.02,
     one_thread: bool = True,
 ) -> Race:
-    """Time two calls in turns, or one alone. Each comes with the number of states that it does.
+    """Time two calls in turns, or one alone. Each is given with its number of states.
 
     Each round calls either for at least `least` seconds. A round in which this process had to wait for the
     processor is thrown away and done again, up to four times as many in all; then it is counted all the same.
     """
     racers = [ours] if theirs is None else [ours, theirs]
     for call, _ in racers:
-        call()  # what is made once is made now
+        call()  # warm up: what is made once is made now
     repeats = [_repeats(call, least) for call, _ in racers]
     kept: list[list[float]] = []
     spare: list[list[float]] = []
@@ -68,7 +68,7 @@ def race(
 
 @dataclass
 class Lap:
-    """What came of one of the calls of `round_robin`: seconds for a call, stretch by stretch."""
+    """The result of one of the calls of `round_robin`: seconds for a call, stretch by stretch."""
 
     call: Call
     repeat: int = 1
@@ -78,7 +78,7 @@ class Lap:
 
     @property
     def seconds(self) -> Array:
-        """The undisturbed stretches; where there is none, the time on the processor of the disturbed ones."""
+        """The undisturbed stretches; where there are none, the processor time of the disturbed ones."""
         return np.array(self.kept or self.spare)
 
     def run(self) -> None:
@@ -104,7 +104,7 @@ def round_robin(
     most: float = 1.0,
     after_round: Callable[[], object] = lambda: None,
 ) -> list[Lap]:
-    """Time any number of calls in turns, so that a slow minute of the machine is everybody's.
+    """Time any number of calls in turns, so that a slow minute of the machine slows all of them.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def _undisturbed(wall: float, busy: float) -> bool:
 
 
 def _repeats(call: Call, least: float) -> int:
-    """Return how many calls take about so long. The quickest of a few tells: any other may have been disturbed."""
+    """Return how many calls take about so long. The quickest of a few counts: any other may have been disturbed."""
     times: list[float] = []
     while not times or (len(times) < 10 and sum(times) < 20 * least):
         start = time.perf_counter()

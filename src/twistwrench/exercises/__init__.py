@@ -1,6 +1,6 @@
 """The chapter's exercises, checked.
 
-`start` writes skeletons into a folder; there, ``python -m pytest`` checks the student's functions and says
+`start` writes skeletons into a folder; there, ``python -m pytest`` checks the student's functions and explains
 what is wrong with them. `status` shows the progress, `hint` and `solution` help.
 
 The exercises are those of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.

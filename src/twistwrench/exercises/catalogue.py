@@ -40,7 +40,7 @@ def _module(number: str) -> str:
 
 
 def available() -> tuple[str, ...]:
-    """Return the numbers of the exercises that are there."""
+    """Return the numbers of the exercises that exist."""
     return tuple(number for number in IDS if find_spec(_module(number)) is not None)
 
 
@@ -51,7 +51,7 @@ def exercise(number: str) -> Exercise:
     Raises
     ------
     NameNotFound
-        If there is none; the message lists the nearest numbers.
+        If there is no such exercise; the message lists the nearest numbers.
 
     Examples
     --------
@@ -76,12 +76,12 @@ def file_name(section: str) -> str:
 
 @cache
 def find_part(name: str) -> tuple[Exercise, Part]:
-    """Return the exercise that asks for a function of that name, and the part of it.
+    """Return the exercise to which a function of that name belongs, and its part.
 
     Raises
     ------
     NameNotFound
-        If no exercise does.
+        If there is no such function.
     """
     every = {part.name: (e, part) for e in map(exercise, available()) for part in e.parts}
     if name not in every:

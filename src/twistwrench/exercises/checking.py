@@ -1,7 +1,7 @@
 """The pytest plugin that a student's folder names in its pytest.ini.
 
 Each function that an exercise asks for is a test, and so is each answer in words. What still is ``...``
-is skipped and says "to do". A test has the name of its exercise, ``49_3_1-...``, and the mark of its
+is skipped as "to do". A test has the name of its exercise, ``49_3_1-...``, and the mark of its
 section, ``s49_3``.
 """
 
@@ -86,7 +86,7 @@ def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Coll
 
 
 def pytest_pycollect_makemodule(module_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
-    """Keep pytest from importing such a file as well where it is named: what cannot be read is shown as a trace."""
+    """Keep pytest from importing a student's file that is named: one that cannot be read would give a traceback."""
     if module_path.name not in map(catalogue.file_name, catalogue.SECTIONS):
         return None
     return Nothing.from_parent(parent, path=module_path)
@@ -96,7 +96,7 @@ class Nothing(pytest.File):
     """A file without tests."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Yield none."""
+        """Yield no tests."""
         return []
 
 
@@ -108,13 +108,13 @@ class SectionFile(pytest.File):
 
     @classmethod
     def of(cls, parent: pytest.Collector, *, path: Any, section: str, book: Workbook) -> SectionFile:
-        """Make a collector that knows its section and its folder."""
+        """Make a collector with its section and its folder."""
         made = cls.from_parent(parent, path=path)
         made.section, made.book = section, book
         return made
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Yield a test for all that an exercise asks for."""
+        """Yield a test for each function and each answer in words."""
         for exercise in catalogue.of_section(self.section):
             names = [part.name for part in exercise.parts]
             for name in names + [exercise.answer_name] * (exercise.answer is not None):
@@ -162,7 +162,7 @@ class Answer(pytest.Item):
         return str(excinfo.value) if isinstance(excinfo.value, Wrong) else super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Any, int | None, str]:
-        """Say where the test stands."""
+        """Return where the test is."""
         return self.path, None, self.name
 
 
@@ -183,7 +183,7 @@ def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pyte
 
 
 def _to_compare(book: Workbook) -> Iterator[Exercise]:
-    """Yield the exercises in words that are right by now and whose model answer was not shown yet."""
+    """Yield the answered exercises in words whose model answer was not shown yet."""
     for exercise in map(catalogue.exercise, catalogue.available()):
         if exercise.answer is None or exercise.id in book.state["compared"]:
             continue

@@ -111,7 +111,7 @@ def run_solution(args: argparse.Namespace) -> int:
 
 
 def _sure(number: str, language: Language) -> bool:
-    """Ask; without somebody to answer, say how to do without asking."""
+    """Ask; where stdin is not a terminal, print how to skip the question."""
     if not sys.stdin.isatty():
         print(UNASKED.fill(id=number).of(language))
         return False

@@ -1,4 +1,4 @@
-"""Answers against each other: entry by entry, each return value by itself."""
+"""Compare answers: entry by entry, each return value by itself."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .exercise import Part, Quantity
 __all__ = ["Value", "agree", "close", "pieces", "to_do", "values"]
 
 FLOOR = 1e-3
-"""Entries below this part of a unit count as zero to the tolerance: an exact 0 is as good as 1e-17."""
+"""Entries below this count as zero: an exact 0 is as good as 1e-17."""
 
 
 class Value(NamedTuple):

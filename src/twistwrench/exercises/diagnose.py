@@ -22,7 +22,7 @@ Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
 NOTICEABLE = 1e-6
-"""From which size on the residual of a property counts, for answers of the size of 1."""
+"""The least residual of a property that counts, for answers of the size of 1."""
 
 MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
 
@@ -32,7 +32,7 @@ TWISTS: dict[str, Callable[[Any], Any]] = {
     "degrees": lambda x: np.asarray(x) * 180 / np.pi,
     "thousand": lambda x: np.asarray(x) * 1000,
 }
-"""What can be done to any answer on top of another slip: by these, two slips at once are recognised."""
+"""Slips that can be made on top of any other: by these, two slips at once are recognised."""
 
 
 def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
@@ -46,7 +46,7 @@ def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cas
 
 
 def _slipped(part: Part, wrong: Callable[..., Any], cases: Cases) -> list[Any] | None:
-    """Return what a wrong implementation gives on all cases; None where it stops."""
+    """Return the answers of a wrong implementation on all cases; None where it raises an error."""
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
@@ -73,7 +73,7 @@ def slips_by_piece(part: Part, answers: Answers, cases: Cases) -> dict[str, list
     found = {}
     for k in sorted(wrong):
         fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
-        # a slip that would have spoilt what is right here is less likely than one that would not
+        # a slip that would spoil a right part is less likely than one that would not
         found[part.returns[k].name] = [slip for slip in fitting if touched[slip] <= wrong] or fitting
     return found if all(found.values()) else None
 
@@ -98,9 +98,9 @@ def explain(exercise: Exercise, part: Part, answers: Answers, cases: Cases) -> t
     Returns
     -------
     slips : list of str
-        Those that give the very same answer.
+        Those that give exactly the same answer.
     lines : list of Text
-        What the message says.
+        The message.
     """
     found = matching_slips(part, answers, cases)
     if found:
@@ -161,7 +161,7 @@ def _indented(line: Text) -> Text:
 
 
 def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
-    """Say what is wrong with the first wrong answer, piece by piece."""
+    """Explain what is wrong with the first wrong answer, piece by piece."""
     tried = ((answer, part.value(part.solution, arguments), arguments) for answer, arguments in zip(answers, cases))
     wrong, expected, _ = next(case for case in tried if not agree(part, *case))
     got, right = values(wrong, part.returns), values(expected, part.returns)
@@ -169,7 +169,7 @@ def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
 
 
 def _structure(part: Part, answers: Answers) -> Text | None:
-    """Say whether nothing came back, or not as many things as asked for."""
+    """Report that nothing was returned, or the wrong number of values."""
     for answer in answers:
         if answer is None:
             return say("none")
@@ -184,7 +184,7 @@ def _count(answer: Any) -> str:
 
 
 def _broken_property(part: Part, answers: Answers, cases: Cases) -> Text | None:
-    """Return the first property that a right answer has and one of these has not."""
+    """Return the first property of right answers that one of these lacks."""
     for item in part.properties:
         for answer, arguments in zip(answers, cases):
             try:

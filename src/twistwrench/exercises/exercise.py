@@ -31,7 +31,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Property:
-    """Something that every right answer has, whoever computed it.
+    """A property that every right answer has, however it was computed.
 
     ``residual(answer, *arguments)`` is zero, entry by entry, where the answer has it.
     """
@@ -58,7 +58,7 @@ class Part:
         Groups of those names that cannot be told apart here: the message then names all of a group.
     residuals : tuple of callable
         Of the properties, in the order of their texts in the data file: ``residual(answer, *arguments)`` is zero, entry
-        by entry, for every right answer, whoever computed it. They explain a wrong answer that is no known slip.
+        by entry, for every right answer, however it was computed. They explain a wrong answer that is not a known slip.
     canonical : callable, optional
         ``canonical(answer, *arguments)``: what is compared where more than one answer is right.
     call : callable, optional
@@ -98,12 +98,12 @@ class Part:
 
     @cached_property
     def reasons(self) -> Mapping[str, Text]:
-        """Why, for slips whose own reason speaks of another situation."""
+        """The reasons of slips whose general reason does not fit here."""
         return {slip: as_text(entry) for slip, entry in self._prose.get("reasons", {}).items()}
 
     @cached_property
     def properties(self) -> tuple[Property, ...]:
-        """What a right answer fulfils."""
+        """The properties of a right answer."""
         entries = self._prose.get("properties", [])
         return tuple(
             Property(as_text(entry), residual) for entry, residual in zip(entries, self.residuals, strict=True)
@@ -152,7 +152,7 @@ class Exercise:
 
     @property
     def text(self) -> Text:
-        """What is asked, in our own words, with the chapter's numbers. Where the chapter is wrong it says so."""
+        """The question, in our own words, with the chapter's numbers. It names the chapter's errors."""
         return as_text(self._prose["text"])
 
     @property

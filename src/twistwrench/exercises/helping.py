@@ -48,7 +48,7 @@ def hint(
     number : str
         Of the exercise, as "49.3.1".
     folder : str or path
-        One that `start` has filled. In any other, nothing is remembered, and the first hint comes each time.
+        One that `start` has filled. In any other, nothing is remembered, and each call returns the first hint.
     again : bool
         Repeat the last hint.
     every : bool
@@ -96,7 +96,7 @@ def _has_words(book: Workbook, exercise: Exercise) -> bool:
 def solution(number: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
     """Return a solution of an exercise, as it could stand in the student's file.
 
-    The model answer to a question in words comes along once the student has answered it.
+    It includes the model answer to a question in words once the student has answered it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The student's code in a process of its own: a loop that never ends is stopped, and its line is told."""
+"""The student's code in a process of its own: an endless loop is stopped, and its line is reported."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class IsolatedWorkbook(Workbook):
         self._unreadable: dict[str, Text] = {}
 
     def words(self, exercise: Exercise) -> str | None:
-        """Return the student's answer in words, None where there is none yet."""
+        """Return the student's answer in words, None if it is not written yet."""
         found: str | None = self._ask("words", exercise.id)
         return found
 
@@ -93,7 +93,7 @@ class IsolatedWorkbook(Workbook):
             self._worker = None
 
     def _ask(self, what: str, name: str) -> Any:
-        """Return what the other process answers. Where it had to stop, note at what, and ask a new one."""
+        """Return the answer of the other process. Where it had to stop, note at what, and start a new one."""
         while True:
             if self._worker is None:
                 self._worker = _Worker(self.folder, self._time_limit, self._verdicts, self._unreadable)
@@ -101,7 +101,7 @@ class IsolatedWorkbook(Workbook):
                 answer, borrowed = self._worker.ask(what, name)
             except _Died as died:
                 self.close()
-                if died.at is None:  # at nothing of the student's
+                if died.at is None:  # not in the student's code
                     return None
                 lines = self._told(died)
                 if died.at in map(catalogue.file_name, catalogue.SECTIONS):
@@ -115,7 +115,7 @@ class IsolatedWorkbook(Workbook):
                 return answer
 
     def _told(self, died: _Died) -> list[Text]:
-        """Say why the process ended, and at which line of the student's."""
+        """Return why the process ended, and at which line of the student's."""
         late = died.trace.startswith("Timeout")
         lines = [say("endless", seconds=f"{self._time_limit:g}") if late else say("ended")]
         for path, number in re.findall(r'File "(.+)", line (\d+) in', died.trace):
@@ -134,7 +134,7 @@ def _wrong(exercise: Exercise, name: str, lines: list[Text]) -> Verdict:
 
 
 class _Died(Exception):
-    """The other process ended: what it was at, and where its threads stood."""
+    """The other process ended: what it was running, and where its threads were."""
 
     def __init__(self, at: str | None, trace: str) -> None:
         super().__init__()
@@ -159,12 +159,12 @@ class _Worker:
         self._send((str(folder), limit, trace, verdicts, unreadable))
 
     def _send(self, message: Any) -> None:
-        with suppress(OSError):  # it has ended: the answer will be missing
+        with suppress(OSError):  # the process has ended: there will be no answer
             pickle.dump(message, self._requests)
             self._requests.flush()
 
     def ask(self, what: str, name: str) -> Any:
-        """Return an answer, and follow what the process is at until then."""
+        """Return an answer, and follow what the process runs until then."""
         begun: list[str] = []
         self._send((what, name))
         try:
@@ -181,7 +181,7 @@ class _Worker:
             raise _Died(begun[-1] if begun else None, trace) from None
 
     def close(self) -> None:
-        """End it: it leaves when nobody will ask any more, unless it is still at something."""
+        """End it: it exits when its input is closed, unless it is still running something."""
         for pipe in (self._requests, self._replies):
             with suppress(OSError):
                 pipe.close()

@@ -1,4 +1,4 @@
-"""Judge one function of the student: to do, done or wrong, and what to say about it."""
+"""Judge one function of the student: to do, done or wrong, with a message."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ State = Literal["to do", "done", "wrong"]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is to be said about an answer.
+    """The judgement of an answer, with its message.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ def judge(
 
 
 def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
-    """Call the student's function on copies of the arguments, and say where it stopped if it did."""
+    """Call the student's function on copies of the arguments, and report where it stopped if it did."""
     given = tuple(copy.deepcopy(x) if isinstance(x, np.ndarray | list) else x for x in arguments)
     try:
         answer = part.value(function, given)
@@ -113,14 +113,14 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
 
 
 def _unchanged(before: Any, after: Any) -> bool:
-    """Whether an array, a number, or each of a list of them still is what it was."""
+    """Whether an array, a number, or each of a list of them is unchanged."""
     if isinstance(before, list):
         return len(before) == len(after) and all(map(_unchanged, before, after))
     return not isinstance(before, np.ndarray | int | float) or np.array_equal(before, after)
 
 
 def _stopped(error: BaseException) -> list[Text]:
-    """Say what was raised, and at which line of the student's file."""
+    """Report what was raised, and at which line of the student's file."""
     lines = [say("stopped", error=f"{type(error).__name__}: {error}")]
     own = [f for f in traceback.extract_tb(error.__traceback__) if not _ours(f.filename)]
     if own:
@@ -140,7 +140,7 @@ def _head(exercise: Exercise, part: Part) -> Text:
 
 
 def _context(part: Part, cases: Sequence[tuple[Any, ...]], right: list[bool]) -> list[Text]:
-    """Say in how many cases the answer is wrong, and show the first."""
+    """Report in how many cases the answer is wrong, and show the first."""
     arguments = cases[right.index(False)]
     if not arguments:
         return []
@@ -157,7 +157,7 @@ def _shown(names: Sequence[str], arguments: tuple[Any, ...], language: Language)
 
 
 def _short(x: Any, language: Language) -> str:
-    """Write an argument on little room."""
+    """Write an argument in short."""
     if isinstance(x, np.ndarray):
         if x.ndim > 1 or x.size > 6:
             return f"array {x.shape}"

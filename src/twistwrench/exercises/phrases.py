@@ -19,9 +19,9 @@ PHRASES = {
     ),
     "arrays": Text("list of {n} arrays", "{n} 个数组的列表"),
     "project": Text("the project at the end of the chapter", "章末的累积项目"),
-    "no slip": Text("It is none of the known slips. What the comparison shows:", "不属于已知的典型错误。比较结果："),
+    "no slip": Text("It is not one of the known slips. What the comparison shows:", "不属于已知的典型错误。比较结果："),
     "broken": Text("What a right answer has and yours has not: {text}", "正确答案应满足而你的不满足：{text}"),
-    # what kept an answer from being compared
+    # why an answer cannot be compared
     "stopped": Text("It stopped with {error}", "运行出错：{error}"),
     "at line": Text("in {file}, line {line}:", "位于 {file} 第 {line} 行："),
     "none": Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`？"),
@@ -40,7 +40,7 @@ PHRASES = {
         "它修改了参数 `{name}`。请在副本上运算，调用者还要用它。",
     ),
     "missing": Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。"),
-    "not a function": Text("{name} in {file} is no function any more.", "{file} 中的 {name} 已不是函数。"),
+    "not a function": Text("{name} in {file} is not a function any more.", "{file} 中的 {name} 已不是函数。"),
     "endless": Text(
         "It did not finish in {seconds} s: a loop that never ends?", "{seconds} 秒内没有结束：是不是死循环？"
     ),

@@ -1,4 +1,4 @@
-"""How far a student is: a row for each section, and what comes next."""
+"""A student's progress: a row for each section, and the next exercise."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ SAY = {
 
 @dataclass(frozen=True)
 class Row:
-    """How far one section is: the state of each of its exercises."""
+    """The progress in one section: the state of each of its exercises."""
 
     section: str
     states: dict[str, State]
@@ -45,7 +45,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Status:
-    """How far all is; prints as a table.
+    """The progress in all sections; prints as a table.
 
     Attributes
     ----------
@@ -103,7 +103,7 @@ class Status:
 def status(
     folder: str | PathLike[str] = ".", *, language: Language | None = None, time_limit: float = TIME_LIMIT
 ) -> Status:
-    """Check every exercise of a folder and say how far it is.
+    """Check every exercise of a folder and return the progress.
 
     Parameters
     ----------

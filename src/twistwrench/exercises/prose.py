@@ -1,4 +1,4 @@
-"""The texts of the exercises: a TOML file beside each, in both languages, read when somebody asks for a text."""
+"""The texts of the exercises: a TOML file beside each, in both languages, read when a text is needed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .text import Text
 __all__ = ["as_text", "read"]
 
 SHARED = "shared"
-"""What several texts have in common: its name in braces stands for it."""
+"""Passages that several texts share: a name in braces stands for one."""
 
 
 @cache
@@ -51,7 +51,7 @@ def as_text(entry: Mapping[str, str]) -> Text:
 
 
 def _filled(line: str, language: str) -> str:
-    """Put what is shared in the place of its name."""
+    """Replace the names of shared passages by their texts."""
     if "{lists}" not in line:
         return line
     return line.replace("{lists}", read("items", SHARED)["lists"][language])

@@ -13,11 +13,11 @@ from .text import Text
 __all__ = ["describe"]
 
 TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
-"""Factors that say what went wrong. Others are chance, and would give a number away."""
+"""Factors that are reported: they show the slip. Others are chance, and would give a number away."""
 
 
 def describe(got: Value, right: Value, rtol: float) -> list[Text]:
-    """Say what is wrong with one value, or nothing where it is right."""
+    """Explain what is wrong with one value; empty where it is right."""
     name = got.quantity.name + (f" [{got.quantity.unit}]" if got.quantity.unit else "")
     problem = _not_comparable(got, right)
     if problem is not None:
@@ -46,7 +46,7 @@ def _is(what: Text, relation: Text) -> Text:
 
 
 def _not_comparable(got: Value, right: Value) -> Text | None:
-    """Say why an answer cannot be compared: its type, its shape, its NaN."""
+    """Explain why an answer cannot be compared: its type, its shape, its NaN."""
     name = got.quantity.name
     if right.array is None:
         return None if isinstance(got.raw, str) else _type(got, "words")
@@ -66,7 +66,7 @@ def _type(got: Value, expected: str) -> Text:
 
 
 def _blocks(name: str, layout: Layout, a: Array, b: Array, tolerance: float) -> list[Text]:
-    """Say what is wrong with each block, where the whole shows no pattern."""
+    """Explain what is wrong with each block, where the whole shows no pattern."""
     lines, some_right = [], False
     for block, index in layout.blocks(b.shape):
         origin = [0] * (b.ndim - len(index) + 1) + [part.start for part in index[1:]]
@@ -81,7 +81,7 @@ def _blocks(name: str, layout: Layout, a: Array, b: Array, tolerance: float) -> 
 
 
 def _relation(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
-    """Return how one array is the other in disguise, or where or by how much they differ.
+    """Return how one array is related to the other, or where or by how much they differ.
 
     `origin` is where the block begins, so that entries are numbered as in the whole.
     """
@@ -114,7 +114,7 @@ def _plain(a: Array, b: Array, tolerance: float) -> Text | None:
 
 
 def _factor(a: Array, b: Array, tolerance: float) -> Text | None:
-    """Return by which telling factor an array is too large or too small."""
+    """Return the factor, of those reported, by which an array is too large or too small."""
     for factor in TELLING:
         if (np.abs(a - factor * b) <= factor * tolerance).all():
             return say("factor", factor=factor)
@@ -157,7 +157,7 @@ def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
 
 
 def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
-    """Say where two arrays differ, or by how much, where nothing better can be said."""
+    """Return where two arrays differ, or by how much, where there is no simpler relation."""
     wrong = np.abs(a - b) > tolerance
     error = float(np.abs(a - b).max() / max(np.abs(b).max(initial=0), FLOOR))
     if error < 1e-3:

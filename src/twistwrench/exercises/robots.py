@@ -35,7 +35,7 @@ def small_robot(rng: np.random.Generator) -> Model:
 
 
 def weightless(model: Model) -> Model:
-    """Return the same robot where there is no gravity.
+    """Return the same robot without gravity.
 
     Examples
     --------

@@ -53,14 +53,14 @@ WORDS = Text("In your own words, as a string:", "用自己的话回答，写成�
 
 
 def start(folder: str | PathLike[str], *, language: Language | None = None) -> tuple[list[Path], list[Path]]:
-    """Write the skeletons of all exercises into a folder. Nothing that is there is touched.
+    """Write the skeletons of all exercises into a folder. Existing files are not touched.
 
     Parameters
     ----------
     folder : str or path
         Made if need be.
     language : {"en", "zh"}, optional
-        Of texts and messages; what the environment says unless given.
+        Of texts and messages; that of the environment unless given.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""A machine whose clock can be known beforehand: to check how somebody measures, without measuring."""
+"""A machine whose clock is known beforehand: to check how the student measures, without measuring."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Machine:
     Parameters
     ----------
     name : Text
-        What is the matter with it.
+        Its fault.
     start : float
         What the first call of each task takes on top, s.
     pause : float
@@ -43,7 +43,7 @@ class Machine:
         self.reset()
 
     def reset(self) -> None:
-        """Begin again."""
+        """Start again."""
         self._now, self.readings, self._calls = 0.0, 0, 0
         self._met: set[Task] = set()
 

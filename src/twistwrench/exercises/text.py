@@ -1,4 +1,4 @@
-"""What is said in two languages."""
+"""A text in two languages."""
 
 from __future__ import annotations
 
@@ -27,6 +27,6 @@ class Text(NamedTuple):
 
 
 def default_language() -> Language:
-    """Return the language that the environment asks for; English unless it is Chinese."""
+    """Return the language of the environment; English unless it is Chinese."""
     asked = next((os.environ[k] for k in ("LC_ALL", "LC_MESSAGES", "LANG") if os.environ.get(k)), "")
     return "zh" if asked.lower().startswith("zh") else "en"

@@ -1,4 +1,4 @@
-"""A folder with a student's answers: what is in it, and how far it is."""
+"""A folder with a student's answers: its content, and the progress."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Workbook:
         self.watch: Callable[[str], AbstractContextManager[object]] = nullcontext
         """Surrounds each call of the student's function of a name, and the reading of a file of a name."""
         self.borrowed: set[str] = set()
-        """Functions that others asked for through `mine` and that came from the reference."""
+        """Functions that `mine` took from the reference."""
 
     @classmethod
     def existing(cls, folder: str | PathLike[str], *, language: Language | None = None) -> Workbook:
@@ -74,7 +74,7 @@ class Workbook:
 
     @cached_property
     def state(self) -> dict[str, Any]:
-        """What the hidden file remembers."""
+        """The content of the hidden file."""
         try:
             kept = json.loads((self.folder / STATE_FILE).read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -96,7 +96,7 @@ class Workbook:
     # ---------------------------------------------------------------- what the student wrote
 
     def module(self, section: str) -> ModuleType | Text:
-        """Return the student's file of a section as a module, or why there is none."""
+        """Return the student's file of a section as a module, or why it cannot be read."""
         if section not in self._modules:
             self._modules[section] = None  # while it is being read
             self._modules[section] = self._read(self.folder / catalogue.file_name(section))
@@ -123,12 +123,12 @@ class Workbook:
         return module
 
     def words(self, exercise: Exercise) -> str | None:
-        """Return the student's answer in words, None where there is none yet."""
+        """Return the student's answer in words, None if it is not written yet."""
         module = self.module(exercise.section)
         text = None if isinstance(module, Text) else getattr(module, exercise.answer_name, None)
         return text.strip() if isinstance(text, str) and text.strip() else None
 
-    # ---------------------------------------------------------------- how far it is
+    # ---------------------------------------------------------------- the progress
 
     def verdict(self, exercise: Exercise, part: Part) -> Verdict:
         """Judge one function; each is judged once."""
@@ -153,7 +153,7 @@ class Workbook:
         return judge(exercise, part, function, watch=partial(self.watch, part.name))
 
     def verdict_in_words(self, exercise: Exercise) -> Verdict | None:
-        """Judge whether the answer in words is there; None where none is asked for."""
+        """Judge whether the answer in words is written; None where the exercise needs no words."""
         if exercise.answer is None:
             return None
         words = self.words(exercise)
@@ -164,7 +164,7 @@ class Workbook:
         return Verdict("done")
 
     def verdicts(self, exercise: Exercise) -> dict[str, Verdict]:
-        """Return the verdicts on all that an exercise asks for, by the name in the file."""
+        """Return the verdicts on all parts of an exercise, by the name in the file."""
         found = {part.name: self.verdict(exercise, part) for part in exercise.parts}
         words = self.verdict_in_words(exercise)
         return found if words is None else {**found, exercise.answer_name: words}
@@ -183,7 +183,7 @@ class Workbook:
 
 
 def _line(error: BaseException, path: Path) -> int | None:
-    """Return the line of a file at which an error is, or came from."""
+    """Return the line of a file at which an error is, or was raised."""
     if isinstance(error, SyntaxError):
         return error.lineno
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
@@ -192,7 +192,7 @@ def _line(error: BaseException, path: Path) -> int | None:
 
 @contextmanager
 def _importable(folder: Path) -> Iterator[None]:
-    """Let files of the folder import each other, and leave nothing of them behind for another folder."""
+    """Let files of the folder import each other, and forget these modules afterwards, for the next folder."""
     before = set(sys.modules)
     sys.path.insert(0, str(folder))
     try:
@@ -222,7 +222,7 @@ def mine(name: str) -> Callable[..., Any]:
     Raises
     ------
     NameNotFound
-        If no exercise asks for a function of that name.
+        If no exercise has a function of that name.
 
     Examples
     --------
@@ -233,7 +233,7 @@ def mine(name: str) -> Callable[..., Any]:
            [-2.,  1.,  0.]])
     """
     _, part = catalogue.find_part(name)
-    asker = sys._getframe(1).f_globals  # the file that asks tells the folder
+    asker = sys._getframe(1).f_globals  # the folder is that of the calling file
     book = asker.get("__workbook__") or Workbook(Path(asker.get("__file__", "")).parent)
 
     def function(*arguments: Any, **named: Any) -> Any:
@@ -249,7 +249,7 @@ def _started(folder: Path) -> bool:
 
 
 def _where(folder: Path) -> str:
-    """Say where the exercises may be, for a student who stands in another folder."""
+    """Return where the exercises may be, for a student who is in another folder."""
     near = [folder / "..", *(sorted(folder.iterdir()) if folder.is_dir() else ())]
     for other in near:
         if _started(other):

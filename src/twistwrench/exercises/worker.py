@@ -1,6 +1,6 @@
 """The process that runs the student's code, and stops itself where that takes too long.
 
-`faulthandler` watches from a thread of its own, which needs neither Python's lock nor a parent that is still there.
+`faulthandler` watches from a thread of its own, which needs neither Python's lock nor a living parent.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["main"]
 
 
 class _Watched(Workbook):
-    """A folder that says what it is at, and is watched by a clock meanwhile."""
+    """A folder that reports what it is running, under a time limit."""
 
     def __init__(self, folder: str, limit: float, trace: BinaryIO, replies: BinaryIO) -> None:
         super().__init__(folder)
@@ -34,7 +34,7 @@ class _Watched(Workbook):
 
     @contextmanager
     def _watch(self, name: str) -> Iterator[None]:
-        """Set the clock for a call, and set it anew for the call that this one was made by."""
+        """Set the clock for a call, and set it again for the caller's afterwards."""
         self.tell("begin", name)
         self._set(self._depth + 1)
         try:
@@ -58,7 +58,7 @@ class _Watched(Workbook):
 
 
 def main() -> None:
-    """Answer what is asked on stdin, on stdout; what the student's code prints goes to stderr."""
+    """Answer the requests on stdin, on stdout; what the student's code prints goes to stderr."""
     requests, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)

@@ -24,14 +24,14 @@ Function = Callable[..., Any]
 
 
 def faulty(solution: Function, *changes: tuple[str, str]) -> Function:
-    """Change the text of the reference: in each pair what is right, and what stands there in its place.
+    """Change the text of the reference: in each pair the right text, and the wrong one in its place.
 
     It is compiled when it is first called.
 
     Raises
     ------
     ValueError
-        When it is called, if what is right does not stand in the reference exactly once.
+        When it is called, if the right text is not in the reference exactly once.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def after(solution: Function, change: Callable[[Any], Any], *, only: tuple[int, 
 
 
 def before(solution: Function, change: Callable[[Any], Any], *, which: int) -> Function:
-    """Change one of the arguments before the reference sees them."""
+    """Change one of the arguments of the reference."""
 
     def wrong(*arguments: Any) -> Any:
         return solution(*(change(x) if k == which else x for k, x in enumerate(arguments)))
@@ -81,7 +81,7 @@ def before(solution: Function, change: Callable[[Any], Any], *, which: int) -> F
 
 
 def swap(x: Any) -> Array:
-    """Exchange the angular and the linear half of every axis that is 6 long or longer; what follows stays."""
+    """Exchange the angular and the linear half of every axis that is 6 long or longer; later entries stay."""
     x = np.array(x)
     for axis, size in enumerate(x.shape):
         if size >= 6:

@@ -1,4 +1,4 @@
-"""Curves that know their first two derivatives.
+"""Curves with their first two derivatives.
 
 A jet is an array with a first axis of three: value, rate, rate of the rate. All curves are three times differentiable
 and take complex times, so that a complex step differentiates what is made of them.
@@ -24,12 +24,12 @@ BUMP = 256 * Polynomial([0, 0, 0, 0, 1]) * Polynomial([1, -1]) ** 4
 
 
 def stair(s: Array, rate: float) -> Array:
-    """Return the jet of the smooth step at s = rate t + const, 0 before and 1 behind, shape (3, ...)."""
+    """Return the jet of the smooth step at s = rate t + const, 0 before and 1 after, shape (3, ...)."""
     return _unit_jet(SMOOTH_STEP, s, rate)
 
 
 def hop(s: Array, rate: float) -> Array:
-    """Return the jet of the bump at s = rate t + const, 0 before and behind, shape (3, ...)."""
+    """Return the jet of the bump at s = rate t + const, 0 before and after, shape (3, ...)."""
     return _unit_jet(BUMP, s, rate)
 
 

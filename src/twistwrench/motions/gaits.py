@@ -1,9 +1,9 @@
-"""Walk and trot: a schedule of steps, and the centre of mass that a pendulum says (49.10).
+"""Walk and trot: a schedule of steps, and the centre of mass of a pendulum (49.10).
 
 The feet are loaded and unloaded smoothly; the weighted mean of the loaded ones is where the centre of pressure should
 be, inside the support polygon. For a pendulum of constant height the centre of mass of a steady gait then follows in
-closed form, harmonic by harmonic: x_n = p_n / (1 + (n ω)² z / g). What the legs' own momentum does to the centre of
-pressure the plan does not know. The templates say.
+closed form, harmonic by harmonic: x_n = p_n / (1 + (n ω)² z / g). The plan
+neglects what the legs' own momentum does to the centre of pressure; the templates measure it.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ BRISK_WALK = Gait(
 
 
 class Steps:
-    """A robot in a gait: what its body parts should do at any time.
+    """A robot in a gait: how its body parts should move at any time.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class Steps:
         self.path = Harmonics(forward, self.pressure(times) - times[:, None] * forward, self.period, gain)
 
     def goal(self, t: Array) -> Goal:
-        """Return what the robot should do at times t, shape (n,)."""
+        """Return how the robot should move at times t, shape (n,)."""
         com = self.path(t)
         com[..., 2] = self.gait.bob * self.stand.height * self._cosine(t, 2)  # twice: onto each foot or pair of feet
         com[0, ..., 2] += self.stand.com[2] - (1 - self.gait.height) * self.stand.height

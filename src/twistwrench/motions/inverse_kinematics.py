@@ -1,9 +1,9 @@
 """The states of a robot whose centre of mass, base, feet and other joints follow given curves.
 
-At each of the three levels the same square matrix: the rows are the tasks (centre of mass, feet), the columns what is
-free (the base's position, the joints of the legs). Orientation and the other joints are given.
+The square matrix J is the same at all three levels: its rows are the tasks (centre of mass, feet), its columns what
+is free (the base's position, the joints of the legs). Orientation and the other joints are given.
 
-    position      J δ = what is missing, until nothing is (Newton)
+    position      J δ = error, until it is zero (Newton)
     velocity      J v = ẋ
     acceleration  J a = ẍ − J̇ v
 """
@@ -34,7 +34,7 @@ LONGEST_STEP = 0.4
 
 
 class Goal(NamedTuple):
-    """What a motion asks for at n times. Each is a jet: value, rate and rate of the rate along the first axis.
+    """The tasks of a motion at n times. Each is a jet: value, rate and rate of the rate along the first axis.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Goal(NamedTuple):
 
 
 def follow(stand: Stand, goal: Goal) -> tuple[Array, Array, Array]:
-    """Return q, v and a of the robot that does what `goal` asks.
+    """Return q, v and a of the robot that follows `goal`.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def place(stand: Stand, goal: Goal) -> Array:
     Raises
     ------
     SingularError
-        If there is none near.
+        If there is no such q near standing.
     """
     q, left = turned(stand, goal, np.broadcast_to(stand.q, (*goal.turn[0].shape[:-1], stand.model.nq))), 2
     for _ in range(STEPS):
@@ -104,7 +104,7 @@ def place(stand: Stand, goal: Goal) -> Array:
 
 
 def turned(stand: Stand, goal: Goal, q: Array) -> Array:
-    """Return q with the base turned as it should be, and the joints that are of no leg where they should be."""
+    """Return q with the base turned as it should be, and the joints that belong to no leg where they should be."""
     model, free = stand.model, free_columns(stand)
     shift = goal.joints[0].copy()
     shift[..., :3], shift[..., free] = goal.turn[0], 0
@@ -130,7 +130,7 @@ def solve(stand: Stand, J: Array, wanted: Array) -> Array:
     Raises
     ------
     SingularError
-        If there is none, as with a straight leg.
+        If there is no such x, as with a straight leg.
     """
     try:
         return np.asarray(np.linalg.solve(J, wanted[..., None])[..., 0])
@@ -139,7 +139,7 @@ def solve(stand: Stand, J: Array, wanted: Array) -> Array:
 
 
 def free_columns(stand: Stand) -> list[int]:
-    """Return the places in v of what is not given: the base's position, and the joints of the legs."""
+    """Return the indices in v of the unknowns: the base's position, and the joints of the legs."""
     return [3, 4, 5, *(column for leg in stand.legs for column in leg.columns)]
 
 

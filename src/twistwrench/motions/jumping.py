@@ -62,7 +62,7 @@ TWO_LEGS = Jump(crouch=0.82, off=0.88, rise=0.04, ahead=0.03, pitch=0.02, tuck=0
 
 
 class Leap:
-    """A robot in a jump: what its body parts should do at any time.
+    """A robot in a jump: how its body parts should move at any time.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Leap:
         self.turn = self._turn()
 
     def goal(self, t: Array) -> Goal:
-        """Return what the robot should do at times t, shape (n,)."""
+        """Return how the robot should move at times t, shape (n,)."""
         return self._goal(t, self.turn(t))
 
     def stands(self, t: Array) -> Array:
@@ -128,12 +128,12 @@ class Leap:
         return Pieces(self.breaks, [(zero, p, zero) for p in about_y])
 
     def _turn(self) -> Pieces:
-        """Return φ(t): solve J(φ) φ̇ = ω, where ω is what the momentum and the tasks make it in the posture with that φ.
+        """Return φ(t): solve J(φ) φ̇ = ω, where momentum and tasks determine ω in the posture with that φ.
 
         Raises
         ------
         SingularError
-            If the iteration does not come to rest.
+            If the iteration does not converge.
         """
         breaks = np.concatenate([np.linspace(*span, PARTS, endpoint=False) for span in pairwise(self.breaks)])
         spans = list(pairwise([*breaks, self.breaks[-1]]))
@@ -154,7 +154,7 @@ class Leap:
         )
 
     def _angular_velocity(self, t: Array, q: Array, goal: Goal) -> Array:
-        """Return ω, in the base's axes, at which the robot has the momentum and its feet the velocities they should."""
+        """Return the ω, in the base's axes, that gives the robot its momentum and the feet their velocities."""
         model, free = self.stand.model, free_columns(self.stand)
         A_G = centroidal_map(model, q)[..., :3, :]
         J = np.concatenate([A_G, tasks(self.stand, q)], axis=-2)[..., [0, 1, 2, *free]]

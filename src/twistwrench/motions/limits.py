@@ -11,9 +11,9 @@ __all__ = ["limits_broken"]
 
 
 def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]]:
-    """Return the joints that a motion takes beyond their limits; empty where it keeps them all.
+    """Return the joints that a motion takes outside their limits; empty where it keeps them all.
 
-    A motion is made for the shape of a robot, without a look at its limits.
+    A motion is made for the shape of a robot, without regard to its limits.
 
     Parameters
     ----------
@@ -23,8 +23,8 @@ def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]
     Returns
     -------
     dict of str to (float, float)
-        By the joint's name: how far q goes beyond its limits (rad or m; 0 where it does not), and the largest speed as
-        a share of the velocity limit. A velocity limit of 0 is none.
+        By the joint's name: how far q goes outside its limits (rad or m; 0 where it does not), and the largest speed as
+        a share of the velocity limit. A velocity limit of 0 means no limit.
 
     Raises
     ------
@@ -40,11 +40,11 @@ def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]
     """
     check_motion(motion)
     q, v = floats_of(model, motion.q, v=motion.v)
-    beyond = np.maximum(np.maximum(model.lower - q, q - model.upper), 0).max(axis=0)
+    outside = np.maximum(np.maximum(model.lower - q, q - model.upper), 0).max(axis=0)
     limit = np.where(model.velocity_limit > 0, model.velocity_limit, np.inf)
     share = (np.abs(v) / limit).max(axis=0)
     found = {}
     for name, joint, qs, vs in zip(model.joint_names, model.joints, model.q_slice, model.v_slice):
-        if joint and (beyond[qs].any() or share[vs].max() > 1):
-            found[name] = (float(beyond[qs].max()), float(share[vs].max()))
+        if joint and (outside[qs].any() or share[vs].max() > 1):
+            found[name] = (float(outside[qs].max()), float(share[vs].max()))
     return found

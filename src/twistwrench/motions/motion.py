@@ -35,7 +35,8 @@ class Motion:
     Raises
     ------
     ShapeError, ValueError, TypeError
-        If an array has not a row for each time or is not finite, the times do not grow, or a name is not a name.
+        If an array does not have a row for each time or is not finite, the times do not grow, or a name is not a
+        string.
 
     Examples
     --------
@@ -86,5 +87,5 @@ class Motion:
 
 
 def check_motion(motion: object) -> None:
-    """Refuse what is not a motion, where it comes in."""
+    """Raise TypeError for an argument that is not a motion."""
     check_kind(motion, "motion", Motion, "a Motion, as motions.walk(model) makes one")

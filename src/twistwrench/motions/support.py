@@ -27,7 +27,7 @@ class Ground:
     Attributes
     ----------
     wrench : ndarray, shape (n, 6)
-        All that the ground does, at the centre of mass, in the axes of the world, N m and N: ḣ_G less the weight.
+        The total wrench of the ground, at the centre of mass, in the axes of the world, N m and N: ḣ_G less the weight.
     loaded : ndarray of bool, shape (n,)
         Whether the ground is pushed.
     friction : ndarray, shape (l,)
@@ -49,8 +49,8 @@ class Ground:
 def ground(model: Model, motion: Motion) -> Ground:
     """Return what the ground must do for a motion.
 
-    Necessary, not sufficient: that the forces can be shared out among the feet, each inside its own friction cone, is
-    not looked at, nor the moment about the vertical.
+    Necessary, not sufficient: neither the moment about the vertical is checked, nor whether the forces can be shared
+    out among the feet, each inside its own friction cone.
 
     Parameters
     ----------

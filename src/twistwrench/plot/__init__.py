@@ -8,7 +8,7 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `screws`: screw axes, the field of a twist.
 - `matrices`: a matrix as coloured squares.
 - `contacts`: friction cones, soles and their centre of pressure.
-- `inertias`: bodies as ellipsoids, the mass felt in each direction.
+- `inertias`: bodies as ellipsoids, the apparent mass in each direction.
 - `flow`: what a recursion carries along the tree.
 - `sparsity`: the mass matrix beside the tree.
 - `stance`: a robot on its feet, with its support polygon.

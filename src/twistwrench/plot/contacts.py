@@ -45,7 +45,7 @@ def center_of_pressure(F: Wrench | ArrayLike) -> Array:
     """
     F = as_spatial(F, "F")
     if (F[..., 5].real == 0).any():
-        raise SingularError("center_of_pressure: without a force along the normal there is none")
+        raise SingularError("center_of_pressure: it does not exist without a force along the normal")
     return np.stack([-F[..., 1], F[..., 0], 0 * F[..., 5]], axis=-1) / F[..., 5:]
 
 
@@ -132,7 +132,7 @@ def sole(
     Raises
     ------
     ShapeError, SingularError, TypeError
-        As `center_of_pressure`; or if `corners` are no points, or `F` is a batch.
+        As `center_of_pressure`; or if `corners` are not points, or `F` is a batch.
 
     Examples
     --------

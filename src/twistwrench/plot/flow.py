@@ -1,4 +1,4 @@
-"""What a recursion carries along the tree (49.6, 49.7)."""
+"""Draw the quantities that a recursion passes along the tree (49.6, 49.7)."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def seats(model: Model) -> Array:
     Returns
     -------
     ndarray, shape (nbodies, 2)
-        (depth, −branch). The world is at depth 0; every tip has a branch of its own, and what carries
-        several stands in their middle.
+        (depth, −branch). The world is at depth 0; every tip has a branch of its own, and a body that
+        carries several stands in their middle.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def seats(model: Model) -> Array:
     depth, branch, tips = np.zeros(model.nbodies), np.zeros(model.nbodies), 0
     for i in range(1, model.nbodies):
         depth[i] = depth[model.parent[i]] + 1
-    for i in reversed(range(model.nbodies)):  # children have larger numbers than what carries them
+    for i in reversed(range(model.nbodies)):  # children have larger numbers than their parents
         children = [j for j in range(1, model.nbodies) if model.parent[j] == i]
         branch[i] = branch[children].mean() if children else tips
         tips += not children
@@ -59,7 +59,7 @@ def flow(
     colour: str = COLOURS["blue"],
     ax: Any = None,
 ) -> Any:
-    """Draw the tree as boxes, with an arrow through each joint for what a pass hands on.
+    """Draw the tree as boxes, with an arrow through each joint for what a pass passes on.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def flow(
     inward : bool
         Whether the arrows lead from the tips to the base.
     amounts : array_like, shape (nbodies,), optional
-        The arrows grow with the square root of these; all alike unless given. The first is not read.
+        The arrows grow with the square root of these; all alike unless given. The first is ignored.
     colour : str
         Of the arrows.
     ax : matplotlib Axes, optional

@@ -1,4 +1,4 @@
-"""Inertias as ellipsoids, and the mass that is felt in each direction as an ellipse (49.5, 49.7)."""
+"""Inertias as ellipsoids, and the apparent mass in each direction as an ellipse (49.5, 49.7)."""
 
 from __future__ import annotations
 
@@ -181,7 +181,7 @@ def felt_mass(
     label: str | None = None,
     ax: Any = None,
 ) -> Any:
-    """Draw the force that a frame asks for to be accelerated by 1 m/s² without turning, for each direction in a plane.
+    """Draw the force that accelerates a frame by 1 m/s² without turning it, for each direction in a plane.
 
     Of a rigid body it is a circle: its mass, whatever the direction. Of an articulated body it is an ellipse.
 
@@ -207,7 +207,7 @@ def felt_mass(
     Raises
     ------
     ShapeError
-        If `inertia` is not one 6 × 6 matrix, or `at` no point of the picture.
+        If `inertia` is not one 6 × 6 matrix, or `at` is not a point of the picture.
     ValueError
         If `plane` is not two of the axes 0, 1, 2.
 

@@ -45,7 +45,7 @@ def matrix(
     numbers : str, optional
         How to write the entries into the squares, for example ``".2f"``; zeros are left out.
     limit : float, optional
-        The value that has full colour, as all beyond it have; the largest of `A` unless given.
+        The value from which on the colour is full; the largest of `A` unless given.
     rounding : float
         Entries up to this are taken for zeros that rounding has touched.
     ax : matplotlib Axes, optional
@@ -97,7 +97,7 @@ def matrix(
 
 
 def _check_format(numbers: object) -> None:
-    """Refuse what no number can be written with."""
+    """Raise for a format that cannot write a number."""
     try:
         format(1.0, "" if numbers is None else numbers)  # type: ignore[arg-type]
     except (TypeError, ValueError):

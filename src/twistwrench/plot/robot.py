@@ -74,7 +74,7 @@ def robot(
     frames : collection of str
         Frames whose names are written beside them.
     com : bool
-        Whether to mark the centre of mass; what has no mass has none.
+        Whether to mark the centre of mass; not drawn for a robot without mass.
     colour : str
         Of the sticks.
     ax : matplotlib Axes3D, optional

@@ -83,7 +83,7 @@ def screw_axis(
     Raises
     ------
     ShapeError, SingularError
-        As `twistwrench.screw`; or if `V` is a batch, or `near` no point.
+        As `twistwrench.screw`; or if `V` is a batch, or `near` is not a point.
 
     Examples
     --------

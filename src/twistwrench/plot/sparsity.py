@@ -17,7 +17,7 @@ __all__ = ["mass_matrix", "same_branch"]
 
 
 def same_branch(model: Model) -> Array:
-    """Return where the tree lets M be other than zero: where one of two joints carries the other (49.8).
+    """Return the entries of M that the tree allows to be nonzero: where one of two joints carries the other (49.8).
 
     Parameters
     ----------

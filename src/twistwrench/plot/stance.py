@@ -26,7 +26,7 @@ def hull(points: ArrayLike) -> Array:
     Parameters
     ----------
     points : array_like, shape (n, 2) or (n, 3)
-        Only x and y are looked at, m.
+        Only x and y are used, m.
 
     Returns
     -------
@@ -36,7 +36,7 @@ def hull(points: ArrayLike) -> Array:
     Raises
     ------
     ShapeError
-        If these are no points.
+        If these are not points.
 
     Notes
     -----
@@ -100,7 +100,7 @@ def support_polygon(
     Raises
     ------
     ShapeError
-        If these are no points, or none.
+        If these are not points, or there are none.
 
     Examples
     --------

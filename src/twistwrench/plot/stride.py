@@ -32,7 +32,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     shift : float
         Added to x, so that several postures stand side by side, m.
     com : bool
-        Whether to mark the centre of mass; what has no mass has none.
+        Whether to mark the centre of mass; not drawn for a robot without mass.
     ax : matplotlib Axes, optional
 
     Returns

@@ -24,7 +24,7 @@ __all__ = [
 ]
 
 LARGEST = 1e100
-"""What is larger cannot be drawn: products of it overflow."""
+"""Larger values cannot be drawn: their products overflow."""
 
 COLOURS = {
     "black": "#000000",
@@ -106,7 +106,7 @@ def axes_3d(ax: Any = None, *, size: tuple[float, float] = (6.5, 5.0)) -> Any:
 
 
 def _check_axes(ax: Any) -> None:
-    """Refuse what nothing can be drawn on."""
+    """Raise for an object that is not axes."""
     from matplotlib.axes import Axes
 
     if not isinstance(ax, Axes):
@@ -154,7 +154,7 @@ def as_placement(T: SE3 | ArrayLike, name: str) -> SE3:
 
 
 def _pyplot() -> Any:
-    """Return matplotlib.pyplot, or say how to get it."""
+    """Return matplotlib.pyplot, or raise an error that says how to install it."""
     try:
         import matplotlib.pyplot as plt
     except ModuleNotFoundError as error:
@@ -179,7 +179,7 @@ def fit(ax: Any, points: ArrayLike | None = None) -> Any:
     Raises
     ------
     ShapeError, ValueError
-        If `points` are no points.
+        If `points` are not points.
 
     Examples
     --------
@@ -211,7 +211,7 @@ def _few_ticks(span: float) -> Any:
 
 
 def newtons(force: float) -> str:
-    """Write a force: one decimal from 1 N on, and of less its first three digits, so that only zero reads as zero.
+    """Write a force: one decimal from 1 N on, below that three digits, so that only zero reads as zero.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a scene requires, and no more: the smallest model, only what is wanted of it, and what each omission costs."""
+"""The smallest model that a scene needs, the terms of its dynamics that are wanted, and the cost of each omission."""
 
 from .scene import Scene
 

@@ -1,4 +1,4 @@
-"""What a scene refuses: contacts and wrenches that cannot be, or could change nothing."""
+"""Input validation of a scene: contacts and wrenches that are impossible, or could change nothing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..model import Model
 __all__ = ["SAME_PLACE", "checked_contacts", "checked_wrenches", "expect_movable"]
 
 SAME_PLACE = 1e-9
-"""Two points of a body that are closer than this are one, m."""
+"""Two points of a body that are closer than this count as one, m."""
 
 
 def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
@@ -25,7 +25,7 @@ def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact
     Raises
     ------
     TypeError
-        If one of them is no contact.
+        If one of them is not a contact.
     NameNotFound
         If the model has no such frame.
     ModelError
@@ -63,7 +63,7 @@ def checked_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[st
     ShapeError, ValueError
         If a wrench is not six finite real numbers.
     TypeError
-        If they come without the names of their frames.
+        If they are given without the names of their frames.
     """
     if not isinstance(wrenches, Mapping):
         raise TypeError(f"wrenches: expected a mapping of frames to wrenches, got {type(wrenches).__name__}")
@@ -75,7 +75,7 @@ def checked_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[st
 
 
 def expect_movable(model: Model, frames: Iterable[str], what: str) -> None:
-    """Refuse frames that the scene leaves fixed to the world: no force on them could change anything.
+    """Raise for frames that the scene leaves fixed to the world: no force on them could change anything.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""What does it cost to leave this out? Error and time of each smaller model over a motion, and the best that will do.
+"""The cost of a reduced model: error and time of each over a motion, and the quickest that is exact enough.
 
 All models answer one question: which wrench the ground and the weight together must exert on the robot for the motion
-to happen, ḣ_G. The templates of 49.10 answer no other; a robot with held joints tells the torques of the rest as well.
+to happen, ḣ_G. The templates of 49.10 answer only this; a robot with held joints gives the torques of the rest as well.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ class Option:
     name : str
         Of the template, or of the joints that are held.
     leaves_out : str
-        What it takes for granted.
+        What it assumes.
     tells_torques : bool
-        Whether it tells joint torques, and not only ḣ_G.
+        Whether it gives joint torques, and not only ḣ_G.
     residual : ndarray, shape (n,)
         At each state of the motion, the wrench that it misses as a share of the weight (`Residual.relative`).
     seconds : float
@@ -73,7 +73,7 @@ class Costs:
     tolerance : float
         The largest residual that is allowed, as a share of the weight.
     options : tuple of Option
-        Those that do not apply come last, and say why.
+        Those that do not apply come last, with the reason.
     share_of : str
         What the residuals are a share of: the weight, or without gravity the largest ḣ_G of the motion.
     """
@@ -103,7 +103,7 @@ class Costs:
         return "\n".join([title, head, *(row.rstrip() for row in rows)])
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw time over error: what is left of the line will do, and the lowest of that is the choice.
+        """Draw time over error: the options left of the line are exact enough, and the lowest of these is the choice.
 
         Parameters
         ----------
@@ -144,7 +144,7 @@ def costs(
     feet: Sequence[Contact] = (),
     scene: Callable[[State], Candidate] | None = None,
 ) -> Costs:
-    """Do what `Scene.cheapest` says; `scene` is one more candidate, of the states of the motion."""
+    """See `Scene.cheapest`; `scene` is one more candidate, of the states of the motion."""
     if not as_number(tolerance, "tolerance") >= 0:
         raise ValueError(f"tolerance: expected a share of the weight, 0 or more, got {tolerance!r}")
     q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
@@ -187,7 +187,7 @@ def candidates(
 
 
 def _template(name: str, kind: type[Template], model: Model, state: State, feet: Sequence[Contact]) -> Candidate:
-    """Return a template, or why there is none of this robot."""
+    """Return a template, or why it does not apply to this robot."""
     if kind is Full:
         return Candidate(name, kind.assumes, _whole(model, state), state)
     try:
@@ -229,7 +229,7 @@ def _movable(model: Model) -> range:
 
 
 def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
-    """Return the limbs that do not touch the ground: by the joint that each hangs on, that one and all beyond.
+    """Return the limbs that do not touch the ground: by the joint that each hangs on, that one and all outboard of it.
 
     A limb begins where the way to no foot leads, and again where a limb branches.
 
@@ -256,5 +256,5 @@ def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
         for i in range(1, model.nbodies)
         if i not in busy and (model.parent[i] in busy or model.parent.count(model.parent[i]) > 1)
     ]
-    beyond = {head: [i for i in range(1, model.nbodies) if head in model.support(i)] for head in heads}
-    return {model.joint_names[head]: tuple(model.joint_names[i] for i in bodies) for head, bodies in beyond.items()}
+    outboard = {head: [i for i in range(1, model.nbodies) if head in model.support(i)] for head in heads}
+    return {model.joint_names[head]: tuple(model.joint_names[i] for i in bodies) for head, bodies in outboard.items()}

@@ -27,7 +27,7 @@ def scene_dynamics(
     v: ArrayLike,
     want: Collection[str],
 ) -> Dynamics:
-    """Return what `Scene.dynamics` does. The linear rows of contacts and of wrenches come from one call of `fast`."""
+    """See `Scene.dynamics`. The linear rows of contacts and of wrenches come from one call of `fast`."""
     touched = [contact.frame for contact in contacts] if "J_c" in want else []
     pushed = list(wrenches) if "h" in want else []
     d = dynamics(model, q, v, contacts=touched + pushed, want={*want, "J_c"} if pushed else set(want))
@@ -53,7 +53,7 @@ def contact_rows(model: Model, contacts: Sequence[Contact], q: Array, linear: Ar
 
 
 def without(model: Model, wrenches: Mapping[str, Array], q: Array, h: Array, linear: Array) -> Array:
-    """Return h less what the wrenches do, Σ Jᵀ (τ, f); linear holds the rows of their frames, (..., k, 3, nv)."""
+    """Return h less Σ Jᵀ (τ, f) of the wrenches; linear holds the rows of their frames, (..., k, 3, nv)."""
     moments = {frame: wrench[:3] for frame, wrench in wrenches.items() if wrench[:3].any()}
     angular = angular_rows(model, q, list(moments))
     for k, wrench in enumerate(wrenches.values()):

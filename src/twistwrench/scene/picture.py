@@ -13,7 +13,7 @@ __all__ = ["draw"]
 
 
 def draw(costs: Costs, ax: Any = None) -> Any:
-    """Draw a bar for the time of each option, coloured by whether it will do, with what it misses; returns the axes."""
+    """Draw a bar for the time of each option, coloured by whether it is exact enough; returns the axes."""
     options = [option for option in costs.options if not option.unfit]
     ax = axes_2d(ax, size=(7.0, 1.2 + 0.32 * len(options)))
     best, times = costs.best, [1e6 * option.seconds for option in options]

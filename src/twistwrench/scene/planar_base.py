@@ -95,7 +95,7 @@ def _shadow(T: SE3) -> Array:
 
 
 def _rest(model: Model) -> list[tuple[int, SE3]]:
-    """Return parent and placement of the joints beyond the base."""
+    """Return parent and placement of the joints outboard of the base."""
     return list(zip(model.parent[2:], model.placement[2:]))
 
 

@@ -1,4 +1,4 @@
-"""The smallest model of a scene: the base as it is asked for, held joints locked, what carries nothing dropped."""
+"""The smallest model of a scene: the base that was chosen, held joints locked, joints that carry nothing dropped."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Base = Literal["fixed", "floating", "planar"]
 
 
 class SmallestModel:
-    """What a scene is made of, and the way between the states of the whole robot and those of the smallest model.
+    """What a scene is made of, and the maps between the states of the whole robot and those of the smallest model.
 
     Parameters and attributes are those of `Scene`.
     """
@@ -58,13 +58,13 @@ class SmallestModel:
         expect_movable(self.model, (contact.frame for contact in self.contacts), "contact on frame")
         expect_movable(self.model, self.wrenches, "wrench on frame")
 
-    # ---------------------------------------------------------------- the way between the whole robot and the model
+    # ---------------------------------------------------------------- between the whole robot and the model
 
     def reduce(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
         """Return the state of `model` that belongs to one of `full_model`.
 
-        What the held joints do there is dropped, whether they stand still or not; with a planar base also height,
-        tilt and their rates. Accelerations go the way of velocities.
+        The coordinates and velocities of the held joints are dropped; with a planar base also height,
+        tilt and their rates. Accelerations are mapped as velocities are.
 
         Parameters
         ----------
@@ -122,7 +122,7 @@ class SmallestModel:
 
 
 def _held(model: Model, hold: Iterable[str]) -> tuple[str, ...]:
-    """Return the joints that fit; a floating base is none of them, as the scene's base says what becomes of it."""
+    """Return the joints that match; a floating base is not among them, as `base` decides about it."""
     held = matching_joints(model, hold, "hold")
     base = model.joint_names[1:2] if model.base == "floating" else ()
     if held and held == base:

@@ -1,4 +1,4 @@
-"""The scene: a robot, what holds it, what pushes it; and what can be asked of the smallest model that has all this."""
+"""The scene: a robot, what holds it and what pushes it; and the dynamics of the smallest model that has all this."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["Scene"]
 
 
 class Scene(SmallestModel):
-    """A robot with what holds it and what pushes it, and the smallest model that says the same.
+    """A robot with what holds it and what pushes it, and the smallest model that moves as it does.
 
     Joints that are held are locked where they stand and their bodies merged; joints that carry nothing are dropped;
     all frames stay. `model` is what is left, for any function of the package.
@@ -40,9 +40,9 @@ class Scene(SmallestModel):
         `PointContact` or `SurfaceContact`.
     hold : iterable of str
         Joints that stand still, by name or pattern: ``"arm_*"`` is every joint whose name begins so. A floating base
-        is none of them.
+        is not among them.
     q : array_like, shape (nq of the whole robot,), optional
-        Where they stand; the standing posture, or where there is none the neutral one, unless given.
+        Where they stand; unless given the standing posture, or the neutral one of a robot without it.
     gravity : array_like, shape (3,), optional
         In the world, m/s²; the model's unless given.
     wrenches : mapping of str to array_like, shape (6,), optional
@@ -66,14 +66,15 @@ class Scene(SmallestModel):
     Raises
     ------
     NameNotFound
-        A robot, a joint or pattern, or a frame that is not known; the message lists what is.
+        If a robot, a joint or pattern, or a frame is not known; the message lists those that are.
     ModelError
-        A base that is none of the three or cannot be had, or that `hold` names; a contact or a wrench on a frame that
-        the scene holds fixed to the world; two contacts at one place; nothing left to move.
+        If the base is not one of the three or not one that the model can have, or if `hold` names it; if a contact or a
+        wrench acts on a frame that the scene holds fixed to the world; if two contacts touch at one place; if nothing
+        is left to move.
     ShapeError, ValueError
-        Numbers that are none, or of a wrong shape; friction below zero (`PointContact` says so).
+        If a value is not a finite number or has the wrong shape; if friction is below zero (see `PointContact`).
     TypeError
-        A contact that is none, or wrenches without the names of their frames.
+        If a contact is not a contact, or wrenches are given without the names of their frames.
 
     Examples
     --------
@@ -87,7 +88,7 @@ class Scene(SmallestModel):
     ((19, 19), (12, 19), None)
     """
 
-    # ---------------------------------------------------------------- what a controller asks for
+    # ---------------------------------------------------------------- what a controller needs
 
     def dynamics(self, q: ArrayLike, v: ArrayLike, *, want: Iterable[str] = QUANTITIES) -> Dynamics:
         """Return what is wanted of M q̈ + h = Sᵀ τ + J_cᵀ λ, and nothing else.
@@ -110,7 +111,7 @@ class Scene(SmallestModel):
         Raises
         ------
         NameNotFound
-            If `want` names something else.
+            If `want` names anything else.
         ShapeError, SingularError, ValueError
             As `twistwrench.dynamics`.
         """
@@ -137,24 +138,24 @@ class Scene(SmallestModel):
             f[..., at.body, :] += np.matvec(at.placement.force_transform(), turned)
         return f
 
-    # ---------------------------------------------------------------- whether it is possible, and what may be left out
+    # ---------------------------------------------------------------- whether it can stand, and what may be left out
 
     def can_stand(self, q: ArrayLike | None = None) -> Standing:
         """Return whether the robot can be at rest in a pose, and if not, why.
 
-        It can if no joint is beyond its limits, if forces within the friction cones of the contacts (as pyramids of 16
+        It can if no joint is outside its limits, if forces within the friction cones of the contacts (as pyramids of 16
         sides inside them) hold it against its weight and the scene's wrenches, and if some of these forces leave no
         motor more than its limit.
 
         Parameters
         ----------
         q : array_like, shape (nq,), optional
-            Of `model`; where the scene's own q puts it unless given.
+            Of `model`; the scene's own q unless given.
 
         Returns
         -------
         Standing
-            True or False in a condition; printed, it says why not.
+            True or False in a condition; printed, it gives the reason.
 
         Raises
         ------
@@ -180,9 +181,9 @@ class Scene(SmallestModel):
     def cheapest(self, tolerance: float, motion: Motion, *, groups: Mapping[str, Iterable[str]] | None = None) -> Costs:
         """Return what each smaller model of the robot costs over a motion, and the quickest that is exact enough.
 
-        A model that does not apply (no pendulum without gravity, no template without a floating base) says so in its
-        row. Without gravity the largest ḣ_G of the motion takes the place of the weight. The base of the motion is
-        that of `full_model`; what a planar or fixed base of the scene costs is the row "this scene".
+        The row of a model that does not apply (no pendulum without gravity, no template without a floating base) gives
+        the reason. Without gravity the largest ḣ_G of the motion takes the place of the weight. The base of the motion
+        is that of `full_model`; what a planar or fixed base of the scene costs is the row "this scene".
 
         Compared are the templates of 49.10, the full model, and the full model with groups of joints held where the
         motion begins. The residual is the wrench ḣ_G that a model misses, force and moment together, as a share of the
@@ -197,7 +198,7 @@ class Scene(SmallestModel):
             Of the whole robot, `full_model`: `twistwrench.motions` makes some.
         groups : mapping of str to iterable of str, optional
             Names or patterns of joints to be held, by a name for each group; the limbs that touch nothing, each with
-            all beyond it, unless given. What the scene itself holds is a group of its own.
+            all outboard of it, unless given. What the scene itself holds is a group of its own.
 
         Returns
         -------
@@ -225,7 +226,7 @@ class Scene(SmallestModel):
         'full'
         """
         check_motion(motion)
-        self.full_model.state(motion.q, v=motion.v, a=motion.a)  # says so where it is another robot's
+        self.full_model.state(motion.q, v=motion.v, a=motion.a)  # raises where it is another robot's
         feet = [contact.frame for contact in self.contacts] or motion.feet
         if groups is None:
             groups = limbs(self.full_model, feet)

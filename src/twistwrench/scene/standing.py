@@ -1,4 +1,4 @@
-"""Can it stand? Limits of the joints, forces at the contacts, motors: what fails is said."""
+"""Can it stand? Limits of the joints, forces at the contacts, motors, and what fails of these."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from ..model import Model
 __all__ = ["Standing", "standing"]
 
 OUTSIDE = 1e-9
-"""How far beyond a limit a joint may be for rounding, rad or m."""
+"""How far outside a limit a joint may be for rounding, rad or m."""
 
 
 @dataclass(frozen=True)
 class Standing:
-    """What `Scene.can_stand` returns. True where the robot stands; printed, it says why not.
+    """What `Scene.can_stand` returns. True where the robot stands; printed, it gives the reason.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Standing:
 
 
 def standing(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> Standing:
-    """Do what `Scene.can_stand` says."""
+    """See `Scene.can_stand`."""
     reasons = outside_limits(model, q)
     if f_ext.any():
         rest = np.zeros(model.nv)
@@ -56,18 +56,18 @@ def standing(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) 
 
 
 def outside_limits(model: Model, q: Array) -> list[str]:
-    """Name the joints that a pose bends beyond their limits."""
-    beyond = np.maximum(q - model.upper, model.lower - q) > OUTSIDE
+    """Name the joints that a pose takes outside their limits."""
+    outside = np.maximum(q - model.upper, model.lower - q) > OUTSIDE
     return [
         f"joint {name!r} is at {q[s].round(3).tolist()}, outside its limits {model.lower[s].round(3).tolist()} "
         f"to {model.upper[s].round(3).tolist()}"
         for name, s in zip(model.joint_names, model.q_slice)
-        if beyond[s].any()
+        if outside[s].any()
     ]
 
 
 def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> str:
-    """Say which motors are too weak, whatever forces within the friction cones the contacts choose; or nothing.
+    """Name the motors that are too weak for all contact forces within the friction cones; empty if there are none.
 
     τ = b − Jᵀ P f, with the forces f at the touching points, which are free to press and to relieve.
     """

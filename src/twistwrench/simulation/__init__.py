@@ -8,7 +8,7 @@
 - `system`: the forces of the policy, the contacts, and the acceleration.
 - `divergence`: when a step has gone wrong.
 - `result`: the motion.
-- `scene_like`: what is asked of a scene.
+- `scene_like`: what `simulate` needs of a scene.
 """
 
 from .divergence import DivergenceError

@@ -1,4 +1,4 @@
-"""When a step has gone wrong, and how that is said."""
+"""When a step has gone wrong, and the error that reports it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FARTHEST = 1e6
 
 
 class DivergenceError(ValueError):
-    """A motion that left all bounds, or a step that could not be solved. The message says when, and which joint."""
+    """A motion that left all bounds, or a step that could not be solved. The message names the time and the joint."""
 
 
 def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> None:

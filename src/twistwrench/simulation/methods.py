@@ -1,4 +1,4 @@
-"""The methods by name: what `simulate` knows, and what each promises."""
+"""The methods of `simulate` by name, and what each conserves."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ class Simulation:
         step those in its middle.
     contact_forces : dict of str to ndarray, shape (n, ..., 3) or (n, ..., 6)
         Forces on the robot by the contact's frame, axes of the world, (τ, f) of a surface: those that went with `tau`,
-        and in the last state those with what the policy says there. Empty without contacts.
+        and in the last state those with what the policy returns there. Empty without contacts.
     evaluations : int
         How often forces and accelerations were computed.
     seconds : float
@@ -118,7 +118,7 @@ class Simulation:
         Raises
         ------
         NameNotFound
-            If `what` is none of these.
+            If `what` is not one of these.
         """
         check_known("quantity", what, LABELS)
         from ..plot.style import axes_2d

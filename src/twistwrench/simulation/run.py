@@ -1,4 +1,4 @@
-"""The loop over time, and its door."""
+"""The loop over time, and its input validation."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def simulate(
     """Let a robot move from a state, and return its motion.
 
     There is no collision detection: a robot without contacts falls through the floor. Contacts stick where they are at
-    t = 0, all the time: none opens, closes or slips, and they pull where they must. `Simulation.contact_forces` tells.
+    t = 0, all the time: none opens, closes or slips, and they pull where they must: see `Simulation.contact_forces`.
 
     Parameters
     ----------
@@ -58,8 +58,8 @@ def simulate(
     duration : float, optional
         the time at the end, s: a whole number of steps.
     tau : callable or array_like, shape (..., nv), optional
-        Joint forces as `aba` takes them: a policy ``(t, q, v) -> tau``, which is asked wherever the method looks at
-        the forces, or constant ones. None unless given.
+        Joint forces as `aba` takes them: a policy ``(t, q, v) -> tau``, which is called wherever the method needs
+        the forces, or constant ones. Zero unless given.
     contacts : iterable of Contact, optional
         `PointContact` or `SurfaceContact`, besides those of a scene. After each step the state goes back to where they
         hold (`project_state`). Computed in double precision.
@@ -78,8 +78,8 @@ def simulate(
     Raises
     ------
     DivergenceError
-        If the motion leaves all bounds, or the equation of a variational step cannot be solved. Says when, and in
-        which joint.
+        If the motion leaves all bounds, or the equation of a variational step cannot be solved. The message names the
+        time and the joint.
     SingularError
         As `aba` and `contact_forward_dynamics`, with the time.
     NameNotFound
@@ -142,7 +142,7 @@ def _at_the_end(system: System, t: float, q: Array, v: Array) -> dict[str, Array
 
 
 def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Array, Array]:
-    """Make step k; say when, where something goes wrong."""
+    """Make step k; where it fails, add the time to the error."""
     t = k * system.dt
     try:
         q, v = system.settle(*step(system, t, q, v))
@@ -153,7 +153,7 @@ def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Ar
 
 
 def _count(dt: float, steps: int | None, duration: float | None) -> int:
-    """Return the number of steps, or say what is wrong with it."""
+    """Return the number of steps; raise an error if it is not one."""
     if not 0 < as_number(dt, "dt") < LONGEST:
         raise ValueError(f"dt: expected a positive number of seconds, got {dt}")
     if steps is not None and duration is None:

@@ -1,4 +1,4 @@
-"""What `simulate` asks of a scene, which comes later in the order of the sections."""
+"""What `simulate` needs of a scene, which comes later in the order of the rooms."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class SceneLike(Protocol):
 
 
 def parts(robot: Model | SceneLike) -> tuple[Model, tuple[Contact, ...], Push | None]:
-    """Return the model, the contacts and the wrenches of a scene; a model alone has but itself."""
+    """Return the model, the contacts and the wrenches of a scene; of a model alone, only the model."""
     if isinstance(robot, Model):
         return robot, (), None
     if not hasattr(robot, "f_ext"):

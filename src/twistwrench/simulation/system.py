@@ -1,4 +1,4 @@
-"""What a method asks of the mechanics: the forces of the policy, the contacts, and the acceleration that follows."""
+"""What a method needs of the mechanics: the forces of the policy, the contacts, and the acceleration that follows."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class System:
     Attributes
     ----------
     evaluations : int
-        How often forces were asked for.
+        How often the forces were computed.
     tau : ndarray, shape (..., nv)
         The joint forces that count for the step being made: those of its first evaluation, or where a method looks for
         them, of its last.
@@ -85,12 +85,12 @@ class System:
         self._first = True
 
     def force(self, t: float, q: Array, v: Array) -> Array:
-        """Return what policy and wrenches from outside do to the joints in a state: τ + Σ Jᵀ f, shape (..., nv)."""
+        """Return the generalized forces of policy and external wrenches in a state: τ + Σ Jᵀ f, shape (..., nv)."""
         self.evaluations += 1
         tau = self._constant
         if self._policy is not None:
             for x in (q, v):
-                x.flags.writeable = False  # a policy cannot change the state behind our back
+                x.flags.writeable = False  # a policy cannot change the state in place
             tau = self._checked("tau(t, q, v)", self._policy(t, q, v), v, f" at t = {t:.6g}")
         if self._first:
             self.tau = np.broadcast_to(tau, v.shape).copy()
@@ -116,7 +116,7 @@ class System:
         return found
 
     def settle(self, q: Array, v: Array) -> tuple[Array, Array]:
-        """Return the state near by in which the contacts are where they stick, and still."""
+        """Return the nearby state in which the contacts are where they stick, with zero velocity."""
         return project_state(self.model, q, v, self.contacts, self.anchors) if self.contacts else (q, v)
 
     def integrate(self, q: Array, u: Array) -> Array:
@@ -134,7 +134,7 @@ class System:
                 )
 
     def _checked(self, name: str, tau: ArrayLike, v: Array, when: str = "") -> Array:
-        """Return joint forces in the number type of v, or say what is wrong with them."""
+        """Return joint forces in the number type of v; raise an error if they are not such."""
         try:
             checked = as_array(tau, name)
         except ValueError as error:

@@ -2,8 +2,8 @@
 
 The configurations of a tree are a Lie group, the product of its joints' groups, and v is the body velocity: q̇ = q v.
 Around a configuration q₀ every other one is q₀ ⊕ u = q₀ exp(u), with u a vector of nv numbers that can be added. While
-q₀ ⊕ u moves with the velocity v, u does not move with v but with u̇ = dexp⁻¹₋ᵤ v: joints that turn about one axis only
-do not notice, balls and floating bases do.
+q₀ ⊕ u moves with the velocity v, u does not move with v but with u̇ = dexp⁻¹₋ᵤ v. The two differ for balls and
+floating bases, and are equal for joints that turn about one axis only.
 """
 
 from __future__ import annotations

@@ -6,11 +6,11 @@ velocity ξ that leads from one end to the other,
 
     q₁ = q₀ ⊕ h ξ,        m = q₀ ⊕ ½ h ξ,        S(q₀, q₁) = h L(m, ξ).
 
-Two laws come along, for any h. Where moving or turning the whole robot in the world changes nothing, the momentum that
-belongs to it is kept to rounding: of a robot that floats freely without gravity the linear momentum and the angular one
-about the world's origin; with gravity the horizontal one and the one about the vertical. And the flow is symplectic, so
-that the energy swings about its value and does not drift away, however long the motion. The price is an equation to
-solve in each step.
+Two laws of mechanics then hold for any h. Where moving or turning the whole robot in the world changes nothing, the
+momentum that belongs to it is kept to rounding: of a robot that floats freely without gravity the linear momentum and
+the angular one about the world's origin; with gravity the horizontal one and the one about the vertical. And the flow
+is symplectic, so that the energy swings about its value and does not drift away, however long the motion. The price is
+an equation to solve in each step.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ CLOSE = 50
 def momentum_and_force(model: Model, q: Array, v: Array) -> tuple[Array, Array]:
     """Return μ = ∂L/∂v = M v and the force ∂L/∂q of a checked state, both (..., nv), without M, in O(N).
 
-    μᵢ = Sᵢᵀ hᵢ, where hᵢ is the momentum of the subtree behind joint i. When the joint moves by δ, the subtree is moved
-    by S δ while its carrier still moves it with the twist C: the energy changes by −δ Sᵀ (C ×* h), and by Sᵀ w δ, where
-    w is the subtree's weight.
+    μᵢ = Sᵢᵀ hᵢ, where hᵢ is the momentum of the subtree outboard of joint i. When the joint moves by δ, the subtree is
+    moved by S δ while its carrier still moves it with the twist C: the energy changes by −δ Sᵀ (C ×* h), and by Sᵀ w δ,
+    where w is the subtree's weight.
     """
     tree, qd, n = tree_terms(model, q), split(model, v), model.nbodies
     armature = model.constants(q.dtype).armature
@@ -65,7 +65,7 @@ def variational(system: System, t: float, q: Array, v: Array) -> tuple[Array, Ar
     """
     M, model, dt = crba(system.model, q), system.model, q.dtype.type(system.dt)
     equation = Equation(system, t, q, np.matvec(M, v))
-    xi = v + dt / 2 * aba(model, q, v, np.zeros_like(v))  # also refuses what has no inertia
+    xi = v + dt / 2 * aba(model, q, v, np.zeros_like(v))  # also raises where there is no inertia
     inverse, done = np.linalg.inv(M.astype(np.float64)), np.zeros(v.shape[:-1], bool)
     defect, end, close = equation.defect(xi)
     for _ in range(ITERATIONS):
@@ -96,7 +96,7 @@ class Equation:
         self.weight = system.model.mass * float(np.abs(system.model.gravity).max())
 
     def defect(self, xi: Array) -> tuple[Array, Array, Array]:
-        """Return by how much ξ misses, the momentum p₁ it leads to, and whether it misses by rounding only."""
+        """Return the residual of ξ, the momentum p₁ it leads to, and whether the residual is only rounding."""
         model, dt = self.system.model, self.dt
         refuse_divergence(model, "v", xi, dt=self.system.dt)
         middle, ad = self.system.integrate(self.q, dt * xi / 2), bracket(model, dt * xi / 2)
@@ -132,7 +132,7 @@ def solve(M: Array, p: Array) -> Array:
 
 
 def unsolved(model: Model, defect: Array) -> DivergenceError:
-    """Return the error that says in which joint a step was not solved."""
+    """Return the error that names the joint in which a step was not solved."""
     entry = int(np.abs(defect).reshape(-1, model.nv).max(axis=0).argmax())
     joint = next(i for i, s in enumerate(model.v_slice) if s.start <= entry < s.stop)
     return DivergenceError(

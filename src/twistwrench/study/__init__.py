@@ -1,1 +1,1 @@
-"""What a digit costs: speed against accuracy, measured, and where each formulation breaks."""
+"""The cost of a digit: speed against accuracy, measured, and where each formulation breaks."""

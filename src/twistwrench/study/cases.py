@@ -1,4 +1,4 @@
-"""What is timed in `speed`: every quantity by Pinocchio, by the textbook and by the fast way, in the same states."""
+"""The functions timed in `speed`: every quantity by Pinocchio, by the textbook and by `tw.fast`, in the same states."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def ours(package: ModuleType, model: tw.Model, quantity: str, s: States, **optio
 
 
 def pinocchio(model: tw.Model, quantity: str, s: States) -> Call:
-    """Return a loop of Pinocchio over states with a batch axis, called from Python one by one; nothing is kept."""
+    """Return a loop of Pinocchio over states with a batch axis, called from Python one by one; it returns nothing."""
     import pinocchio as pin
 
     there = tw.bridge.to_pinocchio_model(model)

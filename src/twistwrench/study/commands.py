@@ -27,4 +27,4 @@ def register(commands: Commands) -> None:
 
 
 STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed, add_trade, add_templates, add_extremes)
-"""Each adds its parser, and names in ``set_defaults(run=...)`` what does the work and returns the exit status."""
+"""Each adds its parser, and sets with ``set_defaults(run=...)`` the function that returns the exit status."""

@@ -26,7 +26,7 @@ REFERENCE = 300
 
 
 class Speed(NamedTuple):
-    """How long one way takes for one quantity.
+    """The time that one way takes for one quantity.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ def table(model: tw.Model, found: list[Speed]) -> str:
     else:
         lines.append("Pinocchio is not installed (pip install pin): there is nothing to compare with")
     lines.append("")
-    halves = zip(*(way.rpartition(", ")[::2] for way in ways))  # "fast, 1000 states" on two lines
+    halves = zip(*(way.rpartition(", ")[::2] for way in ways))  # break "fast, 1000 states" into two lines
     lines += [f"{'':26}" + "".join(f"{x:>{_width(way)}}" for way, x in zip(ways, half)) for half in halves]
     for quantity, meaning in QUANTITIES.items():
         cells = [f"{_cell(row):>{_width(row.way)}}" for row in found if row.quantity == quantity]

@@ -1,4 +1,4 @@
-"""``twistwrench study templates``: what each template of a walking robot leaves out, and what it costs."""
+"""``twistwrench study templates``: the error of each template of a walking robot, and its time."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ REFERENCE = "full"
 
 
 class Loss(NamedTuple):
-    """What one template leaves out of one motion of one robot.
+    """The error of one template over one motion of one robot.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Loss(NamedTuple):
     ratio, law_ratio : float
         Of those to the time of the full model.
     disturbed : bool
-        Whether the machine had other things to do in every round.
+        Whether the machine was busy with other work in every round.
     """
 
     robot: str
@@ -184,10 +184,10 @@ def _table(robot: str, model: tw.Model, motions: Sequence[Motion], found: Sequen
 
 
 def _needs(model: tw.Model, motion: Motion) -> str:
-    """Say what the ground must do for a motion."""
+    """Return in words what the ground must do for a motion."""
     needed = tw.motions.ground(model, motion)
     broken = tw.motions.limits_broken(model, motion)
-    limits = f"        beyond the limits of {len(broken)} joints: {', '.join(broken)}\n" if broken else ""
+    limits = f"        outside the limits of {len(broken)} joints: {', '.join(broken)}\n" if broken else ""
     worst = 1e3 * float(needed.margin.min())
     return (
         f"        the ground: loaded for {100 * needed.loaded.mean():.0f} % of the time, friction of at least "

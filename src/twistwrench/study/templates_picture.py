@@ -24,7 +24,7 @@ LINES = {
     "srbm": (COLOURS["vermilion"], "-"),
 }
 LEAST = 1e-4
-"""Where the axis of the residuals begins. What is less leaves the picture, and a note says how small it is."""
+"""Where the axis of the residuals begins. Smaller ones are outside the picture, and a note gives their size."""
 
 
 def draw(model: tw.Model, motions: Sequence[Motion], path: Path) -> None:
@@ -53,7 +53,7 @@ def draw(model: tw.Model, motions: Sequence[Motion], path: Path) -> None:
 
 
 def rates(model: tw.Model, motion: Motion, ax: Any) -> None:
-    """Draw k̇_G over the weight: how far a centre of pressure moves for it."""
+    """Draw k̇_G over the weight: the shift of the centre of pressure that it causes."""
     rate = tw.centroidal_momentum_rate(model, motion.q, motion.v, motion.a)[:, :3]
     weight = model.mass * np.sqrt((model.gravity**2).sum())
     for k, (name, colour) in enumerate(zip("xyz", XYZ)):
@@ -81,7 +81,7 @@ def residuals(model: tw.Model, motion: Motion, ax: Any) -> None:
 
 
 def _flight(motion: Motion, ax: Any) -> bool:
-    """Shade when no foot stands; say whether there is such a time."""
+    """Shade the times when no foot stands; return whether there are any."""
     flies = motion.t[~motion.contacts.any(axis=1)]
     if len(flies):
         ax.axvspan(flies[0], flies[-1], color=COLOURS["grey"], alpha=0.2, linewidth=0)

@@ -1,7 +1,7 @@
 """Reduced models of a walking robot: what each leaves out, in numbers (49.10).
 
 ===============  ===================================  ===============================================
-name             ḣ_G = (k̇_G, l̇_G)                     what it takes for granted
+name             ḣ_G = (k̇_G, l̇_G)                     what it assumes
 ===============  ===================================  ===============================================
 ``point_mass``   (0, m p̈_G)                           constant angular momentum
 ``lipm``         (0, m p̈_G along the ground)          and constant height
@@ -11,9 +11,9 @@ name             ḣ_G = (k̇_G, l̇_G)                     what it takes for gr
 ``full``         base rows of RNEA                    nothing
 ===============  ===================================  ===============================================
 
-Each is made from a model and a configuration, predicts ḣ_G of any batch of states (q, v, a), and says how far that is
-from the full model. A template of your own: a class with ``name``, ``assumes``, ``read`` and ``law``, and its line in
-`TEMPLATES`.
+Each is made from a model and a configuration, predicts ḣ_G of any batch of states (q, v, a), and reports how far that
+is from the full model. A template of your own: a class with ``name``, ``assumes``, ``read`` and ``law``, and its line
+in `TEMPLATES`.
 
 >>> import numpy as np
 >>> import twistwrench as tw
@@ -54,4 +54,4 @@ __all__ = [
 TEMPLATES: dict[str, type[Template]] = {
     template.name: template for template in (PointMass, LinearPendulum, FrozenRigidBody, RigidBody, Centroidal, Full)
 }
-"""Every template by its name, from the one that knows least to the full model."""
+"""Every template by its name, from the simplest to the full model."""

@@ -1,4 +1,4 @@
-"""What templates read of a state: the motion of the centre of mass, the inertia of the locked robot."""
+"""The motion of the centre of mass and the inertia of the locked robot, which templates compute from a state."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ __all__ = ["Centroidal"]
 
 
 class Centroidal(Template):
-    """The rate of the whole centroidal momentum, ḣ_G = A_G a + Ȧ_G v: exact, but silent about the joints' torques.
+    """The rate of the whole centroidal momentum, ḣ_G = A_G a + Ȧ_G v: exact, but without the joints' torques.
 
     Examples
     --------
@@ -25,7 +25,7 @@ class Centroidal(Template):
     """
 
     name: ClassVar[str] = "centroidal"
-    assumes: ClassVar[str] = "Nothing; it does not tell the joints' torques."
+    assumes: ClassVar[str] = "Nothing; it does not give the joints' torques."
 
     def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
         """Return the whole state."""

@@ -30,7 +30,7 @@ class LinearPendulum(Template):
     ----------
     height : float
         z, of the centre of mass above the ground, m: above the lowest foot in the configuration the template was made
-        at, if `of` was not told.
+        at, unless given to `of`.
 
     Examples
     --------
@@ -113,7 +113,7 @@ class LinearPendulum(Template):
         p_G : array_like, shape (..., 3)
             In the world, m.
         p_ddot : array_like, shape (..., 3)
-            m/s². Its vertical part is not looked at.
+            m/s². Its vertical part is ignored.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""What every template offers: a prediction of ḣ_G, and how far it is from the full model's."""
+"""What every template offers: a prediction of ḣ_G, and its difference from the full model's."""
 
 from __future__ import annotations
 
@@ -61,14 +61,14 @@ class Template(ABC):
     """A reduced model of a robot with a floating base, which predicts ḣ_G of a motion (49.10).
 
     ḣ_G is (k̇_G, l̇_G), the rate of the centroidal momentum: what the ground and the weight together must do for the
-    motion to happen. A template is made from a model and a configuration by ``of``, reads of a state (q, v, a) the few
-    numbers that it knows of (`read`), and predicts ḣ_G from those (`law`).
+    motion to happen. A template is made from a model and a configuration by ``of``, computes from a state (q, v, a) the
+    few quantities that it uses (`read`), and predicts ḣ_G from those (`law`).
 
     Attributes
     ----------
     model : Model
     q : ndarray, shape (nq,)
-        The configuration that the template was made at. What a template holds constant has its value there.
+        The configuration that the template was made at. What a template keeps constant has its value there.
     """
 
     model: Model = field(repr=False)
@@ -79,7 +79,7 @@ class Template(ABC):
     name: ClassVar[str]
     """Its name in `TEMPLATES`."""
     assumes: ClassVar[str]
-    """What it takes for granted, in one sentence."""
+    """What it assumes, in one sentence."""
 
     @classmethod
     def of(cls, model: Model, q: ArrayLike) -> Self:
@@ -105,7 +105,7 @@ class Template(ABC):
 
     @abstractmethod
     def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
-        """Return what the template knows of a state: the arguments of its `law`."""
+        """Return what the template uses of a state: the arguments of its `law`."""
 
     @abstractmethod
     def law(self, *known: Array) -> Array:
@@ -154,7 +154,7 @@ class Template(ABC):
 
 
 def checked(model: Model, q: ArrayLike) -> tuple[Model, Array, float, float]:
-    """Return what every template holds: model, configuration, weight and radius of gyration."""
+    """Return what every template has: model, configuration, weight and radius of gyration."""
     q = one_configuration(model, q)
     if model.base != "floating":
         raise ValueError(f"{model.name!r}: expected a floating base, got a {model.base} one")

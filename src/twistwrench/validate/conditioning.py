@@ -1,14 +1,14 @@
 """How far rounding alone may move a result.
 
-The error of a quantity is measured against its own largest entry. Two things can forbid 1e-12 of that:
+The error of a quantity is measured against its own largest entry. Two things can rule out 1e-12 of that:
 
 - *Cancellation*, as in the g of a nearly vertical axis. The scale is then 1 % of the largest term that
   was summed; 1e-12 of it is 45 roundings of that term.
 - *An inverse*, as in forward dynamics where M is nearly singular. The bound is then computed from the
-  condition, and an error above 1e-12 must also be one that rounding explains: the result solves its
+  condition, and an error above 1e-12 must also be explained by rounding: the result solves its
   equation to a few roundings of the equation's terms.
 
-All is computed here from `newton_euler_3d`, which shares nothing with what is judged.
+All is computed here from `newton_euler_3d`, which shares nothing with the functions that are validated.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def _terms(model: Model, s: States, qdd: Array, f_ext: Array | None) -> tuple[Ar
 def forward_dynamics_bound(model: Model, s: States, qdd: Array, f_ext: Array | None = None) -> float:
     """Return K ε ‖ |M⁻¹| (|M| |q̈| + |τ| + |F|) ‖ / ‖q̈‖: what relative errors K ε of the terms do to q̈.
 
-    Skeel's condition, which does not mind badly scaled rows. Infinite where M is singular in double precision.
+    Skeel's condition, which is independent of the scaling of rows. Infinite where M is singular in double precision.
     """
     M, terms = _terms(model, s, qdd, f_ext)
     if not (np.diag(M) > 0).all():
@@ -92,7 +92,7 @@ def forward_dynamics_bound(model: Model, s: States, qdd: Array, f_ext: Array | N
 
 
 def forward_dynamics_residual(model: Model, s: States, exact: States, f_ext: Array | None = None) -> float:
-    """Return by what part of its terms the worst row of M q̈ = τ − h is missed; q̈ is the a of the state."""
+    """Return the residual of M q̈ = τ − h relative to its terms, in the worst row; q̈ is the a of the state."""
     missed = ne.inverse_dynamics(model, exact.q, exact.v, exact.a, f_ext) - exact.tau
     return float((np.abs(missed.astype(np.float64)) / _terms(model, s, s.a, f_ext)[1]).max())
 
@@ -112,17 +112,17 @@ def equilibrium_bound(model: Model, s: States, solution: Array) -> float:
 
 
 def without_inertia(model: Model, s: States) -> tuple[set[str], set[str]]:
-    """Return the joints that move nothing with inertia, and those that feel none while others are free.
+    """Return the joints that move nothing with inertia, and those whose apparent inertia is lost in rounding.
 
-    M is eliminated from the tips to the base, as `twistwrench.aba` does; a pivot is the inertia that a
-    joint feels with those behind it free. It is lost where rounding of M's own entry outweighs it.
+    M is eliminated from the tips to the base, as `twistwrench.aba` does; a pivot is the apparent inertia
+    of a joint, with the outboard ones free. It is lost where rounding of M's own entry outweighs it.
     """
     M, nv = ne.mass_matrix(model, s.q), model.nv
     names = np.repeat(np.array(model.joint_names, object), [at.stop - at.start for at in model.v_slice])
     nothing = set(names[np.diag(M) == 0])
-    lost, felt = set(), np.diag(M).copy()
+    lost, diagonal = set(), np.diag(M).copy()
     for k in reversed(range(nv)):
-        if M[k, k] <= nv * ROUNDINGS * felt[k]:
+        if M[k, k] <= nv * ROUNDINGS * diagonal[k]:
             lost.add(names[k])
         else:
             M[:k, :k] -= np.outer(M[:k, k], M[k, :k]) / M[k, k]

@@ -45,7 +45,7 @@ def _aba(p: Oracle, s: States, *f_ext: Array) -> Array:
 
 
 def _is_right_to_refuse(model: Model, s: States, message: str) -> bool:
-    """Whether the error names all joints that move nothing; or one that feels no inertia while others are free.
+    """Whether the error names all joints that move nothing; or one without apparent inertia while others are free.
 
     Or one where M is so nearly singular that rounding may leave q̈ no digit.
     """

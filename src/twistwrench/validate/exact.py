@@ -1,4 +1,4 @@
-"""The truth's side: what `newton_euler_3d` does not already give in the shape that is compared (49.1).
+"""The exact values: those that `newton_euler_3d` does not give directly in the shape that is compared (49.1).
 
 All functions take one state, of mpmath numbers or of floats.
 """

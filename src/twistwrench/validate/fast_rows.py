@@ -1,4 +1,4 @@
-"""The rows that `twistwrench.fast` has, computed by it: all else about them stays as it is."""
+"""The rows of `validate` that `twistwrench.fast` has, computed by it and otherwise unchanged."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ __all__ = ["FAST"]
 Ours = Callable[[Model, States], Array]
 
 AT_ONCE = 16
-"""States of a batch at least: fewer would be done one by one."""
+"""The least number of states in a batch: fewer would be computed one by one."""
 
 
 def _both_ways(call: Ours) -> Ours:
-    """Return what does the first state alone, and the others in a batch."""
+    """Return a function that computes the first state alone, and the others in a batch."""
 
     def ours(model: Model, s: States) -> Array:
         repeated = s[np.resize(np.arange(len(s)), max(AT_ONCE, len(s)))]

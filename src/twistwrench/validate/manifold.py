@@ -1,6 +1,6 @@
 """The configuration manifold in exact numbers: what `Model.integrate` must return (49.1, 49.3).
 
-Quaternions, (cos, sin) and the power series of the exponential, none of which the package uses for it.
+Quaternions, (cos, sin) and the power series of the exponential, which the package itself does not use for this.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def _step(joint: Joint, q: Array, dv: Array) -> Array:
 
 
 def _turned(cs: Array, angle: Any) -> Array:
-    """Turn a direction (cos, sin), of which the length does not matter."""
+    """Turn a direction (cos, sin) of any length."""
     mp = angle.context
     c, s = cs / mp.sqrt((cs * cs).sum())
     return np.array([c * mp.cos(angle) - s * mp.sin(angle), s * mp.cos(angle) + c * mp.sin(angle)])
@@ -78,7 +78,7 @@ def _rotate(quaternion: Array, x: Array) -> Array:
 
 
 def _shift(w: Array, v: Array) -> Array:
-    """Return ∫₀¹ exp(t [w]×) v dt = v + w × v / 2! + w × (w × v) / 3! + …, until nothing is added any more."""
+    """Return ∫₀¹ exp(t [w]×) v dt = v + w × v / 2! + w × (w × v) / 3! + …, to the last digit."""
     total, term, k = v, v, 1
     while (abs(term) > v[0].context.eps * abs(v).max()).any():
         k += 1

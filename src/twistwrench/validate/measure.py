@@ -22,7 +22,7 @@ __all__ = ["Judge", "Row"]
 
 @dataclass(frozen=True)
 class Row:
-    """What came out for one quantity.
+    """The result for one quantity.
 
     Attributes
     ----------
@@ -37,9 +37,9 @@ class Row:
         The relative error allowed: 1e-12, or more where the conditioning forbids that.
     passed : bool
     singular : bool
-        Ours says that the quantity does not exist here; the row passes if that is so.
+        Ours raises SingularError; the row passes if the quantity does not exist here.
     note : str
-        What there is to say beyond the numbers.
+        Remarks besides the numbers.
     """
 
     section: str
@@ -69,7 +69,7 @@ class Right(NamedTuple):
 
 @dataclass(frozen=True)
 class At:
-    """What one state showed: errors of every entry, in units of the scale; None where a side is missing."""
+    """The errors at one state, of every entry, in units of the scale; None where a side is missing."""
 
     ours_vs_pinocchio: Array | None
     ours_vs_truth: Array | None
@@ -95,7 +95,7 @@ class At:
         return float(np.inf if np.isnan(worst) else worst)
 
     def place(self, state: int) -> str:
-        """Say where the worst entry is."""
+        """Return in words where the worst entry is."""
         entry = np.unravel_index(np.argmax(self.decides), self.decides.shape)
         return f"worst at state {state}, entry {tuple(int(k) for k in entry)}"
 
@@ -132,13 +132,13 @@ class Judge:
             exact = (self.states[i].exact(self.context) for i in range(len(self.states)))
             passed = quantity.is_singular(self.model, exact, str(error))
             return replace(row, passed=passed, singular=True, note=self._named(str(error)))
-        except Exception as error:  # the other rows are worth seeing all the same
+        except Exception as error:  # show the other rows all the same
             return replace(row, note=f"{type(error).__name__}: {error}")
         row = replace(row, shape=ours.shape[1:])
         try:
             return _sum_up(row, [self._at(quantity, i, x) for i, x in enumerate(ours)])
         except SingularError as error:
-            return replace(row, note=f"ours gives numbers where there are none: {error}")
+            return replace(row, note=f"ours gives numbers where the quantity does not exist: {error}")
         except ShapeError as error:
             return replace(row, note=str(error))
 
@@ -221,13 +221,13 @@ def _worst(errors: Iterable[Array | None]) -> float | None:
 
 
 def _remark(states: Sequence[At]) -> str:
-    """Say where rounding forbids 1e-12, and where ours is right and Pinocchio is not."""
-    beyond = [at for at in states if at.residual is not None]
+    """Return notes on where rounding rules out 1e-12, and where ours is right and Pinocchio is not."""
+    above = [at for at in states if at.residual is not None]
     theirs = _worst(at.pinocchio_vs_truth for at in states) or 0.0
-    if beyond:
-        worst = max(beyond, key=lambda at: at.error)
+    if above:
+        worst = max(above, key=lambda at: at.error)
         return (
-            f"error {worst.error:.1e} at {len(beyond)} of {len(states)} states, M is so nearly singular that rounding "
+            f"error {worst.error:.1e} at {len(above)} of {len(states)} states, M is so nearly singular that rounding "
             f"may cost {worst.bound:.1e}; the equation is met to {worst.residual:.1e} of its terms"
         )
     if np.isnan(theirs):

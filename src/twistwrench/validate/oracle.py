@@ -1,4 +1,4 @@
-"""Pinocchio's side: the same robot, read by its own parser, asked by its own functions (49.11)."""
+"""Pinocchio's values: the same robot, read by its own parser, computed by its own functions (49.11)."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Oracle:
         return bridge.to_pinocchio_tangent(self.ours, x)
 
     def vector(self, x: Array) -> Array:
-        """Return a v, a or tau that Pinocchio gave. It may be NaN, which the bridge does not let pass."""
+        """Return a v, a or tau that Pinocchio gave. It may be NaN, which the bridge rejects."""
         return self._back(bridge.from_pinocchio_tangent, x)
 
     def matrix(self, x: Array) -> Array:
@@ -95,7 +95,7 @@ class Oracle:
         return self.data
 
     def frame(self, name: str) -> int:
-        """Return the id of a frame. Where two of one name lie apart, ours says whether it is a link's or a joint's."""
+        """Return the id of a frame. Of two apart with one name ours decides whether it is a link's or a joint's."""
         kind, _, bare = name.partition(":")
         types = self.pin.FrameType
         if self.model.existFrame(name, types.BODY):  # of a link and a joint of one name in one place, either

@@ -1,4 +1,4 @@
-"""What a row of the table is, and how far two right answers may lie apart."""
+"""A row of the table, and how far two right answers may lie apart."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ class Quantity:
     bound : callable, optional
         Of the model, one state and the right result: the relative error that the conditioning allows.
     residual : callable, optional
-        Of the model, a state whose a is our result, and the same in exact numbers: by what part of its
-        terms the equation is missed that the result should solve. Asked where the error is above 1e-12.
+        Of the model, a state whose a is our result, and the same in exact numbers: the residual of
+        the equation that the result should solve, relative to its terms. Used where the error is above 1e-12.
     singular : callable, optional
         Of the model, one state in exact numbers and the message of a SingularError of ours: whether it is
         right there. Unless given, it is where the truth does not exist either.
@@ -62,7 +62,7 @@ class Quantity:
     singular: Callable[[Model, States, str], bool] | None = None
 
     def is_singular(self, model: Model, states: Iterable[States], message: str) -> bool:
-        """Say whether a SingularError of ours is right at one of these states, given in exact numbers."""
+        """Return whether a SingularError of ours is right at one of these states, given in exact numbers."""
         if self.singular is not None:
             return any(self.singular(model, s, message) for s in states)
         return any(self._does_not_exist(model, s) for s in states)

@@ -1,4 +1,4 @@
-"""What a validation found: as a table, as JSON."""
+"""The results of a validation: as a table, as JSON."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ RIGHT = (4, 5, 6)
 
 @dataclass(frozen=True)
 class Report:
-    """What came out for one robot.
+    """The results for one robot.
 
     Attributes
     ----------
@@ -63,12 +63,12 @@ class Report:
 
     @property
     def failed(self) -> tuple[Row, ...]:
-        """The rows that are not."""
+        """The rows that are outside their bounds."""
         return tuple(row for row in self.rows if not row.passed)
 
     @property
     def worst(self) -> Row | None:
-        """The row closest to its bound, or furthest beyond it."""
+        """The row closest to its bound, or furthest above it."""
         compared = [row for row in self.rows if row.error is not None]
         return max(compared, key=lambda row: _ratio(row), default=None)
 
@@ -78,13 +78,13 @@ class Report:
 
     @property
     def missing(self) -> list[str]:
-        """Say which side is not installed."""
+        """Return in words which side is not installed."""
         pinocchio = "Pinocchio is not installed: held against the truth alone (pip install pin; not on Windows)"
         mpmath = "mpmath is not installed: without the 50-digit truth (pip install mpmath gmpy2)"
         return [pinocchio] * (self.pinocchio is None) + [mpmath] * (self.mpmath is None)
 
     def _sides(self) -> list[str]:
-        """Say at which states ours was held against what."""
+        """Return in words at which states ours was compared with what."""
         states = "1 state" if self.states == 1 else f"{self.states} states"
         lines = [f"at {states}" + ("" if self.seed is None else f" of seed {self.seed}")]
         if self.pinocchio is not None:
@@ -108,7 +108,7 @@ class Report:
         return f"{good} of {len(self.rows)} rows inside their bounds; outside: {names} · {time}"
 
     def to_json(self, indent: int | None = 2) -> str:
-        """Return everything as JSON; what is no number or infinite is null."""
+        """Return everything as JSON; NaN and infinities are null."""
         return json.dumps(self.as_dict(), indent=indent, ensure_ascii=False, allow_nan=False)
 
     def as_dict(self) -> dict[str, Any]:
@@ -125,7 +125,7 @@ class Report:
 
 
 def notes(rows: Iterable[Row]) -> list[str]:
-    """Return what there is to say of the rows, each thing once."""
+    """Return the notes on the rows, each once."""
     said: dict[str, list[str]] = {}
     for row in rows:
         if row.note:
@@ -148,7 +148,7 @@ def _cells(row: Row) -> tuple[str, ...]:
 
 
 def number(x: float | None) -> str:
-    """Write an error in two digits; a dash where there is none.
+    """Write an error in two digits; a dash in place of None.
 
     Examples
     --------

@@ -47,7 +47,7 @@ def validate(
     Parameters
     ----------
     robot : Model, str or path
-        A name or a path is loaded as by `twistwrench.load`, without refusing bodies that cannot exist, and
+        A name or a path is loaded as by `twistwrench.load`, accepting bodies that are not physical, and
         Pinocchio reads the same file by itself. A `Model` is handed over to it by the bridge.
     base : {"fixed", "floating"}, optional
         For a name or a path: the base to load it with.
@@ -69,21 +69,21 @@ def validate(
     Returns
     -------
     Report
-        Prints as a table; `Report.passed` says whether every row is inside its bound.
+        Prints as a table; `Report.passed` is whether every row is inside its bound.
 
     Raises
     ------
     NameNotFound, ModelError
         As `twistwrench.load`.
     ImportError
-        If neither Pinocchio nor mpmath is there to compare with.
+        If neither Pinocchio nor mpmath is installed to compare with.
     ValueError
         If `states` or `frames` is below 1, or a base is named for a `Model`.
 
     Notes
     -----
     Error: the largest difference at a state, over the largest entry of the right value; where larger
-    terms cancelled in that, over a part of those. Bound: 1e-12; for what comes out of an inverse the
+    terms cancelled in that, over a part of those. Bound: 1e-12; for the result of an inverse the
     larger one that its conditioning allows. See `twistwrench.validate.conditioning`. The truth decides
     where it is known, Pinocchio elsewhere.
 

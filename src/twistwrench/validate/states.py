@@ -16,7 +16,7 @@ __all__ = ["States", "random_states", "sample_frames"]
 
 @dataclass(frozen=True)
 class States:
-    """A batch of states: every array has one leading axis. One state of it has none.
+    """A batch of states: every array has one leading axis. A single state has no leading axis.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ def sample_frames(model: Model, most: int) -> tuple[str, ...]:
     last = {frame.body: name for name, frame in model.frames.items()}
     tips = [last[i] for i in range(1, model.nbodies) if i in last and i not in model.parent]
     feet = _spread(model.feet, most)  # the first four of eight corners are all on one leg
-    others = tips or list(model.frames)  # what comes from Pinocchio need not have one on every tip, or any at all
+    others = tips or list(model.frames)  # a model from Pinocchio need not have one on every tip, or any at all
     return tuple(dict.fromkeys([*feet, *_spread(others, most)]))[:most]
 
 

@@ -24,7 +24,7 @@ BASES: tuple[Base, Base] = ("fixed", "floating")
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of one robot on one base: a report, or the error that prevented it."""
+    """The outcome for one robot on one base: a report, or the error that prevented it."""
 
     robot: str
     base: Base
@@ -44,7 +44,7 @@ class Outcome:
 
 
 def every_robot(base: Base | None = None) -> list[tuple[str, Base]]:
-    """List the robots of the catalogue that are installed, each on both bases unless told which."""
+    """List the robots of the catalogue that are installed, each on both bases unless one is given."""
     there = [r.name for r in robots() if r.source == "models" or example_robot_data_folder() is not None]
     return [(name, b) for name in there for b in (BASES if base is None else (base,))]
 
@@ -86,7 +86,7 @@ def sweep(
             running = [pool.submit(_outcome, name, base, states, truths, seed, fast) for name, base in which]
         for future in running:
             yield future.result()
-    except BaseException:  # Ctrl-C, or nobody wants more: what is being worked on would take seconds or minutes
+    except BaseException:  # Ctrl-C, or the caller stopped: the work in progress would take seconds or minutes
         for process in set(active_children()) - others:
             process.terminate()
         raise
@@ -95,7 +95,7 @@ def sweep(
 
 
 def _end_with_the_parent() -> None:
-    """Let a process of the pool end when its parent was killed: it would wait for work for ever."""
+    """End a process of the pool when its parent was killed: it would wait for work forever."""
 
     def watch() -> None:
         if (parent := parent_process()) is not None:
@@ -109,7 +109,7 @@ def _outcome(name: str, base: Base, states: int, truths: int, seed: int, fast: b
     try:
         report = validate(name, base=base, states=states, truths=truths, frames=2, rng=seed, fast=fast)
         return Outcome(name, base, report)
-    except Exception as error:  # the other robots are worth seeing all the same
+    except Exception as error:  # show the other robots all the same
         return Outcome(name, base, None, f"{type(error).__name__}: {error}")
 
 
@@ -123,7 +123,7 @@ def header() -> str:
 
 
 def line(outcome: Outcome) -> str:
-    """Return an outcome's line of the table, and below it what there is to say of its rows."""
+    """Return an outcome's line of the table, and below it the notes on its rows."""
     report, name = outcome.report, outcome.robot.replace(PREFIX, "…/")
     if report is None:
         return _laid_out((name, outcome.base, "", "", outcome.error))
@@ -139,7 +139,7 @@ def _laid_out(cells: Sequence[str]) -> str:
 
 
 def summary(outcomes: Sequence[Outcome], seconds: float) -> str:
-    """Return the last line, and before it what was missing."""
+    """Return the last line, preceded by what was missing."""
     missing = {text: None for o in outcomes if o.report for text in o.report.missing}
     if example_robot_data_folder() is None:
         missing["example-robot-data is not installed: its robots are left out (pip install example-robot-data)"] = None

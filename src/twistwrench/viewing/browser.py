@@ -25,8 +25,8 @@ __all__ = ["Browser", "import_viser"]
 class Browser:
     """A robot on a page; made by `twistwrench.view` with ``backend="browser"``.
 
-    The page is served by this process, to this machine only, and asks nothing of any other; no page of another
-    site that is open in the same browser is answered. In a notebook the page that stands alone is shown.
+    The page is served by this process, to this machine only, and loads nothing from any other; requests of other sites
+    that are open in the same browser are rejected. In a notebook the page that stands alone is shown.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Browser:
         write_text(path, self.html())
 
     def stop(self) -> None:
-        """Serve the page no longer."""
+        """Stop serving the page."""
         if self._plays is not None:
             self._plays.value = False
         with redirect_stdout(StringIO()):
@@ -96,7 +96,7 @@ class Browser:
 
 
 def import_viser() -> Any:
-    """Import viser, or say how it is had."""
+    """Import viser, or raise an error that says how to install it."""
     try:
         import viser
     except ModuleNotFoundError:

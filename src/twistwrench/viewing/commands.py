@@ -51,7 +51,7 @@ def run_view(args: argparse.Namespace) -> int:
 
 
 def _view(args: argparse.Namespace, **how: Any) -> Any:
-    """Call `view` as the command line says."""
+    """Call `view` with the options of the command line."""
     from ..errors import unknown_name
     from ..robots import load
     from .viewer import view

@@ -1,4 +1,4 @@
-"""What moves the robot on the page: a slider for each joint, or one for the time."""
+"""The controls of the page: a slider for each joint, or one for the time."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PICTURES = 30
 
 
 def add_joints(gui: Any, seen: Subject, show: Callable[[Array], None]) -> None:
-    """Add a slider for each joint whose one entry of q is its angle or its way.
+    """Add a slider for each joint whose q is one angle or one length.
 
     Parameters
     ----------

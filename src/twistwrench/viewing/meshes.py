@@ -10,11 +10,11 @@ import numpy as np
 __all__ = ["Unseen", "find_mesh", "read_mesh"]
 
 POINTER = b"version https://git-lfs"
-"""How the files begin that Git LFS leaves in the place of those that it has not downloaded."""
+"""The first bytes of a Git LFS pointer, which stands in place of a file that was not downloaded."""
 
 
 class Unseen(Exception):
-    """What cannot be shown; the message says why."""
+    """Something cannot be shown; the message gives the reason."""
 
 
 def find_mesh(name: str, urdf: Path) -> Path:
@@ -46,7 +46,7 @@ def read_mesh(file: Path) -> Any:
     Raises
     ------
     Unseen
-        If there is no mesh in it.
+        If it contains no mesh.
     """
     import trimesh
 
@@ -61,7 +61,7 @@ def read_mesh(file: Path) -> Any:
         mesh = scene.to_mesh()
     except Unseen:
         raise
-    except Exception as error:  # of trimesh and of the readers that it calls, of any type
+    except Exception as error:  # trimesh and its readers raise errors of any type
         raise Unseen(f"{file}: it cannot be read as a mesh: {str(error).strip().partition(chr(10))[0]}") from None
     if not len(mesh.faces):
         raise Unseen(f"{file}: there is no mesh in it")

@@ -1,4 +1,4 @@
-"""Who may talk to the server of the page: the page itself, and no other that is open in the same browser."""
+"""Which requests the page's server accepts: those of the page itself, not of others that are open in the browser."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ HERE = ("127.0.0.1", "localhost", "::1")
 def is_own_page(headers: Mapping[str, str]) -> bool:
     """Return whether a request comes from the page that this machine serves, or from no page at all.
 
-    A browser names the page that asks in ``Origin``, and the name under which it found the server in ``Host``.
-    A foreign page has another ``Origin``; one whose name was made to lead to this machine has another ``Host``.
+    A browser names the requesting page in ``Origin``, and the name under which it found the server in ``Host``.
+    A page of another site has another ``Origin``; one whose name was made to resolve to this machine, another ``Host``.
 
     Examples
     --------
@@ -37,7 +37,7 @@ def is_own_page(headers: Mapping[str, str]) -> bool:
 
 @contextmanager
 def only_own_page() -> Iterator[None]:
-    """Let the server that viser starts meanwhile answer its own page only: viser itself takes any ``Origin``."""
+    """Let the server that viser starts within accept its own page only: viser itself accepts any ``Origin``."""
     from websockets.asyncio import server
 
     serve, guarded = server.serve, []

@@ -1,4 +1,4 @@
-"""What stands in the browser's scene, by viser: each part is put up once, and moved to a configuration."""
+"""The browser's scene, by viser: each part is added once, and moved to a configuration."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Mover = Callable[[Subject], None]
 
 
 def build(scene: Any, seen: Subject, shapes: list[Shape], frames: Collection[str] | None) -> Mover:
-    """Put a robot on the stage, in its first configuration.
+    """Add a robot to the scene, in its first configuration.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def build(scene: Any, seen: Subject, shapes: list[Shape], frames: Collection[str
 
 
 def _largest_force(seen: Subject) -> float:
-    """Return the largest of all forces, N, to which the arrows are scaled; 0 without any. A motion needs given ones."""
+    """Return the largest of all forces, N, which scales the arrows; 0 without any. Those of a motion must be given."""
     if seen.given is None:
         forces = None if seen.t is not None else seen.forces()
         vectors = np.zeros((0, 3)) if forces is None else forces.vectors
@@ -79,7 +79,7 @@ def _floor(scene: Any, seen: Subject) -> None:
 
 
 def _bodies(scene: Any, shapes: list[Shape]) -> Mover:
-    """Put up a node for each body, with its meshes below it."""
+    """Add a node for each body, with its meshes below it."""
     nodes = {shape.body: scene.add_frame(f"/bodies/{shape.body}", show_axes=False) for shape in shapes}
     for k, shape in enumerate(shapes):
         scene.add_mesh_trimesh(
@@ -95,7 +95,7 @@ def _bodies(scene: Any, shapes: list[Shape]) -> Mover:
 
 
 def _sticks(scene: Any, seen: Subject) -> Mover:
-    """Rods from joint to joint, and a ball at each."""
+    """Add rods from joint to joint, and a ball at each."""
     import trimesh
 
     radius, n = 0.015 * seen.box()[1], len(sticks(seen.model, seen.q))
@@ -134,7 +134,7 @@ def _sticks(scene: Any, seen: Subject) -> Mover:
 
 
 def _frames(scene: Any, seen: Subject, names: Collection[str] | None) -> Mover:
-    """Arrows along x, y, z of each frame, in the colours of the figures."""
+    """Add arrows along x, y, z of each frame, in the colours of the figures."""
     size = (0.08 if names is None else 0.15) * seen.box()[1]
 
     def arrows(seen: Subject) -> Array:
@@ -158,7 +158,7 @@ def _frames(scene: Any, seen: Subject, names: Collection[str] | None) -> Mover:
 
 
 def _mass(scene: Any, seen: Subject) -> Mover:
-    """Put up a ball at the centre of mass; its label is seen through the bodies."""
+    """Add a ball at the centre of mass; its label is seen through the bodies."""
     ball = scene.add_icosphere("/centre_of_mass", 0.03 * seen.box()[1], color=_rgb("purple"))
     label = scene.add_label("/names/centre_of_mass", "centre of mass")
 
@@ -169,8 +169,8 @@ def _mass(scene: Any, seen: Subject) -> Mover:
 
 
 def _support(scene: Any, seen: Subject) -> Mover:
-    """Put up the polygon between what touches the ground, a fan around a corner, and the plumb line onto it."""
-    n, above = sum(len(c.points) for c in seen.contacts), 0.005 * seen.box()[1]  # the floor, where it would flicker
+    """Add the polygon between the points on the ground, as a fan around a corner, and the plumb line onto it."""
+    n, above = sum(len(c.points) for c in seen.contacts), 0.005 * seen.box()[1]  # in the floor it would flicker
     fan = np.array([(0, k, k + 1) for k in range(1, n - 1)], dtype=np.uint32).reshape(-1, 3)
     look: dict[str, Any] = {"color": _rgb("sky"), "opacity": 0.5, "side": "double", "cast_shadow": False}
     plate = scene.add_mesh_simple("/support", np.zeros((n, 3), np.float32), fan, **look)
@@ -195,7 +195,7 @@ def _support(scene: Any, seen: Subject) -> Mover:
 
 
 def _forces(scene: Any, seen: Subject, largest: float) -> Mover:
-    """Put up an arrow at each contact, with its size."""
+    """Add an arrow at each contact, with its size."""
     k, extent = len(seen.contacts), seen.box()[1]
     node = scene.add_arrows("/forces", np.zeros((k, 2, 3)), _rgb("black"), **_thin(0.15 * extent))
     labels = [scene.add_label(f"/forces/{k}", "") for k in range(k)]
@@ -240,5 +240,5 @@ def _hex(colour: str) -> tuple[int, int, int]:
 
 
 def _linear(colour: str) -> Array:
-    """Return a colour in the measure of what is drawn in batches: the amount of light, not what it looks like."""
+    """Return a colour in linear light, as batched meshes need it, from the usual sRGB."""
     return np.asarray((255 * (np.array(_hex(colour)) / 255) ** 2.2).round(), np.uint8)

@@ -1,4 +1,4 @@
-"""The meshes of a URDF: what the links look like, read by yourdfpy and trimesh."""
+"""The visual meshes of a URDF's links, read by yourdfpy and trimesh."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .meshes import Unseen, find_mesh, read_mesh
 __all__ = ["Shape", "shapes"]
 
 GREY = (160, 165, 170, 255)
-"""Of what has no colour of its own."""
+"""The colour of a mesh without one."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Shape:
 
 
 def shapes(model: Model, source: str | PathLike[str] | None) -> list[Shape]:
-    """Return the shapes of a model's bodies, none where there are none to be had.
+    """Return the shapes of a model's bodies; an empty list where no meshes are available.
 
     Parameters
     ----------
@@ -60,17 +60,17 @@ def shapes(model: Model, source: str | PathLike[str] | None) -> list[Shape]:
     Warns
     -----
     UserWarning
-        Where something that the URDF names cannot be shown: link, file and why.
+        If a mesh that the URDF names cannot be shown; names link, file and reason.
     """
     path = _urdf(source)
     if path is None:
         return []
-    _import_yourdfpy()  # what is missing is said even where nothing would be read
+    _import_yourdfpy()  # report what is missing even where nothing would be read
     looks = _visuals(path)
     frames = {link: f"link:{link}" if f"link:{link}" in model.frames else link for link, _ in looks}
     if not set(frames.values()) <= set(model.frames):
         return []  # other links than the model's
-    found, unseen, read = [], [], cache(read_mesh)  # four legs have one file
+    found, unseen, read = [], [], cache(read_mesh)  # four legs share one file
     for link, visual in looks:
         frame = model.frames[frames[link]]
         try:
@@ -99,12 +99,12 @@ def _urdf(source: str | PathLike[str] | None) -> Path | None:
         robot = find(PREFIX + name)
     try:
         return robot.path
-    except ValueError:  # example-robot-data is not installed: no meshes, and none are asked for
+    except ValueError:  # example-robot-data is not installed: no meshes
         return None
 
 
 def _import_yourdfpy() -> Any:
-    """Import yourdfpy, or say how it is had."""
+    """Import yourdfpy, or raise an error that says how to install it."""
     try:
         import yourdfpy
     except ModuleNotFoundError:
@@ -115,7 +115,7 @@ def _import_yourdfpy() -> Any:
 
 
 def _visuals(path: Path) -> list[tuple[str, Any]]:
-    """Return what each link looks like, with the link's name; what is no proper XML is refused before."""
+    """Return the visuals of each link, with the link's name; a file that is not proper XML was rejected before."""
     robot = read_robot_xml(path)
     return [(link.get("name"), visual) for link in robot.iterfind("link") for visual in link.iterfind("visual")]
 

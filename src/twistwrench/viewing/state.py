@@ -1,4 +1,4 @@
-"""What is seen: a model in one or many configurations, where it touches the ground, and what the ground does to it."""
+"""What is shown: a model in one or many configurations, where it touches the ground, and the forces of the ground."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["Forces", "Subject", "subject"]
 
 @dataclass(frozen=True)
 class Forces:
-    """What the ground does, in the axes of the world.
+    """The forces of the ground, in the axes of the world.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Forces:
 
 @dataclass(frozen=True)
 class Subject:
-    """What is seen.
+    """What is shown.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class Subject:
         return np.concatenate([np.zeros((0, 3)), *touching])
 
     def forces(self) -> Forces | None:
-        """Return the forces that were given, or those that hold a floating robot at rest; None where none do."""
+        """Return the forces that were given, or those that hold a floating robot at rest; None where no forces can."""
         T = contact_placements(self.model, self.q, self.contacts)
         feet = np.array([T[c.frame].translation for c in self.contacts]).reshape(-1, 3)
         if self.given is not None:
@@ -102,7 +102,7 @@ class Subject:
         for k, c in enumerate(self.contacts):
             if c.dim == 6:  # the wrench of a sole has no moment along the sole about its centre of pressure (49.4)
                 moment, force, normal = found[c.frame][:3], found[c.frame][3:], T[c.frame].rotation[:, 2]
-                feet[k] += np.cross(normal, moment) / (normal @ force or 1.0)  # a sole that bears nothing has none
+                feet[k] += np.cross(normal, moment) / (normal @ force or 1.0)  # a sole without a force has no moment
         return Forces(feet, np.array([found[c.frame][-3:] for c in self.contacts]))
 
     def texts(self, forces: Forces) -> list[str]:
@@ -132,7 +132,7 @@ def subject(
     contacts: Iterable[str | Contact] | None = None,
     forces: ArrayLike | None = None,
 ) -> Subject:
-    """Gather what is to be seen, and fill in what was not said. The arguments are those of `twistwrench.view`.
+    """Gather what is to be shown, and fill in the defaults. The arguments are those of `twistwrench.view`.
 
     Returns
     -------
@@ -186,7 +186,7 @@ def _times(q: Array, t: ArrayLike | None) -> Array | None:
 
 
 def _contacts(model: Model, contacts: Iterable[str | Contact] | None) -> tuple[Contact, ...]:
-    """Make points of names; take the model's feet where nothing was said."""
+    """Make point contacts of names; the model's feet where none are given."""
     if isinstance(contacts, str):
         raise ValueError(f"contacts: expected several contacts, got the string {contacts!r}; [{contacts!r}] is one")
     given = model.feet if contacts is None else as_sequence(contacts, "contacts", "contacts or frame names")

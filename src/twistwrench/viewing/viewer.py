@@ -1,4 +1,4 @@
-"""`view`: a robot before the eyes. What shows it is imported when there is something to show."""
+"""`view`: show a robot. Matplotlib or viser is imported when there is something to show."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ def view(
     Parameters
     ----------
     robot : str, path, Model, Scene or Simulation
-        A name of `twistwrench.robots`, a URDF, or what was made of one.
+        A name of `twistwrench.robots`, a URDF, or an object made of one.
     q : array_like of shape (nq,) or (n, nq), Motion or Simulation, optional
-        Configuration; unless given, the standing posture, or the neutral one of what has none. Of a motion, n of
+        Configuration; unless given the standing posture, or the neutral one of a robot without it. Of a motion, n of
         them, which the browser plays.
     contacts : iterable of str or Contact, optional
         What touches the ground: the contacts of the scene, or `model.feet`, unless given.
@@ -115,9 +115,9 @@ def _in_browser(
     from .browser import Browser, import_viser
     from .shapes import shapes
 
-    import_viser()  # what is missing is said before any mesh is looked for
+    import_viser()  # report what is missing before looking for meshes
     source = None if isinstance(meshes, bool) else meshes
-    if meshes is True:  # a model has those of the robot of its name, if there is one
+    if meshes is True:  # a model gets those of the robot of its name, if there is one
         name = seen.model.name
         source = robot if isinstance(robot, str | PathLike) else name if known(name) else None
     return Browser(seen, shapes(seen.model, source), frames)

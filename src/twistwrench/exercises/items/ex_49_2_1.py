@@ -84,7 +84,7 @@ TWIST_OF_FOOT = Part(
         ),
         "degrees": lambda model, q, omega_z: foot_twist(model, q, np.degrees(omega_z)),
     },
-    alike=(frozenset({"coupling-dropped", "force-for-motion"}),),  # X* leaves a twist without v without v
+    alike=(frozenset({"coupling-dropped", "force-for-motion"}),),  # X* maps (ω, 0) to (R ω, 0)
     residuals=(
         lambda answer, model, q, omega_z: (answer[:3] ** 2).sum() - omega_z**2,
         lambda answer, model, q, omega_z: (

@@ -39,13 +39,13 @@ def _forces_of(rng: Any) -> Any:
 
 
 def _edges(F: Any, d_x: Any, d_y: Any) -> Any:
-    """Return for each axis whether the pressure is within: below the upper edge, and above the lower."""
+    """Return for each axis whether the pressure is inside: below the upper edge, and above the lower."""
     (p_x, p_y), d = center_of_pressure(F), np.array([d_x, d_y])
     return np.array([p_x, p_y]) <= d, np.array([p_x, p_y]) >= -d
 
 
 def _unchecked(F: Any, d_x: Any, d_y: Any, *, half: float = 1.0) -> Any:
-    """Compare the ratios alone, without a look at the sign of f_z."""
+    """Compare the ratios alone, ignoring the sign of f_z."""
     p_x, p_y = np.abs(center_of_pressure(F))
     return bool(p_x <= half * d_x and p_y <= half * d_y)
 
@@ -57,7 +57,7 @@ def _at(p_x: float, p_y: float, f_z: float, rng: Any) -> Any:
 
 
 def _wrenches(rng: Any) -> Any:
-    """Return wrenches in the middle, beyond each edge, near it and on it, one that pulls, one that hardly pushes."""
+    """Return wrenches in the middle, outside each edge, near it and on it, one that pulls, one that hardly pushes."""
     near, far = rng.uniform(0.6, 0.9), rng.uniform(1.2, 2.0)
     places = [(0.3, 0.3), (near, 0.2), (0.2, -near), (far, 0.3), (-far, 0.2), (0.3, far), (0.2, -far), (-0.2, 0.3)]
     places += [(0.75, 0.1), (0.1, 0.75)]

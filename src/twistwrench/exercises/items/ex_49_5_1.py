@@ -27,7 +27,7 @@ def link_inertia() -> Any:
 
 
 def random_body(rng: np.random.Generator) -> Any:
-    """Return mass, centre of mass and inertia about it of some body that can exist."""
+    """Return mass, centre of mass and inertia about it of some physical body."""
     points, masses = rng.normal(scale=0.2, size=(6, 3)), rng.uniform(0.1, 1, 6)
     c = masses @ points / masses.sum()
     C = [skew(p - c) for p in points]
@@ -60,7 +60,7 @@ WRONG = {
     ),
     "swapped-halves": swapped(spatial_inertia),
 }
-"""What can go wrong with the matrix, whatever the body."""
+"""The slips of the matrix, for any body."""
 
 
 def _of_link(wrong: Any, *, m: float = 2.0) -> Any:

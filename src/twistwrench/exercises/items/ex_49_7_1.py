@@ -48,7 +48,7 @@ def _instead(by_aba: Any = None, expected: Any = None) -> Any:
 
 
 def _held(model: Any, q: Any) -> Any:
-    """Return what the joints do when the base is held."""
+    """Return the acceleration of the joints when the base is held."""
     M, g = tw.crba(model, q), tw.gravity(model, q)
     return np.concatenate([np.zeros(6), -np.linalg.solve(M[6:, 6:], g[6:])])
 

@@ -91,7 +91,7 @@ def _mean_in_turn(first: Any, second: Any, calls: Any, clock: Any) -> Any:
 
 
 def _timed(function: Any, first: Any, second: Any, calls: Any, clock: Any) -> Any:
-    """Let a machine begin anew, and give nan for a measurement that has not looked at its clock."""
+    """Reset a machine, and return nan for a measurement that has not read its clock."""
     clock.reset()
     answer = function(first, second, calls, clock)
     return answer if answer is ... or clock.readings else np.nan
@@ -122,7 +122,7 @@ def _machines(rng: Any) -> Any:
 
 
 def _plausible(answer: Any) -> Any:
-    """Return 1 for a ratio within an order of magnitude of any that we saw, 0 for what must be seconds."""
+    """Return 1 for a ratio within an order of magnitude of any that we saw, 0 for seconds in place of a ratio."""
     ratio = float(answer)
     return 1.0 if 0.2 <= ratio <= 10 else 0.0 if 0 <= ratio < 0.2 else ratio
 

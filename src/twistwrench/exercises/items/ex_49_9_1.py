@@ -36,7 +36,7 @@ def _terms(model: Any, q: Any, tau: Any, forces: Any) -> Any:
 
 
 def _carried(model: Any, q: Any, forces: Any, rows: Any = slice(3, 6), **where: Any) -> Any:
-    """Return J_cᵀλ, with the rows and the reference of the Jacobians of somebody's choice."""
+    """Return J_cᵀλ, with chosen rows and reference of the Jacobians."""
     frames = where.pop("frames", model.feet)
     where = where or {"reference": "local_world_aligned"}
     return sum(tw.frame_jacobian(model, q, name, **where)[rows].mT @ f for name, f in zip(frames, forces))
@@ -61,7 +61,7 @@ CALVES = tuple(f"{leg}_calf_joint" for leg in ("FL", "FR", "RL", "RR"))
 
 
 def _about(point: Any) -> Any:
-    """Take the moments about another point; the weight has one then, which is left out."""
+    """Take the moments about another point; the weight then has a moment, which is left out."""
 
     def wrong(model: Any, q: Any, forces: Any) -> Any:
         feet = np.array([tw.frame_placement(model, q, foot).translation for foot in model.feet])

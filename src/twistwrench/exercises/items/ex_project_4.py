@@ -23,7 +23,7 @@ def vertical_loads(p_G: Any, feet: Any, weight: Any) -> Any:
 
 
 def consistency_error(forward: Any, inverse: Any, model: Any, q: Any, v: Any, tau: Any) -> Any:
-    """Largest error of the forces that come back, relative to the largest force."""
+    """Largest error of the recovered forces, relative to the largest force."""
     back = inverse(model, q, v, forward(model, q, v, tau))
     return np.abs(back - tau).max() / np.abs(tau).max()
 

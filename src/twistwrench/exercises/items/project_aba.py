@@ -45,7 +45,7 @@ def _loads(rng: Any) -> Any:
 
 
 def _back(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) -> Any:
-    """Return what RNEA makes of the answer, less the torques, small where the accelerations are large."""
+    """Return RNEA of the answer less the torques, over the largest acceleration."""
     qdd = np.split(answer, np.cumsum([s.shape[1] for s in S])[:-1])
     wanted = np.concatenate(tau[1:])
     return (tree_rnea(parent, S, I, X, qd, qdd, a0) - wanted) / np.abs(answer).max()

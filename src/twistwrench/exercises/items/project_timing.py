@@ -34,7 +34,7 @@ def _machines(rng: Any) -> Any:
 
 
 def _timed(function: Any, task: Any, calls: Any, clock: Any) -> Any:
-    """Let the machine begin anew, and give nan for a measurement that has not looked at its clock."""
+    """Reset the machine, and return nan for a measurement that has not read its clock."""
     clock.reset()
     answer = function(task, calls, clock)
     return answer if answer is ... or clock.readings else np.nan

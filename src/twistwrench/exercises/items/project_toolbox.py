@@ -60,7 +60,7 @@ def urdf_pose(xyz: Any, rpy: Any) -> Any:
 
 
 def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
-    """Add, subtract and pair two twists and two wrenches, and try what must be refused."""
+    """Add, subtract and pair two twists and two wrenches, and try what must raise an error."""
     twist, other_twist = kind("twist", V), kind("twist", W)
     wrench, other_wrench = kind("wrench", F), kind("wrench", G)
     total, difference = wrench + other_wrench, twist - other_twist
@@ -83,14 +83,14 @@ def _tried(action: Any) -> Any:
 
 
 class _Mixing(SpatialVector):
-    """Add whatever comes."""
+    """Add without a check of the kinds."""
 
     def __add__(self, other: Any) -> Any:
         return type(self)(self.kind, self.vector + other.vector)
 
 
 class _Pairing(SpatialVector):
-    """Pair whatever comes."""
+    """Pair without a check of the kinds."""
 
     def power(self, other: Any) -> Any:
         return self.vector @ other.vector

@@ -1,4 +1,4 @@
-"""The project, stage 2: the trees that the recursions walk."""
+"""The project, stage 2: the trees of the recursions."""
 
 from typing import Any
 

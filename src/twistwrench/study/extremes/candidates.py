@@ -1,4 +1,4 @@
-"""Who answers in a cell: the textbook, `tw.fast`, the textbook in single precision, Pinocchio."""
+"""The implementations of a cell: the textbook, `tw.fast`, the textbook in single precision, Pinocchio."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ ALGORITHMS = {
     "centroidal map": "A_G",
     "J̇v": "bias",
 }
-"""What is judged, and the right value that it is held against (`truth.Truth`)."""
+"""The quantities, and the right value that each is compared with (`truth.Truth`)."""
 
 LONGEST = 350
-"""Of more joints Pinocchio is not asked: its Data makes room for 48 nv³ bytes, 50 GB at 1000 of them."""
+"""With more joints Pinocchio is left out: its Data allocates 48 nv³ bytes, 50 GB at 1000 of them."""
 
 Torques = dict[str, Array]
 
@@ -85,7 +85,7 @@ def solve(M: Array, b: Array) -> Array:
         raise SingularError("M: a joint moves nothing that has inertia")
     unit = np.sqrt(own)
     left, x, ratio = M / unit[:, None] / unit, b / unit, np.zeros_like(M)
-    for k in reversed(range(n)):  # the pivot is what joint k feels with those behind it free
+    for k in reversed(range(n)):  # the pivot is the apparent inertia at joint k
         if left[k, k] <= n * resolution(M.dtype):
             raise SingularError("M: not positive definite, to rounding")
         ratio[k, :k] = left[k, :k] / left[k, k]

@@ -1,4 +1,4 @@
-"""One cell of the grid: every way to every quantity, and how many digits it keeps, or that it refuses."""
+"""One cell of the grid: every way to every quantity, and how many digits it keeps, or that it raises an error."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ __all__ = ["Outcome", "measure"]
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one way gave in one cell.
+    """The outcome of one way in one cell.
 
     Attributes
     ----------
     algorithm, who : str
         As `candidates.ALGORITHMS` and `candidates.CANDIDATES` name them.
     error : float or None
-        Relative, free of units; None where no number came.
+        Relative, free of units; None without a number.
     refused : str
         The class and the message of the error instead of a number.
     bad : str
-        What must not be: a NaN, an infinity, a warning, an error of no class of ours, a number where none is right.
+        A fault: a NaN, an infinity, a warning, an error that is not of our classes, a number where none is right.
     estimate : float or None
-        What `twistwrench.accuracy` said before, where it has something to say: infinite where it was sure of nothing.
+        What `twistwrench.accuracy` predicted, where it applies: infinite where it guarantees nothing.
     """
 
     algorithm: str
@@ -44,9 +44,9 @@ class Outcome:
 
 
 def measure(recipe: Recipe, *, pinocchio: bool, digits: int = 50) -> list[Outcome]:
-    """Measure all ways to all quantities, against a truth of so many digits.
+    """Measure all ways to all quantities, against a truth of `digits` digits.
 
-    A robot that cannot exist is refused before any of them is asked.
+    A robot that is not physical is rejected before any of them is called.
     """
     import mpmath
 
@@ -64,7 +64,7 @@ def measure(recipe: Recipe, *, pinocchio: bool, digits: int = 50) -> list[Outcom
 
 
 def _estimates(recipe: Recipe, dtype: type) -> dict[str, float]:
-    """Return what `accuracy` says, by algorithm; nothing where it refuses the configuration."""
+    """Return the prediction of `accuracy`, by algorithm; empty where it rejects the configuration."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -75,7 +75,7 @@ def _estimates(recipe: Recipe, dtype: type) -> dict[str, float]:
 
 
 def _judge(way: Candidate, right: Truth, expected: dict[str, float]) -> Outcome:
-    """Call one way, and see what comes."""
+    """Call one way, and return its outcome."""
     estimate = expected.get(way.algorithm.partition(",")[0])
     outcome: dict[str, Any] = {"algorithm": way.algorithm, "who": way.who, "estimate": estimate}
     try:

@@ -76,7 +76,7 @@ def run_extremes(args: argparse.Namespace) -> int:
 
 
 def _pinocchio() -> bool:
-    """Whether Pinocchio is there; the study is worth running without."""
+    """Whether Pinocchio is installed; the study is worth running without."""
     from ...bridge import import_pinocchio
 
     try:

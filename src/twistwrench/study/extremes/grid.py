@@ -1,4 +1,4 @@
-"""Which cells there are: each dimension on its way to its limits, and every two of them at their ends."""
+"""The cells: each dimension on its way to its limits, and every two of them at their ends."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ DIMENSIONS: dict[str, tuple[float, ...]] = {
     "off": (1e-16, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1),
     "edge": (1e-3, 1e-6, 1e-9, 1e-12, 0.0, -1e-3),
 }
-"""Of every dimension its values, besides the usual one; of `leaves` the number of bodies."""
+"""The values of every dimension, besides the usual one; of `leaves` the number of bodies."""
 
 WORDS = {
     "mass_ratio": "mass ratio tip : base",
@@ -54,7 +54,7 @@ WORDS = {
     "off": "quaternion off norm 1",
     "edge": "short of the triangle inequality",
 }
-"""What stands beside a row of the map."""
+"""The label of a row of the map."""
 
 ENDS: dict[str, tuple[float, ...]] = {
     "mass_ratio": (1e9, 1e-9),
@@ -74,10 +74,10 @@ ENDS: dict[str, tuple[float, ...]] = {
     "off": (1e-9,),
     "edge": (0.0,),
 }
-"""What pairs are made of; the short form takes the first of each."""
+"""The values that pairs are made of; the short form takes the first of each."""
 
 LONG = 100
-"""Robots of more bodies are for the full form: their truth takes a minute each."""
+"""Robots with more bodies are only in the full form: their truth takes a minute each."""
 
 
 def cells(*, full: bool) -> list[Recipe]:
@@ -95,7 +95,7 @@ def of_value(name: str, x: float) -> Recipe:
 
 def of_pair(first: str, second: str, *, full: bool) -> list[Recipe]:
     """Return the robots with two things at their ends: all of them, or the first of each."""
-    if {first, second} == {"bodies", "leaves"}:  # both say how many there are
+    if {first, second} == {"bodies", "leaves"}:  # both set the number of bodies
         return []
     ends = [ENDS[name][: None if full else 1] for name in (first, second)]
     return [_at({first: x, second: y}) for x, y in product(*ends)]

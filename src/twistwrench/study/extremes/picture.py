@@ -1,4 +1,4 @@
-"""The map of an algorithm: a square for every cell, its colour the digits kept, hatched where it is refused."""
+"""The map of an algorithm: a square for every cell, its colour the digits kept, hatched where an error is raised."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .run import Cell
 __all__ = ["draw", "save"]
 
 DIGITS = 17
-"""The end of the scale: below 1e-17 nothing is told apart."""
+"""The end of the scale: errors below 1e-17 have one colour."""
 
 NAMES = {
     "rnea": "rnea",
@@ -31,10 +31,10 @@ NAMES = {
     "centroidal map": "centroidal_map",
     "J̇v": "bias",
 }
-"""The algorithms, and what their files are called."""
+"""The algorithms, and the names of their files."""
 
 SAID = "accuracy"
-"""The column of what `twistwrench.accuracy` said before."""
+"""The column of what `twistwrench.accuracy` predicted."""
 
 TITLES = {
     "textbook": "textbook",
@@ -48,7 +48,7 @@ Found = dict[tuple[Recipe, str], Outcome]
 
 
 class Square(NamedTuple):
-    """A cell, or several that share a place: what came there, and what is written on it."""
+    """A cell, or several that share a place: their outcomes, and the text written on it."""
 
     column: int
     row: int
@@ -104,7 +104,7 @@ def draw(cells: Sequence[Cell], algorithm: str, figure: Any) -> None:
 
 
 def _found(cells: Sequence[Cell], algorithm: str) -> Found:
-    """Return the outcomes of an algorithm, and beside them what was said before."""
+    """Return the outcomes of an algorithm, and beside them the predictions of `accuracy`."""
     found = {(c.recipe, o.who): o for c in cells for o in c.outcomes if o.algorithm == algorithm}
     for (recipe, who), o in list(found.items()):
         if who == "textbook" and o.estimate is not None:
@@ -123,7 +123,7 @@ def _alone(found: Found, who: str) -> Iterator[Square]:
 
 
 def _short(value: float) -> str:
-    """Write a value in as few letters as it has."""
+    """Write a value as short as possible."""
     if abs(value) == np.pi:
         return "π" if value > 0 else "−π"
     return re.sub(r"e([+-])0*(\d)", lambda m: "e" + m[1].strip("+") + m[2], f"{value:g}")
@@ -138,7 +138,7 @@ def _pairs(found: Found, who: str) -> Iterator[Square]:
 
 
 def _paint(ax: Any, square: Square, colours: Any) -> None:
-    """Paint a square in the colour of its least digits, a NaN red, and hatch it where something was refused."""
+    """Paint a square in the colour of its least digits, a NaN red, and hatch it where an error was raised."""
     from matplotlib.patches import Rectangle
 
     errors = [o.error for o in square.outcomes if o.error is not None]

@@ -1,4 +1,4 @@
-"""What the cells say, counted: for every algorithm and every way to it, and for the estimate of `accuracy`."""
+"""The outcomes counted: for every algorithm and every way to it, and for the estimate of `accuracy`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["Estimate", "Row", "as_dict", "bad", "estimates", "refusals", "rows",
 
 OURS = ("textbook", "fast")
 ROUNDINGS = 4 * resolution(np.float64)
-"""By so much an error may be above twice another before it counts as larger."""
+"""An error counts as larger if it exceeds twice another by more than this."""
 
 
 @dataclass(frozen=True)
@@ -31,14 +31,14 @@ class Row:
     ----------
     algorithm, who : str
     cells, numbers, refused, bad : int
-        How many there are; where numbers came, an error was raised, or neither as it should be.
+        Numbers of cells: all; with numbers; with an error raised; with a fault.
     median, worst : float
         Relative error.
     where : str
         The cell of the worst.
     above, below : int
-        Cells where the error is more than twice Pinocchio's and four roundings, and where Pinocchio's is so much
-        more than this.
+        Cells where the error is more than twice Pinocchio's and four roundings, and where Pinocchio's is as much
+        more than this one.
     tenth : int
         Cells where it is less than a tenth of Pinocchio's.
     """
@@ -59,7 +59,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Estimate:
-    """How `accuracy` fared: cells in which it could be held against an error, in how many that was below, by how much.
+    """The estimates of `accuracy`: cells where an error is known, those where it was below the estimate, and the ratio.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ def _row(algorithm: str, who: str, pairs: list[tuple[Cell, Outcome]], theirs: di
 
 
 def estimates(cells: Sequence[Cell]) -> list[Estimate]:
-    """Hold what `accuracy` said against what was lost."""
+    """Compare the estimates of `accuracy` with the errors."""
     found = []
     for (algorithm, who), pairs in _by_way(cells).items():
         known = [(o.estimate, o.error) for _, o in pairs if o.estimate is not None and o.error is not None]
@@ -123,23 +123,23 @@ def estimates(cells: Sequence[Cell]) -> list[Estimate]:
 
 
 def refusals(cells: Sequence[Cell]) -> list[tuple[str, int]]:
-    """Return the errors of ours, numbers left out, and how often each came; the most frequent first."""
+    """Return the errors of ours, without their numbers, and how often each was raised; the most frequent first."""
     said = Counter(_general(o.refused) for c in cells for o in c.outcomes if o.who != "pinocchio" and o.refused)
     return said.most_common()
 
 
 def _general(message: str) -> str:
-    """Return the first line of a message, without what differs from cell to cell: names and numbers that came."""
+    """Return the first line of a message, without what differs from cell to cell: names and numbers."""
     line = message.splitlines()[0].rstrip(":")
     return re.sub("'[^']*'", "…", re.split(", got| has norm", line)[0])
 
 
 def bad(cells: Sequence[Cell]) -> list[tuple[Cell, Outcome]]:
-    """Return what must not be, of all but Pinocchio."""
+    """Return the faults of all but Pinocchio."""
     return [(c, o) for c in cells for o in c.outcomes if o.bad and o.who != "pinocchio"]
 
 
-# ---------------------------------------------------------------- in print
+# ---------------------------------------------------------------- as text
 
 
 def table(cells: Sequence[Cell]) -> str:
@@ -180,7 +180,7 @@ def turns(found: Iterable[Turns]) -> Iterator[str]:
 
 
 def as_dict(cells: Sequence[Cell]) -> dict[str, Any]:
-    """Return the same as numbers, for JSON: an estimate without end is None."""
+    """Return the same as numbers, for JSON: an infinite estimate is None."""
     return {
         "cells": len(cells),
         "ways": [asdict(row) for row in rows(cells)],

@@ -1,4 +1,4 @@
-"""The robot of the grid: one recipe with every dimension in it, so that any two can be at their ends at once."""
+"""The robot of the grid: one recipe with every dimension, so that any two can be at their ends at once."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LINEAR = slice(3, 6)
 
 
 class State(NamedTuple):
-    """What the algorithms are called with: configuration, velocity, acceleration."""
+    """The arguments of the algorithms: configuration, velocity, acceleration."""
 
     q: Array
     v: Array
@@ -32,7 +32,7 @@ class State(NamedTuple):
 
 @dataclass(frozen=True)
 class Recipe:
-    """A floating base with a chain of rods, or with all rods at the base; one number for each thing that has a limit.
+    """A floating base with a chain of rods, or with all rods at the base; one number for each dimension.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class Recipe:
     length, mass, time : float
         How many metres, kilograms and seconds stand for one: the same robot in other units.
     light : float
-        Mass of the body in the middle, as a multiple of what it would be; zero takes its inertia as well.
+        Mass of the body in the middle, as a multiple of the usual one; at zero it has no inertia either.
     tip : float
         The same of the last body.
     rotor : float
@@ -88,7 +88,7 @@ class Recipe:
 
     @property
     def changed(self) -> dict[str, float | bool | None]:
-        """What is not as usual, by name."""
+        """The values that are not the usual ones, by name."""
         return {f.name: getattr(self, f.name) for f in fields(self) if getattr(self, f.name) != f.default}
 
     @cached_property

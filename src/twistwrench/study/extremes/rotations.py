@@ -20,13 +20,13 @@ SERIES = 1e-10
 """Below this angle two terms of a series have more than 40 digits."""
 
 PART = 250
-"""So many angles at once: between them the bar moves."""
+"""The number of angles in a batch: the bar moves after each batch."""
 
 Way = Callable[[Array], Array]
 
 
 class Turns(NamedTuple):
-    """What one library makes of one function: its worst relative errors.
+    """The worst relative errors of one function of one library.
 
     Attributes
     ----------

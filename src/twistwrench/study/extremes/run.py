@@ -1,4 +1,4 @@
-"""The grid measured cell by cell; what is done is on file, and not done again."""
+"""The grid measured cell by cell; cells on file are not measured again."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ __all__ = ["Cell", "read", "run"]
 
 
 START = '{"cell": '
-"""Of a line on file."""
+"""The beginning of a line on file."""
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell and what came of it."""
+    """A cell and its outcomes."""
 
     recipe: Recipe
     outcomes: tuple[Outcome, ...]
 
     def __str__(self) -> str:
-        """Say what is not as usual."""
+        """Return in words which values are not the usual ones."""
         return ", ".join(f"{name} {x if isinstance(x, bool) else f'{x:g}'}" for name, x in self.recipe.changed.items())
 
     def as_line(self) -> str:
-        """Return it as a line of JSON: what is not as usual in the robot, then what every way gave."""
+        """Return it as a line of JSON: the values that are not the usual ones, then the outcome of every way."""
         return json.dumps({"cell": self.recipe.changed, "outcomes": [_short(o) for o in self.outcomes]})
 
     @classmethod
@@ -42,7 +42,7 @@ class Cell:
 
 
 def _short(outcome: Outcome) -> dict[str, Any]:
-    """Return what there is to say of an outcome; an estimate without end as a word, which JSON has no number for."""
+    """Return an outcome without its defaults; an infinite estimate as a word, since JSON has no number for it."""
     found = {name: x for name, x in asdict(outcome).items() if x not in (None, "")}
     return found | ({"estimate": "inf"} if found.get("estimate") == float("inf") else {})
 
@@ -58,7 +58,7 @@ def read(path: Path) -> list[Cell]:
     Raises
     ------
     OSError
-        If any other line is no cell: the file is something else, and would be lost.
+        If any other line is not a cell: the file is something else, and would be lost.
     """
     text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
     *lines, cut = text.split("\n")  # each line is ended when it is whole
@@ -74,7 +74,7 @@ def read(path: Path) -> list[Cell]:
 
 
 def run(recipes: Sequence[Recipe], path: Path | None, *, pinocchio: bool, progress: bool) -> list[Cell]:
-    """Measure what is not yet on file, write it there as it comes, and return all cells in the order of the recipes.
+    """Measure the cells that are not yet on file, add each to it at once, and return all in the order of the recipes.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def run(recipes: Sequence[Recipe], path: Path | None, *, pinocchio: bool, progre
     path : Path, optional
         Of the file, a cell a line.
     pinocchio : bool
-        Whether Pinocchio is asked as well.
+        Whether Pinocchio is measured as well.
     progress : bool
         Whether a bar is shown on stderr.
     """
@@ -104,7 +104,7 @@ def _measured(recipes: Iterable[Recipe], *, pinocchio: bool) -> Iterator[Cell]:
 
 
 def _kept(cells: Iterable[Cell], path: Path | None, known: Iterable[Cell]) -> Iterator[Cell]:
-    """Write each cell before it is passed on, behind those that are known: a line that was cut off goes."""
+    """Append each cell to the file before yielding it; a last line that was cut off is removed."""
     if path is None:
         yield from cells
         return

@@ -1,8 +1,8 @@
-"""What is right in a cell, to fifty digits, and what an error in it is measured against.
+"""The right values of a cell, to fifty digits, and the sizes that errors are relative to.
 
-All of it comes from `newton_euler_3d`, which shares no formula with what is judged. Every error is free of units: the
-same robot in millimetres and grams has the same. And each is measured against the terms of a sum, not the sum, so that
-an entry that cancels to zero is not called wrong in all its digits.
+All of it comes from `newton_euler_3d`, which shares no formula with the functions that are measured. Every error is
+free of units: the same robot in millimetres and grams has the same. And each is measured against the terms of a sum,
+not the sum, so that an entry that cancels to zero is not called wrong in all its digits.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ WHOLE = 40
 """Of a robot with more bodies only some columns of M are compared: all of them would take hours."""
 
 COLUMNS = (0, 5, 6, -1)
-"""Which: two of the base, the first joint, the last."""
+"""These columns: two of the base, the first joint, the last."""
 
 ENOUGH = 1e-25
-"""Of the size of q̈: the last correction by which it is known."""
+"""The last correction of q̈, relative to its size, at which it counts as known."""
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ class Truth:
     ----------
     right : dict of str to ndarray or None
         ``tau``: torques of the motion. ``steered``: accelerations under these torques, rounded to doubles; ``pushed``:
-        under torques of any sign and as large as the terms of these; None where none is right. ``M``: (columns of) the
-        mass matrix. ``A_G``: the centroidal map. ``bias``: J̇v of the last body's frame.
+        under torques of any sign and as large as the terms of these; None where there is no right value. ``M``:
+        (columns of) the mass matrix. ``A_G``: the centroidal map. ``bias``: J̇v of the last body's frame.
     sizes : dict of str to ndarray
         By the same names.
     torques : dict of str to ndarray
@@ -56,7 +56,7 @@ class Truth:
     torques: dict[str, Array]
 
     def error(self, name: str, answer: Array) -> float:
-        """Return the largest relative error of an answer of finite numbers; infinite where there is no right one."""
+        """Return the largest relative error of finite numbers; infinite where there is no right value."""
         right, size = self.right[name], self.sizes[name]
         if right is None:
             return np.inf
@@ -68,7 +68,7 @@ class Truth:
 
 
 def truth(model: Model, s: State) -> Truth:
-    """Return what is right, in as many digits as ``mpmath.mp.dps`` says."""
+    """Return the right values, in ``mpmath.mp.dps`` digits."""
     exact = State(*(ne.as_mpmath(x) for x in s))
     given = take(model, q=exact.q, v=exact.v, a=exact.a)
     bodies = bodies_in_world(given)
@@ -106,10 +106,10 @@ def mass_matrix(model: Model, q: Array) -> Array:
 
 
 def accelerations(model: Model, s: State, torques: Array) -> Array | None:
-    """Return the q̈ at which inverse dynamics asks for just these torques, or None where M is singular.
+    """Return the q̈ at which inverse dynamics returns exactly these torques, or None where M is singular.
 
-    Newton's method: what the torques of a guess miss is divided by M in long double numbers, which gives the digits
-    that it gives, and the next step gives as many more. What is right is decided by the torques alone.
+    Newton's method: the residual of the torques is solved for with M in long doubles, and each step gains as many
+    digits as these hold. The result depends on the torques alone.
     """
     q, v, tau = (ne.as_mpmath(x) for x in (s.q, s.v, torques))
     qdd, last = 0 * tau, np.inf
@@ -149,9 +149,9 @@ def _as_long_double(x: Array) -> Array:
 
 
 def _size_of_accelerations(model: Model, s: State, torques: Array, qdd: Array | None, weight: Array) -> Any:
-    """Return the sizes of the entries of q̈, such that each counts by the root of the inertia that its joint feels.
+    """Return the sizes of the entries of q̈, such that each counts by the root of the inertia of its joint.
 
-    Of which q̈: of this, of that without torques, or of the difference, due to them alone; whichever is largest.
+    The largest of three: of this q̈, of that without torques, and of their difference.
     """
     if qdd is None:
         return None

@@ -1,4 +1,4 @@
-"""Speed against accuracy: what every way of computing a quantity costs, and how many digits it keeps.
+"""Speed against accuracy: the time of every way of computing a quantity, and how many digits it keeps.
 
 >>> KEYS
 ('ID', 'FD', 'M', 'A_G', 'dh_G', 'dJv', 'dID/dq', 'exp', 'log')

@@ -1,4 +1,4 @@
-"""Which ways are worth taking, and the answer in words."""
+"""The ways that are worth taking, and the choice in words."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .measure import Point
 __all__ = ["TARGETS", "advice", "best", "duration", "front"]
 
 TARGETS = (1e-6, 1e-12, 1e-16)
-"""Errors that somebody may want to stay below."""
+"""Errors that a user may want to stay below."""
 
 
 def front(points: Iterable[Point]) -> list[Point]:
@@ -30,12 +30,12 @@ def front(points: Iterable[Point]) -> list[Point]:
 
 
 def best(points: Iterable[Point], target: float) -> Point | None:
-    """Return the fastest of those whose error is not above the target, None where there is none."""
+    """Return the fastest of those whose error is not above the target; None if there is no such point."""
     return min((p for p in points if p.error <= target), key=lambda p: p.seconds, default=None)
 
 
 def advice(name: str, points: Sequence[Point]) -> list[str]:
-    """Say in words what to use for which error: for one state at a time, and for many.
+    """Return in words what to use for which error: for one state at a time, and for many.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def _listed(words: list[str]) -> str:
 
 
 def _answer(target: float, points: Sequence[Point]) -> str:
-    """Say what to use for an error; where that is Pinocchio, also what to use without it."""
+    """Return in words what to use for an error; where that is Pinocchio, also what to use without it."""
     found = best(points, target)
     if found is None:
         return "there is none"

@@ -1,4 +1,4 @@
-"""``twistwrench study trade``: what every way of computing a quantity costs, and how many digits it keeps."""
+"""``twistwrench study trade``: the time of every way of computing a quantity, and how many digits it keeps."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def add_trade(studies: Any) -> None:
 
 
 def _keep(trade: Trade, path: Path | None) -> None:
-    """Print what was measured before the study was stopped, and write it beside the file that was asked for."""
+    """Print what was measured before the study was stopped, and write it beside the output file."""
     if path is not None:
         write_text(f"{path}.part", trade.to_json() + "\n")
         print(f"twistwrench: stopped; what was finished is in {path}.part", file=sys.stderr)

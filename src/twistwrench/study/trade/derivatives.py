@@ -81,7 +81,7 @@ def central_difference(f: Function, model: Model, q: Array, v: Array, a: Array) 
 
 
 def complex_step(f: Function, model: Model, q: Array, v: Array, a: Array) -> Array:
-    """Return Im f(q ⊕ ih e_k) / h, (..., nv, nv). Nothing is subtracted, so h may be as small as the type holds."""
+    """Return Im f(q ⊕ ih e_k) / h, (..., nv, nv). Nothing is subtracted, so h may be as small as the type allows."""
     h = np.finfo(q.dtype).tiny ** (1 / 2)
     columns: Array = f(_steps(model, q, 1j * h), v[..., None, :], a[..., None, :]).imag / h
     return columns.mT
@@ -95,7 +95,7 @@ def _steps(model: Model, q: Array, h: Any) -> Array:
 def difference_in_twice_the_digits(model: Model, q: Array, v: Array, a: Array) -> Array:
     """Return ∂τ/∂q of one state of mpmath numbers, to their number of digits.
 
-    A forward difference loses half the digits: it is given twice as many, and a few to spare.
+    A forward difference loses half the digits: it is computed with twice as many, and a few more.
     """
     wide = digits(2 * q.flat[0].context.dps + 4)
     h = wide.mpf(10) ** (-wide.dps // 2)

@@ -38,7 +38,7 @@ class Robot:
     oracle : Oracle or None
         Pinocchio, if it is there.
     frame : str
-        Whose J̇ v is asked for.
+        The frame whose J̇ v is computed.
     """
 
     model: Model
@@ -50,7 +50,7 @@ class Robot:
         return Way("newton_euler_3d", truth, (*FLOATS, *DIGITS), batches=False)
 
     def pinocchio(self, name: str, compute: Callable[..., Any], after: Callable[[Oracle, Any], Array]) -> list[Way]:
-        """Return a way of Pinocchio's, or none. Its order is taken before the clock starts, ours after it stops.
+        """Return a way of Pinocchio's in a list, or an empty one. Reordering is not timed.
 
         `compute` takes Pinocchio itself, its model and data, and the arguments.
         """
@@ -117,14 +117,14 @@ def _fast_M_h(model: Model, q: Array, v: Array) -> tuple[Any, Any]:
 
 
 def _solve(M: Array, b: Array) -> Array:
-    """Solve M x = b as NumPy can: its Cholesky factor is triangular, its solver does not know that."""
+    """Solve M x = b by NumPy: its Cholesky factor is triangular, but its solver does not use that."""
     L = np.linalg.cholesky(M)
     x: Array = np.linalg.solve(L.mT, np.linalg.solve(L, b[..., None]))[..., 0]
     return x
 
 
 def _solved_by_scipy(model: Model) -> list[Way]:
-    """Return the way with SciPy's Cholesky solver, which does know it; none without SciPy."""
+    """Return the way with SciPy's Cholesky solver, which uses that; empty without SciPy."""
     try:
         from scipy.linalg import cho_factor, cho_solve
     except ImportError:
@@ -221,4 +221,4 @@ WAYS: dict[str, tuple[str, tuple[str, ...], Ways]] = {
     "dh_G": ("rate of momentum ḣ_G", ("q", "v", "a"), momentum_rate),
     "dJv": ("bias acceleration J̇v", ("q", "v"), bias_acceleration),
 }
-"""By its key: the name of a quantity, what it is a function of, and what gives its truth and its ways."""
+"""By its key: the name of a quantity, its arguments, and the function that returns its truth and its ways."""

@@ -22,15 +22,15 @@ class Effort:
     Attributes
     ----------
     states : int
-        At how many the error is looked at; the worst counts.
+        Number of states at which the error is measured; the worst counts.
     batch : int
-        How many states are many.
+        Number of states in a batch.
     rounds : int
         How often each way is timed.
     least : float
         For about how long at a time, s.
     most : float
-        What has taken so long is timed no more, s.
+        A way that has taken so long is timed no more, s.
     """
 
     states: int = 5
@@ -47,7 +47,7 @@ class Effort:
 
 @dataclass(frozen=True)
 class Point:
-    """A way in a number type, for one state or many: what it costs and what it keeps.
+    """A way in a number type, for one state or many: its time and its error.
 
     Attributes
     ----------
@@ -57,14 +57,13 @@ class Point:
     states : int
         In one call.
     error : float
-        Worst relative error over the states that were looked at, see `relative_error`.
+        Worst relative error over these states, see `relative_error`.
     seconds, q1, q3 : float
         For one state: median and quartiles.
     rounds : int
         How many times were kept.
     quiet : bool
-        Whether they are those of stretches in which the processor was not taken away; where there was none, what
-        counts is the time on the processor.
+        Whether they are those of undisturbed stretches; where there were none, the time on the processor counts.
     """
 
     quantity: str
@@ -81,7 +80,7 @@ class Point:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """A way that gives no number here, and why."""
+    """A way that gives no number here, and the reason."""
 
     quantity: str
     way: str
@@ -91,7 +90,7 @@ class LeftOut:
 
 
 class Unusable(ValueError):
-    """A result that is no number, or has nothing to be compared with."""
+    """A result that is not a number, or has nothing to be compared with."""
 
 
 def measure(
@@ -167,7 +166,7 @@ def _check(
     else:
         call = prepare(slice(0, states))
         values = list(way.after(call()))
-    # A batch may be of fewer states than are looked at.
+    # A batch may have fewer states than the error is measured at.
     return max(relative_error(x, truth) for x, truth in zip(values, truths, strict=False)), call
 
 
@@ -183,7 +182,7 @@ def relative_error(value: Array, truth: Array) -> float:
     Raises
     ------
     Unusable
-        If the value is no number, or of another shape.
+        If the value is not a number, or of another shape.
 
     Examples
     --------

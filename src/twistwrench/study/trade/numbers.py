@@ -12,7 +12,7 @@ from ...arrays import Array, resolution
 __all__ = ["DIGITS", "FLOATS", "HARDWARE", "TRUTH", "convert", "digits", "epsilon", "exactly"]
 
 HARDWARE = ("float32", "float64")
-"""What LAPACK, and with it numpy.linalg, computes in."""
+"""The number types of LAPACK, and with it of numpy.linalg."""
 
 FLOATS = (*HARDWARE, "longdouble") if resolution(np.longdouble) < resolution(np.float64) else HARDWARE
 """Without long doubles where they are doubles by another name, as on Windows."""

@@ -16,7 +16,7 @@ from .report import Trade
 __all__ = ["check_format", "draw"]
 
 FLOOR = 1e-25
-"""What is more exact than this stands on the bottom line, and a note says how exact."""
+"""Smaller errors are drawn on the bottom line, and a note gives their size."""
 
 MARKERS = {"float32": "v", "float64": "o", "longdouble": "s", "20 digits": "D", "50 digits": "*"}
 OWN = {"tw.fast.": "vermilion", "tw.": "blue", "newton_euler_3d": "green", "mpmath": "green", "pin.": "black"}
@@ -26,12 +26,12 @@ FORMATS = (".png", ".svg", ".pdf")
 
 
 def check_format(path: Path) -> None:
-    """Refuse a file that could not be drawn, and do so where matplotlib is missing.
+    """Raise for a file that could not be drawn, or where matplotlib is missing.
 
     Raises
     ------
     OSError
-        If the suffix is of no format.
+        If the suffix is not one of a known format.
     ImportError
         If matplotlib is not installed.
     """
@@ -48,7 +48,7 @@ def draw(trade: Trade, path: Path) -> None:
     ----------
     trade : Trade
     path : Path
-        Its suffix says the format: png, svg, pdf.
+        Its suffix sets the format: png, svg, pdf.
     """
     from matplotlib.figure import Figure
 
@@ -125,7 +125,7 @@ def _colours(ways: Iterable[str]) -> dict[str, str]:
 
 
 def _note_the_floor(ax: Any, points: Iterable[Point]) -> None:
-    """Say how exact the most exact is that stands on the bottom line."""
+    """Note the smallest error among those on the bottom line."""
     below = [p.error for p in points if p.error < FLOOR]
     if below:
         text = f"on the bottom line: down to {min(below):.0e}" if min(below) else "on the bottom line: down to 0"
@@ -142,7 +142,7 @@ def _name_the_ways(ax: Any, colours: dict[str, str]) -> None:
 
 
 def _explain(figure: Any) -> None:
-    """Say below all panels what shapes, fillings and lines mean."""
+    """Explain shapes, fillings and lines below all panels."""
     from matplotlib.lines import Line2D
 
     black, grey = COLOURS["black"], COLOURS["grey"]

@@ -79,7 +79,7 @@ def _pinocchio() -> list[Way]:
 
 
 def _scipy() -> list[Way]:
-    """Return SciPy's, which has placements since 1.16; none without it."""
+    """Return SciPy's ways, which has placements since 1.16; empty without it."""
     try:
         from scipy.linalg import expm
         from scipy.spatial.transform import RigidTransform

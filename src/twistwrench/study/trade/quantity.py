@@ -1,4 +1,4 @@
-"""What is measured: a quantity, and the ways of computing it."""
+"""A quantity, and the ways of computing it."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ __all__ = ["Arrays", "Inputs", "Quantity", "Way", "repeated"]
 
 Arrays = tuple[Array, ...]
 Inputs = Callable[[str, int | slice], Arrays]
-"""Of a number type and of which states: what a way is called with."""
+"""From a number type and the indices of states to the arguments of a way."""
 
 
 def repeated(x: Array, where: int | slice) -> Array:
-    """Return one entry, or the first so many, over and over if there are not so many.
+    """Return one entry, or the first ones, repeated where there are fewer than wanted.
 
     Examples
     --------
@@ -42,11 +42,11 @@ class Way:
     compute : callable
         Of the arrays that `before` returns. This is what is timed.
     numbers : tuple of str
-        The number types that it can.
+        The number types that it can compute in.
     batches : bool
         Whether it takes many states in one call.
     before : callable
-        Of the inputs: what is done with them before the clock starts, as reordering for Pinocchio.
+        Of the inputs: their preparation, such as reordering for Pinocchio, which is not timed.
     after : callable
         Of what `compute` returned: the value, in the order of this package.
     """
@@ -74,7 +74,7 @@ class Quantity:
         Of the index of a state: the value in 60 digits.
     ways : sequence of Way
     batch : int
-        How many states are many.
+        Number of states in a batch.
     """
 
     key: str

@@ -1,4 +1,4 @@
-"""What came out: as a table, as JSON, in words."""
+"""The results: as a table, as JSON, in words."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Trade:
         return front(p for p in self.of(key) if p.states == 1), front(self.of(key))
 
     def words(self) -> str:
-        """Return the answer: for which error which way."""
+        """Return in words which way to use for which error."""
         lines = [line for key, name in self.names.items() if self.of(key) for line in advice(name, self.of(key))]
         return "\n".join(["The fastest way whose error is not above", *map(_wrapped, lines)])
 

@@ -31,14 +31,14 @@ from .report import Trade
 __all__ = ["FULL", "KEYS", "NO_MPMATH", "SHORT", "weigh"]
 
 DRAWN = 50
-"""So many random states; more are the same ones again."""
+"""The number of random states; larger batches repeat them."""
 
 SLOPE = "dID/dq"
 KEYS = (*WAYS, SLOPE, "exp", "log")
 NO_MPMATH = 'the truth needs mpmath: pip install "twistwrench[validate]"'
 FULL = Effort()
 SHORT = Effort(states=2, batch=20, rounds=2, least=1e-4, most=0.05)
-"""To see that all is there. Its times are worth little."""
+"""A quick check that all of it runs. Its times are worth little."""
 
 
 def weigh(
@@ -56,7 +56,7 @@ def weigh(
     Parameters
     ----------
     robot : Model, str or path
-        A name or a path is loaded as by `twistwrench.load`, without refusing bodies that cannot exist.
+        A name or a path is loaded as by `twistwrench.load`, accepting bodies that are not physical.
     base : {"fixed", "floating"}, optional
         For a name or a path: the base to load it with.
     only : collection of str
@@ -79,7 +79,7 @@ def weigh(
     NameNotFound, ModelError
         As `twistwrench.load`; or if a quantity is unknown or nothing moves.
     ImportError
-        If mpmath is not installed, without which there is no truth.
+        If mpmath, which computes the truth, is not installed.
     ValueError
         If a base is named for a `Model`, which has one.
 
@@ -148,7 +148,7 @@ def _quantities(model: Model, oracle: Oracle | None, effort: Effort, seed: int) 
         return Quantity(key, name, inputs, lambda i: truth(*inputs(TRUTH, i)), every, batch)
 
     dynamics = [quantity(key, *of, effort.batch) for key, of in WAYS.items()]
-    # Each derivative asks for nv or more states by itself.
+    # Each derivative evaluates nv or more states.
     slopes = quantity(SLOPE, "derivative ∂τ/∂q", ("q", "v", "a"), derivative, max(2, effort.batch // 10))
     poses = pose_quantities(DRAWN, effort.states, batch=effort.batch, rng=rng, pinocchio=oracle is not None)
     return [*dynamics, slopes, *poses]
@@ -194,7 +194,7 @@ def _versions() -> dict[str, str]:
 
 
 def _missing() -> tuple[str, ...]:
-    """Say whose ways are not there."""
+    """Return in words whose ways are missing."""
     said = {
         "pinocchio": "Pinocchio is not installed: its ways are left out (pip install pin; not on Windows)",
         "scipy": "SciPy is not installed: its ways are left out (pip install scipy)",
