@@ -110,11 +110,15 @@ def _watch(fd: int, unread: threading.Event, done: threading.Event) -> None:
 
 @contextmanager
 def without_interrupts() -> Iterator[None]:
-    """Shield processes that are started within from Ctrl-C, which a terminal sends to all: their parent stops them."""
+    """Within: nothing stops the work, and processes that are started get no signal but SIGKILL, from their parent.
+
+    A terminal sends Ctrl-C to all. And a process whose parent is stopped while it starts finds nothing to read.
+    """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    every = {getattr(signal, name) for name in (*SIGNALS, "SIGALRM")}
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, every)
     try:
         yield
     finally:

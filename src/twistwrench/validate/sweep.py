@@ -88,7 +88,7 @@ def sweep(
             yield future.result()
     except BaseException:  # Ctrl-C, or the caller stopped: the work in progress would take seconds or minutes
         for process in set(active_children()) - others:
-            process.terminate()
+            process.kill()
         raise
     finally:
         pool.shutdown(cancel_futures=True)
