@@ -418,9 +418,9 @@ def test_a_joint_that_moves_nothing_is_named():
     builder.link("hat", parent="body", joint=tw.Revolute("z"))
     model = builder.build()
     rest = np.zeros(7)
-    with pytest.raises(tw.SingularError, match="no inertia behind joint 'hat'"):
+    with pytest.raises(tw.SingularError, match="no inertia outboard of joint 'hat'"):
         tw.contact_forward_dynamics(model, model.neutral(), rest, rest, points(["body"]))
-    with pytest.raises(tw.SingularError, match=r"not positive definite: no inertia behind joint 'hat'$"):
+    with pytest.raises(tw.SingularError, match=r"not positive definite: no inertia outboard of joint 'hat'$"):
         tw.impact(model, model.neutral(), rest, points(["body"]))
     builder = tw.Builder("two slides along one line")
     builder.link("first", parent="base_link", joint=tw.Prismatic("x"))

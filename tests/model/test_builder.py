@@ -296,7 +296,7 @@ def test_sum_that_overflows_is_refused():
     far = tw.SE3(np.eye(3), [1e200, 0, 0])
     links = [("arm", {"parent": "base_link", "joint": tw.Revolute("x")}), ("end", {"parent": "arm", "placement": far,
              "inertia": lump(1)})]  # fmt: skip
-    with pytest.raises(tw.ModelError, match="joint 'arm': what hangs on it overflows"):
+    with pytest.raises(tw.ModelError, match="joint 'arm': the inertia that it carries, or the way to it, overflows"):
         build(links)
 
 
@@ -373,10 +373,10 @@ def test_builder_says_how_far_it_is():
         ({"effort_limit": -1}, "joint 'hinge': effort_limit -1 is below zero"),
         ({"lower": -np.inf, "upper": -np.inf}, "joint 'hinge': no number lies between"),
         ({"lower": np.inf}, "joint 'hinge': no number lies between"),
-        ({"joint": None, "lower": 0.0}, "link 'arm': .* welded on"),
-        ({"joint": None, "armature": 0.1}, "link 'arm': .* welded on"),
-        ({"joint": None, "lower": -1.0}, "link 'arm': .* welded on"),
-        ({"joint": None, "effort_limit": 3.0}, "link 'arm': .* welded on"),
+        ({"joint": None, "lower": 0.0}, "link 'arm': .* is welded"),
+        ({"joint": None, "armature": 0.1}, "link 'arm': .* is welded"),
+        ({"joint": None, "lower": -1.0}, "link 'arm': .* is welded"),
+        ({"joint": None, "effort_limit": 3.0}, "link 'arm': .* is welded"),
     ],
     ids=str,
 )

@@ -96,7 +96,7 @@ def test_a_joint_that_moves_nothing_is_refused_in_symbols_too():
     for q in (sympy.symbols("q1 q2"), [F(0), 0]):
         with pytest.raises(tw.SingularError, match="no inertia resists the joints 'tip"):
             slow.forward_dynamics(model, q, [0, 0], [0, 0])
-        with pytest.raises(tw.SingularError, match="no inertia behind joint 'tip"):
+        with pytest.raises(tw.SingularError, match="no inertia outboard of joint 'tip"):
             tw.aba(model, q, [0, 0], [0, 0])
 
 

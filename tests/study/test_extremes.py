@@ -306,7 +306,7 @@ def test_the_command_prints_writes_and_draws(tmp_path, monkeypatch, capsys):
     for text in (
         "aba, pushed",
         "tw.accuracy",
-        "SingularError: no inertia behind joint",
+        "SingularError: no inertia outboard of joint",
         "exp3 twistwrench",
         "_aba_pushed.png",
     ):

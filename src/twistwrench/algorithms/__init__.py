@@ -5,11 +5,11 @@ Each file imports only from those above it in this table.
 ==============  =======  ==============================================================================
 file            section  what it answers
 ==============  =======  ==============================================================================
-_mimic                   how a function also takes a model whose joints follow others
+_mimic                   a decorator: the function also takes a model whose joints follow others
 terms                    what the recursions return: `RneaTerms`, `AbaTerms`, `CrbaTerms`, …
 kinematics      49.6     where are the bodies, and how do they move: placements, twists, Jacobians
 rnea            49.6     which forces make a motion happen
-singular                 where is q̈ not determined: what `aba` refuses, by the joint's name
+singular                 where is q̈ not determined: `refuse_singular` raises with the joint's name
 aba             49.7     how does the robot accelerate
 crba            49.8     the mass matrix M
 coriolis        49.8     the Coriolis matrix C

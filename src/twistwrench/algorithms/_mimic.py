@@ -1,4 +1,4 @@
-"""How a function of a model takes a `MimicModel` as well: that one answers for it."""
+"""A decorator with which a function of a model takes a `MimicModel` as well."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def also_of_mimics(function: Function) -> Function:
-    """Let a function take a model whose joints follow others: it is asked for its full model, and projected."""
+    """Let a function take a model whose joints follow others: it runs on the full one, and its result is projected."""
 
     @wraps(function)
     def face(*args: Any, **kwargs: Any) -> Any:

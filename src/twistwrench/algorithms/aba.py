@@ -1,7 +1,7 @@
 """Forward dynamics by the articulated-body algorithm (49.7).
 
 Given the forces at the joints, how does the robot accelerate? The question is answered without the
-mass matrix, by asking of each joint which inertia it accelerates when all joints outboard of it are free:
+mass matrix, from the inertia that each joint accelerates when all joints outboard of it are free:
 three passes, O(N).
 """
 
@@ -126,7 +126,7 @@ def aba_terms(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: A
 
     Examples
     --------
-    Whoever lifts the trunk of a Go2 with free joints lifts 13.4 kg of its 16.1:
+    With its joints free, the trunk of a Go2 has an apparent mass of 13.4 kg of its 16.1 when it is lifted:
 
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
@@ -137,9 +137,9 @@ def aba_terms(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: A
     q, v, tau, f_ext = check_state(model, q, v=v, tau=tau, f_ext=f_ext)
     tree = tree_terms(model, q)
     try:
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # where D is singular, which the guard says
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # D singular: `refuse_singular`
             terms = articulated_body(tree, columns(model, v), columns(model, tau), wrenches(f_ext))
-    except ZeroDivisionError:  # of fractions
+    except ZeroDivisionError:  # fractions raise where floats are infinite
         refuse_weightless(model, tree)
         raise SingularError("a joint accelerates nothing but its outboard joints: q̈ is not determined there") from None
     refuse_singular(model, tree, terms)

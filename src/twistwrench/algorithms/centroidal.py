@@ -107,7 +107,7 @@ def centroidal_map(model: Model, q: ArrayLike) -> Array:
     -----
     Section 49.10; D. E. Orin, A. Goswami and S.-H. Lee, Centroidal dynamics of a humanoid robot,
     2013. A unit velocity of joint i moves its subtree as one rigid body, whose momentum I^C S is
-    then seen from the centre of mass. No walk to the base as in `crba`: O(N).
+    then seen from the centre of mass. No loop to the base as in `crba`: O(N).
 
     Examples
     --------

@@ -64,8 +64,8 @@ def crba(model: Model, q: ArrayLike) -> Array:
     Notes
     -----
     Section 49.8; Featherstone, RBDA table 6.2. A unit acceleration of joint i alone moves its subtree
-    as one rigid body, hence the composite inertia; the wrench for it is felt by joint i and by the
-    joints on the way to the base, and by no other. O(N d) for a tree of depth d: O(N²) for a chain.
+    as one rigid body, hence the composite inertia; the wrench for it goes through joint i and the
+    joints on the way to the base, and through no other. O(N d) for a tree of depth d: O(N²) for a chain.
     `composite_rigid_body` is the listing.
 
     Examples

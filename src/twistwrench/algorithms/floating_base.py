@@ -20,7 +20,7 @@ __all__ = ["Equilibrium", "base_placement", "contact_jacobian", "selection_matri
 
 
 def selection_matrix(model: Model) -> Array:
-    """Return S, which picks the actuated entries of v: Sᵀ τ is what the motors do.
+    """Return S, which picks the actuated entries of v: Sᵀ τ are the motors' forces.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
 
     g(q) = Sᵀ τ + J_cᵀ λ. The six base rows have no τ: they give the contact forces, of all that would
     do the ones of least norm. The other rows then give the torques. Forces may pull; friction is
-    not looked at.
+    ignored.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
     Raises
     ------
     SingularError
-        If no forces at these contacts balance the weight; the message says what is left over.
+        If no forces at these contacts balance the weight; the message gives the unbalanced wrench.
     NameNotFound, ShapeError, ValueError
         As `contact_jacobian`; or if the base is fixed, there are no contacts, or q is a batch or complex.
 

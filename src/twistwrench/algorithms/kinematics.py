@@ -75,7 +75,7 @@ def forward_kinematics(
     Raises
     ------
     ShapeError, ValueError
-        As `Model.state`; or if `a` comes without `v`.
+        As `Model.state`; or if `a` is given without `v`.
 
     Notes
     -----
@@ -210,7 +210,7 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
 def frame_bias_acceleration(
     model: Model, q: ArrayLike, v: ArrayLike, frame: str, reference: Reference = "local"
 ) -> Array:
-    """Return J̇ v: the part of the frame's acceleration that is there without q̈.
+    """Return J̇ v: the frame's acceleration at q̈ = 0.
 
     The rate of J v is J q̈ + J̇ v, with J as `frame_jacobian` returns it. In "local" and "world" that
     is the spatial acceleration; in "local_world_aligned" its linear part is the acceleration of the

@@ -28,7 +28,7 @@ from .whole_body import Dynamics
 __all__ = ["MimicModel", "follow"]
 
 Law = tuple[str, float, float]
-"""Of a joint that follows: its leader, the multiplier, the offset."""
+"""The law of a joint that follows: its leader, the multiplier, the offset."""
 
 FORCES, MATRICES, COLUMNS, UNCHANGED = "forces", "matrices", "columns", "unchanged"
 RESULTS = {
@@ -39,7 +39,7 @@ RESULTS = {
     **dict.fromkeys(("kinetic_energy", "potential_energy", "center_of_mass"), UNCHANGED),
     **dict.fromkeys(("centroidal_momentum", "centroidal_momentum_rate"), UNCHANGED),
 }
-"""What becomes of a function's result. J̇ v and ȧ need no more: G is constant."""
+"""How each function's result is projected. J̇ v and ȧ need no extra term: G is constant."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,7 +48,7 @@ class MimicModel(ConfigurationSpace):
 
     `rnea`, `aba`, `crba`, `nonlinear_effects`, `gravity`, `coriolis_matrix`, the kinematics, Jacobians, energies, the
     centroidal quantities and `dynamics` take it in the place of a `Model`. Other functions, those of ``tw.fast`` too,
-    refuse it by name; they take `full`, with the q and v of `expand`.
+    raise TypeError; they take `full`, with the q and v of `expand`.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ class MimicModel(ConfigurationSpace):
 
     @property
     def report(self) -> Report:
-        """What was read how."""
+        """The report of the full model."""
         return self.full.report
 
     @property
@@ -113,7 +113,7 @@ class MimicModel(ConfigurationSpace):
 
     @property
     def postures(self) -> Mapping[str, Array]:  # type: ignore[override]
-        """The full model's, of which the entries are left that are coordinates here."""
+        """The full model's, reduced to the entries that are coordinates here."""
         return {name: q[self.kept_q] for name, q in self.full.postures.items()}
 
     @property
@@ -154,7 +154,7 @@ class MimicModel(ConfigurationSpace):
         return np.concatenate(pieces, axis=-1)
 
     def _project(self, function: Callable[..., Any], *args: Any, **kwargs: Any) -> Any:
-        """Answer for a function of a model: ask the full one, and project what it says."""
+        """Call a function with the full model, and project its result."""
         given = signature(function).bind(*args, **kwargs).arguments
         named = {name: x for name, x in given.items() if name in ("q", "v", "a", "tau", "f_ext") and x is not None}
         named = dict(zip(named, self.state(**named))) if named else {}
@@ -221,7 +221,7 @@ def follow(model: Model, laws: Mapping[str, Law]) -> MimicModel:
     ------
     ModelError
         If joints follow each other in a circle, or one of them has more than one degree of freedom; if a joint follows
-        a continuous one (whose q is a cosine and a sine) by a multiplier that is no whole number.
+        a continuous one (whose q is a cosine and a sine) by a multiplier that is not a whole number.
     NameNotFound
         If the model has no such joint.
     """
@@ -248,7 +248,7 @@ def follow(model: Model, laws: Mapping[str, Law]) -> MimicModel:
 
 
 def _resolved(name: str, laws: Mapping[str, Law]) -> Law:
-    """Return the law of a joint in terms of a leader that follows nobody."""
+    """Return the law of a joint in terms of a leader that does not follow another."""
     leader, multiplier, offset = laws[name]
     way = [name]
     while leader in laws:
@@ -269,7 +269,7 @@ def _check(model: Model, name: str, law: Law) -> None:
         raise ModelError(f"joint {name!r} follows {leader!r}: expected two joints of one degree of freedom each")
     if leading.nq == 2 and (multiplier % 1 or not follower.subspace()[:3].any()):
         raise ModelError(
-            f"joint {name!r} follows {leader!r} by {multiplier:g}: the leader is continuous, and its (cos, sin) tells "
+            f"joint {name!r} follows {leader!r} by {multiplier:g}: the leader is continuous, and its (cos, sin) gives "
             "its angle up to whole turns only: expected a joint that turns, by a whole number (or a leader with limits)"
         )
 

@@ -209,5 +209,5 @@ def gravity(model: Model, q: ArrayLike) -> Array:
     array([0.])
     """
     check_model(model)
-    rest = np.zeros(model.nv, int)  # integers have no say in the number type
+    rest = np.zeros(model.nv, int)  # integers do not affect the number type
     return rnea(model, q, rest, rest)  # 49.6 g

@@ -1,8 +1,8 @@
 """Where forward dynamics has no answer: a joint that accelerates nothing, or nothing beyond rounding (49.7).
 
 D = Sᵀ IA S is a difference of inertias, and where joints can move against each other without moving anything else
-(a gimbal in its lock) nothing of it is left but rounding. Beside each inertia goes a bound on what rounding has made of
-it, in units of the number type's resolution; a D below a hundred times its bound is refused, with the joint's name.
+(gimbal lock) only rounding is left of it. Each inertia has a bound on its rounding error, in units of the number type's
+resolution; a D below a hundred times its bound raises SingularError with the joint's name.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from .terms import AbaTerms
 __all__ = ["refuse_lost", "refuse_singular", "refuse_weightless"]
 
 ROUNDINGS = 100
-"""Less than so many times the bound on its rounding counts as zero: an inertia, and a singular value of contacts."""
+"""An inertia, or a singular value of contacts, below so many times the bound on its rounding counts as zero."""
 
 
 def refuse_singular(model: Model, tree: Tree, terms: AbaTerms) -> None:
     """Raise SingularError where a D of the ABA is singular to rounding: q̈ is not determined there."""
     refuse_weightless(model, tree)
-    if tree.I[0].dtype == object:  # not rounded: where D is zero, the division has said so
+    if tree.I[0].dtype == object:  # not rounded: where D is zero, the division has raised
         return
     S, X, IA, U, D_inv = tree.S, tree.X, terms.IA, terms.U, terms.D_inv
     bound = [error_bound(I) for I in tree.I]
@@ -42,7 +42,7 @@ def refuse_weightless(model: Model, tree: Tree) -> None:
     ]
     names = [model.joint_names[i] for i in tree.outward if (judged(locked[i]) <= 0).any()]
     if names:
-        raise SingularError(f"no inertia behind joint {', '.join(map(repr, names))}: q̈ is not determined there")
+        raise SingularError(f"no inertia outboard of joint {', '.join(map(repr, names))}: q̈ is not determined there")
 
 
 def error_bound(*terms: Array) -> Array:
@@ -69,7 +69,7 @@ def propagated_bound(bound: Array, left: Array, X: Array, IA: Array, lost: Array
 
 
 def massless_base(model: Model, i: int) -> str:
-    """Return what helps where body i is a floating base without mass, and nothing for any other."""
+    """Return a hint for the message where body i is a floating base without mass, else an empty string."""
     if i != 1 or model.base != "floating" or model.inertia[1].mass:
         return ""
     return (
@@ -80,7 +80,7 @@ def massless_base(model: Model, i: int) -> str:
 def refuse_lost(D: Array, bound: Array, name: str, hint: str = "") -> None:
     """Raise SingularError where a motion of a joint has no more inertia than a hundred times the bound on its rounding.
 
-    Nothing could tell it from zero: it is one of the motions of the outboard joints.
+    Such an inertia cannot be distinguished from zero: the outboard joints can do the same motion.
     """
     size = np.abs(np.diagonal(D.real, axis1=-2, axis2=-1)) + np.diagonal(bound.real, axis1=-2, axis2=-1)
     unit = np.sqrt(np.where(size == 0, 1, size))

@@ -39,7 +39,7 @@ class RneaTerms(Terms):
     A : tuple of ndarray, shape (..., 6)
         Spatial acceleration; the world rises with −g, so that gravity is in it.
     B : tuple of ndarray, shape (..., 6)
-        Wrench that the body's own motion takes, less the one on it from outside: I A + V ×* I V − f_ext, N m and N.
+        Wrench that the body's own motion needs, less the external one: I A + V ×* I V − f_ext, N m and N.
     F : tuple of ndarray, shape (..., 6)
         Wrench that the joint transmits to the body: its own and those of its children.
     tau : ndarray, shape (..., nv)
@@ -104,7 +104,7 @@ class AbaTerms(Terms):
 
     @classmethod
     def of(cls, batch: Batch, *, qdd: Array, **entries: Entries) -> Self:
-        """Make vectors of the columns of a recursion. The world has no joint: what belongs to one is empty there."""
+        """Make vectors of the columns of a recursion. The world has no joint: the terms of a joint are empty there."""
         dtype = qdd.dtype
         for name, shape in {"U": (6, 0), "D": (0, 0), "D_inv": (0, 0), "u": (0, 1), "Ia": (6, 6)}.items():
             entries[name] = [np.zeros((*batch, *shape), dtype), *entries[name][1:]]

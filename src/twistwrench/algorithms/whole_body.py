@@ -1,4 +1,4 @@
-"""What a whole-body controller asks for, in one call: the chapter's getDynamics (49.11 and the project)."""
+"""What a whole-body controller needs, in one call: the chapter's getDynamics (49.11 and the project)."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def dynamics(
 
 
 def wanted(want: Iterable[str]) -> tuple[str, ...]:
-    """Return which quantities are wanted; refuse a name that is none of them."""
+    """Return which quantities are wanted; raise NameNotFound for a name that is not one of them."""
     want = as_names(want, "want", "quantities")
     for name in want:
         check_known("quantity", name, QUANTITIES)

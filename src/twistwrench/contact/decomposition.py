@@ -89,7 +89,7 @@ def _without_inertia(model: Model, M: Array) -> str:
     """Say which joints move nothing that has inertia."""
     own = np.diagonal(M, axis1=-2, axis2=-1)
     names = [repr(name) for name, s in zip(model.joint_names, model.v_slice) if (own[..., s] <= 0).any()]
-    return f"no inertia behind joint {', '.join(names)}" if names else "some joints feel none when moved together"
+    return f"no inertia outboard of joint {', '.join(names)}" if names else "some joints feel none when moved together"
 
 
 def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:

@@ -6,13 +6,13 @@ Each file imports only from those above it in this table.
 file            what it holds
 ==============  ======================================================================================
 joint           `Joint`: the motion subspace S, and the placement that a joint makes of its q
-joints          the joints that there are, one class each
+joints          the joints of the package, one class each
 constants       the numbers of a model in one number type
 state           what a state must be: shapes, finite numbers, quaternions of norm 1
 configuration   the manifold of q: `integrate`, `difference`, `normalize`, `random_configuration`
-report          what a loader read in its own way
+report          what a loader had to interpret, and how
 model           `Model`, frozen, and its frames
-arguments       what an algorithm accepts: a model and a state of it
+arguments       input validation of the algorithms: a model and a state of it
 tree            what a recursion reads of a model: S, X, I and the parents
 link            a link of a model that is being built
 numbering       the order of the joints; links that are welded together

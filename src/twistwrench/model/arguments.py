@@ -1,4 +1,4 @@
-"""What every algorithm lets in: a model, and a state of it."""
+"""Input validation of every algorithm: a model, and a state of it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["check_model", "check_state", "floats_of", "in_double", "one_configur
 
 
 def check_model(model: object) -> None:
-    """Refuse what is no model, where it comes in."""
+    """Raise TypeError for what is not a model, where it is given."""
     if not isinstance(model, Model):
         raise no_model(model)
 
@@ -39,9 +39,9 @@ def one_configuration(model: Model, q: ArrayLike) -> Array:
 
 
 def in_double(model: Model, q: Array) -> Array:
-    """Return a copy of a checked q in double precision; refuse complex numbers.
+    """Return a copy of a checked q in double precision; reject complex numbers.
 
-    What came in singles gets quaternions of norm 1 to all the digits that it has now.
+    Quaternions given in single precision are normalised to all the digits that they have now.
     """
     double = as_constant(q, "q")
     return double if q.dtype == double.dtype else model.normalize(double)

@@ -55,7 +55,7 @@ class Builder:
     ShapeError, ValueError
         If `gravity` is not three real numbers.
     TypeError
-        If `name` or `root` is no name, or `root_inertia` no inertia.
+        If `name` or `root` is not a name, or `root_inertia` not a SpatialInertia.
 
     Examples
     --------
@@ -139,7 +139,7 @@ class Builder:
         ShapeError
             A batch of placements or inertias, or limits of a wrong shape.
         TypeError
-            A name, joint, placement or inertia that is none.
+            If `name` is not a string, or `joint`, `placement` or `inertia` is of another type.
         NameNotFound
             If the parent is not known.
         """
@@ -183,8 +183,8 @@ class Builder:
         feet : sequence of str
             The frames on which a legged robot stands.
         physical : bool
-            Refuse a moving body, welded links merged, that cannot exist (`SpatialInertia.check_physical`).
-            A body without mass may be there all the same, and `Model.report` says so where it has an inertia.
+            Reject a moving body, welded links merged, that cannot exist (`SpatialInertia.check_physical`).
+            A body without mass is accepted, and `Model.report` names it where it has an inertia.
 
         Returns
         -------
@@ -193,7 +193,7 @@ class Builder:
         Raises
         ------
         NameNotFound, ShapeError, ValueError
-            If a foot is no frame, or a posture is no configuration.
+            If a foot is not a frame, or a posture is not a configuration.
         ModelError
             If a body cannot exist, numbers overflow where links are merged, or two frames want one name.
         """

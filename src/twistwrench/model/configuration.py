@@ -1,6 +1,6 @@
 """The coordinates of a model: which numbers q and v have, and the manifold on which q lives.
 
-A q is no vector: the sum of two quaternions is no rotation. A step from q is one along a twist of each joint,
+A q is not a vector: the sum of two quaternions is not a rotation. A step from q goes along a twist of each joint,
 q ⊕ v dt, and two configurations differ by such a step, q₁ ⊖ q₀.
 """
 
@@ -22,7 +22,7 @@ __all__ = ["ConfigurationSpace"]
 
 
 class ConfigurationSpace:
-    """What a `Model` knows of its q and v. The attributes are the model's, and told there."""
+    """The part of a `Model` that concerns its q and v. The attributes are documented there."""
 
     name: str
     base: str
@@ -202,7 +202,7 @@ class ConfigurationSpace:
         Raises
         ------
         ShapeError, ValueError
-            As `Model.state`; but of the norms only zero is refused, which has no direction.
+            As `Model.state`; but a norm other than 1 is accepted unless it is zero.
 
         Examples
         --------
@@ -221,7 +221,7 @@ class ConfigurationSpace:
         return np.concatenate(pieces, axis=-1)
 
     def _by_joint(self, function: Callable[[Joint, slice, slice], Array], like: Array) -> Array:
-        """Put together what a function gives for each joint from where its q and its v stand."""
+        """Concatenate what a function returns for each joint from its slices of q and v."""
         pieces = [function(joint, qs, vs) for joint, qs, vs in zip(self.joints, self.q_slice, self.v_slice) if joint]
         return np.concatenate([like[..., :0], *pieces], axis=-1)
 

@@ -71,7 +71,7 @@ def cast(T: SE3, dtype: DTypeLike) -> SE3:
     """Convert a placement to a number type, its rotation orthonormal to that type's precision.
 
     For a finer type than it has, two steps of Newton's iteration for the nearest rotation,
-    R ← R (3 − RᵀR)/2, remove what the coarser one could not hold. As objects it is one exactly.
+    R ← R (3 − RᵀR)/2, remove what the coarser one could not hold. As objects it is a rotation exactly.
     """
     if T.rotation.dtype == dtype:
         return T

@@ -3,10 +3,10 @@
 Each joint is a subgroup of the rigid motions. `Joint.transform` gives the placement of the moved frame
 in the joint's frame; the columns of `Joint.subspace` are the twists S that the joint allows, constant in
 the moved frame, so that the joint's own twist is S q̇ (49.6) and a step of length one along v leads to
-T(q) exp(S v). The joints themselves are in `joint_types`.
+T(q) exp(S v). The joints themselves are in `joints`.
 
 A joint is one class: whatever else must be known of it is read from its S, nq, nv and unit part, and its
-`kind` puts it into the table `Joint.kinds`, from which `random_tree` and the bridge take it.
+`kind` puts it into the table `Joint.kinds`, which `random_tree` and the bridge read.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Joint(ABC):
     unit: ClassVar[slice | None] = None
     """The entries of q that have norm 1: a quaternion, or a (cos, sin)."""
     pinocchio: ClassVar[tuple[str, ...]] = ()
-    """What follows ``JointModel`` in Pinocchio's names: one name, or that before X, Y, Z and that with any axis."""
+    """The rest of Pinocchio's names after ``JointModel``: one name, or one before X, Y, Z and one for any axis."""
     kinds: ClassVar[dict[str, type[Joint]]] = {}
     """Every class of joint by its `kind`."""
 
@@ -56,7 +56,7 @@ class Joint(ABC):
             if (other.__module__, other.__qualname__) != (cls.__module__, cls.__qualname__):
                 raise ModelError(f"kind of {cls.__name__}: {cls.kind!r} is taken by {other.__qualname__}")
             Joint.kinds[cls.kind] = cls
-            cls.pinocchio = vars(cls).get("pinocchio", ())  # another kind has another name there, or none
+            cls.pinocchio = vars(cls).get("pinocchio", ())  # each kind has a name of its own, or none
 
     @classmethod
     def sample(cls, rng: np.random.Generator) -> Self:
@@ -72,7 +72,7 @@ class Joint(ABC):
         """Return the placement of the moved frame in the joint's frame: arithmetic alone, for numbers of any type."""
 
     def neutral(self) -> Array:
-        """Return the q that moves nothing, shape (nq,)."""
+        """Return the q of the identity placement, shape (nq,)."""
         q = np.zeros(self.nq)
         if self.unit is not None:
             q[self._one] = 1.0
@@ -119,7 +119,7 @@ class Joint(ABC):
 
 
 class GroupJoint(Joint):
-    """A joint whose q has a unit part, so that a step is no addition but T(q) exp(S dv).
+    """A joint whose q has a unit part, so that a step is not an addition but T(q) exp(S dv).
 
     The columns of its S are orthonormal: Sᵀ reads dv off the twist S dv.
     """
@@ -156,14 +156,14 @@ class AxisJoint(Joint):
         if a.ndim != 1 or not a.any():
             raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
         size = np.abs(a).max()
-        if size > 2 or abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # what is normalised stays, to the bit
+        if size > 2 or abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # a unit vector stays as it is
             a = unit(a / size)
         object.__setattr__(self, "axis", (float(a[0]), float(a[1]), float(a[2])))
 
     def _axis(self, dtype: DTypeLike) -> Array:
         """Return the axis in a number type, of norm 1 to that type's own precision.
 
-        Objects are numbers that need not mix with floats: for them it is the fractions nearest to it of norm 1.
+        Objects need not mix with floats: for them the axis becomes the nearest fractions of norm 1.
         """
         if np.dtype(dtype) == object:
             axis = np.array(self.axis)

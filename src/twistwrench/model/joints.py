@@ -187,7 +187,7 @@ class Helical(AxisJoint):
         return placement(turn(axis, cos(q), sin(q)).rotation, self._pitch(q.dtype) * q * axis)
 
     def _pitch(self, dtype: DTypeLike) -> float | Fraction:
-        """Return the pitch; for objects, which need not mix with floats, as a fraction."""
+        """Return the pitch; for arrays of objects, which need not mix with floats, as a fraction."""
         return Fraction(self.pitch) if np.dtype(dtype) == object and isinstance(self.pitch, float) else self.pitch
 
 

@@ -1,4 +1,4 @@
-"""What `Builder` is told of a link, checked: behind this door a link is right by itself."""
+"""A link of a model that is being built, validated on its own."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .model import PER_DOF
 __all__ = ["UNLIMITED", "WORLD", "Link"]
 
 WORLD = "universe"
-"""The name of what carries the root; nothing else may have it."""
+"""The name of the world, which carries the root; nothing else may have it."""
 
 UNLIMITED = {
     "lower": -np.inf,
@@ -29,7 +29,7 @@ UNLIMITED = {
     "damping": 0.0,
     "friction": 0.0,
 }
-"""Limits, armature, damping and friction of a joint of which nothing was said."""
+"""The defaults of a joint's limits, armature, damping and friction."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Link:
         inertia: SpatialInertia,
         numbers: Mapping[str, ArrayLike],
     ) -> Link:
-        """Make a link, or say what is wrong with it. `numbers` are those of `UNLIMITED` that were given."""
+        """Make a link from checked arguments. `numbers` are the entries of `UNLIMITED` that were given."""
         numbers = UNLIMITED | dict(numbers)
         _expect_names(name, joint_name)
         if joint is not None:
@@ -72,7 +72,7 @@ class Link:
         _expect_one(inertia.com, f"link {name!r}: inertia")
         limits = {key: as_constant(x, f"link {name!r}: {key}") for key, x in numbers.items()}
         if joint is None and any((limits[key] != x).any() for key, x in UNLIMITED.items()):
-            raise ModelError(f"link {name!r}: limits and armature belong to a joint, and this link is welded on")
+            raise ModelError(f"link {name!r}: limits and armature belong to a joint, and this link is welded")
         own = SpatialInertia._trusted(
             *(x.astype(np.float64) for x in (inertia.mass, inertia.com, inertia.inertia_at_com))
         )
@@ -89,7 +89,7 @@ def _expect_names(name: str, joint_name: str) -> None:
 
 
 def _expect_one(vector: Array, what: str) -> None:
-    """Refuse a batch of placements or inertias, and one with imaginary parts: a model has one of each, and real."""
+    """Raise for a batch of placements or inertias, or complex ones: a model has one of each, and real."""
     if vector.ndim != 1:
         raise ShapeError(f"{what}: expected a single one, got a batch of shape {vector.shape[:-1]}")
     if vector.dtype.kind == "c":
@@ -97,7 +97,7 @@ def _expect_one(vector: Array, what: str) -> None:
 
 
 def _vectors(joint: Joint | None, what: str, numbers: Mapping[str, ArrayLike]) -> dict[str, Array]:
-    """Return limits and armature as float64 vectors; a scalar counts for every entry."""
+    """Return limits and armature as float64 vectors; a scalar stands for every entry."""
     nq, nv = (joint.nq, joint.nv) if joint else (0, 0)
     sizes = {key: nq if key in ("lower", "upper") else nv for key in UNLIMITED}
     x = {key: _vector(numbers[key], size, f"{what}: {key}") for key, size in sizes.items()}

@@ -1,7 +1,7 @@
 """The model: a tree of bodies.
 
 Body 0 is the world. Body i is moved by joint i, whose frame is body i's frame; λ(i) = ``parent[i]``
-is smaller than i, so that going up through the indices walks the tree from the root to the tips.
+is smaller than i, so that ascending indices go through the tree from the root to the tips.
 The indices are Pinocchio's joint ids.
 """
 
@@ -65,7 +65,7 @@ class Model(ConfigurationSpace):
         Of joint i's frame in the frame of body λ(i), in the neutral configuration.
     inertia : tuple of SpatialInertia
         Of body i, in its own frame, with everything welded to it. Entry 0 is zero: what is welded
-        to the world never moves and is no part of the model (Pinocchio leaves it out as well).
+        to the world never moves and is not part of the model (Pinocchio leaves it out as well).
     frames : mapping of str to Frame
         Every link and every joint, welded ones too.
     gravity : ndarray, shape (3,)
@@ -73,17 +73,17 @@ class Model(ConfigurationSpace):
     armature : ndarray, shape (nv,)
         Inertia of the rotors, as seen at the joint, kg m² or kg.
     lower, upper : ndarray, shape (nq,)
-        Limits of q; infinite where there is none.
+        Limits of q; infinite where a joint has no limit.
     velocity_limit, effort_limit : ndarray, shape (nv,)
     postures : mapping of str to ndarray, shape (nq,)
         Named configurations, for example ``"standing"``.
     feet : tuple of str
         The frames on which a legged robot stands.
     damping, friction : ndarray, shape (nv,)
-        What a URDF's ``<dynamics>`` says of the joints: N m s/rad or N s/m, and N m or N; zero where nothing was
-        said. No algorithm applies them; a policy can: ``tau - model.damping * v - model.friction * np.sign(v)``.
+        From a URDF's ``<dynamics>``: N m s/rad or N s/m, and N m or N; zero where the file has no
+        value. No algorithm applies them; a policy can: ``tau - model.damping * v - model.friction * np.sign(v)``.
     report : Report
-        What was not as it should be, and how it was read. Prints as a table.
+        What the loader had to interpret, and how. Prints as a table.
 
     Examples
     --------
@@ -190,7 +190,7 @@ class Model(ConfigurationSpace):
         return self.joint_names.index(name)
 
     def support(self, body: int) -> list[int]:
-        """Return the bodies from `body` down to the one that the world carries; of the world, 0, none.
+        """Return the bodies from `body` down to the one that the world carries; an empty list for the world, 0.
 
         Parameters
         ----------

@@ -64,10 +64,10 @@ class NumberedTree:
         return carrier, at
 
     def check_finite(self) -> None:
-        """Refuse numbers that are finite by themselves and overflow when links are merged."""
+        """Raise ModelError where finite numbers overflow when links are merged."""
         for link, inertia, placement in zip(self.moved, self.inertia[1:], self.placement[1:], strict=True):
             if not (np.isfinite(inertia.matrix()).all() and np.isfinite(placement.matrix()).all()):
-                raise ModelError(f"joint {link.joint_name!r}: what hangs on it overflows, or the way to it")
+                raise ModelError(f"joint {link.joint_name!r}: the inertia that it carries, or the way to it, overflows")
         for name, frame in self.frames.items():
             if not np.isfinite(frame.placement.matrix()).all():
                 raise ModelError(f"frame {name!r}: the way to it overflows")
@@ -75,15 +75,15 @@ class NumberedTree:
     def check_bodies(self, physical: bool) -> list[Entry]:
         """Check each body, welded links merged: that sum is all that enters the dynamics.
 
-        A single welded link may be a point, or carry an inertia without mass, as in many a real file. Returned is
-        what holds for a whole body and is worth a word.
+        A single welded link may be a point, or carry an inertia without mass, as in many a real file. Returns
+        remarks on whole bodies, for the report.
         """
         bodies = list(zip(self.groups[1:], self.inertia[1:], strict=True))
         faults = [(group, fault) for group, inertia in bodies if (fault := _fault(inertia, group))]
         if faults and physical:
             count = "1 moving body" if len(faults) == 1 else f"{len(faults)} moving bodies"
             listed = "".join(f"\n  {fault}" for _, fault in faults)
-            raise ModelError(f"{count} cannot exist (physical=False takes the robot all the same):{listed}")
+            raise ModelError(f"{count} cannot exist (physical=False accepts the robot all the same):{listed}")
         impossible = [
             Entry(_link(group), fault.partition(": ")[2], "a body that cannot exist (physical=False)", warns=False)
             for group, fault in faults
@@ -92,7 +92,7 @@ class NumberedTree:
         return [*impossible, *degenerate, *self._floating_nothing()]
 
     def _floating_nothing(self) -> list[Entry]:
-        """Say of a floating base without mass that carries a single joint: the two turn against each other freely."""
+        """Report a floating base without mass that carries a single joint: the two turn against each other freely."""
         if len(self.groups) == 1 or self.groups[1][0].parent != WORLD or self.inertia[1].matrix().any():
             return []
         carried = [group[0].joint_name for group, parent in zip(self.groups[2:], self.parent[2:]) if parent == 1]
@@ -103,7 +103,7 @@ class NumberedTree:
 
 
 def _fault(inertia: SpatialInertia, group: list[Link]) -> str:
-    """Say why a body cannot exist, in the name of the link that it is named after; empty if it can.
+    """Return why a body cannot exist, under the name of its first link; empty if it can exist.
 
     A body without mass is judged as the limit of ever lighter ones with its inertia: no moment may be negative.
     """
@@ -119,7 +119,7 @@ def _fault(inertia: SpatialInertia, group: list[Link]) -> str:
 
 
 def _degenerate(inertia: SpatialInertia, group: list[Link]) -> Entry | None:
-    """Say of a body that it is a limit: a point, or an inertia without mass."""
+    """Report a body that is a limit: a point mass, or an inertia without mass."""
     if inertia.mass == 0 and inertia.inertia_at_com.any():
         return Entry(_link(group), "an inertia without a mass", "the inertia as given, with no weight")
     if inertia.mass > 0 and not inertia.inertia_at_com.any():
@@ -135,7 +135,7 @@ def _named(found: Mapping[tuple[str, str], Frame]) -> dict[str, Frame]:
     """Name the frames of links and joints.
 
     A link and a joint of one name are one frame where they share the place. Where they do not, neither
-    gets the bare name, so that nobody takes one for the other: ``link:name`` and ``joint:name``.
+    gets the bare name, so that they cannot be confused: ``link:name`` and ``joint:name``.
     """
     frames: dict[str, Frame] = {}
     owner: dict[str, str] = {}

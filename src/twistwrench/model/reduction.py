@@ -25,13 +25,13 @@ __all__ = ["Reduction", "idle_joints", "lock_joints", "matching_joints"]
 
 @dataclass(frozen=True, eq=False)
 class Reduction:
-    """A model, the smaller one that is left when some of its joints are held, and the way between their states.
+    """A model, the reduced model with some of its joints held, and the maps between their states.
 
     Attributes
     ----------
     full : Model
     model : Model
-        Without the held joints. What they carried is welded to the body before; all frames are there.
+        Without the held joints. The bodies that they carried are welded to their parents; all frames are kept.
     held : tuple of str
         The joints that are held, in the order of the full model.
     at : ndarray, shape (nq of full,)
@@ -61,7 +61,7 @@ class Reduction:
     def reduce(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
         """Return the entries of a full state that are left, shapes (..., nq) and (..., nv).
 
-        What the held joints do in that state is dropped, whether they stand still or not.
+        The entries of the held joints are dropped, whether they are zero or not.
 
         Parameters
         ----------
@@ -77,7 +77,7 @@ class Reduction:
         return q[..., self.kept_q], v[..., self.kept_v]
 
     def expand(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
-        """Return the full state in which the held joints stand still where they are held.
+        """Return the full state in which the held joints are at rest where they are held.
 
         Parameters
         ----------
@@ -107,8 +107,8 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
     ----------
     model : Model
     joints : iterable of str
-        Names of joints, or patterns: ``"arm_*"`` is every joint whose name begins so. What is the name of a joint is
-        no pattern.
+        Names of joints, or patterns: ``"arm_*"`` is every joint whose name begins so. The exact name of a joint is
+        not taken as a pattern.
     q : array_like, shape (nq,)
         Where they are held; the entries of the other joints have no influence.
 
@@ -116,8 +116,8 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
     -------
     Reduction
         Its model keeps the other joints in their order, with their limits and armature, and all frames, feet and
-        named postures (of these the entries that are left). What is locked to the world never moves and is no part
-        of a model: its mass is gone, as that of the base of a fixed arm always is.
+        named postures (of these the entries that are left). Bodies locked to the world never move and are not
+        part of a model: their mass is dropped, as that of the base of a fixed arm always is.
 
     Raises
     ------
@@ -164,7 +164,7 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
 
 
 def _carriers(model: Model, q: Array, kept: list[int]) -> tuple[list[int], list[SE3]]:
-    """Return for each body the one of the small model that it is part of, and where it sits in that."""
+    """Return for each body the body of the small model that it is part of, and its placement in that one."""
     relative = joint_placements(model, q)
     carrier, in_carrier = [0], [SE3.identity()]
     for i in range(1, model.nbodies):
@@ -176,7 +176,7 @@ def _carriers(model: Model, q: Array, kept: list[int]) -> tuple[list[int], list[
 
 
 def _merged(model: Model, carrier: list[int], in_carrier: list[SE3], n: int) -> tuple[SpatialInertia, ...]:
-    """Add up what each body of the small model is made of, in its own frame; the world's stays zero."""
+    """Add up the inertias that make each body of the small model, in its own frame; the world's stays zero."""
     merged = [SpatialInertia.zero() for _ in range(n)]
     for inertia, body, T in zip(model.inertia, carrier, in_carrier):
         if body > 0:
@@ -185,12 +185,12 @@ def _merged(model: Model, carrier: list[int], in_carrier: list[SE3], n: int) -> 
 
 
 def matching_joints(model: Model, patterns: Iterable[str], argument: str = "joints") -> tuple[str, ...]:
-    """Return the joints that fit any of the patterns, in the model's order; refuse a pattern that fits none."""
+    """Return the joints that match any of the patterns, in the model's order; raise where a pattern matches none."""
     names, held = model.joint_names[1:], set[str]()
     for pattern in as_names(patterns, argument, "names or patterns"):
         if not isinstance(pattern, str):
             raise NameNotFound(f"{argument}: expected names or patterns, got {type(pattern).__name__} {pattern!r}")
-        exact = pattern in names  # a name may hold what is a sign of patterns elsewhere: "arm[1]"
+        exact = pattern in names  # a name may hold characters of patterns: "arm[1]"
         fits = {pattern} if exact else {name for name in names if fnmatchcase(name, pattern)}
         if not fits:
             raise NameNotFound(f"{pattern!r} fits no joint of {model.name!r}; its joints are {', '.join(names)}")
@@ -201,7 +201,7 @@ def matching_joints(model: Model, patterns: Iterable[str], argument: str = "join
 def idle_joints(model: Model, needed: Collection[str] = ()) -> tuple[str, ...]:
     """Return the joints that carry nothing: no mass, no rotor of their own, and none of the needed frames.
 
-    Such a joint has a row and a column of zeros in M. What hangs on it feels no force and passes none on.
+    Such a joint has a row and a column of zeros in M. Its outboard bodies have no inertia and transmit no force.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What was read how: the table that comes with a model."""
+"""The report of a loader: what it found, and how it was interpreted."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ __all__ = ["Entry", "Report"]
 
 @dataclass(frozen=True)
 class Entry:
-    """One thing that was not as the format has it, or not as a body is, and how it was read.
+    """One finding: an entry that violates the format or is not physical, and how it was interpreted.
 
     Attributes
     ----------
     where : str
         The link, the joint, or the file.
     found : str
-        What stands there.
+        The text of the file.
     read_as : str
-        What it was taken for.
+        How it was interpreted.
     line : int or None
         Of the file.
     warns : bool
-        Whether `twistwrench.load` warns of this, and refuses it under ``strict=True``. Not where an argument asked for
-        it, nor where it is read as it stands and is merely worth knowing, as damping is.
+        Whether `twistwrench.load` warns of this, and rejects it under ``strict=True``. False where an argument asked
+        for it, or where it is read as it stands and merely worth knowing, as damping is.
     """
 
     where: str
@@ -37,7 +37,7 @@ class Entry:
 
 
 class Report(tuple[Entry, ...]):
-    """What was read how, a tuple of `Entry`; prints as a table. Empty where all is as it should be.
+    """The findings of a loader, a tuple of `Entry`; prints as a table. Empty where the file is clean.
 
     Examples
     --------
@@ -58,7 +58,7 @@ class Report(tuple[Entry, ...]):
         return Report(entry for entry in self if entry.warns)
 
     def summary(self) -> str:
-        """Return one line for each way of reading, with the first places."""
+        """Return one line for each interpretation, with the first places."""
         groups: dict[str, list[Entry]] = {}
         for entry in self:
             groups.setdefault(entry.read_as, []).append(entry)

@@ -1,4 +1,4 @@
-"""Trees to try things on: a chain of equal rods, and random trees with joints of every kind."""
+"""Sample trees: a chain of equal rods, and random trees with joints of every kind."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from .model import Model
 __all__ = ["KINDS", "chain", "random_tree"]
 
 KINDS = tuple(Joint.kinds)
-"""The kinds of joint that `random_tree` draws from, if not told otherwise: those of the package."""
+"""The kinds of joint that `random_tree` draws from by default: those of the package."""
 
 HUGE = 1e60
-"""Masses, lengths and their ratios are below this: products of several must not overflow."""
+"""Upper bound of masses, lengths and their ratios: products of several must not overflow."""
 
 AXIAL: dict[str, Callable[[str | ArrayLike], Joint]] = {kind.kind: kind for kind in (Revolute, Prismatic, Continuous)}
 
@@ -64,7 +64,7 @@ def chain(
     Raises
     ------
     ModelError
-        If `n` is no whole number of at least 1, another number is not positive, or `joint`, `axis` or `base`
+        If `n` is not a whole number of at least 1, another number is not positive, or `joint`, `axis` or `base`
         is not one of the above.
 
     Examples
@@ -102,7 +102,7 @@ def chain(
 
 
 def _check_count(n: int) -> None:
-    """Refuse a number of bodies that is none: 0, 2.5, True."""
+    """Raise ModelError unless n is a whole number of at least 1: not 0, 2.5 or True."""
     if not isinstance(n, (int, np.integer)) or isinstance(n, bool) or n < 1:
         raise ModelError(f"n: expected a whole number of at least 1, got {n!r}")
 
@@ -122,7 +122,7 @@ def random_tree(
     kinds: Sequence[str] = KINDS,
     branching: float = 0.5,
 ) -> Model:
-    """Return a random tree with n joints, to try an algorithm on whatever can occur.
+    """Return a random tree with n joints, to test an algorithm on every case that can occur.
 
     The axes are oblique and the placements arbitrary; the inertias are those of a few point masses, so that
     a body could have them. About half of the joints have rotors. Some links are welded on, with and without
@@ -148,7 +148,7 @@ def random_tree(
     Raises
     ------
     ModelError
-        If `n` is no whole number of at least 1, `branching` no chance, or `kinds` empty or a string.
+        If `n` is not a whole number of at least 1, `branching` not a probability, or `kinds` empty or a string.
     NameNotFound
         If a kind is not known.
 
@@ -176,7 +176,7 @@ def random_tree(
     builder = Builder("random tree", base=base, root=root, root_inertia=_random_inertia(rng) if floats else None)
     added = [root]
     for k in range(1 if floats else 0, n):
-        if rng.random() < 0.3:  # weld one on; later links may hang on it
+        if rng.random() < 0.3:  # weld a link on; later links may be carried by it
             inertia = _random_inertia(rng) if rng.random() < 0.5 else None
             builder.link(
                 f"welded_{k}", parent=_carrier(rng, added, branching), placement=_random_placement(rng), inertia=inertia
@@ -205,7 +205,7 @@ def _random_placement(rng: np.random.Generator) -> SE3:
 
 
 def _random_inertia(rng: np.random.Generator) -> SpatialInertia:
-    """Return the inertia of six random point masses: whatever they are, a body can have it."""
+    """Return the inertia of six random point masses, which is always physical."""
     masses: Array = rng.uniform(0.1, 0.5, 6)
     points: Array = rng.uniform(-0.3, 0.3, (6, 3))
     com = masses @ points / masses.sum()

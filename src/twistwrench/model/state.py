@@ -1,7 +1,7 @@
-"""The check at the door of every algorithm.
+"""Validation of the state that every algorithm takes.
 
-What comes out is finite and stays so when multiplied, of one number type, of the right last axes,
-broadcast to one batch shape, and its quaternions have norm 1: behind this door nothing is checked again.
+The result is finite and stays so when multiplied, of one number type, of the right last axes,
+broadcast to one batch shape, and its quaternions have norm 1: the recursions check nothing again.
 """
 
 from __future__ import annotations
@@ -44,16 +44,16 @@ def checked_state(
             continue
         check_size(arrays[k], name)
         if name.startswith("q"):
-            arrays[k] = _with_norm_1(model, arrays[k], name, came=np.asarray(named[name]).dtype)
+            arrays[k] = _with_norm_1(model, arrays[k], name, given=np.asarray(named[name]).dtype)
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
 def check_arrays(
     model: ConfigurationSpace, any_number: bool = False, /, **named: ArrayLike | None
 ) -> tuple[Array, ...]:
-    """Convert to finite arrays of one dtype with the right last axes, or say what is wrong.
+    """Convert to finite arrays of one dtype with the right last axes, or raise.
 
-    The name of an argument says what it is: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
+    The name of an argument decides its shape: ``f_ext`` (..., nbodies, 6), names that begin with ``q``
     (..., nq), all others (..., nv).
     """
     expected: dict[str, tuple[Any, tuple[int, ...]]] = {}
@@ -67,14 +67,14 @@ def check_arrays(
 
 
 def _check_not_swapped(model: ConfigurationSpace, name: str, value: ArrayLike | None) -> None:
-    """Say so where a v came for a q, a q for a v, the joints without the base, or a column for a row."""
-    (kind, size), (other, came) = ("q", model.nq), ("v", model.nv)
+    """Raise with a hint where a v is given for a q, a q for a v, the joints without the base, or a column for a row."""
+    (kind, size), (other, other_size) = ("q", model.nq), ("v", model.nv)
     if not name.startswith("q"):
-        (kind, size), (other, came) = (other, came), (kind, size)
+        (kind, size), (other, other_size) = (other, other_size), (kind, size)
     shape = _shape(value)
     base = size - 7 if kind == "q" else size - 6
-    if size != came and shape[-1:] == (came,):
-        hint = f"this looks like n{other}: {kind} has n{kind} = {size}, {other} has n{other} = {came}"
+    if size != other_size and shape[-1:] == (other_size,):
+        hint = f"this looks like n{other}: {kind} has n{kind} = {size}, {other} has n{other} = {other_size}"
     elif model.base == "floating" and shape[-1:] == (base,):
         hint = f"the {size - base} entries of the floating base come before those of the joints"
     elif len(shape) == 2 and shape[0] == size != shape[1]:
@@ -85,17 +85,17 @@ def _check_not_swapped(model: ConfigurationSpace, name: str, value: ArrayLike | 
 
 
 def _external(model: ConfigurationSpace, f_ext: ArrayLike | None) -> ArrayLike:
-    """Return the wrenches on the bodies, zero where none came; refuse one on the world, or no row for it."""
+    """Return the wrenches on the bodies, zero by default; reject a wrench on the world, or a missing row for it."""
     if f_ext is None:
-        return np.zeros((model.nbodies, 6), int)  # integers have no say in the number type
+        return np.zeros((model.nbodies, 6), int)  # integers do not affect the number type
     shape = _shape(f_ext)
     if shape[-2:] == (model.nbodies - 1, 6):
         raise ShapeError(f"f_ext: expected shape (..., {model.nbodies}, 6), got {shape}; row 0 is the world's, zero")
     world = np.asarray(f_ext)[..., 0, :] if shape[-2:] == (model.nbodies, 6) else np.zeros(6)
     if world.dtype == object:
         world = judged(world)
-        world = np.where(np.isnan(world), 1, world)  # of what has no value, nobody knows that it is zero
-    if ((world != 0) & (world == world)).any():  # what is not a number, `as_arrays` refuses
+        world = np.where(np.isnan(world), 1, world)  # a symbol without a value is not known to be zero
+    if ((world != 0) & (world == world)).any():  # `as_arrays` raises for what is not a number
         raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
     return f_ext
 
@@ -103,29 +103,29 @@ def _external(model: ConfigurationSpace, f_ext: ArrayLike | None) -> ArrayLike:
 def _shape(value: Any) -> tuple[int, ...]:
     try:
         return np.shape(value)
-    except ValueError:  # rows of different lengths: as_arrays says so
+    except ValueError:  # rows of different lengths: as_arrays raises for them
         return ()
 
 
 def _refuse_zero(model: ConfigurationSpace, q: Array, name: str) -> None:
-    """Refuse a quaternion or a (cos, sin) that is known to be zero, among numbers that are objects."""
+    """Raise for a quaternion or a (cos, sin) that is known to be zero, among numbers that are objects."""
     for joint, s in zip(model.joints, model.q_slice):
         if joint is None or joint.unit is None or not name.startswith("q"):
             continue
         part = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
         bad = np.asarray((judged(q[..., part]) == 0).all(-1))
         if bad.any():
-            mend = "model.neutral() has one that turns nothing"
+            mend = "model.neutral() has the identity"
             what = f"{name}[{part.start}:{part.stop}]"
             raise ValueError(f"{name}: {what} is zero{at_first_index(bad)}, no direction; {mend}")
 
 
-def _with_norm_1(model: ConfigurationSpace, q: Array, name: str, came: np.dtype[Any]) -> Array:
-    """Refuse a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it came with.
+def _with_norm_1(model: ConfigurationSpace, q: Array, name: str, given: np.dtype[Any]) -> Array:
+    """Raise for a quaternion or a (cos, sin) that is off norm 1 by more than half the digits it was given with.
 
-    What came with fewer digits than it has now gets norm 1 to all of these.
+    One given with fewer digits than it has now is normalised to all of these.
     """
-    digits = resolution(came if came.kind in "fc" else np.float64)
+    digits = resolution(given if given.kind in "fc" else np.float64)
     tolerance = max(np.sqrt(digits), WIDENED)
     for joint, joint_name, s in zip(model.joints, model.joint_names, model.q_slice):
         if joint is None or joint.unit is None:
@@ -137,7 +137,7 @@ def _with_norm_1(model: ConfigurationSpace, q: Array, name: str, came: np.dtype[
             what = "(cos, sin)" if joint.unit.stop - joint.unit.start == 2 else "quaternion"
             first, off = float(norm[bad].flat[0]), float((norm - 1)[bad].flat[0])
             close = f"which is 1 {off:+.2g}" if abs(off) < 1e-5 else "expected 1"
-            mend = "normalize(q) repairs it" if first else "neutral() has the one that turns nothing"
+            mend = "normalize(q) repairs it" if first else "neutral() has the identity"
             raise ValueError(
                 f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
                 f"{at_first_index(bad)}, {close}; model.{mend}"

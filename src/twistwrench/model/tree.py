@@ -1,4 +1,4 @@
-"""The walk along the tree that all recursions of the chapter share.
+"""The tree terms that all recursions of the chapter share.
 
 Inside a recursion the index is the frame: V[i] is the twist of body i in frame i. X[i] is the chapter's
 ⁱX_λ(i): it takes a twist from the parent's frame to frame i. A wrench comes back from frame i to the
@@ -87,10 +87,8 @@ def tree_terms(model: Model, q: Array) -> Tree:
 def joint_placements(model: Model, q: Array) -> list[SE3]:
     """Return for each body its placement in its parent's frame: tree constant, then joint (49.3)."""
     placement, batch = model.constants(q.dtype).placement, q.shape[:-1]
-    still = placement[0]  # the world's, given the batch axes that the others get from q
-    world = SE3._trusted(
-        np.broadcast_to(still.rotation, (*batch, 3, 3)), np.broadcast_to(still.translation, (*batch, 3))
-    )
+    root = placement[0]  # the world's, given the batch axes that the others get from q
+    world = SE3._trusted(np.broadcast_to(root.rotation, (*batch, 3, 3)), np.broadcast_to(root.translation, (*batch, 3)))
     return [
         T @ joint.transform(q[..., s]) if joint else world  # 49.3 T_J: tree constant, then joint
         for T, joint, s in zip(placement, model.joints, model.q_slice)
