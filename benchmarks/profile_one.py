@@ -16,8 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import twistwrench as tw
-from twistwrench.fast import arguments as door
-from twistwrench.fast import dispatch
+from twistwrench.fast import arguments, dispatch
 from twistwrench.fast import single as one
 from twistwrench.study.cases import random_states
 
@@ -40,7 +39,7 @@ def stages() -> dict[str, object]:
     model = tw.load("go2")
     q, v, _ = random_states(model, 1).first(1)
     plan = dispatch._one_plan(model)
-    contacts = dispatch._touching(model, plan, model.feet)
+    contacts = dispatch._contact_rows(model, plan, model.feet)
     at = one.place(plan, q)
     J = one._inertias(plan, at)
 
@@ -52,7 +51,7 @@ def stages() -> dict[str, object]:
     felt = at.twist.dot(unit)
     parts = one.one_dynamics(plan, ("M", "h", "J_c", "A_G"), contacts, q, v)
     return {
-        "checks at the door": lambda: door.admit(model, q, ("v", v)),
+        "input validation": lambda: arguments.validate(model, q, ("v", v)),
         "places and twists of the links": lambda: one.place(plan, q),
         "inertias seen from the base": lambda: one._inertias(plan, at),
         "h": lambda: one.forces(plan, at, J, v),

@@ -52,7 +52,8 @@ def write_chapter(out: Path, language: str) -> None:
     for name in notebooks.names():
         number = _number(name)
         lines = [f"[{call}](../algorithms/{page}.md)" for page, call in _algorithms(number, at)]
-        files = [f"[`{file}`](../api/{file}.md)" for file in interface.by_section() if at.get(file) == number]
+        functions = [page for page in interface.by_page() if at.get(page) == number]
+        files = [f"[`{page.split('/')[-1]}`](../api/{page}.md)" for page in functions]
         wrong = f"[{number}](../errata.md#{errata[number]})" if number in errata else ""
         title = f"[{_title(name, language)}]({name}.ipynb)"
         rows.append(f"| {title} | {', '.join(lines)} | {', '.join(files)} | {wrong} |")

@@ -1,16 +1,17 @@
-"""The pages of the interface: one for each section that offers something, in the chapter's order.
+"""The pages of the interface: one for each room, and in the chapter's rooms one for each file that offers something.
 
-What they say comes from the docstrings, the section from README's table of files, the formulas from docs/map.md. In
-Chinese each name has a line of its own from names.zh-CN.toml, and below it the docstring in English.
+The order is that of the rooms' tables of files and of README's table, which also says to which section a room belongs.
+What a page says comes from the docstrings, the formulas from docs/map.md. In Chinese each room and each name has a line
+of its own from names.zh-CN.toml, and below it the docstring in English.
 """
 
 from __future__ import annotations
 
-import importlib
 import inspect
 import re
 import sys
 import tomllib
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -18,27 +19,32 @@ from typing import Any, NamedTuple
 from sphinx.pycode import ModuleAnalyzer
 
 import twistwrench as tw
-from twistwrench.exercises.catalogue import SECTIONS
 
 from .pages import ROOT, SUFFIX, contents, write
 
-PACKAGES = ("newton_euler_3d", "fast", "bridge", "plot", "validate", "exercises")
-"""Sections that are used by their own name, as in tw.fast.rnea."""
-FIRST = ("model", "joint_types", "builder", "trees", "robots", "errors")
-"""Of the sections without a number those that come first; the others follow by name."""
-LATER = {"en": "Models, tools and errors", "zh": "模型、工具与异常"}
+CHAPTER = ("spatial", "model", "algorithms")
+"""The rooms that have a page for each file; their `__init__` has a table of them."""
+PACKAGES = (*(name for name in tw.__all__ if isinstance(getattr(tw, name), ModuleType)), "validate")
+"""Rooms whose names are used with the room's, as in tw.fast.rnea."""
+LAST = "errors"
+RETURNED = (
+    *(f"algorithms.terms.{name}" for name in ("RneaTerms", "AbaTerms", "CrbaTerms", "CentroidalTerms")),
+    *("model.report.Entry", "model.report.Report"),
+)
+"""What public functions return, from files that have no other public name: nobody makes one by hand."""
 TITLE = {"en": "Interface", "zh": "接口"}
 INTRO = {
-    "en": "Every public name, by the section of the chapter that it belongs to. Each entry says shape, unit and frame "
-    "of every array, which errors are raised, and which formula of the chapter it computes; the examples are run by "
-    "the tests. `import twistwrench as tw` is understood.",
-    "zh": "所有公开名称，按所属的章节排列。每一项写明各数组的形状、单位与坐标系，会抛出哪些异常，计算本章的哪个公式；"
-    "其中的例子都由测试运行。"
+    "en": "Every public name, by the folder and the file that hold it, in the chapter's order. Each entry says shape, "
+    "unit and frame of every array, which errors are raised, and which formula of the chapter it computes; the "
+    "examples are run by the tests. `import twistwrench as tw` is understood.",
+    "zh": "所有公开名称，按所在的文件夹与文件排列，顺序与本章一致。"
+    "每一项写明各数组的形状、单位与坐标系，会抛出哪些异常，计算本章的哪个公式；其中的例子都由测试运行。"
     "每个名称有一句中文，其后的文档字符串是英文。以下均假定 `import twistwrench as tw`。",
 }
 HEAD = {"en": ("Name", "What it gives"), "zh": ("名称", "给出什么")}
 IN_THE_CHAPTER = {"en": "In the chapter", "zh": "本章公式"}
 ROW = {"en": "- {} {}: {} (``{}``)", "zh": "- {} {}：{}（``{}``）"}
+STOP = {"en": ".", "zh": "。"}
 NOTE = {"en": "", "zh": "每个名称先用一句中文说明，其后的文档字符串是英文。\n\n"}
 
 
@@ -51,13 +57,30 @@ class Formula(NamedTuple):
     file: str
 
 
+def rooms() -> list[str]:
+    """Return the rooms in the order of README's table, the errors last."""
+    found = dict.fromkeys(file.split("/")[0] for file in _rows())
+    return [*(room for room in found if room != LAST), LAST]
+
+
 def sections() -> dict[str, str]:
-    """Return the section of the chapter of each file or folder that README's table names."""
-    found = {}
-    for section, files in re.findall(r"^\| (49\.\d+) \|([^|]*)\|", _text("README", "en"), re.MULTILINE):
-        for name in re.findall(r"`(\w+)(?:\.py|/)`", files):
-            found[name] = section
+    """Return the section of the chapter of each page: of a file by its room's table, of another room by README's."""
+    found = {room: section for room, section in _rows().items() if section and "/" not in room}
+    for room in CHAPTER:
+        found |= {f"{room}/{file}": section for file, section in files(room).items() if section}
     return found
+
+
+def files(room: str) -> dict[str, str]:
+    """Return the files of a room of the chapter, in the order of the table in its `__init__`, with their sections."""
+    docstring = inspect.getdoc(_module(room)) or ""
+    return dict(re.findall(r"^(\w+) +(49\.\d+)?", docstring.split("==\n")[2], re.MULTILINE))
+
+
+def _rows() -> dict[str, str]:
+    """Return what README's table names, each file or folder of the source, with its section or nothing."""
+    rows = re.findall(r"^\| (49\.\d+)? ?\|([^|]*`)[^|]*\|.*\|$", _text("README", "en"), re.MULTILINE)
+    return {file: section for section, cell in rows for file in re.findall(r"`([\w/]+?)(?:\.py|/)`", cell)}
 
 
 def formulas(language: str) -> dict[str, list[Formula]]:
@@ -76,22 +99,31 @@ def formulas(language: str) -> dict[str, list[Formula]]:
     return found
 
 
-def by_section() -> dict[str, list[str]]:
-    """Return the public names of each section's file or folder, in the chapter's order, the others after them."""
-    at = sections()
-    owners: dict[str, list[str]] = {section: [] for section in at}
-    for name in tw.__all__:
-        value = getattr(tw, name)
-        if not isinstance(value, ModuleType):
-            owners.setdefault(value.__module__.split(".")[1], []).append(name)
-    for package in dict.fromkeys([*PACKAGES, *(n for n in tw.__all__ if isinstance(getattr(tw, n), ModuleType))]):
-        owners[package] = [f"{package}.{name}" for name in getattr(_module(package), "__all__", [])]
-    order = [*sorted(at, key=lambda section: _number(at[section])), *FIRST, *sorted(owners)]
-    return {s: sorted(owners[s], key=_place) for s in sorted(owners, key=order.index) if owners[s]}
+def by_page() -> dict[str, list[str]]:
+    """Return the public names of each page, in the order of the source; a page is a room, or a file of a chapter's."""
+    order = [page for room in rooms() for page in ([f"{room}/{f}" for f in files(room)] if room in CHAPTER else [room])]
+    owners: dict[str, list[str]] = {page: [] for page in order}
+    offered = [name for name in tw.__all__ if name not in PACKAGES]
+    offered += [f"{room}.{name}" for room in PACKAGES for name in _module(room).__all__]
+    for name in (*offered, *RETURNED):
+        owners[_page_of(name)].append(name)
+    return {page: sorted(names, key=_place) for page, names in owners.items() if names}
 
 
-def _number(section: str) -> int:
-    return int(section.partition(".")[2])
+def by_room() -> dict[str, list[str]]:
+    """Return the pages of each room."""
+    found: dict[str, list[str]] = {}
+    for page in by_page():
+        found.setdefault(page.split("/")[0], []).append(page)
+    return found
+
+
+def _page_of(name: str) -> str:
+    """Return the page of a name: the room that it is used with, or that of the file that defines it."""
+    if (room := name.split(".")[0]) in PACKAGES:
+        return room
+    _, room, *more = _value(name).__module__.split(".")
+    return "/".join([room, *more]) if room in CHAPTER else str(room)
 
 
 def _place(name: str) -> tuple[str, int]:
@@ -103,12 +135,12 @@ def _place(name: str) -> tuple[str, int]:
 
 
 def _value(name: str) -> Any:
-    package, _, rest = name.rpartition(".")
-    return getattr(_module(package) if package else tw, rest)
+    module, _, own = name.rpartition(".")
+    return getattr(_module(module) if module else tw, own)
 
 
 def _module(name: str) -> ModuleType:
-    return importlib.import_module(f"twistwrench.{name}") if name not in tw.__all__ else getattr(tw, name)
+    return import_module(f"twistwrench.{name}")
 
 
 def _text(path: str, language: str) -> str:
@@ -116,7 +148,7 @@ def _text(path: str, language: str) -> str:
 
 
 def chinese() -> dict[str, str]:
-    """Return what each public name gives, in Chinese."""
+    """Return what each public name gives, and what each room is for, in Chinese."""
     return tomllib.loads((Path(__file__).parent / "names.zh-CN.toml").read_text(encoding="utf-8"))
 
 
@@ -127,38 +159,55 @@ def first_line(name: str) -> str:
     return " ".join(said.split("\n\n")[0].split())
 
 
+def said_of_room(room: str) -> str:
+    """Return the first paragraph of what the source says of a room, in one line, without the full stop."""
+    return " ".join((inspect.getdoc(_module(room)) or "").split("\n\n")[0].split()).rstrip(".")
+
+
 def write_interface(out: Path, language: str) -> None:
-    """Write a page for each section, and the list of them all."""
-    at, owners = sections(), by_section()
-    for section, names in owners.items():
-        write(out / "api" / f"{section}.md", _page(section, names, at.get(section, ""), language))
-    own = chinese() if language == "zh" else {}
+    """Write a page for each room, in the chapter's one for each file, and the list of all names."""
+    owners, own = by_page(), chinese() if language == "zh" else {}
     rows = [f"# {TITLE[language]}", INTRO[language]]
-    numbered = sorted({at[s] for s in owners if s in at}, key=_number)
-    for number in [*numbered, ""]:
-        mine = [section for section in owners if at.get(section, "") == number]
-        rows.append(f"## {number} {SECTIONS[number].of(language)}" if number else f"## {LATER[language]}")
-        table = ["| {} | {} |\n|---|---|".format(*HEAD[language])]
-        table += [_row(name, own.get(name) or first_line(name)) for section in mine for name in owners[section]]
-        rows.append("\n".join([":::{container} names", "", *table, ":::"]))
-    rows.append(contents(list(owners), hidden=True))
+    for room, pages in by_room().items():
+        line = own.get(f"{room}/") or said_of_room(room)
+        rows += [f"## [`{room}`]({room}.md)", _text_of(line) + STOP[language]]
+        for page in pages:
+            write(out / "api" / f"{page}.md", _page(page, owners[page], language))
+            if room in CHAPTER:
+                rows.append(f"### {_title(page, f'({page}.md)')}")
+            table = ["| {} | {} |\n|---|---|".format(*HEAD[language])]
+            table += [_row(name, own.get(name) or first_line(name)) for name in owners[page]]
+            rows.append("\n".join([":::{container} names", "", *table, ":::"]))
+        if room in CHAPTER:
+            write(out / "api" / f"{room}.md", f"{_page(room, [], language)}\n{contents(pages)}\n")
+    rows.append(contents(list(by_room()), hidden=True))
     write(out / "api" / "index.md", "\n\n".join(rows) + "\n")
 
 
+def _title(page: str, link: str = "") -> str:
+    """Return section and name of a page, 49.2 `rotation`."""
+    name = f"`{page.split('/')[-1]}`"
+    return f"{sections().get(page, '')} {f'[{name}]{link}' if link else name}".strip()
+
+
 def _row(name: str, what: str) -> str:
-    what = re.sub(r"([|*_\[\]<>$])", r"\\\1", what.rstrip("."))
-    return f"| {{py:obj}}`{name} <twistwrench.{name}>` | {what} |"
+    shown = name.rpartition(".")[2] if name in RETURNED else name
+    return f"| {{py:obj}}`{shown} <twistwrench.{name}>` | {_text_of(what)} |"
 
 
-def _page(section: str, names: list[str], number: str, language: str) -> str:
-    module = f"twistwrench.{section}"
-    if section in tw.__all__ and not isinstance(getattr(tw, section), ModuleType):  # tw.robots is the function
-        head = inspect.getdoc(importlib.import_module(f"{module}")) or ""
-    else:
-        head = f".. automodule:: {module}\n   :no-members:"
-    title = f"# {number} `{section}`".replace("  ", " ")
+def _text_of(line: str) -> str:
+    """Return a line, without its full stop, such that Markdown takes nothing in it for its own but code."""
+    parts = re.split(r"(`[^`]+`)", line.rstrip("."))
+    return "".join(part if k % 2 else re.sub(r"([|*_\[\]<>$])", r"\\\1", part) for k, part in enumerate(parts))
+
+
+def _page(page: str, names: list[str], language: str) -> str:
+    head = f".. automodule:: twistwrench.{page.replace('/', '.')}\n   :no-members:"
+    if page in tw.__all__ and not isinstance(getattr(tw, page), ModuleType):  # tw.robots is the function
+        head = inspect.getdoc(_module(page)) or ""
     entries = [head, ".. currentmodule:: twistwrench", *map(_entry, names)]
-    return f"{title}\n\n{NOTE[language]}````{{eval-rst}}\n" + "\n\n".join(entries) + "\n````\n"
+    note = NOTE[language] if names else ""
+    return f"# {_title(page)}\n\n{note}````{{eval-rst}}\n" + "\n\n".join(entries) + "\n````\n"
 
 
 def _entry(name: str) -> str:
@@ -167,7 +216,7 @@ def _entry(name: str) -> str:
         return f".. autofunction:: twistwrench.{name}" if callable(value) else _constant(name)
     options = [":members:"]
     if issubclass(value, tuple):  # the docstring describes the fields; what every tuple can do is not ours
-        options.append(f":exclude-members: {', '.join(value._fields)}")
+        options.append(f":exclude-members: {', '.join(getattr(value, '_fields', ()))}")
     elif not issubclass(value, BaseException):
         options.append(":inherited-members:")
     return "\n   ".join([f".. autoclass:: twistwrench.{name}", *options])
@@ -179,7 +228,7 @@ def _constant(name: str) -> str:
 
 def _said(name: str) -> list[str]:
     """Return the string that stands below a constant in the source."""
-    package, _, own = name.partition(".")
+    package, _, own = name.rpartition(".")
     modules = [module for module in sys.modules if module.startswith(f"twistwrench.{package}")]
     said = [ModuleAnalyzer.for_module(module).find_attr_docs().get(("", own), []) for module in modules]
     return max(said, key=len, default=[])
@@ -195,10 +244,20 @@ def connect(app: Any, language: str) -> None:
             end = lines.index("") if "" in lines else len(lines)
             said = [ROW[language].format(row.section, _rst(row.what), _rst(row.formula), row.file) for row in rows]
             lines[end:end] = ["", f"*{IN_THE_CHAPTER[language]}*", "", *said, ""]
-        if phrase := own.get(name.removeprefix("twistwrench.")):
+        if phrase := own.get(name.removeprefix("twistwrench.") + ("/" if what == "module" else "")):
             lines[:0] = [f"{_rst(phrase)}。", ""]
 
     app.connect("autodoc-process-docstring", add, priority=600)  # after napoleon
+    app.connect("missing-reference", _find_returned)
+
+
+def _find_returned(app: Any, env: Any, node: Any, shown: Any) -> Any:
+    """Let a docstring call a record by its own name alone, `RneaTerms`."""
+    short = {name.rpartition(".")[2]: name for name in RETURNED}
+    if (target := node.get("reftarget")) not in short or node.get("refdomain") != "py":
+        return None
+    place = env.get_domain("py")
+    return place.resolve_xref(env, node["refdoc"], app.builder, "obj", f"twistwrench.{short[target]}", node, shown)
 
 
 def _bars(text: str) -> str:

@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench import algorithms, spatial
+
+from .test_house import ORDER, section
 
 ROOT = Path(__file__).parents[2]
 ENGLISH, CHINESE = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "README.zh-CN.md"))
@@ -46,13 +49,27 @@ def rows(text):
 
 def test_the_map_of_the_chapter_names_files_and_functions_that_exist():
     assert rows(ENGLISH) == rows(CHINESE)
-    assert len(rows(ENGLISH)) == 29
+    assert len(rows(ENGLISH)) == 37
     for files, names in rows(ENGLISH):
         assert files
         for file in files:
             assert (ROOT / "src/twistwrench" / file).exists(), file
         for name in names:
             assert hasattr(tw, name), name
+
+
+def test_the_map_of_the_chapter_has_every_room_after_those_that_it_imports_from():
+    rooms = list(dict.fromkeys(section(file) for files, _ in rows(ENGLISH) for file in files))
+    assert rooms == [room for room in ORDER if room not in ("__init__", "__main__")]
+
+
+def test_the_sections_are_those_of_the_rooms_own_tables():
+    tables = f"{algorithms.__doc__}\n{spatial.__doc__}"
+    ours = dict(re.findall(r"^(\w+) +(49\.\d+)", tables, re.MULTILINE))
+    said = re.findall(r"^\| (49\.\d+) \|([^|]*)\|", ENGLISH, re.MULTILINE)
+    for number, files in said:
+        for file in re.findall(r"`(?:spatial|algorithms)/(\w+)\.py`", files):
+            assert ours.get(file, number) == number
 
 
 def test_the_numbers_of_robots_are_right():

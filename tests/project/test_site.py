@@ -6,8 +6,11 @@
 import re
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
+
+import twistwrench as tw
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "docs"))
@@ -127,11 +130,36 @@ def test_the_log_of_changes_alone_is_in_english_only():
     assert [path for path in pages.pages() if not (ROOT / pages.twin(path, "zh")).exists()] == ["CHANGELOG.md"]
 
 
-def test_every_public_name_has_a_line_of_chinese():
+@pytest.fixture(scope="module")
+def interface():
     pytest.importorskip("sphinx", reason="Sphinx is not installed: the interface is not checked")
     from website import interface
 
-    assert set(interface.chinese()) == {name for names in interface.by_section().values() for name in names}
+    return interface
+
+
+def test_every_room_and_every_public_name_has_a_line_of_chinese(interface):
+    names = {name for names in interface.by_page().values() for name in names}
+    assert set(interface.chinese()) == names | {f"{room}/" for room in interface.by_room()}
+
+
+def test_the_pages_of_the_interface_follow_the_chapter(interface):
+    pages = list(interface.by_page())
+    numbers = [int(s.partition(".")[2]) for p in pages if "/" in p and (s := interface.sections().get(p))]
+    assert numbers == sorted(numbers)
+    assert set(numbers) == set(range(2, 12))
+    assert (pages[0], pages[-1]) == ("newton_euler_3d", "errors")
+
+
+def test_every_public_name_has_one_page_and_so_have_the_records(interface):
+    names = [name for names in interface.by_page().values() for name in names]
+    assert len(names) == len(set(names))
+    packages = {name for name in tw.__all__ if isinstance(getattr(tw, name), ModuleType)}
+    assert set(tw.__all__) - packages <= set(names)
+    assert {f"{name}.{own}" for name in packages for own in getattr(tw, name).__all__} <= set(names)
+    returned = {tw.rnea_terms, tw.aba_terms, tw.crba_terms, tw.centroidal_terms}
+    records = {f"{f.__module__}.{f.__annotations__['return']}".rpartition(".")[2] for f in returned}
+    assert records | {"Report", "Entry"} <= {name.rpartition(".")[2] for name in names}
 
 
 def test_only_what_differs_is_touched_and_what_is_gone_goes(tmp_path):

@@ -21,3 +21,11 @@ function keepMarks() {
   }
 }
 document.addEventListener("DOMContentLoaded", keepMarks);
+
+// What opens a part of the list of pages bears the name of that part.
+function nameToggles() {
+  for (const toggle of document.querySelectorAll("nav li > details > summary")) {
+    toggle.setAttribute("aria-label", toggle.closest("li").querySelector("a").textContent.trim());
+  }
+}
+document.addEventListener("DOMContentLoaded", nameToggles);
