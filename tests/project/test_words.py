@@ -140,7 +140,7 @@ def test_a_file_speaks_the_fields_words(file):
     [
         '"""The check at the door."""',
         "x = 1  # what came",
-        'f"no inertia outboard of joint {name}"',
+        'f"nothing behind joint {name}"',
         '"""Say what is wrong."""',
         '"""Refuse a batch."""',
         "came = 1",
