@@ -1,8 +1,11 @@
 """Exponential and logarithm of SE(3): screw motions, group laws, SciPy, Pinocchio, and 50 digits."""
 
+import warnings
+
 import numpy as np
 import pytest
 
+import twistwrench as tw
 from twistwrench.errors import ShapeError
 from twistwrench.spatial import SE3, cross_motion, exp3, exp6, hat, log6
 from twistwrench.spatial._elementary import cosine_defect, sine_defect_root
@@ -222,3 +225,20 @@ def test_wrong_arguments_are_refused():
         log6(np.ones((4, 4)))
     with pytest.raises(ShapeError, match="rotation"):
         log6(np.diag([1.0, 2.0, 1.0, 1.0]))
+
+
+@pytest.mark.parametrize("size", [1.2e308, 1.7e308])
+def test_a_length_beyond_all_numbers_is_refused_by_name(size):
+    """Its square root would be finite, √3 times it is not."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(ValueError, match=r"^w: expected smaller numbers"):
+            tw.exp3(np.full(3, size))
+        with pytest.raises(ValueError, match=r"^V: expected smaller numbers"):
+            tw.exp6(np.full(6, size))
+        with pytest.raises(ValueError, match=r"^x: expected smaller numbers"):
+            tw.screw(np.full(6, size))
+        with pytest.raises(ValueError, match=r"^F, V: expected smaller numbers"):
+            tw.power(np.full(6, size), np.full(6, size))
+        assert np.allclose(tw.unskew(tw.skew(np.full(3, size))) / size, 1)
+        assert np.isfinite(tw.exp3([size, 0, 0])).all()  # as large as its length, and no larger

@@ -1,6 +1,7 @@
 """Spatial inertia and the spatial cross products (section 49.5)."""
 
 import dataclasses
+import warnings
 
 import numpy as np
 import pytest
@@ -416,3 +417,26 @@ def test_an_inertia_shows_itself():
     np.testing.assert_array_equal(eval(repr(body)).matrix(), body.matrix())
     assert max(map(len, repr(body).splitlines())) <= 100
     assert repr(bodies(43)) == "<SpatialInertia: a batch, shape (8,)>"
+
+
+@pytest.mark.parametrize("method", ["momentum", "kinetic_energy"])
+@pytest.mark.parametrize("size", [1e300, 1.7e308])
+def test_a_speed_whose_products_overflow_is_refused_by_name(method, size):
+    body = SpatialInertia(1e9, [0, 0, 0.1], np.eye(3))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(ValueError, match=r"^V: expected smaller numbers"):
+            getattr(body, method)(np.full(6, size))
+
+
+def test_the_largest_inertia_is_not_halved_to_infinity():
+    big = np.finfo(float).max * np.eye(3)
+    assert np.array_equal(SpatialInertia(0.0, [0, 0, 0], big).inertia_at_com, big)
+
+
+@pytest.mark.parametrize("cross", [cross_motion, cross_force])
+def test_a_second_argument_is_told_where_it_belongs(cross):
+    with pytest.raises(
+        TypeError, match=rf"^V: expected one twist, shape .*, got 2 arguments; {cross.__name__}\(V\) @ "
+    ):
+        cross(np.ones(6), np.ones(6))

@@ -12,7 +12,7 @@ bounds          real numbers, finite numbers, numbers whose products cannot over
 ==============  ======================================================================================
 """
 
-from .bounds import as_finite, as_real, check_size
+from .bounds import as_finite, as_real, check_overflow, check_size, without_overflow
 from .conversion import (
     Array,
     as_array,
@@ -49,6 +49,7 @@ __all__ = [
     "as_sequence",
     "check_choice",
     "check_kind",
+    "check_overflow",
     "check_size",
     "convert",
     "elementary",
@@ -58,4 +59,5 @@ __all__ = [
     "judged",
     "resolution",
     "tolerance",
+    "without_overflow",
 ]

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
+from typing import ParamSpec
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .conversion import Array, as_array, as_constant, as_number
 
-__all__ = ["as_finite", "as_real", "check_size"]
+__all__ = ["as_finite", "as_real", "check_overflow", "check_size", "without_overflow"]
+
+P = ParamSpec("P")
 
 
 def as_finite(value: object, name: str) -> float:
@@ -35,6 +41,35 @@ def as_real(value: ArrayLike, name: str, *tail: int) -> Array:
     ValueError: points: expected real numbers, got complex128
     """
     return as_constant(as_array(value, name, *tail), name)
+
+
+def check_overflow(result: Array, names: str) -> None:
+    """Refuse arguments that are finite and of which a product or a sum is not.
+
+    Examples
+    --------
+    >>> check_overflow(np.array([1.0, np.inf]), "F, V")
+    Traceback (most recent call last):
+    ValueError: F, V: expected smaller numbers, as products overflow in float64
+    """
+    if result.dtype.kind in "fc" and not np.isfinite(result).all():
+        raise ValueError(f"{names}: expected smaller numbers, as products overflow in {result.dtype}")
+
+
+def without_overflow(names: str) -> Callable[[Callable[P, Array]], Callable[P, Array]]:
+    """Let a function of one array refuse its arguments by name where the result overflows: see `check_overflow`."""
+
+    def decorate(function: Callable[P, Array]) -> Callable[P, Array]:
+        @wraps(function)
+        def checked(*args: P.args, **kwargs: P.kwargs) -> Array:
+            with np.errstate(over="ignore", invalid="ignore"):
+                result = function(*args, **kwargs)
+            check_overflow(result, names)
+            return result
+
+        return checked
+
+    return decorate
 
 
 def check_size(x: Array, name: str) -> None:

@@ -48,12 +48,13 @@ def _of_each(x: Array, name: str) -> Array:
 
 
 def length(x: Array) -> Array:
-    """Return the Euclidean length over the last axis: no under- or overflow, no conjugate."""
+    """Return the Euclidean length over the last axis, no conjugate: infinite only where it is beyond all numbers."""
     size = np.maximum(largest(x.real, 1), largest(x.imag, 1))
     exponent = np.frexp(np.maximum(size, np.finfo(x.dtype).tiny))[1] - 1
     unit = np.ldexp(np.ones((), size.dtype), exponent)  # a power of two: dividing by it is exact
     scaled = x / unit[..., None]
-    return np.asarray(unit * np.sqrt((scaled * scaled).sum(-1)))
+    with np.errstate(over="ignore"):
+        return np.asarray(unit * np.sqrt((scaled * scaled).sum(-1)))
 
 
 def sinc(x: Array) -> Array:

@@ -13,13 +13,15 @@ from .rotation import cross_matrix
 __all__ = ["cross_force", "cross_motion"]
 
 
-def cross_motion(V: ArrayLike) -> Array:
+def cross_motion(V: ArrayLike, *others: ArrayLike) -> Array:
     """Matrix V× = [[ω]×, 0; [v]×, [ω]×]: the rate of a twist carried along by V (section 49.5).
 
     Parameters
     ----------
     V : Twist or array_like of shape (..., 6)
         (ω, v), rad/s and m/s.
+    *others : array_like
+        None: what the matrix is multiplied by comes after ``@``.
 
     Returns
     -------
@@ -30,23 +32,26 @@ def cross_motion(V: ArrayLike) -> Array:
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If `V` is a Wrench.
+        If `V` is a Wrench, or not the only argument.
 
     Examples
     --------
     >>> cross_motion([0, 0, 1, 0, 0, 0]) @ [1, 0, 0, 0, 0, 0]
     array([0., 1., 0., 0., 0., 0.])
     """
+    _check_alone("cross_motion", "W", others)
     return motion_cross_matrix(as_spatial(V, "V"))
 
 
-def cross_force(V: ArrayLike) -> Array:
+def cross_force(V: ArrayLike, *others: ArrayLike) -> Array:
     """Matrix V×* = −(V×)ᵀ = [[ω]×, [v]×; 0, [ω]×]: the rate of a wrench carried along by V (section 49.5).
 
     Parameters
     ----------
     V : Twist or array_like of shape (..., 6)
         (ω, v), rad/s and m/s.
+    *others : array_like
+        None: what the matrix is multiplied by comes after ``@``.
 
     Returns
     -------
@@ -57,14 +62,22 @@ def cross_force(V: ArrayLike) -> Array:
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If `V` is a Wrench.
+        If `V` is a Wrench, or not the only argument.
 
     Examples
     --------
     >>> cross_force([0, 0, 0, 1, 0, 0]) @ [0, 0, 0, 0, 1, 0]
     array([0., 0., 1., 0., 0., 0.])
     """
+    _check_alone("cross_force", "F", others)
     return force_cross_matrix(as_spatial(V, "V"))
+
+
+def _check_alone(name: str, symbol: str, others: tuple[ArrayLike, ...]) -> None:
+    """Say how two are crossed where a function is given more than the one twist whose matrix it returns."""
+    if others:
+        product = f"{name}(V) @ {symbol} is the product of arrays"
+        raise TypeError(f"V: expected one twist, shape (..., 6), got {1 + len(others)} arguments; {product}")
 
 
 def motion_cross_matrix(V: Array) -> Array:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array
+from ..arrays import Array, as_array, check_overflow
 from ._elementary import cosine_defect, length, sinc, sine_defect_root
 from ._vector import as_spatial
 from .plucker import SE3
@@ -36,6 +36,8 @@ def exp6(V: ArrayLike) -> SE3:
         If the last axis is not 6 long.
     TypeError
         If `V` is a Wrench.
+    ValueError
+        If the numbers are so large that the way to the placement overflows.
 
     Examples
     --------
@@ -45,8 +47,12 @@ def exp6(V: ArrayLike) -> SE3:
     V = as_array(as_spatial(V, "V"), "V", 6)
     w, v = V[..., :3], V[..., 3:]
     theta = length(w)[..., None]
+    check_overflow(theta, "V")
     H, c = sinc(theta / 2) / 2, sine_defect_root(theta) * w
-    return SE3._trusted(exp3(w), v + 2 * H * np.cross(H * w, v) + np.cross(c, np.cross(c, v)))
+    with np.errstate(over="ignore", invalid="ignore"):
+        p = v + 2 * H * np.cross(H * w, v) + np.cross(c, np.cross(c, v))
+    check_overflow(p, "V")
+    return SE3._trusted(exp3(w), p)
 
 
 def log6(T: SE3 | ArrayLike) -> Array:

@@ -8,7 +8,7 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_number_arrays, tolerance
+from ..arrays import Array, as_array, as_number_arrays, tolerance, without_overflow
 from ..errors import ModelError, ShapeError
 from ._elementary import at_first_index, largest
 from ._physical import check_numbers, check_physical
@@ -40,8 +40,7 @@ class SpatialInertia:
     ShapeError
         If a shape is wrong or the batch axes do not broadcast.
     ModelError
-        If the mass is negative, or the inertia is not symmetric to within the square root of the resolution of its
-        dtype, relative to its largest entry.
+        If the mass is negative, or the inertia asymmetric by more than the root of the resolution, relatively.
 
     Examples
     --------
@@ -67,7 +66,7 @@ class SpatialInertia:
         self._set(
             np.array(np.broadcast_to(m, batch)),
             np.array(np.broadcast_to(c, (*batch, 3))),
-            np.array(np.broadcast_to((I_c + I_c.mT) / 2, (*batch, 3, 3))),
+            np.array(np.broadcast_to(I_c / 2 + I_c.mT / 2, (*batch, 3, 3))),
         )
 
     def _set(self, mass: Array, com: Array, inertia_at_com: Array) -> None:
@@ -123,9 +122,9 @@ class SpatialInertia:
         M = as_array(I6, "I6", 6, 6)
         mass = M[..., 5, 5]
         com = skew_part(M[..., :3, 3:]) / np.where(mass == 0, 1, mass)[..., None]
-        C = cross_matrix(com)
-        about_origin = (M[..., :3, :3] + M[..., :3, :3].mT) / 2
-        body = cls(mass, com, about_origin + mass[..., None, None] * (C @ C))
+        C, about_origin = cross_matrix(com), M[..., :3, :3] / 2 + M[..., :3, :3].mT / 2
+        with np.errstate(over="ignore", invalid="ignore"):
+            body = cls(mass, com, about_origin + mass[..., None, None] * (C @ C))
         off = largest((body.matrix() - M).real, 2)
         wrong = off > tolerance(M.dtype) * largest(M.real, 2)
         if wrong.any():
@@ -198,13 +197,14 @@ class SpatialInertia:
 
     def __matmul__(self, V: Twist) -> Wrench:
         if not isinstance(V, Twist):
-            use = "I.momentum(V) of arrays, I.matrix() for other products, I.transform(T) for another frame"
-            raise TypeError(f"SpatialInertia @ {type(V).__name__}: expected a Twist; use {use}")
+            use = "use I.momentum(V) of arrays, I.matrix() for other products, I.transform(T) for another frame"
+            raise TypeError(f"SpatialInertia @ {type(V).__name__}: expected a Twist; {use}")
         return Wrench(self.momentum(V), frame=V.frame)
 
     def __rmatmul__(self, other: object) -> NoReturn:
         raise TypeError(f"{type(other).__name__} @ SpatialInertia: use I.matrix() for products of arrays")
 
+    @without_overflow("V")
     def momentum(self, V: ArrayLike) -> Array:
         """Return the momentum I V: angular, about the origin of the frame, and linear.
 
@@ -220,8 +220,8 @@ class SpatialInertia:
 
         Raises
         ------
-        ShapeError
-            If the last axis is not 6 long.
+        ShapeError, ValueError
+            If the last axis is not 6 long, or products of the numbers overflow.
         TypeError
             If `V` is a Wrench.
 
@@ -234,6 +234,7 @@ class SpatialInertia:
         p = self.mass[..., None] * v_c
         return np.concatenate([np.matvec(self.inertia_at_com, w) + np.cross(self.com, p), p], axis=-1)
 
+    @without_overflow("V")
     def kinetic_energy(self, V: ArrayLike) -> Array:
         """Return the kinetic energy ½ VᵀI V, as ½ m v_c² + ½ ωᵀI_c ω.
 
@@ -249,8 +250,8 @@ class SpatialInertia:
 
         Raises
         ------
-        ShapeError
-            If the last axis is not 6 long.
+        ShapeError, ValueError
+            If the last axis is not 6 long, or products of the numbers overflow.
         TypeError
             If `V` is a Wrench.
 
@@ -260,8 +261,7 @@ class SpatialInertia:
         array(9.5)
         """
         w, v_c = self._velocity_of_com(V)
-        spin = (w * np.matvec(self.inertia_at_com, w)).sum(-1)
-        return np.asarray((self.mass * (v_c * v_c).sum(-1) + spin) / 2)
+        return np.asarray((self.mass * (v_c * v_c).sum(-1) + (w * np.matvec(self.inertia_at_com, w)).sum(-1)) / 2)
 
     def _velocity_of_com(self, V: ArrayLike) -> tuple[Array, Array]:
         """Return ω and the velocity v + ω×c of the centre of mass, over the batch axes of both."""

@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_number_array, convert, judged, tolerance
+from ..arrays import Array, as_array, as_number_array, check_overflow, convert, judged, tolerance
 from ..errors import ShapeError, SingularError
 from ._elementary import at_first_index, atan2, cos, largest, length, sin, sinc
 from .orthonormal import check_rotation
@@ -47,6 +47,8 @@ def skew(w: ArrayLike) -> Array:
     ------
     ShapeError
         If the last axis of `w` is not 3 long.
+    ValueError
+        If the length of `w` overflows.
 
     Examples
     --------
@@ -82,10 +84,10 @@ def unskew(M: ArrayLike) -> Array:
     array([1., 2., 3.])
     """
     M = as_array(M, "M", 3, 3)
-    off = largest((M + M.mT).real, 2)
-    wrong = off > tolerance(M.dtype) * largest(M.real, 2)
+    off = largest((M / 2 + M.mT / 2).real, 2)
+    wrong = off > tolerance(M.dtype) * largest(M.real, 2) / 2
     if wrong.any():
-        got = f"{off[wrong][0]:.3g}{at_first_index(wrong)}"
+        got = f"{2 * float(off[wrong][0]):.3g}{at_first_index(wrong)}"
         raise ShapeError(f"M: expected a skew-symmetric matrix, got |M + Mᵀ| = {got}")
     return skew_part(M)
 
@@ -120,6 +122,7 @@ def exp3(w: ArrayLike) -> Array:
     """
     w = as_array(w, "w", 3)
     theta, W = length(w)[..., None, None], cross_matrix(w)
+    check_overflow(theta, "w")
     A, H = sinc(theta), sinc(theta / 2) / 2
     return np.asarray(np.eye(3, dtype=w.dtype) + A * W + 2 * (H * W) @ (H * W))
 
@@ -289,5 +292,5 @@ def cross_matrix(w: Array) -> Array:
 
 def skew_part(M: Array) -> Array:
     """Return the vector of ½(M − Mᵀ)."""
-    half = (M - M.mT) / 2
+    half = M / 2 - M.mT / 2
     return np.stack([half[..., 2, 1], half[..., 0, 2], half[..., 1, 0]], axis=-1)

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_number, tolerance
+from ..arrays import Array, as_array, as_number, check_overflow, tolerance
 from ..errors import ShapeError, SingularError
 from ._elementary import at_first_index, largest, length
 from ._vector import SpatialVector, as_spatial
@@ -148,7 +148,7 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     TypeError
         If `of` contradicts the type of `x`.
     ValueError
-        If `of` is neither, or `noise` below zero.
+        If `of` is neither, `noise` below zero, or the magnitude overflows.
 
     Examples
     --------
@@ -179,6 +179,7 @@ def _screw(line: Array, free: Array, kind: str, noise: float) -> Screw:
     without = np.asarray(length(line).real <= noise)[..., None]
     along = np.where(without, free, line)
     magnitude = length(along)[..., None]
+    check_overflow(magnitude, "x")
     nothing = np.asarray(magnitude.real == 0)[..., 0]
     if nothing.any():
         raise SingularError(f"screw: a zero {kind} has no axis" + at_first_index(nothing))

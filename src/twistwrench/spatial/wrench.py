@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_number_arrays
+from ..arrays import Array, as_number_arrays, without_overflow
 from ._vector import SpatialVector, as_spatial, common_frame
 from .twist import Placement, Screw, Twist, check_placement, screw
 
 __all__ = ["Wrench", "power"]
 
 
+@without_overflow("F, V")
 def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
     """Power of a wrench on a twist, FᵀV = τ·ω + f·v (section 49.4).
 
@@ -35,6 +36,8 @@ def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
         If both are given with a frame, and the frames differ.
     TypeError
         If `F` is a Twist or `V` a Wrench.
+    ValueError
+        If the power overflows.
 
     Examples
     --------
