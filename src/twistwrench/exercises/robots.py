@@ -5,10 +5,13 @@ from functools import cache
 
 import numpy as np
 
+from ..algorithms.crba import crba
+from ..algorithms.rnea import nonlinear_effects
+from ..arrays import Array
 from ..model import Model, random_tree
 from ..robots import load
 
-__all__ = ["robot", "small_robot", "weightless"]
+__all__ = ["held_acceleration", "robot", "small_robot", "weightless"]
 
 
 @cache
@@ -43,3 +46,16 @@ def weightless(model: Model) -> Model:
     array([0., 0., 0.])
     """
     return replace(model, gravity=np.zeros(3))
+
+
+def held_acceleration(model: Model, q: Array, v: Array, tau: Array) -> Array:
+    """Return the accelerations of a robot whose floating base is held where it is.
+
+    Examples
+    --------
+    >>> model, rest = robot("go2"), np.zeros(18)
+    >>> held_acceleration(model, model.standing(), rest, rest)[:6]
+    array([0., 0., 0., 0., 0., 0.])
+    """
+    force = (tau - nonlinear_effects(model, q, v))[6:]
+    return np.concatenate([np.zeros(6), np.linalg.solve(crba(model, q)[6:, 6:], force)])

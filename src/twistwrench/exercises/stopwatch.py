@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
 from .text import Text
 
-__all__ = ["Machine", "Task"]
+__all__ = ["Machine", "Task", "seconds", "timed"]
 
 
 class Machine:
@@ -78,3 +83,21 @@ class Task:
     def __call__(self) -> None:
         """Do it."""
         self._machine.work(self)
+
+
+def timed(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Reset the machine, the last argument, and return nan for a measurement that has not read its clock."""
+    clock = arguments[-1]
+    clock.reset()
+    answer = function(*arguments)
+    return answer if answer is ... or clock.readings else np.nan
+
+
+def seconds(task: Callable[[], object], calls: int, clock: Machine) -> list[float]:
+    """Time each of many calls."""
+    times = []
+    for _ in range(calls):
+        start = clock()
+        task()
+        times.append(clock() - start)
+    return times

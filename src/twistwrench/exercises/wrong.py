@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["after", "as_column", "before", "faulty", "negated", "swap", "swapped", "times", "transposed"]
+__all__ = ["after", "as_column", "before", "doubled", "faulty", "negated", "swap", "swapped", "times", "transposed"]
 
 Function = Callable[..., Any]
 
@@ -26,7 +26,7 @@ Function = Callable[..., Any]
 def faulty(solution: Function, *changes: tuple[str, str]) -> Function:
     """Change the text of the reference: in each pair the right text, and the wrong one in its place.
 
-    It is compiled when it is first called.
+    It is compiled when it is first called, among the names of its module, and `doubled` and `swap`.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def faulty(solution: Function, *changes: tuple[str, str]) -> Function:
             if source.count(right) != 1:
                 raise ValueError(f"{name}: expected {right!r} once in its source, found it {source.count(right)} times")
             source = source.replace(right, wrong)
-        names = dict(vars(sys.modules[solution.__module__]))
+        names = {"doubled": doubled, "swap": swap, **vars(sys.modules[solution.__module__])}
         exec(compile(source, f"<{name}, changed>", "exec"), names)
         found: Function = names[name]
         return found
@@ -87,6 +87,11 @@ def swap(x: Any) -> Array:
         if size >= 6:
             x = np.take(x, [k + 3 if k < 3 else k - 3 if k < 6 else k for k in range(size)], axis)
     return np.asarray(x)
+
+
+def doubled(M: Any) -> Array:
+    """Return a symmetric matrix with everything off its diagonal doubled."""
+    return np.asarray(2 * M - np.diag(np.diag(M)))
 
 
 def swapped(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:

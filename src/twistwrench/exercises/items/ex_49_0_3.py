@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import MOTION_TRANSFORM
-from ..wrong import swapped, transposed
+from ..wrong import after, before, swapped, transposed
 
 __all__ = ["EXERCISE", "adjoint"]
 
@@ -21,13 +21,6 @@ def adjoint(T: Any) -> Any:
         moved = T @ tw.hat(V) @ T_inverse
         columns.append([moved[2, 1], moved[0, 2], moved[1, 0], *moved[:3, 3]])
     return np.array(columns).mT
-
-
-def _with(T: Any, *, coupling: float) -> Any:
-    """Multiply the coupling block by a factor."""
-    X = adjoint(T)
-    X[3:, :3] *= coupling
-    return X
 
 
 def _cases(rng: Any) -> Any:
@@ -43,11 +36,11 @@ EXERCISE = Exercise(
             returns=(Quantity("Ad_T", MOTION_TRANSFORM),),
             cases=_cases,
             slips={
-                "inverse-transform": lambda T: adjoint(np.linalg.inv(T)),
+                "inverse-transform": before(adjoint, np.linalg.inv, which=0),
                 "swapped-halves": swapped(adjoint),
                 "transposed-answer": transposed(adjoint),
-                "coupling-dropped": lambda T: _with(T, coupling=0),
-                "coupling-sign": lambda T: _with(T, coupling=-1),
+                "coupling-dropped": after(adjoint, lambda X: X * np.kron([[1, 1], [0, 1]], np.ones((3, 3)))),
+                "coupling-sign": after(adjoint, lambda X: X * np.kron([[1, 1], [-1, 1]], np.ones((3, 3)))),
                 "force-for-motion": lambda T: np.linalg.inv(adjoint(T)).mT,
             },
             alike=(frozenset({"swapped-halves", "force-for-motion"}),),

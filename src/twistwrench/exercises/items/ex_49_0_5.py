@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Exercise, Part, Quantity
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "newton_euler"]
 
@@ -35,20 +36,11 @@ EXERCISE = Exercise(
             returns=(Quantity("τ", unit="N m"), Quantity("f", unit="N")),
             cases=_cases,
             slips={
-                "gyroscopic-missing": lambda m, I_c, omega, alpha, a_c: (I_c @ alpha, m * a_c),
-                "gyroscopic-sign": lambda m, I_c, omega, alpha, a_c: (
-                    I_c @ alpha - np.cross(omega, I_c @ omega),
-                    m * a_c,
-                ),
-                "cross-order": lambda m, I_c, omega, alpha, a_c: (
-                    I_c @ alpha + np.cross(I_c @ omega, omega),
-                    m * a_c,
-                ),
-                "mass-dropped": lambda m, I_c, omega, alpha, a_c: (
-                    newton_euler(m, I_c, omega, alpha, a_c)[0],
-                    a_c,
-                ),
-                "swapped-halves": lambda m, I_c, omega, alpha, a_c: newton_euler(m, I_c, omega, alpha, a_c)[::-1],
+                "gyroscopic-missing": faulty(newton_euler, (" + np.cross(omega, I_c @ omega)", "")),
+                "gyroscopic-sign": faulty(newton_euler, ("+ np.cross", "- np.cross")),
+                "cross-order": faulty(newton_euler, ("np.cross(omega, I_c @ omega)", "np.cross(I_c @ omega, omega)")),
+                "mass-dropped": faulty(newton_euler, ("m * a_c", "a_c")),
+                "swapped-halves": faulty(newton_euler, ("return moment, force", "return force, moment")),
             },
             alike=(frozenset({"gyroscopic-sign", "cross-order"}),),
             residuals=(lambda answer, m, I_c, omega, alpha, a_c: answer[0] @ omega - alpha @ I_c @ omega,),

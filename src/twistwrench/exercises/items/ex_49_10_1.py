@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, INERTIA
 from ..robots import robot, small_robot
-from ..wrong import swapped
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "base_columns", "split_map"]
 
@@ -25,58 +25,6 @@ def base_columns(R: Any, m: Any, c: Any, I_G: Any) -> Any:
     return np.block([[R @ I_G, np.zeros((3, 3))], [-m * tw.skew(c) @ R, m * R]])
 
 
-def _blocks(change: Any) -> Any:
-    """Change A_G before it is split."""
-
-    def wrong(model: Any, q: Any) -> Any:
-        A_G = change(model, q, tw.centroidal_map(model, q))
-        return A_G[:, :6], A_G[:, 6:]
-
-    return wrong
-
-
-def _about(point: Any) -> Any:
-    """Take the angular momentum about another point: it gains (p_G − point) × l."""
-
-    def change(model: Any, q: Any, A_G: Any) -> Any:
-        arm = tw.skew(tw.center_of_mass(model, q) - point(q))
-        return np.concatenate([A_G[:3] + arm @ A_G[3:], A_G[3:]])
-
-    return _blocks(change)
-
-
-def _at(places: Any) -> Any:
-    """Cut A_G at other places."""
-
-    def wrong(model: Any, q: Any) -> Any:
-        A_G = tw.centroidal_map(model, q)
-        base, joints = places
-        return A_G[:, base], A_G[:, joints]
-
-    return wrong
-
-
-def _exchanged(*, rows: bool, columns: bool) -> Any:
-    """Exchange the halves of the rows, of the base's columns, or of both."""
-    order = [k + 3 if k < 3 else k - 3 for k in range(6)]
-
-    def wrong(model: Any, q: Any) -> Any:
-        base, joints = split_map(model, q)
-        if rows:
-            base, joints = base[order], joints[order]
-        return (base[:, order] if columns else base), joints
-
-    return wrong
-
-
-def _quarters(change: Any) -> Any:
-    """Put other things in the quarters, given R, m, [c]× and I_G."""
-    return lambda R, m, c, I_G: np.block(change(R, m, tw.skew(c), I_G))
-
-
-ZERO = np.zeros((3, 3))
-
-
 def _bodies(rng: Any) -> Any:
     bodies = []
     for model in (robot("go2"), small_robot(rng), small_robot(rng)):
@@ -87,6 +35,8 @@ def _bodies(rng: Any) -> Any:
     return bodies
 
 
+HALVES = [3, 4, 5, 0, 1, 2]
+
 SPLIT = Part(
     solution=split_map,
     returns=(Quantity("A_Gb", INERTIA), Quantity("A_Gj", CENTROIDAL_MAP)),
@@ -94,13 +44,24 @@ SPLIT = Part(
         (model, model.random_configuration(rng=rng)) for model in (robot("go2"), small_robot(rng), small_robot(rng))
     ],
     slips={
-        "swapped-halves": _exchanged(rows=True, columns=True),
-        "rows-only": _exchanged(rows=True, columns=False),
-        "columns-only": _exchanged(rows=False, columns=True),
-        "momentum-at-origin": _about(lambda q: np.zeros(3)),
-        "momentum-at-base": _about(lambda q: q[:3]),
-        "nq-for-nv": _at((slice(0, 7), slice(7, None))),
-        "base-last": _at((slice(-6, None), slice(0, -6))),
+        "swapped-halves": faulty(
+            split_map, ("return A_G", "A_G = A_G[HALVES]; return A_G"), ("A_G[:, :6]", "A_G[:, HALVES]")
+        ),
+        "rows-only": faulty(split_map, ("tw.centroidal_map(model, q)", "tw.centroidal_map(model, q)[HALVES]")),
+        "columns-only": faulty(split_map, ("A_G[:, :6]", "A_G[:, HALVES]")),
+        "momentum-at-origin": faulty(
+            split_map,
+            ("tw.centroidal_map", "tw.force_transform(np.eye(3), tw.center_of_mass(model, q)) @ tw.centroidal_map"),
+        ),
+        "momentum-at-base": faulty(
+            split_map,
+            (
+                "tw.centroidal_map",
+                "tw.force_transform(np.eye(3), tw.center_of_mass(model, q) - q[:3]) @ tw.centroidal_map",
+            ),
+        ),
+        "nq-for-nv": faulty(split_map, ("A_G[:, :6], A_G[:, 6:]", "A_G[:, :7], A_G[:, 7:]")),
+        "base-last": faulty(split_map, ("A_G[:, :6], A_G[:, 6:]", "A_G[:, -6:], A_G[:, :-6]")),
         "transposed-answer": lambda model, q: tuple(block.mT for block in split_map(model, q)),
     },
     residuals=(lambda answer, model, q: answer[0][:3, 3:],),
@@ -111,17 +72,23 @@ COLUMNS = Part(
     returns=(Quantity("A_Gb", INERTIA),),
     cases=_bodies,
     slips={
-        "com-dropped": _quarters(lambda R, m, c, I: [[R @ I, ZERO], [ZERO, m * R]]),
-        "com-sign": _quarters(lambda R, m, c, I: [[R @ I, ZERO], [m * c @ R, m * R]]),
-        "coupling-corner": _quarters(lambda R, m, c, I: [[R @ I, m * c @ R], [ZERO, m * R]]),
-        "coupling-order": _quarters(lambda R, m, c, I: [[R @ I, ZERO], [-m * R @ c, m * R]]),
-        "coupling-unrotated": _quarters(lambda R, m, c, I: [[R @ I, ZERO], [-m * c, m * R]]),
-        "mass-dropped": _quarters(lambda R, m, c, I: [[R @ I, ZERO], [-c @ R, R]]),
-        "untransformed": _quarters(lambda R, m, c, I: [[I, ZERO], [-m * c, m * np.eye(3)]]),
-        "half-rotated": _quarters(lambda R, m, c, I: [[R @ I, ZERO], [-m * c @ R, m * np.eye(3)]]),
-        "rotation-transposed": _quarters(lambda R, m, c, I: [[R.mT @ I, ZERO], [-m * c @ R.mT, m * R.mT]]),
-        "turned-twice": _quarters(lambda R, m, c, I: [[R @ I @ R.mT, ZERO], [-m * c @ R, m * R]]),
-        "momentum-at-base": _quarters(lambda R, m, c, I: [[R @ I - m * c @ c @ R, m * c @ R], [-m * c @ R, m * R]]),
+        "com-dropped": faulty(base_columns, ("-m * tw.skew(c) @ R", "np.zeros((3, 3))")),
+        "com-sign": faulty(base_columns, ("-m *", "m *")),
+        "coupling-corner": faulty(
+            base_columns, ("np.zeros((3, 3))", "m * tw.skew(c) @ R"), ("-m * tw.skew(c) @ R", "np.zeros((3, 3))")
+        ),
+        "coupling-order": faulty(base_columns, ("tw.skew(c) @ R", "R @ tw.skew(c)")),
+        "coupling-unrotated": faulty(base_columns, ("tw.skew(c) @ R", "tw.skew(c)")),
+        "mass-dropped": faulty(base_columns, ("-m * tw.skew(c) @ R, m * R", "-tw.skew(c) @ R, R")),
+        "untransformed": faulty(
+            base_columns, ("R @ I_G", "I_G"), ("tw.skew(c) @ R, m * R", "tw.skew(c), m * np.eye(3)")
+        ),
+        "half-rotated": faulty(base_columns, (", m * R", ", m * np.eye(3)")),
+        "rotation-transposed": lambda R, m, c, I_G: base_columns(R.mT, m, c, I_G),
+        "turned-twice": faulty(base_columns, ("R @ I_G", "R @ I_G @ R.mT")),
+        "momentum-at-base": faulty(
+            base_columns, ("R @ I_G, np.zeros((3, 3))", "R @ I_G - m * tw.skew(c) @ tw.skew(c) @ R, m * tw.skew(c) @ R")
+        ),
         "swapped-halves": swapped(base_columns),
     },
     residuals=(

@@ -8,6 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..robots import robot, small_robot
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "com_acceleration", "rate_at_pace"]
 
@@ -22,15 +23,6 @@ def com_acceleration(p_G: Any, p: Any, k_rate: Any, m: Any) -> Any:
 def rate_at_pace(model: Any, q: Any, v: Any, a: Any, s: Any) -> Any:
     """k̇_G of the same motion at another pace."""
     return tw.centroidal_momentum_rate(model, q, s * v, s**2 * a)[:3]
-
-
-def _pendulum(change: Any) -> Any:
-    """Combine the pendulum's term and that of k̇_G otherwise."""
-
-    def wrong(p_G: Any, p: Any, k_rate: Any, m: Any) -> Any:
-        return change(9.81 / p_G[2] * (p_G[:2] - p), np.array([-k_rate[1], k_rate[0]]) / (m * p_G[2]), m, p_G[2])
-
-    return wrong
 
 
 def _walks(rng: Any) -> Any:
@@ -63,14 +55,14 @@ ACCELERATION = Part(
     returns=(Quantity("p̈_G", unit="m/s²"),),
     cases=_walks,
     slips={
-        "rate-left-out": _pendulum(lambda pendulum, rate, m, z: pendulum),
-        "rate-sign": _pendulum(lambda pendulum, rate, m, z: pendulum - rate),
-        "rate-axes": _pendulum(lambda pendulum, rate, m, z: pendulum + rate[::-1] * [-1, 1]),
-        "pendulum-hangs": _pendulum(lambda pendulum, rate, m, z: rate - pendulum),
-        "height-dropped": _pendulum(lambda pendulum, rate, m, z: z * (pendulum + rate)),
-        "mass-dropped": _pendulum(lambda pendulum, rate, m, z: pendulum + m * rate),
-        "g-ten": _pendulum(lambda pendulum, rate, m, z: 10 / 9.81 * pendulum + rate),
-        "g-rounded": _pendulum(lambda pendulum, rate, m, z: 9.8 / 9.81 * pendulum + rate),
+        "rate-left-out": faulty(com_acceleration, (" - k_y / (m * z)", ""), (" + k_x / (m * z)", "")),
+        "rate-sign": faulty(com_acceleration, ("- k_y", "+ k_y"), ("+ k_x", "- k_x")),
+        "rate-axes": faulty(com_acceleration, ("- k_y", "- k_x"), ("+ k_x", "- k_y")),
+        "pendulum-hangs": faulty(com_acceleration, ("[g / z", "[-g / z"), (", g / z", ", -g / z")),
+        "height-dropped": lambda p_G, *rest: p_G[2] * com_acceleration(p_G, *rest),
+        "mass-dropped": faulty(com_acceleration, ("k_y / (m * z)", "k_y / z"), ("k_x / (m * z)", "k_x / z")),
+        "g-ten": faulty(com_acceleration, ("g = 9.81", "g = 10")),
+        "g-rounded": faulty(com_acceleration, ("g = 9.81", "g = 9.8")),
     },
     residuals=(_ground,),
 )

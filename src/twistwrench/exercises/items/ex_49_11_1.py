@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CONTACT_JACOBIAN, JOINT_SPACE
 from ..robots import robot
-from ..wrong import after, swap
+from ..wrong import after, before, doubled, faulty, swap
 from .pinocchio_order import ACTION, INERTIA_MATRIX
 
 __all__ = [
@@ -74,15 +74,15 @@ RANDOM = Part(
     returns=(Quantity("lower"), Quantity("upper")),
     cases=_limits,
     slips={
-        "limits-all": lambda lower, upper: (
-            0 * finite_limits(lower, upper)[0] - 1,
-            0 * finite_limits(lower, upper)[1] + 1,
+        "limits-all": faulty(
+            finite_limits, ("np.isfinite(lower), lower", "False, lower"), ("np.isfinite(upper), upper", "False, upper")
         ),
-        "limits-position-only": lambda lower, upper: (
-            np.concatenate([-np.ones(3), lower[3:]]),
-            np.concatenate([np.ones(3), upper[3:]]),
+        "limits-position-only": faulty(
+            finite_limits,
+            ("np.isfinite(lower)", "np.arange(len(lower)) > 2"),
+            ("np.isfinite(upper)", "np.arange(len(upper)) > 2"),
         ),
-        "one-sided": lambda lower, upper: (lower, finite_limits(lower, upper)[1]),
+        "one-sided": faulty(finite_limits, ("np.where(np.isfinite(lower), lower, -1.0)", "lower")),
     },
 )
 
@@ -91,10 +91,10 @@ MATRIX = Part(
     returns=(Quantity("τ", JOINT_SPACE), Quantity("q̈", JOINT_SPACE)),
     cases=_dynamics,
     slips={
-        "doubled-off-diagonal": lambda M, h, a, tau: by_mass_matrix(2 * M - np.diag(np.diag(M)), h, a, tau),
-        "one-triangle": lambda M, h, a, tau: by_mass_matrix(np.triu(M), h, a, tau),
-        "bias-for-zero": lambda M, h, a, tau: by_mass_matrix(M, 0 * h, a, tau),
-        "bias-sign": lambda M, h, a, tau: by_mass_matrix(M, -h, a, tau),
+        "doubled-off-diagonal": before(by_mass_matrix, doubled, which=0),
+        "one-triangle": before(by_mass_matrix, np.triu, which=0),
+        "bias-for-zero": before(by_mass_matrix, lambda h: 0 * h, which=1),
+        "bias-sign": before(by_mass_matrix, lambda h: -h, which=1),
         "column-vector": after(by_mass_matrix, lambda x: x[:, None]),
     },
     residuals=(lambda answer, M, h, a, tau: M @ answer[1] + h - tau,),

@@ -7,6 +7,7 @@ import numpy as np
 from ...model import chain
 from ..exercise import Exercise, Part, Quantity
 from ..robots import robot, small_robot
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "count_transforms", "growth"]
 
@@ -50,23 +51,13 @@ COUNT = Part(
     returns=(Quantity("RNEA"), Quantity("CRBA")),
     cases=_trees,
     slips={
-        "transforms-two": lambda parent: (2 * (len(parent) - 1), count_transforms(parent)[1]),
-        "world-as-body": lambda parent: (3 * len(parent), count_transforms(parent)[1]),
-        "world-counted": lambda parent: (3 * (len(parent) - 1), sum(_depths(parent))),
-        "quadratic-always": lambda parent: (3 * (len(parent) - 1), (len(parent) - 1) * (len(parent) - 2) // 2),
-        "longest-branch": lambda parent: (
-            3 * (len(parent) - 1),
-            max(_depths(parent)) * (max(_depths(parent)) - 1) // 2,
-        ),
+        "transforms-two": faulty(count_transforms, ("3 * bodies", "2 * bodies")),
+        "world-as-body": faulty(count_transforms, ("3 * bodies", "3 * len(parent)")),
+        "world-counted": faulty(count_transforms, ("sum(depth) - bodies", "sum(depth)")),
+        "quadratic-always": faulty(count_transforms, ("sum(depth) - bodies", "bodies * (bodies - 1) // 2")),
+        "longest-branch": faulty(count_transforms, ("sum(depth) - bodies", "max(depth) * (max(depth) - 1) // 2")),
     },
 )
-
-
-def _depths(parent: Any) -> Any:
-    depth = [0] * len(parent)
-    for i in range(1, len(parent)):
-        depth[i] = depth[parent[i]] + 1
-    return depth
 
 
 GROWTH = Part(

@@ -10,7 +10,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import robot, small_robot
-from ..wrong import negated, times
+from ..wrong import faulty, negated, times
 
 __all__ = ["EXERCISE", "gravity_from_map", "standing_forces", "standing_loads"]
 
@@ -62,41 +62,8 @@ def _maps(rng: Any) -> Any:
     return [(tw.centroidal_map(model, q),) for model, q in postures]
 
 
-def _with_torques(forces: Any, g: Any, J_c: Any) -> Any:
-    return forces.reshape(-1, 3), (g - J_c.mT @ forces)[6:]
-
-
-def _all_rows(g: Any, J_c: Any) -> Any:
-    """Ask the feet for all 18 rows."""
-    return _with_torques(np.linalg.lstsq(J_c.mT, g)[0], g, J_c)
-
-
-def _joint_rows(g: Any, J_c: Any) -> Any:
-    return _with_torques(np.linalg.lstsq(J_c[:, 6:].mT, g[6:])[0], g, J_c)
-
-
-def _equal(g: Any, J_c: Any) -> Any:
-    """Give each foot the same part of the weight, upward: g[3:6] is the weight in the base's axes."""
-    feet = len(J_c) // 3
-    return _with_torques(np.tile([0, 0, np.linalg.norm(g[3:6]) / feet], feet), g, J_c)
-
-
-def _torques(change: Any) -> Any:
-    """Leave the forces right, and take other torques, of g and J_cᵀλ in the joint rows."""
-
-    def wrong(g: Any, J_c: Any) -> Any:
-        forces, _ = standing_forces(g, J_c)
-        return forces, change(g[6:], J_c[:, 6:].mT @ forces.ravel())
-
-    return wrong
-
-
-def _go2_on_all_rows() -> Any:
-    model = robot("go2")
-    q = model.standing()
-    forces, _ = _all_rows(tw.gravity(model, q), tw.contact_jacobian(model, q, model.feet))
-    return forces[0, 2], forces[2, 2]
-
+ALL_ROWS = faulty(standing_forces, ("J_c[:, :6].mT, g[:6]", "J_c.mT, g"))
+"""Asks the feet for all 18 rows."""
 
 MAP = Part(
     solution=gravity_from_map,
@@ -117,14 +84,20 @@ FORCES = Part(
     returns=(Quantity("λ", unit="N"), Quantity("τ", unit="N m")),
     cases=_arrays,
     slips={
-        "torques-left-out": _all_rows,
-        "joint-rows-for-forces": _joint_rows,
-        "equal-shares": _equal,
-        "contact-missing": _torques(lambda g, feet: g),
-        "external-sign": _torques(lambda g, feet: g + feet),
-        "gravity-missing": _torques(lambda g, feet: -feet),
-        "force-sign": lambda g, J_c: (-standing_forces(g, J_c)[0], standing_forces(g, J_c)[1]),
-        "base-rows-kept": lambda g, J_c: (standing_forces(g, J_c)[0], g - J_c.mT @ standing_forces(g, J_c)[0].ravel()),
+        "torques-left-out": ALL_ROWS,
+        "joint-rows-for-forces": faulty(standing_forces, ("J_c[:, :6].mT, g[:6]", "J_c[:, 6:].mT, g[6:]")),
+        "equal-shares": faulty(
+            standing_forces,
+            (
+                "np.linalg.lstsq(J_c[:, :6].mT, g[:6])[0]",
+                "np.tile([0, 0, 3 * np.linalg.norm(g[3:6]) / len(J_c)], len(J_c) // 3)",
+            ),
+        ),
+        "contact-missing": faulty(standing_forces, (" - J_c.mT @ forces", "")),
+        "external-sign": faulty(standing_forces, ("g - J_c", "g + J_c")),
+        "gravity-missing": faulty(standing_forces, ("(g - J_c", "(-J_c")),
+        "force-sign": faulty(standing_forces, ("return forces", "return -forces")),
+        "base-rows-kept": faulty(standing_forces, (")[6:]", ")")),
     },
     residuals=(lambda answer, g, J_c: g - np.concatenate([np.zeros(6), answer[1]]) - J_c.mT @ answer[0].ravel(),),
 )
@@ -136,7 +109,7 @@ LOADS = Part(
     rtol=5e-4,
     slips={
         "equal-shares": lambda: (16.085 * 9.81 / 4, 16.085 * 9.81 / 4),
-        "torques-left-out": _go2_on_all_rows,
+        "torques-left-out": faulty(standing_loads, ("standing_forces(", "ALL_ROWS(")),
         "lever-reversed": lambda: _loads()[::-1],
         "nominal-mass": lambda: tuple(12 / 16.085 * f for f in _loads()),
         "mass-for-weight": lambda: tuple(f / 9.81 for f in _loads()),

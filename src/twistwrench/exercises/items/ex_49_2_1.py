@@ -10,7 +10,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import TWIST
 from ..robots import robot
-from ..wrong import swapped
+from ..wrong import after, before, faulty, swapped
 
 __all__ = ["EXERCISE", "foot_speed", "foot_twist"]
 
@@ -33,27 +33,6 @@ def foot_speed() -> Any:
 _speed = cache(foot_speed)
 
 
-def _base_twist(omega_z: Any) -> Any:
-    return np.array([0, 0, omega_z, 0, 0, 0])
-
-
-def _seen_from(model: Any, q: Any, frame: str) -> Any:
-    """Return the placement of the base in a frame."""
-    return tw.frame_placement(model, q, frame).inverse() @ tw.frame_placement(model, q, "base")
-
-
-def _coupled(model: Any, q: Any, omega_z: Any, *, factor: float) -> Any:
-    """Multiply the coupling term by a factor: the base's own velocity is zero, so that is all of v."""
-    return foot_twist(model, q, omega_z) * np.repeat([1, factor], 3)
-
-
-def _carried(model: Any, q: Any, omega_z: Any, *, about_world: bool) -> Any:
-    """Return the foot's twist with the axes of the world, about the world's origin or the foot's."""
-    world_foot = tw.frame_placement(model, q, "FR_foot")
-    p = world_foot.translation if about_world else np.zeros(3)
-    return tw.motion_transform(world_foot.rotation, p) @ foot_twist(model, q, omega_z)
-
-
 def _cases(rng: Any) -> Any:
     model = robot("go2")
     return [(model, model.random_configuration(rng=rng), 0.5), (model, model.random_configuration(rng=rng), -1.3)]
@@ -65,24 +44,18 @@ TWIST_OF_FOOT = Part(
     cases=_cases,
     slips={
         "swapped-halves": swapped(foot_twist),
-        "world-for-local": lambda model, q, omega_z: _carried(model, q, omega_z, about_world=True),
-        "aligned-for-local": lambda model, q, omega_z: _carried(model, q, omega_z, about_world=False),
-        "untransformed": lambda model, q, omega_z: _base_twist(omega_z),
-        "coupling-dropped": lambda model, q, omega_z: _coupled(model, q, omega_z, factor=0),
-        "coupling-sign": lambda model, q, omega_z: _coupled(model, q, omega_z, factor=-1),
-        "inverse-transform": lambda model, q, omega_z: (
-            _seen_from(model, q, "FR_foot").inverse().motion_transform() @ _base_twist(omega_z)
+        "world-for-local": faulty(foot_twist, ("return foot_base", "return world_foot.motion_transform() @ foot_base")),
+        "aligned-for-local": faulty(
+            foot_twist, ("return foot_base", "return tw.motion_transform(world_foot.rotation, np.zeros(3)) @ foot_base")
         ),
-        "force-for-motion": lambda model, q, omega_z: (
-            _seen_from(model, q, "FR_foot").force_transform() @ _base_twist(omega_z)
-        ),
-        "joint-for-frame": lambda model, q, omega_z: (
-            _seen_from(model, q, "FR_calf_joint").motion_transform() @ _base_twist(omega_z)
-        ),
-        "pinocchio-velocity": lambda model, q, omega_z: (
-            _seen_from(model, q, "FR_foot").motion_transform() @ np.array([0, 0, 0, 0, 0, omega_z])
-        ),
-        "degrees": lambda model, q, omega_z: foot_twist(model, q, np.degrees(omega_z)),
+        "untransformed": faulty(foot_twist, ("foot_base.motion_transform() @ ", "")),
+        "coupling-dropped": after(foot_twist, lambda V: V * np.repeat([1, 0], 3)),
+        "coupling-sign": after(foot_twist, lambda V: V * np.repeat([1, -1], 3)),
+        "inverse-transform": faulty(foot_twist, ("foot_base.motion", "foot_base.inverse().motion")),
+        "force-for-motion": faulty(foot_twist, ("foot_base.motion", "foot_base.force")),
+        "joint-for-frame": faulty(foot_twist, ('q, "FR_foot"', 'q, "FR_calf_joint"')),
+        "pinocchio-velocity": faulty(foot_twist, ("[0, 0, omega_z, 0, 0, 0]", "[0, 0, 0, 0, 0, omega_z]")),
+        "degrees": before(foot_twist, np.degrees, which=2),
     },
     alike=(frozenset({"coupling-dropped", "force-for-motion"}),),  # X* maps (ω, 0) to (R ω, 0)
     residuals=(

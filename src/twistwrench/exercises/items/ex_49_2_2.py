@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import POSE
-from ..wrong import before, transposed
+from ..wrong import after, before, faulty, transposed
 
 __all__ = ["EXERCISE", "arc", "twist_matrix"]
 
@@ -25,17 +25,6 @@ def arc(omega_z: Any, v_x: Any) -> Any:
     return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1]])
 
 
-def _moved(omega_z: Any, v_x: Any, x: Any, y: Any) -> Any:
-    """Put other numbers in the place of the translation."""
-    T = arc(omega_z, v_x)
-    T[0, 3], T[1, 3] = x, y
-    return T
-
-
-def _exponential_of_blocks(omega_z: Any, v_x: Any) -> Any:
-    return np.exp(twist_matrix(omega_z, v_x))
-
-
 def _cases(rng: Any) -> Any:
     return [(float(rng.uniform(0.5, 2.5)), float(rng.uniform(0.5, 2.0))) for _ in range(4)]
 
@@ -45,9 +34,9 @@ MATRIX = Part(
     returns=(Quantity("[V]∧", POSE),),
     cases=_cases,
     slips={
-        "hat-one": lambda omega_z, v_x: twist_matrix(omega_z, v_x) + np.diag([0, 0, 0, 1]),
+        "hat-one": faulty(twist_matrix, ("[0, 0, 0, 0]]", "[0, 0, 0, 1]]")),
         "skew-sign": lambda omega_z, v_x: twist_matrix(-omega_z, v_x),
-        "skew-symmetric": lambda omega_z, v_x: np.abs(twist_matrix(omega_z, v_x)),
+        "skew-symmetric": after(twist_matrix, np.abs),
         "transposed-answer": transposed(twist_matrix),
         "swapped-halves": lambda omega_z, v_x: tw.hat([v_x, 0, 0, 0, 0, omega_z]),
     },
@@ -59,18 +48,14 @@ ARC = Part(
     returns=(Quantity("T", POSE),),
     cases=_cases,
     slips={
-        "first-order-exp": lambda omega_z, v_x: np.eye(4) + twist_matrix(omega_z, v_x),
-        "second-order-exp": lambda omega_z, v_x: (
-            np.eye(4) + twist_matrix(omega_z, v_x) + twist_matrix(omega_z, v_x) @ twist_matrix(omega_z, v_x) / 2
-        ),
-        "elementwise-exp": _exponential_of_blocks,
-        "exp-straight": lambda omega_z, v_x: _moved(omega_z, v_x, v_x, 0),
-        "exp-turned": lambda omega_z, v_x: _moved(omega_z, v_x, v_x * np.cos(omega_z), v_x * np.sin(omega_z)),
-        "exp-minus": lambda omega_z, v_x: _moved(omega_z, v_x, arc(omega_z, v_x)[0, 3], -arc(omega_z, v_x)[1, 3]),
-        "rotation-transposed": lambda omega_z, v_x: np.block(
-            [[arc(omega_z, v_x)[:3, :3].mT, arc(omega_z, v_x)[:3, 3:]], [np.eye(4)[3:]]]
-        ),
-        "inverse-transform": lambda omega_z, v_x: np.linalg.inv(arc(omega_z, v_x)),
+        "first-order-exp": lambda *V: np.eye(4) + twist_matrix(*V),
+        "second-order-exp": lambda *V: np.eye(4) + twist_matrix(*V) + twist_matrix(*V) @ twist_matrix(*V) / 2,
+        "elementwise-exp": lambda *V: np.exp(twist_matrix(*V)),
+        "exp-straight": faulty(arc, ("v_x * s / omega_z, v_x * (1 - c) / omega_z", "v_x, 0")),
+        "exp-turned": faulty(arc, ("v_x * s / omega_z, v_x * (1 - c) / omega_z", "v_x * c, v_x * s")),
+        "exp-minus": faulty(arc, ("(1 - c)", "(c - 1)")),
+        "rotation-transposed": faulty(arc, ("[c, -s, 0, x], [s, c, 0, y]", "[c, s, 0, x], [-s, c, 0, y]")),
+        "inverse-transform": after(arc, np.linalg.inv),
         "degrees": before(arc, np.radians, which=0),
     },
     residuals=(

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
-from ..wrong import swapped
+from ..wrong import before, faulty, swapped
 from .ex_49_0_1 import skew
 
 __all__ = ["EXERCISE", "translation_transforms"]
@@ -19,20 +19,6 @@ def translation_transforms(p: Any) -> Any:
     X_inverse = np.block([[one, zero], [-skew(p), one]])
     X_star = np.block([[one, skew(p)], [zero, one]])
     return X, X_inverse, X_star
-
-
-def _with(corner: Any, p: Any) -> Any:
-    """Put something else in the place of [p]×."""
-    X, X_inverse, X_star = translation_transforms(p)
-    X[3:, :3], X_inverse[3:, :3], X_star[:3, 3:] = corner, -corner, corner
-    return X, X_inverse, X_star
-
-
-def _replaced(p: Any, *, k: int, by: Any) -> Any:
-    """Make one of the three out of all three."""
-    answer = list(translation_transforms(p))
-    answer[k] = by(*answer)
-    return tuple(answer)
 
 
 EXERCISE = Exercise(
@@ -49,14 +35,23 @@ EXERCISE = Exercise(
             ),
             cases=lambda rng: [(rng.standard_normal(3),) for _ in range(5)],
             slips={
-                "coupling-dropped": lambda p: _with(np.zeros((3, 3)), p),
-                "coupling-sign": lambda p: _with(-skew(p), p),
-                "skew-sign": lambda p: _with(skew(p).mT, p),
-                "skew-symmetric": lambda p: _with(np.abs(skew(p)), p),
+                "coupling-dropped": before(translation_transforms, np.zeros_like, which=0),
+                "coupling-sign": before(translation_transforms, np.negative, which=0),
+                "skew-sign": before(translation_transforms, np.negative, which=0),
+                "skew-symmetric": faulty(
+                    translation_transforms,
+                    ("[skew(p)", "[np.abs(skew(p))"),
+                    ("[-skew(p)", "[-np.abs(skew(p))"),
+                    ("one, skew(p)", "one, np.abs(skew(p))"),
+                ),
                 "swapped-halves": swapped(translation_transforms),
-                "transpose-for-inverse": lambda p: _replaced(p, k=1, by=lambda X, X_inverse, X_star: X.mT),
-                "transpose-for-dual": lambda p: _replaced(p, k=2, by=lambda X, X_inverse, X_star: X.mT),
-                "motion-for-force": lambda p: _replaced(p, k=2, by=lambda X, X_inverse, X_star: X),
+                "transpose-for-inverse": faulty(translation_transforms, ("return X, X_inverse", "return X, X.mT")),
+                "transpose-for-dual": faulty(
+                    translation_transforms, ("return X, X_inverse, X_star", "return X, X_inverse, X.mT")
+                ),
+                "motion-for-force": faulty(
+                    translation_transforms, ("return X, X_inverse, X_star", "return X, X_inverse, X")
+                ),
             },
             alike=(frozenset({"coupling-sign", "skew-sign"}),),
             residuals=(

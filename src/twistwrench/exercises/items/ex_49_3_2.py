@@ -7,7 +7,7 @@ import numpy as np
 from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
-from ..wrong import before, swapped
+from ..wrong import before, faulty, swapped
 from .ex_49_0_1 import skew
 
 __all__ = ["EXERCISE", "plucker", "rotation_transform"]
@@ -27,16 +27,6 @@ def plucker(R: Any, p: Any) -> Any:
     return X, X_star
 
 
-def _with(coupling: Any, R: Any) -> Any:
-    """Put something else in the place of [p]× R."""
-    zero = np.zeros((3, 3))
-    return np.block([[R, zero], [coupling, R]]), np.block([[R, coupling], [zero, R]])
-
-
-def _inverse(R: Any, p: Any) -> Any:
-    return plucker(R.mT, -R.mT @ p)
-
-
 ROTATION = Part(
     solution=rotation_transform,
     returns=(Quantity("X", MOTION_TRANSFORM),),
@@ -52,13 +42,13 @@ BOTH = Part(
     returns=(Quantity("X", MOTION_TRANSFORM), Quantity("X*", FORCE_TRANSFORM)),
     cases=lambda rng: [(exp3(rng.standard_normal(3)), rng.standard_normal(3)) for _ in range(5)],
     slips={
-        "coupling-dropped": lambda R, p: _with(np.zeros((3, 3)), R),
-        "coupling-sign": lambda R, p: _with(-skew(p) @ R, R),
-        "coupling-order": lambda R, p: _with(R @ skew(p), R),
-        "coupling-unrotated": lambda R, p: _with(skew(p), R),
-        "skew-symmetric": lambda R, p: _with(np.abs(skew(p)) @ R, R),
+        "coupling-dropped": faulty(plucker, ("skew(p) @ R", "0 * R")),
+        "coupling-sign": faulty(plucker, ("skew(p) @ R", "-skew(p) @ R")),
+        "coupling-order": faulty(plucker, ("skew(p) @ R", "R @ skew(p)")),
+        "coupling-unrotated": faulty(plucker, ("skew(p) @ R", "skew(p)")),
+        "skew-symmetric": faulty(plucker, ("skew(p) @ R", "np.abs(skew(p)) @ R")),
         "rotation-transposed": lambda R, p: plucker(R.mT, p),
-        "inverse-transform": _inverse,
+        "inverse-transform": lambda R, p: plucker(R.mT, -R.mT @ p),
         "inverse-unrotated": lambda R, p: plucker(R.mT, -p),
         "swapped-halves": swapped(plucker),
         "transpose-for-dual": lambda R, p: (plucker(R, p)[0], plucker(R, p)[0].mT),

@@ -6,6 +6,7 @@ from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import MOTION_TRANSFORM
 from ..workbook import mine
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "chain_two_ways"]
 
@@ -26,15 +27,6 @@ def _cases(rng: Any) -> Any:
     return [(*placement(), *placement()) for _ in range(5)]
 
 
-def _by_placement(R: Any, p: Any, product: Any) -> Any:
-    return mine("plucker")(R, p)[0], product
-
-
-def _product_reversed(R_AB: Any, p_AB: Any, R_BC: Any, p_BC: Any) -> Any:
-    X = mine("plucker")
-    return chain_two_ways(R_AB, p_AB, R_BC, p_BC)[0], X(R_BC, p_BC)[0] @ X(R_AB, p_AB)[0]
-
-
 EXERCISE = Exercise(
     id="49.3.3",
     kind="prove",
@@ -48,13 +40,11 @@ EXERCISE = Exercise(
             ),
             cases=_cases,
             slips={
-                "composition-order": _product_reversed,
-                "translation-unrotated": lambda R_AB, p_AB, R_BC, p_BC: _by_placement(
-                    R_AB @ R_BC, p_AB + p_BC, chain_two_ways(R_AB, p_AB, R_BC, p_BC)[1]
+                "composition-order": faulty(
+                    chain_two_ways, ("X(R_AB, p_AB)[0] @ X(R_BC, p_BC)[0]", "X(R_BC, p_BC)[0] @ X(R_AB, p_AB)[0]")
                 ),
-                "rotation-transposed": lambda R_AB, p_AB, R_BC, p_BC: _by_placement(
-                    R_AB @ R_BC, p_AB + R_AB.mT @ p_BC, chain_two_ways(R_AB, p_AB, R_BC, p_BC)[1]
-                ),
+                "translation-unrotated": faulty(chain_two_ways, ("p_AB + R_AB @ p_BC", "p_AB + p_BC")),
+                "rotation-transposed": faulty(chain_two_ways, ("R_AB @ p_BC", "R_AB.mT @ p_BC")),
             },
             residuals=(lambda answer, R_AB, p_AB, R_BC, p_BC: answer[0] - answer[1],),
         ),

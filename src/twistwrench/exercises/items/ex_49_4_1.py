@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
 from ..robots import robot
-from ..wrong import as_column, negated, swapped, times
+from ..wrong import as_column, faulty, negated, swapped, times
 
 __all__ = ["EXERCISE", "foot_loads", "foot_wrench"]
 
@@ -30,20 +30,6 @@ def foot_wrench(model: Any, q: Any, foot: Any) -> Any:
 
 def _loads(mass: float, *, model: float = 16.085, g: float = 9.81, feet: int = 4) -> Any:
     return mass * g / feet, model * g / feet
-
-
-def _share(model: Any) -> Any:
-    return -sum(body.mass for body in model.inertia) * model.gravity / 4
-
-
-def _of_mass(model: Any, q: Any, foot: Any, mass: Any) -> Any:
-    """Give the robot another mass."""
-    return foot_wrench(model, q, foot) * mass / sum(body.mass for body in model.inertia)
-
-
-def _turned(model: Any, q: Any, foot: Any, how: Any) -> Any:
-    """Turn the force in another way."""
-    return np.concatenate([np.zeros(3), how(tw.frame_placement(model, q, foot).rotation) @ _share(model)])
 
 
 def _about(model: Any, q: Any, foot: Any, frame: str) -> Any:
@@ -86,16 +72,16 @@ OF_FOOT = Part(
     cases=_cases,
     slips={
         "swapped-halves": swapped(foot_wrench),
-        "aligned-for-local": lambda model, q, foot: _turned(model, q, foot, lambda R: np.eye(3)),
-        "rotation-forward": lambda model, q, foot: _turned(model, q, foot, lambda R: R),
+        "aligned-for-local": faulty(foot_wrench, ("R.mT @ upward", "upward")),
+        "rotation-forward": faulty(foot_wrench, ("R.mT", "R")),
         "wrench-about-world": lambda model, q, foot: _about(model, q, foot, ""),
         "joint-for-frame": lambda model, q, foot: _about(model, q, foot, foot[:2] + "_calf_joint"),
         "force-sign": negated(foot_wrench),
         "not-shared": times(foot_wrench, 4),
         "shared-by-two": times(foot_wrench, 2),
         "mass-for-weight": times(foot_wrench, 1 / 9.81),
-        "nominal-mass": lambda model, q, foot: _of_mass(model, q, foot, 12.0),
-        "one-link": lambda model, q, foot: _of_mass(model, q, foot, model.inertia[1].mass),
+        "nominal-mass": faulty(foot_wrench, ("-mass *", "-12 *")),
+        "one-link": faulty(foot_wrench, ("-mass *", "-model.inertia[1].mass *")),
         "g-ten": times(foot_wrench, 10 / 9.81),
         "g-rounded": times(foot_wrench, 9.8 / 9.81),
         "column-vector": as_column(foot_wrench),

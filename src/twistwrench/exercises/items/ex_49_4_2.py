@@ -9,7 +9,7 @@ import twistwrench as tw
 from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
-from ..wrong import swapped
+from ..wrong import faulty, swapped
 from .ex_49_3_2 import plucker
 
 __all__ = ["EXERCISE", "contact_wrench"]
@@ -22,16 +22,6 @@ def contact_wrench(R: Any, p: Any, f_c: Any) -> Any:
     _, X_star = plucker(R, p)
     by_matrix = X_star @ np.concatenate([np.zeros(3), f_c])
     return by_vectors, by_matrix
-
-
-def _vectors(moment: Any, force: Any, R: Any, p: Any, f_c: Any) -> Any:
-    """Put other vectors into the first answer."""
-    return np.concatenate([moment, force]), contact_wrench(R, p, f_c)[1]
-
-
-def _matrix(X: Any, R: Any, p: Any, f_c: Any) -> Any:
-    """Use another matrix for the second answer."""
-    return contact_wrench(R, p, f_c)[0], X @ np.concatenate([np.zeros(3), f_c])
 
 
 def _cases(rng: Any) -> Any:
@@ -50,15 +40,15 @@ WRENCH_OF_CONTACT = Part(
     returns=(Quantity("F by vectors", WRENCH), Quantity("F by X*", WRENCH)),
     cases=_cases,
     slips={
-        "coupling-dropped": lambda R, p, f_c: _vectors(np.zeros(3), R @ f_c, R, p, f_c),
-        "cross-order": lambda R, p, f_c: _vectors(np.cross(R @ f_c, p), R @ f_c, R, p, f_c),
-        "coupling-order": lambda R, p, f_c: _vectors(R @ np.cross(p, f_c), R @ f_c, R, p, f_c),
-        "coupling-unrotated": lambda R, p, f_c: _vectors(np.cross(p, f_c), R @ f_c, R, p, f_c),
+        "coupling-dropped": faulty(contact_wrench, ("np.cross(p, f)", "np.zeros(3)")),
+        "cross-order": faulty(contact_wrench, ("np.cross(p, f)", "np.cross(f, p)")),
+        "coupling-order": faulty(contact_wrench, ("np.cross(p, f)", "R @ np.cross(p, f_c)")),
+        "coupling-unrotated": faulty(contact_wrench, ("np.cross(p, f)", "np.cross(p, f_c)")),
         "rotation-transposed": lambda R, p, f_c: contact_wrench(R.mT, p, f_c),
         "untransformed": lambda R, p, f_c: (np.concatenate([np.zeros(3), f_c]),) * 2,
         "swapped-halves": swapped(contact_wrench),
-        "motion-for-force": lambda R, p, f_c: _matrix(plucker(R, p)[0], R, p, f_c),
-        "transpose-for-dual": lambda R, p, f_c: _matrix(plucker(R, p)[0].mT, R, p, f_c),
+        "motion-for-force": faulty(contact_wrench, ("_, X_star =", "X_star, _ =")),
+        "transpose-for-dual": faulty(contact_wrench, ("X_star @", "plucker(R, p)[0].mT @")),
         "inverse-transform": lambda R, p, f_c: contact_wrench(R.mT, -R.mT @ p, f_c),
         "inverse-unrotated": lambda R, p, f_c: contact_wrench(R.mT, -p, f_c),
     },

@@ -7,10 +7,10 @@ import numpy as np
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA
 from ..workbook import mine
-from ..wrong import before, swapped
+from ..wrong import before, faulty, swapped
 from .ex_49_0_1 import skew
 
-__all__ = ["EXERCISE", "link_inertia", "random_body", "spatial_inertia"]
+__all__ = ["EXERCISE", "WRONG", "link_inertia", "random_body", "spatial_inertia"]
 
 
 def spatial_inertia(m: Any, c: Any, I_c: Any) -> Any:
@@ -34,30 +34,15 @@ def random_body(rng: np.random.Generator) -> Any:
     return masses.sum(), c, sum(-m * C_i @ C_i for m, C_i in zip(masses, C))
 
 
-def _built(m: Any, c: Any, I_c: Any, *, top_left: Any = None, top_right: Any = None, bottom_left: Any = None) -> Any:
-    """Put other blocks into the matrix."""
-    I6 = spatial_inertia(m, c, I_c)
-    for index, block in (
-        (np.s_[:3, :3], top_left),
-        (np.s_[:3, 3:], top_right),
-        (np.s_[3:, :3], bottom_left),
-    ):
-        if block is not None:
-            I6[index] = block
-    return I6
-
-
 WRONG = {
-    "parallel-axis-sign": lambda m, c, I_c: _built(m, c, I_c, top_left=I_c + m * skew(c) @ skew(c)),
-    "parallel-axis-dropped": lambda m, c, I_c: _built(m, c, I_c, top_left=I_c),
-    "parallel-axis-all": lambda m, c, I_c: _built(m, c, I_c, top_left=I_c + m * (c @ c) * np.eye(3)),
-    "parallel-axis-outer": lambda m, c, I_c: _built(m, c, I_c, top_left=I_c + m * np.outer(c, c)),
-    "com-sign": lambda m, c, I_c: spatial_inertia(m, -c, I_c),
-    "com-dropped": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c),
-    "inertia-asymmetric": lambda m, c, I_c: _built(m, c, I_c, bottom_left=m * skew(c)),
-    "mass-dropped": lambda m, c, I_c: _built(
-        m, c, I_c, top_left=I_c - skew(c) @ skew(c), top_right=skew(c), bottom_left=-skew(c)
-    ),
+    "parallel-axis-sign": faulty(spatial_inertia, ("I_c - m", "I_c + m")),
+    "parallel-axis-dropped": faulty(spatial_inertia, (" - m * C @ C", "")),
+    "parallel-axis-all": faulty(spatial_inertia, ("- m * C @ C", "+ m * (c @ c) * np.eye(3)")),
+    "parallel-axis-outer": faulty(spatial_inertia, ("- m * C @ C", "+ m * np.outer(c, c)")),
+    "com-sign": faulty(spatial_inertia, ("skew(c)", "-skew(c)")),
+    "com-dropped": faulty(spatial_inertia, ("skew(c)", "0 * skew(c)")),
+    "inertia-asymmetric": faulty(spatial_inertia, ("[-m * C", "[m * C")),
+    "mass-dropped": faulty(spatial_inertia, ("m * C @ C, m * C], [-m * C", "C @ C, C], [-C")),
     "swapped-halves": swapped(spatial_inertia),
 }
 """The slips of the matrix, for any body."""

@@ -10,8 +10,8 @@ from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA
 from ..robots import robot
 from ..workbook import mine
-from ..wrong import swapped
-from .ex_49_5_1 import random_body, spatial_inertia
+from ..wrong import faulty, swapped
+from .ex_49_5_1 import WRONG, random_body, spatial_inertia
 
 __all__ = ["EXERCISE", "base_inertia", "chapter_order"]
 
@@ -40,38 +40,15 @@ LINK_BASE = (
 """Mass, centre of mass and inertia of the link `base` alone, as its URDF has them."""
 
 
-def _numbers(model: Any, body: int = 1) -> Any:
-    return model.inertia[body].mass, model.inertia[body].com, model.inertia[body].inertia_at_com
-
-
-def _changed(change: Any) -> Any:
-    """Change mass, centre of mass and inertia before the matrix is built."""
-
-    def wrong(model: Any) -> Any:
-        m, c, I_c = change(*_numbers(model))
-        return _numbers(model)[0], spatial_inertia(m, c, I_c)
-
-    return wrong
+def _numbers(model: Any) -> Any:
+    base = model.inertia[1]
+    return base.mass, base.com, base.inertia_at_com
 
 
 def _whole(model: Any) -> Any:
     """Return mass and inertia of the whole robot in its neutral posture, in the base's frame."""
     locked = tw.SpatialInertia.from_matrix(tw.crba(model, model.neutral())[:6, :6])
     return locked.mass, locked.matrix()
-
-
-def _inertia_at_origin(model: Any) -> Any:
-    m, c, I_c = _numbers(model)
-    I6 = spatial_inertia(m, c, I_c)
-    I6[:3, :3] = I_c
-    return m, I6
-
-
-def _parallel_axis_sign(model: Any) -> Any:
-    m, c, I_c = _numbers(model)
-    I6 = spatial_inertia(m, c, I_c)
-    I6[:3, :3] = 2 * I_c - I6[:3, :3]
-    return m, I6
 
 
 def _linear_first(rng: Any) -> Any:
@@ -103,14 +80,22 @@ OF_BASE = Part(
             (LINK_BASE[0], spatial_inertia(*LINK_BASE)) if model.name == "go2" else base_inertia(model)
         ),
         "whole-for-base": _whole,
-        "swapped-halves": lambda model: (_numbers(model)[0], swapped(spatial_inertia)(*_numbers(model))),
-        "com-dropped": _changed(lambda m, c, I_c: (m, 0 * c, I_c)),
-        "com-sign": _changed(lambda m, c, I_c: (m, -c, I_c)),
-        "mass-dropped": _changed(lambda m, c, I_c: (1.0, c, I_c)),
-        "products-dropped": _changed(lambda m, c, I_c: (m, c, np.diag(I_c.diagonal()))),
-        "products-sign": _changed(lambda m, c, I_c: (m, c, 2 * np.diag(I_c.diagonal()) - I_c)),
-        "inertia-at-origin": _inertia_at_origin,
-        "parallel-axis-sign": _parallel_axis_sign,
+        "swapped-halves": faulty(
+            base_inertia,
+            (
+                "build(base.mass, base.com, base.inertia_at_com)",
+                "swap(build(base.mass, base.com, base.inertia_at_com))",
+            ),
+        ),
+        "com-dropped": faulty(base_inertia, ("base.com", "0 * base.com")),
+        "com-sign": faulty(base_inertia, ("base.com", "-base.com")),
+        "mass-dropped": faulty(base_inertia, ("build(base.mass", "build(1.0")),
+        "products-dropped": faulty(base_inertia, ("base.inertia_at_com", "np.diag(base.inertia_at_com.diagonal())")),
+        "products-sign": faulty(
+            base_inertia, ("base.inertia_at_com", "2 * np.diag(base.inertia_at_com.diagonal()) - base.inertia_at_com")
+        ),
+        "inertia-at-origin": lambda model: (model.inertia[1].mass, WRONG["parallel-axis-dropped"](*_numbers(model))),
+        "parallel-axis-sign": lambda model: (model.inertia[1].mass, WRONG["parallel-axis-sign"](*_numbers(model))),
     },
     residuals=(lambda answer, model: answer[1] - model.inertia[1].matrix(),),
 )

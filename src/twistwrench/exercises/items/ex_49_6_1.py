@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, MASS_MATRIX
 from ..robots import robot, small_robot
-from ..wrong import after, swap, swapped
+from ..wrong import after, doubled, faulty, swapped
 
 __all__ = ["EXERCISE", "mass_matrix_by_rnea", "torques_two_ways"]
 
@@ -29,21 +29,6 @@ def mass_matrix_by_rnea(model: Any, q: Any) -> Any:
     return np.array(columns).mT
 
 
-def _second(model: Any, q: Any, v: Any, a: Any, tau: Any) -> Any:
-    """Put something else in the place of M a + h."""
-    return tw.rnea(model, q, v, a), tau
-
-
-def _sum(M: Any, model: Any, q: Any, v: Any, a: Any) -> Any:
-    """Use another matrix for M."""
-    return _second(model, q, v, a, M @ a + tw.nonlinear_effects(model, q, v))
-
-
-def _with(model: Any, q: Any, v: Any, a: Any, bias: Any) -> Any:
-    """Use something else for h."""
-    return _second(model, q, v, a, tw.crba(model, q) @ a + bias)
-
-
 def _motions(rng: Any) -> Any:
     def motion(model: Any) -> Any:
         return model, model.random_configuration(rng=rng), *rng.standard_normal((2, model.nv))
@@ -60,24 +45,16 @@ TWO_WAYS = Part(
     returns=(Quantity("τ by RNEA", JOINT_SPACE), Quantity("M a + h", JOINT_SPACE)),
     cases=_motions,
     slips={
-        "bias-for-zero": lambda model, q, v, a: _with(model, q, v, a, 0),
-        "bias-sign": lambda model, q, v, a: _with(model, q, v, a, -tw.nonlinear_effects(model, q, v)),
-        "velocity-terms-missing": lambda model, q, v, a: _with(model, q, v, a, tw.gravity(model, q)),
-        "gravity-missing": lambda model, q, v, a: _with(
-            model, q, v, a, tw.nonlinear_effects(model, q, v) - tw.gravity(model, q)
-        ),
-        "gravity-twice": lambda model, q, v, a: _with(
-            model, q, v, a, tw.nonlinear_effects(model, q, v) + tw.gravity(model, q)
-        ),
-        "acceleration-twice": lambda model, q, v, a: _with(model, q, v, a, tw.rnea(model, q, v, a)),
-        "velocity-for-acceleration": lambda model, q, v, a: _second(
-            model, q, v, a, tw.crba(model, q) @ v + tw.nonlinear_effects(model, q, v)
-        ),
-        "one-triangle": lambda model, q, v, a: _sum(np.triu(tw.crba(model, q)), model, q, v, a),
-        "doubled-off-diagonal": lambda model, q, v, a: _sum(
-            2 * tw.crba(model, q) - np.diag(tw.crba(model, q).diagonal()), model, q, v, a
-        ),
-        "orders-mixed": lambda model, q, v, a: _sum(swap(tw.crba(model, q)), model, q, v, a),
+        "bias-for-zero": faulty(torques_two_ways, ("@ a + h", "@ a")),
+        "bias-sign": faulty(torques_two_ways, ("@ a + h", "@ a - h")),
+        "velocity-terms-missing": faulty(torques_two_ways, ("@ a + h", "@ a + tw.gravity(model, q)")),
+        "gravity-missing": faulty(torques_two_ways, ("@ a + h", "@ a + h - tw.gravity(model, q)")),
+        "gravity-twice": faulty(torques_two_ways, ("@ a + h", "@ a + h + tw.gravity(model, q)")),
+        "acceleration-twice": faulty(torques_two_ways, ("@ a + h", "@ a + tw.rnea(model, q, v, a)")),
+        "velocity-for-acceleration": faulty(torques_two_ways, ("M @ a", "M @ v")),
+        "one-triangle": faulty(torques_two_ways, ("= tw.crba(model, q)", "= np.triu(tw.crba(model, q))")),
+        "doubled-off-diagonal": faulty(torques_two_ways, ("= tw.crba(model, q)", "= doubled(tw.crba(model, q))")),
+        "orders-mixed": faulty(torques_two_ways, ("= tw.crba(model, q)", "= swap(tw.crba(model, q))")),
         "swapped-halves": swapped(torques_two_ways),
         "base-missing": after(torques_two_ways, lambda tau: tau[6:]),
     },
@@ -92,13 +69,11 @@ COLUMNS = Part(
     returns=(Quantity("M", MASS_MATRIX),),
     cases=_postures,
     slips={
-        "gravity-left-in": lambda model, q: mass_matrix_by_rnea(model, q) + tw.gravity(model, q)[:, None],
+        "gravity-left-in": faulty(mass_matrix_by_rnea, (" - gravity", "")),
         "swapped-halves": swapped(mass_matrix_by_rnea),
-        "base-missing": lambda model, q: mass_matrix_by_rnea(model, q)[6:, 6:],
+        "base-missing": after(mass_matrix_by_rnea, lambda M: M[6:, 6:]),
         "one-triangle": after(mass_matrix_by_rnea, np.triu),
-        "doubled-off-diagonal": lambda model, q: (
-            2 * mass_matrix_by_rnea(model, q) - np.diag(mass_matrix_by_rnea(model, q).diagonal())
-        ),
+        "doubled-off-diagonal": after(mass_matrix_by_rnea, doubled),
     },
     residuals=(
         lambda answer, model, q: answer - answer.mT,

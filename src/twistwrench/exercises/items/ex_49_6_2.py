@@ -10,7 +10,7 @@ from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import robot, small_robot, weightless
 from ..workbook import mine
-from ..wrong import negated, swap, swapped
+from ..wrong import faulty, negated, swapped
 
 __all__ = ["EXERCISE", "gravity_two_ways", "weight_wrenches"]
 
@@ -32,25 +32,6 @@ def gravity_two_ways(model: Any, weightless: Any, q: Any, v: Any, a: Any) -> Any
     return tw.rnea(model, q, v, a), tw.rnea(weightless, q, v, a, f_ext=W(model, q))
 
 
-def _weights(model: Any, q: Any, wrench: Any) -> Any:
-    """Make the row of each body out of mass, centre of mass, R and g."""
-    placement = tw.forward_kinematics(model, q).placement
-    rows = [wrench(body.mass, body.com, T.rotation, model.gravity) for body, T in zip(model.inertia[1:], placement[1:])]
-    return np.array([np.zeros(6), *(np.concatenate(row) for row in rows)])
-
-
-def _about_world(model: Any, q: Any) -> Any:
-    """Take each wrench to the world frame."""
-    placement = tw.forward_kinematics(model, q).placement
-    return np.array([T.force_transform() @ F for T, F in zip(placement, weight_wrenches(model, q))])
-
-
-def _without_base(model: Any, q: Any) -> Any:
-    W = weight_wrenches(model, q)
-    W[1] = 0
-    return W
-
-
 def _postures(rng: Any) -> Any:
     return [(model, model.random_configuration(rng=rng)) for model in (robot("go2"), small_robot(rng))]
 
@@ -62,32 +43,25 @@ def _motions(rng: Any) -> Any:
     ]
 
 
-def _second(f_ext: Any) -> Any:
-    """Use other outside wrenches in the second way."""
-
-    def wrong(model: Any, weightless: Any, q: Any, v: Any, a: Any) -> Any:
-        return tw.rnea(model, q, v, a), tw.rnea(weightless, q, v, a, f_ext=f_ext(model, q))
-
-    return wrong
-
-
 WEIGHTS = Part(
     solution=weight_wrenches,
     returns=(Quantity("W", WRENCH),),
     cases=_postures,
     slips={
-        "moment-dropped": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.zeros(3), m * R.mT @ g)),
-        "untransformed": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(c, m * g), m * g)),
-        "aligned-for-local": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(R @ c, m * g), m * g)),
-        "rotation-forward": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(c, m * R @ g), m * R @ g)),
-        "cross-order": lambda model, q: _weights(
-            model, q, lambda m, c, R, g: (np.cross(m * R.mT @ g, c), m * R.mT @ g)
+        "moment-dropped": faulty(weight_wrenches, ("np.cross(body.com, force)", "np.zeros(3)")),
+        "untransformed": faulty(weight_wrenches, ("placement[i].rotation.mT @ ", "")),
+        "aligned-for-local": faulty(
+            weight_wrenches, ("placement[i].rotation.mT @ ", ""), ("np.cross(", "np.cross(placement[i].rotation @ ")
         ),
-        "mass-dropped": lambda model, q: _weights(model, q, lambda m, c, R, g: (np.cross(c, R.mT @ g), R.mT @ g)),
-        "wrench-about-world": _about_world,
+        "rotation-forward": faulty(weight_wrenches, ("rotation.mT", "rotation")),
+        "cross-order": faulty(weight_wrenches, ("body.com, force", "force, body.com")),
+        "mass-dropped": faulty(weight_wrenches, ("body.mass * ", "")),
+        "wrench-about-world": faulty(weight_wrenches, ("W[i] = np", "W[i] = placement[i].force_transform() @ np")),
         "weight-upward": negated(weight_wrenches),
-        "swapped-halves": lambda model, q: np.array([swap(F) for F in weight_wrenches(model, q)]),
-        "base-weightless": _without_base,
+        "swapped-halves": faulty(
+            weight_wrenches, ("np.cross(body.com, force), force", "force, np.cross(body.com, force)")
+        ),
+        "base-weightless": faulty(weight_wrenches, ("range(1,", "range(2,")),
     },
     residuals=(
         lambda answer, model, q: [F[:3] - np.cross(body.com, F[3:]) for body, F in zip(model.inertia, answer)],
@@ -104,10 +78,12 @@ TWO_WAYS = Part(
     returns=(Quantity("τ with a₀ = −g", JOINT_SPACE), Quantity("τ with weights", JOINT_SPACE)),
     cases=_motions,
     slips={
-        "gravity-missing": _second(lambda model, q: np.zeros((model.nbodies, 6))),
-        "external-sign": _second(lambda model, q: -weight_wrenches(model, q)),
+        "gravity-missing": faulty(gravity_two_ways, (", f_ext=W(model, q)", "")),
+        "external-sign": faulty(gravity_two_ways, ("f_ext=W", "f_ext=-W")),
         "gravity-twice": lambda model, weightless, q, v, a: gravity_two_ways(model, model, q, v, a),
-        "base-weightless": _second(_without_base),
+        "base-weightless": faulty(
+            gravity_two_ways, ("W(model, q)", "W(model, q) * (np.arange(model.nbodies) != 1)[:, None]")
+        ),
         "swapped-halves": swapped(gravity_two_ways),
     },
     residuals=(lambda answer, model, weightless, q, v, a: answer[0] - answer[1],),

@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
 from ..robots import robot, small_robot
-from ..wrong import as_column, negated, swapped, times
+from ..wrong import as_column, faulty, negated, swapped, times
 
 __all__ = ["EXERCISE", "base_wrench_at_rest", "go2_base_wrench"]
 
@@ -30,21 +30,9 @@ def go2_base_wrench() -> Any:
     return tw.rnea(model, model.neutral(), rest, rest)[:6]
 
 
-def _parts(model: Any, q: Any) -> Any:
-    """Return R and p of the base, the centre of mass and the force that holds the robot, in the world."""
-    base, mass = tw.forward_kinematics(model, q).placement[1], sum(body.mass for body in model.inertia)
-    return base.rotation, base.translation, tw.center_of_mass(model, q), -mass * model.gravity
-
-
-def _wrench(moment_and_force: Any) -> Any:
-    """Make the wrench in another way, of R, p, c and the force."""
-    return lambda model, q: np.concatenate(moment_and_force(*_parts(model, q)))
-
-
 def _of_base(model: Any, q: Any) -> Any:
     """Return what holds the base alone, without the legs."""
-    R, _, _, _ = _parts(model, q)
-    force = -model.inertia[1].mass * R.mT @ model.gravity
+    force = -model.inertia[1].mass * tw.forward_kinematics(model, q).placement[1].rotation.mT @ model.gravity
     return np.concatenate([np.cross(model.inertia[1].com, force), force])
 
 
@@ -58,15 +46,26 @@ BY_HAND = Part(
     returns=(Quantity("F", WRENCH),),
     cases=_cases,
     slips={
-        "as-printed": _wrench(lambda R, p, c, f: (0 * f, -R.mT @ f)),
+        "as-printed": faulty(base_wrench_at_rest, ("np.cross(lever, force), force", "np.zeros(3), -force")),
         "base-wrench-sign": negated(base_wrench_at_rest),
-        "moment-dropped": _wrench(lambda R, p, c, f: (0 * f, R.mT @ f)),
-        "lever-from-world": _wrench(lambda R, p, c, f: (R.mT @ np.cross(c, f), R.mT @ f)),
-        "lever-unrotated": _wrench(lambda R, p, c, f: (np.cross(c - p, R.mT @ f), R.mT @ f)),
-        "aligned-for-local": _wrench(lambda R, p, c, f: (np.cross(c - p, f), f)),
-        "wrench-about-world": _wrench(lambda R, p, c, f: (np.cross(c, f), f)),
-        "rotation-forward": _wrench(lambda R, p, c, f: (R @ np.cross(c - p, f), R @ f)),
-        "cross-order": _wrench(lambda R, p, c, f: (-R.mT @ np.cross(c - p, f), R.mT @ f)),
+        "moment-dropped": faulty(base_wrench_at_rest, ("np.cross(lever, force)", "np.zeros(3)")),
+        "lever-from-world": faulty(base_wrench_at_rest, (" - base.translation", "")),
+        "lever-unrotated": faulty(base_wrench_at_rest, ("base.rotation.mT @ (", "(")),
+        "aligned-for-local": faulty(
+            base_wrench_at_rest, ("base.rotation.mT @ (", "("), ("base.rotation.mT @ model", "model")
+        ),
+        "wrench-about-world": faulty(
+            base_wrench_at_rest,
+            ("base.rotation.mT @ (", ""),
+            (" - base.translation)", ""),
+            ("base.rotation.mT @ model", "model"),
+        ),
+        "rotation-forward": faulty(
+            base_wrench_at_rest,
+            ("base.rotation.mT @ (", "base.rotation @ ("),
+            ("base.rotation.mT @ model", "base.rotation @ model"),
+        ),
+        "cross-order": faulty(base_wrench_at_rest, ("lever, force", "force, lever")),
         "one-link": _of_base,
         "base-weightless": lambda model, q: base_wrench_at_rest(model, q) - _of_base(model, q),
         "mass-for-weight": times(base_wrench_at_rest, 1 / 9.81),

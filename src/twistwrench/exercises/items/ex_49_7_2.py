@@ -8,10 +8,10 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
-from ..robots import robot, small_robot
-from ..stopwatch import Machine, Task
+from ..robots import held_acceleration, robot, small_robot
+from ..stopwatch import Machine, Task, seconds, timed
 from ..text import Text
-from ..wrong import swap, swapped
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "forward_dynamics_two_ways", "measured_ratio", "time_ratio"]
 
@@ -40,61 +40,19 @@ def measured_ratio() -> Any:
     return 1.1
 
 
-# ---------------------------------------------------------------- wrong ways to compute
-
-
-def _solved(change: Any) -> Any:
-    """Change M and τ − h before the system is solved."""
-
-    def wrong(model: Any, q: Any, v: Any, tau: Any) -> Any:
-        M, h, g = tw.crba(model, q), tw.nonlinear_effects(model, q, v), tw.gravity(model, q)
-        M, force = change(M, tau, h, g)
-        return tw.aba(model, q, v, tau), np.linalg.solve(M, force)
-
-    return wrong
-
-
-def _held(model: Any, q: Any, v: Any, tau: Any) -> Any:
-    """Solve the joints' block alone."""
-    force = (tau - tw.nonlinear_effects(model, q, v))[6:]
-    held = np.concatenate([np.zeros(6), np.linalg.solve(tw.crba(model, q)[6:, 6:], force)])
-    return tw.aba(model, q, v, tau), held
-
-
-def _product(model: Any, q: Any, v: Any, tau: Any) -> Any:
-    return tw.aba(model, q, v, tau), tw.crba(model, q) @ (tau - tw.nonlinear_effects(model, q, v))
-
-
 # ---------------------------------------------------------------- wrong ways to measure
-
-
-def _seconds(function: Any, calls: Any, clock: Any) -> Any:
-    """Time each of many calls of one function."""
-    times = []
-    for _ in range(calls):
-        start = clock()
-        function()
-        times.append(clock() - start)
-    return times
 
 
 def _in_blocks(of_times: Any) -> Any:
     """Measure one function after the other."""
     return lambda first, second, calls, clock: np.divide(
-        *[of_times(_seconds(function, calls, clock)) for function in (first, second)][::-1]
+        *[of_times(seconds(function, calls, clock)) for function in (first, second)][::-1]
     )
 
 
 def _mean_in_turn(first: Any, second: Any, calls: Any, clock: Any) -> Any:
-    times = [(_seconds(first, 1, clock)[0], _seconds(second, 1, clock)[0]) for _ in range(calls)]
+    times = [(seconds(first, 1, clock)[0], seconds(second, 1, clock)[0]) for _ in range(calls)]
     return np.mean([b for _, b in times]) / np.mean([a for a, _ in times])
-
-
-def _timed(function: Any, first: Any, second: Any, calls: Any, clock: Any) -> Any:
-    """Reset a machine, and return nan for a measurement that has not read its clock."""
-    clock.reset()
-    answer = function(first, second, calls, clock)
-    return answer if answer is ... or clock.readings else np.nan
 
 
 def _verdict(answer: Any, right: float) -> float:
@@ -136,16 +94,18 @@ TWO_WAYS = Part(
         for model in (robot("go2"), small_robot(rng))
     ],
     slips={
-        "bias-for-zero": _solved(lambda M, tau, h, g: (M, tau)),
-        "bias-sign": _solved(lambda M, tau, h, g: (M, tau + h)),
-        "velocity-terms-missing": _solved(lambda M, tau, h, g: (M, tau - g)),
-        "gravity-missing": _solved(lambda M, tau, h, g: (M, tau - h + g)),
-        "gravity-twice": _solved(lambda M, tau, h, g: (M, tau - h - g)),
-        "one-triangle": _solved(lambda M, tau, h, g: (np.triu(M), tau - h)),
-        "doubled-off-diagonal": _solved(lambda M, tau, h, g: (2 * M - np.diag(M.diagonal()), tau - h)),
-        "orders-mixed": _solved(lambda M, tau, h, g: (swap(M), tau - h)),
-        "inverse-missing": _product,
-        "base-held": _held,
+        "bias-for-zero": faulty(forward_dynamics_two_ways, ("tau - h", "tau")),
+        "bias-sign": faulty(forward_dynamics_two_ways, ("tau - h", "tau + h")),
+        "velocity-terms-missing": faulty(forward_dynamics_two_ways, ("tau - h", "tau - tw.gravity(model, q)")),
+        "gravity-missing": faulty(forward_dynamics_two_ways, ("tau - h", "tau - h + tw.gravity(model, q)")),
+        "gravity-twice": faulty(forward_dynamics_two_ways, ("tau - h", "tau - h - tw.gravity(model, q)")),
+        "one-triangle": faulty(forward_dynamics_two_ways, ("tw.crba(model, q)", "np.triu(tw.crba(model, q))")),
+        "doubled-off-diagonal": faulty(forward_dynamics_two_ways, ("tw.crba(model, q)", "doubled(tw.crba(model, q))")),
+        "orders-mixed": faulty(forward_dynamics_two_ways, ("tw.crba(model, q)", "swap(tw.crba(model, q))")),
+        "inverse-missing": faulty(
+            forward_dynamics_two_ways, ("np.linalg.solve(tw.crba(model, q), tau - h)", "tw.crba(model, q) @ (tau - h)")
+        ),
+        "base-held": lambda *state: (tw.aba(*state), held_acceleration(*state)),
         "swapped-halves": swapped(forward_dynamics_two_ways),
     },
     residuals=(lambda answer, model, q, v, tau: tw.rnea(model, q, v, answer[1]) - tau,),
@@ -155,7 +115,7 @@ RATIO = Part(
     solution=time_ratio,
     returns=(Quantity("ratio"),),
     cases=_machines,
-    call=_timed,
+    call=timed,
     canonical=lambda answer, first, second, calls, clock: _verdict(answer, second.seconds / first.seconds),
     slips={
         "ratio-inverted": lambda first, second, calls, clock: 1 / time_ratio(first, second, calls, clock),
@@ -163,7 +123,7 @@ RATIO = Part(
         "blocks-in-turn": _in_blocks(np.median),
         "mean-of-times": _mean_in_turn,
         "mean-of-blocks": _in_blocks(np.mean),
-        "time-for-ratio": lambda first, second, calls, clock: np.median(_seconds(second, calls, clock)),
+        "time-for-ratio": lambda first, second, calls, clock: np.median(seconds(second, calls, clock)),
         "other-clock": lambda first, second, calls, clock: 1.0,
     },
 )

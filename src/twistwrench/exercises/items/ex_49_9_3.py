@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import robot
-from ..wrong import swapped
+from ..wrong import before, doubled, faulty, swapped
 
 __all__ = ["EXERCISE", "base_rows", "complete_motion"]
 
@@ -41,52 +41,19 @@ def _joints_only(rng: Any) -> Any:
     return [(M, h, J_c, qdd[6:], forces) for M, h, J_c, qdd, forces in _cases(rng)]
 
 
-def _uncoupled(M: Any) -> Any:
-    """Return M without what couples base and joints."""
-    M = M.copy()
-    M[:6, 6:], M[6:, :6] = 0, 0
-    return M
-
-
-def _held(M: Any, h: Any, J_c: Any, qdd_joints: Any, forces: Any) -> Any:
-    """Keep the base from accelerating."""
-    qdd = np.concatenate([np.zeros(6), qdd_joints])
-    return qdd, (M @ qdd + h - J_c.mT @ forces)[6:]
-
-
-def _rowless(M: Any, h: Any, J_c: Any, qdd_joints: Any, forces: Any) -> Any:
-    """Leave the base's acceleration out of the joint rows."""
-    qdd, _ = complete_motion(M, h, J_c, qdd_joints, forces)
-    return qdd, M[6:, 6:] @ qdd_joints + h[6:] - J_c[:, 6:].mT @ forces
-
-
-def _uncoupled_above(M: Any, h: Any, J_c: Any, qdd_joints: Any, forces: Any) -> Any:
-    """Leave the joints' acceleration out of the base's rows."""
-    qdd = np.concatenate([np.linalg.solve(M[:6, :6], J_c[:, :6].mT @ forces - h[:6]), qdd_joints])
-    return qdd, (M @ qdd + h - J_c.mT @ forces)[6:]
-
-
-def _forceless(M: Any, h: Any, J_c: Any, qdd_joints: Any, forces: Any) -> Any:
-    """Leave the contact forces out of the torques."""
-    qdd, tau = complete_motion(M, h, J_c, qdd_joints, forces)
-    return qdd, tau + J_c[:, 6:].mT @ forces
-
-
 ROWS = Part(
     solution=base_rows,
     returns=(Quantity("M_b q̈ + h_b − J_cbᵀλ", WRENCH),),
     cases=_cases,
     slips={
-        "joints-missing": lambda M, h, J_c, qdd, forces: base_rows(_uncoupled(M), h, J_c, qdd, forces),
-        "bias-for-zero": lambda M, h, J_c, qdd, forces: base_rows(M, 0 * h, J_c, qdd, forces),
-        "bias-sign": lambda M, h, J_c, qdd, forces: base_rows(M, -h, J_c, qdd, forces),
-        "contact-missing": lambda M, h, J_c, qdd, forces: base_rows(M, h, J_c, qdd, 0 * forces),
-        "external-sign": lambda M, h, J_c, qdd, forces: base_rows(M, h, J_c, qdd, -forces),
+        "joints-missing": faulty(base_rows, ("M[:6] @ qdd", "M[:6, :6] @ qdd[:6]")),
+        "bias-for-zero": faulty(base_rows, (" + h[:6]", "")),
+        "bias-sign": faulty(base_rows, ("+ h[:6]", "- h[:6]")),
+        "contact-missing": faulty(base_rows, (" - J_c[:, :6].mT @ forces", "")),
+        "external-sign": faulty(base_rows, ("- J_c", "+ J_c")),
         "base-missing": lambda M, h, J_c, qdd, forces: (M @ qdd + h - J_c.mT @ forces)[6:],
-        "one-triangle": lambda M, h, J_c, qdd, forces: base_rows(np.tril(M), h, J_c, qdd, forces),
-        "doubled-off-diagonal": lambda M, h, J_c, qdd, forces: base_rows(
-            2 * M - np.diag(np.diag(M)), h, J_c, qdd, forces
-        ),
+        "one-triangle": before(base_rows, np.tril, which=0),
+        "doubled-off-diagonal": before(base_rows, doubled, which=0),
         "swapped-halves": swapped(base_rows),
     },
 )
@@ -96,17 +63,15 @@ COMPLETE = Part(
     returns=(Quantity("q̈", JOINT_SPACE), Quantity("τ", unit="N m")),
     cases=_joints_only,
     slips={
-        "joints-missing": _uncoupled_above,
-        "base-acceleration-missing": _rowless,
-        "base-held": _held,
-        "contact-missing": _forceless,
-        "bias-for-zero": lambda M, h, J_c, qdd_joints, forces: complete_motion(M, 0 * h, J_c, qdd_joints, forces),
-        "bias-sign": lambda M, h, J_c, qdd_joints, forces: complete_motion(M, -h, J_c, qdd_joints, forces),
-        "external-sign": lambda M, h, J_c, qdd_joints, forces: complete_motion(M, h, J_c, qdd_joints, -forces),
-        "one-triangle": lambda M, h, J_c, qdd_joints, forces: complete_motion(np.triu(M), h, J_c, qdd_joints, forces),
-        "doubled-off-diagonal": lambda M, h, J_c, qdd_joints, forces: complete_motion(
-            2 * M - np.diag(np.diag(M)), h, J_c, qdd_joints, forces
-        ),
+        "joints-missing": faulty(complete_motion, (" - M[:6, 6:] @ qdd_joints", "")),
+        "base-acceleration-missing": faulty(complete_motion, ("M[6:] @ qdd +", "M[6:, 6:] @ qdd_joints +")),
+        "base-held": faulty(complete_motion, ("np.linalg.solve(M[:6, :6], given)", "np.zeros(6)")),
+        "contact-missing": faulty(complete_motion, (" - J_c[:, 6:].mT @ forces", "")),
+        "bias-for-zero": before(complete_motion, lambda h: 0 * h, which=1),
+        "bias-sign": before(complete_motion, lambda h: -h, which=1),
+        "external-sign": before(complete_motion, lambda forces: -forces, which=4),
+        "one-triangle": before(complete_motion, np.triu, which=0),
+        "doubled-off-diagonal": before(complete_motion, doubled, which=0),
     },
     residuals=(
         lambda answer, M, h, J_c, qdd_joints, forces: (

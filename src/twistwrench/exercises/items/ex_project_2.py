@@ -9,6 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import robot, small_robot
+from ..wrong import before, doubled, faulty
 from .project_aba import ABA
 from .project_crba import CRBA
 from .project_rnea import ENERGY, RNEA
@@ -51,17 +52,6 @@ def _equations(rng: Any) -> Any:
 
 BASE = np.arange(18) < 6
 
-
-def _force(change: Any) -> Any:
-    """Solve for another sum of Sᵀτ, J_cᵀλ and h."""
-    return lambda M, h, S, J_c, tau, forces: np.linalg.solve(M, change(S.mT @ tau, J_c.mT @ forces, h))
-
-
-def _matrix(change: Any) -> Any:
-    """Solve with another matrix."""
-    return lambda M, *rest: accelerated(change(M), *rest)
-
-
 FOOT = Part(
     solution=rows_of_foot,
     returns=(Quantity("rows of J_c"),),
@@ -81,15 +71,15 @@ EQUATION = Part(
     returns=(Quantity("q̈", JOINT_SPACE),),
     cases=_equations,
     slips={
-        "contact-missing": _force(lambda motors, feet, h: motors - h),
-        "force-sign": _force(lambda motors, feet, h: motors - feet - h),
-        "torques-missing": _force(lambda motors, feet, h: feet - h),
-        "bias-for-zero": _force(lambda motors, feet, h: motors + feet),
-        "bias-sign": _force(lambda motors, feet, h: motors + feet + h),
-        "selection-first": _force(lambda motors, feet, h: np.roll(motors, -6) + feet - h),
-        "joints-missing": _matrix(lambda M: M * (BASE[:, None] == BASE)),
-        "one-triangle": _matrix(np.triu),
-        "doubled-off-diagonal": _matrix(lambda M: 2 * M - np.diag(np.diag(M))),
+        "contact-missing": faulty(accelerated, (" + J_c.mT @ forces", "")),
+        "force-sign": faulty(accelerated, ("+ J_c", "- J_c")),
+        "torques-missing": faulty(accelerated, ("S.mT @ tau + ", "")),
+        "bias-for-zero": faulty(accelerated, (" - h", "")),
+        "bias-sign": faulty(accelerated, ("- h", "+ h")),
+        "selection-first": faulty(accelerated, ("S.mT @ tau", "np.roll(S.mT @ tau, -6)")),
+        "joints-missing": before(accelerated, lambda M: M * (BASE[:, None] == BASE), which=0),
+        "one-triangle": before(accelerated, np.triu, which=0),
+        "doubled-off-diagonal": before(accelerated, doubled, which=0),
     },
     residuals=(lambda answer, M, h, S, J_c, tau, forces: M @ answer + h - S.mT @ tau - J_c.mT @ forces,),
 )

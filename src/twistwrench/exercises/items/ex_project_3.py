@@ -10,7 +10,7 @@ from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, CONTACT_JACOBIAN, JOINT_SPACE, MASS_MATRIX, MOMENTUM, WRENCH
 from ..robots import robot, small_robot
 from ..workbook import mine
-from ..wrong import after, swap
+from ..wrong import after, faulty, swap
 from .project_momentum import MAP, RATE
 
 __all__ = ["EXERCISE", "get_dynamics", "rate_and_wrench"]
@@ -33,52 +33,6 @@ def get_dynamics(model: Any, q: Any, v: Any, feet: Any) -> Any:
     return M, h, J_c, tw.centroidal_map(model, q)
 
 
-def _accelerated(model: Any, q: Any, v: Any, tau: Any, forces: Any, h: Any = None) -> Any:
-    h = tw.nonlinear_effects(model, q, v) if h is None else h
-    given = np.concatenate([np.zeros(6), tau]) + tw.contact_jacobian(model, q, model.feet).mT @ forces.ravel() - h
-    return np.linalg.solve(tw.crba(model, q), given)
-
-
-def _wrench(model: Any, q: Any, forces: Any, point: Any = None, weight: float = 1.0) -> Any:
-    point = tw.center_of_mass(model, q) if point is None else point
-    feet = np.array([tw.frame_placement(model, q, foot).translation for foot in model.feet])
-    moment = np.cross(feet - point, forces).sum(0)
-    return np.concatenate([moment, forces.sum(0) + weight * model.mass * model.gravity])
-
-
-def _rate(change: Any) -> Any:
-    """Find the rate otherwise, and the wrench as it is."""
-    return lambda model, q, v, tau, forces: (change(model, q, v, tau, forces), _wrench(model, q, forces))
-
-
-def _law(change: Any) -> Any:
-    """Find the wrench otherwise, and the rate as it is."""
-
-    def wrong(model: Any, q: Any, v: Any, tau: Any, forces: Any) -> Any:
-        rate = tw.centroidal_momentum_rate(model, q, v, _accelerated(model, q, v, tau, forces))
-        return rate, change(model, q, forces)
-
-    return wrong
-
-
-def _of(acceleration: Any) -> Any:
-    """Find the rate from another acceleration."""
-    return _rate(
-        lambda model, q, v, tau, forces: tw.centroidal_momentum_rate(
-            model, q, v, acceleration(model, q, v, tau, forces)
-        )
-    )
-
-
-def _uncarried(model: Any, q: Any, v: Any, tau: Any, forces: Any) -> Any:
-    return tw.centroidal_map(model, q) @ _accelerated(model, q, v, tau, forces)
-
-
-def _weighed(model: Any, q: Any, v: Any, tau: Any, forces: Any) -> Any:
-    rate = tw.centroidal_momentum_rate(model, q, v, _accelerated(model, q, v, tau, forces))
-    return rate - np.concatenate([np.zeros(3), model.mass * model.gravity])
-
-
 def _falls(rng: Any) -> Any:
     model = robot("go2")
     return [
@@ -96,59 +50,29 @@ LAW = Part(
     returns=(Quantity("ḣ_G", MOMENTUM), Quantity("wrench from outside", WRENCH)),
     cases=lambda rng: [(model, q, v, tau, forces.reshape(4, 3)) for model, q, v, tau, forces in _falls(rng)],
     slips={
-        "contact-missing": _of(lambda model, q, v, tau, forces: _accelerated(model, q, v, tau, 0 * forces)),
-        "force-sign": _of(lambda model, q, v, tau, forces: _accelerated(model, q, v, tau, -forces)),
-        "bias-for-zero": _of(lambda model, q, v, tau, forces: _accelerated(model, q, v, tau, forces, np.zeros(18))),
-        "velocity-terms-missing": _of(
-            lambda model, q, v, tau, forces: _accelerated(model, q, v, tau, forces, tw.gravity(model, q))
+        "contact-missing": faulty(rate_and_wrench, ("tau, forces.ravel()", "tau, 0 * forces.ravel()")),
+        "force-sign": faulty(rate_and_wrench, ("tau, forces.ravel()", "tau, -forces.ravel()")),
+        "bias-for-zero": faulty(rate_and_wrench, ("acceleration(M, h", "acceleration(M, 0 * h")),
+        "velocity-terms-missing": faulty(
+            rate_and_wrench, ("tw.nonlinear_effects(model, q, v)", "tw.gravity(model, q)")
         ),
-        "rate-bias-missing": _rate(_uncarried),
-        "gravity-in-rate": _rate(_weighed),
-        "gravity-missing": _law(lambda model, q, forces: _wrench(model, q, forces, weight=0)),
-        "weight-upward": _law(lambda model, q, forces: _wrench(model, q, forces, weight=-1)),
-        "moment-about-origin": _law(lambda model, q, forces: _wrench(model, q, forces, np.zeros(3))),
-        "base-for-com": _law(lambda model, q, forces: _wrench(model, q, forces, q[:3])),
-        "lever-reversed": _law(lambda model, q, forces: _wrench(model, q, forces) * np.repeat([-1, 1], 3)),
+        "rate-bias-missing": faulty(rate_and_wrench, ("rate(model, q, v, a)", "tw.centroidal_map(model, q) @ a")),
+        "gravity-in-rate": faulty(
+            rate_and_wrench,
+            (
+                "return rate(model, q, v, a)",
+                "return rate(model, q, v, a) - np.concatenate([np.zeros(3), model.mass * model.gravity])",
+            ),
+        ),
+        "gravity-missing": faulty(rate_and_wrench, (" + model.mass * model.gravity", "")),
+        "weight-upward": faulty(rate_and_wrench, ("+ model.mass", "- model.mass")),
+        "moment-about-origin": faulty(rate_and_wrench, (" - tw.center_of_mass(model, q)", "")),
+        "base-for-com": faulty(rate_and_wrench, ("tw.center_of_mass(model, q)", "q[:3]")),
+        "lever-reversed": faulty(rate_and_wrench, ("moment = np", "moment = -np")),
         "swapped-halves": after(rate_and_wrench, swap),
     },
     residuals=(lambda answer, model, q, v, tau, forces: answer[0] - answer[1],),
 )
-
-
-def _replaced(k: int, by: Any) -> Any:
-    """Replace one of the four things."""
-
-    def wrong(model: Any, q: Any, v: Any, feet: Any) -> Any:
-        answer = list(get_dynamics(model, q, v, feet))
-        answer[k] = by(model, q, v, feet, answer[k])
-        return tuple(answer)
-
-    return wrong
-
-
-def _jacobians(rows: Any = slice(3, 6), reference: Any = "local_world_aligned") -> Any:
-    """Stack other rows of other Jacobians."""
-    return _replaced(
-        2,
-        lambda model, q, v, feet, J_c: np.vstack(
-            [tw.frame_jacobian(model, q, foot, reference=reference)[rows] for foot in feet]
-        ),
-    )
-
-
-def _about(point: Any) -> Any:
-    """Take the angular momentum about another point: it gains (p_G − point) × l."""
-    return _replaced(
-        3,
-        lambda model, q, v, feet, A_G: np.concatenate(
-            [A_G[:3] + tw.skew(tw.center_of_mass(model, q) - point(q)) @ A_G[3:], A_G[3:]]
-        ),
-    )
-
-
-def _in_pinocchio_order(model: Any, q: Any, v: Any, feet: Any) -> Any:
-    M, h, J_c, A_G = get_dynamics(model, q, v, feet)
-    return swap(M), swap(h), np.array([swap(row) for row in J_c]), swap(A_G)
 
 
 def _states(rng: Any) -> Any:
@@ -171,18 +95,33 @@ INTERFACE = Part(
     ),
     cases=_states,
     slips={
-        "doubled-off-diagonal": _replaced(0, lambda model, q, v, feet, M: 2 * M - np.diag(np.diag(M))),
-        "one-triangle": _replaced(0, lambda model, q, v, feet, M: np.triu(M)),
-        "velocity-terms-missing": _replaced(1, lambda model, q, v, feet, h: tw.gravity(model, q)),
-        "gravity-missing": _replaced(1, lambda model, q, v, feet, h: h - tw.gravity(model, q)),
-        "base-missing": _replaced(1, lambda model, q, v, feet, h: h[6:]),
-        "angular-for-linear": _jacobians(slice(0, 3)),
-        "contact-rows-all": _jacobians(slice(0, 6)),
-        "local-for-aligned": _jacobians(reference="local"),
-        "world-for-aligned": _jacobians(reference="world"),
-        "momentum-at-origin": _about(lambda q: np.zeros(3)),
-        "momentum-at-base": _about(lambda q: q[:3]),
-        "swapped-halves": _in_pinocchio_order,
+        "doubled-off-diagonal": faulty(get_dynamics, ("return M", "return doubled(M)")),
+        "one-triangle": faulty(get_dynamics, ("return M", "return np.triu(M)")),
+        "velocity-terms-missing": faulty(get_dynamics, ("tw.nonlinear_effects(model, q, v)", "tw.gravity(model, q)")),
+        "gravity-missing": faulty(get_dynamics, ("return M, h", "return M, h - tw.gravity(model, q)")),
+        "base-missing": faulty(get_dynamics, ("return M, h", "return M, h[6:]")),
+        "angular-for-linear": faulty(get_dynamics, ("[3:]", "[:3]")),
+        "contact-rows-all": faulty(get_dynamics, ("[3:]", "")),
+        "local-for-aligned": faulty(get_dynamics, ("local_world_aligned", "local")),
+        "world-for-aligned": faulty(get_dynamics, ("local_world_aligned", "world")),
+        "momentum-at-origin": faulty(
+            get_dynamics,
+            ("tw.centroidal_map", "tw.force_transform(np.eye(3), tw.center_of_mass(model, q)) @ tw.centroidal_map"),
+        ),
+        "momentum-at-base": faulty(
+            get_dynamics,
+            (
+                "tw.centroidal_map",
+                "tw.force_transform(np.eye(3), tw.center_of_mass(model, q) - q[:3]) @ tw.centroidal_map",
+            ),
+        ),
+        "swapped-halves": faulty(
+            get_dynamics,
+            (
+                "return M, h, J_c, tw.centroidal_map(model, q)",
+                "return swap(M), swap(h), np.array([*map(swap, J_c)]), swap(tw.centroidal_map(model, q))",
+            ),
+        ),
     },
     residuals=(lambda answer, model, q, v, feet: answer[3] - _from_base(model, q) @ answer[0][:6],),
 )

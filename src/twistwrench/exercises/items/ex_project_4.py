@@ -8,9 +8,9 @@ import numpy as np
 import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
-from ..robots import robot, small_robot
+from ..robots import held_acceleration, robot, small_robot
 from ..text import Text
-from ..wrong import times
+from ..wrong import faulty, times
 from .project_timing import TIME
 
 __all__ = ["EXERCISE", "consistency_error", "vertical_loads"]
@@ -43,28 +43,16 @@ def _standings(rng: Any) -> Any:
     return [stand(n) for n in (4, 4, 3, 5)]
 
 
-def _solved(levers: Any) -> Any:
-    """Balance other moments, given by the rows of a matrix."""
-
-    def wrong(p_G: Any, feet: Any, weight: Any) -> Any:
-        rows = levers(p_G, feet)
-        return np.linalg.lstsq(rows, np.eye(len(rows))[0] * weight)[0]
-
-    return wrong
-
-
-def _one_side(p_G: Any, feet: Any, k: int) -> Any:
-    return np.array([np.ones(len(feet)), feet[:, k] - p_G[k]])
-
-
 LOADS = Part(
     solution=vertical_loads,
     returns=(Quantity("f_z", unit="N"),),
     cases=_standings,
     slips={
         "equal-shares": lambda p_G, feet, weight: np.full(len(feet), weight / len(feet)),
-        "moment-about-origin": _solved(lambda p_G, feet: np.array([np.ones(len(feet)), feet[:, 0], feet[:, 1]])),
-        "moment-of-one-axis": _solved(lambda p_G, feet: _one_side(p_G, feet, 0)),
+        "moment-about-origin": faulty(
+            vertical_loads, ("feet[:, 0] - p_G[0], feet[:, 1] - p_G[1]", "feet[:, 0], feet[:, 1]")
+        ),
+        "moment-of-one-axis": faulty(vertical_loads, (", feet[:, 1] - p_G[1]", ""), ("[weight, 0, 0]", "[weight, 0]")),
         "force-sign": times(vertical_loads, -1),
         "mass-for-weight": times(vertical_loads, 1 / 9.81),
         "not-shared": lambda p_G, feet, weight: np.full(len(feet), weight),
@@ -97,13 +85,7 @@ FLOATING = Variant(
 STILL = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, tau: tw.aba(model, q, 0 * v, tau))
 
 
-def _held(model: Any, q: Any, v: Any, tau: Any) -> Any:
-    """Hold the base."""
-    force = (tau - tw.nonlinear_effects(model, q, v))[6:]
-    return np.concatenate([np.zeros(6), np.linalg.solve(tw.crba(model, q)[6:, 6:], force)])
-
-
-HELD = Variant(Text("base held", "基座固定"), _held)
+HELD = Variant(Text("base held", "基座固定"), held_acceleration)
 
 
 def _states(rng: Any) -> Any:
@@ -117,25 +99,16 @@ def _states(rng: Any) -> Any:
     return cases
 
 
-def _compared(measure: Any) -> Any:
-    """Measure the difference otherwise, given it and τ."""
-
-    def wrong(forward: Any, inverse: Any, model: Any, q: Any, v: Any, tau: Any) -> Any:
-        return measure(inverse(model, q, v, forward(model, q, v, tau)) - tau, tau)
-
-    return wrong
-
-
 CONSISTENCY = Part(
     solution=consistency_error,
     returns=(Quantity("error"),),
     cases=_states,
     rtol=1e-7,
     slips={
-        "error-signed": _compared(lambda d, tau: d.max() / np.abs(tau).max()),
-        "error-absolute": _compared(lambda d, tau: np.abs(d).max()),
-        "error-averaged": _compared(lambda d, tau: np.abs(d).mean() / np.abs(tau).max()),
-        "error-of-joints": _compared(lambda d, tau: np.abs(d[6:]).max() / np.abs(tau).max()),
+        "error-signed": faulty(consistency_error, ("np.abs(back - tau)", "(back - tau)")),
+        "error-absolute": faulty(consistency_error, (" / np.abs(tau).max()", "")),
+        "error-averaged": faulty(consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).mean()")),
+        "error-of-joints": faulty(consistency_error, ("np.abs(back - tau)", "np.abs(back - tau)[6:]")),
         "assumed": lambda forward, inverse, model, q, v, tau: 0.0,
     },
 )

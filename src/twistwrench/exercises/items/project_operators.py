@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Part, Quantity
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
-from ..wrong import swapped
+from ..wrong import faulty, swap, swapped
 
 __all__ = ["CROSS", "TRANSFORMS", "cross_operators", "transforms_of"]
 
@@ -26,35 +26,6 @@ def cross_operators(V: Any) -> Any:
     return np.block([[w, zero], [v, w]]), np.block([[w, v], [zero, w]])
 
 
-ZERO = np.zeros((3, 3))
-
-
-def _coupled(coupling: Any) -> Any:
-    """Put another coupling in its place, of R and [p]×."""
-
-    def wrong(T: Any) -> Any:
-        R = T[:3, :3]
-        B = coupling(R, tw.skew(T[:3, 3]))
-        return np.block([[R, ZERO], [B, R]]), np.block([[R, B], [ZERO, R]])
-
-    return wrong
-
-
-def _pair(change: Any) -> Any:
-    """Change X and X* as a pair, given the rotation and the coupling as well."""
-
-    def wrong(T: Any) -> Any:
-        X, X_star = transforms_of(T)
-        return change(X, X_star)
-
-    return wrong
-
-
-def _crossed(change: Any) -> Any:
-    """Put other things in the blocks of V× and V×*, of [ω]× and [v]×."""
-    return lambda V: tuple(np.block(blocks) for blocks in change(tw.skew(V[:3]), tw.skew(V[3:])))
-
-
 def _pose(rng: Any) -> Any:
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = tw.exp3(rng.standard_normal(3)), rng.standard_normal(3)
@@ -67,26 +38,22 @@ TRANSFORMS = Part(
     returns=(Quantity("X", MOTION_TRANSFORM), Quantity("X*", FORCE_TRANSFORM)),
     cases=lambda rng: [(_pose(rng),) for _ in range(4)],
     slips={
-        "coupling-dropped": _coupled(lambda R, p: ZERO),
-        "coupling-sign": _coupled(lambda R, p: -p @ R),
-        "coupling-order": _coupled(lambda R, p: R @ p),
-        "coupling-unrotated": _coupled(lambda R, p: p),
-        "coupling-corner": _pair(lambda X, X_star: (X_star, X)),
-        "transpose-for-dual": _pair(lambda X, X_star: (X, X.mT)),
-        "motion-for-force": _pair(lambda X, X_star: (X, X)),
-        "inverse-transform": _pair(lambda X, X_star: (X_star.mT, X.mT)),
-        "rotation-transposed": lambda T: transforms_of(np.block([[T[:3, :3].mT, T[:3, 3:]], [0, 0, 0, 1]])),
+        "coupling-dropped": faulty(transforms_of, ("coupling = tw", "coupling = 0 * tw")),
+        "coupling-sign": faulty(transforms_of, ("coupling = tw", "coupling = -tw")),
+        "coupling-order": faulty(transforms_of, ("tw.skew(T[:3, 3]) @ R", "R @ tw.skew(T[:3, 3])")),
+        "coupling-unrotated": faulty(transforms_of, ("tw.skew(T[:3, 3]) @ R", "tw.skew(T[:3, 3])")),
+        "coupling-corner": lambda T: transforms_of(T)[::-1],
+        "transpose-for-dual": lambda T: (transforms_of(T)[0], transforms_of(T)[0].mT),
+        "motion-for-force": lambda T: (transforms_of(T)[0],) * 2,
+        "inverse-transform": lambda T: transforms_of(np.linalg.inv(T)),
+        "rotation-transposed": faulty(transforms_of, ("R, zero = T[:3, :3]", "R, zero = T[:3, :3].mT")),
         "swapped-halves": swapped(transforms_of, only=(0,)),
-        "half-rotated": _pair(lambda X, X_star: (_half(X), _half(X_star))),
+        "half-rotated": faulty(
+            transforms_of, ("[coupling, R]", "[coupling, np.eye(3)]"), ("[zero, R]", "[zero, np.eye(3)]")
+        ),
     },
     residuals=(lambda answer, T: answer[1].mT @ answer[0] - np.eye(6),),
 )
-
-
-def _half(X: Any) -> Any:
-    X = X.copy()
-    X[3:, 3:] = np.eye(3)
-    return X
 
 
 CROSS = Part(
@@ -95,12 +62,12 @@ CROSS = Part(
     returns=(Quantity("V×", MOTION_TRANSFORM), Quantity("V×*", FORCE_TRANSFORM)),
     cases=lambda rng: [(rng.standard_normal(6),) for _ in range(4)],
     slips={
-        "motion-cross-for-force": _crossed(lambda w, v: ([[w, ZERO], [v, w]], [[w, ZERO], [v, w]])),
-        "cross-transposed": _crossed(lambda w, v: ([[w, ZERO], [v, w]], [[-w, -v], [ZERO, -w]])),
-        "coupling-corner": _crossed(lambda w, v: ([[w, v], [ZERO, w]], [[w, ZERO], [v, w]])),
-        "coupling-dropped": _crossed(lambda w, v: ([[w, ZERO], [ZERO, w]], [[w, ZERO], [ZERO, w]])),
-        "skew-sign": _crossed(lambda w, v: ([[-w, ZERO], [-v, -w]], [[-w, -v], [ZERO, -w]])),
-        "swapped-halves": _crossed(lambda w, v: ([[v, ZERO], [w, v]], [[v, w], [ZERO, v]])),
+        "motion-cross-for-force": lambda V: (cross_operators(V)[0],) * 2,
+        "cross-transposed": lambda V: (cross_operators(V)[0], cross_operators(V)[0].mT),
+        "coupling-corner": lambda V: cross_operators(V)[::-1],
+        "coupling-dropped": lambda V: cross_operators(V * np.repeat([1, 0], 3)),
+        "skew-sign": faulty(cross_operators, ("tw.skew(V[:3]), tw.skew(V[3:])", "-tw.skew(V[:3]), -tw.skew(V[3:])")),
+        "swapped-halves": lambda V: cross_operators(swap(V)),
     },
     residuals=(
         lambda answer, V: answer[0] @ V,

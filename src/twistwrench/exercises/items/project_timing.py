@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Part, Quantity
-from ..stopwatch import Machine, Task
+from ..stopwatch import Machine, Task, seconds, timed
 from ..text import Text
 
 __all__ = ["TIME", "time_per_call"]
@@ -33,23 +33,6 @@ def _machines(rng: Any) -> Any:
     return [(Task(machine, float(rng.uniform(1e-5, 1e-3))), calls, machine) for machine in machines]
 
 
-def _timed(function: Any, task: Any, calls: Any, clock: Any) -> Any:
-    """Reset the machine, and return nan for a measurement that has not read its clock."""
-    clock.reset()
-    answer = function(task, calls, clock)
-    return answer if answer is ... or clock.readings else np.nan
-
-
-def _seconds(task: Any, calls: Any, clock: Any) -> Any:
-    """Time each of many calls."""
-    seconds = []
-    for _ in range(calls):
-        start = clock()
-        task()
-        seconds.append(clock() - start)
-    return seconds
-
-
 def _block(task: Any, calls: Any, clock: Any) -> Any:
     """Time all calls at once."""
     start = clock()
@@ -60,7 +43,7 @@ def _block(task: Any, calls: Any, clock: Any) -> Any:
 
 def _warmed(task: Any, calls: Any, clock: Any) -> Any:
     task()
-    return np.mean(_seconds(task, calls, clock))
+    return np.mean(seconds(task, calls, clock))
 
 
 def _near(answer: Any, task: Any) -> Any:
@@ -73,11 +56,11 @@ TIME = Part(
     solution=time_per_call,
     returns=(Quantity("time", unit="s"),),
     cases=_machines,
-    call=_timed,
+    call=timed,
     canonical=lambda answer, task, calls, clock: _near(answer, task),
     slips={
-        "single-call": lambda task, calls, clock: _seconds(task, 1, clock)[0],
-        "mean-of-times": lambda task, calls, clock: np.mean(_seconds(task, calls, clock)),
+        "single-call": lambda task, calls, clock: seconds(task, 1, clock)[0],
+        "mean-of-times": lambda task, calls, clock: np.mean(seconds(task, calls, clock)),
         "mean-after-warm-up": _warmed,
         "mean-of-blocks": lambda task, calls, clock: _block(task, calls, clock) / calls,
         "not-per-call": _block,

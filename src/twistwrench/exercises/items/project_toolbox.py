@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Part, Quantity
 from ..layouts import POSE
-from ..wrong import swap
+from ..wrong import faulty
 
 __all__ = ["POSE_OF_BASE", "POSE_OF_URDF", "VECTOR", "SpatialVector", "base_pose", "urdf_pose"]
 
@@ -82,64 +82,6 @@ def _tried(action: Any) -> Any:
         return type(error).__name__
 
 
-class _Mixing(SpatialVector):
-    """Add without a check of the kinds."""
-
-    def __add__(self, other: Any) -> Any:
-        return type(self)(self.kind, self.vector + other.vector)
-
-
-class _Pairing(SpatialVector):
-    """Pair without a check of the kinds."""
-
-    def power(self, other: Any) -> Any:
-        return self.vector @ other.vector
-
-
-class _OneWay(SpatialVector):
-    """Pair a wrench with a twist, and not a twist with a wrench."""
-
-    def power(self, other: Any) -> Any:
-        if (self.kind, other.kind) != ("wrench", "twist"):
-            raise TypeError
-        return super().power(other)
-
-
-class _Raising(SpatialVector):
-    """Raise another error."""
-
-    def __add__(self, other: Any) -> Any:
-        if self.kind != other.kind:
-            raise ValueError
-        return super().__add__(other)
-
-    def power(self, other: Any) -> Any:
-        if self.kind == other.kind:
-            raise ValueError
-        return super().power(other)
-
-
-class _Swapping(SpatialVector):
-    """Pair ω with f."""
-
-    def power(self, other: Any) -> Any:
-        return super().power(SpatialVector(other.kind, swap(other.vector)))
-
-
-class _Reversing(SpatialVector):
-    """Subtract the other way round."""
-
-    def __sub__(self, other: Any) -> Any:
-        return SpatialVector(self.kind, other.vector - self.vector)
-
-
-class _Forgetting(SpatialVector):
-    """Call each sum a twist."""
-
-    def __add__(self, other: Any) -> Any:
-        return SpatialVector("twist", super().__add__(other).vector)
-
-
 VECTOR = Part(
     solution=SpatialVector,
     call=_use,
@@ -167,32 +109,25 @@ VECTOR = Part(
     ),
     cases=lambda rng: [tuple(rng.standard_normal((4, 6))) for _ in range(3)],
     slips={
-        "kinds-mixed": _Mixing,
-        "pairing-of-equals": _Pairing,
-        "pairing-one-way": _OneWay,
-        "other-error": _Raising,
-        "swapped-halves": _Swapping,
-        "difference-reversed": _Reversing,
-        "kind-lost": _Forgetting,
+        "kinds-mixed": faulty(SpatialVector, ("if self.kind != other.kind", "if False")),
+        "pairing-of-equals": faulty(SpatialVector, ("if self.kind == other.kind", "if False")),
+        "pairing-one-way": faulty(
+            SpatialVector, ("self.kind == other.kind", '(self.kind, other.kind) != ("wrench", "twist")')
+        ),
+        "other-error": faulty(SpatialVector, ('TypeError(f"{', 'ValueError(f"{'), ('TypeError(f"p', 'ValueError(f"p')),
+        "swapped-halves": faulty(SpatialVector, ("@ other.vector", "@ swap(other.vector)")),
+        "difference-reversed": faulty(
+            SpatialVector,
+            (
+                "return self + SpatialVector(other.kind, -other.vector)",
+                "return SpatialVector(self.kind, other.vector - self.vector)",
+            ),
+        ),
+        "kind-lost": faulty(SpatialVector, ("SpatialVector(self.kind", 'SpatialVector("twist"')),
     },
 )
 
 # ---------------------------------------------------------------- placements and transforms
-
-
-def _posed(rotation: Any) -> Any:
-    """Take another rotation out of (x, y, z, w)."""
-
-    def wrong(q: Any) -> Any:
-        T = base_pose(q)
-        T[:3, :3] = rotation(q[3:7])
-        return T
-
-    return wrong
-
-
-def _rotated(xyzw: Any) -> Any:
-    return base_pose(np.concatenate([np.zeros(3), xyzw]))[:3, :3]
 
 
 def _configuration(rng: Any) -> Any:
@@ -205,25 +140,15 @@ POSE_OF_BASE = Part(
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [(_configuration(rng),) for _ in range(4)],
     slips={
-        "qwxyz": _posed(lambda xyzw: _rotated(np.roll(xyzw, -1))),
-        "rotation-transposed": _posed(lambda xyzw: _rotated(xyzw).mT),
-        "half-angle": _posed(lambda xyzw: tw.exp3(tw.log3(_rotated(xyzw)) / 2)),
-        "translation-dropped": lambda q: base_pose(np.concatenate([np.zeros(3), q[3:]])),
+        "qwxyz": faulty(base_pose, ("x, y, z, w =", "w, x, y, z =")),
+        "rotation-transposed": faulty(base_pose, ("T[:3, :3] = [", "T[:3, :3].mT[:] = [")),
+        "half-angle": faulty(
+            base_pose, ("T[:3, 3] = q[:3]", "T[:3, :3], T[:3, 3] = tw.exp3(tw.log3(T[:3, :3]) / 2), q[:3]")
+        ),
+        "translation-dropped": faulty(base_pose, ("= q[:3]", "= 0")),
     },
     residuals=(lambda answer, q: answer[:3, :3].mT @ answer[:3, :3] - np.eye(3),),
 )
-
-
-def _origin(R: Any, p: Any = lambda R, xyz: xyz) -> Any:
-    """Take another rotation out of the three elementary ones, or another translation."""
-
-    def wrong(xyz: Any, rpy: Any) -> Any:
-        T = np.eye(4)
-        T[:3, :3] = R(*(tw.exp3(angle * axis) for angle, axis in zip(rpy, np.eye(3))))
-        T[:3, 3] = p(urdf_pose(xyz, rpy)[:3, :3], xyz)
-        return T
-
-    return wrong
 
 
 POSE_OF_URDF = Part(
@@ -231,10 +156,16 @@ POSE_OF_URDF = Part(
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [tuple(rng.uniform(-1.2, 1.2, (2, 3))) for _ in range(4)],
     slips={
-        "euler-order": _origin(lambda x, y, z: x @ y @ z),
-        "rotation-transposed": _origin(lambda x, y, z: (z @ y @ x).mT),
+        "euler-order": faulty(
+            urdf_pose,
+            (
+                "tw.exp3([0, 0, yaw]) @ tw.exp3([0, pitch, 0]) @ tw.exp3([roll, 0, 0])",
+                "tw.exp3([roll, 0, 0]) @ tw.exp3([0, pitch, 0]) @ tw.exp3([0, 0, yaw])",
+            ),
+        ),
+        "rotation-transposed": faulty(urdf_pose, ("T[:3, :3] =", "T[:3, :3].mT[:] =")),
         "degrees": lambda xyz, rpy: urdf_pose(xyz, np.radians(rpy)),
-        "translation-first": _origin(lambda x, y, z: z @ y @ x, lambda R, xyz: R @ xyz),
-        "translation-dropped": _origin(lambda x, y, z: z @ y @ x, lambda R, xyz: 0 * xyz),
+        "translation-first": faulty(urdf_pose, ("= xyz", "= T[:3, :3] @ xyz")),
+        "translation-dropped": faulty(urdf_pose, ("= xyz", "= 0")),
     },
 )
