@@ -1,7 +1,9 @@
 """The robots of the exercises: those of the catalogue, each loaded once, and small random ones."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +13,7 @@ from ..arrays import Array
 from ..model import Model, random_tree
 from ..robots import load
 
-__all__ = ["held_acceleration", "robot", "small_robot", "weightless"]
+__all__ = ["held_acceleration", "robot", "small_robot", "states", "weightless"]
 
 
 @cache
@@ -35,6 +37,18 @@ def small_robot(rng: np.random.Generator) -> Model:
     9
     """
     return random_tree(4, rng=rng, base="floating", kinds=("revolute", "prismatic"))
+
+
+def states(rng: np.random.Generator, *, vectors: int = 0, small: int = 2) -> Iterator[Any]:
+    """Yield Go2 and some small robots, each with a configuration and so many random vectors of nv numbers.
+
+    Examples
+    --------
+    >>> [[x.shape for x in case] for _, *case in states(np.random.default_rng(1), vectors=1, small=1)]
+    [[(19,), (18,)], [(10,), (9,)]]
+    """
+    for model in (robot("go2"), *(small_robot(rng) for _ in range(small))):
+        yield model, model.random_configuration(rng=rng), *rng.standard_normal((vectors, model.nv))
 
 
 def weightless(model: Model) -> Model:

@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, INERTIA
-from ..robots import robot, small_robot
+from ..robots import states
 from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "base_columns", "split_map"]
@@ -27,8 +27,7 @@ def base_columns(R: Any, m: Any, c: Any, I_G: Any) -> Any:
 
 def _bodies(rng: Any) -> Any:
     bodies = []
-    for model in (robot("go2"), small_robot(rng), small_robot(rng)):
-        q = model.random_configuration(rng=rng)
+    for model, q in states(rng):
         T = tw.forward_kinematics(model, q).placement[1]
         whole = tw.SpatialInertia.from_matrix(tw.crba(model, q)[:6, :6])
         bodies.append((T.rotation, float(whole.mass), T.rotation @ whole.com, whole.inertia_at_com))
@@ -38,9 +37,7 @@ def _bodies(rng: Any) -> Any:
 SPLIT = Part(
     solution=split_map,
     returns=(Quantity("A_Gb", INERTIA), Quantity("A_Gj", CENTROIDAL_MAP)),
-    cases=lambda rng: [
-        (model, model.random_configuration(rng=rng)) for model in (robot("go2"), small_robot(rng), small_robot(rng))
-    ],
+    cases=lambda rng: [*states(rng)],
     slips={
         "swapped-halves": faulty(split_map, ("tw.centroidal_map(model, q)", "swap(tw.centroidal_map(model, q))")),
         "rows-only": faulty(
@@ -100,8 +97,4 @@ COLUMNS = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.10.1",
-    kind="explain",
-    parts=(SPLIT, COLUMNS),
-)
+EXERCISE = Exercise(id="49.10.1", kind="explain", parts=(SPLIT, COLUMNS))

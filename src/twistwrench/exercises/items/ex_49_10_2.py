@@ -7,7 +7,7 @@ import numpy as np
 import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
-from ..robots import robot, small_robot
+from ..robots import states
 from ..wrong import faulty
 
 __all__ = ["EXERCISE", "linear_momentum", "momentum_of_links", "pinocchio_linear_momentum"]
@@ -46,11 +46,7 @@ def _base(model: Any, q: Any, v: Any) -> Any:
 
 
 def _maps(rng: Any) -> Any:
-    cases = []
-    for model in (robot("go2"), small_robot(rng), small_robot(rng)):
-        q, v = model.random_configuration(rng=rng), rng.standard_normal(model.nv)
-        cases.append((tw.centroidal_map(model, q), v))
-    return cases
+    return [(tw.centroidal_map(model, q), v) for model, q, v in states(rng, vectors=1)]
 
 
 def _in_pinocchio_order(rng: Any) -> Any:
@@ -91,10 +87,7 @@ THEIRS = Part(
 LINKS = Part(
     solution=momentum_of_links,
     returns=(Quantity("m v_G", unit="kg m/s"),),
-    cases=lambda rng: [
-        (model, model.random_configuration(rng=rng), rng.standard_normal(model.nv))
-        for model in (robot("go2"), small_robot(rng), small_robot(rng))
-    ],
+    cases=lambda rng: [*states(rng, vectors=1)],
     slips={
         "frame-for-com": faulty(momentum_of_links, (" + np.cross(V[:3], body.com)", "")),
         "cross-order": faulty(momentum_of_links, ("np.cross(V[:3], body.com)", "np.cross(body.com, V[:3])")),
@@ -122,8 +115,4 @@ def _rate_of_com(model: Any, q: Any, v: Any) -> Any:
     return (ahead - behind) / (2 * h)
 
 
-EXERCISE = Exercise(
-    id="49.10.2",
-    kind="code",
-    parts=(OURS, THEIRS, LINKS),
-)
+EXERCISE = Exercise(id="49.10.2", kind="code", parts=(OURS, THEIRS, LINKS))

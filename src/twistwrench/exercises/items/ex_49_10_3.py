@@ -7,7 +7,7 @@ import numpy as np
 import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
-from ..robots import robot, small_robot
+from ..robots import states
 from ..wrong import faulty
 
 __all__ = ["EXERCISE", "com_acceleration", "rate_at_pace"]
@@ -34,10 +34,7 @@ def _walks(rng: Any) -> Any:
 
 
 def _gaits(rng: Any) -> Any:
-    return [
-        (model, model.random_configuration(rng=rng), *rng.standard_normal((2, model.nv)), float(rng.uniform(0.2, 0.8)))
-        for model in (robot("go2"), small_robot(rng), small_robot(rng))
-    ]
+    return [(*state, float(rng.uniform(0.2, 0.8))) for state in states(rng, vectors=2)]
 
 
 def _ground(answer: Any, p_G: Any, p: Any, k_rate: Any, m: Any) -> Any:
@@ -82,8 +79,4 @@ PACE = Part(
     },
 )
 
-EXERCISE = Exercise(
-    id="49.10.3",
-    kind="explain",
-    parts=(ACCELERATION, PACE),
-)
+EXERCISE = Exercise(id="49.10.3", kind="explain", parts=(ACCELERATION, PACE))

@@ -121,8 +121,4 @@ CONTACTS = Part(
     },
 )
 
-EXERCISE = Exercise(
-    id="49.11.1",
-    kind="explain",
-    parts=(RANDOM, MATRIX, INERTIA_MATRIX, ACTION, VELOCITY, CONTACTS),
-)
+EXERCISE = Exercise(id="49.11.1", kind="explain", parts=(RANDOM, MATRIX, INERTIA_MATRIX, ACTION, VELOCITY, CONTACTS))

@@ -75,8 +75,4 @@ GROWTH = Part(
     residuals=(lambda answer, sizes, seconds: answer - growth(sizes, 1e6 * seconds),),
 )
 
-EXERCISE = Exercise(
-    id="49.11.2",
-    kind="explain",
-    parts=(COUNT, GROWTH),
-)
+EXERCISE = Exercise(id="49.11.2", kind="explain", parts=(COUNT, GROWTH))

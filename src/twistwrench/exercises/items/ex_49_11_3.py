@@ -120,8 +120,4 @@ LOADS = Part(
     },
 )
 
-EXERCISE = Exercise(
-    id="49.11.3",
-    kind="explain",
-    parts=(MAP, FORCES, LOADS),
-)
+EXERCISE = Exercise(id="49.11.3", kind="explain", parts=(MAP, FORCES, LOADS))

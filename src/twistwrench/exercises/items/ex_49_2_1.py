@@ -79,8 +79,4 @@ SPEED_OF_FOOT = Part(
     },
 )
 
-EXERCISE = Exercise(
-    id="49.2.1",
-    kind="explain",
-    parts=(TWIST_OF_FOOT, SPEED_OF_FOOT),
-)
+EXERCISE = Exercise(id="49.2.1", kind="explain", parts=(TWIST_OF_FOOT, SPEED_OF_FOOT))

@@ -64,8 +64,4 @@ ARC = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.2.2",
-    kind="code",
-    parts=(MATRIX, ARC),
-)
+EXERCISE = Exercise(id="49.2.2", kind="code", parts=(MATRIX, ARC))

@@ -61,9 +61,4 @@ BOTH = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.3.2",
-    kind="code",
-    parts=(ROTATION, BOTH),
-    uses=("skew",),
-)
+EXERCISE = Exercise(id="49.3.2", kind="code", parts=(ROTATION, BOTH), uses=("skew",))

@@ -95,8 +95,4 @@ OF_FOOT = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.4.1",
-    kind="number",
-    parts=(LOADS, OF_FOOT),
-)
+EXERCISE = Exercise(id="49.4.1", kind="number", parts=(LOADS, OF_FOOT))

@@ -60,9 +60,4 @@ WRENCH_OF_CONTACT = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.4.2",
-    kind="prove",
-    uses=("plucker",),
-    parts=(WRENCH_OF_CONTACT,),
-)
+EXERCISE = Exercise(id="49.4.2", kind="prove", uses=("plucker",), parts=(WRENCH_OF_CONTACT,))

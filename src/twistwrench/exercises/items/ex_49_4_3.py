@@ -122,8 +122,4 @@ HOLDS = Part(
     },
 )
 
-EXERCISE = Exercise(
-    id="49.4.3",
-    kind="explain",
-    parts=(SUM, PRESSURE, HOLDS),
-)
+EXERCISE = Exercise(id="49.4.3", kind="explain", parts=(SUM, PRESSURE, HOLDS))

@@ -95,9 +95,4 @@ def _energies(I6: Any, m: Any, c: Any, I_c: Any) -> Any:
     return ((V @ I6.mT) * V).sum(1) - m * (v_c**2).sum(1) - ((w @ I_c) * w).sum(1)
 
 
-EXERCISE = Exercise(
-    id="49.5.1",
-    kind="number",
-    uses=("skew",),
-    parts=(IN_GENERAL, BY_HAND),
-)
+EXERCISE = Exercise(id="49.5.1", kind="number", uses=("skew",), parts=(IN_GENERAL, BY_HAND))

@@ -100,8 +100,4 @@ OF_BASE = Part(
     residuals=(lambda answer, model: answer[1] - model.inertia[1].matrix(),),
 )
 
-EXERCISE = Exercise(
-    id="49.5.2",
-    kind="explain",
-    parts=(REORDERED, OF_BASE),
-)
+EXERCISE = Exercise(id="49.5.2", kind="explain", parts=(REORDERED, OF_BASE))

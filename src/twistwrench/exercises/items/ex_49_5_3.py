@@ -81,9 +81,4 @@ AT_COM = Part(
     residuals=(lambda answer, m, c, I_c: (answer[:3, 3:], answer[3:, :3]),),
 )
 
-EXERCISE = Exercise(
-    id="49.5.3",
-    kind="prove",
-    uses=("plucker",),
-    parts=(MOVED, AT_COM),
-)
+EXERCISE = Exercise(id="49.5.3", kind="prove", uses=("plucker",), parts=(MOVED, AT_COM))

@@ -84,8 +84,4 @@ COLUMNS = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.6.1",
-    kind="code",
-    parts=(TWO_WAYS, COLUMNS),
-)
+EXERCISE = Exercise(id="49.6.1", kind="code", parts=(TWO_WAYS, COLUMNS))

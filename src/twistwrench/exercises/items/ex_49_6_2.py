@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, WRENCH
-from ..robots import robot, small_robot, weightless
+from ..robots import small_robot, states, weightless
 from ..workbook import mine
 from ..wrong import faulty, negated, swapped
 
@@ -32,10 +32,6 @@ def gravity_two_ways(model: Any, weightless: Any, q: Any, v: Any, a: Any) -> Any
     return tw.rnea(model, q, v, a), tw.rnea(weightless, q, v, a, f_ext=W(model, q))
 
 
-def _postures(rng: Any) -> Any:
-    return [(model, model.random_configuration(rng=rng)) for model in (robot("go2"), small_robot(rng))]
-
-
 def _motions(rng: Any) -> Any:
     return [
         (model, weightless(model), model.random_configuration(rng=rng), *rng.standard_normal((2, model.nv)))
@@ -46,7 +42,7 @@ def _motions(rng: Any) -> Any:
 WEIGHTS = Part(
     solution=weight_wrenches,
     returns=(Quantity("W", WRENCH),),
-    cases=_postures,
+    cases=lambda rng: [*states(rng, small=1)],
     slips={
         "moment-dropped": faulty(weight_wrenches, ("np.cross(body.com, force)", "np.zeros(3)")),
         "untransformed": faulty(weight_wrenches, ("placement[i].rotation.mT @ ", "")),
@@ -89,8 +85,4 @@ TWO_WAYS = Part(
     residuals=(lambda answer, model, weightless, q, v, a: answer[0] - answer[1],),
 )
 
-EXERCISE = Exercise(
-    id="49.6.2",
-    kind="prove",
-    parts=(WEIGHTS, TWO_WAYS),
-)
+EXERCISE = Exercise(id="49.6.2", kind="prove", parts=(WEIGHTS, TWO_WAYS))

@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
-from ..robots import robot, small_robot
+from ..robots import states
 from ..wrong import as_column, faulty, negated, swapped, times
 
 __all__ = ["EXERCISE", "base_wrench_at_rest", "go2_base_wrench"]
@@ -36,15 +36,10 @@ def _of_base(model: Any, q: Any) -> Any:
     return np.concatenate([np.cross(model.inertia[1].com, force), force])
 
 
-def _cases(rng: Any) -> Any:
-    models = [robot("go2"), small_robot(rng), small_robot(rng)]
-    return [(model, model.random_configuration(rng=rng)) for model in models]
-
-
 BY_HAND = Part(
     solution=base_wrench_at_rest,
     returns=(Quantity("F", WRENCH),),
-    cases=_cases,
+    cases=lambda rng: [*states(rng)],
     slips={
         "as-printed": faulty(base_wrench_at_rest, ("np.cross(lever, force), force", "np.zeros(3), -force")),
         "base-wrench-sign": negated(base_wrench_at_rest),
@@ -98,8 +93,4 @@ OF_GO2 = Part(
     },
 )
 
-EXERCISE = Exercise(
-    id="49.6.3",
-    kind="explain",
-    parts=(OF_GO2, BY_HAND),
-)
+EXERCISE = Exercise(id="49.6.3", kind="explain", parts=(OF_GO2, BY_HAND))

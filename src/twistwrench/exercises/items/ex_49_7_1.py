@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
-from ..robots import held_acceleration, robot, small_robot
+from ..robots import held_acceleration, states
 from ..wrong import after, faulty, swapped
 
 __all__ = ["EXERCISE", "fall_from_rest", "fall_in_motion"]
@@ -40,19 +40,10 @@ def _aligned(model: Any, q: Any, v: Any) -> Any:
     return (tw.frame_jacobian(model, q, base, "local_world_aligned") @ a + bias)[3:]
 
 
-def _postures(rng: Any) -> Any:
-    return [(model, model.random_configuration(rng=rng)) for model in (robot("go2"), small_robot(rng))]
-
-
-def _states(rng: Any) -> Any:
-    models = [robot("go2"), small_robot(rng), small_robot(rng)]
-    return [(model, model.random_configuration(rng=rng), rng.standard_normal(model.nv)) for model in models]
-
-
 FROM_REST = Part(
     solution=fall_from_rest,
     returns=(Quantity("q̈ by ABA", JOINT_SPACE), Quantity("q̈ as expected", JOINT_SPACE)),
-    cases=_postures,
+    cases=lambda rng: [*states(rng, small=1)],
     slips={
         "gravity-compensated": lambda model, q: (np.zeros(model.nv), np.zeros(model.nv)),
         "base-held": lambda model, q: (
@@ -75,7 +66,7 @@ FROM_REST = Part(
 IN_MOTION = Part(
     solution=fall_in_motion,
     returns=(Quantity("a of the base", unit="m/s²"), Quantity("a of the centre of mass", unit="m/s²")),
-    cases=_states,
+    cases=lambda rng: [*states(rng, vectors=1)],
     slips={
         "classical-acceleration": faulty(fall_in_motion, (" + np.cross(v[:3], v[3:6])", "")),
         "cross-order": faulty(fall_in_motion, ("v[:3], v[3:6]", "v[3:6], v[:3]")),
@@ -99,8 +90,4 @@ IN_MOTION = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.7.1",
-    kind="explain",
-    parts=(FROM_REST, IN_MOTION),
-)
+EXERCISE = Exercise(id="49.7.1", kind="explain", parts=(FROM_REST, IN_MOTION))

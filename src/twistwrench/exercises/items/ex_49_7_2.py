@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
-from ..robots import held_acceleration, robot, small_robot
+from ..robots import held_acceleration, states
 from ..stopwatch import Machine, Task, seconds, timed
 from ..text import Text
 from ..wrong import faulty, swapped
@@ -89,10 +89,7 @@ TWO_WAYS = Part(
     solution=forward_dynamics_two_ways,
     returns=(Quantity("q̈ by ABA", JOINT_SPACE), Quantity("q̈ by CRBA", JOINT_SPACE)),
     rtol=1e-7,
-    cases=lambda rng: [
-        (model, model.random_configuration(rng=rng), *rng.standard_normal((2, model.nv)))
-        for model in (robot("go2"), small_robot(rng))
-    ],
+    cases=lambda rng: [*states(rng, vectors=2, small=1)],
     slips={
         "bias-for-zero": faulty(forward_dynamics_two_ways, ("tau - h", "tau")),
         "bias-sign": faulty(forward_dynamics_two_ways, ("tau - h", "tau + h")),
@@ -136,8 +133,4 @@ MEASURED = Part(
     slips={"order-for-time": lambda: 18.0, "time-for-ratio": lambda: 0.0018},
 )
 
-EXERCISE = Exercise(
-    id="49.7.2",
-    kind="explain",
-    parts=(TWO_WAYS, RATIO, MEASURED),
-)
+EXERCISE = Exercise(id="49.7.2", kind="explain", parts=(TWO_WAYS, RATIO, MEASURED))

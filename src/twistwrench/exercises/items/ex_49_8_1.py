@@ -112,8 +112,4 @@ WHOLE = Part(
     residuals=(lambda answer, block: tw.SpatialInertia(*answer).matrix() - block,),
 )
 
-EXERCISE = Exercise(
-    id="49.8.1",
-    kind="explain",
-    parts=(BLOCK, WHOLE),
-)
+EXERCISE = Exercise(id="49.8.1", kind="explain", parts=(BLOCK, WHOLE))

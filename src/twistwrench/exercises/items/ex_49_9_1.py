@@ -101,8 +101,4 @@ NET = Part(
     residuals=(lambda answer, model, q, forces: answer - _of_base(model, q, forces),),
 )
 
-EXERCISE = Exercise(
-    id="49.9.1",
-    kind="explain",
-    parts=(BALANCE, NET),
-)
+EXERCISE = Exercise(id="49.9.1", kind="explain", parts=(BALANCE, NET))

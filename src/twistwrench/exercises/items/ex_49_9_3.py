@@ -81,8 +81,4 @@ COMPLETE = Part(
     ),
 )
 
-EXERCISE = Exercise(
-    id="49.9.3",
-    kind="explain",
-    parts=(ROWS, COMPLETE),
-)
+EXERCISE = Exercise(id="49.9.3", kind="explain", parts=(ROWS, COMPLETE))

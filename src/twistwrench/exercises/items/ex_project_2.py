@@ -84,8 +84,4 @@ EQUATION = Part(
     residuals=(lambda answer, M, h, S, J_c, tau, forces: M @ answer + h - S.mT @ tau - J_c.mT @ forces,),
 )
 
-EXERCISE = Exercise(
-    id="project.2",
-    kind="code",
-    parts=(RNEA, ENERGY, CRBA, ABA, FOOT, EQUATION),
-)
+EXERCISE = Exercise(id="project.2", kind="code", parts=(RNEA, ENERGY, CRBA, ABA, FOOT, EQUATION))

@@ -133,8 +133,4 @@ def _from_base(model: Any, q: Any) -> Any:
     return tw.force_transform(T.rotation, T.translation - tw.center_of_mass(model, q))
 
 
-EXERCISE = Exercise(
-    id="project.3",
-    kind="code",
-    parts=(MAP, RATE, LAW, INTERFACE),
-)
+EXERCISE = Exercise(id="project.3", kind="code", parts=(MAP, RATE, LAW, INTERFACE))

@@ -113,8 +113,4 @@ CONSISTENCY = Part(
     },
 )
 
-EXERCISE = Exercise(
-    id="project.4",
-    kind="explain",
-    parts=(LOADS, CONSISTENCY, TIME),
-)
+EXERCISE = Exercise(id="project.4", kind="explain", parts=(LOADS, CONSISTENCY, TIME))

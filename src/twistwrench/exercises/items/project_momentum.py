@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Part, Quantity
 from ..layouts import CENTROIDAL_MAP, MOMENTUM
-from ..robots import robot, small_robot
+from ..robots import states
 from ..wrong import faulty, swapped
 
 __all__ = ["MAP", "RATE", "momentum_rate", "own_centroidal_map"]
@@ -62,19 +62,14 @@ def _rows(model: Any, q: Any) -> Any:
     return np.concatenate([A_G[k : k + 3] for k in (3, 0)])
 
 
-def _postures(rng: Any) -> Any:
-    models = (robot("go2"), small_robot(rng), small_robot(rng))
-    return [(model, model.random_configuration(rng=rng)) for model in models]
-
-
 def _motions(rng: Any) -> Any:
-    return [(model, q, *rng.standard_normal((2, model.nv))) for model, q in _postures(rng)]
+    return [(model, q, *rng.standard_normal((2, model.nv))) for model, q in [*states(rng)]]
 
 
 MAP = Part(
     solution=own_centroidal_map,
     returns=(Quantity("A_G", CENTROIDAL_MAP),),
-    cases=_postures,
+    cases=lambda rng: [*states(rng)],
     slips={
         "momentum-at-origin": faulty(own_centroidal_map, ("tw.center_of_mass(model, q)", "np.zeros(3)")),
         "momentum-at-base": faulty(own_centroidal_map, ("tw.center_of_mass(model, q)", "q[:3]")),

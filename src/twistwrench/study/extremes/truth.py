@@ -21,6 +21,7 @@ from ...model import Model
 from ...newton_euler_3d.bodies import Body, bodies_in_world
 from ...newton_euler_3d.forces import virtual_power
 from ...newton_euler_3d.state import take
+from ..trade.numbers import as_long_double
 from .robots import State
 
 __all__ = ["Truth", "truth"]
@@ -138,14 +139,8 @@ def _divided(model: Model, q: Array, tau: Array) -> Array:
         return tau
     light, still = replace(model, gravity=np.zeros(3)), np.zeros(model.nv, np.longdouble)
     q = model.normalize(q.astype(np.longdouble))
-    step: Array = ne.as_mpmath(tw.aba(light, q, still, _as_long_double(tau / unit))) * unit
+    step: Array = ne.as_mpmath(tw.aba(light, q, still, as_long_double(tau / unit))) * unit
     return step
-
-
-def _as_long_double(x: Array) -> Array:
-    """Round mpmath numbers to long doubles."""
-    high = x.astype(np.float64)
-    return high.astype(np.longdouble) + (x - high).astype(np.float64)
 
 
 def _size_of_accelerations(model: Model, s: State, torques: Array, qdd: Array | None, weight: Array) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -28,14 +29,7 @@ def derivative(robot: Robot) -> tuple[Truth, list[Way]]:
     """Return the truth of ∂τ/∂q, shape (nv, nv), and the ways. v and a are held fixed."""
     model = robot.model
 
-    def fast(q: Array, v: Array, a: Array) -> Array:
-        return tw.fast.rnea(model, q, v, a)
-
-    def textbook(q: Array, v: Array, a: Array) -> Array:
-        return tw.rnea(model, q, v, a)
-
-    def exact(q: Array, v: Array, a: Array) -> Array:
-        return difference_in_twice_the_digits(model, q, v, a)
+    exact, fast = partial(difference_in_twice_the_digits, model), partial(tw.fast.rnea, model)
 
     def pinocchio(pin: Any, m: Any, d: Any, q: Array, v: Array, a: Array) -> Any:
         pin.computeRNEADerivatives(m, d, q, v, a)
@@ -45,12 +39,12 @@ def derivative(robot: Robot) -> tuple[Truth, list[Way]]:
         return oracle.matrix(np.reshape(data.dtau_dq, (model.nv, model.nv)))
 
     return exact, [
-        Way("tw.fast.rnea, complex step", lambda q, v, a: complex_step(fast, model, q, v, a)),
-        Way("tw.rnea, complex step", lambda q, v, a: complex_step(textbook, model, q, v, a)),
+        Way("tw.fast.rnea, complex step", partial(complex_step, fast, model)),
+        Way("tw.rnea, complex step", partial(complex_step, partial(tw.rnea, model), model)),
         Way("newton_euler_3d, forward difference", exact, DIGITS, batches=False),
         *robot.pinocchio("pin.computeRNEADerivatives", pinocchio, read),
-        Way("tw.fast.rnea, central difference", lambda q, v, a: central_difference(fast, model, q, v, a)),
-        Way("tw.fast.rnea, forward difference", lambda q, v, a: forward_difference(fast, model, q, v, a)),
+        Way("tw.fast.rnea, central difference", partial(central_difference, fast, model)),
+        Way("tw.fast.rnea, forward difference", partial(forward_difference, fast, model)),
     ]
 
 

@@ -67,14 +67,10 @@ class Robot:
 
 def inverse_dynamics(robot: Robot) -> tuple[Truth, list[Way]]:
     """Return the truth of τ, and the ways."""
-    model = robot.model
-
-    def truth(q: Array, v: Array, a: Array) -> Array:
-        return ne.inverse_dynamics(model, q, v, a)
-
+    truth = partial(ne.inverse_dynamics, robot.model)
     return truth, [
-        Way("tw.fast.rnea", lambda q, v, a: tw.fast.rnea(model, q, v, a)),
-        Way("tw.rnea", lambda q, v, a: tw.rnea(model, q, v, a)),
+        Way("tw.fast.rnea", partial(tw.fast.rnea, robot.model)),
+        Way("tw.rnea", partial(tw.rnea, robot.model)),
         robot.slow(truth),
         *robot.pinocchio("pin.rnea", lambda pin, m, d, q, v, a: pin.rnea(m, d, q, v, a), Oracle.vector),
     ]
@@ -82,10 +78,7 @@ def inverse_dynamics(robot: Robot) -> tuple[Truth, list[Way]]:
 
 def forward_dynamics(robot: Robot) -> tuple[Truth, list[Way]]:
     """Return the truth of v̇, and the ways: from the tips to the base and back, or M v̇ = τ − h solved."""
-    model = robot.model
-
-    def truth(q: Array, v: Array, tau: Array) -> Array:
-        return ne.forward_dynamics(model, q, v, tau)
+    model, truth = robot.model, partial(ne.forward_dynamics, robot.model)
 
     def solved(q: Array, v: Array, tau: Array) -> Array:
         return _solve(tw.crba(model, q), tau - tw.nonlinear_effects(model, q, v))
@@ -100,8 +93,8 @@ def forward_dynamics(robot: Robot) -> tuple[Truth, list[Way]]:
         return pin.cholesky.solve(m, d, tau - pin.nonLinearEffects(m, d, q, v))
 
     return truth, [
-        Way("tw.fast.aba", lambda q, v, tau: tw.fast.aba(model, q, v, tau)),
-        Way("tw.aba", lambda q, v, tau: tw.aba(model, q, v, tau)),
+        Way("tw.fast.aba", partial(tw.fast.aba, model)),
+        Way("tw.aba", partial(tw.aba, model)),
         robot.slow(truth),
         *robot.pinocchio("pin.aba", lambda pin, m, d, q, v, tau: pin.aba(m, d, q, v, tau), Oracle.vector),
         Way("tw.fast M, h + Cholesky", solved_fast, HARDWARE),
@@ -139,14 +132,10 @@ def _solved_by_scipy(model: Model) -> list[Way]:
 
 def mass_matrix(robot: Robot) -> tuple[Truth, list[Way]]:
     """Return the truth of M, and the ways."""
-    model = robot.model
-
-    def truth(q: Array) -> Array:
-        return ne.mass_matrix(model, q)
-
+    truth = partial(ne.mass_matrix, robot.model)
     return truth, [
-        Way("tw.fast.crba", lambda q: tw.fast.crba(model, q)),
-        Way("tw.crba", lambda q: tw.crba(model, q)),
+        Way("tw.fast.crba", partial(tw.fast.crba, robot.model)),
+        Way("tw.crba", partial(tw.crba, robot.model)),
         robot.slow(truth),
         *robot.pinocchio("pin.crba", lambda pin, m, d, q: pin.crba(m, d, q), Oracle.matrix),
     ]
@@ -154,17 +143,14 @@ def mass_matrix(robot: Robot) -> tuple[Truth, list[Way]]:
 
 def centroidal_map(robot: Robot) -> tuple[Truth, list[Way]]:
     """Return the truth of A_G, and the ways."""
-    model = robot.model
-
-    def truth(q: Array) -> Array:
-        return ne.centroidal_map(model, q)
+    truth = partial(ne.centroidal_map, robot.model)
 
     def pinocchio(pin: Any, m: Any, d: Any, q: Array) -> Any:
         return pin.computeCentroidalMap(m, d, q)
 
     return truth, [
-        Way("tw.fast.centroidal_map", lambda q: tw.fast.centroidal_map(model, q)),
-        Way("tw.centroidal_map", lambda q: tw.centroidal_map(model, q)),
+        Way("tw.fast.centroidal_map", partial(tw.fast.centroidal_map, robot.model)),
+        Way("tw.centroidal_map", partial(tw.centroidal_map, robot.model)),
         robot.slow(truth),
         *robot.pinocchio("pin.computeCentroidalMap", pinocchio, Oracle.jacobian),
     ]
@@ -172,16 +158,13 @@ def centroidal_map(robot: Robot) -> tuple[Truth, list[Way]]:
 
 def momentum_rate(robot: Robot) -> tuple[Truth, list[Way]]:
     """Return the truth of ḣ_G, and the ways."""
-    model = robot.model
-
-    def truth(q: Array, v: Array, a: Array) -> Array:
-        return ne.centroidal_momentum_rate(model, q, v, a)
+    truth = partial(ne.centroidal_momentum_rate, robot.model)
 
     def pinocchio(pin: Any, m: Any, d: Any, q: Array, v: Array, a: Array) -> Any:
         return pin.computeCentroidalMomentumTimeVariation(m, d, q, v, a)
 
     return truth, [
-        Way("tw.centroidal_momentum_rate", lambda q, v, a: tw.centroidal_momentum_rate(model, q, v, a)),
+        Way("tw.centroidal_momentum_rate", partial(tw.centroidal_momentum_rate, robot.model)),
         robot.slow(truth),
         *robot.pinocchio(
             "pin.computeCentroidalMomentumTimeVariation", pinocchio, lambda _, F: bridge.from_pinocchio_force(F)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import Array, resolution
 
-__all__ = ["DIGITS", "FLOATS", "HARDWARE", "TRUTH", "convert", "digits", "epsilon", "exactly"]
+__all__ = ["DIGITS", "FLOATS", "HARDWARE", "TRUTH", "as_long_double", "convert", "digits", "epsilon", "exactly"]
 
 HARDWARE = ("float32", "float64")
 """The number types of LAPACK, and with it of numpy.linalg."""
@@ -48,6 +48,12 @@ def convert(x: Array, number: str) -> Array:
     0.10000000000000000555
     """
     return exactly(x, digits(int(number.split()[0]))) if number.endswith("digits") else x.astype(number)
+
+
+def as_long_double(x: Array) -> Array:
+    """Round mpmath numbers to long doubles."""
+    high = x.astype(np.float64)
+    return np.asarray(high.astype(np.longdouble) + (x - high).astype(np.float64))
 
 
 def epsilon(number: str) -> float:

@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ... import bridge
 from ...arrays import Array
-from .numbers import DIGITS, HARDWARE, TRUTH, convert, digits
+from .numbers import DIGITS, HARDWARE, TRUTH, as_long_double, convert, digits
 from .quantity import Arrays, Quantity, Way, repeated
 
 __all__ = ["pose_quantities"]
@@ -33,7 +33,7 @@ def pose_quantities(
     V = np.concatenate([w, v], axis=-1)
     exact = [_exponential(convert(x, TRUTH)) for x in V[:states]]
     nearly = tw.exp6(V.astype(np.longdouble)).matrix()
-    nearly[:states] = [_long(x) for x in exact]
+    nearly[:states] = [as_long_double(x) for x in exact]
 
     def twists(number: str, where: int | slice) -> Arrays:
         return (convert(repeated(V, where), number),)
@@ -91,12 +91,6 @@ def _scipy() -> list[Way]:
         Way("scipy RigidTransform", RigidTransform.as_exp_coords, number, before=lambda T: (RigidTransform(T),)),
         Way("scipy expm", expm, HARDWARE, before=lambda V: (tw.hat(V),)),
     ]
-
-
-def _long(x: Array) -> Array:
-    """Round mpmath numbers to long doubles."""
-    high = x.astype(np.float64)
-    return high.astype(np.longdouble) + (x - high).astype(np.float64)
 
 
 def _exponential(V: Array) -> Array:
