@@ -111,8 +111,9 @@ def test_two_feet_with_soles_carry_all_motions(kind):
 
 
 def test_a_crawl_and_a_jump_of_go2_keep_the_pressure_inside_the_polygon_and_a_trot_does_not():
-    inside = {kind: ground(robot("go2"), motion("go2", kind)).margin.min() > 0 for kind in NAMES}
-    assert inside == {"walk": True, "trot": False, "jump": True}
+    """By as much as docs/templates.md says."""
+    inside = {kind: ground(robot("go2"), motion("go2", kind)).margin.min() for kind in NAMES}
+    assert inside == pytest.approx({"walk": 0.023, "trot": -0.038, "jump": 0.070}, abs=0.0005)
 
 
 # ---------------------------------------------------------------- v is the rate of q, a that of v

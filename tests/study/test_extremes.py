@@ -393,6 +393,12 @@ def test_the_truth_of_a_quarter_turn_is_a_closed_form():
 PAGES = [page("extremes", language) for language in ("", ".zh-CN")]
 
 
+@pytest.mark.parametrize("language", ["", ".zh-CN"])
+def test_the_page_counts_the_robots_of_the_grid(language):
+    said = re.findall(r"twistwrench study extremes.* # (\d+)", page("extremes", language).read_text(encoding="utf-8"))
+    assert [int(number) for number in said] == [len(cells(full=full)) for full in (False, True)]
+
+
 @pytest.mark.filterwarnings("error")
 def test_every_block_of_the_page_runs(capsys):
     first, parts = numbered("extremes")
