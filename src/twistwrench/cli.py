@@ -155,7 +155,9 @@ def add_validate(commands: Commands) -> None:
     parser.add_argument("--seed", type=at_least(0), default=0, metavar="N", help="of the random states (0)")
     parser.add_argument("--json", metavar="FILE", help="write the results as JSON; - for stdout, without the table")
     parser.add_argument("--jobs", type=at_least(1), metavar="N", help="processes for --all (as many as processors)")
-    parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
+    parser.add_argument(
+        "--progress", action="store_true", help="a progress bar on stderr, also where that is not a terminal"
+    )
     parser.set_defaults(run=run_validate, misuse=parser.error)
 
 

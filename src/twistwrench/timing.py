@@ -78,7 +78,7 @@ class Lap:
 
     @property
     def seconds(self) -> Array:
-        """The undisturbed stretches; where there are none, the processor time of the disturbed ones."""
+        """The undisturbed stretches; without any, the processor time of the disturbed ones."""
         return np.array(self.kept or self.spare)
 
     def run(self) -> None:

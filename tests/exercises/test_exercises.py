@@ -509,7 +509,7 @@ def test_power_is_asked_for_both_ways_and_the_error_is_the_one_that_was_asked_fo
 
     assert "only one of wrench.power(twist) and twist.power(wrench) works" in message("SpatialVector", OneWay)
     assert "F.power(V) must be numbers, not str" in message("SpatialVector", OtherWay)
-    assert "another error than the TypeError that was asked for" in message("SpatialVector", OtherError)
+    assert "another error than the TypeError of the exercise" in message("SpatialVector", OtherError)
 
 
 def test_an_explanation_does_not_tell_to_do_what_was_done():

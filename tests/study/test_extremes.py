@@ -74,7 +74,7 @@ def test_fifty_digits_are_enough():
     recipe = Recipe(mass_ratio=1e9, speed=1e8, light=1e-9, parallel=1e-6, length=1e-9)
     fifty, hundred = (measure(recipe, pinocchio=False, digits=digits) for digits in (50, 100))
     for one, other in zip(fifty, hundred, strict=True):
-        assert (one.refused, one.bad) == (other.refused, other.bad)
+        assert (one.raised, one.bad) == (other.raised, other.bad)
         assert (one.error is None) == (other.error is None)
         assert one.error is None or one.error == pytest.approx(other.error, rel=1e-3)
 
@@ -142,8 +142,8 @@ def test_the_same_robot_in_other_units_loses_nothing(unit, scale):
     usual = usual_errors()
     for o in measure(Recipe(**{unit: scale}), pinocchio=False):
         assert not o.bad
-        if o.who == "float32" and o.refused:  # products would overflow
-            assert "overflow in float32" in o.refused
+        if o.who == "float32" and o.raised:  # products would overflow
+            assert "overflow in float32" in o.raised
         else:
             assert o.error == usual[o.algorithm, o.who], o
 
@@ -188,7 +188,7 @@ def nothing_is_silent(recipes):
 
 def test_no_cell_is_silently_bad():
     found = nothing_is_silent([*ENDS_ALONE, Recipe(mass_ratio=1e9, bodies=20), Recipe(light=1e-9, parallel=1e-6)])
-    assert {recipe for recipe, o in found if o.refused and o.who == "textbook"} == {
+    assert {recipe for recipe, o in found if o.raised and o.who == "textbook"} == {
         of_value("tip", 0.0),
         of_value("off", 0.1),
         of_value("edge", -1e-3),
@@ -267,7 +267,7 @@ def test_a_file_that_holds_something_else_is_left_as_it_is(text, tmp_path, capsy
 
 
 def test_a_cell_survives_its_line():
-    outcomes = (Outcome("aba, pushed", "fast", error=0.1, estimate=np.inf), Outcome("crba", "fast", refused="no"))
+    outcomes = (Outcome("aba, pushed", "fast", error=0.1, estimate=np.inf), Outcome("crba", "fast", raised="no"))
     cell = Cell(Recipe(angle=np.pi, leaves=True), outcomes)
     assert Cell.from_line(cell.as_line()) == cell
     json.loads(cell.as_line(), parse_constant=lambda name: pytest.fail(name))
@@ -280,11 +280,11 @@ def test_the_report_counts():
 
     some = [cell(1, 1e-13, 1e-14), cell(2, 1e-15, 1e-13), cell(3, 1e-15, 1e-15), cell(4, 1e-11, 1e-11)]
     (row, _), (estimate,) = report.rows(some), report.estimates(some)
-    assert (row.cells, row.numbers, row.refused, row.bad) == (4, 4, 0, 0)
+    assert (row.cells, row.numbers, row.raised, row.bad) == (4, 4, 0, 0)
     assert (row.above, row.below, row.tenth, row.worst) == (1, 1, 1, 1e-11)
     assert (estimate.cells, estimate.held) == (4, 3)
-    refused = [replace(some[0], outcomes=(Outcome("crba", "fast", refused="ValueError: q: joint 'a' is, got 7"),))]
-    assert report.refusals(refused) == [("ValueError: q: joint … is", 1)]
+    refused = [replace(some[0], outcomes=(Outcome("crba", "fast", raised="ValueError: q: joint 'a' is, got 7"),))]
+    assert report.messages(refused) == [("ValueError: q: joint … is", 1)]
 
 
 def test_the_report_is_json_where_an_estimate_has_no_end():
@@ -335,7 +335,7 @@ def test_the_map_shows_a_nan_in_red_what_is_refused_hatched_and_pairs_by_their_w
     def cell(changed, **outcome):
         return Cell(Recipe(**changed), (Outcome("crba", "textbook", **outcome),))
 
-    cells = [cell({"angle": -np.pi}, bad="NaN"), cell(far, refused="ValueError: q", estimate=2.0)]
+    cells = [cell({"angle": -np.pi}, bad="NaN"), cell(far, raised="ValueError: q", estimate=2.0)]
     cells += [cell(far | {"speed": speed}, error=error) for speed, error in ((1e8, 1e-3), (1e-12, 1e-15))]
     picture.draw(cells, "crba", figure)
     (above, below), said = figure.axes[0:4:2], figure.axes[1]

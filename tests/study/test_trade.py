@@ -94,7 +94,7 @@ def test_the_words_count_a_way_for_one_state_among_those_for_many_but_not_the_re
 def test_the_words_also_say_what_to_use_without_pinocchio_and_where_nothing_will_do():
     lines = advice("τ", [point(1e-6, 3e-16, "pin.rnea"), point(4e-6, 3e-16, "tw.rnea")])
     assert "for 1e-6 and 1e-12 use pin.rnea in float64 (1 µs), without Pinocchio tw.rnea in float64 (4 µs)" in lines[1]
-    assert lines[1].endswith("for 1e-16 there is none.")
+    assert lines[1].endswith("for 1e-16 no way is exact enough.")
 
 
 # ---------------------------------------------------------------- the errors

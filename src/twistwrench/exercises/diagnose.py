@@ -141,13 +141,13 @@ def _named(exercise: Exercise, part: Part, found: list[str]) -> list[Text]:
 
 def _named_by_piece(exercise: Exercise, part: Part, found: dict[str, list[str]]) -> list[Text]:
     """Name the slip in each thing that was returned; each reason once."""
-    lines, told, last = [], set(), exercise.section
+    lines, given, last = [], set(), exercise.section
     for name, slips in found.items():
         titles = [SLIPS[slip].title for slip in slips]
         title = Text(", or ".join(t.en for t in titles), "，或 ".join(t.zh for t in titles))
         lines.append(say("slip in", name=name, title=title))
-        lines += [_indented(_slip(exercise, part, slip).why) for slip in slips if slip not in told]
-        told.update(slips)
+        lines += [_indented(_slip(exercise, part, slip).why) for slip in slips if slip not in given]
+        given.update(slips)
         last = _slip(exercise, part, slips[0]).section
     return [*lines, _where(exercise, last)]
 

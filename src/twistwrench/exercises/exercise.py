@@ -55,7 +55,7 @@ class Part:
     slips : mapping
         Name of a slip of `slips.SLIPS` to a wrong implementation with the same signature.
     alike : tuple
-        Groups of those names that cannot be told apart here: the message then names all of a group.
+        Groups of those names that cannot be distinguished here: the message then names all of a group.
     residuals : tuple of callable
         Of the properties, in the order of their texts in the data file: ``residual(answer, *arguments)`` is zero, entry
         by entry, for every right answer, however it was computed. They explain a wrong answer that is not a known slip.

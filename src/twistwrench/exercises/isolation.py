@@ -103,7 +103,7 @@ class IsolatedWorkbook(Workbook):
                 self.close()
                 if died.at is None:  # not in the student's code
                     return None
-                lines = self._told(died)
+                lines = self._explained(died)
                 if died.at in map(catalogue.file_name, catalogue.SECTIONS):
                     self._unreadable[died.at] = Text(*("\n".join(line.of(k) for line in lines) for k in ("en", "zh")))
                 else:
@@ -114,7 +114,7 @@ class IsolatedWorkbook(Workbook):
                 self.borrowed |= borrowed
                 return answer
 
-    def _told(self, died: _Died) -> list[Text]:
+    def _explained(self, died: _Died) -> list[Text]:
         """Return why the process ended, and at which line of the student's."""
         late = died.trace.startswith("Timeout")
         lines = [say("endless", seconds=f"{self._time_limit:g}") if late else say("ended")]

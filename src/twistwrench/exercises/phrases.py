@@ -11,7 +11,7 @@ PHRASES = {
     "all wrong": Text("Tried on {all} random cases. The first:", "用 {all} 组随机数据检验。第一组："),
     "slip": Text("The slip: {title}.", "错因：{title}。"),
     "slip in": Text("The slip in {name}: {title}.", "{name} 的错因：{title}。"),
-    "slips": Text("One of these, which cannot be told apart here:", "以下几种之一（此处无法区分）："),
+    "slips": Text("One of these, which cannot be distinguished here:", "以下几种之一（此处无法区分）："),
     "two slips": Text("Two slips at once: {first}; and {second}.", "两处错误：{first}；并且 {second}。"),
     "where": Text(
         "Read {section}; ask for a hint: twistwrench exercises hint {id}",
@@ -56,7 +56,7 @@ PHRASES = {
         "缺少 {file}：用 `twistwrench exercises start` 可重新生成。",
     ),
     "words missing": Text(
-        "The function is right. Now say it in words: fill in {name}.", "函数已正确。请再用文字作答：填写 {name}。"
+        "The function is right. Now explain it in words: fill in {name}.", "函数已正确。请再用文字作答：填写 {name}。"
     ),
     "words short": Text("{name} is very short: a sentence or two, please.", "{name} 太短：请写一两句话。"),
     # how an entry or a block compares

@@ -1,8 +1,8 @@
 """Wrong implementations, made out of right ones: the slips that need no code of their own.
 
 Each takes the reference, and gives a function with the same arguments that makes one slip: `faulty` changes a line of
-it, the others what goes in or comes out. Where the reference returns several things, ``only`` says which of them are
-touched; by default all are.
+it, the others what goes in or comes out. Where the reference returns several things, ``only`` names
+those that are touched; by default all are.
 """
 
 from __future__ import annotations

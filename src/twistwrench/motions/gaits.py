@@ -155,8 +155,8 @@ def _phases(stand: Stand, gait: Gait) -> list[float]:
     if len(stand.legs) != len(gait.phases):
         raise ModelError(f"{stand.model.name!r}: expected {len(gait.phases)} legs for this gait, got {len(stand.legs)}")
     off = [leg.center - stand.com for leg in stand.legs]
-    seats = [2 * int(p[0] < 0) * (len(off) == 4) + int(p[1] < 0) for p in off]
-    return [gait.phases[seat] for seat in seats]
+    corners = [2 * int(p[0] < 0) * (len(off) == 4) + int(p[1] < 0) for p in off]
+    return [gait.phases[k] for k in corners]
 
 
 def _arms(stand: Stand) -> list[tuple[int, float, bool]]:

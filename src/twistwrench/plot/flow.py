@@ -91,7 +91,7 @@ def flow(
     >>> [text.get_text() for text in ax.texts if text.get_text()]
     ['world', 'slide', 'hinge', '1 kg', '0.1 kg']
     """
-    seat = seats(model)
+    places = seats(model)
     size = np.ones(model.nbodies) if amounts is None else drawn(amounts, "amounts", model.nbodies)
     texts = as_names(texts, "texts", "texts", ordered=True)
     if len(texts) != model.nbodies or size.ndim != 1:
@@ -101,16 +101,16 @@ def flow(
     names = ["world", *(name.removesuffix("_joint") for name in model.joint_names[1:])]
     names[1:2] = ["base"] if model.base == "floating" else names[1:2]
     box = {"boxstyle": "round,pad=0.35", "facecolor": "0.93", "edgecolor": COLOURS["black"]}
-    for place, name in zip(seat, names):
+    for place, name in zip(places, names):
         ax.text(*place, name, ha="center", va="center", fontsize=9, bbox=box, zorder=3)
     if texts[0]:
-        ax.text(*(seat[0] + [0, -0.45]), texts[0], ha="center", va="center", fontsize=9, color=colour)
+        ax.text(*(places[0] + [0, -0.45]), texts[0], ha="center", va="center", fontsize=9, color=colour)
     for i in range(1, model.nbodies):
-        end = seat[i] - [0.28, 0]
-        way = np.array([seat[model.parent[i]] + [0.24, 0], end - [0.36, 0], end])  # then level, below its text
+        end = places[i] - [0.28, 0]
+        way = np.array([places[model.parent[i]] + [0.24, 0], end - [0.36, 0], end])  # then level, below its text
         _arrow(ax, way[::-1] if inward else way, color=colour, linewidth=width[i])
         ax.annotate(texts[i], end - [0.18, 0], (0, 5), textcoords="offset points", ha="center", va="bottom", fontsize=8)
-    ax.set(xlim=(-0.4, seat[:, 0].max() + 0.4), ylim=(seat[:, 1].min() - 0.5, 0.6))
+    ax.set(xlim=(-0.4, places[:, 0].max() + 0.4), ylim=(places[:, 1].min() - 0.5, 0.6))
     ax.axis("off")
     return ax
 

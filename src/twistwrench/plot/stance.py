@@ -100,7 +100,7 @@ def support_polygon(
     Raises
     ------
     ShapeError
-        If these are not points, or there are none.
+        If these are not points, or the array is empty.
 
     Examples
     --------

@@ -154,7 +154,7 @@ def as_placement(T: SE3 | ArrayLike, name: str) -> SE3:
 
 
 def _pyplot() -> Any:
-    """Return matplotlib.pyplot, or raise an error that says how to install it."""
+    """Return matplotlib.pyplot, or raise an error with the command that installs it."""
     try:
         import matplotlib.pyplot as plt
     except ModuleNotFoundError as error:

@@ -36,8 +36,8 @@ def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact
     contacts = as_sequence(contacts, "contacts", "contacts", ordered=True)
     for contact in contacts:
         if not isinstance(contact, Contact):
-            came = f"{type(contact).__name__} {contact!r}"
-            raise TypeError(f"contacts: expected contacts such as PointContact(frame, mu=0.7), got {came}")
+            got = f"{type(contact).__name__} {contact!r}"
+            raise TypeError(f"contacts: expected contacts such as PointContact(frame, mu=0.7), got {got}")
         model.frame(contact.frame)
     for one, other in combinations(contacts, 2):
         here, there = model.frame(one.frame), model.frame(other.frame)

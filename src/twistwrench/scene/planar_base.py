@@ -62,8 +62,8 @@ class OnTheFloor:
             **per_dof,
         )
         floor = cls(full, small, base, near)
-        still = np.zeros(full.nv)
-        postures = {name: floor.reduce(posture, still)[0] for name, posture in full.postures.items()}
+        at_rest = np.zeros(full.nv)
+        postures = {name: floor.reduce(posture, at_rest)[0] for name, posture in full.postures.items()}
         return replace(floor, model=replace(small, postures=postures))
 
     def reduce(self, q: Array, v: Array) -> tuple[Array, Array]:

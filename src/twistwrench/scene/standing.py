@@ -67,7 +67,7 @@ def outside_limits(model: Model, q: Array) -> list[str]:
 
 
 def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> str:
-    """Name the motors that are too weak for all contact forces within the friction cones; empty if there are none.
+    """Name the motors that are too weak for all contact forces within the friction cones.
 
     τ = b − Jᵀ P f, with the forces f at the touching points, which are free to press and to relieve.
     """

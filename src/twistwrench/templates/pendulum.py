@@ -40,7 +40,7 @@ class LinearPendulum(Template):
     >>> pendulum = LinearPendulum.of(model, model.standing())
     >>> round(pendulum.height, 3)
     0.247
-    >>> pendulum.center_of_pressure([0.0, 0, pendulum.height], [1.0, 0, 0]).round(3) + 0.0  # behind what speeds up
+    >>> pendulum.center_of_pressure([0.0, 0, pendulum.height], [1.0, 0, 0]).round(3) + 0.0  # it lags the centre of mass
     array([-0.025,  0.   ,  0.   ])
     """
 

@@ -32,7 +32,7 @@ class Row:
         Of the value at one state.
     ours_vs_pinocchio, ours_vs_truth, pinocchio_vs_truth : float or None
         Worst relative error over the states; None where a side is missing, NaN where one gave no number.
-        Where the bound varies, of the state that came closest to its bound.
+        Where the bound varies, of the state that is closest to its bound.
     bound : float
         The relative error allowed: 1e-12, or more where the conditioning forbids that.
     passed : bool

@@ -25,7 +25,7 @@ class Oracle:
     ----------
     ours : Model
     path : Path, optional
-        The URDF that `ours` came from, for Pinocchio to read by itself. Without it the bridge hands
+        The URDF of `ours`, for Pinocchio to read by itself. Without it the bridge hands
         the model over, and the loader goes unchecked.
 
     Raises
@@ -102,7 +102,7 @@ class Oracle:
             found = self.model.getFrameId(name, types.BODY)
         elif self.model.existFrame(name):
             found = self.model.getFrameId(name)
-        else:  # the number of frames where there is none
+        else:  # the number of frames for an unknown name
             kinds = [types.BODY] if kind == "link" else [types.JOINT, types.FIXED_JOINT]
             found = min(self.model.getFrameId(bare, kind) for kind in kinds)
         if found >= self.model.nframes:

@@ -48,7 +48,7 @@ def validate(
     ----------
     robot : Model, str or path
         A name or a path is loaded as by `twistwrench.load`, accepting bodies that are not physical, and
-        Pinocchio reads the same file by itself. A `Model` is handed over to it by the bridge.
+        Pinocchio reads the same file by itself. A `Model` is converted by the bridge.
     base : {"fixed", "floating"}, optional
         For a name or a path: the base to load it with.
     states : int
@@ -126,7 +126,7 @@ def validate(
 
 
 def _load(robot: Model | str | PathLike[str], base: Literal["fixed", "floating"] | None) -> tuple[Model, Path | None]:
-    """Return the model, and the URDF it came from where there is one."""
+    """Return the model, and its URDF where there is one."""
     if isinstance(robot, Model):
         if base is not None:
             raise ValueError(f"base: a Model has its base ({robot.base}) already, got {base!r}")

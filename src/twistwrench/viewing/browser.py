@@ -96,7 +96,7 @@ class Browser:
 
 
 def import_viser() -> Any:
-    """Import viser, or raise an error that says how to install it."""
+    """Import viser, or raise an error with the command that installs it."""
     try:
         import viser
     except ModuleNotFoundError:

@@ -26,7 +26,9 @@ def register(commands: Any) -> None:
     )
     parser.add_argument("robot", metavar="ROBOT", help="a name of `twistwrench robots` or a URDF")
     parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own")
-    parser.add_argument("--posture", metavar="NAME", help="a named posture (standing, or neutral where there is none)")
+    parser.add_argument(
+        "--posture", metavar="NAME", help="a named posture (standing, or neutral where it does not exist)"
+    )
     parser.add_argument("--frame", action="append", metavar="NAME", help="draw this frame, with its name; repeatable")
     parser.add_argument("--contact", action="append", metavar="NAME", help="a frame on the ground; repeatable (feet)")
     where = parser.add_mutually_exclusive_group()

@@ -32,7 +32,7 @@ def build(scene: Any, seen: Subject, shapes: list[Shape], frames: Collection[str
     scene : viser.SceneApi
     seen : Subject
     shapes : list of Shape
-        Sticks are drawn where there are none.
+        Sticks are drawn for an empty list.
     frames : collection of str, optional
         Those that are drawn, with their names; small ones on every body unless given.
 
@@ -43,8 +43,8 @@ def build(scene: Any, seen: Subject, shapes: list[Shape], frames: Collection[str
     """
     first = seen.at(0)
     _floor(scene, first)
-    looks = _bodies(scene, shapes) if shapes else _sticks(scene, first)
-    parts = [looks, _frames(scene, first, frames)]
+    drawn = _bodies(scene, shapes) if shapes else _sticks(scene, first)
+    parts = [drawn, _frames(scene, first, frames)]
     if first.model.mass > 0:
         parts.append(_mass(scene, first))
     if first.contacts:

@@ -66,12 +66,12 @@ def shapes(model: Model, source: str | PathLike[str] | None) -> list[Shape]:
     if path is None:
         return []
     _import_yourdfpy()  # report what is missing even where nothing would be read
-    looks = _visuals(path)
-    frames = {link: f"link:{link}" if f"link:{link}" in model.frames else link for link, _ in looks}
+    visuals = _visuals(path)
+    frames = {link: f"link:{link}" if f"link:{link}" in model.frames else link for link, _ in visuals}
     if not set(frames.values()) <= set(model.frames):
         return []  # other links than the model's
     found, unseen, read = [], [], cache(read_mesh)  # four legs share one file
-    for link, visual in looks:
+    for link, visual in visuals:
         frame = model.frames[frames[link]]
         try:
             placement, mesh = _shape(visual, path, read)
@@ -104,7 +104,7 @@ def _urdf(source: str | PathLike[str] | None) -> Path | None:
 
 
 def _import_yourdfpy() -> Any:
-    """Import yourdfpy, or raise an error that says how to install it."""
+    """Import yourdfpy, or raise an error with the command that installs it."""
     try:
         import yourdfpy
     except ModuleNotFoundError:

@@ -83,8 +83,8 @@ class Subject:
     def support(self) -> Array:
         """Return the points that touch the ground, in the world, shape (n, 3), m."""
         T = contact_placements(self.model, self.q, self.contacts)
-        touching = [T[c.frame].act(c.points) for c, stands in zip(self.contacts, self.stands) if stands]
-        return np.concatenate([np.zeros((0, 3)), *touching])
+        points = [T[c.frame].act(c.points) for c, stands in zip(self.contacts, self.stands) if stands]
+        return np.concatenate([np.zeros((0, 3)), *points])
 
     def forces(self) -> Forces | None:
         """Return the forces that were given, or those that hold a floating robot at rest; None where no forces can."""
@@ -148,17 +148,17 @@ def subject(
     model = load(robot) if isinstance(robot, str | PathLike) else getattr(robot, "model", robot)
     if not isinstance(model, Model):
         raise no_model(robot, "robot", "a name, a path, a Model, a Scene or a Simulation")
-    touching = _contacts(model, robot.contacts if contacts is None and isinstance(robot, Scene) else contacts)
+    ground = _contacts(model, robot.contacts if contacts is None and isinstance(robot, Scene) else contacts)
     motion = robot if isinstance(robot, Simulation) and q is None else q
     standing = motion.contacts if isinstance(motion, Motion) and contacts is None else None
     if isinstance(motion, Motion | Simulation):
         t = motion.t if t is None else t
         motion = motion.q
     q = _configuration(model, motion)
-    given = None if forces is None else drawn(as_exactly(forces, "forces", *q.shape[:-1], len(touching), 3), "forces")
-    stands = np.ones((*q.shape[:-1], len(touching)), bool) if standing is None else standing
+    given = None if forces is None else drawn(as_exactly(forces, "forces", *q.shape[:-1], len(ground), 3), "forces")
+    stands = np.ones((*q.shape[:-1], len(ground)), bool) if standing is None else standing
     stands = stands if given is None else (given != 0).any(axis=-1)
-    return Subject(model, q, _times(q, t), touching, stands, given)
+    return Subject(model, q, _times(q, t), ground, stands, given)
 
 
 def _configuration(model: Model, q: ArrayLike | None) -> Array:

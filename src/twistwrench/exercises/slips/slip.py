@@ -15,7 +15,7 @@ class Slip(NamedTuple):
     Attributes
     ----------
     title : Text
-        Its name, as the message says it.
+        Its name in the message.
     why : Text
         What is true instead, in a sentence or two.
     section : str

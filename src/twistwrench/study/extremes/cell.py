@@ -27,7 +27,7 @@ class Outcome:
         As `candidates.ALGORITHMS` and `candidates.CANDIDATES` name them.
     error : float or None
         Relative, free of units; None without a number.
-    refused : str
+    raised : str
         The class and the message of the error instead of a number.
     bad : str
         A fault: a NaN, an infinity, a warning, an error that is not of our classes, a number where none is right.
@@ -38,7 +38,7 @@ class Outcome:
     algorithm: str
     who: str
     error: float | None = None
-    refused: str = ""
+    raised: str = ""
     bad: str = ""
     estimate: float | None = None
 
@@ -53,7 +53,7 @@ def measure(recipe: Recipe, *, pinocchio: bool, digits: int = 50) -> list[Outcom
     try:
         model, s = recipe.model, recipe.state
     except ModelError as error:
-        return [Outcome(name, "textbook", refused=f"ModelError: {error}") for name in ALGORITHMS]
+        return [Outcome(name, "textbook", raised=f"ModelError: {error}") for name in ALGORITHMS]
     with mpmath.workdps(digits):
         right = truth(model, s)
         expected = {"float32": _estimates(recipe, np.float32), "double": _estimates(recipe, np.float64)}
@@ -85,7 +85,7 @@ def _judge(way: Candidate, right: Truth, expected: dict[str, float]) -> Outcome:
     except Warning as warning:
         return Outcome(**outcome, bad=f"warns: {warning}")
     except ValueError as error:
-        return Outcome(**outcome, refused=f"{type(error).__name__}: {error}")
+        return Outcome(**outcome, raised=f"{type(error).__name__}: {error}")
     except Exception as error:
         return Outcome(**outcome, bad=f"{type(error).__name__}: {error}")
     if not np.isfinite(answer).all():

@@ -36,7 +36,9 @@ def add_extremes(studies: Any) -> None:
     parser.add_argument(
         "--angles", type=_count, default=10_000, metavar="N", help="of exp and log; 0 leaves them out (10000)"
     )
-    parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
+    parser.add_argument(
+        "--progress", action="store_true", help="a progress bar on stderr, also where that is not a terminal"
+    )
     parser.set_defaults(run=run_extremes)
 
 

@@ -100,7 +100,7 @@ def draw(cells: Sequence[Cell], algorithm: str, figure: Any) -> None:
     axes[1, 0].set_ylabel("two at once, the worst of their ends")
     shown = ScalarMappable(BoundaryNorm(np.arange(DIGITS + 1), DIGITS), colours)
     figure.colorbar(shown, ax=axes, shrink=0.6, aspect=40, pad=0.01).set_label("decimal digits kept")
-    figure.suptitle(f"{algorithm}: digits kept; hatched: refused with an error; red: a NaN", fontsize=11)
+    figure.suptitle(f"{algorithm}: digits kept; hatched: an error was raised; red: a NaN", fontsize=11)
 
 
 def _found(cells: Sequence[Cell], algorithm: str) -> Found:
@@ -110,7 +110,7 @@ def _found(cells: Sequence[Cell], algorithm: str) -> Found:
         if who == "textbook" and o.estimate is not None:
             nothing = o.estimate >= 1
             found[recipe, SAID] = Outcome(
-                algorithm, SAID, error=None if nothing else o.estimate, refused="unsure" * nothing
+                algorithm, SAID, error=None if nothing else o.estimate, raised="unsure" * nothing
             )
     return found
 
@@ -146,13 +146,13 @@ def _paint(ax: Any, square: Square, colours: Any) -> None:
     face = "white" if digits is None else colours(digits)
     if any(o.bad for o in square.outcomes):
         face = COLOURS["vermilion"]
-    refused = any(o.refused for o in square.outcomes)
-    hatch, edge = ("/////", COLOURS["grey"]) if refused else (None, "white")
+    raised = any(o.raised for o in square.outcomes)
+    hatch, edge = ("/////", COLOURS["grey"]) if raised else (None, "white")
     corner = square.column, square.row
     ax.add_patch(Rectangle(corner, 1, 1, facecolor=face, edgecolor=edge, hatch=hatch, linewidth=0.5))
     dark = digits is not None and digits < DIGITS * 0.6
     style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 5, "color": "white" if dark else "black"}
-    if refused and digits is None and square.text:
+    if raised and digits is None and square.text:
         style["bbox"] = {"facecolor": "white", "linewidth": 0, "pad": 0.5}
     ax.text(square.column + 0.5, square.row + 0.5, square.text, **style)
 

@@ -16,7 +16,7 @@ from .cell import Outcome
 from .rotations import Turns
 from .run import Cell
 
-__all__ = ["Estimate", "Row", "as_dict", "bad", "estimates", "refusals", "rows", "table", "turns"]
+__all__ = ["Estimate", "Row", "as_dict", "bad", "estimates", "messages", "rows", "table", "turns"]
 
 OURS = ("textbook", "fast")
 ROUNDINGS = 4 * resolution(np.float64)
@@ -30,7 +30,7 @@ class Row:
     Attributes
     ----------
     algorithm, who : str
-    cells, numbers, refused, bad : int
+    cells, numbers, raised, bad : int
         Numbers of cells: all; with numbers; with an error raised; with a fault.
     median, worst : float
         Relative error.
@@ -47,7 +47,7 @@ class Row:
     who: str
     cells: int
     numbers: int
-    refused: int
+    raised: int
     bad: int
     median: float
     worst: float
@@ -99,7 +99,7 @@ def _row(algorithm: str, who: str, pairs: list[tuple[Cell, Outcome]], theirs: di
         who=who,
         cells=len(pairs),
         numbers=len(numbers),
-        refused=sum(bool(o.refused) for _, o in pairs),
+        raised=sum(bool(o.raised) for _, o in pairs),
         bad=sum(bool(o.bad) for _, o in pairs),
         median=float(np.median([error for _, error in numbers])) if numbers else 0.0,
         worst=worst,
@@ -122,9 +122,9 @@ def estimates(cells: Sequence[Cell]) -> list[Estimate]:
     return found
 
 
-def refusals(cells: Sequence[Cell]) -> list[tuple[str, int]]:
+def messages(cells: Sequence[Cell]) -> list[tuple[str, int]]:
     """Return the errors of ours, without their numbers, and how often each was raised; the most frequent first."""
-    said = Counter(_general(o.refused) for c in cells for o in c.outcomes if o.who != "pinocchio" and o.refused)
+    said = Counter(_general(o.raised) for c in cells for o in c.outcomes if o.who != "pinocchio" and o.raised)
     return said.most_common()
 
 
@@ -144,18 +144,18 @@ def bad(cells: Sequence[Cell]) -> list[tuple[Cell, Outcome]]:
 
 def table(cells: Sequence[Cell]) -> str:
     """Return the three tables as text."""
-    return "\n".join([*_ways(rows(cells)), "", *_estimated(estimates(cells)), "", *_refused(refusals(cells))])
+    return "\n".join([*_ways(rows(cells)), "", *_estimated(estimates(cells)), "", *_messages(messages(cells))])
 
 
 def _ways(found: Iterable[Row]) -> Iterator[str]:
     yield (
-        f"{'':22} {'':9} {'cells':>5} {'refused':>7} {'bad':>3} {'median':>8} {'worst':>8} "
+        f"{'':22} {'':9} {'cells':>5} {'raised':>7} {'bad':>3} {'median':>8} {'worst':>8} "
         f"{'> Pin.':>6} {'< Pin.':>6} {'< 1/10':>6}  worst at"
     )
     for r in found:
         compared = [f"{x:6}" for x in (r.above, r.below, r.tenth)] if r.who in OURS else [" " * 6] * 3
         yield (
-            f"{r.algorithm:22} {r.who:9} {r.cells:5} {r.refused:7} {r.bad:3} {r.median:8.1e} {r.worst:8.1e} "
+            f"{r.algorithm:22} {r.who:9} {r.cells:5} {r.raised:7} {r.bad:3} {r.median:8.1e} {r.worst:8.1e} "
             f"{' '.join(compared)}  {r.where}"
         )
 
@@ -166,8 +166,8 @@ def _estimated(found: Iterable[Estimate]) -> Iterator[str]:
         yield f"{e.algorithm:22} {e.who:9} {e.cells:5} {e.held:5} {e.median:25.0f}"
 
 
-def _refused(found: Iterable[tuple[str, int]]) -> Iterator[str]:
-    yield "refused, ours"
+def _messages(found: Iterable[tuple[str, int]]) -> Iterator[str]:
+    yield "errors raised, ours"
     for message, count in found:
         yield f"{count:5} × {message}"
 
@@ -180,12 +180,12 @@ def turns(found: Iterable[Turns]) -> Iterator[str]:
 
 
 def as_dict(cells: Sequence[Cell]) -> dict[str, Any]:
-    """Return the same as numbers, for JSON: an infinite estimate is None."""
+    """Return the same as numbers, for JSON: an infinite estimate becomes None."""
     return {
         "cells": len(cells),
         "ways": [asdict(row) for row in rows(cells)],
         "estimates": [_finite(asdict(estimate)) for estimate in estimates(cells)],
-        "refused": [{"error": message, "count": count} for message, count in refusals(cells)],
+        "raised": [{"error": message, "count": count} for message, count in messages(cells)],
         "bad": [{"cell": str(cell), **_finite(asdict(outcome))} for cell, outcome in bad(cells)],
     }
 

@@ -103,7 +103,7 @@ class Recipe:
                 f"body_{k:04}",
                 parent="body_0000" if self.leaves else f"body_{k - 1:04}",
                 joint=Revolute([0.0, np.cos(k % 2 * self.parallel), np.sin(k % 2 * self.parallel)]),
-                placement=self._seat(k),
+                placement=self._placement(k),
                 inertia=rods[k],
                 armature=armature,
             )
@@ -135,7 +135,7 @@ class Recipe:
         moments = mass * self.length**2 / 12 * np.array([x, (x + y) * (1 - self.edge), y])
         return SpatialInertia(mass, np.array([0.02, 0.01, -0.5]) * self.length, np.diag(moments))
 
-    def _seat(self, k: int) -> SE3:
+    def _placement(self, k: int) -> SE3:
         """Return where joint k sits on its parent: at the end of the rod, at the base all around it."""
         if self.leaves:
             turn = 2 * np.pi * k / self.bodies

@@ -102,8 +102,8 @@ def mass_matrix(model: Model, q: Array) -> Array:
     """Return M; of a long robot those `COLUMNS`, each the torques of a unit acceleration without weight."""
     if model.nbodies <= WHOLE:
         return ne.mass_matrix(model, q)
-    light, still = replace(model, gravity=np.zeros(3)), 0 * q[:1].repeat(model.nv)
-    return np.stack([ne.inverse_dynamics(light, q, still, ne.as_mpmath(e)) for e in np.eye(model.nv)[list(COLUMNS)]], 1)
+    light, zero = replace(model, gravity=np.zeros(3)), 0 * q[:1].repeat(model.nv)
+    return np.stack([ne.inverse_dynamics(light, q, zero, ne.as_mpmath(e)) for e in np.eye(model.nv)[list(COLUMNS)]], 1)
 
 
 def accelerations(model: Model, s: State, torques: Array) -> Array | None:
@@ -137,9 +137,9 @@ def _divided(model: Model, q: Array, tau: Array) -> Array:
     unit = abs(tau).max()
     if unit == 0:
         return tau
-    light, still = replace(model, gravity=np.zeros(3)), np.zeros(model.nv, np.longdouble)
+    light, zero = replace(model, gravity=np.zeros(3)), np.zeros(model.nv, np.longdouble)
     q = model.normalize(q.astype(np.longdouble))
-    step: Array = ne.as_mpmath(tw.aba(light, q, still, as_long_double(tau / unit))) * unit
+    step: Array = ne.as_mpmath(tw.aba(light, q, zero, as_long_double(tau / unit))) * unit
     return step
 
 

@@ -62,11 +62,11 @@ def _answer(target: float, points: Sequence[Point]) -> str:
     """Return in words what to use for an error; where that is Pinocchio, also what to use without it."""
     found = best(points, target)
     if found is None:
-        return "there is none"
+        return "no way is exact enough"
     if not found.way.startswith("pin."):
         return f"use {_named(found)}"
     other = best([p for p in points if not p.way.startswith("pin.")], target)
-    return f"use {_named(found)}, without Pinocchio {_named(other) if other else 'there is none'}"
+    return f"use {_named(found)}, without Pinocchio {_named(other) if other else 'no way'}"
 
 
 def _named(point: Point) -> str:

@@ -30,7 +30,9 @@ def add_trade(studies: Any) -> None:
     parser.add_argument("--short", action="store_true", help="few states and rounds: to see that all is there")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write everything as JSON")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="draw error over time: a png, svg or pdf")
-    parser.add_argument("--progress", action="store_true", help="a progress bar on stderr even if that is no terminal")
+    parser.add_argument(
+        "--progress", action="store_true", help="a progress bar on stderr, also where that is not a terminal"
+    )
     parser.set_defaults(run=run_trade)
 
 

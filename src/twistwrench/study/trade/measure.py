@@ -63,7 +63,7 @@ class Point:
     rounds : int
         How many times were kept.
     quiet : bool
-        Whether they are those of undisturbed stretches; where there were none, the time on the processor counts.
+        Whether they are those of undisturbed stretches; without any, the time on the processor counts.
     """
 
     quantity: str

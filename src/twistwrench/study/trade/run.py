@@ -118,9 +118,9 @@ def weigh(
     with tqdm(total=steps, unit="step", leave=False, disable=hidden) as bar:
         for quantity in quantities:
             bar.set_description(quantity.key)
-            found, refused = measure(quantity, effort, bar.update)
+            found, rejected = measure(quantity, effort, bar.update)
             points += found
-            left_out += refused
+            left_out += rejected
             names = {**trade.names, quantity.key: quantity.name}
             seconds = time.perf_counter() - start
             trade = replace(trade, names=names, points=tuple(points), left_out=tuple(left_out), seconds=seconds)
