@@ -44,7 +44,7 @@ def as_real(value: ArrayLike, name: str, *tail: int) -> Array:
 
 
 def check_overflow(result: Array, names: str) -> None:
-    """Refuse arguments that are finite and of which a product or a sum is not.
+    """Raise for arguments that are finite but of which a product or a sum is not.
 
     Examples
     --------
@@ -57,7 +57,7 @@ def check_overflow(result: Array, names: str) -> None:
 
 
 def without_overflow(names: str) -> Callable[[Callable[P, Array]], Callable[P, Array]]:
-    """Let a function of one array refuse its arguments by name where the result overflows: see `check_overflow`."""
+    """Let a function of one array name its arguments in an error where the result overflows: see `check_overflow`."""
 
     def decorate(function: Callable[P, Array]) -> Callable[P, Array]:
         @wraps(function)

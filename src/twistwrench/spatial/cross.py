@@ -74,7 +74,7 @@ def cross_force(V: ArrayLike, *others: ArrayLike) -> Array:
 
 
 def _check_alone(name: str, symbol: str, others: tuple[ArrayLike, ...]) -> None:
-    """Say how two are crossed where a function is given more than the one twist whose matrix it returns."""
+    """Raise, with the way to cross two, where a function is given more than the one twist whose matrix it returns."""
     if others:
         product = f"{name}(V) @ {symbol} is the product of arrays"
         raise TypeError(f"V: expected one twist, shape (..., 6), got {1 + len(others)} arguments; {product}")
