@@ -165,3 +165,12 @@ def test_an_empty_origin_of_a_link_is_nothing(behaviour):
     assert not behaviour(root)[0]
     root[0][-1].set("xyz", "0 0 1")
     assert behaviour(root)[0]
+
+
+def test_an_attribute_of_zeros_is_nothing(behaviour):
+    root = ElementTree.fromstring(GOOD)
+    axis = next(root.iter("axis"))
+    axis.set("rpy", "0 0 0.0")
+    assert not behaviour(root)[0]
+    axis.set("rpy", "0 0 1")
+    assert behaviour(root)[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,6 +19,11 @@ QUATERNION = "quat_xyzw"
 
 NO_LOSS = {"limit", "dynamics", "origin"}
 """Children that are reported, and refused no file, where they stand in the wrong place."""
+
+
+def all_zero(texts: Iterable[str]) -> bool:
+    """Return whether attributes hold nothing but zeros."""
+    return not any(word.strip("-+.0") for text in texts for word in text.split())
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,7 @@ class Element:
         for key in self.xml.attrib:
             if word := meant(key, ATTRIBUTES.get(tag, ())):
                 raise self.error(f"unknown attribute {key!r} of <{tag}>; did you mean {word!r}?")
-            if ignored_attribute(tag, key):
+            if ignored_attribute(tag, key) and not all_zero([self.xml.get(key)]):
                 self.remark(f"attribute {key!r} of <{tag}>", "not URDF")
         if tag in SAID_BY_ATTRIBUTES and (self.xml.text or "").strip():
             self.remark(f"text in <{tag}>", "not URDF")
@@ -55,7 +60,7 @@ class Element:
         """Refuse what the robot would move otherwise for; a limit, friction and a link's own origin mean nothing."""
         if child.tag not in NO_LOSS:
             raise self.error(f"a <{child.tag}> stands in <{self.xml.tag}>, expected in <{home}>", child)
-        if any(word.strip("-+.0") for text in child.attrib.values() for word in text.split()):
+        if not all_zero(child.attrib.values()):
             self.remark(f"<{child.tag}> in <{self.xml.tag}>", "not URDF")
 
     def error(self, text: str, child: XML = None) -> ModelError:
