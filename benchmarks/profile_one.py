@@ -38,7 +38,7 @@ def stages() -> dict[str, object]:
     """Return a call for each stage, in the order in which they follow one another."""
     model = tw.load("go2")
     q, v, _ = random_states(model, 1).first(1)
-    plan = dispatch._one_plan(model)
+    plan = dispatch._single_plan(model)
     contacts = dispatch._contact_rows(model, plan, model.feet)
     at = one.place(plan, q)
     J = one._inertias(plan, at)
@@ -49,7 +49,7 @@ def stages() -> dict[str, object]:
 
     carried, unit = momenta()
     felt = at.twist.dot(unit)
-    parts = one.one_dynamics(plan, ("M", "h", "J_c", "A_G"), contacts, q, v)
+    parts = one.single_dynamics(plan, ("M", "h", "J_c", "A_G"), contacts, q, v)
     return {
         "input validation": lambda: arguments.validate(model, q, ("v", v)),
         "places and twists of the links": lambda: one.place(plan, q),

@@ -358,7 +358,7 @@ FAULTS = [
     Fault(
         "solve in kg and m",
         "fast/single_aba.py",
-        "np.linalg.solve(feels / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit",
-        "np.linalg.solve(feels, tau - K[:6, 6] - I.dot(rising))",
+        "np.linalg.solve(IA / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit",
+        "np.linalg.solve(IA, tau - K[:6, 6] - I.dot(rising))",
     ),
 ]

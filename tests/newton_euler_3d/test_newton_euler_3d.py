@@ -788,7 +788,7 @@ def test_unknown_frames_and_references_list_the_known():
 
 def test_a_placement_that_is_no_rotation_is_refused():
     model = make(link(0, "revolute", axis=(0, 0, 1), at=place(rotation=1.1 * np.eye(3))))
-    with pytest.raises(ModelError, match=r"revolute_1: its placement is no rotation, .* 0\.21"):
+    with pytest.raises(ModelError, match=r"revolute_1: its placement is not a rotation, .* 0\.21"):
         newton_euler_3d.placements(model, [0.0])
 
 

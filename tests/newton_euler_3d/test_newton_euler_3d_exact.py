@@ -106,7 +106,7 @@ def test_placements_of_a_model_become_rotations_exactly():
         exact = EXACT.rotation(R, "arm")
         assert (exact.T @ exact == np.eye(3)).all()
         assert abs(exact.astype(float) - R).max() < 1e-15
-    with pytest.raises(tw.ModelError, match="arm: its placement is no rotation"):
+    with pytest.raises(tw.ModelError, match="arm: its placement is not a rotation"):
         EXACT.rotation(2 * np.eye(3), "arm")
 
 

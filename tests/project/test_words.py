@@ -20,6 +20,7 @@ ROOMS_DONE = (
     *("errors", "error_bounds", "tables", "arrays", "spatial", "model", "algorithms"),
     *("simulation", "scene", "motions", "templates", "plot", "viewing", "validate", "study", "exercises"),
     *("cli", "files", "stopping", "options", "timing"),
+    *("newton_euler_3d", "contact", "robots", "bridge", "fast", "tracing"),
 )
 """The rooms that are held to the words below."""
 

@@ -241,7 +241,7 @@ def test_held_joints_are_no_work_and_soles_place_the_links_once_more(work):
     scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS, wrenches={"left_foot": [1.0, 0, 0, 0, 0, 0]})
     q, v = scene.model.standing(), np.ones(19)
     scene.dynamics(q, v)
-    plan = scene.model._constants["fast, one"]
+    plan = scene.model._constants["fast, single"]
     assert len(plan.J) == 1 + 13  # links: the base, six in each leg, the torso with its arms
     for want, parts in (
         ({"M", "J_c"}, {"place", "_inertias", "mass_matrix", "contact_jacobian", "frames_of"}),

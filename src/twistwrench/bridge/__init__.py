@@ -1,7 +1,7 @@
 """The bridge to Pinocchio: the only place where (ω, v) and (v, ω) change places (section 49.11).
 
 Pinocchio writes a twist as (v, ω) and a wrench as (f, τ); here it is (ω, v) and (τ, f) throughout.
-What follows from that, and where to find it:
+The consequences, and where to find them:
 
 =====================================  ===================================  ========================
 quantity                               shape                                ``to_pinocchio_…``

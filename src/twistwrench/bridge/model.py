@@ -1,4 +1,4 @@
-"""A model handed over to Pinocchio and back (section 49.11).
+"""Models converted to Pinocchio and back (section 49.11).
 
 Bodies, joint ids and q are the same on both sides, entry for entry; limits and armature over v are
 reordered like v.
@@ -30,7 +30,7 @@ __all__ = ["from_pinocchio_model", "to_pinocchio_model"]
 AXES = {(1.0, 0.0, 0.0): "X", (0.0, 1.0, 0.0): "Y", (0.0, 0.0, 1.0): "Z"}
 
 FRAME_KINDS = {"BODY": "link", "JOINT": "joint", "FIXED_JOINT": "joint", "SENSOR": "sensor"}
-"""What goes before the name of a frame where two of one name lie apart."""
+"""The prefixes of frames of one name at different places."""
 
 ONE_CONTINUOUS_JOINT = """<robot name="one"><link name="from"/><link name="to"/>
 <joint name="turn" type="continuous"><parent link="from"/><child link="to"/><axis xyz="{} {} {}"/></joint></robot>"""
@@ -49,7 +49,7 @@ def to_pinocchio_model(model: Model) -> Any:
         Joints with the same ids and the same q; placements, inertias, armature, damping, friction, gravity,
         limits, named configurations. Every frame has one name: that of a joint is a JOINT frame, all others are
         OP_FRAMEs, since a `Model` does not keep which of them were links (``"link:a"`` and ``"joint:a"`` become
-        the BODY and the joint frame ``"a"`` again). What Pinocchio has no place for, `Model.feet`, stays behind.
+        the BODY and the joint frame ``"a"`` again). `Model.feet` is dropped: Pinocchio has no place for it.
 
     Raises
     ------
@@ -60,7 +60,7 @@ def to_pinocchio_model(model: Model) -> Any:
 
     Notes
     -----
-    Equal to the last bit, but for the axis of a continuous joint that is none of x, y, z: Pinocchio's
+    Equal to the last bit, but for the axis of a continuous joint that is not x, y or z: Pinocchio's
     Python offers such a joint only by way of a URDF, and normalises the axis again.
 
     Examples
@@ -87,7 +87,7 @@ def to_pinocchio_model(model: Model) -> Any:
     there.lowerDryFrictionLimit, there.upperDryFrictionLimit = -model.friction[order], model.friction[order]
     there.gravity = pin.Motion(model.gravity.copy(), np.zeros(3))
     _frames_there(pin, model, there)
-    for i in range(1, model.nbodies):  # last: each frame adds an inertia of its own, and to add zero rounds
+    for i in range(1, model.nbodies):  # last: each frame adds an inertia of its own, and adding zero rounds
         there.inertias[i] = to_pinocchio_inertia(model.inertia[i])
     for name, q in model.postures.items():
         there.referenceConfigurations[name] = q
@@ -153,17 +153,17 @@ def from_pinocchio_model(there: Any) -> Model:
     Model
         Bodies with the same ids and the same q; placements, inertias, armature, gravity, frames and named
         configurations. Limits of velocity and effort are Pinocchio's upper ones; its largest double is
-        infinity; so is its friction the upper limit of it. What is welded to the world and rotors given apart
+        infinity; friction is the upper limit of Pinocchio's. What is welded to the world and rotors given apart
         from the armature take no part in the chapter's dynamics and are left out.
 
     Raises
     ------
     ModelError
         If a joint has no counterpart here (mimic, composite, universal, …; all are listed by name and type),
-        gravity turns or is no number, an inertia, a placement, a limit, an armature or a named configuration
-        cannot be, two joints have one name, or two frames one name and kind.
+        gravity turns or is not finite, an inertia, a placement, a limit, an armature or a named configuration
+        is invalid, two joints have one name, or two frames one name and kind.
     TypeError
-        If `there` is no pin.Model.
+        If `there` is not a pin.Model.
 
     Examples
     --------
@@ -206,7 +206,7 @@ def from_pinocchio_model(there: Any) -> Model:
 
 
 def _check_joints(model: Model) -> None:
-    """Refuse names, limits and armatures that `Builder` refuses."""
+    """Raise for the names, limits and armatures that `Builder` rejects."""
     for i in range(1, model.nbodies):
         name, at = model.joint_names[i], (model.q_slice[i], model.v_slice[i])
         if name in model.joint_names[1:i]:
@@ -241,7 +241,7 @@ def _joints_here(there: Any) -> tuple[Joint | None, ...]:
 
 
 def _frames_here(there: Any) -> dict[str, Frame]:
-    """Return the frames by name, by kind and name where those of one name lie apart (as `Builder` does)."""
+    """Return the frames by name, or by kind and name where frames of one name differ in place (as `Builder` does)."""
     found: dict[str, dict[str, Frame]] = {}
     for frame in list(there.frames)[1:]:  # the first is the universe
         placement = _named(from_pinocchio_se3, frame.placement, frame.name, "placement")
@@ -268,5 +268,5 @@ def _named(convert: Callable[[Any], Any], value: Any, name: str, what: str) -> A
 
 
 def _limits(x: Array) -> Array:
-    """Return limits; Pinocchio's largest double stands for none."""
+    """Return limits; Pinocchio's largest double becomes infinity."""
     return np.where(np.abs(x) >= np.finfo(np.float64).max, np.copysign(np.inf, x), x)

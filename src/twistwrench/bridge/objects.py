@@ -26,7 +26,7 @@ __all__ = [
 
 
 def import_pinocchio() -> Any:
-    """Return the module `pinocchio`, or say how to get it.
+    """Return the module `pinocchio`, or raise with the way to install it.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def to_pinocchio_se3(T: SE3) -> Any:
     ShapeError, ValueError
         If T has batch axes or is complex.
     TypeError
-        If something else came.
+        If the argument is of another type.
     ImportError
         As `import_pinocchio`.
 
@@ -97,9 +97,9 @@ def from_pinocchio_se3(T: Any) -> SE3:
     Raises
     ------
     ShapeError, ValueError
-        If its rotation is none, or not finite.
+        If its rotation is not a rotation matrix, or not finite.
     TypeError
-        If something else came.
+        If the argument is of another type.
 
     Examples
     --------
@@ -130,7 +130,7 @@ def to_pinocchio_inertia(inertia: SpatialInertia) -> Any:
     ShapeError, ValueError
         If it has batch axes or is complex.
     TypeError
-        If something else came.
+        If the argument is of another type.
     ImportError
         As `import_pinocchio`.
 
@@ -141,7 +141,7 @@ def to_pinocchio_inertia(inertia: SpatialInertia) -> Any:
     array([2.   , 2.   , 2.   , 0.03 , 0.03 , 0.005])
     """
     _expect(SpatialInertia, inertia, "inertia")
-    # Filled in afterwards: the constructor refuses inertias that no body can have, but robots do.
+    # Filled in afterwards: the constructor rejects inertias that are not physical, but that robots have.
     there = import_pinocchio().Inertia.Zero()
     there.mass = float(_double(inertia.mass, "mass", 0))
     there.lever = _double(inertia.com, "com", 1)
@@ -165,7 +165,7 @@ def from_pinocchio_inertia(inertia: Any) -> SpatialInertia:
     ModelError, ValueError
         If the mass is below zero, or a number is not finite.
     TypeError
-        If something else came.
+        If the argument is of another type.
 
     Examples
     --------
@@ -245,14 +245,14 @@ def from_pinocchio_f_ext(model: Model, f_ext: Any) -> Array:
 
 
 def _expect(kind: type, value: object, name: str) -> None:
-    """Refuse what is not of a type, and name both with their packages: each has an SE3."""
+    """Raise TypeError for another type, with the packages of both: each has an SE3."""
     if not isinstance(value, kind):
-        expected, came = (f"{k.__module__.partition('.')[0]}.{k.__name__}" for k in (kind, type(value)))
-        raise TypeError(f"{name}: expected {expected}, got {came}")
+        expected, got = (f"{k.__module__.partition('.')[0]}.{k.__name__}" for k in (kind, type(value)))
+        raise TypeError(f"{name}: expected {expected}, got {got}")
 
 
 def _double(x: Array, name: str, axes: int) -> Array:
-    """Return x in float64, or say why Pinocchio cannot hold it."""
+    """Return x in float64, or raise with the reason why Pinocchio cannot hold it."""
     if x.ndim != axes:
         raise ShapeError(f"{name}: Pinocchio takes one at a time, got batch axes {x.shape[: x.ndim - axes]}")
     if np.iscomplexobj(x):

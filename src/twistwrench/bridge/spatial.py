@@ -2,7 +2,7 @@
 
 Nothing here needs Pinocchio or rounds. Every function takes any leading batch axes, keeps the number
 type and returns a new array. The swap of two halves is its own inverse; each direction has a name of its
-own so that a line of code says which way it goes.
+own so that a line of code shows its direction.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 HALVES = np.array([3, 4, 5, 0, 1, 2])
-"""Where each of six entries comes from when the halves change places."""
+"""The index of each of six entries before the halves change places."""
 
 
 def to_pinocchio_motion(V: ArrayLike) -> Array:
@@ -75,7 +75,7 @@ def from_pinocchio_motion(V: Any) -> Array:
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If a ``pin.Force`` came, or a Twist or Wrench, which is (ω, v) or (τ, f) already.
+        If `V` is a ``pin.Force``, or a Twist or Wrench, which is (ω, v) or (τ, f) already.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def from_pinocchio_force(F: Any) -> Array:
     ShapeError
         If the last axis is not 6 long.
     TypeError
-        If a ``pin.Motion`` came, or a Twist or Wrench, which is (ω, v) or (τ, f) already.
+        If `F` is a ``pin.Motion``, or a Twist or Wrench, which is (ω, v) or (τ, f) already.
 
     Examples
     --------
@@ -158,7 +158,7 @@ def vectors(value: Any, name: str, kind: str) -> Any:
 def to_pinocchio_transform(X: ArrayLike) -> Array:
     """Turn a 6 × 6 matrix over (ω, v) or (τ, f) into Pinocchio's: X, X*, V×, V×* or a spatial inertia.
 
-    All four blocks change places: the one that stood bottom left stands top right.
+    All four blocks change places: the bottom left one moves to the top right.
 
     Parameters
     ----------

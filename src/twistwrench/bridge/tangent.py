@@ -38,7 +38,7 @@ def tangent_order(joints: Sequence[Joint | None]) -> Array:
 
 
 def to_pinocchio_tangent(model: Model, v: ArrayLike) -> Array:
-    """Turn v, a, τ, h or g into Pinocchio's: the six of every free-flyer are swapped, all else stays.
+    """Turn v, a, τ, h or g into Pinocchio's: the halves of every free-flyer are swapped, all else stays.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ def from_pinocchio_jacobian(model: Model, J: ArrayLike) -> Array:
 def to_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
     """Turn a matrix whose columns alone belong to v into Pinocchio's: J_c of point contacts, S.
 
-    Its rows are no spatial vectors (three linear rows to a contact, one to an actuated joint) and stay.
+    Its rows are not spatial vectors (three linear rows to a contact, one to an actuated joint) and stay.
 
     Parameters
     ----------
@@ -177,7 +177,7 @@ def to_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
     Raises
     ------
     ShapeError
-        If the last axis is not nv long, or there is but one axis.
+        If the last axis is not nv long, or there is only one axis.
 
     Examples
     --------
@@ -208,7 +208,7 @@ def from_pinocchio_contact_jacobian(model: Model, J_c: ArrayLike) -> Array:
     Raises
     ------
     ShapeError
-        If the last axis is not nv long, or there is but one axis.
+        If the last axis is not nv long, or there is only one axis.
 
     Examples
     --------

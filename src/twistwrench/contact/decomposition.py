@@ -1,8 +1,8 @@
-"""What the directions of a set of contacts weigh: one singular value decomposition that all of this folder shares.
+"""The singular value decomposition of J M⁻¹ Jᵀ, which all of this folder shares.
 
-With M = L Lᵀ and Y = L⁻¹ Jᵀ the matrix J M⁻¹ Jᵀ is YᵀY: Y holds the rows of J in units of kinetic energy, so that a
-radian and a metre in v count for what they move. Its singular values decide the rank, without squaring them. Every
-row of J must be a velocity in m/s; `lever` sees to that.
+With M = L Lᵀ and Y = L⁻¹ Jᵀ the matrix J M⁻¹ Jᵀ is YᵀY: Y holds the rows of J in units of kinetic energy, which
+weighs a radian and a metre in v by the inertia that they move. Its singular values decide the rank, without squaring
+them. Every row of J must be a velocity in m/s; `lever` sees to that.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ __all__ = ["Decomposition", "block_diagonal", "decompose", "lever", "point_map"]
 
 
 class Decomposition(NamedTuple):
-    """Y = L⁻¹ Jᵀ = U diag(s) Vᵀ, of which only what is above rounding is inverted."""
+    """Y = L⁻¹ Jᵀ = U diag(s) Vᵀ, of which only the singular values above rounding are inverted."""
 
     L: Array
     """Lower triangle, shape (..., n, n): M = L Lᵀ."""
     U: Array
     """Shape (..., n, k), k = min(n, m)."""
     s_inv: Array
-    """1/s, and 0 where s is rounding, shape (..., k)."""
+    """1/s, and 0 where s is zero to rounding, shape (..., k)."""
     V: Array
     """Shape (..., m, k)."""
 
@@ -48,7 +48,7 @@ class Decomposition(NamedTuple):
         return np.matvec(self.U, asked), np.matvec(self.V, asked * self.s_inv)
 
     def within(self, change: Array) -> Array:
-        """Return the part of `change` that some J a is: all of it where the rows of J are independent."""
+        """Return the part of `change` in the range of J: all of it where the rows of J are independent."""
         part: Array = np.matvec(self.V, np.matvec(self.V.mT, change) * (self.s_inv > 0))
         return part
 
@@ -63,7 +63,7 @@ class Decomposition(NamedTuple):
         return least
 
     def size(self, b: Array) -> Array:
-        """Return how large b is in the metric of M, whatever its units."""
+        """Return the norm of b in the metric of M, whatever its units."""
         return np.asarray(np.abs(np.linalg.solve(self.L, b[..., None])).max(axis=(-2, -1), initial=0))
 
 
@@ -86,10 +86,10 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
 
 
 def _without_inertia(model: Model, M: Array) -> str:
-    """Say which joints move nothing that has inertia."""
+    """Return the message with the joints that move nothing that has inertia."""
     own = np.diagonal(M, axis1=-2, axis2=-1)
     names = [repr(name) for name, s in zip(model.joint_names, model.v_slice) if (own[..., s] <= 0).any()]
-    return f"no inertia outboard of joint {', '.join(names)}" if names else "some joints feel none when moved together"
+    return f"no inertia outboard of joint {', '.join(names)}" if names else "some joints have none when moved together"
 
 
 def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:

@@ -1,8 +1,8 @@
 """Forward dynamics under contact: M q̈ + h = Sᵀ τ + Jᵀ λ with J q̈ + J̇ v = 0 (49.9).
 
 Among all accelerations that the contacts allow the robot takes the one nearest to that of its free motion, in the
-metric of M (Gauss's principle of least constraint). The pseudo-inverse takes that one step also where rows of J
-depend on each other; a damped (proximal) solve would have to be repeated to reach the same.
+metric of M (Gauss's principle of least constraint). The pseudo-inverse finds it in one step also where rows of J
+depend on each other; a damped (proximal) solve would have to be iterated.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .types import Contact
 __all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
 
 CONTRADICTION = 1e-8
-"""What the contacts cannot be given, relative to the terms of J q̈ + J̇ v; rounding stays far below."""
+"""Tolerance of J q̈ + J̇ v, relative to its terms; rounding stays far below."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Baumgarte:
     ValueError
         If `frequency` or `damping` is out of bounds.
     TypeError
-        If one of them is no number, or `anchors` no mapping.
+        If one of them is not a number, or `anchors` not a mapping.
 
     Examples
     --------
@@ -81,15 +81,15 @@ class ContactDynamics:
         q̈, rad/s² or m/s².
     forces : dict of str to ndarray, shape (..., 3) or (..., 6)
         λ on the robot, by the contact's frame: f, or (τ, f), at the frame's origin in the axes of the world, N m and
-        N. Of all that give this q̈ the ones of least norm, a sole's counted as the forces at its corners.
+        N. Of all that give this q̈ the ones of least norm, for a sole that of the forces at its corners.
     rank : ndarray of int, shape (...)
         How many rows of J are independent of each other.
     redundant : ndarray of int, shape (...)
-        How many are not. Where there are any, `forces` are one choice of many.
+        How many rows are not independent. Where there are any, `forces` are one choice of many.
     slip : ndarray, shape (..., m)
-        J v, which a contact that holds has not, in the order of the rows of `constraint_jacobian`.
+        J v, zero for a contact that holds, in the order of the rows of `constraint_jacobian`.
     residual : ndarray, shape (..., m)
-        What is left of J q̈ + J̇ v − what was asked, rad/s² and m/s².
+        J q̈ + J̇ v minus the acceleration required of the contacts, rad/s² and m/s².
     """
 
     qdd: Array
@@ -112,7 +112,7 @@ def contact_forward_dynamics(
 ) -> ContactDynamics:
     """Return the acceleration of a robot whose contacts hold, and the forces that hold them.
 
-    The contacts stick, and pull where they must: friction is not looked at. They may be redundant (four corners of a
+    The contacts stick, and pull where they must: friction is ignored. They may be redundant (four corners of a
     box) or singular (straight knees): the rank is decided by the rounding in J M⁻¹ Jᵀ, whatever the units, and of the
     forces that do the same the least are returned.
 
@@ -123,7 +123,7 @@ def contact_forward_dynamics(
     v, tau : array_like, shape (..., nv)
         As `aba`: velocity and joint forces, of which the first six of a floating base are a wrench from outside.
     contacts : iterable of Contact
-        None at all is the free motion.
+        An empty one gives the free motion.
     f_ext : array_like, shape (..., nbodies, 6), optional
         As `aba`.
     stabilise : Baumgarte, optional
@@ -145,10 +145,10 @@ def contact_forward_dynamics(
 
     Notes
     -----
-    Section 49.9. A velocity with J v ≠ 0 is no error: without `stabilise` it stays as it is, and `slip` tells it. Where
-    contacts are redundant, drift makes them ask for slightly different accelerations: of second order in J v, of first
-    in what `stabilise` brings back. Then q̈ is the least-squares one and `residual` tells the rest. They contradict each
-    other only if that were so without any drift, at the nearest velocity with J v = 0.
+    Section 49.9. A velocity with J v ≠ 0 is not an error: without `stabilise` it stays as it is, and `slip` reports it.
+    Where contacts are redundant, drift makes them require slightly different accelerations: of second order in J v,
+    of first order in the correction of `stabilise`. Then q̈ is the least-squares one and `residual` the rest. They
+    contradict each other only if they did so without any drift, at the nearest velocity with J v = 0.
 
     Examples
     --------
@@ -173,14 +173,14 @@ def contact_forward_dynamics(
     qdd = free = aba(model, q, v, tau, *pushed)
     parts = decompose(model, crba(model, q), W @ J)
     mu = np.zeros(slip.shape)
-    for _ in range(2):  # the second time takes up what rounding left
+    for _ in range(2):  # the second time removes the rounding of the first
         x, change = parts.respond(np.matvec(W, target - np.matvec(J, qdd)))
         qdd, mu = qdd + parts.unwhiten(x), mu + change
     residual = np.matvec(J, qdd) - target
     terms = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION * (terms + largest(np.matvec(W, target)))).any():
-        still = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
-        asked = np.matvec(W, -contact_rows(model, q, still, contacts).bias)
+        held = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
+        asked = np.matvec(W, -contact_rows(model, q, held, contacts).bias)
         refuse_contradiction(contacts, asked - parts.within(asked), CONTRADICTION * (terms + largest(asked)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)
@@ -192,7 +192,7 @@ def largest(x: Array) -> Array:
 
 
 def refuse_contradiction(contacts: Sequence[Contact], left: Array, rounding: Array) -> None:
-    """Raise SingularError where what no acceleration gives the contacts, in m/s², is more than rounding."""
+    """Raise SingularError where the contacts' unattainable acceleration, in m/s², is more than rounding."""
     wrong = np.asarray(largest(left) > rounding)
     if wrong.any():
         pieces = per_contact(contacts, left[wrong][0])
@@ -200,6 +200,6 @@ def refuse_contradiction(contacts: Sequence[Contact], left: Array, rounding: Arr
         least = 0.01 * max(worst.values())
         missing = ", ".join(f"{frame!r} {miss:.3g} m/s²" for frame, miss in worst.items() if miss > least)
         raise SingularError(
-            f"the contacts contradict each other{at_first_index(wrong)}: no acceleration keeps all still; "
+            f"the contacts contradict each other{at_first_index(wrong)}: no acceleration keeps all at rest; "
             f"{missing} is left"
         )

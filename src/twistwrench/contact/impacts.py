@@ -1,4 +1,4 @@
-"""Impacts: what happens to the velocities in the instant in which contacts close, M (v⁺ − v⁻) = Jᵀ Λ (49.9)."""
+"""Impacts: the jump of the velocities in the instant in which contacts close, M (v⁺ − v⁻) = Jᵀ Λ (49.9)."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ def impact(
 ) -> Impact:
     """Return the velocity after contacts have closed all at once, J v⁺ = −e J v⁻.
 
-    Of all velocities that the contacts allow, e = 0 leaves the one nearest to v⁻ in the metric of M. So it also takes
-    out of a velocity what drift has put into it, and nothing else.
+    Of all velocities that the contacts allow, e = 0 leaves the one nearest to v⁻ in the metric of M. So it also removes
+    drift from a velocity, and nothing else.
 
     Parameters
     ----------
@@ -59,8 +59,8 @@ def impact(
     contacts : iterable of Contact
         All that hold in that instant. They stick, and pull where they must.
     restitution : float, optional
-        e, from 0 to 1. It turns round the whole velocity of a contact, along the ground as well: turning round the
-        normal part alone can add energy where several contacts, or a slanting one, pass it on to each other.
+        e, from 0 to 1. It reverses the whole velocity of a contact, along the ground as well: reversing the normal
+        part alone can add energy where several contacts, or a slanting one, couple.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def impact(
 
     Notes
     -----
-    Section 49.9. The energy lost is (1 − e²) times what the velocity across the contacts carries.
+    Section 49.9. The energy lost is (1 − e²) times the kinetic energy of the velocity across the contacts.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def impact(
     at, J, _ = contact_rows(model, q, v, contacts)
     W = lever(contacts, at)
     parts = decompose(model, crba(model, q), W @ J)
-    x, mu = parts.respond(np.matvec(W @ J, v))  # what the contacts take out at e = 0, with its sign turned
+    x, mu = parts.respond(np.matvec(W @ J, v))  # the change at e = 0, with its sign turned
     return Impact(
         v=v - (1 + restitution) * parts.unwhiten(x),
         impulses=per_contact(contacts, -(1 + restitution) * np.matvec(W.mT, mu)),

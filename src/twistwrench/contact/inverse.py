@@ -1,7 +1,7 @@
 """Inverse dynamics under contact: which joint forces and contact forces make the robot move as it should (49.9).
 
-The six base rows of M q̈ + h = Sᵀ τ + Jᵀ λ have no τ: they say what the contacts have to do together. Of all forces at
-the touching points that do it the least are chosen, without limits or within the friction cones; τ follows.
+The six base rows of M q̈ + h = Sᵀ τ + Jᵀ λ have no τ: they determine the total wrench of the contacts. Of all forces at
+the contact points that exert it the least are chosen, without limits or within the friction cones; τ follows.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .types import Contact, Pyramid
 __all__ = ["ContactForces", "Task", "contact_inverse_dynamics", "friction_inverse_dynamics"]
 
 BALANCED = 1e-8
-"""What the contacts leave over of what the base needs, relative to it; rounding stays far below."""
+"""Tolerance of the base's wrench, relative to it; rounding stays far below."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,9 @@ class ContactForces:
     forces : dict of str to ndarray, shape (..., 3) or (..., 6)
         λ on the robot, by the contact's frame: f, or (τ, f), at the frame's origin in the axes of the world, N m and N.
     binding : tuple of str
-        The limits that the forces lean on, by names; empty where none was asked for.
+        The active limits, by names; empty where no limits were requested.
     residual : ndarray, shape (..., m)
-        J a + J̇ v, the acceleration that `a` itself asks of the contacts: zero if it keeps them still, rad/s² and m/s².
+        J a + J̇ v, the acceleration of the contacts under `a`: zero if they stay at rest, rad/s² and m/s².
     """
 
     tau: Array
@@ -61,7 +61,7 @@ def contact_inverse_dynamics(
 ) -> ContactForces:
     """Return the joint forces and the least contact forces of a motion: M a + h = Sᵀ τ + Jᵀ λ.
 
-    Forces may pull, and friction is not looked at. With a fixed base the joints do all, and λ = 0 is the least.
+    Forces may pull, and friction is ignored. With a fixed base the joints do all, and λ = 0 is the least.
 
     Parameters
     ----------
@@ -75,12 +75,12 @@ def contact_inverse_dynamics(
     Returns
     -------
     ContactForces
-        In double precision. The forces are the least at the touching points: of a sole, at its corners.
+        In double precision. The forces are the least at the contact points: of a sole, at its corners.
 
     Raises
     ------
     SingularError
-        If no forces at these contacts make the base move so; the message says what is left over.
+        If no forces at these contacts make the base move so; the message gives the unbalanced wrench.
     NameNotFound, ShapeError, ValueError
         As `constraint_jacobian`; complex numbers.
 
@@ -120,7 +120,7 @@ def friction_inverse_dynamics(
     """Return the joint forces and the least contact forces within the friction cones: a quadratic programme.
 
     No contact pulls, none slips, and the pressure on a sole stays within it. Quicker with the extra
-    ``pip install "twistwrench[qp]"``, where the least forces of all do not obey anyway.
+    ``pip install "twistwrench[qp]"``, where the least forces alone are not within the limits.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def friction_inverse_dynamics(
         Of the pyramids that stand for the cones, at least 3. An inner pyramid has its sides at cos(π/sides) of μ: at
         71 % with 4, at 92 % with 8, at 98 % with 16.
     pyramid : {"inner", "outer"}, optional
-        Inner: what is found holds. Outer: what is not found does not hold.
+        Inner: forces that are found are within the cones. Outer: if none are found, none exist in the cones.
 
     Returns
     -------
@@ -144,14 +144,14 @@ def friction_inverse_dynamics(
     Raises
     ------
     SingularError
-        If no forces within the limits make the robot move so; the message says which limits stand in the way.
+        If no forces within the limits make the robot move so; the message names the limits that are violated.
     NameNotFound, ShapeError, ValueError
         As `contact_inverse_dynamics`; a batch; less than 3 sides; a pyramid that is neither.
 
     Notes
     -----
-    Sections 49.9 and 49.4. Possible is what forces within the limits miss by at most 1e-8 of what the base needs. Where
-    only just that is so, they are forces that do it, not the least.
+    Sections 49.9 and 49.4. A motion is possible if forces within the limits miss the base's wrench by at most 1e-8 of
+    it. Where they only just reach it, they are feasible forces, not the least.
 
     Examples
     --------
@@ -173,7 +173,7 @@ def friction_inverse_dynamics(
     if found is not None:
         z, tight = found
         f = task.least + free @ z
-    else:  # no forces, or some by a hair
+    else:  # no forces, or barely some
         answer = task.reach(sides, pyramid)
         if not answer.reached:
             worst = breached(names, least_breach(A @ free, -A @ task.least, task.size))
@@ -184,7 +184,7 @@ def friction_inverse_dynamics(
 
 
 def breached(names: Sequence[str], by: Array) -> str:
-    """Say which limits would have to be broken, and by how much, the worst four first."""
+    """Return which limits would have to be broken, and by how much, the worst four first."""
     worst = {names[k]: float(by[k]) for k in np.argsort(by) if by[k] > 0.01 * by.max()}  # of equal names the larger
     ranked = sorted(worst, key=lambda name: -worst[name])
     more = f" and {len(ranked) - 4} more" if len(ranked) > 4 else ""
@@ -198,7 +198,7 @@ def limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> tuple[A
 
 
 class Unbalanced(SingularError):
-    """No forces at the contacts, though they pulled, do what the base needs; ``left`` is what they leave over of it."""
+    """No forces at the contacts, even pulling ones, balance the base's wrench; ``left`` is the unbalanced part."""
 
     def __init__(self, message: str, left: Array, L: Array) -> None:
         super().__init__(message)
@@ -207,11 +207,11 @@ class Unbalanced(SingularError):
 
 @dataclass(frozen=True)
 class Task:
-    """What the contacts have to do together, and the least forces f at their points that do it.
+    """The total wrench that the contacts must exert, and the least forces f at their points that do.
 
     f has three entries for each point, in the axes of its contact; ``free`` spans what may be added to it. ``size`` is
-    how large such forces are, N, and ``asked`` how large what is asked of them is, in the metric of M: the larger of
-    this motion's and of the weight's.
+    the size of such forces, N, and ``asked`` that of their total wrench, in the metric of M: the larger of this
+    motion's and of the weight's.
     """
 
     contacts: tuple[Contact, ...]
@@ -259,7 +259,7 @@ class Task:
     def reach(
         self, sides: int, pyramid: Pyramid, also: tuple[Array, Array] | None = None, contacts: Sequence[Contact] = ()
     ) -> Reach:
-        """Return whether forces within the limits do this, and the proof; its twist is that of the base, as b's rows.
+        """Return whether forces within the limits do this, and the proof, whose twist is the base's in b's order.
 
         Of the task's contacts, or of others at the same points; `also` is (C, d) with C f ≤ d, in N.
         """
@@ -271,7 +271,7 @@ class Task:
 
     @property
     def free(self) -> Array:
-        """Return the forces that press and do nothing else, orthonormal columns, shape (3 k, ...)."""
+        """Return the internal forces, which exert no wrench, as orthonormal columns, shape (3 k, ...)."""
         V = self.parts.V[:, self.parts.s_inv > 0]
         return np.linalg.qr(V, mode="complete")[0][:, V.shape[1] :]
 

@@ -1,8 +1,8 @@
-"""Nonnegative least squares: the x ≥ 0 with E x nearest to f, and what is left of f.
+"""Nonnegative least squares: the x ≥ 0 with E x nearest to f, and the residual.
 
 C. L. Lawson and R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23: an active-set method that needs nothing
-but NumPy. What is left, r = f − E x, is a certificate of its own: it has no positive product with any column of E, and
-with f it has ‖r‖². So no x ≥ 0 comes nearer.
+but NumPy. The residual r = f − E x is a certificate: its product with each column of E is not positive, and with f
+it is ‖r‖². So no x ≥ 0 is nearer.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from ..arrays import Array
 __all__ = ["nonnegative_least_squares"]
 
 TURNS = 1e-14
-"""A column enters if the cosine of its angle with what is left is larger."""
+"""A column enters if the cosine of its angle with the residual is larger."""
 
 
 def nonnegative_least_squares(E: Array, f: Array) -> tuple[Array, Array]:

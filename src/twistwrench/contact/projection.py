@@ -1,4 +1,4 @@
-"""Back to where the contacts hold: a configuration and a velocity that drift has moved away (49.9)."""
+"""Projection onto the contacts: the drift of a configuration and a velocity is removed (49.9)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def project_state(
 ) -> tuple[Array, Array]:
     """Return the nearby q at which the contacts are at their anchors, and the nearest v with which they stay there.
 
-    Newton's method for q, each step the least in the metric of M; then what `impact` does to v.
+    Newton's method for q, each step the least in the metric of M; then `impact` projects v.
 
     Parameters
     ----------
@@ -44,9 +44,9 @@ def project_state(
     anchors : mapping of str to SE3
         Where the contacts' frames belong, as from `contact_placements`.
     tolerance : float, optional
-        How far from its anchor a contact may stay, m; a sole's turn counts as it moves its corners.
+        How far from its anchor a contact may stay, m; a sole's turn counts by the motion of its corners.
     steps : int, optional
-        At most so many.
+        At most so many Newton steps.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def project_state(
     Raises
     ------
     SingularError
-        If the contacts do not come to their anchors: out of reach, or too far away for Newton's method.
+        If the contacts do not reach their anchors: out of reach, or too far away for Newton's method.
     NameNotFound, ShapeError, ValueError
         As `constraint_jacobian`; complex numbers; an anchor that is missing.
 

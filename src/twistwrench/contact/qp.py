@@ -1,7 +1,7 @@
 """The quadratic programme that keeps contact forces within their limits: the least z with A z ≤ b.
 
 Solved by DAQP (Arnström, Bemporad and Axehill, 2022), a dual active-set method, where it is installed: its answers are
-right to rounding, and it is quick. Every answer is looked at: where it gives none, or one that is outside the limits,
+right to rounding, and it is quick. Every answer is checked: where it gives none, or one that is outside the limits,
 and where it is not installed, the same programme is solved as nonnegative least squares (Lawson and Hanson, 1974,
 chapter 23.4).
 """
@@ -23,9 +23,9 @@ NEWTON_STEPS = 50
 
 
 def least_within(A: Array, b: Array, size: float) -> tuple[Array, Array] | None:
-    """Return the z of least norm with A z ≤ b, and which rows it leans on; None if none was found.
+    """Return the z of least norm with A z ≤ b, and its active rows; None if no z was found.
 
-    `size` is what counts as large among the numbers of b.
+    `size` is the scale of the numbers of b.
     """
     if (b >= -FEASIBLE * size).all():
         return np.zeros(A.shape[1]), np.zeros(len(b), bool)
@@ -39,7 +39,7 @@ def least_within(A: Array, b: Array, size: float) -> tuple[Array, Array] | None:
 
 
 def _by_daqp(A: Array, b: Array) -> tuple[Array, Array]:
-    """Return z and the rows it leans on, by DAQP; no number where it does not solve it, or is not installed."""
+    """Return z and its active rows, by DAQP; NaN where it finds no solution, or is not installed."""
     n, nothing = A.shape[1], (np.full(A.shape[1], np.nan), np.zeros(len(b), bool))
     try:
         import daqp
@@ -50,20 +50,20 @@ def _by_daqp(A: Array, b: Array) -> tuple[Array, Array]:
 
 
 def _by_least_squares(A: Array, b: Array) -> tuple[Array, Array]:
-    """Return z and the rows it leans on: z is the part of r in Aᵀ u + r₁ = 0, bᵀ u + r₂ = 1, over −r₂, with u ≥ 0."""
+    """Return z and its active rows: z is the part of r in Aᵀ u + r₁ = 0, bᵀ u + r₂ = 1, over −r₂, with u ≥ 0."""
     E = np.concatenate([-A.mT, -b[None]])
     u, r = nonnegative_least_squares(E, np.concatenate([np.zeros(len(E) - 1), [1.0]]))
     leans = u > 0
     if not r[-1] > 0 or not leans.any():
         return np.full(len(E) - 1, np.nan), leans
-    return np.linalg.lstsq(A[leans], b[leans])[0], leans  # what leans is met to rounding
+    return np.linalg.lstsq(A[leans], b[leans])[0], leans  # active rows are met to rounding
 
 
 def least_breach(A: Array, b: Array, size: float) -> Array:
-    """Return by how much each row of A z ≤ b is broken where the sum of the squares of that is least.
+    """Return the violations of A z ≤ b, row by row, with the least sum of squares.
 
-    Newton's method for a function that is quadratic in pieces, with its step halved until it goes down; z counts for
-    next to nothing, so that there is one.
+    Newton's method for a function that is quadratic in pieces, with its step halved until it goes down; z itself has a
+    tiny weight, so that the minimum is unique.
     """
     b, z, free = b / size, np.zeros(A.shape[1]), 1e-4 * np.eye(A.shape[1])
 

@@ -1,9 +1,9 @@
-"""Whether forces within the limits of the contacts do what is asked of them, and the proof of either answer (49.9).
+"""Whether forces within the limits of the contacts can exert a given wrench, and the proof of either answer (49.9).
 
 The forces that contacts bear are sums of rays, the edges of their friction pyramids, and so the wrenches that they
-exert together are a cone. Either the wrench that is asked for is in it: then forces prove it. Or some twist leads away
-from the cone: the wrench does work along it, and no force within the limits does any (the lemma of Farkas). What
-nonnegative least squares leave over is such a twist, and one product with the rays shows that it is.
+exert together are a cone. Either the given wrench is in it: then forces prove it. Or some twist leads away
+from the cone: the wrench does work along it, and no force within the limits does any (the lemma of Farkas). The
+residual of nonnegative least squares is such a twist, and one product with the rays shows that it is.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from .types import Contact, Pyramid
 __all__ = ["LARGEST", "NEAR", "Reach", "proves", "reach"]
 
 NEAR = 1e-8
-"""What forces within the limits may leave over of what is asked of them, relative to it and to the weight."""
+"""Tolerance of the wrench, relative to it and to the weight."""
 
 LARGEST = 1e6
-"""Forces are looked for up to so many times the weight, all of them together."""
+"""Upper bound of the sum of all forces, in multiples of the weight."""
 
 
 class Reach(NamedTuple):
@@ -32,7 +32,7 @@ class Reach(NamedTuple):
 
     reached: bool
     f: Array
-    """Forces within the limits that come nearest, at all points, each in its contact's axes, shape (3 k,)."""
+    """The forces within the limits that are nearest, at all points, each in its contact's axes, shape (3 k,)."""
     away: Array
     """The direction in which they miss, shape (m,): no force within the limits does work along it, but w does."""
     proved: bool
@@ -65,7 +65,7 @@ def reach(
     asked = np.concatenate([w, d])
     length = np.sqrt((E * E).sum(axis=0))
     x, r = nonnegative_least_squares(E, asked)
-    if r @ r <= NEAR**2 and length @ x > LARGEST:  # wedged: Σ forces + slack = the largest, in units of that
+    if r @ r <= NEAR**2 and length @ x > LARGEST:  # internal forces: Σ forces + slack = the largest, in units of that
         E = np.block([[E, np.zeros((len(E), 1))], [length / LARGEST, np.ones(1)]])
         asked = np.append(asked, 1.0)
         x, r = nonnegative_least_squares(E, asked)
@@ -77,16 +77,16 @@ def reach(
 
 
 def proves(away: Array, E: Array, asked: Array) -> bool:
-    """Return whether no x ≥ 0 up to `LARGEST` has E x = asked: along `away` that is more than all of E x can be."""
+    """Return whether no x ≥ 0 up to `LARGEST` has E x = asked: along `away` it exceeds every E x."""
     length = np.sqrt((E * E).sum(axis=0))
     most = (E.mT @ away / np.where(length > 0, length, 1)).max(initial=0)
     return bool(away @ asked > LARGEST * most)
 
 
 def _generators(contacts: Sequence[Contact], sides: int, pyramid: Pyramid, size: float) -> tuple[Array, Array, Array]:
-    """Return T, C, d: what contacts bear is f = T x with x ≥ 0 and C f ≤ d.
+    """Return T, C, d: the contacts bear the forces f = T x with x ≥ 0 and C f ≤ d.
 
-    The rays of most; of a contact with limits of its own, its axes both ways and these limits, in the units of G.
+    The rays of the contacts; for one with limits of its own, its axes both ways and these limits, in the units of G.
     """
     spans, bounds = [], []
     for c in contacts:

@@ -1,8 +1,8 @@
 """The rows of a set of contacts: how fast their frames move, J v, and how that changes, J q̈ + J̇ v (49.9).
 
 All in the axes of the world, at the origin of each contact's frame, in the order of the contacts. J v is then the
-velocity of a point that goes along with the robot, and its rate is that point's classical acceleration: this is
-what vanishes where the point stands still, not the linear half of the spatial acceleration, which is ω × v less.
+velocity of a point that goes along with the robot, and its rate is that point's classical acceleration: it is
+zero where the point is at rest, not the linear half of the spatial acceleration, which is ω × v less.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ __all__ = [
 
 
 def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> Array:
-    """Return J of contacts of any kind: they hold still where J v = 0.
+    """Return J of contacts of any kind: they are at rest where J v = 0.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact])
     NameNotFound
         If the model has no such frame.
     ShapeError, ValueError
-        As `Model.state`; or if something else than contacts came, a frame twice or one that the world carries.
+        As `Model.state`; or if an item is not a contact, or a frame is given twice or carried by the world.
 
     See Also
     --------
@@ -147,7 +147,7 @@ class ContactRows(NamedTuple):
 
 
 def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> ContactRows:
-    """Return what all contacts do, from one walk along the tree."""
+    """Return the kinematics of all contacts, from one pass over the tree."""
     tree = tree_terms(model, q)
     bodies = placements(model.parent, tree.placement)
     V, A = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
@@ -165,8 +165,8 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
 def _jacobian(model: Model, bodies: Sequence[SE3], tree: Tree, body: int, point: Array) -> Array:
     """Return the rows (ω, v) of a point of a body, in the axes of the world, shape (..., 6, nv).
 
-    The point is handed down from body to body: a difference of places in the world would lose digits far from its
-    origin, and with them the rank.
+    The point is expressed in one body after the other: a difference of positions in the world would lose digits far
+    from its origin, and with them the rank.
     """
     J = np.zeros((*bodies[0].translation.shape[:-1], 6, model.nv), point.dtype)
     for i in model.support(body):
@@ -223,13 +223,13 @@ def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...
 
 
 def per_contact(contacts: Sequence[Contact], rows: Array) -> dict[str, Array]:
-    """Cut what has one entry for each row of J into pieces by the names of the frames."""
+    """Cut a vector with one entry for each row of J into pieces by the names of the frames."""
     ends = np.cumsum([c.dim for c in contacts]).tolist()
     return {c.frame: rows[..., end - c.dim : end] for c, end in zip(contacts, ends)}
 
 
 def real_state(model: Model, q: ArrayLike, f_ext: ArrayLike | None = None, **others: ArrayLike) -> tuple[Array, ...]:
-    """Check a state as `Model.state` does, and bring it to double precision: the decompositions know no other.
+    """Check a state as `Model.state` does, and bring it to double precision: the decompositions need it.
 
     In the order q, the others, and f_ext where there is one.
     """

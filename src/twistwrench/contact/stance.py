@@ -41,7 +41,7 @@ class StanceMargins:
     reason : str
         Why it cannot stand; empty where it can.
     point_forces : dict of str to ndarray, shape (k, 3), or None
-        The proof that it stands: forces within the limits, by the contact's frame, at each of its touching points and
+        The proof that it stands: forces within the limits, by the contact's frame, at each of its contact points and
         in its own axes (z the normal), N. None where it cannot.
     falls : ndarray, shape (6,), or None
         The proof that it cannot: a twist (ω, v) of the base, in the base's axes, along which the weight does work and
@@ -59,10 +59,10 @@ class StanceMargins:
 def stance_margins(
     model: Model, q: ArrayLike, contacts: Iterable[Contact], *, sides: int = 16, pyramid: Pyramid = "inner"
 ) -> StanceMargins:
-    """Return whether a robot can stand in a pose without pulling or slipping, and by which margins.
+    """Return whether a robot can stand in a pose without pulling or slipping, and the margins.
 
-    The motors are as strong as it takes. Either answer comes with its proof, which takes no solver to check: forces
-    within the limits that hold the robot, or a motion along which nothing does.
+    The motors are unlimited. Either answer has its proof, which needs no solver to check: forces within the limits
+    that hold the robot, or a motion along which no such force does work.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def stance_margins(
     Returns
     -------
     StanceMargins
-        A robot that cannot stand is an answer, not an error.
+        If it cannot stand, `reason` holds the reason; no exception is raised.
 
     Raises
     ------
@@ -112,7 +112,7 @@ def stance_margins(
     (q,) = real_state(model, q)
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
-    limits(contacts, sides, pyramid)  # says what is wrong with the two where it falls, too
+    limits(contacts, sides, pyramid)  # raises for invalid `sides` and `pyramid` where it falls, too
     tip, rest = tip_distance(model, q, contacts), np.zeros(model.nv)
     try:
         task = Task.of(model, q, rest, rest, contacts, None)
@@ -158,7 +158,7 @@ def friction_used(task: Task, sides: int, pyramid: Pyramid, stands: bool) -> flo
 
 
 def _rough(task: Task) -> Task:
-    """Return the task with some friction at every contact: no multiple of none is any."""
+    """Return the task with some friction at every contact, since multiples of zero stay zero."""
     return replace(task, contacts=tuple(_with_friction(c, 1.0) for c in task.contacts))
 
 

@@ -4,8 +4,8 @@ A contact holds a frame of the robot against something that does not move. Its w
 frame's origin, in two sets of axes: the world's, in which Jacobians and results are written, and the contact's own,
 whose z axis is the normal, out of the ground and into the robot, in which friction is written.
 
-A new kind of contact says which rows it holds still, in which axes its friction stands and at which points it
-touches; everything in this folder asks for no more.
+A new kind of contact defines which rows it constrains, the axes of its friction and its contact points;
+everything in this folder needs no more.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ Pyramid = Literal["inner", "outer"]
 
 
 class Contact(ABC):
-    """A frame that is held still by what it touches.
+    """A frame that is held at rest by its surroundings.
 
     Attributes
     ----------
     frame : str
         The robot's frame.
     mu : float
-        Coefficient of friction, at least 0: each touching point bears forces with √(f_x² + f_y²) ≤ μ f_z.
+        Coefficient of friction, at least 0: each contact point bears forces with √(f_x² + f_y²) ≤ μ f_z.
     """
 
     frame: str
@@ -44,7 +44,7 @@ class Contact(ABC):
     @property
     @abstractmethod
     def rows(self) -> slice:
-        """Which of the six rows (ω, v) of the frame's twist are held still."""
+        """Which of the six rows (ω, v) of the frame's twist are constrained."""
 
     @abstractmethod
     def axes(self, rotation: Array) -> Array:
@@ -59,16 +59,16 @@ class Contact(ABC):
     @property
     @abstractmethod
     def points(self) -> Array:
-        """Where it touches, in the contact's axes from the frame's origin, shape (k, 3), m."""
+        """The contact points, in the contact's axes from the frame's origin, shape (k, 3), m."""
 
     @property
     @abstractmethod
     def point_names(self) -> tuple[str, ...]:
-        """What the k points are called in messages."""
+        """The names of the k points in messages."""
 
     @property
     def dim(self) -> int:
-        """How many rows are held still: 3 for a point, 6 for a surface."""
+        """The number of constrained rows: 3 for a point, 6 for a surface."""
         return len(range(6)[self.rows])
 
     @property
@@ -80,8 +80,8 @@ class Contact(ABC):
     def limits(self, sides: int, pyramid: Pyramid) -> Array:
         """Return A, shape (k (sides + 1), 3 k): the contact bears the forces f at its points where A f ≤ 0.
 
-        For each point the sides of a pyramid in place of the cone, the first facing x, and f_z ≥ 0 last. What a
-        surface bears as a whole (centre of pressure within the sole, moment about the normal) follows from its
+        For each point the sides of a pyramid in place of the cone, the first facing x, and f_z ≥ 0 last. The limits
+        of a surface as a whole (centre of pressure within the sole, moment about the normal) follow from its
         corners.
 
         Parameters
@@ -95,7 +95,7 @@ class Contact(ABC):
         Raises
         ------
         ValueError
-            If `sides` is no whole number from 3, or the pyramid is neither.
+            If `sides` is not a whole number of at least 3, or the pyramid is neither.
         """
         sides = _checked(sides, pyramid)
         slope = self.mu * (np.cos(np.pi / sides) if pyramid == "inner" else 1.0)
@@ -104,7 +104,7 @@ class Contact(ABC):
         return np.kron(np.eye(len(self.points)), np.concatenate([one, [[0.0, 0.0, -1.0]]]))
 
     def rays(self, sides: int, pyramid: Pyramid) -> Array:
-        """Return the edges of the pyramids, shape (k sides, 3 k): all that `limits` allow is their sums.
+        """Return the edges of the pyramids, shape (k sides, 3 k): `limits` allow the nonnegative sums of them.
 
         Of use only while `limits` are those of this class; a contact with its own needs no rays.
 
@@ -132,7 +132,7 @@ class Contact(ABC):
         return np.kron(np.eye(len(self.points)), one)
 
     def limit_names(self, sides: int) -> list[str]:
-        """Return what the rows of `limits` are called in messages, one for each."""
+        """Return the names of the rows of `limits` in messages, one for each."""
         return [f"{kind} at {point}" for point in self.point_names for kind in (*["friction"] * sides, "lift-off")]
 
 
@@ -152,7 +152,7 @@ class PointContact(Contact):
     Raises
     ------
     ValueError
-        If `mu` is no number from 0, or `normal` no direction.
+        If `mu` is not a number of at least 0, or `normal` not a direction.
 
     Examples
     --------
@@ -204,7 +204,7 @@ class SurfaceContact(Contact):
 
     It bears what forces at its four corners add up to, each in its own friction cone. So the centre of pressure stays
     within the sole, and the moment about the normal is limited as well: to μ √(x² + y²) f_z for the half lengths
-    (x, y) where the sole carries evenly and nothing else is asked of the friction, to less elsewhere.
+    (x, y) where the sole is loaded evenly and no friction is needed otherwise, to less elsewhere.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ class SurfaceContact(Contact):
     Raises
     ------
     ValueError
-        If `mu` is no number from 0, or `half_size` not two numbers above 0.
+        If `mu` is not a number of at least 0, or `half_size` not two numbers above 0.
 
     Notes
     -----
@@ -264,7 +264,7 @@ class SurfaceContact(Contact):
 
 
 def _checked(sides: int, pyramid: Pyramid) -> int:
-    """Return the number of sides, or say what is wrong with it or with the pyramid."""
+    """Return the number of sides; raise for an invalid one, or an invalid pyramid."""
     if not isinstance(sides, int | np.integer) or sides < 3:
         raise ValueError(f"sides: expected a whole number, at least 3, got {sides!r}")
     if not isinstance(pyramid, str) or pyramid not in ("inner", "outer"):

@@ -1,6 +1,6 @@
-"""The quantities of the textbook for a thousand states or a control loop, in plain NumPy.
+"""The same quantities for a thousand states or a control loop, in plain NumPy.
 
-Same functions, same signatures, same results to rounding, same errors; three ideas more.
+Same functions, same signatures, same results to rounding, same errors as the textbook algorithms; three more ideas.
 
 **1. All links at once, in the axes of the base.** The textbook goes from link to link, and turns every twist and
 every wrench from the axes of one into those of the next. Turn everything into the axes of the base once, and going
@@ -14,8 +14,8 @@ back, inertias too, and one addition does for all links at the same distance fro
                             ├───  3 RL_hip  ───────  7 RL_thigh ─────── 11 RL_calf     two additions
                             └───  4 RR_hip  ───────  8 RR_thigh ─────── 12 RR_calf     instead of eight
 
-Each link keeps its own origin: a velocity is that of the link's origin, a moment is about the link's origin, and what
-comes in on the way is a lever arm between neighbours. So no digits are lost, however far the robot is from the
+Each link keeps its own origin: a velocity is that of the link's origin, a moment is about the link's origin, and
+only lever arms between neighbours enter. So no digits are lost, however far the robot is from the
 world's origin and however long it is.
 
 **2. The states come last in memory.** An array of vectors has its axes in the order component, link, state::
@@ -35,18 +35,18 @@ number type: which links make a level; inertias and offsets, turned such that ev
 axis; joints with several degrees of freedom, cut into one link for each. So there is one kind of link, and no kinds of
 joint in the algorithms.
 
-With one state the arithmetic costs nothing and the calls everything. There the same three ideas become products of
-constant matrices with 4 × 4 matrices that hold all links: `one` explains.
+For one state the cost is in the calls, not in the arithmetic. There the same three ideas become products of
+constant matrices with 4 × 4 matrices that hold all links: see `single`.
 
-The files, in the order in which they are best read: `links` and `plan` (the constants); `vectors`, `frames` (where the
+The files, in the order in which they are best read: `dofs` and `plan` (the constants); `vectors`, `frames` (where the
 links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `articulated` (ABA), `kernels`, `outputs`
-(arrays of the caller), `many` (chunks); for one state `one_sums`, `single_plan`, `one`, `one_aba`; `door` (checks),
-`dispatch`, `api`.
+(arrays of the caller), `batch` (chunks); for one state `single_sums`, `single_plan`, `single`, `single_aba`;
+`arguments` (checks), `dispatch`, `api`.
 
 Which to take: the textbook to read, for a state now and then, and where an intermediate result is wanted; this for
 batches and loops. Long double and complex numbers work here as well, by the same code, and gain less. Forward dynamics
-that may be singular is handed to the textbook, which follows each rounding and says which joint. A joint of a kind of
-one's own is read off its S, and where its q is of no known layout its `transform` places it. How fast all this is, and
+that may be singular is left to the textbook, which bounds each rounding and names the joint. A joint of a class of
+your own is read off its S, and its `transform` places it where its q is of no known layout. How fast all this is, and
 what bounds it, is in benchmarks/README.md; more states than one machine holds are in docs/dask.md.
 
 >>> import numpy as np

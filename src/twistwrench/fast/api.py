@@ -1,4 +1,4 @@
-"""What `twistwrench.fast` offers: functions of the textbook, by other means."""
+"""The public functions of `twistwrench.fast`: those of the textbook, by other means."""
 
 from __future__ import annotations
 
@@ -167,14 +167,14 @@ def dynamics(
 ) -> Dynamics:
     """Return what `twistwrench.dynamics` does: M, h, J_c and A_G (49.11).
 
-    Asking for all at once is cheaper than for one after the other: they share the places of the links.
+    All at once is cheaper than one after the other: they share the placements of the links.
 
     Parameters
     ----------
     model, q, v, contacts, want
         As there.
     out : Dynamics, optional
-        Arrays to be filled; what is None in it is made.
+        Arrays to be filled; new ones where an entry is None.
 
     Returns
     -------
@@ -188,7 +188,7 @@ def dynamics(
     SingularError
         As `centroidal_map`.
     TypeError
-        If `out` is no `Dynamics`.
+        If `out` is not a `Dynamics`.
 
     Examples
     --------
@@ -233,7 +233,7 @@ def aba(
     Raises
     ------
     SingularError, ShapeError, ValueError
-        As `twistwrench.aba`; or if `out` is not what it must be.
+        As `twistwrench.aba`; or if `out` does not fit.
 
     Examples
     --------

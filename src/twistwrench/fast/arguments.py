@@ -1,8 +1,8 @@
-"""The check at the door, in a form that one state can afford.
+"""Input validation, cheap enough for one state.
 
-Whatever is plainly right passes here: arrays of one float type, of the right shapes and of one batch shape, finite and
-not huge, with quaternions and (cos, sin) of norm 1. All else, right or wrong, goes through the door of the textbook
-(`Model.state`), which converts it or says what is wrong with it.
+Valid arguments of the common kind pass here: arrays of one float type, of the right shapes and of one batch shape,
+finite and not huge, with quaternions and (cos, sin) of norm 1. All others, valid or not, go through the textbook's
+validation (`Model.state`), which converts them or raises.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ def _limits(dtype: type[np.floating[Any]]) -> Limits:
 
 
 PLAIN = {np.dtype(t): _limits(t) for t in (np.float32, np.float64)}
-"""The types that pass here, with limits a little narrower than the textbook's (`state`)."""
+"""The number types that pass here, with limits a little narrower than the textbook's (`state`)."""
 
 
 def validate(
     model: Model, q: ArrayLike, *rates: tuple[str, ArrayLike], f_ext: ArrayLike | None = None
 ) -> tuple[Plan, tuple[Array, ...]]:
-    """Return the plan for the number type that came; and q, the (name, value) of `rates`, and f_ext where it came.
+    """Return the plan for the number type of the arguments; and q, the values of `rates`, and f_ext where it is given.
 
     The arrays are what `Model.state` returns: checked, of one type, broadcast to one batch shape.
     """
@@ -55,8 +55,8 @@ def validate(
 
 
 def _is_plain(x: ArrayLike, q: Array, shape: tuple[int, ...], limit: float) -> TypeGuard[Array]:
-    """Whether x is an array of q's type and of this shape, with no entry beyond the limit; a NaN is beyond it."""
-    if type(x) is not np.ndarray or x.dtype != q.dtype or x.shape != shape:  # a masked array is another type
+    """Whether x is an array of q's type and of this shape, with no entry above the limit; a NaN counts as above."""
+    if type(x) is not np.ndarray or x.dtype != q.dtype or x.shape != shape:  # a masked array is of another type
         return False
     if x.ndim == 1:
         return math.hypot(*x.tolist()) <= limit  # for so few Python's own is quicker, and no entry is larger

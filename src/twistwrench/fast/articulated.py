@@ -2,7 +2,7 @@
 
 Three passes as in `twistwrench.aba`, but with all links of a level at once, in the axes of the base, each about its
 own origin. An articulated inertia [A, H; Hᵀ, L] takes (ω̇, acceleration of the origin) to (moment, force). A and L
-are kept as six entries each: what rounding leaves of their symmetry would grow from link to link.
+are kept as six entries each: an asymmetry from rounding would grow from link to link.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ __all__ = ["NearlySingular", "accelerations", "floors"]
 
 
 class NearlySingular(ArithmeticError):
-    """A joint may feel no inertia. The textbook decides, and says which."""
+    """A joint may have no apparent inertia. The textbook decides, and names the joint."""
 
 
-class Felt(NamedTuple):
-    """What is felt of the links, with the joints beyond them free; views of `entries`.
+class Articulated(NamedTuple):
+    """Articulated-body inertias and bias wrenches of the links, views of `entries`.
 
     Attributes
     ----------
@@ -47,25 +47,25 @@ class Felt(NamedTuple):
     f: Array
 
     @classmethod
-    def of(cls, entries: Array) -> Felt:
+    def of(cls, entries: Array) -> Articulated:
         """Take the 27 entries apart."""
         H = entries[12:21].reshape(3, 3, *entries.shape[1:])
         return cls(entries, entries[:6], entries[6:12], H, entries[21:24], entries[24:])
 
-    def at(self, level: Level) -> Felt:
+    def at(self, level: Level) -> Articulated:
         """Return the part of a level."""
-        return Felt(*(x[..., level.here, :] for x in self))
+        return Articulated(*(x[..., level.here, :] for x in self))
 
 
 class Bias(NamedTuple):
-    """The accelerations of the links when no joint accelerates, beyond those of what carries them."""
+    """The bias accelerations of the links, relative to their parents."""
 
     angular: Array
     linear: Array
 
 
 class Joints(NamedTuple):
-    """What pass 2 leaves for pass 3: of the joints of a level, q̈ = (u − Uᵀ a) / D."""
+    """The terms of a level that pass 3 needs: q̈ = (u − Uᵀ a) / D."""
 
     U_angular: Array
     U_linear: Array
@@ -81,22 +81,22 @@ def accelerations(
     Raises
     ------
     NearlySingular
-        If a joint may feel no inertia.
+        If a joint may have no apparent inertia.
     """
-    felt, c = _start(plan, frames, inertias, v, f_ext)
+    IA, c = _start(plan, frames, inertias, v, f_ext)
     floor, base_floor = _floors(plan, frames)
     joints = []
     for level in reversed(plan.levels):  # pass 2
-        here, r = felt.at(level), frames.offset[:, level.here]
+        here, r = IA.at(level), frames.offset[:, level.here]
         joints.append(_free(plan, frames, level, here, tau, floor))
         _feel_through(here, joints[-1], Bias(c.angular[:, level.here], c.linear[:, level.here]))
         _move(here, r)
         for parents, children in level.inward:
-            felt.entries[:, parents] += here.entries[:, children]
-    qdd, dw, acc = np.empty_like(v), np.empty_like(felt.n), np.empty_like(felt.n)
+            IA.entries[:, parents] += here.entries[:, children]
+    qdd, dw, acc = np.empty_like(v), np.empty_like(IA.n), np.empty_like(IA.n)
     dw[:, 0], acc[:, 0] = 0, base_acceleration(plan, frames, v, None)
     if plan.floats:
-        qdd[:6] = _base(plan, felt, tau, acc[:, 0], base_floor)
+        qdd[:6] = _base(plan, IA, tau, acc[:, 0], base_floor)
         dw[:, 0], acc[:, 0] = qdd[:3], acc[:, 0] + qdd[3:6]
     for level, joint in zip(plan.levels, reversed(joints)):  # pass 3
         links, up = level.here, level.up
@@ -111,28 +111,28 @@ def accelerations(
     return qdd
 
 
-def _start(plan: Plan, frames: Frames, inertias: Inertias, v: Array, f_ext: Array | None) -> tuple[Felt, Bias]:
-    """Pass 1: what depends on positions and velocities alone."""
+def _start(plan: Plan, frames: Frames, inertias: Inertias, v: Array, f_ext: Array | None) -> tuple[Articulated, Bias]:
+    """Pass 1: the terms that depend on positions and velocities alone."""
     w, h = spins(plan, frames, v), inertias.moment
     K = rates(w)
-    felt = Felt.of(np.zeros((27, *w.shape[1:]), w.dtype))
-    felt.A[:], felt.L[:3] = inertias.about_origin, plan.mass
+    IA = Articulated.of(np.zeros((27, *w.shape[1:]), w.dtype))
+    IA.A[:], IA.L[:3] = inertias.about_origin, plan.mass
     for i, j, k in CYCLE:
-        felt.H[j, i] = h[k]
-        np.negative(h[k], out=felt.H[i, j])
-    felt.n[:], felt.f[:] = cross(w, symmetric_times(inertias.about_origin, w)), times(K, h)
+        IA.H[j, i] = h[k]
+        np.negative(h[k], out=IA.H[i, j])
+    IA.n[:], IA.f[:] = cross(w, symmetric_times(inertias.about_origin, w)), times(K, h)
     if f_ext is not None:
-        add_external(plan, frames, -f_ext, felt.n, felt.f)
+        add_external(plan, frames, -f_ext, IA.n, IA.f)
     angular, coriolis_term = np.zeros_like(w), coriolis(plan, frames, w, v)
     angular[:, 1:] = cross(w[:, plan.last], frames.spin[:, 1:] * v[plan.entry[1:]])
     linear = np.zeros_like(w) if coriolis_term is None else coriolis_term
     for level in plan.levels:
         linear[:, level.here] += times(K[:, :, level.up], frames.offset[:, level.here])
-    return felt, Bias(angular, linear)
+    return IA, Bias(angular, linear)
 
 
-def _free(plan: Plan, frames: Frames, level: Level, here: Felt, tau: Array, floor: Array) -> Joints:
-    """Return what the joints of a level feel: U = I S, D = Sᵀ U and u = τ − Sᵀ p."""
+def _free(plan: Plan, frames: Frames, level: Level, here: Articulated, tau: Array, floor: Array) -> Joints:
+    """Return the joint terms of a level: U = I S, D = Sᵀ U and u = τ − Sᵀ p."""
     entries, spin = plan.entry[level.here], frames.spin[:, level.here]
     U_angular, U_linear = symmetric_times(here.A, spin), transposed_times(here.H, spin)
     u = tau[entries] - dot(spin, here.n)
@@ -148,8 +148,8 @@ def _free(plan: Plan, frames: Frames, level: Level, here: Felt, tau: Array, floo
     return Joints(U_angular, U_linear, D, u)
 
 
-def _feel_through(here: Felt, joint: Joints, c: Bias) -> None:
-    """Replace, in place, what the links are by what is felt of them through their joints: I − U Uᵀ / D."""
+def _feel_through(here: Articulated, joint: Joints, c: Bias) -> None:
+    """Replace, in place, the articulated inertias by those seen through the free joints: I − U Uᵀ / D."""
     x, y = joint.U_angular / joint.D, joint.U_linear / joint.D
     for k, (i, j) in enumerate(SYMMETRIC):
         here.A[k] -= joint.U_angular[i] * x[j]
@@ -160,7 +160,7 @@ def _feel_through(here: Felt, joint: Joints, c: Bias) -> None:
     here.f[:] += transposed_times(here.H, c.angular) + symmetric_times(here.L, c.linear) + y * joint.u
 
 
-def _move(here: Felt, r: Array) -> None:
+def _move(here: Articulated, r: Array) -> None:
     """Refer, in place, inertias and wrenches to the origins of the parents, from which the links are at r.
 
     With G = H + r×L/2: H + r×L, and A + r×Gᵀ + (r×Gᵀ)ᵀ.
@@ -175,15 +175,15 @@ def _move(here: Felt, r: Array) -> None:
     here.n[:] += cross(r, here.f)
 
 
-def _base(plan: Plan, felt: Felt, tau: Array, rising: Array, floor: Array) -> Array:
+def _base(plan: Plan, IA: Articulated, tau: Array, rising: Array, floor: Array) -> Array:
     """Return the acceleration of a floating base, shape (6, b): six equations by elimination."""
     I = np.empty((6, 6, *rising.shape[1:]), rising.dtype)
-    A, L, H = unfold(felt.A[:, 0]), unfold(felt.L[:, 0]), felt.H[:, :, 0]
+    A, L, H = unfold(IA.A[:, 0]), unfold(IA.L[:, 0]), IA.H[:, :, 0]
     I[:3, :3], I[:3, 3:], I[3:, :3], I[3:, 3:] = A, H, H.swapaxes(0, 1), L
     I[range(6), range(6)] += plan.rotor[:6]
     x = tau[:6].copy()
-    x[:3] -= felt.n[:, 0] + times(H, rising)
-    x[3:] -= felt.f[:, 0] + times(L, rising)
+    x[:3] -= IA.n[:, 0] + times(H, rising)
+    x[3:] -= IA.f[:, 0] + times(L, rising)
     with np.errstate(divide="ignore", invalid="ignore"):
         for k in range(5):
             factor = I[k + 1 :, k] / I[k, k]
@@ -198,7 +198,7 @@ def _base(plan: Plan, felt: Felt, tau: Array, rising: Array, floor: Array) -> Ar
 
 
 def _floors(plan: Plan, frames: Frames) -> tuple[Array, Array]:
-    """Return `floors`, worked out once where they do not depend on the state."""
+    """Return `floors`, computed once where they do not depend on the state."""
     if plan.reach is None:
         return floors(plan, np.sqrt((frames.offset * frames.offset).real.sum(axis=0).max(axis=-1)))
     if "floors" not in plan.kept:
@@ -208,12 +208,12 @@ def _floors(plan: Plan, frames: Frames) -> tuple[Array, Array]:
 
 
 def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
-    """Return below which D the joints of the links, (1 + n, 1), and of the base, (6, 1), are the textbook's.
+    """Return the D below which the textbook takes over, for the links, (1 + n, 1), and for the base, (6, 1).
 
-    That is where a joint feels a millionth of what it feels with the joints beyond it locked, or so little that half
-    of the digits go. There the textbook is asked, which follows each rounding, and which loses less: in the axes of
-    the joints many terms are zero, in those of the base they only cancel. What is felt with the joints locked is
-    bounded by how far the links are from their parents at most: `reach`, shape (1 + n,).
+    That is a millionth of the apparent inertia with the outboard joints locked, or so little that half of the digits
+    go. There the textbook runs instead, which bounds each rounding and loses less: in the axes of the joints many
+    terms are zero, in those of the base they only cancel. The inertia with locked joints is bounded by the largest
+    distances of the links from their parents: `reach`, shape (1 + n,).
     """
     mass, first, second = plan.carried[:, 0], plan.first.copy(), plan.second.copy()
     for level in reversed(plan.levels):
@@ -223,8 +223,8 @@ def floors(plan: Plan, reach: Array) -> tuple[Array, Array]:
             first[parents] += (near + r * m)[children]
     turn = 1 if plan.turn is None else plan.turn[:, 0]
     slide = 0 if plan.slide is None else np.sqrt((plan.slide[..., 0] ** 2).sum(axis=0))
-    felt = turn * turn * second + 2 * turn * slide * first + slide * slide * mass
-    felt[1:] += plan.rotor[plan.entry[1:], 0]
+    locked = turn * turn * second + 2 * turn * slide * first + slide * slide * mass
+    locked[1:] += plan.rotor[plan.entry[1:], 0]
     base = np.repeat([second[0], mass[0]], 3) + (plan.rotor[:6, 0] if plan.floats else 0)
     lost = max(1e-6, math.sqrt(resolution(mass.dtype)))
-    return lost * felt[:, None], lost * base[:, None]
+    return lost * locked[:, None], lost * base[:, None]

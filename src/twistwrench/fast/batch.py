@@ -42,7 +42,7 @@ def fill(
     tails : mapping of str to tuple of int
         The last axes of each result.
     plan : Plan
-        Says what a state weighs.
+        Gives the memory that a state takes.
     given : mapping of str to ndarray
         Arrays of the caller for some of the results.
     """
@@ -78,11 +78,11 @@ def _states_last(x: Array) -> Array:
 
 @cache
 def keep_memory() -> None:
-    """Have the C library keep the memory of arrays that are gone, and not hand it back to the kernel.
+    """Let the C library keep the memory of freed arrays instead of returning it to the kernel.
 
-    glibc hands back what is above a limit, at first 128 KiB, and every page of it that is used again then costs a
+    glibc returns blocks above a limit, at first 128 KiB, and every page of it that is used again then costs a
     page fault: two thirds of the time of 1000 states. The limit follows the largest block that was ever freed. So
-    a block of the largest size that counts is taken and freed, untouched; once, as the limit never falls. Elsewhere
+    a block of the largest relevant size is allocated and freed, untouched; once, as the limit never falls. Elsewhere
     this does nothing.
     """
     np.empty(KEPT, np.uint8)

@@ -22,22 +22,22 @@ class Contacts(NamedTuple):
     Attributes
     ----------
     link : ndarray of int, shape (k,)
-        What carries each point.
+        The link that carries each point.
     point : ndarray, shape (3, k, 1)
         The points, in the axes of their links.
     by_base : ndarray of int
         The contacts that a floating base moves.
     by_links : (ndarray, ndarray) of int
         Contact and link, for each link that moves a contact.
-    still : (ndarray, ndarray) of int
-        Contact and entry of v, for each that does not.
+    unmoved : (ndarray, ndarray) of int
+        Contact and entry of v, for each pair without influence.
     """
 
     link: Array
     point: Array
     by_base: Array
     by_links: tuple[Array, Array]
-    still: tuple[Array, ...]
+    unmoved: tuple[Array, ...]
 
 
 def contacts_of(model: Model, plan: Plan, names: Sequence[str]) -> Contacts:
@@ -58,7 +58,7 @@ def contacts_of(model: Model, plan: Plan, names: Sequence[str]) -> Contacts:
         point=np.array(points, dtype).reshape(-1, 3).mT[..., None],
         by_base=np.array(by_base, np.intp),
         by_links=(k, i),
-        still=np.nonzero(~moved),
+        unmoved=np.nonzero(~moved),
     )
 
 
@@ -78,5 +78,5 @@ def contact_jacobian(plan: Plan, frames: Frames, origin: Array, contacts: Contac
             J[contacts.by_base, :, c] = cross(frames.base[:, c, None], at).swapaxes(0, 1)
         J[contacts.by_base, :, 3:6] = frames.base
     J[k, :, plan.entry[i]] = columns.swapaxes(0, 1)
-    k, entry = contacts.still
+    k, entry = contacts.unmoved
     J[k, :, entry] = 0

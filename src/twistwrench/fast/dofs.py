@@ -1,11 +1,11 @@
 """The links of a plan: a link of its own for every degree of freedom.
 
-Its column (w, v) of S is all that the algorithms know of it: the link turns with w, and slides with v. The frame of a
+The algorithms use only its column (w, v) of S: the link turns with w, and slides with v. The frame of a
 link is turned such that w, or where it only slides v, is along its z axis. The links of one joint have one origin in
 common; the last of them carries the body, those before it have no mass. So there is one kind of link only, and no kind
 of joint in the algorithms.
 
-Where a q places a link is read off the joint, too, by trying it: see `Way`.
+How a q places a link is found by trying the joint, too: see `Way`.
 
 The links are numbered level by level, from the base to the tips, and in a level as far as possible in the order
 of their parents: what a level reads of the one below it is then a slice. Number 0 is the base: the body that
@@ -59,7 +59,7 @@ class Dof:
     axes : ndarray, shape (3, 3)
         The axes of the link, as columns, in those of the joint's body. Long double.
     parent : Dof or None
-        What carries it; None is the base.
+        The link that carries it; None is the base.
     """
 
     joint: int
@@ -152,7 +152,7 @@ def _links_of_joint(model: Model, i: int) -> Iterator[Dof]:
 def _screw(column: Array) -> tuple[Array, np.longdouble, Array]:
     """Return axes with z along the turn, or where there is none along the slide; the turn; and the slide in them.
 
-    What rounding has left of a length of 1, or across z, is taken away.
+    Rounding errors of the length 1, and of components across z, are removed.
     """
     w, v = column[:3], column[3:]
     z = w if w.any() else v
@@ -167,7 +167,7 @@ def _screw(column: Array) -> tuple[Array, np.longdouble, Array]:
 
 @lru_cache(maxsize=256)
 def _way(joint: Joint) -> Way:
-    """Return how q places a joint: what its nq and its S promise is tried on one q."""
+    """Return how q places a joint: the way that its nq and its S suggest is tested on one q."""
     if joint.nv != 1:
         return "transform"
     S = joint.subspace(np.longdouble)[:, 0]

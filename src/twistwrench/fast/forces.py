@@ -18,14 +18,14 @@ __all__ = ["add_external", "base_acceleration", "coriolis", "forces", "inward", 
 
 
 def outward(plan: Plan, x: Array) -> Array:
-    """Add to every link what its ancestors have; in place."""
+    """Add to every link the values of its ancestors; in place."""
     for level in plan.levels:
         x[:, level.here] += x[:, level.up]
     return x
 
 
 def inward(plan: Plan, x: Array, moved: Array | None = None) -> Array:
-    """Add to every link what its children have, and what is added by moving that to the link's origin; in place."""
+    """Add to every link the values of its children, moved to the link's origin; in place."""
     for level in reversed(plan.levels):
         coming = x[:, level.here] if moved is None else x[:, level.here] + moved[:, level.here]
         for parents, children in level.inward:
@@ -103,10 +103,10 @@ def base_acceleration(plan: Plan, frames: Frames, v: Array, a: Array | None) -> 
 
 
 def coriolis(plan: Plan, frames: Frames, w: Array, v: Array, a: Array | None = None) -> Array | None:
-    """Return what sliding adds to the acceleration of the origins, shape (3, 1 + n, b); None where nothing slides.
+    """Return the accelerations of the origins from sliding, shape (3, 1 + n, b); None where nothing slides.
 
-    The link takes its velocity u along, turning with ω: ω × u. And what it slides on moves differently at every
-    place: ω × u again, with the ω of what carries the joint.
+    The link's velocity u turns with ω: ω × u. And the velocity of the carrier differs from place to
+    place: ω × u again, with the ω of the carrier.
     """
     if frames.slide is None:
         return None
@@ -126,7 +126,7 @@ def add_external(plan: Plan, frames: Frames, f_ext: Array, n: Array, f: Array) -
 
 
 def _at_joints(plan: Plan, frames: Frames, n: Array, f: Array) -> Array:
-    """Return what the joints do of the wrenches that pass through them, shape (nv, b)."""
+    """Return the joints' components of the wrenches through them, shape (nv, b)."""
     tau = np.empty((plan.nv, n.shape[-1]), n.dtype)
     tau[plan.entry[1:]] = dot(frames.spin[:, 1:], n[:, 1:])
     if frames.slide is not None:

@@ -1,4 +1,4 @@
-"""Where the links are: the first thing that every quantity asks for."""
+"""Where the links are: the first step of every quantity."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Frames(NamedTuple):
 
 
 class Inertias(NamedTuple):
-    """What the links weigh, in the axes of the base about their own origins.
+    """The inertias of the links, in the axes of the base about their own origins.
 
     Attributes
     ----------
@@ -67,15 +67,15 @@ def frames_of(plan: Plan, q: Array, *, in_world: bool = False) -> Frames:
     cos, sin = _cos_sin(plan, q)
     for level, placed in zip(plan.levels, plan.placed):
         here, k = level.here, slice(level.here.start - 1, level.here.stop - 1)
-        still = np.empty((4, 3, here.stop - here.start, b), q.dtype)  # axes and offset before the joint moves
-        by_component = axes[:, :, level.up].transpose(1, 2, 0, 3), still.transpose(1, 2, 0, 3)
+        constant = np.empty((4, 3, here.stop - here.start, b), q.dtype)  # axes and offset before the joint moves
+        by_component = axes[:, :, level.up].transpose(1, 2, 0, 3), constant.transpose(1, 2, 0, 3)
         np.matmul(plan.fixed[k], by_component[0], out=by_component[1])
-        x, y, axes[2, :, here], offset[:, here] = still
+        x, y, axes[2, :, here], offset[:, here] = constant
         np.add(cos[k] * x, sin[k] * y, out=axes[0, :, here])
         np.subtract(cos[k] * y, sin[k] * x, out=axes[1, :, here])
         for one in placed:
             number = here.start + one.link
-            _place(one, q, still[:, :, one.link], axes[:, :, number], offset[:, number])
+            _place(one, q, constant[:, :, one.link], axes[:, :, number], offset[:, number])
     spin, slide = axes[2] if plan.turn is None else axes[2] * plan.turn, _slide(plan, axes)
     if slide is not None:
         links, lengths = plan.lengths
@@ -120,12 +120,12 @@ def _cos_sin(plan: Plan, q: Array) -> tuple[Array, Array]:
     return cos, sin
 
 
-def _place(one: Placed, q: Array, still: Array, axes: Array, offset: Array) -> None:
+def _place(one: Placed, q: Array, constant: Array, axes: Array, offset: Array) -> None:
     """Place, in `axes` and `offset`, the first link of a joint by the joint's `transform`."""
     T = one.joint.transform(q[one.q].mT)
     R, p = T.rotation.transpose(1, 2, 0), T.translation.mT
-    axes[:] = np.einsum("cib,cdb,dk->kib", still[:3], R, one.axes)
-    offset += np.einsum("cib,cb->ib", still[:3], p)
+    axes[:] = np.einsum("cib,cdb,dk->kib", constant[:3], R, one.axes)
+    offset += np.einsum("cib,cb->ib", constant[:3], p)
 
 
 def inertias_of(plan: Plan, frames: Frames) -> Inertias:

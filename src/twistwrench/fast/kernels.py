@@ -1,4 +1,4 @@
-"""What is done with each chunk of states. The states are the last axis of every array here."""
+"""The computation for each chunk of states. The states are the last axis of every array here."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ __all__ = ["forward_dynamics", "inverse_dynamics", "quantities"]
 
 
 def inverse_dynamics(plan: Plan, q: Array, v: Array, a: Array, *rest: Array) -> None:
-    """Fill τ, the last of `rest`; before it comes f_ext, shape (nbodies, 6, b), where there is one."""
+    """Fill τ, the last of `rest`; before it f_ext, shape (nbodies, 6, b), where it is given."""
     *f_ext, tau = rest
     frames = frames_of(plan, q)
     tau[...] = forces(plan, frames, inertias_of(plan, frames), v, a, *f_ext)
 
 
 def forward_dynamics(model: Model, plan: Plan, q: Array, v: Array, tau: Array, *rest: Array) -> None:
-    """Fill q̈, the last of `rest`; before it comes f_ext, shape (nbodies, 6, b), where there is one."""
+    """Fill q̈, the last of `rest`; before it f_ext, shape (nbodies, 6, b), where it is given."""
     *f_ext, qdd = rest
     frames = frames_of(plan, q)
     try:
@@ -35,7 +35,7 @@ def forward_dynamics(model: Model, plan: Plan, q: Array, v: Array, tau: Array, *
 
 
 def quantities(plan: Plan, contacts: Contacts | None, names: tuple[str, ...], q: Array, *rest: Array) -> None:
-    """Fill the quantities of these names, the last arrays of `rest`; before them comes v, where it came."""
+    """Fill the quantities of these names, the last arrays of `rest`; before them v, where it is given."""
     results = dict(zip(names, rest[-len(names) :]))
     frames = frames_of(plan, q, in_world="M" not in results and "h" not in results)
     if contacts is not None:

@@ -64,29 +64,29 @@ def momenta(plan: Plan, frames: Frames, carried: Inertias) -> Momenta:
 def mass_matrix(plan: Plan, frames: Frames, origin: Array, carried: Inertias, momenta: Momenta, M: Array) -> None:
     """Write the mass matrix to M, shape (nv, nv, b).
 
-    All momenta walk to the base together, one link per step; each link on the way feels its part.
+    All momenta are shifted to the base together, one link per step, and projected on the joints on the way.
     """
     n, f, e = momenta.angular.copy(), momenta.linear, plan.entry
     M[plan.apart] = 0
-    M[e[1:], e[1:]] = _felt(frames, slice(1, None), n[:, 1:], f[:, 1:])
+    M[e[1:], e[1:]] = _joint_part(frames, slice(1, None), n[:, 1:], f[:, 1:])
     if plan.floats:
         at_base = n + cross(origin, f)
         _base_rows(plan, carried, at_base, f, M)
     for movers, left, reached in plan.steps:
         n[:, movers] += cross(frames.offset[:, left], f[:, movers])
-        felt = _felt(frames, reached, n[:, movers], f[:, movers])
-        M[e[reached], e[movers]] = felt
-        M[e[movers], e[reached]] = felt
+        part = _joint_part(frames, reached, n[:, movers], f[:, movers])
+        M[e[reached], e[movers]] = part
+        M[e[movers], e[reached]] = part
     diagonal = np.arange(plan.nv)
     M[diagonal, diagonal] += plan.rotor
 
 
-def _felt(frames: Frames, links: Index, n: Array, f: Array) -> Array:
-    """Return the part of a wrench or momentum (n, f) at the origins of links that their joints feel."""
-    felt = dot(frames.spin[:, links], n)
+def _joint_part(frames: Frames, links: Index, n: Array, f: Array) -> Array:
+    """Return Sᵀ F of wrenches or momenta F = (n, f) at the origins of links."""
+    part = dot(frames.spin[:, links], n)
     if frames.slide is not None:
-        felt += dot(frames.slide[:, links], f)
-    return felt
+        part += dot(frames.slide[:, links], f)
+    return part
 
 
 def _base_rows(plan: Plan, carried: Inertias, n: Array, f: Array, M: Array) -> None:

@@ -1,4 +1,4 @@
-"""Arrays of the caller to be filled: what they must be, and what is done where they share memory with an input.
+"""Arrays of the caller to be filled: their validation, and the case that they share memory with an input.
 
 As NumPy's own functions do, each result is what it would be if all inputs were read before the first number is
 written. Where an array of the caller shares memory with an input, a new array is filled and copied at the end.
@@ -19,7 +19,7 @@ from ..errors import ShapeError
 __all__ = ["Tail", "batch_first", "check_outputs", "empty", "finish", "targets"]
 
 WORK = 10_000
-"""How long to look for a common byte of two arrays; after that they count as sharing memory."""
+"""Effort of the search for a common byte of two arrays; after that they count as sharing memory."""
 
 Tail = tuple[int, ...]
 
@@ -35,7 +35,7 @@ def batch_first(x: Array, tail: int) -> Array:
 
 
 def check_outputs(given: Mapping[str, Any], batch: Tail, tails: Mapping[str, Tail], dtype: np.dtype[Any]) -> None:
-    """Refuse arrays of the caller that do not fit, that cannot be written to, or in which entries lie on each other."""
+    """Raise ValueError for arrays of the caller that do not fit, are read-only, or have overlapping entries."""
     for name, out in given.items():
         shape = (*batch, *tails[name])
         if not (isinstance(out, np.ndarray) and out.shape == shape and out.dtype == dtype):
@@ -61,7 +61,7 @@ def targets(
 
 
 def finish(given: Mapping[str, Array], filled: Mapping[str, Array]) -> dict[str, Array]:
-    """Return the results, those for which the caller gave an array in that array."""
+    """Return the results, in the caller's arrays where there are any."""
     for name, out in given.items():
         if out is not filled[name]:
             out[...] = filled[name]
@@ -88,7 +88,7 @@ def _overlaps_itself(x: Array) -> bool:
 
 
 def _nested(steps: Sequence[tuple[int, int]], size: int) -> bool:
-    """Whether each axis steps over all that the axes with smaller steps reach: then no entries meet."""
+    """Whether each axis steps over the extent of all axes with smaller steps: then no entries overlap."""
     for step, n in steps:
         if step < size:
             return False

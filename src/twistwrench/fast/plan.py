@@ -1,4 +1,4 @@
-"""The plan: what can be worked out from a model before the first state comes."""
+"""The plan: everything that can be computed from a model before the first state."""
 
 from __future__ import annotations
 
@@ -65,8 +65,8 @@ class Plan:
     last, before : slice or ndarray
         For each link the last one of its joint, and the one that carries the joint.
     angles, circles, lengths : (slice or ndarray, ndarray of int)
-        Links without the base, and the entry of q that holds the angle; its cosine, with the sine next; and what
-        a link goes along its z axis with, times its `slide`.
+        Links without the base, and the entry of q that holds the angle; its cosine, with the sine next; and the
+        distance along its z axis, times its `slide`.
     placed : list of list of Placed
         Level by level, what a joint's `transform` places.
     inertia : ndarray, shape (1 + n, 4, 3)
@@ -86,7 +86,7 @@ class Plan:
     reach : ndarray, shape (1 + n,), or None
         How far the links are from their parents; None where that depends on the state.
     kept : dict
-        For what others work out once.
+        A cache for other functions.
     """
 
     floats: bool
@@ -131,7 +131,7 @@ class Plan:
 
 def plan_of(model: Model, dtype: np.dtype[Any]) -> Plan:
     """Return the plan of a model for a real number type; made once, forgotten with the model."""
-    made: dict[Any, Any] = model._constants  # where the model keeps what it makes once per number type
+    made: dict[Any, Any] = model._constants  # the model's cache of one entry per number type
     key = ("fast", dtype)
     if key not in made:
         made[key] = _make(model, dtype)

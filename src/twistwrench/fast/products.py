@@ -27,6 +27,6 @@ def _of_products() -> tuple[Array, Array, Array]:
 
 TURN, SLIDE, MOMENTUM = _of_products()
 TWISTS = np.concatenate([TURN[9:], SLIDE[9:]])
-"""What makes, of the products of p̄ = (p, 1) and z, the Ŝ of a turn about z through p, and of a slide along z; and,
-of those of R and c̄ = (c, 1), the 6 × 6 matrix that takes a momentum to the point c and to the axes of the world. Last
+"""From the products of p̄ = (p, 1) and z to the Ŝ of a turn about z through p, and to that of a slide along z; and from
+those of R and c̄ = (c, 1) to the 6 × 6 matrix that takes a momentum to the point c and to the axes of the world. Last
 the Ŝ of turns about, and slides along, the axes of the base."""

@@ -1,21 +1,21 @@
 """One state, in a few products with constant matrices.
 
-For one state a call costs more than its arithmetic, so what counts is how few calls there are; `.dot` is the cheapest.
+For one state a call costs more than its arithmetic, so the number of calls decides; `.dot` is the cheapest.
 All is written in 4 × 4 matrices, in which a placement, a twist, an acceleration and an inertia are one kind of thing,
 and a robot is a stack of them:
 
     T   a placement: the points of a link, x̄ = (x, 1), are at T x̄, seen from the base
-    Ŝ   a twist: what takes part in it moves with Ŝ x̄
+    Ŝ   a twist: points that move with it have the velocity Ŝ x̄
     B   an acceleration: T̈ = B T
     J   an inertia: ∫ x̄ x̄ᵀ dm, with second moments, first moments and mass
 
-The momentum of a unit rate is Ŝ J, the force of an acceleration B J, and what a joint feels of either is the sum of
-its entries times those of the joint's Ŝ. Beyond a joint that moves with Ŝq̇ on something that moves with V it is
+The momentum of a unit rate is Ŝ J, the force of an acceleration B J, and a joint's part of either is the sum of
+its entries times those of the joint's Ŝ. Outboard of a joint that moves with Ŝq̇ on a carrier that moves with V it is
 
     T̈ = (B + 2 V Ŝq̇ + (Ŝq̇)²) T = (B + (V + V') Ŝq̇) T,    V' = V + Ŝq̇,
 
-so that B is a sum over the ancestors, as V is. Positions are seen from the base: what is lost of the digits depends
-on the size of the robot, not on where it is.
+so that B is a sum over the ancestors, as V is. Positions are relative to the base: rounding depends on
+the size of the robot, not on where it is.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from ..arrays import Array
 from .products import TURN, TWISTS
 from .single_plan import ContactRows, JointTerms, SinglePlan
 
-__all__ = ["one_dynamics", "one_rnea", "placements", "turned"]
+__all__ = ["placements", "single_dynamics", "single_rnea", "turned"]
 
 Parts = dict[str, Array]
 ONES = np.ones(16)
@@ -88,8 +88,8 @@ def placements(plan: SinglePlan, q: Array) -> tuple[Array, Array]:
 
 
 def _done(joint_terms: JointTerms, q: Array) -> Array:
-    """Return what the joints do, `JointTerms`."""
-    done, angles = joint_terms.still.copy(), q[joint_terms.angles]
+    """Return the joint terms of q: see `JointTerms`."""
+    done, angles = joint_terms.constant.copy(), q[joint_terms.angles]
     n = angles.size
     np.cos(angles, done[1 : n + 1])
     np.sin(angles, done[n + 1 : 2 * n + 1])
@@ -104,7 +104,7 @@ def turned(plan: SinglePlan, q: Array) -> Array:
     """Return the rotation from the axes of the base to those of the world, row by row, shape (9,)."""
     if plan.base == 0:
         return UNTURNED
-    x, y, z, w = q[3:7].tolist()  # for so few numbers Python's own are quicker
+    x, y, z, w = q[3:7].tolist()  # for so few numbers Python's floats are quicker
     s = 2 / (x * x + y * y + z * z + w * w)
     a, b, c = s * x, s * y, s * z
     R: Array = np.array(
@@ -117,7 +117,7 @@ def turned(plan: SinglePlan, q: Array) -> Array:
     return R if plan.under is None else plan.under.dot(R.reshape(3, 3)).reshape(9)
 
 
-def one_rnea(plan: SinglePlan, q: Array, v: Array, a: Array) -> Array:
+def single_rnea(plan: SinglePlan, q: Array, v: Array, a: Array) -> Array:
     """Return τ for one motion, shape (nv,)."""
     at = place(plan, q)
     return forces(plan, at, _inertias(plan, at), v, a)
@@ -137,18 +137,18 @@ def forces(plan: SinglePlan, at: Place, J: Array, v: Array, a: Array | None = No
         B += plan.sums.moving(at.twist * a[:, None])[0]
     B[0, :3, 3] -= plan.gravity.dot(at.turn.reshape(3, 3))  # the world rises
     B = plan.sums.outward(B.reshape(-1, 16)).reshape(-1, 4, 4)
-    felt = plan.sums.felt((B @ J).reshape(-1, 16))
-    tau: Array = (at.twist * felt).dot(ONES)
+    force = plan.sums.outboard((B @ J).reshape(-1, 16))
+    tau: Array = (at.twist * force).dot(ONES)
     return tau if a is None or plan.rotor is None else tau + plan.rotor * a
 
 
-def one_dynamics(
-    plan: SinglePlan, want: Collection[str], touching: ContactRows | None, q: Array, v: Array | None = None
+def single_dynamics(
+    plan: SinglePlan, want: Collection[str], contacts: ContactRows | None, q: Array, v: Array | None = None
 ) -> Parts:
     """Return what is wanted of one state, by name; only h needs v, and only J_c contacts."""
     at, parts = place(plan, q), {}
-    if touching is not None:
-        parts["J_c"] = contact_jacobian(at, touching)
+    if contacts is not None:
+        parts["J_c"] = contact_jacobian(at, contacts)
     if len(want) == len(parts):
         return parts
     J = _inertias(plan, at)
@@ -157,19 +157,19 @@ def one_dynamics(
     if "M" in want or "A_G" in want:
         carried = plan.sums.carried(J.reshape(-1, 16)).reshape(-1, 4, 4)
         momenta = (at.twist.reshape(-1, 4, 4) @ carried[1:]).reshape(-1, 16).mT
-        # What joints, or the unit twists of the base, feel of the momenta of unit rates.
-        felt = at.twist.dot(momenta) if "M" in want or plan.base else TWISTS.dot(momenta)
+        # The momenta of unit rates, projected on the joints or on the unit twists of the base.
+        along = at.twist.dot(momenta) if "M" in want or plan.base else TWISTS.dot(momenta)
         if "M" in want:
-            parts["M"] = mass_matrix(plan, felt)
+            parts["M"] = mass_matrix(plan, along)
         if "A_G" in want:
-            of_base = felt[:6] if plan.base else TWISTS.dot(momenta)
+            of_base = along[:6] if plan.base else TWISTS.dot(momenta)
             parts["A_G"] = centroidal_matrix(plan, at, of_base, carried[0, 3])
     return parts
 
 
-def mass_matrix(plan: SinglePlan, felt: Array) -> Array:
-    """Return M, from what joints feel of the momenta of unit rates: above the diagonal what they carry, or nothing."""
-    M = felt.take(plan.upper)
+def mass_matrix(plan: SinglePlan, along: Array) -> Array:
+    """Return M, from the momenta of unit rates projected on the joints: above the diagonal, and 0 if unrelated."""
+    M = along.take(plan.upper)
     M *= plan.related
     if plan.rotor is not None:
         M.flat[:: len(M) + 1] += plan.rotor
@@ -183,13 +183,13 @@ def centroidal_matrix(plan: SinglePlan, at: Place, momentum: Array, moment: Arra
     return A_G
 
 
-def contact_jacobian(at: Place, touching: ContactRows) -> Array:
+def contact_jacobian(at: Place, contacts: ContactRows) -> Array:
     """Return the linear rows of the contacts, shape (3 k, nv)."""
-    if touching.placed is not None:
-        points = touching.placed.dot(at.pose.reshape(-1))
+    if contacts.placed is not None:
+        points = contacts.placed.dot(at.pose.reshape(-1))
     else:
-        points = (at.pose.take(touching.link, axis=0) @ touching.point).reshape(-1)
-    velocity = at.turn[touching.row] * points[touching.column]
+        points = (at.pose.take(contacts.link, axis=0) @ contacts.point).reshape(-1)
+    velocity = at.turn[contacts.row] * points[contacts.column]
     J_c: Array = velocity.reshape(-1, 16).dot(at.twist.mT)
-    J_c *= touching.moved
+    J_c *= contacts.moved
     return J_c

@@ -10,7 +10,7 @@ X takes a twist from the parent's origin to the link's, c is the bias accelerati
 
     K of the parent  +=  Yᵀ (K − w wᵀ / D) Y,
 
-for all links of a level at once, in the axes of the base, each about its own origin. The corner of K means nothing.
+for all links of a level at once, in the axes of the base, each about its own origin. The corner of K is not used.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from .single import placements, turned
 from .single_plan import SinglePlan
 from .vectors import CYCLE
 
-__all__ = ["AbaPlan", "make_aba_plan", "one_aba"]
+__all__ = ["AbaPlan", "make_aba_plan", "single_aba"]
 
 
 class Stage(NamedTuple):
@@ -55,11 +55,11 @@ class Stage(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class AbaPlan:
-    """What forward dynamics of one state needs besides `SinglePlan`, with the links in the same order.
+    """The constants of forward dynamics of one state besides `SinglePlan`, with the links in the same order.
 
     Attributes
     ----------
-    one : SinglePlan
+    single : SinglePlan
     stages : list of Stage
         From the base to the tips.
     parent, last : ndarray of int, shape (1 + n,)
@@ -69,10 +69,10 @@ class AbaPlan:
     floors : tuple of ndarray, or None
         As `articulated.floors` gives them, in the order here, where they do not depend on the state.
     plan : Plan
-        Gives them where they do.
+        For the floors where they do.
     """
 
-    one: SinglePlan
+    single: SinglePlan
     stages: list[Stage]
     parent: Array
     last: Array
@@ -102,54 +102,54 @@ SPATIAL, CROSS, SHIFT = _constants()
 """From ∫ x̄ x̄ᵀ dm to the 6 × 6 inertia; from V to V×; from r to −r×."""
 
 
-def make_aba_plan(plan: Plan, one: SinglePlan) -> AbaPlan:
-    """Put what is needed of a plan in double precision into the order of `SinglePlan`."""
-    order = np.argsort(one.new)
-    parent = one.new[np.array(plan.parent)][order]
-    last = np.concatenate([[0], one.new[np.arange(1 + plan.n)[plan.last]]])[order]
+def make_aba_plan(plan: Plan, single: SinglePlan) -> AbaPlan:
+    """Bring the constants of a plan in double precision into the order of `SinglePlan`."""
+    order = np.argsort(single.new)
+    parent = single.new[np.array(plan.parent)][order]
+    last = np.concatenate([[0], single.new[np.arange(1 + plan.n)[plan.last]]])[order]
     screw = np.zeros((1 + plan.n, 3, 2))
-    screw[1:, 2, 0] = 1 if one.turn is None else one.turn[:, 0]
-    screw[1 + one.sliding, :, 1] = one.slide[:, :, 0]
-    stages = [_stage(np.sort(one.new[level.here]), parent) for level in plan.levels]
+    screw[1:, 2, 0] = 1 if single.turn is None else single.turn[:, 0]
+    screw[1 + single.sliding, :, 1] = single.slide[:, :, 0]
+    stages = [_stage(np.sort(single.new[level.here]), parent) for level in plan.levels]
     constant = None
     if plan.reach is not None:
         links, base = floors(plan, plan.reach)
         constant = links[order, 0], base[:, 0]
-    return AbaPlan(one, stages, parent, last, screw, plan.rotor[:, 0], constant, plan)
+    return AbaPlan(single, stages, parent, last, screw, plan.rotor[:, 0], constant, plan)
 
 
 def _stage(links: Array, parent: Array) -> Stage:
     up = parent[links]
-    parents, which = np.unique(up, return_inverse=True)
+    parents, of_parent = np.unique(up, return_inverse=True)
     if len(parents) == len(links):
         return Stage(index(links.tolist()), index(up.tolist()), index(up.tolist()), None)
     family = np.zeros((len(parents), len(links)))
-    family[which, range(len(links))] = 1
+    family[of_parent, range(len(links))] = 1
     all_of_them = slice(parents[0], parents[0] + 1) if len(parents) == 1 else index(up.tolist())
     return Stage(index(links.tolist()), all_of_them, index(parents.tolist()), family)
 
 
-def one_aba(aba: AbaPlan, q: Array, v: Array, tau: Array) -> Array:
+def single_aba(aba: AbaPlan, q: Array, v: Array, tau: Array) -> Array:
     """Return q̈ for one state, shape (nv,).
 
     Raises
     ------
     NearlySingular
-        If a joint may feel no inertia.
+        If a joint may have no apparent inertia.
     """
-    base = aba.one.base
+    base = aba.single.base
     S, K, Y, a, reach = _start(aba, q, v)
     floor, base_floor = aba.floors or _floors(aba, reach)
     w, D, qdd = np.empty_like(S), np.empty(len(S)), np.empty(len(v))
     motor, rotor = np.concatenate([[0.0], tau[base:]]), np.concatenate([[0.0], aba.rotor[base:]])
     with np.errstate(divide="ignore", invalid="ignore"):
         for here, _, parents, family in reversed(aba.stages):  # pass 2
-            felt, s = K[here], S[here, :, None]
-            U = np.matmul(felt, s)
+            IA, s = K[here], S[here, :, None]
+            U = np.matmul(IA, s)
             D[here] = np.matmul(s.mT, U)[:, 0, 0] + rotor[here]
             U[:, 6, 0] -= motor[here]
             w[here] = U[:, :, 0]
-            through = felt - np.matmul(U / D[here, None, None], U.mT)
+            through = IA - np.matmul(U / D[here, None, None], U.mT)
             moved = np.matmul(np.matmul(Y[here].mT, through), Y[here])
             moved = (moved + moved.mT) / 2
             if family is not None:
@@ -171,10 +171,10 @@ def one_aba(aba: AbaPlan, q: Array, v: Array, tau: Array) -> Array:
 
 def _start(aba: AbaPlan, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
     """Pass 1: return S, K and Y of the links, the accelerations with that of the base filled in, and the offsets."""
-    one, base = aba.one, aba.one.base
-    _, T = placements(one, q)
+    single, base = aba.single, aba.single.base
+    _, T = placements(single, q)
     offset = T[:, :3, 3].copy()
-    for links, others in one.chain:
+    for links, others in single.chain:
         T[links] = np.matmul(T[others], T[links])
     T[:, :3, 3] = 0  # each link about its own origin
     r = np.matmul(T.take(aba.parent, axis=0)[:, :3, :3], offset[:, :, None])[:, :, 0]
@@ -182,7 +182,7 @@ def _start(aba: AbaPlan, q: Array, v: Array) -> tuple[Array, Array, Array, Array
     S = np.zeros((n1, 7))
     S[:, :6] = np.matmul(T[:, :3, :3], aba.screw).mT.reshape(n1, 6)
     K, Y, V, a = np.zeros((n1, 7, 7)), np.zeros((n1, 7, 7)), np.zeros((n1, 7)), np.empty((n1, 7))
-    I = np.matmul(np.matmul(T, one.J), T.mT).reshape(-1, 16).dot(SPATIAL).reshape(-1, 6, 6)
+    I = np.matmul(np.matmul(T, single.J), T.mT).reshape(-1, 16).dot(SPATIAL).reshape(-1, 6, 6)
     Y[:, range(7), range(7)] = 1
     Y[:, 3:6, :3] = r.dot(SHIFT).reshape(-1, 3, 3)
     moving = S * np.concatenate([[0.0], v[base:]])[:, None]
@@ -194,14 +194,14 @@ def _start(aba: AbaPlan, q: Array, v: Array) -> tuple[Array, Array, Array, Array
     Y[:, :6, 6] = np.matmul(cross.take(aba.last, axis=0), moving[:, :6, None])[:, :, 0]
     bias = bias_wrench(I, V6[:, :, None])[:, :, 0]
     K[:, :6, :6], K[:, :6, 6], K[:, 6, :6] = I, bias, bias
-    a[0] = 0, 0, 0, *-one.gravity.dot(turned(one, q).reshape(3, 3)), 1  # the world rises
+    a[0] = 0, 0, 0, *-single.gravity.dot(turned(single, q).reshape(3, 3)), 1  # the world rises
     return S, K, Y, a, offset
 
 
 def _floors(aba: AbaPlan, offset: Array) -> tuple[Array, Array]:
-    """Return the limits of D where they depend on the state: on how far the links are from their parents."""
-    order = np.argsort(aba.one.new)
-    reach = np.sqrt((offset * offset).sum(axis=-1))[aba.one.new]
+    """Return the limits of D where they depend on the state: on the distances of the links from their parents."""
+    order = np.argsort(aba.single.new)
+    reach = np.sqrt((offset * offset).sum(axis=-1))[aba.single.new]
     links, base = floors(aba.plan, reach)
     return links[order, 0], base[:, 0]
 
@@ -209,13 +209,13 @@ def _floors(aba: AbaPlan, offset: Array) -> tuple[Array, Array]:
 def _base(K: Array, tau: Array, rotor: Array, rising: Array, floor: Array) -> Array:
     """Return the acceleration of a floating base, shape (6,)."""
     I = K[:6, :6]
-    feels = I + np.diag(rotor)
+    IA = I + np.diag(rotor)
     try:
-        pivots = np.linalg.cholesky(feels).diagonal() ** 2
+        pivots = np.linalg.cholesky(IA).diagonal() ** 2
     except np.linalg.LinAlgError:
         raise NearlySingular from None
     if not (pivots > floor).all():
         raise NearlySingular
-    unit = np.sqrt(feels.diagonal())  # of the rows: the solver's choice of pivots must not depend on kg and m
-    x: Array = np.linalg.solve(feels / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit
+    unit = np.sqrt(IA.diagonal())  # scales the rows: the solver's pivots must not depend on kg and m
+    x: Array = np.linalg.solve(IA / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit
     return x

@@ -1,6 +1,6 @@
 """The plan for one state: constant matrices for products that do all links at once.
 
-The links are those of `plan`, in the order of v: link 0 is the base, and each comes after what carries it.
+The links are those of `plan`, in the order of v: link 0 is the base, and each link comes after its parent.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class ContactRows(NamedTuple):
     Attributes
     ----------
     link : ndarray of int, shape (k,)
-        What carries them.
+        The links that carry them.
     point : ndarray, shape (k, 4, 1)
         (x, 1) in the link's axes.
     placed : ndarray, shape (4 k, 16 (1 + n)), or None
@@ -46,14 +46,14 @@ class ContactRows(NamedTuple):
 
 
 class JointTerms(NamedTuple):
-    """What the joints do, as one vector: 1, cosines and sines of angles, those of circles, lengths, 0.
+    """The joint terms as one vector: 1, cosines and sines of angles, cosines and sines from q, lengths, 0.
 
     Attributes
     ----------
-    still : ndarray, shape (m,)
-        The vector to be filled.
+    constant : ndarray, shape (m,)
+        The vector with its constant part, to be filled.
     gather : ndarray of int, shape (n, 4)
-        Where in it a link finds 1, cosine, sine and length: of what does not turn 1 and 0, of what does not slide 0.
+        The indices of a link's 1, cosine, sine and length in it: cosine 1 and sine 0 without turn, 0 without slide.
     angles : slice or ndarray of int
         Their entries in q.
     circles : ndarray of int, shape (2, k)
@@ -61,7 +61,7 @@ class JointTerms(NamedTuple):
     lengths : ndarray of int
     """
 
-    still: Array
+    constant: Array
     gather: Array
     angles: Index
     circles: Array
@@ -78,8 +78,8 @@ class SinglePlan:
         How many entries of v are those of a floating base: 6, or 0.
     joint_terms : JointTerms
     local : ndarray, shape (16 n, m) or (n, 16, 4)
-        From what the joints do to the placement of each link in its parent's axes: one matrix, or, where that would
-        be large, a matrix for each link.
+        From the joint terms to the placement of each link in its parent's axes: one matrix, or, where that would be
+        large, a matrix for each link.
     pose : ndarray, shape (16 (1 + n),)
         Placements to be filled; that of the base is known.
     placed : list of (int, Placed, ndarray)
@@ -112,7 +112,7 @@ class SinglePlan:
     new : ndarray of int, shape (1 + n,)
         The number here of each link of `Plan`.
     known : dict
-        Contacts that were asked for before.
+        A cache of contacts.
     """
 
     base: int
@@ -140,7 +140,7 @@ class SinglePlan:
 
 
 def make_single_plan(plan: Plan) -> SinglePlan:
-    """Put the constants of a plan in double precision into the order of v, and into matrices."""
+    """Bring the constants of a plan in double precision into the order of v, and into matrices."""
     base, n = 6 if plan.floats else 0, plan.n
     order = np.argsort(plan.entry)  # old numbers in the new order; the base, with entry -1, stays the first
     new = np.argsort(order)
@@ -150,7 +150,7 @@ def make_single_plan(plan: Plan) -> SinglePlan:
         np.concatenate([[end], new[np.arange(1 + n)[links]]])[order]
         for links, end in ((plan.before, -1), (plan.last, 0))
     )
-    joint_terms, local = _doings(plan, new), _local(plan)[order[1:] - 1]
+    joint_terms, local = _joint_terms(plan, new), _local(plan)[order[1:] - 1]
     carried, entries = carried_by(parent)[np.ix_(of, of)], np.indices((len(of), len(of)))
     row, column = np.indices((4, 3)).reshape(2, 12)
     first = 16 * np.arange(1, 1 + n)[:, None]
@@ -181,8 +181,8 @@ def make_single_plan(plan: Plan) -> SinglePlan:
     )
 
 
-def _doings(plan: Plan, new: Array) -> JointTerms:
-    """Give all that joints do a place in one vector: 1, cosines and sines of angles, of circles, lengths, 0."""
+def _joint_terms(plan: Plan, new: Array) -> JointTerms:
+    """Lay out the joint terms in one vector: 1, cosines and sines of angles, of circles, lengths, 0."""
     kinds = []
     for links, entries in (plan.angles, plan.circles, plan.lengths):
         mine = new[1:][links] - 1
@@ -194,19 +194,19 @@ def _doings(plan: Plan, new: Array) -> JointTerms:
     for links, column in columns:
         gather[links, column] = place + np.arange(len(links))
         place += len(links)
-    still = np.zeros(end + 1)
-    still[0] = 1
+    constant = np.zeros(end + 1)
+    constant[0] = 1
     cosines = kinds[1][1]
-    return JointTerms(still, gather, index(kinds[0][1].tolist()), np.stack([cosines, cosines + 1]), kinds[2][1])
+    return JointTerms(constant, gather, index(kinds[0][1].tolist()), np.stack([cosines, cosines + 1]), kinds[2][1])
 
 
 def _side_by_side(local: Array, joint_terms: JointTerms) -> Array:
     """Return one matrix, shape (16 n, m), for the placements of all links."""
-    out = np.zeros((len(local), 16, len(joint_terms.still)))
+    out = np.zeros((len(local), 16, len(joint_terms.constant)))
     for mine, matrix, places in zip(out, local, joint_terms.gather):
         for place, column in zip(places, matrix.mT):
             mine[:, place] += column
-    return out.reshape(-1, len(joint_terms.still))
+    return out.reshape(-1, len(joint_terms.constant))
 
 
 def _local(plan: Plan) -> Array:
@@ -262,9 +262,9 @@ def _pseudo_inertias(plan: Plan) -> Array:
     return J
 
 
-def contact_rows(one: SinglePlan, contacts: Contacts) -> ContactRows:
-    """Put contacts into the order of v."""
-    k, n1, link = len(contacts.link), len(one.J), one.new[contacts.link]
+def contact_rows(plan: SinglePlan, contacts: Contacts) -> ContactRows:
+    """Bring contacts into the order of v."""
+    k, n1, link = len(contacts.link), len(plan.J), plan.new[contacts.link]
     point = np.ones((k, 4, 1))
     point[:, :3, 0] = contacts.point[..., 0].mT
     small = k * n1 < 1024
@@ -272,8 +272,8 @@ def contact_rows(one: SinglePlan, contacts: Contacts) -> ContactRows:
     for row in range(4 if small else 0):
         placed[range(k), row, link, row] = point[..., 0]
     contact, i, a, b = np.indices((k, 3, 4, 4)).reshape(4, 48 * k)
-    moved = np.ones((k, len(one.twist)))
-    moved[contacts.still] = 0
+    moved = np.ones((k, len(plan.twist)))
+    moved[contacts.unmoved] = 0
     return ContactRows(
         link=link,
         point=point,

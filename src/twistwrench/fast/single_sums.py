@@ -27,7 +27,7 @@ class Sums:
     of : ndarray of int, shape (nv,)
         The link of each entry of v.
     before, last : ndarray of int, shape (1 + n,)
-        For each link what carries its joint, for the base -1; and the last link of its joint.
+        For each link the one that carries its joint, for the base -1; and the last link of its joint.
     """
 
     def __init__(self, carried: Array, of: Array, before: Array, last: Array) -> None:
@@ -36,16 +36,16 @@ class Sums:
         self._outward = carried
         self._moving = np.concatenate([by_link, around @ by_link])
         self._carried = np.concatenate([np.ones((1, len(carried))), carried.mT[of]])
-        self._felt = self._carried[1:]
+        self._outboard = self._carried[1:]
 
     def outward(self, x: Array) -> Array:
         """Return for each link the sum over it and its ancestors."""
         out: Array = self._outward.dot(x)
         return out
 
-    def felt(self, x: Array) -> Array:
+    def outboard(self, x: Array) -> Array:
         """Return for each entry of v, shape (nv, 16), the sum over all that it moves."""
-        out: Array = self._felt.dot(x)
+        out: Array = self._outboard.dot(x)
         return out
 
     def carried(self, x: Array) -> Array:
@@ -56,8 +56,8 @@ class Sums:
     def moving(self, x: Array) -> Array:
         """Return sums of the twists x, shape (nv, 16), that the entries of v make, as (2, 1 + n, 4, 4).
 
-        The first is the twist of each link's joint. The second is the twist of what carries the joint and that of
-        what it moves, added.
+        The first is the twist of each link's joint. The second is the sum of the twists of the
+        links before and after the joint.
         """
         out: Array = self._moving.dot(x)
         return out.reshape(2, -1, 4, 4)
@@ -107,7 +107,7 @@ class SumsInBlocks:
                 total[here] += total[below]
         return total
 
-    def felt(self, x: Array) -> Array:
+    def outboard(self, x: Array) -> Array:
         """Return for each entry of v, shape (nv, 16), the sum over all that it moves."""
         out: Array = self._inward(x)[self._of]
         return out

@@ -2,9 +2,9 @@
 
 Read this first. Everything here is the mechanics of a first course: where each body is, how fast it
 moves, how it accelerates, all in the axes of the world; then Newton for each centre of mass, Euler for
-the turning about it, and D'Alembert to find what that asks of the joints. There is no new algebra.
+the turning about it, and D'Alembert to find the forces at the joints. There is no new algebra.
 
-What there is instead are coupling terms. A body turns as well as moves, so no velocity, force or rate
+Instead there are coupling terms. A body turns as well as moves, so no velocity, force or rate
 of change can be carried from one point or frame to the next without a correction, and each has its own:
 
 ===  =============================================  ==========================================
@@ -16,23 +16,23 @@ of change can be carried from one point or frame to the next without a correctio
  6   the inertia of a body that turns               d(Iω)/dt = I α + ω × I ω
 ===  =============================================  ==========================================
 
-Leave one out, turn one's sign round, or take the lever arm from the wrong end, and every number that
-comes out still looks plausible: half of the common mistakes that the chapter lists in 49.1 are of this
-kind, a forgotten 1 and a 5 with the wrong sign. The sources carry the numbers (1) to (6) at the lines
-where they stand; the tests take them out one by one. From 49.2 on, six-dimensional vectors put 1 and 5
-into one matrix X, do away with the centripetal part of 2 by what they call an acceleration, and turn 3,
-4 and 6 into one product V×. This package is what they are measured against.
+Leave one out, change its sign, or take the lever arm from the wrong end, and every
+result still seems plausible: half of the common mistakes that the chapter lists in 49.1 are of this
+kind, a forgotten 1 and a 5 with the wrong sign. The sources mark their lines with the numbers
+(1) to (6); the tests take them out one by one. From 49.2 on, six-dimensional vectors put 1 and 5
+into one matrix X, remove the centripetal part of 2 by their definition of acceleration, and turn 3,
+4 and 6 into one product V×. They are measured against this package.
 
-It is written apart from all that follows and shares no formula with it, so that an error there has no
-twin here. It takes each sum as it stands and takes no step to be fast. And it works in any kind of
+It is written independently of all that follows and shares no formula with it, so that an error there
+is not repeated here. Nothing in it is optimised. And it works in any kind of
 number: given mpmath's, it gives the truth to as many digits as mpmath is set to; given SymPy's, a
 formula; given fractions, a fraction, where there is one (the cosine of 0 is one, that of 1/3 is not).
 All constants of the model are taken as the exact numbers that their doubles are; rotations, joint axes
-and the quaternions of q, which doubles hold only nearly at length 1, are first made so to the last digit.
+and the quaternions of q, which as doubles have length 1 only to rounding, are normalised to the last digit.
 
 One state per call, no batches. All vectors are ordered (ω, v) and (τ, f), as everywhere in twistwrench.
 
-- `arithmetic`, `exact`, `state`: which numbers a call works in.
+- `arithmetic`, `exact`, `state`: the number type of a call.
 - `joints`: how each kind of joint moves.
 - `bodies`: every body in the world, and its Jacobians. Start here.
 - `kinematics`, `frames`: placements, twists, accelerations; named frames.
@@ -42,8 +42,8 @@ One state per call, no batches. All vectors are ordered (ω, v) and (τ, f), as 
 
 Examples
 --------
-The weight of a Go2 as its base must bear it, to fifty digits. The last ones are not noise: the masses
-are doubles, and this is what those doubles add up to, times the double nearest to 9.81:
+The weight of a Go2, to fifty digits. The last ones are not noise: the masses are doubles, and this is
+their exact sum times the double nearest to 9.81:
 
 >>> import mpmath
 >>> import twistwrench as tw
@@ -52,7 +52,7 @@ are doubles, and this is what those doubles add up to, times the double nearest 
 ...     print(gravity(model, as_mpmath(model.neutral()))[5])
 157.79385000000002289963774160241958323749740674906
 
-What lifts 3 kg up a rail at a third of a m/s², as a fraction:
+The force that lifts 3 kg up a rail at a third of a m/s², as a fraction:
 
 >>> from fractions import Fraction
 >>> rail = tw.Builder("rail", gravity=[0, 0, -10])

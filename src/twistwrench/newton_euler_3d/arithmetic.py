@@ -1,7 +1,7 @@
-"""Which numbers a call works in, and the little that depends on it (49.1).
+"""The number type of a call, and the operations that depend on it (49.1).
 
-The formulas of this package are sums and products, and those read the same for every kind of number.
-Four things do not: a constant of the model must first *become* such a number, and sine, cosine and
+The formulas of this package are sums and products, the same for every kind of number.
+Four operations differ: a constant of the model must first *become* such a number, and sine, cosine and
 square root belong to it. `Arithmetic` holds those four; nothing else here knows whether it computes
 in double precision or in fifty digits.
 """
@@ -36,11 +36,11 @@ def as_mpmath(x: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        If these are not finite numbers.
+        If an entry is not a finite number.
 
     Examples
     --------
-    The double nearest to 0.1, for what it is:
+    The double nearest to 0.1, exactly:
 
     >>> import mpmath
     >>> with mpmath.workdps(25):
@@ -75,7 +75,7 @@ class Arithmetic:
         return resolution(self.dtype) if self.context is None else self.context.eps
 
     def array(self, values: ArrayLike) -> Array:
-        """Turn constants into these numbers. Done before any arithmetic, so that none is done in doubles."""
+        """Turn constants into these numbers. Done first, so that no arithmetic is done in doubles."""
         if self.context is None:
             return np.array(values, self.dtype)
         return np.asarray(np.frompyfunc(self.context.convert, 1, 1)(values), object)
@@ -114,7 +114,7 @@ class Arithmetic:
         return unit
 
     def nothing(self, x: Any, least: Any) -> bool:
-        """Return whether a number is no larger than rounding may have made it."""
+        """Return whether a number is zero to rounding."""
         return bool(abs(x) <= least)
 
     def quaternion(self, xyzw: Array) -> Array:
@@ -137,12 +137,12 @@ class Arithmetic:
         Raises
         ------
         ModelError
-            If `R` is no rotation to start with.
+            If `R` is not a rotation to start with.
         """
         rotation, one = self.array(R), self.identity()
         defect = abs(rotation.mT @ rotation - one).max()
         if not defect < 1e-3:
-            raise ModelError(f"{whose}: its placement is no rotation, RᵀR is off 1 by {float(defect):.3g}")
+            raise ModelError(f"{whose}: its placement is not a rotation, RᵀR is off 1 by {float(defect):.3g}")
         while True:
             nearer = rotation @ (3 * one - rotation.mT @ rotation) / 2
             left = abs(nearer.mT @ nearer - one).max()

@@ -1,6 +1,6 @@
-"""Every body in the world, by 3-D vectors: the one walk over the tree that all else here needs (49.1).
+"""Every body in the world, by 3-D vectors: the pass over the tree that everything else here uses (49.1).
 
-All vectors are in world axes and SI units. The walk goes from the world outwards: body λ carries body
+All vectors are in world axes and SI units. The pass goes from the world outwards: body λ carries body
 i through joint i. The joint's frame is fixed in λ; the joint moves body i's frame in it. The numbers
 (1) to (6) mark the coupling terms that the package's docstring lists.
 """
@@ -33,14 +33,14 @@ def cross(a: Array, b: Array) -> Array:
 
 @dataclass(frozen=True)
 class Hinges:
-    """Which entries of v move a body, and how: those of all joints between it and the world.
+    """The Jacobian columns of a body: the entries of v of all joints between it and the world.
 
-    One column for each. At unit rate, column k turns all that lies beyond its joint with angular
+    One column for each. At unit rate, column k turns all that is outboard of its joint with angular
     velocity ``turn[:, k]`` about the joint's origin, and shifts it by ``slide[:, k]``.
     """
 
     index: Array
-    """(n,), where the columns belong in v."""
+    """(n,), the indices of the columns in v."""
     turn: Array
     """(3, n)."""
     slide: Array
@@ -63,14 +63,14 @@ class Hinges:
         return turn_rate, slide_rate + cross(turn_rate, arm) + cross(self.turn, arm_rate)
 
     def extended(self, more: Hinges) -> Hinges:
-        """Return these columns and `more` behind them."""
+        """Return these columns, followed by `more`."""
         pairs = zip(vars(self).values(), vars(more).values(), strict=True)
         return Hinges(*(np.concatenate(pair, axis=-1) for pair in pairs))
 
 
 @dataclass(frozen=True)
 class Body:
-    """One body in the world: where it is, how it moves, and what moves it."""
+    """One body in the world: its placement, its motion, and its Jacobian columns."""
 
     rotation: Array
     """(3, 3), from its axes to the world's."""
@@ -114,9 +114,9 @@ def _carried(state: State, i: int, carrier: Body) -> Body:
 
     # Where: the joint's frame in the carrier, the body's frame in the joint's.
     R_joint, p_joint = joint_pose(number, joint, q, name)
-    seat = carrier.rotation @ number.rotation(place.rotation, name)
-    R = seat @ R_joint
-    p = carrier.origin + carrier.rotation @ number.array(place.translation) + seat @ p_joint
+    joint_frame = carrier.rotation @ number.rotation(place.rotation, name)
+    R = joint_frame @ R_joint
+    p = carrier.origin + carrier.rotation @ number.array(place.translation) + joint_frame @ p_joint
 
     # How fast: the carrier's point at p, and on top of it the joint's own ω and u.
     turn, slide = (R @ columns for columns in joint_columns(number, joint, name))
@@ -127,7 +127,7 @@ def _carried(state: State, i: int, carrier: Body) -> Body:
 
     # The rate of that. `turn` and `slide` are fixed in body i, which turns with ω = ω_λ + ω_joint: (4)
     # gives ω × ω_joint and ω × u. And p wanders over the carrier with u, so that the carrier's point
-    # under it is ever another: that gives ω_λ × u once more, and makes (3) twice that.
+    # under it keeps changing: that gives ω_λ × u once more, and makes (3) twice that.
     alpha = carrier.alpha + turn @ a + cross(carrier.omega, omega_joint)  # (4)
     coriolis = 2 * cross(carrier.omega, u)  # (3)
     acceleration = under_rate + slide @ a + coriolis + cross(omega_joint, u)  # (4)

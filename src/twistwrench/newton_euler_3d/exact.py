@@ -1,4 +1,4 @@
-"""Fractions and symbols as the numbers of a call (49.1): nothing is rounded, and nothing need have a value."""
+"""Fractions and symbols as the numbers of a call (49.1): nothing is rounded, and symbols need no value."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["Exact"]
 
 @dataclass(frozen=True)
 class Exact(Arithmetic):
-    """Fractions, SymPy's expressions and the like; the model's doubles are the fractions that they are.
+    """Fractions, SymPy's expressions and the like; the model's doubles become exact fractions.
 
     Examples
     --------
@@ -28,7 +28,7 @@ class Exact(Arithmetic):
 
     @property
     def eps(self) -> int:
-        """Nothing: these numbers are not rounded."""
+        """Zero: these numbers are not rounded."""
         return 0
 
     def array(self, values: ArrayLike) -> Array:
@@ -36,7 +36,7 @@ class Exact(Arithmetic):
         return exact_numbers(np.asarray(values), "constant")
 
     def cos(self, x: Any) -> Any:
-        """Return the cosine of one number: of fractions, only that of 0 is one."""
+        """Return the cosine of one number: of fractions, only that of 0 is a fraction."""
         return elementary("cos", x)
 
     def sin(self, x: Any) -> Any:
@@ -44,11 +44,11 @@ class Exact(Arithmetic):
         return elementary("sin", x)
 
     def sqrt(self, x: Any) -> Any:
-        """Return the square root of one number: of fractions, only that of a square is one."""
+        """Return the square root of one number: of fractions, only that of a square is a fraction."""
         return elementary("sqrt", x)
 
     def nothing(self, x: Any, least: Any) -> bool:
-        """Return whether a number is zero, which `least` is here: SymPy is asked whether an expression is."""
+        """Return whether a number is zero, as `least` is here; for an expression SymPy decides."""
         equals = getattr(x, "equals", None)
         return bool(equals(least) if equals else x == least)
 

@@ -1,8 +1,8 @@
-"""The forces that a motion takes, by D'Alembert's principle (49.1; 49.6 does it faster).
+"""The forces of a motion, by D'Alembert's principle (49.1; 49.6 is faster).
 
-What a body takes beyond its weight is Newton's m (c̈ − g) at the centre of mass and Euler's
-I α + ω × I ω about it. The joints must supply it: their power on any motion that they allow equals
-the power of what the bodies take. For entry k of v that motion is column k of the Jacobians:
+Besides its weight a body needs Newton's m (c̈ − g) at the centre of mass and Euler's
+I α + ω × I ω about it. The joints must supply them: their power on any motion that they allow equals
+the power of these on the bodies. For entry k of v that motion is column k of the Jacobians:
 
     τ_k = Σ_bodies  (∂ċ/∂v_k) · [m (c̈ − g) − f_ext]  +  (∂ω/∂v_k) · [I α + ω × I ω − n_ext]
 """
@@ -50,7 +50,7 @@ def inverse_dynamics(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext
 
     Examples
     --------
-    With every entry of a zero, what is left of a Go2 at rest is its weight:
+    With every entry of a zero, the base of a Go2 at rest bears its weight:
 
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
@@ -97,7 +97,7 @@ def nonlinear_effects(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
 
 
 def gravity(model: Any, q: ArrayLike) -> Array:
-    """Return g(q): the joint forces that hold the robot still.
+    """Return g(q): the joint forces that hold the robot at rest.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def joint_wrenches(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: 
 
     Notes
     -----
-    What all bodies beyond joint i take beyond their weight and `f_ext`. Of it the motor supplies the
+    The sum over all bodies outboard of joint i, less their weight and `f_ext`. The motor supplies the
     part along the joint's free motions, the bearing the rest.
 
     Examples
@@ -181,7 +181,7 @@ def joint_wrenches(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: 
 
 
 def virtual_power(state: State, bodies: list[Body]) -> Array:
-    """Return the τ of the formula above: entry by entry, the power at unit rate of what all bodies take."""
+    """Return the τ of the formula above: entry by entry, the power of all bodies at unit rate."""
     tau = state.number.array(state.model.armature) * state.a
     for i, body in enumerate(bodies[1:], start=1):
         force, moment = _taken(state, body, state.f_ext[i])
@@ -191,7 +191,7 @@ def virtual_power(state: State, bodies: list[Body]) -> Array:
 
 
 def _taken(state: State, body: Body, f_ext: Array) -> tuple[Array, Array]:
-    """Return the force and the moment about its centre of mass that a body takes beyond weight and `f_ext`."""
+    """Return the force and the moment about its centre of mass that a body needs besides weight and `f_ext`."""
     I, w = body.inertia, body.omega
     moment_ext, force_ext = body.rotation @ f_ext[:3], body.rotation @ f_ext[3:]
     moment_ext = moment_ext + cross(body.origin - body.com, force_ext)  # (5)

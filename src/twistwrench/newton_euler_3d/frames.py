@@ -93,7 +93,7 @@ def frame_jacobian(model: Any, q: ArrayLike, frame: str, reference: str = "local
 
 
 def frame_bias_acceleration(model: Any, q: ArrayLike, v: ArrayLike, frame: str, reference: str = "local") -> Array:
-    """Return J̇ v: the acceleration that a frame has where a = 0.
+    """Return J̇ v: the acceleration of a frame where a = 0.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def frame_bias_acceleration(model: Any, q: ArrayLike, v: ArrayLike, frame: str, 
     Returns
     -------
     ndarray, shape (6,)
-        rad/s² and m/s², no gravity in it. Spatial in "local" and "world"; in "local_world_aligned"
+        rad/s² and m/s², without gravity. Spatial in "local" and "world"; in "local_world_aligned"
         the point moves along with the frame, so that J̇ v is its classical acceleration.
 
     Raises
@@ -144,7 +144,7 @@ def _frame(state: State, name: str) -> tuple[Body, Array, Array]:
 
 
 def _seen_from(number: Arithmetic, reference: str, R: Array, p: Array) -> tuple[Array, Array]:
-    """Return the point whose velocity is meant, and the axes in which it is written."""
+    """Return the reference point, and the axes of the result."""
     check_known("reference", reference, REFERENCES)
     match reference:
         case "local":

@@ -1,7 +1,7 @@
-"""The joints in 3-D: how far each has moved, and which motions it leaves free (49.1).
+"""The joints in 3-D: their placements and their free motions (49.1).
 
 The layouts of q and v are the package's. A quaternion or (cos, sin) in q is divided by its length. A joint with one
-coordinate q is a screw: all of it is in the angular velocity w and the velocity v of a unit rate, the two halves of S.
+coordinate q is a screw: it is given by the angular velocity w and the velocity v of a unit rate, the two halves of S.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def joint_pose(number: Arithmetic, joint: Any, q: Array, name: str) -> tuple[Arr
     ----------
     number : Arithmetic
     joint : Joint
-        Any that has one coordinate, and of the others those of the package.
+        Any with one coordinate, or another one of the package.
     q : ndarray, shape (nq of the joint,)
         rad and m.
     name : str
@@ -65,7 +65,7 @@ def joint_pose(number: Arithmetic, joint: Any, q: Array, name: str) -> tuple[Arr
 
 
 def joint_columns(number: Arithmetic, joint: Any, name: str) -> tuple[Array, Array]:
-    """Return the angular velocity and the velocity that unit rates give.
+    """Return the angular velocity and the velocity at unit rates.
 
     Parameters
     ----------
@@ -150,20 +150,20 @@ def _cross(w: Array) -> Array:
 
 
 def _about(number: Arithmetic, axis: Array, c: Any, s: Any) -> Array:
-    """Turn about a unit axis by the angle of cosine c and sine s: what lies along it stays."""
+    """Turn about a unit axis by the angle of cosine c and sine s: the component along it stays."""
     along = axis[:, None] * axis
     rotation: Array = along + (number.identity() - along) * c + _cross(axis) * s
     return rotation
 
 
 def _turn(number: Arithmetic, q: Array, name: str) -> Array:
-    """Turn by a quaternion: exact numbers need no root for it."""
+    """Turn by a quaternion, without a root for exact numbers."""
     _refuse_zero(q, name)
     return number.quaternion(q if number.exact else number.unit(q))
 
 
 def _direction(number: Arithmetic, q: Array, name: str) -> Array:
-    """Return a (cos, sin) at length 1, of which rounding has left it a little short."""
+    """Return a (cos, sin) normalised to length 1."""
     _refuse_zero(q, name)
     return number.unit(q)
 

@@ -1,4 +1,4 @@
-"""Where the bodies are and how they move, read off the walk (49.1; 49.2 and 49.6 in six dimensions)."""
+"""Where the bodies are and how they move (49.1; 49.2 and 49.6 in six dimensions)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Motion(NamedTuple):
     angular_acceleration: Array
     """α, rad/s²."""
     acceleration: Array
-    """Of the body frame's origin, classical: d/dt of `velocity`, m/s². No gravity in it."""
+    """Of the body frame's origin, classical: d/dt of `velocity`, m/s². Without gravity."""
 
 
 def placements(model: Any, q: ArrayLike) -> tuple[Array, Array]:
@@ -141,7 +141,7 @@ def body_accelerations(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> 
     -------
     ndarray, shape (nbodies, 6)
         (Rᵀα, Rᵀ(a_O − ω × v_O)) with the classical acceleration a_O of the frame's origin, rad/s²
-        and m/s². No gravity in it.
+        and m/s². Without gravity.
 
     Raises
     ------

@@ -40,7 +40,7 @@ def mass_matrix(model: Any, q: ArrayLike) -> Array:
 
     Examples
     --------
-    Seen from the base, a Go2 has one and the same mass in every direction:
+    The base of a Go2 moves the same mass in every direction:
 
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
@@ -71,8 +71,8 @@ def coriolis_matrix(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
 
     Notes
     -----
-    C v = h − g leaves C open. Newton's part, Σ m Jvᵀ J̇v, has no choice in it. In Euler's part,
-    Σ Jωᵀ (I J̇ω + B Jω), only B ω = ω × I ω is asked for; Ṁ − 2C is skew if also B + Bᵀ = İ, where
+    C v = h − g does not determine C. Newton's part, Σ m Jvᵀ J̇v, is unique. In Euler's part,
+    Σ Jωᵀ (I J̇ω + B Jω), only B ω = ω × I ω is required; Ṁ − 2C is skew if also B + Bᵀ = İ, where
     İ x = ω × I x − I (ω × x). Both hold for 2 B x = ω × I x − I (ω × x) − (I ω) × x. Of those that
     obey both it is the one of Echeandia and Wensing (2021), which is also Pinocchio's.
 
@@ -98,7 +98,7 @@ def coriolis_matrix(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
 
 
 def forward_dynamics(model: Any, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLike | None = None) -> Array:
-    """Return the acceleration that joint forces cause: the a of M a = τ − h + what f_ext adds.
+    """Return the acceleration that joint forces cause: the a of M a = τ − h + Σ Jᵀ f_ext.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def forward_dynamics(model: Any, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_e
     ShapeError, ValueError
         If an argument is not that of one state, or not finite.
     SingularError
-        If a joint moves no inertia, so that no acceleration is the right one. Names the joints.
+        If a joint moves no inertia, so that its acceleration is not determined. Names the joints.
 
     Notes
     -----
@@ -152,8 +152,8 @@ def _mass_matrix(state: State, bodies: list[Body]) -> Array:
 def _solve(state: State, M: Array, b: Array) -> Array:
     """Solve M x = b, M symmetric, eliminating from the tips to the base.
 
-    When entry k's turn comes, its pivot is the inertia that it feels while everything beyond it is
-    free to move. There is no root in it, so that complex numbers pass.
+    The pivot of entry k is its apparent inertia with all outboard joints free. Without roots, so that
+    complex numbers pass.
     """
     n, x, free = len(b), b.copy(), []
     M, ratio = M.copy(), state.number.zeros(n, n)

@@ -23,7 +23,7 @@ __all__ = [
 
 
 def center_of_mass(model: Any, q: ArrayLike) -> Array:
-    """Return where the centre of mass of all moving bodies is.
+    """Return the centre of mass of all moving bodies.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def centroidal_momentum(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
     -------
     ndarray, shape (6,)
         Angular momentum k about the centre of mass and linear momentum l, in world axes, kg m²/s
-        and kg m/s. The rotors' armature has no part in it.
+        and kg m/s. The rotors' armature is left out.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def centroidal_momentum(model: Any, q: ArrayLike, v: ArrayLike) -> Array:
 
     Examples
     --------
-    A Go2 at 2 m/s, all joints still:
+    A Go2 at 2 m/s, all joints at rest:
 
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
@@ -232,7 +232,7 @@ def potential_energy(model: Any, q: ArrayLike) -> Any:
 
     Examples
     --------
-    Lifted by one metre a Go2 gains 157.79 J:
+    Lifted by one metre, a Go2 gains 157.79 J:
 
     >>> import twistwrench as tw
     >>> model = tw.load("go2")

@@ -18,7 +18,7 @@ __all__ = ["State", "take"]
 
 @dataclass(frozen=True)
 class State:
-    """What a function of this package was called with, checked, in one kind of number; zeros where nothing came."""
+    """The checked arguments of a call, in one kind of number; zeros where an argument is not given."""
 
     model: Any
     number: Arithmetic
@@ -41,45 +41,45 @@ def take(model: Any, **given: ArrayLike | None) -> State:
     Returns
     -------
     State
-        mpmath's numbers win over NumPy's, and so do fractions and SymPy's.
+        mpmath's numbers take precedence over NumPy's, and so do fractions and SymPy's.
 
     Raises
     ------
     TypeError
-        If `model` is none.
+        If `model` is not a Model.
     ShapeError
         If an argument is not that of one state of this model.
     ValueError
         If an argument is not numeric, not finite, so large that products overflow, or a wrench on the world.
     """
-    if not hasattr(model, "joint_names") or hasattr(model, "laws"):  # joints that follow others are not known here
+    if not hasattr(model, "joint_names") or hasattr(model, "laws"):  # joints that follow others are not supported here
         raise no_model(model)
     shapes = {"q": (model.nq,), "v": (model.nv,), "a": (model.nv,), "tau": (model.nv,), "f_ext": (model.nbodies, 6)}
-    came = {name: _as_array(value, name) for name, value in given.items() if value is not None or name != "f_ext"}
-    for name, x in came.items():
+    values = {name: _as_array(value, name) for name, value in given.items() if value is not None or name != "f_ext"}
+    for name, x in values.items():
         if x.shape != shapes[name]:
             raise ShapeError(f"{name}: expected shape {shapes[name]}, got {x.shape}{_hint(model, name, x)}")
-    if "f_ext" in came and (came["f_ext"][0] != 0).any():
+    if "f_ext" in values and (values["f_ext"][0] != 0).any():
         raise ValueError("f_ext: row 0 is the world's, which no wrench moves; expected zeros")
-    number, arrays = _common(came)
+    number, arrays = _common(values)
     zeros = {name: number.zeros(*shape) for name, shape in shapes.items() if name not in arrays}
     return State(model, number, **arrays, **zeros)
 
 
-def _common(came: dict[str, Array]) -> tuple[Arithmetic, dict[str, Array]]:
+def _common(values: dict[str, Array]) -> tuple[Arithmetic, dict[str, Array]]:
     """Convert all arguments to the one kind of number that holds them all."""
-    entries = (entry for x in came.values() if x.dtype == object for entry in x.flat)
+    entries = (entry for x in values.values() if x.dtype == object for entry in x.flat)
     context = next((entry.context for entry in entries if hasattr(entry, "context")), None)
     if context is None:
-        converted = as_number_arrays(**{name: (x, x.shape) for name, x in came.items()})
-        for name, x in zip(came, converted, strict=True):
+        converted = as_number_arrays(**{name: (x, x.shape) for name, x in values.items()})
+        for name, x in zip(values, converted, strict=True):
             if x.dtype != object:
                 check_size(x, name)
         kind = Exact if converted[0].dtype == object else Arithmetic
-        return kind(converted[0].dtype), dict(zip(came, converted, strict=True))
+        return kind(converted[0].dtype), dict(zip(values, converted, strict=True))
     number = Arithmetic(np.dtype(object), context)
     arrays = {}
-    for name, x in came.items():
+    for name, x in values.items():
         try:
             arrays[name] = number.array(x)
         except (TypeError, ValueError):
@@ -91,13 +91,13 @@ def _common(came: dict[str, Array]) -> tuple[Arithmetic, dict[str, Array]]:
 
 def _as_array(value: Any, name: str) -> Array:
     try:
-        return np.asanyarray(value)  # a mask stays, for `as_arrays` to refuse
+        return np.asanyarray(value)  # a mask stays, for `as_arrays` to reject
     except ValueError:
         raise ShapeError(f"{name}: expected a rectangular array, got rows of different lengths") from None
 
 
 def _hint(model: Any, name: str, x: Array) -> str:
-    """Say what was probably meant."""
+    """Return a hint at what was probably meant."""
     if x.ndim > (2 if name == "f_ext" else 1):
         return "; this package takes one state per call: loop over a batch"
     if name == "q" and x.shape == (model.nv,):

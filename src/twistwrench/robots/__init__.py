@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 from ..errors import ModelError, NameNotFound, no_model
 from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
 
-if TYPE_CHECKING:  # `import twistwrench` passes here: what the catalogue does not need is imported by `load`
+if TYPE_CHECKING:  # `import twistwrench` runs this: `load` imports what the catalogue does not need
     from numpy.typing import ArrayLike
 
     from ..model import Model
@@ -35,11 +35,11 @@ def load(
 
     Masses, centres of mass, inertias, joints and limits are read; meshes are not, and need not exist. Links
     welded by fixed joints are merged and stay as frames: every link and every joint of the file is one. A link
-    without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own unless told otherwise; damping and
+    without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own by default; damping and
     friction are kept as `Model.damping` and `Model.friction`, and no algorithm applies them.
 
-    What has one meaning is read, even where the format has it otherwise, and `Model.report` is the table of it. What
-    is no dynamics (shapes, limits, sensors, elements that are not URDF's) stops no load; what has no meaning (an
+    A violation of the format with a single possible meaning is read, and listed in `Model.report`. Elements without
+    influence on the dynamics (shapes, limits, sensors, elements that are not URDF's) never raise; ambiguity (an
     incomplete ``<inertial>``, ``xzy`` in an ``<axis>``, a cycle) is an error.
 
     Parameters
@@ -49,20 +49,20 @@ def load(
         the plain name is the one of this package; ``"example-robot-data/go2"`` is the other.
     base : {"fixed", "floating"}, optional
         Whether the root link is welded to the world or flies freely (joint 1, ``"root_joint"``). A robot of the
-        catalogue knows; a file is loaded as it stands, with a fixed base.
+        catalogue has its own default; a file is loaded with a fixed base.
     gravity : array_like, shape (3,)
         In the world, m/s².
     physical : bool
-        Refuse a moving body, welded links merged, that cannot exist: its inertia about the centre of mass must be
+        Reject a moving body, welded links merged, that cannot exist: its inertia about the centre of mass must be
         positive definite and obey the triangle inequality. False drops these two conditions and no other.
     mimic : {"independent", "reduce"}, optional
         "reduce" makes the smaller model in which joints with ``<mimic>`` have no coordinate of their own and follow
-        their leaders, q = multiplier · q_leader + offset. "independent" says that you know that they move on their
-        own, as they do with a warning by default, as in Pinocchio; it also loads a file in which a joint should
-        follow one that is not there, or itself.
+        their leaders, q = multiplier · q_leader + offset. "independent" lets them move on their own as in
+        Pinocchio, without the warning of the default; it also loads a file in which a joint should follow a
+        missing joint, or itself.
     strict : bool
-        Refuse what would otherwise be read, with a warning, in the one way that it can be meant: all that is in
-        the report, but for what these arguments asked for.
+        Reject violations of the format that would otherwise be read with a warning: everything in the
+        report that these arguments did not ask for.
 
     Returns
     -------
@@ -83,8 +83,8 @@ def load(
     Warns
     -----
     UserWarning
-        Once for a file of which something is reported, with all of it. The robots of the catalogue are reported on,
-        and do not warn.
+        Once for a file with a report, with all of it. The robots of the catalogue have reports, but do not
+        warn.
 
     Examples
     --------
@@ -130,15 +130,15 @@ def load(
 
 
 def _is_path(source: str) -> bool:
-    """Whether a string means a file: it has the look of one, or it is there and no robot has the name."""
+    """Whether a string means a file: by its form, or because the file exists and no robot has the name."""
     if source.startswith(PREFIX):
         return False
-    looks = "/" in source or "\\" in source or source.lower().endswith((".urdf", ".xml", ".xacro", ".srdf", ".sdf"))
-    return looks or (not known(source) and exists(source))
+    named = "/" in source or "\\" in source or source.lower().endswith((".urdf", ".xml", ".xacro", ".srdf", ".sdf"))
+    return named or (not known(source) and exists(source))
 
 
 def _refuse_folder_before_name(source: str | PathLike[str]) -> None:
-    """Say of ``"./go2"``, where there is no such file, that the robot is called ``"go2"``."""
+    """Raise for ``"./go2"``, where there is no such file, with the hint that the robot is called ``"go2"``."""
     name = Path(source).name
     if isinstance(source, str) and source != name and known(name) and not exists(source):
         raise ModelError(f"{source}: no such file; {name!r} without a folder is a robot of the catalogue")

@@ -31,13 +31,13 @@ class Robot:
     dof : int
         Degrees of freedom (nv) on the base below.
     base : {"fixed", "floating"}
-        What it is loaded with unless told otherwise.
+        The default base of `twistwrench.load`.
     source : {"models", "example-robot-data"}
         ``models`` comes with this package.
     licence : str
         Of the robot's description.
     note : str
-        What one should know before loading it.
+        Remarks for the user.
     file : str
         Path of the URDF below the source's folder.
     """
@@ -63,7 +63,7 @@ class Robot:
 
     @property
     def stance(self) -> Stance | None:
-        """How it stands; None for what has no legs."""
+        """How it stands; None for a robot without legs."""
         name = self.name.removeprefix(PREFIX)
         return STANCES.get(f"models/{name}" if self.source == "models" else name)
 

@@ -18,7 +18,7 @@ QUATERNION = "quat_xyzw"
 """An attribute of <origin> in a later version of the format."""
 
 NO_LOSS = {"limit", "dynamics", "origin"}
-"""Children that are reported, and refused no file, where they stand in the wrong place."""
+"""Children that are reported, not rejected, in the wrong place."""
 
 
 def all_zero(texts: Iterable[str]) -> bool:
@@ -28,10 +28,10 @@ def all_zero(texts: Iterable[str]) -> bool:
 
 @dataclass(frozen=True)
 class Element:
-    """An element of which each number is read here, and by whom: `what` is the link or joint, for the messages.
+    """An element whose numbers are read and checked here; `what` is the link or joint, for the messages.
 
-    A misspelt attribute or child is an error from the start, and so is a child that belongs elsewhere. What was odd
-    and had one meaning all the same is added to `remarks`, a list that all elements of a file share.
+    A misspelt attribute or child is an error from the start, and so is a child that belongs elsewhere. Violations
+    with a single possible meaning are added to `remarks`, a list that all elements of a file share.
     """
 
     xml: XML
@@ -57,14 +57,14 @@ class Element:
                 self._misplaced(child, home)
 
     def _misplaced(self, child: XML, home: str) -> None:
-        """Refuse what the robot would move otherwise for; a limit, friction and a link's own origin mean nothing."""
+        """Raise for a misplaced child that affects the dynamics; report a limit, friction or a link's own origin."""
         if child.tag not in NO_LOSS:
             raise self.error(f"a <{child.tag}> stands in <{self.xml.tag}>, expected in <{home}>", child)
         if not all_zero(child.attrib.values()):
             self.remark(f"<{child.tag}> in <{self.xml.tag}>", "not URDF")
 
     def error(self, text: str, child: XML = None) -> ModelError:
-        """Return the error that says this of the link or joint, or of a child."""
+        """Return the error with this text of the link or joint, or of a child."""
         line = (self.xml if child is None else child).sourceline
         return ModelError(f"{self.path}, line {line}: {self.what}: {text}")
 
@@ -74,7 +74,7 @@ class Element:
         return f"{self.path}, line {self.xml.sourceline}"
 
     def remark(self, found: str, read_as: str, *, warns: bool = True) -> None:
-        """Note what stands here, and what it was taken for."""
+        """Note the text of the file, and how it was interpreted."""
         self.remarks.append(Entry(self.what, found, read_as, self.xml.sourceline, warns))
 
     def get(self, key: str) -> str | None:
@@ -83,7 +83,7 @@ class Element:
         return text
 
     def only(self, tag: str) -> Element | None:
-        """Return the child of this kind, or None; two would leave open which one counts."""
+        """Return the child of this kind, or None; raise for two."""
         found: Iterator[XML] = iter(self.xml.findall(tag))
         first, second = next(found, None), next(found, None)
         if second is not None:
@@ -91,7 +91,7 @@ class Element:
         return None if first is None else replace(self, xml=first)
 
     def numbers(self, key: str, default: tuple[float, ...], *, infinite: bool = False) -> tuple[float, ...]:
-        """Read as many numbers as the default has; `default` is what URDF means where the attribute is missing."""
+        """Read as many numbers as the default has; `default` is URDF's value where the attribute is missing."""
         text = self.get(key)
         if text is None:
             return default
@@ -102,7 +102,7 @@ class Element:
         values = []
         for word in words:
             try:
-                values.append(float(word if word.isascii() and "_" not in word else "?"))  # Python alone reads 1_000
+                values.append(float(word if word.isascii() and "_" not in word else "?"))  # float() accepts 1_000
             except ValueError:
                 hint = "; expand the macros with xacro first" if "$" in word else ""
                 raise self.error(f"{name}: {word!r} is not a number{hint}") from None

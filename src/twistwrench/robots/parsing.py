@@ -1,8 +1,8 @@
 """From the XML of a URDF to its records, in one walk: each number is checked where it is read.
 
-yourdfpy accepts cycles, two roots, orphans and names that are used twice, and puts a default where
+yourdfpy accepts cycles, two roots, orphans and names that are used twice, and inserts a default where
 a number is missing. Here each of these is an error with file, line and name. Whether an inertia is
-one that a body can have is decided later, once the welded links are merged: see `Builder.build`.
+physical is decided later, once the welded links are merged: see `Builder.build`.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def _placement(element: Element) -> SE3:
 
 
 def _axis(joint: Element, kind: str) -> tuple[float, ...]:
-    """Read an axis that can be normalised, and of a plane that it is x-y."""
+    """Read an axis that can be normalised; for a planar joint check that the plane is x-y."""
     element = joint.only("axis")
     if element is not None and element.get("xyz") is None:
         raise element.error("its <axis> has no xyz")
@@ -164,9 +164,9 @@ def _axis(joint: Element, kind: str) -> tuple[float, ...]:
 
 
 def _limits(joint: Element, kind: str) -> dict[str, float]:
-    """Read the limits, which are no dynamics: what is missing, or cannot be met, is no limit.
+    """Read the limits, which do not affect the dynamics: a missing or impossible one is infinite.
 
-    Only revolute and prismatic joints have an end of their range; lower and upper are 0 when they are not given.
+    Only revolute and prismatic joints have lower and upper limits, which are 0 when they are not given.
     """
     limit = joint.only("limit")
     if limit is None:

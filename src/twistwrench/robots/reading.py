@@ -1,7 +1,7 @@
-"""From a path to the XML of a robot, or to an error that says what is wrong with the file.
+"""From a path to the XML of a robot, or to an error that names the fault of the file.
 
-A URDF is text from elsewhere: entities are not expanded, nothing is fetched, and what is not
-well-formed is refused. (yourdfpy, left alone, would recover what it can and drop the rest.)
+A URDF is text from elsewhere: entities are not expanded, nothing is fetched, and XML that is not
+well-formed is rejected. (yourdfpy would recover what it can and drop the rest.)
 Three slips are common, have one meaning each, and are read: an XML version that does not exist, blank lines
 before the XML declaration, and a prefix such as ``drake:`` that nobody declared.
 """
@@ -43,8 +43,8 @@ def read_robot_xml(path: Path) -> XML:
     Raises
     ------
     ModelError
-        A file that is missing, no file, a Git LFS pointer, empty, not XML, cut short, nested too deep, not a
-        robot, full of xacro macros, or that declares a document type (the door to entities).
+        If the file is missing, not a regular file, a Git LFS pointer, empty, not XML, cut short, nested too deep, not a
+        robot, full of xacro macros, or declares a document type (and so entities).
 
     Examples
     --------
@@ -56,7 +56,7 @@ def read_robot_xml(path: Path) -> XML:
 
 
 def read_document(path: Path) -> tuple[XML, list[Entry]]:
-    """Read the ``<robot>`` element, as `read_robot_xml` does, and what in it was not XML 1.0 to the letter."""
+    """Read the ``<robot>`` element, as `read_robot_xml` does, and the violations of XML 1.0 in it."""
     data, remarks = _declared(_read(path))
     root, undeclared = _parse(path, data)
     remarks += undeclared
@@ -92,7 +92,7 @@ def _read(path: Path) -> bytes:
 
 
 def _declared(data: bytes) -> tuple[bytes, list[Entry]]:
-    """Put right what stands before the first element; the lines keep their numbers."""
+    """Repair the text before the first element; the lines keep their numbers."""
     found = DECLARATION.match(data)
     if found is None:
         return data, []
@@ -118,7 +118,7 @@ def _parse(path: Path, data: bytes) -> tuple[XML, list[Entry]]:
         return etree.fromstring(data, parser), []
     except etree.XMLSyntaxError as error:
         undeclared = [(e.line, e.message) for e in parser.error_log if e.type_name == "NS_ERR_UNDEFINED_NAMESPACE"]
-        if len(undeclared) == len(parser.error_log) > 0:  # all is there, under names such as "drake:acceleration"
+        if len(undeclared) == len(parser.error_log) > 0:  # nothing is lost; names are such as "drake:acceleration"
             prefixes = {message.split()[2]: line for line, message in undeclared[::-1]}
             remarks = [Entry("the file", f"prefix {x}: not declared", "not URDF", line) for x, line in prefixes.items()]
             return etree.fromstring(data, etree.XMLParser(recover=True, **rules)), remarks[::-1]
@@ -140,7 +140,7 @@ def _drop_namespace(root: XML) -> None:
 
 
 def _leftover_macros(path: Path, root: XML) -> list[Entry]:
-    """Refuse xacro's elements where they could stand for a link, a joint or a number; pass over all others."""
+    """Raise for xacro's elements where they could stand for a link, a joint or a number; ignore all others."""
     remarks = []
     for element in root.iter("*"):
         space, _, name = element.tag.rpartition("}" if "}" in element.tag else ":")

@@ -1,4 +1,4 @@
-"""What a URDF says, as frozen records: every number read once, and checked where it was read."""
+"""The contents of a URDF, as frozen records: every number read once, and checked where it was read."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class UrdfJoint:
 
 @dataclass(frozen=True)
 class UrdfRobot:
-    """A ``<robot>``: its root link, all links by name, the joints from the root outwards, and what was read how."""
+    """A ``<robot>``: its root link, all links by name, the joints from the root outwards, and the report."""
 
     name: str
     root: str

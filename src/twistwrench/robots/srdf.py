@@ -35,7 +35,7 @@ def read_states(path: Path) -> States:
     Raises
     ------
     ModelError
-        If the file is no SRDF or a value no number.
+        If the file is not an SRDF, or a value is not a number.
     """
     states = {}
     for state in read_robot_xml(path).iterfind("group_state"):

@@ -1,7 +1,7 @@
 """The catalogue's table: what is known of each robot without opening its file.
 
-The licences of example-robot-data are those that its README of each robot names ("BSD" where it says no
-more). A test holds every row against what is installed.
+The licences of example-robot-data are those that its README of each robot names ("BSD" where it names no
+version). A test compares every row with the installed package.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Literal
 __all__ = ["EXAMPLE_ROBOT_DATA", "MODELS"]
 
 Row = tuple[str, str, Literal["fixed", "floating"], int, str, str]
-"""Name, file, base, degrees of freedom on that base, licence, what one should know."""
+"""Name, file, base, degrees of freedom on that base, licence, remarks."""
 
 MODELS: tuple[Row, ...] = (
     ("cart_pole", "cart_pole.urdf", "fixed", 2, "BSD-3-Clause", ""),

@@ -21,9 +21,7 @@ __all__ = ["load_urdf"]
 Base = Literal["fixed", "floating"]
 Mimic = Literal["independent", "reduce"]
 
-FREE = (
-    "free to move on its own, as in Pinocchio (mimic='independent' says that you know, mimic='reduce' lets it follow)"
-)
+FREE = "free to move on its own, as in Pinocchio (mimic='independent' silences this, mimic='reduce' lets it follow)"
 
 
 def load_urdf(
@@ -38,11 +36,11 @@ def load_urdf(
     gravity : array_like, shape (3,)
         In the world, m/s².
     physical : bool
-        Refuse bodies that cannot exist.
+        Reject bodies that cannot exist.
     mimic : {"independent", "reduce"}, optional
-        Of no effect on the joints, which are free here: the laws say whom they should follow.
+        Of no effect on the joints, which are free here: the laws are returned.
     strict : bool
-        Refuse what would be reported.
+        Raise for what would be reported.
     quiet : bool
         Report, and do not warn.
 
@@ -68,10 +66,10 @@ def load_urdf(
     model = replace(model, report=Report([*robot.remarks, *remarks, *_mimics(robot, mimic), *model.report]))
     odd = model.report.warnings
     if odd and strict:
-        raise ModelError(f"{path}: strict=True refuses what is not as it should be:{odd.summary()}")
+        raise ModelError(f"{path}: strict=True rejects what is not as it should be:{odd.summary()}")
     if odd and not quiet:
-        told = "model.report has the table, strict=True refuses them"
-        warnings.warn(f"{path}: not all is as it should be ({told}):{odd.summary()}", stacklevel=3)
+        hint = "model.report has the table, strict=True rejects them"
+        warnings.warn(f"{path}: not all is as it should be ({hint}):{odd.summary()}", stacklevel=3)
     followers = [(joint.name, joint.mimic) for joint in robot.joints if joint.mimic is not None]
     return model, {name: (law.leader, law.multiplier, law.offset) for name, law in followers}
 
@@ -121,7 +119,7 @@ def _joint(joint: UrdfJoint) -> Joint | None:
 
 
 def _check_mimics(path: Path, robot: UrdfRobot) -> None:
-    """Demand that a joint mimics another one of the robot."""
+    """Raise unless a joint mimics another one of the robot."""
     names = [joint.name for joint in robot.joints]
     for joint in robot.joints:
         if joint.mimic is None:
@@ -135,7 +133,7 @@ def _check_mimics(path: Path, robot: UrdfRobot) -> None:
 
 
 def _mimics(robot: UrdfRobot, mimic: Mimic | None) -> list[Entry]:
-    """Say which joints should follow others, and whether they do."""
+    """Report which joints should follow others, and whether they do."""
     return [
         Entry(
             f"joint {joint.name!r}",

@@ -1,8 +1,8 @@
 """Slips of the pen in a URDF: ``<axs>``, ``<inertal>``, ``<origin xzy=...>``.
 
 A URDF may hold elements and attributes that a reader does not know: those of simulators and drivers are
-passed over. A misspelt one would be as well, and another robot loaded than was meant. What is unknown and
-all but a word of the format is therefore an error.
+ignored. A misspelt one would be ignored as well, and a different robot loaded. An unknown name that nearly is a
+word of the format is therefore an error.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ CHILDREN = {
     "inertial": ("origin", "mass", "inertia"),
     "joint": ("origin", "parent", "child", "axis", "limit", "mimic", "dynamics"),
 }
-"""What stands inside what, and counts for the dynamics."""
+"""The children of each element that matter for the dynamics."""
 
 ATTRIBUTES = {
     "link": ("name",),
@@ -38,10 +38,10 @@ SAID_BY_ATTRIBUTES = {"origin", "mass", "inertia", "parent", "child", "axis", "m
 """Elements whose whole meaning is in their attributes, and counts for the dynamics."""
 
 NOT_DYNAMICS = {"visual", "collision", "geometry", "material", "gazebo", "sensor", "camera", "transmission", "plugin"}
-"""Elements that change no equation of motion, whatever stands in them."""
+"""Elements that do not affect the equations of motion, whatever their contents."""
 
 ALIKE = 0.65
-"""From here on two words are taken for one (difflib's ratio): xzy and xyz have 0.67, command_effort and effort 0.6."""
+"""Similarity (difflib's ratio) of a misspelt word, at least: xzy and xyz have 0.67, command_effort and effort 0.6."""
 
 
 def words_of(name: str) -> set[str]:
@@ -83,16 +83,16 @@ def ignored_attribute(tag: str, key: str) -> bool:
 
 @cache
 def meant(word: str, known: tuple[str, ...]) -> str:
-    """Return the word of the format that this is all but.
+    """Return the word of the format that this is a misspelling of.
 
-    Empty where it is one, has a prefix, or is a word of its own: put together of several, such as gear_velocity.
+    Empty where it is a word of the format, has a prefix, or is a compound of its own, such as gear_velocity.
 
     Examples
     --------
     >>> meant("xzy", ("xyz", "rpy")), meant("RefLink", ("link", "joint"))
     ('xyz', '')
     """
-    import difflib  # only where there is a word to look at
+    import difflib  # only where there is a word to compare
 
     if word in known or "}" in word or ":" in word or (len(words_of(word)) > 1 and set(known) & words_of(word)):
         return ""

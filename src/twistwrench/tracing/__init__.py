@@ -1,4 +1,4 @@
-"""What each body received and passed on, step by step (49.6 to 49.8).
+"""Traces of the recursions: what each body received and passed inward, step by step (49.6 to 49.8).
 
 - `listing`: which line of an algorithm gives which term its value, read from the source.
 - `ledger`: a body's account: its own, what its children passed on, the sum, what goes to its parent.

@@ -21,10 +21,10 @@ from .listing import Step, places
 __all__ = ["trace"]
 
 NEEDED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": ()}
-"""What each algorithm asks for besides q."""
+"""The arguments of each algorithm besides q."""
 
 RESULT = {"rnea": "tau", "aba": "qdd", "crba": "M"}
-"""The term that it is run for."""
+"""The result of each algorithm."""
 
 
 def trace(
@@ -37,10 +37,10 @@ def trace(
     tau: ArrayLike | None = None,
     f_ext: ArrayLike | None = None,
 ) -> Trace:
-    """Run an algorithm, and tell what each body received and passed on.
+    """Run an algorithm, and return what each body received and passed on.
 
     The algorithm is the textbook's, and every value is a term of its record (`rnea_terms`, `aba_terms`,
-    `crba_terms`), under the name that it has in the source. What a body passes on is said in its parent's frame,
+    `crba_terms`), under the name that it has in the source. What a body passes on is expressed in its parent's frame,
     where it is added.
 
     Parameters
@@ -68,7 +68,7 @@ def trace(
     NameNotFound
         If there is no such algorithm.
     ShapeError, SingularError, ValueError
-        As the algorithm; if `q` is a batch, or an argument is missing or means nothing to the algorithm.
+        As the algorithm; if `q` is a batch, or an argument is missing or not used by the algorithm.
 
     Notes
     -----
@@ -168,7 +168,7 @@ def _steps(listing: Callable[..., Any], model: Model, terms: Any, rows: Sequence
 
 
 def _sums(account: Account) -> list[Array]:
-    """Return an account's own, and what it holds as the children come in, from the last to the first."""
+    """Return an account's own value, and its value after each child, from the last to the first."""
     sums = [account.own]
     for part in reversed([*account.received.values()]):
         sums.append(sums[-1] + part)
@@ -176,7 +176,7 @@ def _sums(account: Account) -> list[Array]:
 
 
 def _value(model: Model, term: Any, index: Any) -> Array:
-    """Return the entry of a term: of a list by bodies, or of what all joints have in one array."""
+    """Return the entry of a term: of a list by bodies, or of an array over all joints."""
     at = model.v_slice
     if isinstance(term, np.ndarray):
         index = tuple(at[k] for k in index) if isinstance(index, tuple) else at[index]
@@ -195,4 +195,4 @@ _ALGORITHMS = {
     "aba": _Algorithm(aba_terms, articulated_body, _aba_rows),
     "crba": _Algorithm(crba_terms, composite_rigid_body, _crba_rows),
 }
-"""What is run, its listing, and what reads the accounts off its record."""
+"""An algorithm, its listing, and the function that reads the accounts off its record."""

@@ -1,6 +1,6 @@
 """Where the steps of the chapter are in the source: at the end of its line each has an anchor, ``# 49.7 D`` or so.
 
-Words may follow behind a colon.
+Words may follow after a colon.
 The map, the pages that go through an algorithm, the seeded faults and `trace` name a step by its anchor, so that a line
 can be improved without being copied anywhere.
 """

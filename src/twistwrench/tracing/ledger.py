@@ -48,7 +48,7 @@ class Row:
     values : dict of str to ndarray
         By the name of the variable in the source, in the order in which they were found.
     accounts : dict of str to Account
-        By the name of the variable that adds up.
+        By the name of the variable.
     """
 
     body: int
@@ -85,7 +85,7 @@ class Trace:
         return self.rows[self.model.joint_id(body) if isinstance(body, str) else body]
 
     def __getitem__(self, name: str) -> list[Any]:
-        """Return a variable of all bodies: its value, or the total of what adds up; None where there is none."""
+        """Return a variable of all bodies: its value, or the total of its account; None where a body has neither."""
         found = [row.accounts[name].total if name in row.accounts else row.values.get(name) for row in self.rows]
         if all(value is None for value in found):
             known = {known: None for row in self.rows for known in (*row.values, *row.accounts)}

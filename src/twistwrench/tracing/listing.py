@@ -1,6 +1,6 @@
 """Which line of an algorithm gives which term its value, in the order in which they run: read from its source.
 
-Nothing is run here: a listing has loops over the bodies, a walk to the base, and lines that set a term of a body. Only
+Nothing is run here: a listing has loops over the bodies, loops to the base, and lines that set a term of a body. Only
 the bodies' numbers are followed; the values are those of the record that the algorithm returned.
 """
 
@@ -54,7 +54,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a line sets an entry of a term; `own` says that the entry is that of the body whose turn it is."""
+    """Where a line sets an entry of a term; `own` is true if the entry is that of the body whose turn it is."""
 
     line: int
     source: str

@@ -30,7 +30,7 @@ UNITS = {
 }
 
 FIRST = {"rnea": ("V", "A"), "aba": ("V", "c"), "crba": ()}
-"""What is found before anything is passed inward; the other values follow the accounts."""
+"""The values found before anything is passed inward; the others follow the accounts."""
 
 PASSED = {"rnea": "wrenches", "aba": "articulated inertias and bias wrenches", "crba": "composite inertias"}
 
@@ -79,7 +79,7 @@ def tree(trace: Trace) -> str:
 
 
 def _without_rounding(rows: Sequence[Row]) -> list[Row]:
-    """Return rows with 0 for what rounding left of nothing: less than 1e-13 of the largest number in that unit."""
+    """Return rows with 0 for values that are zero to rounding: less than 1e-13 of the largest number in that unit."""
     largest: dict[str, float] = {}
     for row in rows:
         for name, x in [*row.values.items(), *((name, account.total) for name, account in row.accounts.items())]:
@@ -104,7 +104,7 @@ def _without_rounding(rows: Sequence[Row]) -> list[Row]:
 
 
 def _passes(algorithm: str, row: Row) -> str:
-    """Say in a line what a body passes on, and what its joint does or feels."""
+    """Return in a line what a body passes on, and its joint's force or apparent inertia."""
     account, *_ = row.accounts.values()
     if account.passed is None:
         return ""
@@ -113,8 +113,8 @@ def _passes(algorithm: str, row: Row) -> str:
         return f"{moment} N m, {force} N to {row.parent}; tau = {_few(row.values['tau'])}"
     mass = _number(np.trace(account.passed[3:, 3:]) / 3)  # an articulated one differs with the direction: the mean
     if algorithm == "aba":
-        felt = _few(np.diagonal(row.values["D"]))
-        return f"{mass} kg to {row.parent}; D = {felt}; qdd = {_few(row.values['qdd'])}"
+        diagonal = _few(np.diagonal(row.values["D"]))
+        return f"{mass} kg to {row.parent}; D = {diagonal}; qdd = {_few(row.values['qdd'])}"
     own = f"M[{row.body}, {row.body}]"
     return f"{mass} kg to {row.parent}; {own} = {_few(np.diagonal(row.values[own]))}"
 
