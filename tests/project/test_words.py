@@ -16,14 +16,6 @@ import pytest
 SOURCE = Path(__file__).resolve().parents[2] / "src" / "twistwrench"
 TEXT = {p.relative_to(SOURCE).as_posix(): p.read_text(encoding="utf-8") for p in sorted(SOURCE.rglob("*.py"))}
 
-ROOMS_DONE = (
-    *("errors", "error_bounds", "tables", "arrays", "spatial", "model", "algorithms"),
-    *("simulation", "scene", "motions", "templates", "plot", "viewing", "validate", "study", "exercises"),
-    *("cli", "files", "stopping", "options", "timing"),
-    *("newton_euler_3d", "contact", "robots", "bridge", "fast", "tracing"),
-)
-"""The rooms that are held to the words below."""
-
 PROSE = {
     r"\bdoors?\b": "arguments, input validation",
     r"\bbehind\b": "outboard (of a joint), after",
@@ -73,10 +65,6 @@ EXCEPT = {
     "seats": "public: places of the bodies in a drawing of the tree",
 }
 """Names that stay, and why."""
-
-
-def room(file: str) -> str:
-    return file.split("/")[0].removesuffix(".py")
 
 
 def prose(text: str) -> Iterator[tuple[int, str]]:
@@ -136,7 +124,7 @@ def old_names(text: str) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("file", [file for file in TEXT if room(file) in ROOMS_DONE])
+@pytest.mark.parametrize("file", list(TEXT))
 def test_a_file_speaks_the_fields_words(file):
     assert old_prose(TEXT[file]) + old_names(TEXT[file]) == []
 
