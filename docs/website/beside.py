@@ -2,7 +2,7 @@
 
 The words and the formulas are in algorithms/NAME.toml, a step at a time, each with the anchor of its last line (see
 `twistwrench.tracing.anchors`). The lines themselves, and their numbers, are read from the source when the site is
-built; a step whose anchor is no longer there stops the build, and so does an anchor that no step tells of.
+built; a step whose anchor is no longer there stops the build, and so does an anchor without a step.
 """
 
 from __future__ import annotations
@@ -58,15 +58,15 @@ def body(file: str, function: str) -> Lines:
 
 
 def cut(lines: Lines, steps: list[str], file: str) -> list[Lines]:
-    """Cut the lines of a function behind the anchors of its steps; raises LookupError where they are not the same.
+    """Cut the lines of a function after the anchors of its steps; raises LookupError where they are not the same.
 
-    A step has the lines from the one before it to its anchor, the last one also what follows; a step may have several
-    anchors, with commas between them.
+    A step has the lines from the one before it to its anchor, the last one also those that follow; a step may have
+    several anchors, with commas between them.
     """
-    told = [name for step in steps for name in step.split(", ")]
+    expected = [name for step in steps for name in step.split(", ")]
     there = [name for line in lines.text if (name := anchor_of(line))]
-    if told != there:
-        wrong = next((f"{a} is told, {b} stands there" for a, b in zip_longest(told, there) if a != b), "")
+    if expected != there:
+        wrong = next((f"expected {a}, got {b}" for a, b in zip_longest(expected, there) if a != b), "")
         raise LookupError(f"{file}: not the steps of the source: {wrong}")
     last = {name: k for k, line in enumerate(lines.text) if (name := anchor_of(line))}
     ends = [0, *(last[step.split(", ")[-1]] + 1 for step in steps[:-1]), len(lines.text)]

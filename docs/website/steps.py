@@ -1,4 +1,4 @@
-"""The values of a step-through on Go2: what each body received and passed on, as `tw.trace` tells it."""
+"""The values of a step-through on Go2: what each body received and passed on, from `tw.trace`."""
 
 from __future__ import annotations
 

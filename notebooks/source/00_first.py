@@ -112,12 +112,12 @@ else:
 # %% [markdown] lang="en"
 # ## One more picture
 #
-# The mass matrix says how the degrees of freedom feel each other's acceleration. A front leg does not feel a rear
-# leg: white squares. The trunk feels all of them: the first six rows and columns.
+# The mass matrix couples the accelerations of the degrees of freedom. A front leg is not coupled with a rear leg:
+# white squares. The trunk is coupled with all of them: the first six rows and columns.
 # %% [markdown] lang="zh"
 # ## 再看一张图
 #
-# 质量矩阵说的是各自由度如何感受到彼此的加速度。前腿感受不到后腿:白色的方块。躯干感受得到每一条腿:
+# 质量矩阵表示各自由度的加速度如何耦合。前腿与后腿没有耦合:白色的方块。躯干与每一条腿都有耦合:
 # 前六行和前六列。
 # %%
 legs = [(f"{foot[:2]}", model.v_slice[model.joint_id(f"{foot[:2]}_hip_joint")].start) for foot in model.feet]

@@ -335,7 +335,7 @@ for robot in map(tw.load, ["planar_arm", "cart_pole", "go2", "humanoid"]):
     assert (robot.nq, robot.nv, motors) == (robot.nv + floating, robot.nv, robot.nv - 6 * floating)
 
 S = tw.selection_matrix(model)
-assert not (S.T @ np.ones(12))[:6].any()  # whatever the motors do, the base feels none of it directly
+assert not (S.T @ np.ones(12))[:6].any()  # the motors have no direct effect on the base
 # %% [markdown] lang="en"
 # So `q + v * dt` cannot be right: the shapes do not fit, and the sum of two quaternions is no rotation. `integrate` moves
 # on the manifold. The chapter's table writes the quaternion with $q_w$ first; Pinocchio and this package store it last.

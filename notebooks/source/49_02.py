@@ -301,7 +301,7 @@ else:
 # %% [markdown] lang="en"
 # The chapter's listing prints `data.v[0]`. That is the world's twist, always zero; the base is body 1.
 #
-# Finally, the thin type `tw.Twist` can carry the name of its frame, and refuses sums that mean nothing:
+# Finally, the thin type `tw.Twist` can carry the name of its frame, and rejects sums that mean nothing:
 # %% [markdown] lang="zh"
 # 本章的代码打印的是 `data.v[0]`。那是世界的 twist,永远是零;基座是 1 号刚体。
 #

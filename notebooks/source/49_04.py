@@ -58,8 +58,8 @@ assert np.isclose(tw.power(F, V), f @ plot.point_velocity(V, r))
 assert np.isclose(tw.Wrench(F, frame="base") @ tw.Twist(V, frame="base"), tw.power(F, V))
 try:
     tw.Wrench(F) + tw.Twist(V)
-except TypeError as refused:
-    print(refused)
+except TypeError as error:
+    print(error)
 else:
     raise AssertionError("a wrench has been added to a twist")
 # %% [markdown] lang="en"

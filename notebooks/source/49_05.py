@@ -211,8 +211,8 @@ impossible = tw.SpatialInertia(1.0, np.zeros(3), np.diag([1.0, 1.0, 10.0]))
 assert np.linalg.eigvalsh(impossible.matrix()).min() > 0
 try:
     impossible.check_physical("plate")
-except tw.ModelError as refused:
-    print(refused)
+except tw.ModelError as error:
+    print(error)
 else:
     raise AssertionError("a body that cannot exist has passed")
 # %% [markdown] lang="en"

@@ -1,8 +1,8 @@
 # %% [markdown] lang="en"
 # # 49.6 RNEA: inverse dynamics
 #
-# Given a motion, which forces make it happen? The recursive Newton–Euler algorithm answers by walking the tree twice:
-# outward with the motion, inward with the forces. This notebook walks it step by step on Go2, draws what each step
+# Given a motion, which forces make it happen? The recursive Newton–Euler algorithm answers by passing through the tree twice:
+# outward with the motion, inward with the forces. This notebook follows it step by step on Go2, draws what each step
 # carries, and shows what gravity is in it. It ends with what the chapter's pseudocode gets wrong.
 # %% [markdown] lang="zh"
 # # 49.6 RNEA:逆动力学
@@ -34,14 +34,14 @@ for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs
 #
 # Body 0 is the world, body 1 the base; every body $i$ hangs on its parent $\lambda(i)$ by joint $i$. To the recursion
 # a joint is two things: the matrix $X_i$ that takes a twist from the parent's frame to frame $i$, and the subspace
-# $S_i$ of the motions that the joint allows, 6 × 1 for a hinge and 6 × 6 for the base, which is free. `walk` computes
-# them. Since $\lambda(i) < i$, counting up is going outward.
+# $S_i$ of the motions that the joint allows, 6 × 1 for a hinge and 6 × 6 for the base, which is free. `tree_terms`
+# computes them. Since $\lambda(i) < i$, counting up is going outward.
 # %% [markdown] lang="zh"
 # ## 运动树
 #
 # 刚体 0 是世界,刚体 1 是基座;每个刚体 $i$ 由关节 $i$ 挂在父刚体 $\lambda(i)$ 上。对递推来说,一个关节就是两样东西:
 # 把 twist 从父坐标系换到坐标系 $i$ 的矩阵 $X_i$,以及关节所允许的运动的子空间 $S_i$,转动关节是 6 × 1,自由的基座是
-# 6 × 6。`walk` 负责算出它们。因为 $\lambda(i) < i$,编号从小到大就是由内向外。
+# 6 × 6。`tree_terms` 负责算出它们。因为 $\lambda(i) < i$,编号从小到大就是由内向外。
 # %%
 tree = tree_terms(model, q)
 parent, S, I, X = tree.parent, tree.S, tree.I, tree.X
@@ -299,7 +299,7 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 # 有颜色的地方就是错的。小腿没有子刚体,每次都对:如果只测一个关节,或只测末端,就发现不了。
 # %%
 def inward(overwrite=False, star=False, without_base=False):
-    """Walk inward, right or as printed."""
+    """Pass inward, right or as printed."""
     F, tau = own.copy(), [np.zeros(0)] * model.nbodies
     F[1] *= not without_base
     for i in tree.inward:

@@ -2,13 +2,13 @@
 # # 49.7 ABA: forward dynamics
 #
 # Given the forces at the joints, how does the robot accelerate? You could build $M$ and solve. The articulated-body
-# algorithm does without $M$: it asks of each joint which inertia it *feels* when all joints behind it are free. This
-# notebook shows that inertia, walks the three passes on Go2, and asks how exact the answer is.
+# algorithm does without $M$. It needs the inertia that each joint has to accelerate when all outboard joints are free: its
+# *apparent inertia*. This notebook shows it, follows the three passes on Go2, and measures how exact the answer is.
 # %% [markdown] lang="zh"
 # # 49.7 ABA:正向动力学
 #
-# 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$:它问每个关节,当后面的关节全部自由时,它
-# *感受到*的惯量是多少。这个笔记本把这种惯量画出来,在 Go2 上走完三遍递推,最后看答案有多准。
+# 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$:它需要的是:外侧(远离基座)的关节全部自由时,
+# 每个关节要加速的惯量,即*表观惯量*。这个笔记本把它画出来,在 Go2 上走完三遍递推,最后看答案有多准。
 # %%
 import inspect
 
@@ -30,39 +30,39 @@ rest = np.zeros(model.nv)
 #
 # Hold a rod by a hinge at its upper end and move the hinge. The rod follows with
 # $\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$ and takes $\boldsymbol F = \hat I \boldsymbol a$. The hinge is free: it
-# transmits nothing along $S$, so $S^T \boldsymbol F = 0$. That gives $\ddot q$, and with it what the hand feels:
+# transmits nothing along $S$, so $S^T \boldsymbol F = 0$. That gives $\ddot q$, and with it the force of the hand:
 #
 # $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
 #
-# The bracket is an **articulated inertia**: the rod, less what the free joint lets go. It is no longer ten numbers. Along
-# the rod the hand feels all of the mass; across, the rod just swings, and (if it is thin) only a quarter is felt.
+# The bracket is an **articulated inertia**: the rod's, less the part along the free joint. It is no longer ten numbers.
+# Along the rod the apparent mass is all of its mass; across, the rod just swings, and (if it is thin) it is a quarter.
 # %% [markdown] lang="zh"
 # ## 手里的单摆
 #
 # 用铰链捏住一根杆的上端,移动铰链。杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要
 # $\boldsymbol F = \hat I \boldsymbol a$。铰链是自由的:沿 $S$ 不传递任何东西,所以 $S^T \boldsymbol F = 0$。由此得到
-# $\ddot q$,也就知道手感受到什么:
+# $\ddot q$,也就知道手要用多大的力:
 #
 # $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
 #
-# 括号里就是**铰接体惯量**:杆的惯量,减去自由关节放走的那部分。它不再是十个数。沿着杆的方向,手感受到全部质量;
-# 横着推,杆只是摆开,(细杆时)只感受到四分之一。
+# 括号里就是**铰接体惯量**:杆的惯量,减去自由关节放走的那部分。它不再是十个数。沿着杆的方向,表观质量就是全部质量;
+# 横着推,杆只是摆开,(细杆时)只有四分之一。
 # %%
 rod = tw.chain(1, mass=2.0).inertia[1]  # 1 m long, hangs along −z
 S = tw.Revolute("y").subspace()
 I = rod.matrix()
-felt = I - I @ S @ np.linalg.inv(S.T @ I @ S) @ S.T @ I
-assert np.allclose(felt @ S, 0, atol=1e-12)  # turning the hand about the hinge moves nothing
-assert np.isclose(felt[5, 5], 2.0)  # kg, along the rod
-assert np.isclose(felt[3, 3], 2.0 / 4, rtol=0.01)  # kg, across
-assert np.isclose(felt[4, 4], 2.0)  # along the hinge it cannot swing
+apparent = I - I @ S @ np.linalg.inv(S.T @ I @ S) @ S.T @ I
+assert np.allclose(apparent @ S, 0, atol=1e-12)  # turning the hand about the hinge moves nothing
+assert np.isclose(apparent[5, 5], 2.0)  # kg, along the rod
+assert np.isclose(apparent[3, 3], 2.0 / 4, rtol=0.01)  # kg, across
+assert np.isclose(apparent[4, 4], 2.0)  # along the hinge it cannot swing
 # %%
 figure, axes = plt.subplots(1, 3, figsize=(10, 3.8), layout="constrained", sharey=True)
 for ax, angle in zip(axes, np.deg2rad([0, 40, 90])):
     X = tw.SE3(tw.exp3([0, -angle, 0]), np.zeros(3)).inverse().motion_transform()  # from the hand to the turned rod
     ax.plot([0, np.sin(angle)], [0, -np.cos(angle)], color=plot.COLOURS["grey"], linewidth=6, solid_capstyle="round")
     plot.felt_mass(I, scale=0.4, colour=plot.COLOURS["orange"], label="hinge locked", ax=ax)
-    plot.felt_mass(X.T @ felt @ X, scale=0.4, label="hinge free", ax=ax)
+    plot.felt_mass(X.T @ apparent @ X, scale=0.4, label="hinge free", ax=ax)
     ax.plot(0, 0, "k.")
     ax.set(title=f"rod at {np.rad2deg(angle):.0f}°", xlabel="force along x for 1 m/s²", xticks=[-0.8, 0, 0.8])
     ax.set(xticklabels=["−2 N", "0", "2 N"], yticks=[])
@@ -74,15 +74,15 @@ plt.show()
 #
 # ## Three passes
 #
-# Now let the rod carry a tree, let it move, and give the joint a torque. For each body the whole tree behind its joint
+# Now let the rod carry a tree, let it move, and give the joint a torque. For each body the whole tree outboard of its joint
 # acts as $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$: linear in the acceleration, whatever hangs on
 # it. (RNEA's $\boldsymbol F_i$; the bias wrench $\boldsymbol p_i^A$ is what it takes without acceleration.) The same
 # elimination as above, joint by joint from the tips:
 #
 # 1. **Outward**: twists $\boldsymbol V_i$, bias accelerations $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;
 #    to begin with, $\hat I_i^A = \hat I_i$ and $\boldsymbol p_i^A = \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$.
-# 2. **Inward**: with $U_i = \hat I_i^A S_i$, $D_i = S_i^T U_i$, $u_i = \tau_i - S_i^T \boldsymbol p_i^A$, the parent
-#    feels
+# 2. **Inward**: with $U_i = \hat I_i^A S_i$, $D_i = S_i^T U_i$, $u_i = \tau_i - S_i^T \boldsymbol p_i^A$, the
+#    apparent inertia and bias wrench at the parent are
 # $$\hat I_i^a = \hat I_i^A - U_i D_i^{-1} U_i^T, \qquad \boldsymbol p_i^a = \boldsymbol p_i^A + \hat I_i^a \boldsymbol c_i
 # + U_i D_i^{-1} u_i,$$
 #    taken into its frame: $\hat I_{\lambda}^A$ grows by $X_i^T \hat I_i^a X_i$, $\boldsymbol p_{\lambda}^A$ by
@@ -98,13 +98,13 @@ plt.show()
 #
 # ## 三遍递推
 #
-# 现在让杆后面带上一棵树,让它运动,再给关节加上力矩。对每个刚体,关节后面的整棵树表现为
+# 现在让杆后面带上一棵树,让它运动,再给关节加上力矩。对每个刚体,关节外侧的整棵树表现为
 # $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$:不管挂着什么,对加速度总是线性的。(这就是 RNEA 的
 # $\boldsymbol F_i$;偏置力 $\boldsymbol p_i^A$ 是没有加速度时所需的。)做法与上面的消元一样,从末端开始,一个关节一个关节地做:
 #
 # 1. **向外**：twist $\boldsymbol V_i$,偏置加速度 $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;起初
 #    $\hat I_i^A = \hat I_i$，$\boldsymbol p_i^A = \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$。
-# 2. **向内**:令 $U_i = \hat I_i^A S_i$、$D_i = S_i^T U_i$、$u_i = \tau_i - S_i^T \boldsymbol p_i^A$,父刚体感受到
+# 2. **向内**:令 $U_i = \hat I_i^A S_i$、$D_i = S_i^T U_i$、$u_i = \tau_i - S_i^T \boldsymbol p_i^A$,父刚体一侧的表观惯量和偏置力是
 # $$\hat I_i^a = \hat I_i^A - U_i D_i^{-1} U_i^T, \qquad \boldsymbol p_i^a = \boldsymbol p_i^A + \hat I_i^a \boldsymbol c_i
 # + U_i D_i^{-1} u_i,$$
 #    再换到它的坐标系:$\hat I_{\lambda}^A$ 加上 $X_i^T \hat I_i^a X_i$，$\boldsymbol p_{\lambda}^A$ 加上
@@ -116,8 +116,8 @@ plt.show()
 # %%
 print(inspect.getsource(articulated_body))
 # %% [markdown] lang="en"
-# That is the file itself: `tw.aba` checks its arguments, runs this, and refuses a $D_i$ that is singular. What it computes
-# on its way is in the record that `tw.aba_terms` returns, an entry for each body.
+# That is the file itself: `tw.aba` checks its arguments, runs this, and raises an error for a singular $D_i$. Its intermediate
+# results are in the record that `tw.aba_terms` returns, an entry for each body.
 # %% [markdown] lang="zh"
 # 这就是源文件本身:`tw.aba` 检查参数,运行它,遇到奇异的 $D_i$ 就拒绝。途中算出的量都在 `tw.aba_terms` 返回的记录里,
 # 每个刚体一项。
@@ -138,9 +138,9 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 #
 # - **composite** $\hat I^C$: joints *locked*, one rigid body (49.5). CRBA builds $M$ from it, and $S_i^T \hat I_i^C S_i$
 #   is the entry $M_{ii}$.
-# - **articulated** $\hat I^A$: joints *free*. $D_i = S_i^T \hat I_i^A S_i$ is what the motor feels.
+# - **articulated** $\hat I^A$: joints *free*. $D_i = S_i^T \hat I_i^A S_i$ is the apparent inertia at the motor.
 #
-# Letting joints go can only make it lighter. Below, six equal rods: at each hinge the mass that the rod before it feels,
+# Freeing joints can only make it smaller. Below, six equal rods: at each hinge the apparent mass seen by the rod before it,
 # drawn as above. All hinges locked, the circles grow with the number of rods. All hinges free, the other five add
 # little across the first rod, and nothing like their mass along it.
 # %% [markdown] lang="zh"
@@ -150,13 +150,13 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 #
 # - **复合惯量** $\hat I^C$:关节*锁死*,成为一个刚体(49.5)。CRBA 用它构造 $M$，$S_i^T \hat I_i^C S_i$ 就是元素
 #   $M_{ii}$。
-# - **铰接体惯量** $\hat I^A$:关节*自由*。$D_i = S_i^T \hat I_i^A S_i$ 就是电机感受到的惯量。
+# - **铰接体惯量** $\hat I^A$:关节*自由*。$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。
 #
-# 放开关节只会变轻。下面是六根相同的杆:每个铰链处画的是前一根杆感受到的质量,画法同上。铰链全锁死,圆随杆数变大;
+# 放开关节只会变轻。下面是六根相同的杆:每个铰链处画的是对前一根杆的表观质量,画法同上。铰链全锁死,圆随杆数变大;
 # 铰链全自由,后面那五根杆横着第一根杆的方向几乎没有增加什么,沿着它的方向也远远不到它们的质量。
 # %%
 def through_joints(model, q):
-    """Composite inertia of each subtree, and what its parent feels of it through the free joint."""
+    """Composite inertia of each subtree, and its apparent inertia at the parent's side of the free joint."""
     rest = np.zeros(model.nv)
     return tw.crba_terms(model, q).IC, tw.aba_terms(model, q, rest, rest).Ia
 
@@ -172,7 +172,7 @@ ax.plot(joints[:, 0], joints[:, 2], "-o", color=plot.COLOURS["grey"], linewidth=
 for i in range(1, 7):
     turn = tw.SE3(placement[i].rotation, np.zeros(3)).inverse().motion_transform()  # into the axes of the world
     at = placement[i].translation[[0, 2]]
-    assert np.isclose((turn.T @ locked[i] @ turn)[5, 5], 7 - i)  # kg: all rods behind
+    assert np.isclose((turn.T @ locked[i] @ turn)[5, 5], 7 - i)  # kg: all outboard rods
     assert (np.linalg.eigvalsh(locked[i] - free[i]) > -1e-12).all()  # free is lighter, for every motion
     orange = plot.COLOURS["orange"]
     plot.felt_mass(turn.T @ locked[i] @ turn, at, scale=0.14, colour=orange, label="locked" if i == 1 else None, ax=ax)
@@ -180,16 +180,16 @@ for i in range(1, 7):
 assert free[1][3, 3] < 1.3 * free[6][3, 3]
 assert free[1][5, 5] < 3
 print("free, across and along the first rod:", free[1][3, 3].round(2), free[1][5, 5].round(2), "kg")
-print("          and with nothing behind it:", free[6][3, 3].round(2), free[6][5, 5].round(2), "kg")
-ax.set(xlabel="x [m]", ylabel="z [m]", title="mass felt through each hinge (6 kg locked, at the first)")
+print("              of a single rod:       ", free[6][3, 3].round(2), free[6][5, 5].round(2), "kg")
+ax.set(xlabel="x [m]", ylabel="z [m]", title="apparent mass through each hinge (6 kg locked, at the first)")
 ax.legend(loc="lower right")
 plt.show()
 # %% [markdown] lang="en"
-# And Go2? Roll its trunk, and the legs swing behind: a quarter of the locked inertia is felt. Lift it, and you lift
-# 13.4 kg of 16.1. The articulated inertia of the base is what a controller that knows $M$ would call a Schur complement;
-# pushing at the base tells the same:
+# And Go2? Roll its trunk, and the legs lag: the apparent inertia is a quarter of the locked one. Lift it, and you
+# lift 13.4 kg of 16.1. The articulated inertia of the base is what a controller that knows $M$ would call a Schur complement;
+# pushing at the base gives the same:
 # %% [markdown] lang="zh"
-# 那么 Go2 呢?让躯干绕前后轴翻滚,腿就跟在后面摆:只感受到锁死时惯量的四分之一。把它往上提,提起的是 16.1 kg 中的
+# 那么 Go2 呢?让躯干绕前后轴翻滚,腿就跟在后面摆:表观惯量只有锁死时的四分之一。把它往上提,提起的是 16.1 kg 中的
 # 13.4 kg。基座的铰接体惯量,在知道 $M$ 的控制器那里叫作 Schur 补;在基座上推一把,得到的也是它:
 # %%
 M = tw.crba(model, q)
@@ -210,8 +210,8 @@ pairs = {  # what is compared: names, locked, free
 figure, axes = plt.subplots(1, 3, figsize=(11, 3.4), layout="constrained")
 for ax, (title, (names, when_locked, when_free)) in zip(axes, pairs.items()):
     x = np.arange(3)
-    ax.bar(x - 0.2, when_locked, 0.4, color=plot.COLOURS["orange"], label="joints behind locked")
-    ax.bar(x + 0.2, when_free, 0.4, color=plot.COLOURS["blue"], label="joints behind free")
+    ax.bar(x - 0.2, when_locked, 0.4, color=plot.COLOURS["orange"], label="outboard joints locked")
+    ax.bar(x + 0.2, when_free, 0.4, color=plot.COLOURS["blue"], label="outboard joints free")
     ax.set(xticks=x, xticklabels=names, title=title)
     assert (np.asarray(when_free) <= np.asarray(when_locked) * (1 + 1e-12)).all()
 figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
@@ -291,8 +291,8 @@ builder.link("hand", parent="forearm", joint=tw.Revolute("x"), joint_name="wrist
 arm = builder.build()
 try:
     tw.aba(arm, [0.0, 0.0], [0.0, 0.0], [0.0, 0.0])
-except tw.SingularError as refused:
-    message = str(refused)
+except tw.SingularError as error:
+    message = str(error)
 else:
     raise AssertionError("a joint without inertia has been given an acceleration")
 print(message)

@@ -1,13 +1,13 @@
 # %% [markdown] lang="en"
 # # 49.8 CRBA: the mass matrix
 #
-# $M(q)$ says how heavy a robot feels at each joint, and how much one joint feels of another. RNEA and ABA go without
-# it; controllers that solve a quadratic program want it. This notebook asks where each entry of $M$ comes from, which
+# $M(q)$ is the inertia of a robot at each joint, and the coupling of one joint with another. RNEA and ABA go without
+# it; controllers that solve a quadratic program need it. This notebook shows where each entry of $M$ comes from, which
 # entries are zero and why, and what the computation costs.
 # %% [markdown] lang="zh"
 # # 49.8 CRBA:质量矩阵
 #
-# $M(q)$ 说的是:在每个关节上,机器人有多"重",一个关节又能感受到另一个关节多少。RNEA 和 ABA 都用不着它,
+# $M(q)$ 是机器人在每个关节处的惯量,以及一个关节与另一个关节的耦合。RNEA 和 ABA 都用不着它,
 # 而求解二次规划的控制器需要它。这个笔记本弄清 $M$ 的每个元素从哪里来,哪些元素为零、为什么为零,以及计算的代价。
 # %%
 import inspect
@@ -42,22 +42,22 @@ assert M.shape == (18, 18)
 assert np.abs(columns.T - M).max() < 1e-12 * np.abs(M).max()
 assert np.array_equal(M, M.T)
 # %% [markdown] lang="en"
-# The experiments come out symmetric: what the knee feels of the hip, the hip feels of the knee. The reason is that $M$
-# is what the kinetic energy is made of. Each body has the twist $V_i = \sum_j {}^i\!X_j S_j \dot q_j$, summed over the
+# The results are symmetric: the knee acts on the hip as the hip acts on the knee. The reason is that $M$
+# is the matrix of the kinetic energy. Each body has the twist $V_i = \sum_j {}^i\!X_j S_j \dot q_j$, summed over the
 # joints $j$ between it and the world, and so
 #
 # $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
-# M_{jk} = \sum_{i\ \text{behind}\ j\ \text{and}\ k} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
+# M_{jk} = \sum_{i\ \text{outboard of}\ j\ \text{and}\ k} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
 #
 # Only bodies that are moved by *both* joints count.
 # %% [markdown] lang="zh"
-# 实验结果是对称的:膝能感受到髋多少,髋就能感受到膝多少。原因在于 $M$ 正是动能的系数矩阵。每个刚体的 twist 是
+# 实验结果是对称的:膝对髋的作用等于髋对膝的作用。原因在于 $M$ 正是动能的系数矩阵。每个刚体的 twist 是
 # $V_i = \sum_j {}^i\!X_j S_j \dot q_j$,对它与世界之间的所有关节 $j$ 求和,于是
 #
 # $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
-# M_{jk} = \sum_{i\ \text{在}\ j\ \text{与}\ k\text{之后}} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
+# M_{jk} = \sum_{i\ \text{在}\ j\ \text{与}\ k\text{外侧}} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
 #
-# 求和只包括*同时*位于 $j$ 和 $k$ 之后的刚体,也就是被这两个关节都带动的刚体。
+# 求和只包括*同时*位于 $j$ 和 $k$ 外侧(远离基座)的刚体,也就是被这两个关节都带动的刚体。
 # %%
 v = rng.standard_normal(model.nv)
 twists = tw.forward_kinematics(model, q, v).twist
@@ -68,13 +68,13 @@ assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
 # %% [markdown] lang="en"
 # ## Composite inertia
 #
-# Let joint $j$ carry joint $k$. Then the bodies behind both are simply the bodies behind $k$, and with the other joints
+# Let joint $j$ carry joint $k$. Then the bodies outboard of both are those outboard of $k$, and with the other joints
 # locked they move as one rigid body. Its inertia $I^C_k$, the **composite inertia**, is the sum of theirs, taken to
 # frame $k$: from the tips inward, each adds its own to what carries it.
 # %% [markdown] lang="zh"
 # ## 复合刚体惯量
 #
-# 设关节 $j$ 在 $k$ 的上游。那么位于两者之后的刚体就是 $k$ 之后的那些;其余关节锁死时,它们像一个刚体一样运动。
+# 设关节 $j$ 在 $k$ 的上游。那么位于两者外侧的刚体就是 $k$ 外侧的那些;其余关节锁死时,它们像一个刚体一样运动。
 # 这个刚体的惯量 $I^C_k$ 叫**复合刚体惯量**,是各个刚体的惯量换到坐标系 $k$ 后的和:从末端向内,每个刚体把自己的加到
 # 带动它的那个刚体上。
 # %%
@@ -112,7 +112,7 @@ column = np.zeros(model.nv)
 F = (composite[k].matrix() @ model.joints[k].subspace())[:, 0]
 for j in model.support(k):  # from the calf to the base
     column[model.v_slice[j]] = model.joints[j].subspace().T @ F
-    print(f"felt by {names[j]:8} {column[model.v_slice[j]].round(4)}")
+    print(f"along {names[j]:8} {column[model.v_slice[j]].round(4)}")
     if model.parent[j]:
         F = link[j].force_transform() @ F  # T_λj leads inward, and so does its X*: it is the transpose above
 assert np.abs(column - M[:, model.v_slice[k].start]).max() < 1e-12
@@ -148,9 +148,9 @@ plt.show()
 zero = (np.abs(many) < 1e-12).all(axis=0)
 branch = plot.same_branch(model)
 assert zero[~branch].all()
-assert (~branch).sum() == 108  # a third of the 324 entries: one leg does not feel another
+assert (~branch).sum() == 108  # a third of the 324 entries: legs are not coupled
 # %% [markdown] lang="en"
-# The blank blocks come from the tree: no body is behind both a front and a rear leg's joint. The dots are zeros that the
+# The blank blocks come from the tree: no body is outboard of both a front and a rear leg's joint. The dots are zeros that the
 # tree does not explain. The chapter's picture has the base's rows full; sixteen of their entries are zero:
 #
 # - The base's block is the composite inertia of the whole robot,
@@ -158,7 +158,7 @@ assert (~branch).sum() == 108  # a third of the 324 entries: one leg does not fe
 #   the two $[c]_\times$ have three each on theirs.
 # - To turn a leg about the hip's x axis takes no force along x: four more, one for each leg.
 # %% [markdown] lang="zh"
-# 空白的大块来自树结构:没有哪个刚体同时在前腿和后腿的关节之后。带点的零则是树结构解释不了的。
+# 空白的大块来自树结构:没有哪个刚体同时在前腿和后腿的关节外侧。带点的零则是树结构解释不了的。
 # 本章的示意图里基座行是满的,其实其中有十六个元素为零:
 #
 # - 基座块就是整个机器人的复合刚体惯量
@@ -220,8 +220,8 @@ bare = builder.build()
 assert np.linalg.matrix_rank(tw.crba(bare, [0.1, 0.2])) == 1
 try:
     tw.aba(bare, [0.1, 0.2], [0, 0], [0, 1])
-except tw.SingularError as refused:
-    print(refused)
+except tw.SingularError as error:
+    print(error)
 else:
     raise AssertionError("a torque on nothing has been given an acceleration")
 # %% [markdown] lang="en"

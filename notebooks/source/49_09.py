@@ -52,7 +52,7 @@ plt.show()
 
 assert not S.T[:6].any()  # no torque in the base's rows
 leg_of_column = np.repeat(np.arange(4), 3)
-assert (d.J_c.T[6:][leg_of_column[:, None] != leg_of_column] == 0).all()  # a foot's force is felt by its own leg …
+assert (d.J_c.T[6:][leg_of_column[:, None] != leg_of_column] == 0).all()  # a foot's force acts on its own leg …
 assert np.array_equal(np.abs(d.J_c.T[3:6]) > 0.5, np.tile(np.eye(3, dtype=bool), 4))  # … and by the base
 # %% [markdown] lang="en"
 # ## It holds in every state
@@ -214,7 +214,7 @@ plt.show()
 # 基座分不出这三种,电机却分得出。控制器可以利用这份自由,比如让力矩尽量小。但也要守住界限:地面只能推、不能拉,
 # 而摩擦限制了力能倾斜多少(49.4)。
 # %%
-free = np.linalg.svd(d.J_c[:, :6].T)[2][6:].T  # twelve rows, six directions that the base does not feel
+free = np.linalg.svd(d.J_c[:, :6].T)[2][6:].T  # twelve rows, six directions without effect on the base
 least = np.linalg.lstsq(d.J_c[:, 6:].T @ free, tau)[0]
 easy_forces = lam + free @ least
 easy_tau = (g - d.J_c.T @ easy_forces)[6:]

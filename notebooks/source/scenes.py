@@ -165,7 +165,7 @@ print(f"it bears {loads[-1]} N on its torso, and then:", carrying(loads[-1] + 10
 assert loads == list(range(0, loads[-1] + 1, 100))
 assert 0 < loads[-1] < 3000
 # %% [markdown] lang="en"
-# ## Bad scenes are refused
+# ## Bad scenes raise an error
 # %% [markdown] lang="zh"
 # ## 有问题的场景会被拒绝
 # %%

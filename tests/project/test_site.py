@@ -63,9 +63,9 @@ def test_both_languages_tell_the_same_steps(name):
 @pytest.mark.parametrize(
     ("steps", "said"),
     [
-        (["49.6 A0", "49.6 V", "49.6 speed"], "49.6 speed is told, 49.6 A stands there"),
-        (["49.6 A0, 49.6 V"], "None is told, 49.6 A stands there"),
-        (["49.6 A0"] * 2, "49.6 A0 is told, 49.6 V stands there"),
+        (["49.6 A0", "49.6 V", "49.6 speed"], "expected 49.6 speed, got 49.6 A"),
+        (["49.6 A0, 49.6 V"], "expected None, got 49.6 A"),
+        (["49.6 A0"] * 2, "expected 49.6 A0, got 49.6 V"),
     ],
 )
 def test_a_step_that_is_gone_is_noticed(steps, said):
