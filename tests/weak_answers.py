@@ -96,7 +96,7 @@ ANSWERS = [
     Weak(
         "sole_holds",
         "return bool(F[5] > 0 and abs(F[1] / F[5]) < d_x and abs(F[0] / F[5]) < d_y)",
-        "the edge is refused: < in place of ≤",
+        "the edge is excluded: < in place of ≤",
     ),
     # 49.5
     Weak(
