@@ -277,3 +277,21 @@ def test_where_a_joint_is_and_what_it_leaves_free_is_arithmetic_alone(kind, batc
     assert np.allclose(S.astype(float), joint.subspace(), rtol=0, atol=2e-16)
     turn = S[:3].any(axis=0)
     assert ((np.where(turn, S[:3], S[3:]) ** 2).sum(axis=0) == 1).all()
+
+
+def test_a_joint_whose_subspace_is_not_constant_is_refused_by_name(monkeypatch):
+    """Two axes that cross: the first one turns with the second in the moved frame."""
+    monkeypatch.setattr(Joint, "kinds", dict(Joint.kinds))
+
+    class Universal(Joint):
+        kind, nq, nv = "universal", 2, 2
+
+        def subspace(self, dtype=np.float64):
+            return np.eye(6, 2, dtype=dtype)
+
+        def transform(self, q):
+            return tw.Revolute("x").transform(q[..., :1]) @ tw.Revolute("y").transform(q[..., 1:])
+
+    builder = tw.Builder("gimbal", base="fixed")
+    with pytest.raises(tw.ModelError, match=r"joint 'cross': expected an S that is constant.*a chain"):
+        builder.link("ring", parent="base_link", joint=Universal(), joint_name="cross")

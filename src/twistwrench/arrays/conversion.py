@@ -1,7 +1,7 @@
 """Input validation at the public functions, so that the formulas they call need no checks.
 
 Every public function of the algebra takes its arrays through `as_array`; every algorithm takes
-its state through `Model.state`, which calls `as_arrays`. The result is finite, of known
+its state through `model.arguments.check_state`, which calls `as_arrays`. The result is finite, of known
 last axes, and of one floating-point type.
 """
 

@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from functools import cache
 from importlib import import_module
-from importlib.util import find_spec
+from pkgutil import iter_modules
 
-from ..errors import unknown_name
+from ..errors import check_known
+from . import items
 from .exercise import Exercise, Part
 from .text import Text
 
-__all__ = ["IDS", "SECTIONS", "available", "exercise", "file_name", "find_part", "of_section"]
-
-_COUNTS = {"49.0": 5, "49.1": 2, "49.2": 2, "49.3": 3, "49.4": 3, "49.5": 3, "49.6": 3, "49.7": 2, "49.8": 2}
-_COUNTS |= {"49.9": 3, "49.10": 3, "49.11": 3, "project": 4}
-
-IDS = tuple(f"{section}.{k}" for section, n in _COUNTS.items() for k in range(1, n + 1))
-"""The five questions of the pre-test, the chapter's 29 exercises, the four stages of the project."""
+__all__ = ["SECTIONS", "available", "exercise", "file_name", "find_part", "of_section"]
 
 SECTIONS = {
     "49.0": Text("Before you start", "前置自测"),
@@ -35,13 +30,19 @@ SECTIONS = {
 }
 
 
-def _module(number: str) -> str:
-    return f"{__package__}.items.ex_{number.replace('.', '_')}"
-
-
+@cache
 def available() -> tuple[str, ...]:
-    """Return the numbers of the exercises that exist."""
-    return tuple(number for number in IDS if find_spec(_module(number)) is not None)
+    """Return the numbers of all exercises, in order: `items` has a file for each.
+
+    Examples
+    --------
+    >>> available()[:7]
+    ('49.0.1', '49.0.2', '49.0.3', '49.0.4', '49.0.5', '49.1.1', '49.1.2')
+    """
+    names = [module.name for module in iter_modules(items.__path__) if module.name.startswith("ex_")]
+    split = [name.removeprefix("ex_").replace("_", ".").rpartition(".") for name in names]
+    order = list(SECTIONS)
+    return tuple("".join(n) for n in sorted(split, key=lambda n: (order.index(n[0]), int(n[2]))))
 
 
 @cache
@@ -58,9 +59,8 @@ def exercise(number: str) -> Exercise:
     >>> exercise("49.3.1").kind
     'code'
     """
-    if number not in IDS or find_spec(_module(number)) is None:
-        raise unknown_name("exercise", number, available())
-    found: Exercise = import_module(_module(number)).EXERCISE
+    check_known("exercise", number, available())
+    found: Exercise = import_module(f"{items.__name__}.ex_{number.replace('.', '_')}").EXERCISE
     return found
 
 
@@ -84,6 +84,5 @@ def find_part(name: str) -> tuple[Exercise, Part]:
         If there is no such function.
     """
     every = {part.name: (e, part) for e in map(exercise, available()) for part in e.parts}
-    if name not in every:
-        raise unknown_name("function of an exercise", name, tuple(every))
+    check_known("function of an exercise", name, tuple(every))
     return every[name]

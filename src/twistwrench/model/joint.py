@@ -24,7 +24,7 @@ from ..spatial import SE3, exp6, log6
 from ..spatial._elementary import at_first_index, sqrt
 from ..spatial.rotation import cross_matrix
 
-__all__ = ["AxisJoint", "GroupJoint", "Joint", "placement", "same_side", "turn", "unit"]
+__all__ = ["AxisJoint", "GroupJoint", "Joint", "check_subspace", "placement", "same_side", "turn", "unit"]
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
@@ -116,6 +116,20 @@ class Joint(ABC):
             part = rng.standard_normal(self.unit.stop - self.unit.start)  # uniform on the sphere
             q[self.unit] = part / np.sqrt((part**2).sum())
         return q
+
+
+def check_subspace(joint: Joint, name: str) -> None:
+    """Raise ModelError where a step along v does not lead from T(q) to T(q) exp(S v): S is not constant there."""
+    v0, v = np.random.default_rng(0).standard_normal((2, joint.nv))
+    q = joint.integrate(joint.neutral(), v0)
+    there = joint.transform(q) @ exp6(np.matvec(joint.subspace(), v))
+    off = np.abs(joint.transform(joint.integrate(q, v)).matrix() - there.matrix()).max()
+    if not off < 1e-9:
+        raise ModelError(
+            f"joint {name!r}: expected an S that is constant in the moved frame, transform(integrate(q, v)) = "
+            f"transform(q) exp(S v); the two are {off:.2g} apart. A joint of several axes that are not so is a chain: "
+            "one joint for each axis, with massless links between them"
+        )
 
 
 class GroupJoint(Joint):

@@ -12,7 +12,7 @@ from ..arrays import Array, as_constant, check_kind
 from ..errors import ModelError, ShapeError
 from ..spatial import SE3, SpatialInertia
 from .constants import cast
-from .joint import Joint
+from .joint import Joint, check_subspace
 from .model import PER_DOF
 
 __all__ = ["UNLIMITED", "WORLD", "Link"]
@@ -66,6 +66,8 @@ class Link:
         _expect_names(name, joint_name)
         if joint is not None:
             check_kind(joint, f"link {name!r}: joint", Joint, "a joint such as Revolute('z')")
+            if not type(joint).__module__.startswith(f"{__package__}."):  # ours are tested
+                check_subspace(joint, joint_name)
         check_kind(placement, f"link {name!r}: placement", SE3, "an SE3")
         check_kind(inertia, f"link {name!r}: inertia", SpatialInertia, "a SpatialInertia")
         _expect_one(placement.translation, f"link {name!r}: placement")
