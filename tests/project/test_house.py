@@ -137,6 +137,21 @@ def test_in_a_room_of_the_chapter_imports_point_to_earlier_files(room):
     assert later == []
 
 
+def test_the_docstring_of_a_room_names_no_file_that_is_gone():
+    defined = {
+        node.name for tree in TREES.values() for node in ast.walk(tree) if isinstance(node, Function | ast.ClassDef)
+    }
+    gone = [
+        f"{file}: {name}"
+        for file, tree in TREES.items()
+        if file.endswith("/__init__.py")
+        for name in re.findall(r"(?<!`)`([a-z]\w*)`(?!`)", ast.get_docstring(tree) or "")
+        if not any(f"{Path(file).parent.as_posix()}/{name}{end}" in TREES for end in (".py", "/__init__.py"))
+        if name not in defined
+    ]
+    assert gone == []
+
+
 def test_the_slow_obvious_way_shares_no_spatial_algebra():
     reads = {read[0] for file in TREES if section(file) == "newton_euler_3d" for _, read in imports(file)}
     assert reads <= {"errors", "arrays", "newton_euler_3d"}

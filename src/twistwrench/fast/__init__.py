@@ -40,8 +40,8 @@ constant matrices with 4 × 4 matrices that hold all links: see `single`.
 
 The files, in the order in which they are best read: `dofs` and `plan` (the constants); `vectors`, `frames` (where the
 links are), `forces` (RNEA), `masses` (CRBA, centroidal momentum), `contacts`, `articulated` (ABA), `kernels`, `outputs`
-(arrays of the caller), `batch` (chunks); for one state `single_sums`, `single_plan`, `single`, `single_aba`;
-`arguments` (checks), `dispatch`, `api`.
+(arrays of the caller), `batch` (chunks); for one state `single_sums`, `products`, `single_plan`, `single` and
+`single_aba`; `arguments` (checks), `dispatch`, `api`.
 
 Which to take: the textbook to read, for a state now and then, and where an intermediate result is wanted; this for
 batches and loops. Long double and complex numbers work here as well, by the same code, and gain less. Forward dynamics
