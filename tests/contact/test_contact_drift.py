@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench import bridge
 
 from ..touching import BOX, BOX_CORNERS, FEET, GO2, HUMANOID, SOLE_CORNERS, straight
+
+STANDS = [(BOX, BOX_CORNERS, BOX.neutral()), (GO2, FEET, GO2.standing()), (HUMANOID, SOLE_CORNERS, HUMANOID.standing())]
 
 
 def least_squares(model, q, v, tau, contacts, target):
@@ -38,6 +41,56 @@ def test_a_spring_brings_redundant_contacts_back(frequency, drift):
     assert np.abs(held.residual).max() < (frequency * drift) ** 2  # of second order
     way = BOX.difference(q, BOX.neutral())
     assert held.qdd @ way > 0.9 * np.linalg.norm(held.qdd) * np.linalg.norm(way)
+
+
+def pinocchios(pin, model, q, v, tau, contacts, spring, axes):
+    """The acceleration of Pinocchio's proximal solver, with a corrector on each point."""
+    there = bridge.to_pinocchio_model(model)
+    models, datas = pin.StdVec_RigidConstraintModel(), pin.StdVec_RigidConstraintData()
+    for c in contacts:
+        frame, anchor = there.frames[there.getFrameId(c.frame)], spring.anchors[c.frame]
+        ground = pin.SE3(np.array(anchor.rotation), np.array(anchor.translation))
+        point = (frame.parentJoint, frame.placement, 0, ground)
+        models.append(pin.RigidConstraintModel(pin.ContactType.CONTACT_3D, there, *point, axes))
+    for one in models:
+        gains = getattr(one, "m_baumgarte_parameters", None) or one.corrector
+        gains.Kp, gains.Kd = spring.frequency**2, 2 * spring.damping * spring.frequency
+        datas.append(one.createData())
+    data = there.createData()
+    pin.initConstraintDynamics(there, data, models, datas)
+    state_there = (bridge.to_pinocchio_tangent(model, x) for x in (v, tau))
+    settings = pin.ProximalSettings(1e-14, 1e-14, 1e-8, 20)
+    return bridge.from_pinocchio_tangent(
+        model, pin.constraintDynamics(there, data, q, *state_there, models, datas, settings)
+    )
+
+
+@pytest.mark.parametrize(("drift", "speed"), [(0, 0), (1e-4, 0), (1e-3, 1e-3), (1e-2, 0.1)])
+@pytest.mark.parametrize(("model", "contacts", "q"), STANDS, ids=["box", "go2", "humanoid"])
+def test_corrected_accelerations_are_pinocchios(model, contacts, q, drift, speed):
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its correctors are not asked")
+    rng, spring = np.random.default_rng(0), tw.Baumgarte(20.0, tw.contact_placements(model, q, contacts), 0.7)
+    q = model.integrate(q, drift * rng.standard_normal(model.nv))
+    v, tau = speed * rng.standard_normal(model.nv), rng.standard_normal(model.nv)
+    held = tw.contact_forward_dynamics(model, q, v, tau, contacts, stabilise=spring)
+    for axes in (pin.LOCAL, pin.LOCAL_WORLD_ALIGNED):
+        want = pinocchios(pin, model, q, v, tau, contacts, spring, axes)
+        # What the points ask in contradiction, Pinocchio's multipliers gather in each of its steps, at 1e-8 of it.
+        room = 1e-12 * (10 + np.abs(want).max()) + 1e-4 * np.abs(held.residual).max()
+        assert np.abs(held.qdd - want).max() < room
+
+
+def test_a_corrector_brings_a_box_on_four_points_back_as_fast_as_its_frequency():
+    home = BOX.neutral()
+    anchors = tw.contact_placements(BOX, home, BOX_CORNERS)
+    q, v, dt = BOX.integrate(home, 1e-2 * np.array([1.0, 0.4, -0.3, 0.2, -1, 0.5])), np.zeros(6), 1e-3
+    start = np.abs(BOX.difference(home, q)).max()
+    for _ in range(500):
+        held = tw.contact_forward_dynamics(BOX, q, v, np.zeros(6), BOX_CORNERS, stabilise=tw.Baumgarte(20.0, anchors))
+        v = v + dt * held.qdd
+        q = BOX.integrate(q, dt * v)
+    left = np.abs(BOX.difference(home, q)).max() / start
+    assert left < 10 * 11 * np.exp(-10.0)  # (1 + ωt) e^(−ωt), and what is left by steps of ω dt = 0.02
 
 
 @pytest.mark.parametrize("dt", [0.005, 0.01, 0.02])
