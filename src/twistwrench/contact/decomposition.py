@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..algorithms.singular import ROUNDINGS
-from ..arrays import Array
+from ..arrays import Array, resolution
 from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3
@@ -80,7 +80,7 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
     Y = np.linalg.solve(L, J.mT)
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
     bound = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
-    noise = np.finfo(np.float64).eps * np.sqrt((bound**2).sum(axis=(-2, -1)))[..., None]
+    noise = resolution(np.float64) * np.sqrt((bound**2).sum(axis=(-2, -1)))[..., None]
     kept = s > ROUNDINGS * noise
     return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
 

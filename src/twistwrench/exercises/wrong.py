@@ -99,21 +99,21 @@ def swapped(solution: Function, *, only: tuple[int, ...] | None = None) -> Funct
     return after(solution, swap, only=only)
 
 
-def transposed(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
+def transposed(solution: Function) -> Function:
     """Rows and columns exchanged."""
-    return after(solution, lambda x: np.asarray(x).mT, only=only)
+    return after(solution, lambda x: np.asarray(x).mT)
 
 
-def negated(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
+def negated(solution: Function) -> Function:
     """Every sign wrong."""
-    return after(solution, lambda x: -np.asarray(x), only=only)
+    return after(solution, lambda x: -np.asarray(x))
 
 
-def times(solution: Function, factor: float, *, only: tuple[int, ...] | None = None) -> Function:
+def times(solution: Function, factor: float) -> Function:
     """Wrong by a factor."""
-    return after(solution, lambda x: factor * np.asarray(x), only=only)
+    return after(solution, lambda x: factor * np.asarray(x))
 
 
-def as_column(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
+def as_column(solution: Function) -> Function:
     """(n, 1) in place of (n,)."""
-    return after(solution, lambda x: np.asarray(x)[..., None], only=only)
+    return after(solution, lambda x: np.asarray(x)[..., None])

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from ..arrays import Array, as_array, as_constant, exact_unit
+from ..arrays import Array, as_array, as_constant, exact_unit, resolution
 from ..errors import ModelError
 from ..spatial import SE3, exp6, log6
 from ..spatial._elementary import at_first_index, sqrt
@@ -170,7 +170,7 @@ class AxisJoint(Joint):
         if a.ndim != 1 or not a.any():
             raise ModelError(f"axis: expected one vector that is not zero, got {a.tolist()}")
         size = np.abs(a).max()
-        if size > 2 or abs((a * a).sum() - 1) > 4 * np.finfo(np.float64).eps:  # a unit vector stays as it is
+        if size > 2 or abs((a * a).sum() - 1) > 4 * resolution(np.float64):  # a unit vector stays as it is
             a = unit(a / size)
         object.__setattr__(self, "axis", (float(a[0]), float(a[1]), float(a[2])))
 
@@ -183,7 +183,7 @@ class AxisJoint(Joint):
             axis = np.array(self.axis)
             return axis if axis.dtype == object else exact_unit(axis)
         a = np.asarray(self.axis).astype(dtype)
-        return unit(a) if np.finfo(a.dtype).eps < np.finfo(np.float64).eps else a
+        return unit(a) if resolution(a.dtype) < resolution(np.float64) else a
 
 
 def unit(x: Array) -> Array:

@@ -33,13 +33,6 @@ def momentum_of_links(model: Any, q: Any, v: Any) -> Any:
     return total
 
 
-MASSLESS = faulty(momentum_of_links, ("body.mass * ", ""))
-
-
-def _unweighted(model: Any, q: Any, v: Any) -> Any:
-    return model.mass / (model.nbodies - 1) * MASSLESS(model, q, v)
-
-
 def _base(model: Any, q: Any, v: Any) -> Any:
     """Return the whole mass times the velocity of the base."""
     return model.mass * tw.forward_kinematics(model, q).placement[1].rotation @ v[3:6]
@@ -67,7 +60,7 @@ OURS = Part(
     returns=(Quantity("l_G", unit="kg m/s"),),
     cases=_maps,
     slips={
-        "angular-for-linear": lambda A_G, v: A_G[:3] @ v,
+        "angular-for-linear": faulty(linear_momentum, ("A_G[3:]", "A_G[:3]")),
         "joints-left-out": lambda A_G, v: A_G[3:, :6] @ v[:6],
         "pinocchio-velocity": lambda A_G, v: A_G[3:] @ _other_order(v),
     },
@@ -94,14 +87,11 @@ LINKS = Part(
         "local-for-world": faulty(momentum_of_links, ("T.rotation @ velocity", "velocity")),
         "rotation-transposed": faulty(momentum_of_links, ("T.rotation @", "T.rotation.mT @")),
         "angular-for-linear": faulty(momentum_of_links, ("T.rotation @ velocity", "T.rotation @ V[:3]")),
-        "mass-dropped": MASSLESS,
-        "unweighted-mean": _unweighted,
+        "mass-dropped": faulty(momentum_of_links, ("body.mass * ", "")),
+        "unweighted-mean": faulty(momentum_of_links, ("body.mass", "model.mass / (model.nbodies - 1)")),
         "base-for-com": _base,
-        "legs-left-out": lambda model, q, v: (
-            model.inertia[1].mass / model.mass * _base(model, q, v)
-            + model.inertia[1].mass
-            * tw.forward_kinematics(model, q).placement[1].rotation
-            @ np.cross(v[:3], model.inertia[1].com)
+        "legs-left-out": faulty(
+            momentum_of_links, ("in zip", "in [*zip"), ("np.array(motion.twist)):", "np.array(motion.twist))][1:2]:")
         ),
     },
     residuals=(lambda answer, model, q, v: answer - model.mass * _rate_of_com(model, q, v),),

@@ -7,7 +7,7 @@ import numpy as np
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
 from ..workbook import mine
-from ..wrong import before, negated, swap, swapped
+from ..wrong import after, before, faulty, negated, swap, swapped, times
 
 __all__ = ["EXERCISE", "center_of_pressure", "sole_holds", "sole_wrench"]
 
@@ -36,18 +36,6 @@ def _forces_of(rng: Any) -> Any:
     """Return four points of a sole, and a force on each: the ground pushes."""
     points = np.column_stack([rng.uniform(-1, 1, (4, 2)) * [0.1, 0.05], np.zeros(4)])
     return points, np.column_stack([rng.normal(scale=20, size=(4, 2)), rng.uniform(50, 150, 4)])
-
-
-def _edges(F: Any, d_x: Any, d_y: Any) -> Any:
-    """Return for each axis whether the pressure is inside: below the upper edge, and above the lower."""
-    (p_x, p_y), d = center_of_pressure(F), np.array([d_x, d_y])
-    return np.array([p_x, p_y]) <= d, np.array([p_x, p_y]) >= -d
-
-
-def _unchecked(F: Any, d_x: Any, d_y: Any, *, half: float = 1.0) -> Any:
-    """Compare the ratios alone, ignoring the sign of f_z."""
-    p_x, p_y = np.abs(center_of_pressure(F))
-    return bool(p_x <= half * d_x and p_y <= half * d_y)
 
 
 def _at(p_x: float, p_y: float, f_z: float, rng: Any) -> Any:
@@ -79,10 +67,10 @@ SUM = Part(
     returns=(Quantity("F", WRENCH),),
     cases=lambda rng: [_forces_of(rng) for _ in range(4)],
     slips={
-        "cross-order": lambda points, forces: sole_wrench(points, forces) * np.repeat([-1, 1], 3),
-        "coupling-dropped": lambda points, forces: sole_wrench(0 * points, forces),
+        "cross-order": faulty(sole_wrench, ("points, forces)", "forces, points)")),
+        "coupling-dropped": before(sole_wrench, np.zeros_like, which=0),
         "swapped-halves": swapped(sole_wrench),
-        "averaged": lambda points, forces: sole_wrench(points, forces) / len(forces),
+        "averaged": faulty(sole_wrench, (".sum(0), forces.sum(0)", ".mean(0), forces.mean(0)")),
         "single-force": lambda points, forces: sole_wrench(points.mean(0)[None], forces.sum(0)[None]),
         "force-sign": negated(sole_wrench),
     },
@@ -93,14 +81,14 @@ PRESSURE = Part(
     returns=(Quantity("p", unit="m"),),
     cases=lambda rng: [(sole_wrench(*_forces_of(rng)),) for _ in range(4)],
     slips={
-        "cop-sign": lambda F: center_of_pressure(F) * [-1, 1],
+        "cop-sign": faulty(center_of_pressure, ("-tau_y", "tau_y")),
         "cop-axes": lambda F: F[:2] / F[5],
         "lever-reversed": negated(center_of_pressure),
-        "cop-inverted": lambda F: 1 / center_of_pressure(F),
+        "cop-inverted": after(center_of_pressure, lambda p: 1 / p),
         "cop-not-divided": lambda F: F[5] * center_of_pressure(F),
         "cop-whole-force": lambda F: center_of_pressure(F) * F[5] / np.linalg.norm(F[3:]),
         "swapped-halves": before(center_of_pressure, swap, which=0),
-        "thousand": lambda F: 1000 * center_of_pressure(F),
+        "thousand": times(center_of_pressure, 1000),
     },
     residuals=(lambda answer, F: (F[:3] - np.cross([*answer, 0], F[3:]))[:2],),
 )
@@ -112,12 +100,12 @@ HOLDS = Part(
     given='p = mine("center_of_pressure")',
     slips={
         "cop-axes": lambda F, d_x, d_y: sole_holds(F, d_y, d_x),
-        "pulling-allowed": _unchecked,
+        "pulling-allowed": faulty(sole_holds, ("F[5] <= 0", "False")),
         "full-for-half": lambda F, d_x, d_y: sole_holds(F, d_x / 2, d_y / 2),
-        "one-sided": lambda F, d_x, d_y: bool(F[5] > 0 and _edges(F, d_x, d_y)[0].all()),
-        "either-for-both": lambda F, d_x, d_y: bool(F[5] > 0 and (np.logical_and(*_edges(F, d_x, d_y))).any()),
-        "cop-not-divided": lambda F, d_x, d_y: bool(F[5] > 0 and abs(F[1]) <= d_x and abs(F[0]) <= d_y),
-        "edge-excluded": lambda F, d_x, d_y: bool(F[5] > 0 and (np.abs(center_of_pressure(F)) < [d_x, d_y]).all()),
+        "one-sided": faulty(sole_holds, ("abs(p_x)", "p_x"), ("abs(p_y)", "p_y")),
+        "either-for-both": faulty(sole_holds, (" and ", " or ")),
+        "cop-not-divided": faulty(sole_holds, ("= p(F)", "= F[1], F[0]")),
+        "edge-excluded": faulty(sole_holds, ("abs(p_x) <=", "abs(p_x) <"), ("abs(p_y) <=", "abs(p_y) <")),
         "swapped-halves": before(sole_holds, swap, which=0),
     },
 )

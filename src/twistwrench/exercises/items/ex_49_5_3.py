@@ -8,7 +8,8 @@ from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA
 from ..workbook import mine
-from ..wrong import swapped
+from ..wrong import faulty, swapped
+from .ex_49_0_1 import skew
 from .ex_49_3_2 import plucker
 from .ex_49_5_1 import random_body, spatial_inertia
 
@@ -28,14 +29,10 @@ def about_center_of_mass(m: Any, c: Any, I_c: Any) -> Any:
     return moved(build(m, c, I_c), np.eye(3), -c)
 
 
-def _skew(x: Any) -> Any:
-    return np.cross(np.eye(3), x).mT
-
-
 def _steiner(I: Any, R: Any, p: Any) -> Any:
     """Add m (|p|² 1 − p pᵀ) to an inertia that is not about the centre of mass."""
     moved = moved_inertia(I, R, p)
-    moved[:3, :3] = R @ I[:3, :3] @ R.mT - I[5, 5] * _skew(p) @ _skew(p)
+    moved[:3, :3] = R @ I[:3, :3] @ R.mT - I[5, 5] * skew(p) @ skew(p)
     return moved
 
 
@@ -50,7 +47,7 @@ MOVED = Part(
     returns=(Quantity("I_A", INERTIA),),
     cases=_cases,
     slips={
-        "inertia-half-rotated": lambda I, R, p: plucker(R, p)[1] @ I,
+        "inertia-half-rotated": faulty(moved_inertia, ("X_star @ I @ X_inverse", "X_star @ I")),
         "inertia-like-motion": lambda I, R, p: plucker(R, p)[0] @ I @ np.linalg.inv(plucker(R, p)[0]),
         "inverse-transform": lambda I, R, p: plucker(R, p)[0].mT @ I @ plucker(R, p)[0],
         "transpose-for-inverse": lambda I, R, p: plucker(R, p)[1] @ I @ plucker(R, p)[0].mT,
@@ -73,8 +70,8 @@ AT_COM = Part(
     slips={
         "translation-sign": lambda m, c, I_c: moved_inertia(spatial_inertia(m, c, I_c), np.eye(3), c),
         "untransformed": spatial_inertia,
-        "steiner-from-any-point": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - 2 * m * _skew(c) @ _skew(c)),
-        "parallel-axis-dropped": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - m * _skew(c) @ _skew(c)),
+        "steiner-from-any-point": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - 2 * m * skew(c) @ skew(c)),
+        "parallel-axis-dropped": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - m * skew(c) @ skew(c)),
         "mass-dropped": lambda m, c, I_c: spatial_inertia(1.0, 0 * c, I_c),
         "swapped-halves": lambda m, c, I_c: swapped(spatial_inertia)(m, 0 * c, I_c),
     },

@@ -19,7 +19,7 @@ from .run import Cell
 __all__ = ["Estimate", "Row", "as_dict", "bad", "estimates", "messages", "rows", "table", "turns"]
 
 OURS = ("textbook", "fast")
-ROUNDINGS = 4 * resolution(np.float64)
+ALIKE = 4 * resolution(np.float64)
 """An error counts as larger if it exceeds twice another by more than this."""
 
 
@@ -104,8 +104,8 @@ def _row(algorithm: str, who: str, pairs: list[tuple[Cell, Outcome]], theirs: di
         median=float(np.median([error for _, error in numbers])) if numbers else 0.0,
         worst=worst,
         where=at,
-        above=sum(x > 2 * y + ROUNDINGS for x, y in both),
-        below=sum(y > 2 * x + ROUNDINGS for x, y in both),
+        above=sum(x > 2 * y + ALIKE for x, y in both),
+        below=sum(y > 2 * x + ALIKE for x, y in both),
         tenth=sum(x < y / 10 for x, y in both),
     )
 
