@@ -199,7 +199,12 @@ FAULTS = [
     step("off-diagonals doubled", "49.8 M_ji", "M[j, i] = 2 * S[j].mT @ F[j, i]"),
     step("rotor forgotten in M", "49.8 M_ii", "M[i, i] = symmetric(S[i].mT @ F[i, i])"),
     step("composite inertia led outward", "49.8 IC_p", "IC[p] = IC[p] + X[i] @ IC[i] @ X[i].mT"),
-    step("a C with the right C v but Ṁ − 2C not skew", "49.6 B", "B = cross_force(V[i]) @ I[i]"),
+    Fault(
+        "a C with the right C v but Ṁ − 2C not skew",
+        "algorithms/coriolis.py",
+        "angular = (w @ J - J @ w - cross_matrix(momentum[..., :3, 0])) / 2",
+        "angular = w @ J",
+    ),
     # kinematics
     step(
         "Jacobian in the world without moving its origin",

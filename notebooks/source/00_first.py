@@ -58,7 +58,7 @@ print(f"weight {weight:.2f} N; centre of mass {1000 * (com - middle)[0]:.1f} mm 
 # %% [markdown] lang="en"
 # ## What must the motors do?
 #
-# Say how the robot is to move, `q`, `v` and `a`, and `rnea` tells the forces that this takes: **inverse dynamics**.
+# Say how the robot is to move, `q`, `v` and `a`, and `rnea` returns the forces that this takes: **inverse dynamics**.
 # The first six numbers are the trunk's, moment first and force second: this order, angular before linear, holds
 # everywhere in the package. Standing still in the air, without a floor, somebody would have to hold the trunk with
 # the whole weight, 157.79 N upwards.

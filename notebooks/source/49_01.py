@@ -135,7 +135,7 @@ assert np.isclose(wrench_A @ twist_A, wrench_B @ twist_B)  # power: the same in 
 #
 # 1. the coupling term $\boldsymbol p \times R\boldsymbol\omega$ forgotten;
 # 2. the coupling term of the force with the wrong sign: someone pushes the robot's nose to the left with 30 N, and
-#    forward dynamics tells how the trunk begins to turn;
+#    forward dynamics gives how the trunk begins to turn;
 # 3. $(\boldsymbol\omega, \boldsymbol v)$ read as $(\boldsymbol v, \boldsymbol\omega)$;
 # 4. a body twist taken for a spatial one.
 # %% [markdown] lang="zh"

@@ -161,7 +161,7 @@ assert stretched > 10
 # ## The screw
 #
 # Chasles: every instantaneous motion is a turn about some line and a slide along the same line. A twist with
-# $\boldsymbol\omega \ne 0$ tells the line (direction $\boldsymbol\omega/|\boldsymbol\omega|$, through the point
+# $\boldsymbol\omega \ne 0$ gives the line (direction $\boldsymbol\omega/|\boldsymbol\omega|$, through the point
 # $\boldsymbol\omega \times \boldsymbol v / |\boldsymbol\omega|^2$) and the **pitch**
 # $\boldsymbol\omega\cdot\boldsymbol v / |\boldsymbol\omega|^2$, metres along per radian. The pitch is negative for a
 # left-handed screw, zero for a hinge, infinite for a slide.

@@ -34,7 +34,7 @@ plt.show()
 # %% [markdown] lang="en"
 # ## Six steps
 #
-# **1.** 49.2 tells how a body twist becomes a spatial one. The same holds between any two frames:
+# **1.** 49.2 shows how a body twist becomes a spatial one. The same holds between any two frames:
 #
 # $$[\boldsymbol V_A] = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
 #

@@ -185,8 +185,8 @@ plt.show()
 #
 # ## From wrenches to joints
 #
-# A force at a foot moves the joints as well. The foot's Jacobian says how fast the foot is, $\boldsymbol v_i = J_i v$;
-# equal power, $\boldsymbol f_i^T J_i v = (J_i^T \boldsymbol f_i)^T v$, says how its force enters the equation of motion:
+# A force at a foot moves the joints as well. The foot's Jacobian gives the velocity of the foot, $\boldsymbol v_i = J_i v$;
+# equal power, $\boldsymbol f_i^T J_i v = (J_i^T \boldsymbol f_i)^T v$, shows how its force enters the equation of motion:
 # by $J_i^T$. For all feet that is $J_c^T \boldsymbol\lambda$. The same thing another way: hand the wrench to `rnea` as
 # `f_ext`, on the body that carries the foot and in its frame.
 # %% [markdown] lang="zh"
@@ -210,7 +210,7 @@ for name, wrench in zip(model.feet, in_world):
     f_ext[body] = kin.placement[body].inverse().force_transform() @ wrench  # from the world to the body
 rest = np.zeros(model.nv)
 assert np.allclose(tw.rnea(model, q, rest, rest) - tw.rnea(model, q, rest, rest, f_ext), J_c.T @ lam)
-assert np.allclose(tw.rnea(model, q, rest, rest, f_ext)[:6], 0, atol=1e-12)  # nobody need hold the base
+assert np.allclose(tw.rnea(model, q, rest, rest, f_ext)[:6], 0, atol=1e-12)  # no force is needed at the base
 # %% [markdown] lang="en"
 # ## The screw of a wrench
 #

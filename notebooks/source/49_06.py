@@ -95,13 +95,13 @@ assert np.allclose(V, kin.twist, atol=1e-12)
 risen = [T.inverse().motion_transform() @ A[0] for T in kin.placement]  # the part of A that is the world's
 assert np.allclose(A - risen, kin.acceleration, atol=1e-12)
 
-h = 1e-100  # and is it the rate of V? The complex step says so:
+h = 1e-100  # and is it the rate of V? The complex step confirms it:
 moving = tw.forward_kinematics(model, model.integrate(q, 1j * h * v), v + 1j * h * a).twist
 assert np.allclose(moving.imag / h, kin.acceleration, atol=1e-12)
 # %% [markdown] lang="en"
 # ## Inward: wrenches
 #
-# Newton–Euler says which wrench each body needs for its motion. It all comes through joints: through its own, and from
+# Newton–Euler gives the wrench that each body needs for its motion. It all comes through joints: through its own, and from
 # there on to its children. So the wrench through joint $i$ is the body's own need plus what the children take:
 #
 # $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
@@ -141,7 +141,7 @@ print(inspect.getsource(newton_euler))
 
 
 # %% [markdown] lang="en"
-# This is what has travelled: each label says what goes through that joint, and the width of the arrow how much of it.
+# This is what has travelled: each label is what goes through that joint, and the width of the arrow how much of it.
 # %% [markdown] lang="zh"
 # 下图是一路传递的东西:标注是经过该关节的量,箭头的粗细表示多少。
 # %%

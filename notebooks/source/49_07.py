@@ -276,7 +276,7 @@ assert np.allclose(rate, [0, 0, 0, *(model.mass * model.gravity)], atol=1e-10)
 # ## Where there is no answer
 #
 # $D_i^{-1}$ asks for an inertia. If a joint moves nothing that has one, its acceleration is not determined: no number
-# would be right, and `aba` says so, with the joint's name. Real models have such joints.
+# would be right, and `aba` raises an error with the joint's name. Real models have such joints.
 # %% [markdown] lang="zh"
 # ## 没有答案的地方
 #
@@ -305,7 +305,7 @@ assert np.linalg.matrix_rank(tw.crba(arm, [0.0, 0.0])) == 1
 # vectors (`newton_euler_3d`). That is the truth; what do `aba`, and `crba` with `solve`, make of it in double precision?
 # Every entry of $M$ contains the heavy tip, and a light rod drowns in rounding. ABA lets the tip go at each free joint
 # before it is added. A light tip does no harm to either, though $M$ is worse conditioned there than with equal rods: the
-# condition number alone does not tell.
+# condition number alone does not show.
 # %% [markdown] lang="zh"
 # ## 有多准?
 #

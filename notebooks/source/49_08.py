@@ -200,7 +200,7 @@ assert np.abs(tips_first[other_legs]).max() < 1e-12
 #
 # $\dot q^T M \dot q = 2T$ is positive for every motion, as long as no motion leaves everything that has mass at rest.
 # So the eigenvalues of $M$ are positive and its rank is full. A last link without mass breaks this: its joint can turn
-# without any energy. Then forward dynamics has no answer, and `aba` says so.
+# without any energy. Then forward dynamics has no answer, and `aba` raises an error.
 # %% [markdown] lang="zh"
 # ## 正定,以及什么时候不正定
 #

@@ -243,7 +243,7 @@ assert np.isclose(shift[standing].max(), vertical[60].min(), atol=1)  # until th
 # ## A push
 #
 # Somebody pushes the trunk to the left with up to 100 N, and the robot is to stay at rest. `rnea` takes the push as
-# `f_ext` and tells what the ground must supply. Vertical load moves to the left feet; the **centre of pressure**, the
+# `f_ext` and returns what the ground must supply. Vertical load moves to the left feet; the **centre of pressure**, the
 # mean of the foot positions weighted with it, moves by push × height / weight:
 # %% [markdown] lang="zh"
 # ## 推一下

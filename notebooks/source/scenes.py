@@ -212,6 +212,6 @@ assert found.best.worst <= 0.02
 assert all(option.seconds >= found.best.seconds for option in found.options if option.worst <= 0.02)
 # %% [markdown] lang="en"
 # In the table, the templates miss the momentum of the legs, and no shape of one rigid body brings it back. A robot that
-# holds its arms still misses only the swing of the arms, and tells the torques of the legs as well.
+# holds its arms still misses only the swing of the arms, and gives the torques of the legs as well.
 # %% [markdown] lang="zh"
 # 从表中可以看到:模板漏掉的是腿的动量,单个刚体取什么形状都补不回来。手臂不动的机器人漏掉的只有摆臂,而且还能给出腿部力矩。

@@ -3,7 +3,7 @@
 #
 # Section 49.10 ends with a bridge: the centroidal momentum connects the whole robot with the models that plan its walk.
 # This notebook walks over it in both directions. A pendulum plans a walk, a humanoid walks it, and the humanoid's
-# momentum says what the plan left out. Then a trot, and a jump with a flight in which the angular momentum really is
+# momentum shows what the plan left out. Then a trot, and a jump with a flight in which the angular momentum really is
 # constant.
 # %% [markdown] lang="zh"
 # # 模板:从整个机器人到一个质点,再回来
