@@ -149,7 +149,7 @@ def draw(examples: list[Example], results: list[dict[str, list[tuple[float, floa
 
 
 def long_run() -> None:
-    """Draw the energy of a pendulum over 100 swings at a dt of 0.2 s."""
+    """Draw the energy of a pendulum over 300 s at a dt of 0.2 s."""
     model, ax = tw.load("pendulum"), axes_2d(size=(7.0, 3.4))
     for name, alpha in (("semi-implicit", 0.4), ("rk4", 1.0), ("variational", 1.0)):
         s = tw.simulate(model, [2.0], [0.0], dt=0.2, steps=1500, method=name)
