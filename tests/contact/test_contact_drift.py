@@ -93,6 +93,13 @@ def test_a_corrector_brings_a_box_on_four_points_back_as_fast_as_its_frequency()
     assert left < 10 * 11 * np.exp(-10.0)  # (1 + ωt) e^(−ωt), and what is left by steps of ω dt = 0.02
 
 
+def test_a_spring_keeps_its_anchors_when_the_callers_change():
+    anchors = tw.contact_placements(BOX, BOX.neutral(), BOX_CORNERS)
+    spring = tw.Baumgarte(20.0, anchors)
+    anchors.clear()
+    assert spring.anchors.keys() == {"fl", "fr", "rl", "rr"}
+
+
 @pytest.mark.parametrize("dt", [0.005, 0.01, 0.02])
 def test_a_humanoid_sinks_on_its_eight_corners_as_on_its_soles(dt):
     q, v = HUMANOID.standing(), 0.5 * np.random.default_rng(1).standard_normal(HUMANOID.nv)

@@ -393,3 +393,13 @@ def test_arms_swing_against_the_legs_of_their_side():
         ahead = goal.steps[0, :, leg, 0] - com
         column = next(c for c, _, left in steps.arms if left == (steps.stand.legs[leg].center[1] > 0))
         assert np.corrcoef(ahead, goal.joints[0, :, column])[0, 1] > 0.8  # a turn about +y takes the hand back
+
+
+def test_a_motion_keeps_its_contacts_when_the_callers_change():
+    walk = tw.motions.walk(tw.load("go2"), samples=3)
+    given = {name: np.array(getattr(walk, name)) for name in ("t", "q", "v", "a", "contacts")}
+    motion = tw.motions.Motion("mine", given["t"], given["q"], given["v"], given["a"], walk.feet, given["contacts"])
+    for x in given.values():
+        x[:] = 0
+    for name in given:
+        assert np.array_equal(getattr(motion, name), getattr(walk, name))

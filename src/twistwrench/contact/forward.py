@@ -69,6 +69,7 @@ class Baumgarte:
             raise ValueError(f"damping: expected a number of at least 0, got {self.damping!r}")
         if not isinstance(self.anchors, Mapping):
             raise TypeError(f"anchors: expected placements by frame, as from contact_placements, got {self.anchors!r}")
+        object.__setattr__(self, "anchors", dict(self.anchors))
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_arrays, as_exactly
+from ..arrays import Array, as_arrays, as_exactly, without_overflow
 from ..errors import ShapeError
 from ..spatial import Twist, Wrench, screw
 from ..spatial._vector import as_spatial
@@ -17,6 +17,7 @@ from .style import COLOURS, axes_3d, drawn, drawn_number, fit
 __all__ = ["point_velocity", "screw_axis", "twist_field"]
 
 
+@without_overflow("V, points")
 def point_velocity(V: Twist | ArrayLike, points: ArrayLike) -> Array:
     """Return the velocities v + ω × p of the points of a body (49.1).
 
