@@ -1,8 +1,7 @@
 """Forward dynamics by the articulated-body algorithm (49.7).
 
-Given the forces at the joints, how does the robot accelerate? The question is answered without the
-mass matrix, from the inertia that each joint accelerates when all joints outboard of it are free:
-three passes, O(N).
+Given the forces at the joints, how does the robot accelerate? No mass matrix is needed, only the
+apparent inertia at each joint while all joints outboard of it are free: three passes, O(N).
 """
 
 from __future__ import annotations
@@ -24,8 +23,9 @@ __all__ = ["aba", "aba_terms", "articulated_body"]
 def articulated_body(tree: Tree, qd: list[Array], tau: list[Array], f_ext: list[Array]) -> AbaTerms:
     """Run the ABA, three passes (RBDA table 7.1).
 
-    The index is the frame: V[i] is the twist of body i in frame i. Inertias and wrenches go inward by X[i]ᵀ, where
-    the chapter writes X*.
+    The index is the frame: V[i] is the twist of body i in frame i. Inertias and wrenches go inward by X[i]ᵀ, the
+    book's ^λX_i*, where the chapter writes X*. Beyond the book: the rotors' inertia in D; Ia made symmetric, since an
+    asymmetry that rounding leaves would grow from link to link; wrenches f_ext in the bodies' own frames.
     """
     parent, S, I, X, rotor = tree.parent, tree.S, tree.I, tree.X, tree.rotor
     V, c, B, pA, U, D, D_inv, u, Ia, pa, A, qdd = tree.zeros(12)
@@ -46,7 +46,7 @@ def articulated_body(tree: Tree, qd: list[Array], tau: list[Array], f_ext: list[
         pa[i] = pA[i] + Ia[i] @ c[i] + U[i] @ D_inv[i] @ u[i]  # 49.7 pa
         IA[p] = IA[p] + X[i].mT @ Ia[i] @ X[i]  # 49.7 IA_p
         pA[p] = pA[p] + X[i].mT @ pa[i]  # 49.7 pA_p
-    A[0] = -tree.gravity  # 49.7 A0: the world rises
+    A[0] = -tree.gravity  # 49.7 A0: gravity, as a world that rises
     for i in tree.outward:  # pass 3: accelerations
         a = X[i] @ A[parent[i]] + c[i]  # 49.7 a: what the parent brings
         qdd[i] = D_inv[i] @ (u[i] - U[i].mT @ a)  # 49.7 qdd
@@ -79,7 +79,7 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     Raises
     ------
     SingularError
-        If a joint moves nothing that has inertia: q̈ is not determined. Names the joints.
+        If a joint moves no inertia, to rounding: q̈ is not determined. Names the joints.
     ShapeError, ValueError
         As `rnea`.
 
@@ -91,7 +91,7 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     Notes
     -----
     Section 49.7; Featherstone, RBDA table 7.1. As in `rnea`, wrenches and inertias go inward by
-    X[i]ᵀ, where the chapter's pseudocode writes X*. `articulated_body` is the listing.
+    X[i]ᵀ, where the chapter's pseudocode writes X*. `articulated_body` has the loops.
 
     Examples
     --------

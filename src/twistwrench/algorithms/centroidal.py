@@ -1,6 +1,6 @@
 """Centre of mass, centroidal momentum and its matrix (49.10).
 
-Everything that the whole robot does to the outside passes through six numbers: its momentum
+Forces from outside change six numbers of the whole robot and nothing else: its momentum
 h_G = (k_G, l_G) at the centre of mass G, in the axes of the world.
 """
 

@@ -66,7 +66,7 @@ def crba(model: Model, q: ArrayLike) -> Array:
     Section 49.8; Featherstone, RBDA table 6.2. A unit acceleration of joint i alone moves its subtree
     as one rigid body, hence the composite inertia; the wrench for it goes through joint i and the
     joints on the way to the base, and through no other. O(N d) for a tree of depth d: O(N²) for a chain.
-    `composite_rigid_body` is the listing.
+    `composite_rigid_body` has the loops.
 
     Examples
     --------

@@ -250,7 +250,7 @@ def frame_bias_acceleration(
     X = T.inverse().motion_transform()
     V, A = np.matvec(X, V), np.matvec(X, A)
     if reference == "local_world_aligned":
-        classical = np.cross(V[..., :3], V[..., 3:])  # 49.9 classical: of the origin, not of the field
+        classical = np.cross(V[..., :3], V[..., 3:])  # 49.9 classical: + ω × v, of the origin
         A = A + np.concatenate([np.zeros_like(classical), classical], axis=-1)
     to_reference = _to_reference(reference, _frame_placement(model, tree.placement, at.body, T))
     bias: Array = np.matvec(to_reference, A)  # 49.9 dJ

@@ -22,12 +22,12 @@ def newton_euler(tree: Tree, qd: list[Array], qdd: list[Array], f_ext: list[Arra
     """Run the RNEA, two passes (RBDA table 5.1).
 
     The index is the frame: V[i] is the twist of body i in frame i. Wrenches go inward by X[i]ᵀ, where the chapter
-    writes X*; and F[i] is set in pass 1, where it cannot overwrite what the children have added to it.
+    writes X*; and F[i] is set in pass 1, before the children add to it.
     """
     parent, S, I, X, rotor = tree.parent, tree.S, tree.I, tree.X, tree.rotor
     V, A, B, F, tau = tree.zeros(5)
 
-    A[0] = -tree.gravity  # 49.6 A0: the world rises
+    A[0] = -tree.gravity  # 49.6 A0: gravity, as a world that rises
     for i in tree.outward:  # pass 1, from the base to the tips
         p = parent[i]
         vJ = S[i] @ qd[i]
@@ -36,7 +36,7 @@ def newton_euler(tree: Tree, qd: list[Array], qdd: list[Array], f_ext: list[Arra
         F[i] = B[i] = I[i] @ A[i] + bias_wrench(I[i], V[i]) - f_ext[i]  # 49.6 F: Newton and Euler
     for i in tree.inward:  # pass 2, from the tips to the base
         p = parent[i]
-        tau[i] = S[i].mT @ F[i] + rotor[i] @ qdd[i]  # 49.6 tau: along S, what the joint leaves free
+        tau[i] = S[i].mT @ F[i] + rotor[i] @ qdd[i]  # 49.6 tau: F along S
         F[p] = F[p] + X[i].mT @ F[i]  # 49.6 F_p: action and reaction
     return RneaTerms.of(tree.batch, V, A, B, F, stacked(tau))  # 49.6 RNEA
 
@@ -75,7 +75,7 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     -----
     Section 49.6; Featherstone, RBDA table 5.1. Gravity enters as an upward acceleration of the world.
     The chapter's backward pass sets F[i] after the children have added to it, and uses X* where Xᵀ
-    is meant: here F[i] is set in the forward pass and goes inward by X[i]ᵀ. `newton_euler` is the listing.
+    is meant: here F[i] is set in the forward pass and goes inward by X[i]ᵀ. `newton_euler` has the loops.
 
     Examples
     --------
@@ -133,7 +133,7 @@ def joint_wrenches(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext
     Returns
     -------
     ndarray, shape (..., nbodies, 6)
-        (τ, f) of the joint on body i, gravity carried. Row 0 is what the ground must bear, in the
+        (τ, f) of the joint on body i; the weight is in it. Row 0 is what the ground must bear, in the
         world's frame; the others are Pinocchio's ``data.f`` after its ``rnea``.
 
     Raises

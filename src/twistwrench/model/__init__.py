@@ -27,7 +27,7 @@ from .builder import Builder
 from .configuration import ConfigurationSpace
 from .constants import Constants, cast, readonly
 from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
-from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
+from .joints import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
 from .link import UNLIMITED, WORLD, Link
 from .model import PER_DOF, Frame, Model
 from .numbering import NumberedTree
@@ -51,7 +51,6 @@ __all__ = [
     "Frame",
     "FreeFlyer",
     "GroupJoint",
-    "Helical",
     "Joint",
     "Link",
     "Model",

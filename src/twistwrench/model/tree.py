@@ -21,7 +21,7 @@ __all__ = ["Tree", "columns", "composite_inertias", "joint_placements", "stacked
 
 @dataclass(frozen=True)
 class Tree:
-    """What a recursion reads of the model at a configuration. Entry 0 of each list is the world's.
+    """What a recursion needs of the model at q. Entry 0 of each list is the world's.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ def tree_terms(model: Model, q: Array) -> Tree:
 def joint_placements(model: Model, q: Array) -> list[SE3]:
     """Return for each body its placement in its parent's frame: tree constant, then joint (49.3)."""
     placement, batch = model.constants(q.dtype).placement, q.shape[:-1]
-    root = placement[0]  # the world's, given the batch axes that the others get from q
+    root = placement[0]  # the world's, broadcast to q's batch axes
     world = SE3._trusted(np.broadcast_to(root.rotation, (*batch, 3, 3)), np.broadcast_to(root.translation, (*batch, 3)))
     return [
         T @ joint.transform(q[..., s]) if joint else world  # 49.3 T_J: tree constant, then joint

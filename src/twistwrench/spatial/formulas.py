@@ -26,7 +26,7 @@ def cross_force(V: Array) -> Array:
 
 
 def bias_wrench(I: Array, V: Array) -> Array:
-    """Return V ×* I V, the wrench that keeps up a twist (49.5), without the term v × m v, which is zero.
+    """Return V ×* I V, the wrench of a twist that does not change (49.5), without the term v × m v, which is zero.
 
     With v = 0 it is ω × each half of I (ω, 0); v adds I (0, ω × v), as if the body's origin were accelerated by ω × v.
     In V ×* (I V) as written, v × m v leaves rounding of m v², however slowly the body turns.
