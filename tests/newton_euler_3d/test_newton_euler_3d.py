@@ -490,7 +490,7 @@ FAULTS = [
     ("bodies", "R @ number.array(given.inertia_at_com) @ R.mT", "number.array(given.inertia_at_com)"),
     ("bodies", "p + R @ number.array(given.com)", "p + number.array(given.com)"),
     ("bodies", "carrier.rotation @ number.rotation(", "number.rotation("),
-    ("bodies", "seat @ p_joint", "p_joint"),
+    ("bodies", "joint_frame @ p_joint", "p_joint"),
     ("joints", "[[x * 0, -z, y], [z, x * 0, -x], [-y, x, x * 0]]", "[[x * 0, z, -y], [-z, x * 0, x], [y, -x, x * 0]]"),
     ("arithmetic", "x, y, z, w = xyzw", "w, x, y, z = xyzw"),
     ("joints", "np.hstack([one, none]), np.hstack([none, one])", "np.hstack([none, one]), np.hstack([one, none])"),

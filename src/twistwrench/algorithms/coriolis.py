@@ -17,8 +17,8 @@ def christoffel(tree: Tree, qd: list[Array]) -> Array:
     """Add up C = Σ Jᵢᵀ (Iᵢ J̇ᵢ + Bᵢ Jᵢ); J[i] has the columns of the joints on the way to the base, and no others.
 
     Both terms hold Iᵢ (0, v × Jω) for the velocity v of the body's origin, with opposite signs. It is left out of both:
-    dJ[i] is J̇ᵢ − (0, v × Jω), and of Bᵢ there is what acts on the angular rows. So v is never asked for, but only by
-    how much it grows from body to body, and no rounding of m v² is left in C v.
+    dJ[i] is J̇ᵢ − (0, v × Jω), and Bᵢ has only its part on the angular rows. So only the
+    growth of v from body to body enters, and no rounding of m v² is left in C v.
     """
     parent, S, I, X, end = tree.parent, tree.S, tree.I, tree.X, np.cumsum(tree.nv)
     omega, J, dJ = tree.zeros(3)

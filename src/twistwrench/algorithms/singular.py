@@ -57,10 +57,10 @@ def error_bound(*terms: Array) -> Array:
 
 
 def propagated_bound(bound: Array, left: Array, X: Array, IA: Array, lost: Array) -> Array:
-    """Return a bound on the rounding of Xᵀ (IA − lost) X, where lost = U D⁻¹ Uᵀ, in units of the resolution.
+    """Return a bound on the rounding error of Xᵀ (IA − lost) X, where lost = U D⁻¹ Uᵀ, in units of the resolution.
 
-    The bound of IA goes inward with it: `left` = X − S D⁻¹ Uᵀ X takes the parent's motion to what is left of it
-    outboard of the free joint. To that comes the rounding of the terms of the sum here.
+    The propagated bound of IA plus the rounding of this sum: `left` = X − S D⁻¹ Uᵀ X takes the parent's motion to the
+    motion outboard of the free joint.
     """
     X = np.abs(X.real)
     here = X.mT @ (np.abs(IA.real) + np.abs(lost.real)) @ X

@@ -24,7 +24,7 @@ QUANTITIES = ("M", "h", "J_c", "A_G")
 
 @dataclass(frozen=True, repr=False)
 class Dynamics:
-    """What `dynamics` returns; what was not asked for is None.
+    """What `dynamics` returns; quantities that were not wanted are None.
 
     Attributes
     ----------

@@ -179,7 +179,7 @@ def dynamics(
     Returns
     -------
     Dynamics
-        What was not asked for is None. Of many states, the states come last in memory.
+        Quantities that were not wanted are None. Of many states, the states come last in memory.
 
     Raises
     ------

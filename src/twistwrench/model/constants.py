@@ -1,4 +1,4 @@
-"""The constants of a model in the number type in which it is asked."""
+"""The constants of a model in the number type of a call."""
 
 from __future__ import annotations
 

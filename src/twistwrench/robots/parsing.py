@@ -1,4 +1,4 @@
-"""From the XML of a URDF to its records, in one walk: each number is checked where it is read.
+"""From the XML of a URDF to its records, in one pass: each number is checked where it is read.
 
 yourdfpy accepts cycles, two roots, orphans and names that are used twice, and inserts a default where
 a number is missing. Here each of these is an error with file, line and name. Whether an inertia is
