@@ -80,14 +80,16 @@ assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
 # %%
 placement = tw.forward_kinematics(model, q).placement
 link = [None, None, *(placement[model.parent[i]].inverse() @ placement[i] for i in range(2, model.nbodies))]
-composite = list(model.inertia)
-for i in reversed(range(2, model.nbodies)):
-    p = model.parent[i]
-    composite[p] = composite[p] + composite[i].transform(link[i])
+terms = tw.crba_terms(model, q)  # what `crba` computes on its way to M
 
-masses = [float(inertia.mass) for inertia in composite]
+calf, thigh = model.joint_id("FR_calf_joint"), model.joint_id("FR_thigh_joint")
+both = model.inertia[thigh] + model.inertia[calf].transform(link[calf])
+assert np.allclose(terms.IC[thigh], both.matrix(), rtol=1e-12, atol=1e-12)  # the calf is all that the thigh carries
+
+masses = [float(IC[3, 3]) for IC in terms.IC]
 assert np.isclose(masses[1], model.mass)  # the base carries everything
-assert np.allclose(composite[1].com, placement[1].inverse().act(tw.center_of_mass(model, q)), rtol=1e-12, atol=1e-12)
+com = tw.unskew(terms.IC[1][:3, 3:]) / masses[1]
+assert np.allclose(com, placement[1].inverse().act(tw.center_of_mass(model, q)), rtol=1e-12, atol=1e-12)
 
 plot.flow(model, ["", *(f"{mass:.2f} kg" for mass in masses[1:])], inward=True, amounts=masses)
 plt.show()
@@ -107,32 +109,27 @@ plt.show()
 #
 # $$M_{kk} = S_k^T I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
 # %%
-k = model.joint_id("FR_calf_joint")
-column = np.zeros(model.nv)
-F = (composite[k].matrix() @ model.joints[k].subspace())[:, 0]
-for j in model.support(k):  # from the calf to the base
-    column[model.v_slice[j]] = model.joints[j].subspace().T @ F
-    print(f"along {names[j]:8} {column[model.v_slice[j]].round(4)}")
-    if model.parent[j]:
-        F = link[j].force_transform() @ F  # T_λj leads inward, and so does its X*: it is the transpose above
-assert np.abs(column - M[:, model.v_slice[k].start]).max() < 1e-12
+for j in model.support(calf):  # from the calf to the base
+    F = terms.F[j, calf][:, 0]  # the wrench of a unit acceleration of the knee, in frame j
+    entries = model.joints[j].subspace().T @ F
+    print(f"along {names[j]:8} {entries.round(4)}")
+    assert np.abs(entries - M[model.v_slice[j], model.v_slice[calf].start]).max() < 1e-12
 
-terms = tw.crba_terms(model, q)
-assert np.allclose(terms.IC[k], composite[k].matrix(), rtol=1e-12, atol=1e-12)
-assert np.allclose(terms.F[1, k][:, 0], F, rtol=1e-12, atol=1e-12)  # what arrives at the base
+F_thigh = link[calf].force_transform() @ terms.F[calf, calf]
+assert np.allclose(terms.F[thigh, calf], F_thigh, rtol=1e-12, atol=1e-12)  # T_λj leads inward, and so does its X*
 print(inspect.getsource(composite_rigid_body))
 # %% [markdown] lang="en"
-# The last six numbers are a wrench on the base, moment first. The loop never visits another leg, so those entries stay
-# zero. Above is the whole algorithm, as it stands in the package: inward, with a climb to the base for each joint. (The
-# chapter's pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong way round; and it stops before
-# link 0, which is the base, so its matrix has no base rows.)
+# The last six numbers are a wrench on the base, moment first. The way to the base never visits another leg, so those
+# entries are zero. Above is the whole algorithm, as it stands in the package: inward, with a climb to the base for each
+# joint. (The chapter's pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong way round; and it
+# stops before link 0, which is the base, so its matrix has no base rows.)
 #
 # ## Which entries are zero
 #
 # Here is $M$ beside the tree. The colours show the largest value that each entry took in 50 random postures; what is
 # white was zero in all of them.
 # %% [markdown] lang="zh"
-# 最后六个数是作用在基座上的 wrench,力矩在前。循环从不经过别的腿,那些元素就一直是零。上面就是程序包里的完整算法:
+# 最后六个数是作用在基座上的 wrench,力矩在前。通往基座的路从不经过别的腿,所以那些元素是零。上面就是程序包里的完整算法:
 # 由外向内,并从每个关节爬到基座。(本章伪代码爬升时用的是向外的 $X$ 的 $X^*$,方向反了;
 # 而且它到 0 号连杆,也就是基座之前就停了,所以算出的矩阵没有基座行。)
 #
@@ -166,7 +163,7 @@ assert (~branch).sum() == 108  # a third of the 324 entries: legs are not couple
 #   两个 $[c]_\times$ 的对角线上各有三个。
 # - 让腿绕髋的 x 轴转,不需要沿 x 方向的力:又是四个零,每条腿一个。
 # %%
-assert np.allclose(M[:6, :6], composite[1].matrix(), rtol=1e-12, atol=1e-12)
+assert np.allclose(M[:6, :6], terms.IC[1], rtol=1e-12, atol=1e-12)
 assert zero[:6, :6].sum() == 12
 hips = [model.v_slice[model.joint_id(f"{leg}_hip_joint")].start for leg in ("FL", "FR", "RL", "RR")]
 assert np.argwhere(zero[:6, 6:]).tolist() == [[3, hip - 6] for hip in hips]  # row 3 is the force along x

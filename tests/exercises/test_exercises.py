@@ -1,6 +1,8 @@
 """The exercises: references pass, every slip is named, and a student's path through a folder works."""
 
+import ast
 import importlib.resources
+import inspect
 import re
 import shlex
 import subprocess
@@ -15,6 +17,10 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.algorithms.aba import articulated_body
+from twistwrench.algorithms.crba import composite_rigid_body
+from twistwrench.algorithms.kinematics import motion, placements
+from twistwrench.algorithms.rnea import newton_euler
 from twistwrench.cli import main
 from twistwrench.exercises import catalogue, checking, hint, mine, skeletons, slips, solution, start, status
 from twistwrench.exercises.compare import agree
@@ -140,6 +146,37 @@ def test_a_data_file_holds_what_is_used_and_nothing_else(file):
 def test_a_fault_must_find_its_line():
     with pytest.raises(ValueError, match="swap: expected 'k < 4' once in its source, found it 0 times"):
         faulty(swap, ("k < 4", "k < 5"))([1.0] * 6)
+
+
+def test_a_fault_may_be_in_the_listing_that_the_reference_calls():
+    part = catalogue.find_part("tree_rnea")[1]
+    *lists, qd, qdd, a0 = part.cases(np.random.default_rng(49))[0]
+    wrong = faulty(part.solution, ("-tree.gravity", "tree.gravity"), of=newton_euler)
+    assert wrong.__name__ == "tree_rnea"
+    np.testing.assert_array_equal(wrong(*lists, qd, qdd, a0), part.solution(*lists, qd, qdd, -a0))
+    with pytest.raises(ValueError, match="newton_euler: expected 'D_inv' once in its source, found it 0 times"):
+        faulty(part.solution, ("D_inv", "D"), of=newton_euler)(*lists, qd, qdd, a0)
+
+
+LISTED = {
+    "body_placements": placements,
+    "tree_rnea": newton_euler,
+    "tree_energy": motion,
+    "tree_crba": composite_rigid_body,
+    "tree_aba": articulated_body,
+}
+
+
+@pytest.mark.parametrize("name", LISTED)
+def test_no_algorithm_is_written_again(name):
+    e, part = catalogue.find_part(name)
+    assert LISTED[name] in part.beside
+    assert not any(isinstance(node, ast.For) for node in ast.walk(ast.parse(inspect.getsource(part.solution))))
+    last = inspect.getsource(LISTED[name]).rstrip().splitlines()[-1]
+    shown = solution(e.id, language="en")
+    assert shown.count(f"def {LISTED[name].__name__}(") == 1  # once, with its comments
+    assert last in shown
+    assert shown.index(last) < shown.index(f"def {name}(")
 
 
 def test_every_slip_of_the_catalogue_occurs_somewhere():

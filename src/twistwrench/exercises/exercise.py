@@ -48,6 +48,8 @@ class Part:
     ----------
     solution : callable
         The reference. Its name and its signature are those of the student's function; its source is the solution.
+    beside : tuple of callable
+        What the solution calls and is shown with it: the listing of an algorithm, and what prepares its arguments.
     returns : tuple of Quantity
         What it returns; a tuple of several where there are several.
     cases : callable
@@ -73,6 +75,7 @@ class Part:
     returns: tuple[Quantity, ...]
     cases: Cases
     slips: Mapping[str, Callable[..., Any]]
+    beside: tuple[Callable[..., Any], ...] = ()
     alike: tuple[frozenset[str], ...] = ()
     residuals: tuple[Callable[..., Any], ...] = ()
     canonical: Callable[..., Any] | None = None

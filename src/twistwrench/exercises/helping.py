@@ -7,7 +7,7 @@ from os import PathLike
 from . import catalogue
 from .exercise import Exercise
 from .isolation import opened
-from .skeletons import source_of
+from .sources import solution_sources
 from .text import Language, Text
 from .workbook import Workbook
 from .wrapping import wrapped
@@ -124,7 +124,7 @@ def solution(number: str, folder: str | PathLike[str] = ".", *, language: Langua
     exercise, book = catalogue.exercise(number), Workbook(folder, language=language)
     spoken = book.language
     lines = [SAY["solution"].fill(id=number, title=exercise.title).of(spoken)]
-    lines += ["\n" + source_of(part, spoken).rstrip() for part in exercise.parts]
+    lines += ["\n" + source.rstrip() for source in solution_sources(exercise, spoken)]
     if exercise.answer is not None:
         attempted = _has_words(book, exercise)
         said = SAY["model"] if attempted else SAY["later"].fill(name=exercise.answer_name)

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import ast
 import inspect
 import textwrap
 from os import PathLike
 from pathlib import Path
-from typing import cast
 
 from ..files import write_text
 from . import catalogue
 from .exercise import Exercise, Part
+from .sources import docstring, head, solution_sources
 from .text import Language, Text, default_language
 from .workbook import STATE_FILE, Workbook
-from .wrapping import columns, wrapped
+from .wrapping import wrapped
 
-__all__ = ["skeleton", "solved", "source_of", "start"]
+__all__ = ["skeleton", "solved", "start"]
 
 PYTEST_INI = """\
 [pytest]
@@ -119,50 +118,16 @@ def _exercise(exercise: Exercise, language: Language, *, solve: bool) -> str:
     rule = "# " + "-" * 98
     lines = [f"{exercise.id}  {exercise.title.of(language)}", "", *wrapped(exercise.text.of(language))]
     text = "\n\n" + rule + "\n" + "".join(f"# {line}".rstrip() + "\n" for line in lines) + rule + "\n"
-    for part in exercise.parts:
-        text += "\n\n" + (source_of(part, language) if solve else _stub(part, language))
+    written = solution_sources(exercise, language) if solve else [_stub(part, language) for part in exercise.parts]
+    text += "".join("\n\n" + source for source in written)
     if exercise.answer is not None:
         words = '"""' + inspect.cleandoc(exercise.answer.of(language)) + '"""' if solve else "..."
         text += f"\n\n# {WORDS.of(language)}\n{exercise.answer_name} = {words}\n"
     return text
 
 
-def _docstring(part: Part, language: Language) -> str:
-    """Write the docstring of a function, on one line where it fits."""
-    lines = [line for text in inspect.cleandoc(part.doc.of(language)).split("\n") for line in wrapped(text, 94) or [""]]
-    end = "\n" if len(lines) > 1 or columns(lines[0]) > 88 else ""
-    return textwrap.indent('"""' + "\n".join(lines) + end + '"""', "    ") + "\n"
-
-
-def _head(part: Part) -> str:
-    if inspect.isclass(part.solution):
-        return f"class {part.name}:\n"
-    return f"def {part.name}({part.arguments}):\n"
-
-
 def _stub(part: Part, language: Language) -> str:
     given = textwrap.indent(textwrap.dedent(part.given).strip("\n"), "    ")
     given = ("\n" if inspect.isclass(part.solution) else "") + given + ("\n" if given else "")
     last = "" if inspect.isclass(part.solution) else "    return ...\n"
-    return _head(part) + _docstring(part, language) + given + last
-
-
-def _untyped(node: ast.ClassDef) -> str:
-    """Return the methods of a class without types."""
-    methods = [method for method in node.body if isinstance(method, ast.FunctionDef)]
-    for method in methods:
-        method.returns = None
-        for argument in method.args.args:
-            argument.annotation = None
-    return "\n" + "\n\n".join(map(ast.unparse, methods)) + "\n"
-
-
-def source_of(part: Part, language: Language) -> str:
-    """Return the solution of a part as the student would write it: no types, the skeleton's docstring."""
-    source = textwrap.dedent(inspect.getsource(part.solution))
-    node = cast("ast.FunctionDef | ast.ClassDef", ast.parse(source).body[0])
-    if isinstance(node, ast.ClassDef):
-        return _head(part) + _docstring(part, language) + textwrap.indent(_untyped(node), "    ")
-    documented = ast.get_docstring(node) is not None
-    start = (node.body[0].end_lineno or 0) if documented else node.body[0].lineno - 1
-    return _head(part) + _docstring(part, language) + "\n".join(source.split("\n")[start:]).rstrip() + "\n"
+    return head(part) + docstring(part, language) + given + last

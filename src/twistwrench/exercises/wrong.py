@@ -12,6 +12,7 @@ import sys
 import textwrap
 from collections.abc import Callable
 from functools import cache, wraps
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -23,15 +24,17 @@ __all__ = ["after", "as_column", "before", "doubled", "faulty", "negated", "swap
 Function = Callable[..., Any]
 
 
-def faulty(solution: Function, *changes: tuple[str, str]) -> Function:
+def faulty(solution: Function, *changes: tuple[str, str], of: Function | None = None) -> Function:
     """Change the text of the reference: in each pair the right text, and the wrong one in its place.
 
-    It is compiled when it is first called, among the names of its module, and `doubled` and `swap`.
+    Where the reference only calls an algorithm of the package, `of` is the listing whose text is changed instead; the
+    reference then calls the changed one. It is compiled when it is first called, among the names of both modules, and
+    `doubled` and `swap`.
 
     Raises
     ------
     ValueError
-        When it is called, if the right text is not in the reference exactly once.
+        When it is called, if the right text does not stand exactly once in what is changed.
 
     Examples
     --------
@@ -39,18 +42,20 @@ def faulty(solution: Function, *changes: tuple[str, str]) -> Function:
     >>> wrong(np.arange(6))
     array([3, 4, 5, 5, 0, 1])
     """
+    changed = solution if of is None else of
 
     @cache
     def compiled() -> Function:
-        source, name = textwrap.dedent(inspect.getsource(solution)), solution.__name__
+        source, name = textwrap.dedent(inspect.getsource(changed)), changed.__name__
         for right, wrong in changes:
             if source.count(right) != 1:
                 raise ValueError(f"{name}: expected {right!r} once in its source, found it {source.count(right)} times")
             source = source.replace(right, wrong)
-        names = {"doubled": doubled, "swap": swap, **vars(sys.modules[solution.__module__])}
+        modules = (sys.modules[function.__module__] for function in (solution, changed))
+        names = {"doubled": doubled, "swap": swap} | {k: x for module in modules for k, x in vars(module).items()}
         exec(compile(source, f"<{name}, changed>", "exec"), names)
         found: Function = names[name]
-        return found
+        return found if of is None else FunctionType(solution.__code__, {**solution.__globals__, name: found})
 
     @wraps(solution)
     def wrong(*arguments: Any) -> Any:

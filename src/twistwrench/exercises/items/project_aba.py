@@ -1,40 +1,23 @@
 """The project, stage 2: ABA on a tree, and how it goes wrong."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-import twistwrench as tw
-
+from ...algorithms.aba import articulated_body
 from ..exercise import Part, Quantity
 from ..wrong import faulty
 from .project_rnea import tree_rnea
-from .project_trees import pieces, previous, trees
+from .project_trees import columns, pieces, previous, tree_of, trees
 
 __all__ = ["ABA", "tree_aba"]
 
 
 def tree_aba(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) -> Any:
     """Accelerations under joint forces."""
-    n = len(parent)
-    V, A, c, p, U, D, u, qdd = ([np.zeros(6)] * n for _ in range(8))
-    IA, A[0] = list(I), a0
-    for i in range(1, n):
-        V[i] = X[i] @ V[parent[i]] + S[i] @ qd[i]
-        c[i] = tw.cross_motion(V[i]) @ S[i] @ qd[i]
-        p[i] = tw.cross_force(V[i]) @ I[i] @ V[i]
-    for i in range(n - 1, 0, -1):
-        U[i], u[i] = IA[i] @ S[i], tau[i] - S[i].mT @ p[i]
-        D[i] = np.linalg.inv(S[i].mT @ U[i])
-        Ia = IA[i] - U[i] @ D[i] @ U[i].mT
-        pa = p[i] + Ia @ c[i] + U[i] @ D[i] @ u[i]
-        IA[parent[i]] = IA[parent[i]] + X[i].mT @ Ia @ X[i]
-        p[parent[i]] = p[parent[i]] + X[i].mT @ pa
-    for i in range(1, n):
-        A[i] = X[i] @ A[parent[i]] + c[i]
-        qdd[i] = D[i] @ (u[i] - U[i].mT @ A[i])
-        A[i] = A[i] + S[i] @ qdd[i]
-    return np.concatenate(qdd[1:])
+    no_wrench = [np.zeros((6, 1))] * len(parent)
+    return articulated_body(tree_of(parent, S, I, X, a0), columns(qd), columns(tau), no_wrench).qdd
 
 
 def _loads(rng: Any) -> Any:
@@ -51,30 +34,33 @@ def _back(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a
     return (tree_rnea(parent, S, I, X, qd, qdd, a0) - wanted) / np.abs(answer).max()
 
 
+_changed = partial(faulty, tree_aba, of=articulated_body)
+
 ABA = Part(
     solution=tree_aba,
+    beside=(tree_of, columns, articulated_body),
     rtol=1e-8,
     returns=(Quantity("q̈"),),
     cases=_loads,
     slips={
-        "gravity-missing": faulty(tree_aba, ("list(I), a0", "list(I), 0 * a0")),
-        "gravity-sign": faulty(tree_aba, ("list(I), a0", "list(I), -a0")),
-        "coriolis-missing": faulty(tree_aba, ("c[i] = tw", "c[i] = 0 * tw")),
-        "coriolis-sign": faulty(tree_aba, ("c[i] = tw", "c[i] = -tw")),
-        "gyroscopic-missing": faulty(tree_aba, ("p[i] = tw", "p[i] = 0 * tw")),
-        "gyroscopic-sign": faulty(tree_aba, ("p[i] = tw", "p[i] = -tw")),
-        "bias-sign": faulty(tree_aba, ("tau[i] - S[i].mT @ p[i]", "tau[i] + S[i].mT @ p[i]")),
-        "composite-for-articulated": faulty(tree_aba, ("IA[i] - U[i] @ D[i] @ U[i].mT", "IA[i]")),
-        "articulated-bias": faulty(tree_aba, (" + Ia @ c[i]", "")),
-        "joint-force-not-passed": faulty(tree_aba, (" + U[i] @ D[i] @ u[i]", "")),
-        "children-dropped": faulty(tree_aba, (" + X[i].mT @ Ia @ X[i]", ""), (" + X[i].mT @ pa", "")),
-        "acceleration-not-carried": faulty(tree_aba, ("X[i] @ A[parent[i]] + c[i]", "c[i]")),
-        "own-acceleration-missing": faulty(tree_aba, (" + S[i] @ qdd[i]", "")),
-        "force-outward": faulty(tree_aba, ("X[i].mT @ pa", "np.linalg.inv(X[i]).mT @ pa")),
-        "inertia-half-rotated": faulty(tree_aba, ("X[i].mT @ Ia @ X[i]", "X[i].mT @ Ia")),
-        "untransposed": faulty(tree_aba, ("X[i].mT @ pa", "X[i] @ pa")),
-        "carried-motion-missing": faulty(tree_aba, ("u[i] - U[i].mT @ A[i]", "u[i]")),
-        "torques-missing": faulty(tree_aba, ("tau[i] - S[i].mT", "-S[i].mT")),
+        "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),
+        "gravity-sign": _changed(("-tree.gravity", "tree.gravity")),
+        "coriolis-missing": _changed(("c[i] = cross", "c[i] = 0 * cross")),
+        "coriolis-sign": _changed(("c[i] = cross", "c[i] = -cross")),
+        "gyroscopic-missing": _changed(("bias_wrench", "0 * bias_wrench")),
+        "gyroscopic-sign": _changed(("bias_wrench", "-bias_wrench")),
+        "bias-sign": _changed(("tau[i] - S[i].mT @ pA[i]", "tau[i] + S[i].mT @ pA[i]")),
+        "composite-for-articulated": _changed(("IA[i] - U[i] @ D_inv[i] @ U[i].mT", "IA[i]")),
+        "articulated-bias": _changed((" + Ia[i] @ c[i]", "")),
+        "joint-force-not-passed": _changed((" + U[i] @ D_inv[i] @ u[i]", "")),
+        "children-dropped": _changed((" + X[i].mT @ Ia[i] @ X[i]", ""), (" + X[i].mT @ pa[i]", "")),
+        "acceleration-not-carried": _changed(("X[i] @ A[parent[i]] + c[i]", "c[i]")),
+        "own-acceleration-missing": _changed((" + S[i] @ qdd[i]", "")),
+        "force-outward": _changed(("X[i].mT @ pa[i]", "np.linalg.inv(X[i]).mT @ pa[i]")),
+        "inertia-half-rotated": _changed(("X[i].mT @ Ia[i] @ X[i]", "X[i].mT @ Ia[i]"), ("symmetric(IA", "(IA")),
+        "untransposed": _changed(("X[i].mT @ pa[i]", "X[i] @ pa[i]")),
+        "carried-motion-missing": _changed(("u[i] - U[i].mT @ a", "u[i]")),
+        "torques-missing": _changed(("tau[i] - S[i].mT", "-S[i].mT")),
         "chain-for-tree": lambda parent, *rest: tree_aba(previous(parent), *rest),
     },
     residuals=(_back,),

@@ -1,41 +1,30 @@
 """The project, stage 2: RNEA on a tree, the energy of its motion, and how the recursion goes wrong."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-import twistwrench as tw
-
+from ...algorithms.kinematics import motion
+from ...algorithms.rnea import newton_euler
 from ..exercise import Part, Quantity
 from ..wrong import faulty
-from .project_trees import pieces, previous, trees
+from .project_trees import columns, pieces, previous, tree_of, trees
 
 __all__ = ["ENERGY", "RNEA", "tree_energy", "tree_rnea"]
 
 
 def tree_rnea(parent: Any, S: Any, I: Any, X: Any, qd: Any, qdd: Any, a0: Any) -> Any:
     """Joint forces of a motion."""
-    n = len(parent)
-    V, A, F, tau = ([np.zeros(6)] * n for _ in range(4))
-    A[0] = a0
-    for i in range(1, n):
-        p = parent[i]
-        V[i] = X[i] @ V[p] + S[i] @ qd[i]
-        A[i] = X[i] @ A[p] + S[i] @ qdd[i] + tw.cross_motion(V[i]) @ S[i] @ qd[i]
-        F[i] = I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i]
-    for i in range(n - 1, 0, -1):
-        tau[i] = S[i].mT @ F[i]
-        F[parent[i]] = F[parent[i]] + X[i].mT @ F[i]
-    return np.concatenate(tau[1:])
+    no_wrench = [np.zeros((6, 1))] * len(parent)
+    return newton_euler(tree_of(parent, S, I, X, a0), columns(qd), columns(qdd), no_wrench).tau
 
 
 def tree_energy(parent: Any, S: Any, I: Any, X: Any, qd: Any) -> Any:
     """Kinetic energy, body by body."""
-    V, energy = [np.zeros(6)], 0.0
-    for i in range(1, len(parent)):
-        V.append(X[i] @ V[parent[i]] + S[i] @ qd[i])
-        energy += V[i] @ I[i] @ V[i] / 2
-    return energy
+    rates = columns(qd)
+    V, _ = motion(tree_of(parent, S, I, X, np.zeros(6)), rates, [0 * rate for rate in rates])
+    return sum((Vi.mT @ Ii @ Vi).item() / 2 for Ii, Vi in zip(I, V))
 
 
 def _motions(rng: Any) -> Any:
@@ -47,42 +36,41 @@ def _motions(rng: Any) -> Any:
 
 def _power(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, qdd: Any, a0: Any) -> Any:
     """Return the power of the joint forces less that of what the bodies need: V·(I A), as V × V is zero."""
-    V, A, power = [np.zeros(6)], [a0], 0.0
-    for i in range(1, len(parent)):
-        V.append(X[i] @ V[parent[i]] + S[i] @ qd[i])
-        A.append(X[i] @ A[parent[i]] + S[i] @ qdd[i] + tw.cross_motion(V[i]) @ S[i] @ qd[i])
-        power += V[i] @ I[i] @ A[i]
+    no_wrench = [np.zeros((6, 1))] * len(parent)
+    terms = newton_euler(tree_of(parent, S, I, X, a0), columns(qd), columns(qdd), no_wrench)
+    power = sum(Vi @ Ii @ Ai for Ii, Vi, Ai in zip(I, terms.V, terms.A))
     return answer @ np.concatenate(qd[1:]) - power
 
 
+_changed = partial(faulty, tree_rnea, of=newton_euler)
+
 RNEA = Part(
     solution=tree_rnea,
+    beside=(tree_of, columns, newton_euler),
     returns=(Quantity("τ"),),
     cases=_motions,
     slips={
-        "gravity-missing": faulty(tree_rnea, ("A[0] = a0", "A[0] = 0 * a0")),
-        "gravity-sign": faulty(tree_rnea, ("A[0] = a0", "A[0] = -a0")),
-        "acceleration-not-carried": faulty(tree_rnea, ("X[i] @ A[p] + S[i]", "S[i]")),
-        "own-acceleration-missing": faulty(tree_rnea, (" + S[i] @ qdd[i]", "")),
-        "coriolis-missing": faulty(tree_rnea, (" + tw.cross_motion(V[i]) @ S[i] @ qd[i]", "")),
-        "coriolis-sign": faulty(tree_rnea, ("+ tw.cross_motion", "- tw.cross_motion")),
-        "classical-acceleration": faulty(
-            tree_rnea, ("I[i] @ A[i]", "I[i] @ (A[i] + np.concatenate([np.zeros(3), np.cross(V[i][:3], V[i][3:])]))")
+        "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),
+        "gravity-sign": _changed(("-tree.gravity", "tree.gravity")),
+        "acceleration-not-carried": _changed(("X[i] @ A[p] + S[i]", "S[i]")),
+        "own-acceleration-missing": _changed((" + S[i] @ qdd[i]", "")),
+        "coriolis-missing": _changed((" + cross_motion(V[i]) @ vJ", "")),
+        "coriolis-sign": _changed(("+ cross_motion", "- cross_motion")),
+        "classical-acceleration": _changed(
+            ("I[i] @ A[i]", "I[i] @ (A[i] + np.concatenate([np.zeros((3, 1)), np.cross(V[i][:3], V[i][3:], axis=0)]))")
         ),
-        "gyroscopic-missing": faulty(tree_rnea, (" + tw.cross_force(V[i]) @ I[i] @ V[i]", "")),
-        "gyroscopic-sign": faulty(tree_rnea, ("+ tw.cross_force", "- tw.cross_force")),
-        "motion-cross-for-force": faulty(tree_rnea, ("tw.cross_force", "tw.cross_motion")),
-        "force-outward": faulty(tree_rnea, ("X[i].mT @ F[i]", "np.linalg.inv(X[i]).mT @ F[i]")),
-        "motion-for-force": faulty(tree_rnea, ("X[i].mT @ F[i]", "np.linalg.inv(X[i]) @ F[i]")),
-        "children-overwritten": faulty(
-            tree_rnea, ("tau[i] = S", "F[i] = I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i]; tau[i] = S")
-        ),
-        "children-dropped": faulty(tree_rnea, (" + X[i].mT @ F[i]", "")),
-        "force-sign": faulty(tree_rnea, ("+ X[i].mT @ F[i]", "- X[i].mT @ F[i]")),
-        "untransposed": faulty(tree_rnea, ("X[i].mT @ F[i]", "X[i] @ F[i]")),
-        "own-overwritten": faulty(tree_rnea, ("F[parent[i]] + X[i].mT", "X[i].mT")),
-        "twist-not-carried": faulty(tree_rnea, ("X[i] @ V[p] + S[i]", "S[i]")),
-        "visited-outward": faulty(tree_rnea, ("range(n - 1, 0, -1)", "range(1, n)")),
+        "gyroscopic-missing": _changed((" + bias_wrench(I[i], V[i])", "")),
+        "gyroscopic-sign": _changed(("+ bias_wrench", "- bias_wrench")),
+        "motion-cross-for-force": _changed(("bias_wrench(I[i], V[i])", "cross_motion(V[i]) @ I[i] @ V[i]")),
+        "force-outward": _changed(("X[i].mT @ F[i]", "np.linalg.inv(X[i]).mT @ F[i]")),
+        "motion-for-force": _changed(("X[i].mT @ F[i]", "np.linalg.inv(X[i]) @ F[i]")),
+        "children-overwritten": _changed(("tau[i] = S", "F[i] = B[i]; tau[i] = S")),
+        "children-dropped": _changed((" + X[i].mT @ F[i]", "")),
+        "force-sign": _changed(("+ X[i].mT @ F[i]", "- X[i].mT @ F[i]")),
+        "untransposed": _changed(("X[i].mT @ F[i]", "X[i] @ F[i]")),
+        "own-overwritten": _changed(("F[p] + X[i].mT", "X[i].mT")),
+        "twist-not-carried": _changed(("X[i] @ V[p] + vJ", "vJ")),
+        "visited-outward": _changed(("tree.inward", "tree.outward")),
         "chain-for-tree": lambda parent, *rest: tree_rnea(previous(parent), *rest),
         "velocity-terms-missing": lambda parent, S, I, X, qd, qdd, a0: tree_rnea(
             parent, S, I, X, [0 * rate for rate in qd], qdd, a0
@@ -94,13 +82,12 @@ RNEA = Part(
 
 ENERGY = Part(
     solution=tree_energy,
+    beside=(tree_of, columns, motion),
     returns=(Quantity("T", unit="J"),),
     cases=lambda rng: [(*lists, pieces(model, rng)) for model, *lists in trees(rng)],
     slips={
         "half-missing": lambda *lists: 2 * tree_energy(*lists),
-        "twist-not-carried": lambda parent, S, I, X, qd: sum(
-            (S[i] @ qd[i]) @ I[i] @ (S[i] @ qd[i]) / 2 for i in range(1, len(parent))
-        ),
+        "twist-not-carried": faulty(tree_energy, ("X[i] @ V[p] + vJ", "vJ"), of=motion),
         "untransformed": lambda parent, S, I, X, qd: tree_energy(parent, S, I, [np.eye(6)] * len(X), qd),
         "inverse-transform": lambda parent, S, I, X, qd: tree_energy(parent, S, I, [*map(np.linalg.inv, X)], qd),
         "force-for-motion": lambda parent, S, I, X, qd: tree_energy(parent, S, I, [np.linalg.inv(x).mT for x in X], qd),

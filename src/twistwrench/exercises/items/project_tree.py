@@ -1,9 +1,11 @@
 """The project, stage 1, continued: placements, twists and wrenches along a tree."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
+from ...algorithms.kinematics import placements
 from ...model import joint_placements, random_tree
 from ...model.tree import split
 from ..exercise import Part, Quantity
@@ -16,10 +18,7 @@ __all__ = ["PLACEMENTS", "TWISTS", "WRENCHES", "body_placements", "body_twists",
 
 def body_placements(parent: Any, T: Any) -> Any:
     """Placements in the world out of those in the parents."""
-    placed = [np.eye(4)]
-    for i in range(1, len(parent)):
-        placed.append(placed[parent[i]] @ T[i])
-    return np.array(placed)
+    return np.array(placements(parent, [*T]))
 
 
 def body_twists(parent: Any, T: Any, V_joint: Any) -> Any:
@@ -82,20 +81,19 @@ def _with_wrenches(rng: Any) -> Any:
     ]
 
 
+_changed = partial(faulty, body_placements, of=placements)
+
 PLACEMENTS = Part(
     solution=body_placements,
+    beside=(placements,),
     rtol=1e-12,
     returns=(Quantity("oMi"),),
     cases=lambda rng: [(parent, T) for parent, T, _ in _robots(rng)],
     slips={
-        "composition-order": faulty(body_placements, ("placed[parent[i]] @ T[i]", "T[i] @ placed[parent[i]]")),
+        "composition-order": _changed(("T[parent[i]] @ T[i]", "T[i] @ T[parent[i]]")),
         "chain-for-tree": lambda parent, T: body_placements(_previous(parent), T),
-        "translation-unrotated": faulty(
-            body_placements, ("placed[parent[i]] @ T[i]", "_added(placed[parent[i]], T[i])")
-        ),
-        "translation-dropped": faulty(
-            body_placements, ("placed[parent[i]] @ T[i]", "_unmoved(placed[parent[i]], T[i])")
-        ),
+        "translation-unrotated": _changed(("T[parent[i]] @ T[i]", "_added(T[parent[i]], T[i])")),
+        "translation-dropped": _changed(("T[parent[i]] @ T[i]", "_unmoved(T[parent[i]], T[i])")),
         "inverse-transform": after(body_placements, np.linalg.inv),
         "untransformed": lambda parent, T: T,
     },

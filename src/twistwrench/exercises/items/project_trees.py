@@ -4,11 +4,22 @@ from typing import Any
 
 import numpy as np
 
-from ...model import Model, random_tree, tree_terms
+from ...model import Model, Tree, random_tree, tree_terms
 from ...model.tree import split
 from ..robots import robot
 
-__all__ = ["pieces", "previous", "trees"]
+__all__ = ["columns", "pieces", "previous", "tree_of", "trees"]
+
+
+def tree_of(parent: Any, S: Any, I: Any, X: Any, a0: Any) -> Tree:
+    """Return the tree that the recursions take, without rotors."""
+    rotor = [np.zeros((s.shape[1], s.shape[1])) for s in S]
+    return Tree(parent, S, I, [], X, rotor, gravity=-np.reshape(a0, (6, 1)))
+
+
+def columns(arrays: Any) -> Any:
+    """Return the array of each joint as a column."""
+    return [np.reshape(x, (-1, 1)) for x in arrays]
 
 
 def trees(rng: np.random.Generator) -> list[tuple[Model, Any, Any, Any, Any]]:
