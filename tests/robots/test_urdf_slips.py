@@ -174,3 +174,15 @@ def test_an_attribute_of_zeros_is_nothing(behaviour):
     assert not behaviour(root)[0]
     axis.set("rpy", "0 0 1")
     assert behaviour(root)[0]
+
+
+def test_an_inertia_outside_all_links_is_reported_with_its_line(tmp_path):
+    """No link has it: a robot whose link is closed too early loads as it does elsewhere, and the warning says so."""
+    file = tmp_path / "early.urdf"
+    stray = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    file.write_text(f'<robot name="early">{LINK.format("base")}\n{stray}</robot>')
+    with pytest.warns(UserWarning, match=r"<inertial> outside all links"):
+        report = tw.load(file).report
+    assert [(entry.found, entry.read_as) for entry in report] == [("<inertial> outside all links", "left out")]
+    with pytest.raises(tw.ModelError, match="<inertial> outside all links"):
+        tw.load(file, strict=True)

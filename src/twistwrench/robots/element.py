@@ -57,7 +57,13 @@ class Element:
                 self._misplaced(child, home)
 
     def _misplaced(self, child: XML, home: str) -> None:
-        """Raise for a misplaced child that affects the dynamics; report a limit, friction or a link's own origin."""
+        """Raise for a misplaced child that affects the dynamics; report a limit, friction or a link's own origin.
+
+        An inertia outside all links is reported, too: no link has it, here as in every other loader.
+        """
+        if child.tag == "inertial" and self.xml.tag == "robot":
+            self.remark("<inertial> outside all links", "left out", line=child.sourceline)
+            return
         if child.tag not in NO_LOSS:
             raise self.error(f"a <{child.tag}> stands in <{self.xml.tag}>, expected in <{home}>", child)
         if not all_zero(child.attrib.values()):
@@ -73,9 +79,9 @@ class Element:
         """File and line."""
         return f"{self.path}, line {self.xml.sourceline}"
 
-    def remark(self, found: str, read_as: str, *, warns: bool = True) -> None:
-        """Note the text of the file, and how it was interpreted."""
-        self.remarks.append(Entry(self.what, found, read_as, self.xml.sourceline, warns))
+    def remark(self, found: str, read_as: str, *, warns: bool = True, line: int | None = None) -> None:
+        """Note the text of the file, and how it was interpreted; the line is the element's unless given."""
+        self.remarks.append(Entry(self.what, found, read_as, line or self.xml.sourceline, warns))
 
     def get(self, key: str) -> str | None:
         """Return the text of an attribute."""
