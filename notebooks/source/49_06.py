@@ -19,7 +19,8 @@ import numpy as np
 import twistwrench as tw
 from twistwrench import plot
 from twistwrench.algorithms.rnea import newton_euler
-from twistwrench.model import tree_terms
+from twistwrench.exercises.wrong import faulty
+from twistwrench.model import columns, tree_terms, wrenches
 
 model = tw.load("go2")
 q = model.standing()
@@ -298,34 +299,28 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 #
 # 有颜色的地方就是错的。小腿没有子刚体,每次都对:如果只测一个关节,或只测末端,就发现不了。
 # %%
-def inward(overwrite=False, star=False, without_base=False):
-    """Pass inward, right or as printed."""
-    F, tau = own.copy(), [np.zeros(0)] * model.nbodies
-    F[1] *= not without_base
-    for i in tree.inward:
-        F[i] = own[i] if overwrite else F[i]
-        tau[i] = S[i].T @ F[i]
-        back = np.linalg.inv(X[i]) if star else X[i]
-        F[parent[i]] += back.T @ F[i]
-    return np.concatenate(tau)
-
-
-assert np.allclose(inward(), tau)
-rows = {"1. overwritten": {"overwrite": True}, "2. X* for Xᵀ": {"star": True}, "3. no base": {"without_base": True}}
-errors = np.array([inward(**how) - inward() for how in rows.values()])
+as_printed = {  # in the listing, what stands there and what is printed
+    "1. overwritten": ("tau[i] = S", "F[i] = B[i]; tau[i] = S"),
+    "2. X* for Xᵀ": ("X[i].mT @ F[i]", "np.linalg.inv(X[i]).mT @ F[i]"),
+    "3. no base": ("for i in tree.inward", "F[1] = 0 * F[1]\n    for i in tree.inward"),
+}
+arguments = tree, columns(model, v), columns(model, a), wrenches(np.zeros((model.nbodies, 6)))
+assert np.array_equal(newton_euler(*arguments).tau, tau)
+printed = np.array([faulty(newton_euler, change)(*arguments).tau for change in as_printed.values()])
+errors = printed - tau
 
 names = ["τx", "τy", "τz", "fx", "fy", "fz"]
 names += [name.removesuffix("_joint").replace("_", "\n") for name in model.joint_names[2:]]
 ax = plot.axes_2d(size=(12.5, 2.8))
-plot.matrix(errors, "error of rnea, N m and N", rows=list(rows), columns=names, lines=[], numbers=".2g", ax=ax)
+plot.matrix(errors, "error of rnea, N m and N", rows=list(as_printed), columns=names, lines=[], numbers=".2g", ax=ax)
 ax.axvline(5.5, color="k", linewidth=1)
 plt.show()
 
 calves, others = [8, 11, 14, 17], [6, 7, 9, 10, 12, 13, 15, 16]
 assert (errors[:, calves] == 0).all()
 assert (errors[:2, others] != 0).all()
-assert np.allclose(inward(overwrite=True)[:6], own[1])  # the base by itself: all legs are lost
-assert np.allclose(inward(without_base=True)[:6], tau[:6] - own[1])  # the other way round
+assert np.allclose(printed[0][:6], own[1])  # the base by itself: all legs are lost
+assert np.allclose(printed[2][:6], tau[:6] - own[1])  # the other way round
 assert (errors[2, 6:] == 0).all()
 # %% [markdown] lang="en"
 # ## Pinocchio agrees
