@@ -71,7 +71,7 @@ def test_states_in_columns_are_recognised():
 
 
 def test_a_quaternion_of_zeros_is_told_what_to_be():
-    with pytest.raises(ValueError, match=r"has norm 0, expected 1; model.neutral\(\) has the one that turns nothing"):
+    with pytest.raises(ValueError, match=r"has norm 0, expected 1; model.neutral\(\) has the identity"):
         tw.crba(GO2, np.zeros(19))
     with pytest.raises(ValueError, match=r"has norm 2, expected 1; model.normalize\(q\) repairs it"):
         tw.crba(GO2, np.r_[np.zeros(6), 2.0, np.zeros(12)])

@@ -197,7 +197,7 @@ def test_what_does_not_know_such_models_refuses_them_by_name(save):
         lambda: tw.bridge.to_pinocchio_model(model),
     ]
     for call in calls:
-        with pytest.raises(TypeError, match=r"MimicModel, whose joints follow others.*its \.full has them free"):
+        with pytest.raises(TypeError, match=r"got the MimicModel.*joints that follow others; its \.full has them free"):
             call()
 
 
