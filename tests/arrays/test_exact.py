@@ -166,7 +166,9 @@ def test_a_quaternion_of_fractions_may_have_any_length_but_zero():
     go2, q = tw.load("go2"), [F(0)] * 19
     for zero in (F(0), sympy.Integer(0)):
         q[3:7] = [zero] * 4
-        with pytest.raises(ValueError, match=r"^q: q\[3:7\] is zero, no direction; model\.neutral\(\) has the identity"):
+        with pytest.raises(
+            ValueError, match=r"^q: q\[3:7\] is zero, no direction; model\.neutral\(\) has the identity"
+        ):
             tw.crba(go2, q)
     with pytest.raises(ValueError, match=r"q\[3:7\] is zero at index \(1,\), no direction"):
         tw.crba(go2, np.array([[*q[:6], F(2), *q[7:]], q], object))
