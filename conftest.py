@@ -1,10 +1,12 @@
 """Examples in docstrings that run Pinocchio are skipped, with a reason, where it is not installed."""
 
 import importlib.util
+from pathlib import Path
 
 import pytest
 
-RUN_PINOCCHIO = ("bridge/objects.py", "bridge/handover.py")
+BRIDGE = Path(__file__).parent / "src" / "twistwrench" / "bridge"
+RUN_PINOCCHIO = [(BRIDGE / name).resolve(strict=True) for name in ("objects.py", "model.py")]  # must exist
 
 
 def pytest_collection_modifyitems(items):
@@ -12,5 +14,5 @@ def pytest_collection_modifyitems(items):
     if importlib.util.find_spec("pinocchio") is None:
         skip = pytest.mark.skip(reason="Pinocchio is not installed: its examples are skipped")
         for item in items:
-            if item.path.as_posix().endswith(RUN_PINOCCHIO):
+            if item.path in RUN_PINOCCHIO:
                 item.add_marker(skip)

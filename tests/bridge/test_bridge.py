@@ -467,12 +467,14 @@ def test_other_package_of_that_name_is_noticed(monkeypatch):
 # -------------------------------------------------------------------- models
 
 
+@needs_pinocchio
 @pytest.mark.parametrize(("given", "came"), [(tw.chain(1), "twistwrench's Model"), ("go2", "builtins's str")])
 def test_what_is_no_model_of_pinocchio_is_refused(given, came):
     with pytest.raises(TypeError, match=f"there: expected a pin.Model, got {came}"):
         bridge.from_pinocchio_model(given)
 
 
+@needs_pinocchio
 def test_a_model_of_pinocchio_is_no_source_and_the_way_from_it_is_told():
     with pytest.raises(TypeError, match=r"got pinocchio's Model; tw\.bridge\.from_pinocchio_model makes one of it"):
         tw.load(bridge.to_pinocchio_model(tw.chain(1)))
@@ -883,6 +885,7 @@ def test_empty_model_is_a_world_and_nothing_else():
     assert bridge.to_pinocchio_model(model).njoints == 1
 
 
+@needs_pinocchio
 def test_objects_of_the_other_package_are_named():
     for function, given, message in (
         (bridge.to_pinocchio_se3, pin.SE3.Identity(), r"T: expected twistwrench\.SE3, got pinocchio\.SE3"),

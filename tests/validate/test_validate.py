@@ -106,6 +106,7 @@ def test_an_error_of_the_fast_way_fails_its_row(monkeypatch, state, few):
     assert [row.quantity for row in report.failed] == ["mass matrix M"]
 
 
+@needs_pinocchio
 def test_a_tree_with_every_kind_of_joint_passes_by_way_of_the_bridge():
     report = validate(random_tree(8, rng=3), **QUICK)
     assert report.passed, report
