@@ -89,7 +89,6 @@ def run_tests(folder: Path, names: list[str]) -> subprocess.CompletedProcess[str
     tests = [str(ROOT / "tests" / name) for name in names]
     options = ["-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "-p", "no:xdist"]
     options += ["--hypothesis-profile=no_shrinking"]  # that it fails is all that is asked
-    options += ["-W", "ignore:mypy_extensions:DeprecationWarning"]  # of libcst, which hypothesis loads on a failure
     return subprocess.run(
         [sys.executable, "-m", "pytest", "-o", "addopts=--import-mode=importlib", *options, *tests],
         cwd=ROOT,
