@@ -34,11 +34,12 @@ def write(folder, section, bodies=None, *, more="", head=b""):
     file.write_bytes(head + (text + more).encode())
 
 
-def said(folder, name, language="en"):
-    """Return the verdict on a function, its message on one line."""
-    with opened(folder, language=language, time_limit=LIMIT) as book:
+def said(folder, name, language="en", seed=None):
+    """Return the verdict on a function, its message on one line; with the failing case where a seed is given."""
+    with opened(folder, language=language, seed=seed, time_limit=LIMIT) as book:
         verdict = book.verdict(*catalogue.find_part(name))
-    return verdict.state, " ".join(verdict.message(language).split())
+    message = verdict.message(language) if seed is None else verdict.report(language)
+    return verdict.state, " ".join(message.split())
 
 
 @pytest.mark.parametrize(
@@ -94,6 +95,46 @@ def test_pytest_goes_on_after_an_endless_loop(tmp_path):
     assert "here" in done.stdout  # what it printed, below its message
     assert "2 failed" in done.stdout
     assert "Next: 49.0.1" in done.stdout
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux can limit the memory of a process")
+def test_ten_gigabytes_are_an_error_in_a_line_of_the_student(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"act": "big = np.ones(10**10 // 8)\nreturn R @ x + p + 0 * big.sum()"})
+    state, message = said(tmp_path, "act")
+    assert state == "wrong"
+    assert "It stopped with MemoryError" in message or "ArrayMemoryError" in message
+    assert message.endswith("big = np.ones(10**10 // 8)")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
+def test_a_fork_does_no_harm(tmp_path):
+    start(tmp_path, language="en")
+    endless = "import os\nif os.fork() == 0:\n    while True:\n        pass\nreturn R @ x + p"
+    write(tmp_path, "49.0", {"act": endless, "skew": "import os\nos.fork()\nreturn tw.skew(w) + 1"})
+    assert said(tmp_path, "act")[0] == "done"
+    assert said(tmp_path, "skew")[0] == "wrong"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="groups of processes are those of POSIX")
+def test_what_an_answer_starts_ends_with_the_check(tmp_path):
+    start(tmp_path, language="en")
+    body = "import subprocess\np0 = subprocess.Popen(['sleep', '4711'])\nopen('pid', 'a').write(f'{p0.pid} ')"
+    write(tmp_path, "49.0", {"act": body.replace("'pid'", repr(str(tmp_path / "pid"))) + "\nreturn R @ x + p"})
+    assert said(tmp_path, "act")[0] == "done"
+    time.sleep(0.2)
+    for pid in (tmp_path / "pid").read_text().split():
+        state = subprocess.run(["ps", "-o", "stat=", "-p", pid], capture_output=True, text=True, check=False).stdout
+        assert not state.strip() or "Z" in state
+
+
+def test_a_loop_that_prints_does_not_flood_the_screen(tmp_path, capfd):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.0", {"act": "while True:\n    print('x' * 1000)"})
+    assert "It did not finish" in said(tmp_path, "act")[1]
+    printed = capfd.readouterr().err
+    assert len(printed) < 20_000
+    assert "[...]" in printed
 
 
 def test_without_a_limit_the_answers_run_in_this_process(tmp_path):

@@ -15,15 +15,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .failing import case
     from .helping import hint, solution
     from .progress import Status, status
     from .skeletons import start
     from .workbook import mine
 
-__all__ = ["Status", "hint", "mine", "solution", "start", "status"]
+__all__ = ["Status", "case", "hint", "mine", "solution", "start", "status"]
 
 _HOME = {"hint": "helping", "solution": "helping", "Status": "progress", "status": "progress"}
-_HOME |= {"start": "skeletons", "mine": "workbook"}
+_HOME |= {"start": "skeletons", "mine": "workbook", "case": "failing"}
 
 
 def __getattr__(name: str) -> Any:

@@ -38,6 +38,8 @@ COMPARE = Text(
     "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照，参考答案："
 )
 
+SEED = Text("The random cases again: --seed {seed}", "再用同一批随机数据：--seed {seed}")
+
 BOOKS = pytest.StashKey[dict[str, Workbook]]()
 OPEN = pytest.StashKey[ExitStack]()
 
@@ -65,6 +67,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="S",
         help="seconds for one call of an answer; 0 for none, as `breakpoint()` needs it (10)",
     )
+    parser.addoption("--seed", type=int, metavar="N", help="of the random cases; drawn anew each time unless given")
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
@@ -79,7 +82,8 @@ def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Coll
         return None
     books = parent.config.stash[BOOKS]
     if str(file_path.parent) not in books:
-        opening = opened(file_path.parent, time_limit=parent.config.getoption("time_limit"))
+        how = {name: parent.config.getoption(name) for name in ("seed", "time_limit")}
+        opening = opened(file_path.parent, **how)
         books[str(file_path.parent)] = parent.config.stash[OPEN].enter_context(opening)
     book = books[str(file_path.parent)]
     return SectionFile.of(parent, path=file_path, section=sections[file_path.name], book=book)
@@ -148,7 +152,7 @@ class Answer(pytest.Item):
         if verdict.state == "to do":
             pytest.skip(TO_DO.fill(id=exercise.id, name=self.asked).of(book.language))
         if verdict.state == "wrong":
-            raise Wrong(verdict.message(book.language))
+            raise Wrong(verdict.report(book.language))
 
     def _verdict(self) -> Verdict:
         if self.asked == self.exercise.answer_name:
@@ -180,6 +184,7 @@ def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pyte
         if not config.option.collectonly:
             terminalreporter.section(str(book.folder))
             terminalreporter.write_line(str(survey(book)))
+            terminalreporter.write_line(SEED.fill(seed=book.seed).of(book.language))
 
 
 def _to_compare(book: Workbook) -> Iterator[Exercise]:

@@ -1,4 +1,4 @@
-"""The command line of the exercises: ``twistwrench exercises start | status | hint | solution | list``."""
+"""The command line of the exercises: ``twistwrench exercises start | status | case | hint | solution | list``."""
 
 from __future__ import annotations
 
@@ -31,6 +31,11 @@ def register(commands: Any) -> None:
     status.add_argument(
         "--time-limit", type=_seconds, metavar="S", help="seconds for one call of a function; 0 for none (10)"
     )
+    status.add_argument("--seed", type=int, metavar="N", help="of the random cases; drawn anew unless given")
+    case = _action(actions, "case", "the arguments of a case, and the right answer", run_case)
+    case.add_argument("name", metavar="FUNCTION", help="as in the skeletons")
+    case.add_argument("number", type=int, nargs="?", default=0, metavar="K", help="which case, counted from 0 (0)")
+    case.add_argument("--seed", type=int, default=0, metavar="N", help="of the random cases (0)")
     hint = _action(actions, "hint", "the next hint for an exercise", run_hint)
     solution = _action(actions, "solution", "a solution of an exercise", run_solution)
     for asked in (hint, solution):
@@ -85,9 +90,20 @@ def run_status(args: argparse.Namespace) -> int:
     from .progress import status
 
     limit = TIME_LIMIT if args.time_limit is None else args.time_limit
-    found = status(args.dir, language=args.language, time_limit=limit)
+    found = status(args.dir, language=args.language, seed=args.seed, time_limit=limit)
     print(found)
     return REFUSED if any(row.count("wrong") for row in found.rows) else 0
+
+
+def run_case(args: argparse.Namespace) -> int:
+    """Print a case in full: what goes in, and what must come out."""
+    from . import catalogue
+    from .failing import case, whole
+    from .text import default_language
+
+    _, part = catalogue.find_part(args.name)
+    print(whole(part, case(args.name, args.number, seed=args.seed), args.language or default_language()))
+    return 0
 
 
 def run_hint(args: argparse.Namespace) -> int:

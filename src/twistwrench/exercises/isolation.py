@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 import re
+import secrets
+import signal
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from os import PathLike
@@ -16,12 +20,13 @@ from typing import Any, BinaryIO, cast
 from ..stopping import without_interrupts
 from . import catalogue
 from .exercise import Exercise, Part
+from .failing import Case, cases, handed_over
 from .judge import Verdict
 from .phrases import say
 from .text import Language, Text
 from .workbook import Workbook
 
-__all__ = ["TIME_LIMIT", "IsolatedWorkbook", "opened"]
+__all__ = ["TIME_LIMIT", "IsolatedWorkbook", "drawn", "opened"]
 
 TIME_LIMIT = 10.0
 """Seconds for one call of a function, and for reading a file. The longest of the references takes 0.1 s."""
@@ -29,9 +34,18 @@ TIME_LIMIT = 10.0
 WORKER = "import sys; sys.path[:] = {path!r}; from twistwrench.exercises.worker import main; main()"
 
 
+def drawn(seed: int | None) -> int:
+    """Return a seed for the random cases: a new one each time unless it is given."""
+    return secrets.randbelow(10**6) if seed is None else seed
+
+
 @contextmanager
 def opened(
-    folder: str | PathLike[str], *, language: Language | None = None, time_limit: float = TIME_LIMIT
+    folder: str | PathLike[str],
+    *,
+    language: Language | None = None,
+    seed: int | None = None,
+    time_limit: float = TIME_LIMIT,
 ) -> Iterator[Workbook]:
     """Open a folder that was started before, and close it again.
 
@@ -40,6 +54,8 @@ def opened(
     folder : str or path
     language : {"en", "zh"}, optional
         Of the messages.
+    seed : int, optional
+        Of the random cases; drawn anew unless given.
     time_limit : float
         Seconds for one call of a student's function; 0 for none, and no other process, as a debugger needs it.
 
@@ -48,9 +64,9 @@ def opened(
     Workbook
     """
     if not time_limit or not sys.executable or sys.platform == "emscripten":
-        yield Workbook(folder, language=language)
+        yield Workbook(folder, language=language, seed=drawn(seed))
         return
-    book = IsolatedWorkbook(folder, language=language, time_limit=time_limit)
+    book = IsolatedWorkbook(folder, language=language, seed=drawn(seed), time_limit=time_limit)
     try:
         yield book
     finally:
@@ -65,14 +81,21 @@ class IsolatedWorkbook(Workbook):
     folder : str or path
     language : {"en", "zh"}, optional
         Of the messages.
+    seed : int
+        Of the random cases.
     time_limit : float
         Seconds for one call of a student's function.
     """
 
     def __init__(
-        self, folder: str | PathLike[str], *, language: Language | None = None, time_limit: float = TIME_LIMIT
+        self,
+        folder: str | PathLike[str],
+        *,
+        language: Language | None = None,
+        seed: int = 0,
+        time_limit: float = TIME_LIMIT,
     ) -> None:
-        super().__init__(folder, language=language)
+        super().__init__(folder, language=language, seed=seed)
         self._time_limit = time_limit
         self._worker: _Worker | None = None
         self._unreadable: dict[str, Text] = {}
@@ -96,7 +119,8 @@ class IsolatedWorkbook(Workbook):
         """Return the answer of the other process. Where it had to stop, note at what, and start a new one."""
         while True:
             if self._worker is None:
-                self._worker = _Worker(self.folder, self._time_limit, self._verdicts, self._unreadable)
+                known = self._verdicts, self._unreadable
+                self._worker = _Worker(str(self.folder), self.seed, self._time_limit, *known)
             try:
                 answer, borrowed = self._worker.ask(what, name)
             except _Died as died:
@@ -107,7 +131,10 @@ class IsolatedWorkbook(Workbook):
                 if died.at in map(catalogue.file_name, catalogue.SECTIONS):
                     self._unreadable[died.at] = Text(*("\n".join(line.of(k) for line in lines) for k in ("en", "zh")))
                 else:
-                    self._verdicts[died.at] = _wrong(catalogue.find_part(died.at)[0], died.at, lines)
+                    exercise, part = catalogue.find_part(died.at)
+                    arguments = cases(part, self.seed)[died.case]
+                    case = handed_over(part, died.case, self.seed, arguments)
+                    self._verdicts[died.at] = _wrong(exercise, died.at, lines, case)
                 if died.at == name:
                     return self._verdicts[name]
             else:
@@ -128,23 +155,23 @@ class IsolatedWorkbook(Workbook):
         return lines
 
 
-def _wrong(exercise: Exercise, name: str, lines: list[Text]) -> Verdict:
+def _wrong(exercise: Exercise, name: str, lines: list[Text], case: Case | None = None) -> Verdict:
     """Return the verdict on a function that did not give an answer."""
-    return Verdict("wrong", (say("head", id=exercise.id, name=name), *lines))
+    return Verdict("wrong", (say("head", id=exercise.id, name=name), *lines), (), case)
 
 
 class _Died(Exception):
-    """The other process ended: what it was running, and where its threads were."""
+    """The other process ended: what it was running, in which of its cases, and where its threads were."""
 
-    def __init__(self, at: str | None, trace: str) -> None:
+    def __init__(self, at: str | None, case: int, trace: str) -> None:
         super().__init__()
-        self.at, self.trace = at, trace
+        self.at, self.case, self.trace = at, case, trace
 
 
 class _Worker:
     """The other process."""
 
-    def __init__(self, folder: Path, limit: float, verdicts: dict[str, Verdict], unreadable: dict[str, Text]) -> None:
+    def __init__(self, folder: str, seed: int, limit: float, *known: dict[str, Any]) -> None:
         handle, trace = tempfile.mkstemp(prefix="twistwrench-", suffix=".trace")
         with open(handle, "wb"):
             self._trace = Path(trace)
@@ -154,9 +181,10 @@ class _Worker:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+                process_group=0 if os.name == "posix" else None,  # all that the answers start ends with it
             )
         self._requests, self._replies = cast("tuple[BinaryIO, BinaryIO]", (self._process.stdin, self._process.stdout))
-        self._send((str(folder), limit, trace, verdicts, unreadable))
+        self._send((folder, seed, limit, trace, *known))
 
     def _send(self, message: Any) -> None:
         with suppress(OSError):  # the process has ended: there will be no answer
@@ -166,6 +194,7 @@ class _Worker:
     def ask(self, what: str, name: str) -> Any:
         """Return an answer, and follow what the process runs until then."""
         begun: list[str] = []
+        calls: Counter[str] = Counter()
         self._send((what, name))
         try:
             while True:
@@ -174,11 +203,13 @@ class _Worker:
                     return said
                 if kind == "begin":
                     begun.append(said)
+                    calls[said] += 1
                 else:
                     begun.pop()
         except (EOFError, OSError, pickle.UnpicklingError):
             trace = self._trace.read_text(encoding="utf-8", errors="replace")
-            raise _Died(begun[-1] if begun else None, trace) from None
+            at = begun[-1] if begun else None
+            raise _Died(at, calls[at or ""] - 1, trace) from None
 
     def close(self) -> None:
         """End it: it exits when its input is closed, unless it is still running something."""
@@ -190,4 +221,7 @@ class _Worker:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+        if os.name == "posix":
+            with suppress(ProcessLookupError, PermissionError):  # what it has started
+                os.killpg(self._process.pid, signal.SIGKILL)
         self._trace.unlink(missing_ok=True)

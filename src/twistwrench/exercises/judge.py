@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import traceback
-import zlib
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ import numpy as np
 from .compare import agree, to_do
 from .diagnose import explain
 from .exercise import Exercise, Part
+from .failing import Case, cases, handed_over
 from .phrases import say
 from .text import Language, Text
 from .wrapping import hanging
@@ -40,15 +40,23 @@ class Verdict:
         The message, line by line; empty for what is done.
     slips : tuple of str
         The slips that give the same answer, keys of `slips.SLIPS`.
+    case : Case, optional
+        The first case in which the answer is wrong.
     """
 
     state: State
     lines: tuple[Text, ...] = ()
     slips: tuple[str, ...] = ()
+    case: Case | None = None
 
     def message(self, language: Literal["en", "zh"]) -> str:
         """Return the message in one language."""
         return "\n".join(piece for line in self.lines for piece in hanging(line.of(language)))
+
+    def report(self, language: Literal["en", "zh"]) -> str:
+        """Return the message, and below it the failing case with its numbers."""
+        shown = "" if self.case is None else self.case.text(language)
+        return self.message(language) + ("\n\n" + shown if shown else "")
 
 
 class _Stop(Exception):
@@ -76,25 +84,28 @@ def judge(
     -------
     Verdict
     """
-    cases = list(part.cases(np.random.default_rng([seed, zlib.crc32(part.name.encode())])))
+    tried = cases(part, seed)
     answers: list[Any] = []
-    for arguments in cases:
+    for k, arguments in enumerate(tried):
         try:
             with watch():
                 answer = _run(part, function, arguments)
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:
-            return Verdict("wrong", (_head(exercise, part), *stop.args))
+            return Verdict("wrong", (_head(exercise, part), *stop.args), (), handed_over(part, k, seed, arguments))
         if to_do(answer):
             return Verdict("to do")
         answers.append(answer)
-    right = [agree(part, a, part.value(part.solution, args), args) for a, args in zip(answers, cases)]
+    expected = [part.value(part.solution, arguments) for arguments in tried]
+    right = [agree(part, *each) for each in zip(answers, expected, tried)]
     if all(right):
         return Verdict("done")
-    slips, lines = explain(exercise, part, answers, cases)
-    context = _context(part, cases, right)
-    return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips))
+    slips, lines = explain(exercise, part, answers, tried)
+    k = right.index(False)
+    case = handed_over(part, k, seed, tried[k], (expected[k], answers[k]))
+    context = _context(part, tried, right)
+    return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips), case)
 
 
 def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
@@ -139,14 +150,14 @@ def _head(exercise: Exercise, part: Part) -> Text:
     return say("head", id=exercise.id, name=part.name)
 
 
-def _context(part: Part, cases: Sequence[tuple[Any, ...]], right: list[bool]) -> list[Text]:
+def _context(part: Part, tried: Sequence[tuple[Any, ...]], right: list[bool]) -> list[Text]:
     """Report in how many cases the answer is wrong, and show the first."""
-    arguments = cases[right.index(False)]
+    arguments = tried[right.index(False)]
     if not arguments:
         return []
     wrong = right.count(False)
     names = [name.partition("=")[0] for name in part.arguments.split(", ")]
-    first = say("all wrong", all=len(cases)) if wrong == len(cases) else say("cases", wrong=wrong, all=len(cases))
+    first = say("all wrong", all=len(tried)) if wrong == len(tried) else say("cases", wrong=wrong, all=len(tried))
     return [first, Text(_shown(names, arguments, "en"), _shown(names, arguments, "zh"))]
 
 

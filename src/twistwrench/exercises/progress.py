@@ -101,7 +101,11 @@ class Status:
 
 
 def status(
-    folder: str | PathLike[str] = ".", *, language: Language | None = None, time_limit: float = TIME_LIMIT
+    folder: str | PathLike[str] = ".",
+    *,
+    language: Language | None = None,
+    seed: int | None = None,
+    time_limit: float = TIME_LIMIT,
 ) -> Status:
     """Check every exercise of a folder and return the progress.
 
@@ -111,6 +115,8 @@ def status(
         One that `start` has filled.
     language : {"en", "zh"}, optional
         Of the table; that of the folder unless given.
+    seed : int, optional
+        Of the random cases; drawn anew unless given.
     time_limit : float
         Seconds for one call of a function; 0 for none. The answers run in a process of their own, which is ended where
         they take longer; without a limit they run in this one.
@@ -125,7 +131,7 @@ def status(
         If nothing was started there.
     """
     Workbook.existing(folder)
-    with opened(folder, language=language, time_limit=time_limit) as book:
+    with opened(folder, language=language, seed=seed, time_limit=time_limit) as book:
         return survey(book)
 
 

@@ -43,10 +43,12 @@ class Workbook:
     folder : str or path
     language : {"en", "zh"}, optional
         Of the messages; the one that the folder was started in unless given.
+    seed : int
+        Of the random cases.
     """
 
-    def __init__(self, folder: str | PathLike[str], *, language: Language | None = None) -> None:
-        self.folder = Path(folder)
+    def __init__(self, folder: str | PathLike[str], *, language: Language | None = None, seed: int = 0) -> None:
+        self.folder, self.seed = Path(folder), seed
         self._asked = language
         self._modules: dict[str, ModuleType | Text | None] = {}
         self._verdicts: dict[str, Verdict] = {}
@@ -150,7 +152,7 @@ class Workbook:
         if not callable(function):
             phrase = "missing" if function is None else "not a function"
             return Verdict("wrong", (head, say(phrase, name=part.name, file=file)))
-        return judge(exercise, part, function, watch=partial(self.watch, part.name))
+        return judge(exercise, part, function, seed=self.seed, watch=partial(self.watch, part.name))
 
     def verdict_in_words(self, exercise: Exercise) -> Verdict | None:
         """Judge whether the answer in words is written; None where the exercise needs no words."""

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import Any, BinaryIO
 
 from . import catalogue
+from .limits import contained
 from .text import Text
 from .workbook import Workbook
 
@@ -22,8 +23,8 @@ __all__ = ["main"]
 class _Watched(Workbook):
     """A folder that reports what it is running, under a time limit."""
 
-    def __init__(self, folder: str, limit: float, trace: BinaryIO, replies: BinaryIO) -> None:
-        super().__init__(folder)
+    def __init__(self, folder: str, seed: int, limit: float, trace: BinaryIO, replies: BinaryIO) -> None:
+        super().__init__(folder, seed=seed)
         self._limit, self._trace, self._replies = limit, trace, replies
         self._depth, self.watch = 0, self._watch
 
@@ -63,10 +64,10 @@ def main() -> None:
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
     os.dup2(2, 1)
-    folder, limit, path, verdicts, unreadable = pickle.load(requests)
-    with open(path, "wb") as trace:
+    folder, seed, limit, path, verdicts, unreadable = pickle.load(requests)
+    with open(path, "wb") as trace, contained():
         faulthandler.enable(trace)
-        book = _Watched(folder, limit, trace, replies)
+        book = _Watched(folder, seed, limit, trace, replies)
         book.know(verdicts, unreadable)
         while True:
             try:
