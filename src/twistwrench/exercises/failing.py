@@ -1,4 +1,4 @@
-"""The failing case, handed over: what went in, what must come out and what came, and how to have it again."""
+"""The failing case: the arguments, what is expected and what was returned, and how to have it again."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .compare import FLOOR, Value, values
 from .exercise import Part, Quantity
 from .text import Language, Text
 
-__all__ = ["Block", "Case", "Compared", "case", "cases", "handed_over", "whole"]
+__all__ = ["Block", "Case", "Compared", "case", "cases", "failing_case", "whole"]
 
 SAY = {
     "inputs": Text("The case:", "这组数据："),
@@ -36,6 +36,10 @@ FULL = 36
 
 LISTED = 6
 """Entries that are listed of a block that is too large to show."""
+
+
+BLOCKS = 2
+"""Blocks that are shown in numbers; of others only whether they are right is reported."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +91,7 @@ class Case:
     number, seed : int
         Which case, counted from 0, and the seed of the random numbers.
     inputs : tuple of (str, array or Text)
-        Name and value of each argument; a text stands for what is no array.
+        Name and value of each argument; a text stands for other things than arrays.
     compared : tuple of Compared
         Expected and got; empty where they cannot be compared, or where the right numbers would be the solution.
     """
@@ -138,7 +142,7 @@ def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:
     number : int
         Which case, counted from 0.
     seed : int
-        Of the random numbers; a message about a wrong answer says which.
+        Of the random numbers; the message about a wrong answer names it.
 
     Returns
     -------
@@ -177,7 +181,7 @@ def whole(part: Part, arguments: tuple[Any, ...], language: Language) -> str:
     return "\n".join(lines)
 
 
-def handed_over(part: Part, number: int, seed: int, arguments: tuple[Any, ...], answers: Sequence[Any] = ()) -> Case:
+def failing_case(part: Part, number: int, seed: int, arguments: tuple[Any, ...], answers: Sequence[Any] = ()) -> Case:
     """Return a case with its arguments, and with the right answer and the student's where both are given."""
     names = [name.partition("=")[0] for name in part.arguments.split(", ")]
     inputs = tuple((name, _plain(value)) for name, value in zip(names, arguments))
@@ -244,13 +248,14 @@ def _beside(compared: Compared, language: Language) -> list[str]:
     """Write expected and got, block by block: a block that is right in a word, one that is not in numbers."""
     quantity = compared.quantity
     name = quantity.name + (f" [{quantity.unit}]" if quantity.unit else "")
-    lines = [SAY["compared"].fill(name=name).of(language)]
+    lines, shown = [SAY["compared"].fill(name=name).of(language)], 0
     for block in compared.blocks:
         bad = bool(block.wrong.any())
         if block.name is not None:
             lines.append(f"  {'✗' if bad else '✓'} {block.name.of(language)}")
-        if bad:
+        if bad and shown < BLOCKS:
             lines += _numbers(block, language)
+        shown += bad
     return lines
 
 

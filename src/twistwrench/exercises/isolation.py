@@ -20,7 +20,7 @@ from typing import Any, BinaryIO, cast
 from ..stopping import without_interrupts
 from . import catalogue
 from .exercise import Exercise, Part
-from .failing import Case, cases, handed_over
+from .failing import Case, cases, failing_case
 from .judge import Verdict
 from .phrases import say
 from .text import Language, Text
@@ -133,7 +133,7 @@ class IsolatedWorkbook(Workbook):
                 else:
                     exercise, part = catalogue.find_part(died.at)
                     arguments = cases(part, self.seed)[died.case]
-                    case = handed_over(part, died.case, self.seed, arguments)
+                    case = failing_case(part, died.case, self.seed, arguments)
                     self._verdicts[died.at] = _wrong(exercise, died.at, lines, case)
                 if died.at == name:
                     return self._verdicts[name]

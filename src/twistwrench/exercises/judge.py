@@ -15,7 +15,7 @@ import numpy as np
 from .compare import agree, to_do
 from .diagnose import explain
 from .exercise import Exercise, Part
-from .failing import Case, cases, handed_over
+from .failing import Case, cases, failing_case
 from .phrases import say
 from .text import Language, Text
 from .wrapping import hanging
@@ -93,7 +93,7 @@ def judge(
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:
-            return Verdict("wrong", (_head(exercise, part), *stop.args), (), handed_over(part, k, seed, arguments))
+            return Verdict("wrong", (_head(exercise, part), *stop.args), (), failing_case(part, k, seed, arguments))
         if to_do(answer):
             return Verdict("to do")
         answers.append(answer)
@@ -103,7 +103,7 @@ def judge(
         return Verdict("done")
     slips, lines = explain(exercise, part, answers, tried)
     k = right.index(False)
-    case = handed_over(part, k, seed, tried[k], (expected[k], answers[k]))
+    case = failing_case(part, k, seed, tried[k], (expected[k], answers[k]))
     context = _context(part, tried, right)
     return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips), case)
 

@@ -1,4 +1,4 @@
-"""What the process with the student's code may not do: fill the memory, leave processes behind, flood the screen."""
+"""Limits of the process with the student's code: its memory, what it prints, the processes that it starts."""
 
 from __future__ import annotations
 
