@@ -37,6 +37,18 @@ FAULTS = [
     Fault("log: whole angle for half of it", "spatial/rotation.py", "2 * atan2(n, w)", "atan2(n, w)"),
     Fault("exp: no ω × v", "spatial/exponential.py", "v + 2 * H * np.cross(H * w, v) +", "v +"),
     Fault("log: sign of ½ ω × p", "spatial/exponential.py", "p - wp / 2", "p + wp / 2"),
+    Fault("Jacobian of exp: its side", "spatial/jacobians.py", "- 2 * H * (H * W) + CW", "+ 2 * H * (H * W) + CW"),
+    Fault("Jacobian of log: no square", "spatial/jacobians.py", "+ W / 2 + D * (W @ W))", "+ W / 2)"),
+    Fault("Q: A − B for A − 2B", "spatial/jacobians.py", "-(A - 2 * B) * n_v", "-(A - B) * n_v"),
+    Fault("Q: the rate of C left out", "spatial/jacobians.py", "+ (B - 3 * C) * n_v * (N @ W)", "+ 0 * (N @ W)"),
+    Fault("inverse of a Jacobian: sign of Q", "spatial/jacobians.py", "-J @ Q @ J, J)", "J @ Q @ J, J)"),
+    Fault(
+        "∂⊕: the beginning as seen from itself",
+        "model/joint.py",
+        "exp6(-V).motion_transform()",
+        "exp6(V).motion_transform()",
+    ),
+    Fault("∂⊖: right for left", "model/joint.py", 'Jlog6(T, "left")', 'Jlog6(T, "right")'),
     # 49.3: Plücker transforms
     Fault(
         "X without its coupling",

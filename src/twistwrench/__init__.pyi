@@ -46,8 +46,9 @@ from .robots import load, robots
 from .scene import Scene
 from .simulation import DivergenceError, Simulation, simulate
 from .spatial.cross import cross_force, cross_motion
-from .spatial.exponential import exp6, log6
+from .spatial.exponential import exp6, interpolate, log6
 from .spatial.inertia import SpatialInertia
+from .spatial.jacobians import Jexp3, Jexp6, Jlog3, Jlog6
 from .spatial.orthonormal import nearest_rotation
 from .spatial.plucker import SE3, force_transform, motion_transform
 from .spatial.rotation import exp3, log3, skew, unskew
@@ -73,6 +74,10 @@ __all__ = [
     "FreeFlyer",
     "Helical",
     "Impact",
+    "Jexp3",
+    "Jexp6",
+    "Jlog3",
+    "Jlog6",
     "MimicModel",
     "Model",
     "ModelError",
@@ -129,6 +134,7 @@ __all__ = [
     "gravity",
     "hat",
     "impact",
+    "interpolate",
     "joint_wrenches",
     "kinetic_energy",
     "load",

@@ -10,6 +10,7 @@ joints          the joints of the package, one class each
 constants       the numbers of a model in one number type
 state           what a state must be: shapes, finite numbers, quaternions of norm 1
 configuration   the manifold of q: `integrate`, `difference`, `normalize`, `random_configuration`
+manifold        derivatives of ⊕ and ⊖, `interpolate` and `distance`
 report          what a loader had to interpret, and how
 model           `Model`, frozen, and its frames
 arguments       input validation of the algorithms: a model and a state of it
@@ -29,6 +30,7 @@ from .constants import Constants, cast, readonly
 from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
 from .joints import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
 from .link import UNLIMITED, WORLD, Link
+from .manifold import Manifold
 from .model import PER_DOF, Frame, Model
 from .numbering import NumberedTree
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
@@ -53,6 +55,7 @@ __all__ = [
     "GroupJoint",
     "Joint",
     "Link",
+    "Manifold",
     "Model",
     "NumberedTree",
     "Planar",

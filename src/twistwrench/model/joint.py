@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, DTypeLike
 
 from ..arrays import Array, as_array, as_constant, exact_unit, resolution
 from ..errors import ModelError
-from ..spatial import SE3, exp6, log6
+from ..spatial import SE3, Jexp6, Jlog6, exp6, log6
 from ..spatial._elementary import at_first_index, sqrt
 from ..spatial.rotation import cross_matrix
 
@@ -89,6 +89,17 @@ class Joint(ABC):
         """Return the dv that leads from q0 to q1: the inverse of `integrate`."""
         return q1 - q0
 
+    def d_integrate(self, dv: Array) -> tuple[Array, Array]:
+        """Return how the end of a step dv moves with its beginning, and with dv: both shape (..., nv, nv)."""
+        one = np.broadcast_to(np.eye(self.nv, dtype=dv.dtype), (*dv.shape, self.nv))
+        return one, one
+
+    def d_difference(self, q0: Array, q1: Array) -> tuple[Array, Array]:
+        """Return the derivatives of `difference` with respect to q0 and to q1: both shape (..., nv, nv)."""
+        batch = np.broadcast_shapes(q0.shape[:-1], q1.shape[:-1])
+        one = np.broadcast_to(np.eye(self.nv, dtype=q1.dtype), (*batch, self.nv, self.nv))
+        return -one, one
+
     def normalize(self, q: Array) -> Array:
         """Scale the unit part of q to norm 1, without overflow."""
         if self.unit is None:
@@ -152,6 +163,17 @@ class GroupJoint(Joint):
         S = self.subspace(q1.dtype)
         dv: Array = np.matvec(S.mT, log6(self.transform(q0).inverse() @ self.transform(q1)))
         return dv
+
+    def d_integrate(self, dv: Array) -> tuple[Array, Array]:
+        """Return SᵀXS, X of exp(−S dv), and SᵀJS, J of `Jexp6`: the beginning moves the end as seen from there."""
+        S = self.subspace(dv.dtype)
+        V = np.matvec(S, dv)
+        return S.mT @ exp6(-V).motion_transform() @ S, S.mT @ Jexp6(V) @ S
+
+    def d_difference(self, q0: Array, q1: Array) -> tuple[Array, Array]:
+        """Return −SᵀJS and SᵀJS, with J of `Jlog6` on the left, for q0, and on the right."""
+        S, T = self.subspace(q1.dtype), self.transform(q0).inverse() @ self.transform(q1)
+        return -S.mT @ Jlog6(T, "left") @ S, S.mT @ Jlog6(T) @ S
 
 
 @dataclass(frozen=True)

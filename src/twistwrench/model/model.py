@@ -19,9 +19,9 @@ from numpy.typing import DTypeLike
 from ..arrays import Array, as_constant, as_count
 from ..errors import check_known
 from ..spatial import SE3, SpatialInertia
-from .configuration import ConfigurationSpace
 from .constants import Constants, readonly
 from .joint import Joint
+from .manifold import Manifold
 from .report import Report
 
 __all__ = ["PER_DOF", "Frame", "Model"]
@@ -47,7 +47,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Model(ConfigurationSpace):
+class Model(Manifold):
     """A tree of rigid bodies. Frozen; made by `twistwrench.load` or `twistwrench.Builder`.
 
     Attributes

@@ -12,7 +12,8 @@ _physical       49.5     which inertias a body can have
 _vector                  what twists and wrenches share
 twist           49.2     `Twist`, `hat` [V], `vee`, `screw`
 plucker         49.3     `SE3`, `motion_transform` X, `force_transform` X*
-exponential     49.3     `exp6`, `log6`
+exponential     49.3     `exp6`, `log6`, `interpolate`
+jacobians       49.3     `Jexp3`, `Jlog3`, `Jexp6`, `Jlog6`
 wrench          49.4     `Wrench`, `power`
 cross           49.5     `cross_motion` V×, `cross_force` V×*
 inertia         49.5     `SpatialInertia` Î
@@ -21,8 +22,9 @@ formulas                 the recursions' own V×, V×*, V ×* Î V: on columns, 
 """
 
 from .cross import cross_force, cross_motion
-from .exponential import exp6, log6
+from .exponential import exp6, interpolate, log6
 from .inertia import SpatialInertia
+from .jacobians import Jexp3, Jexp6, Jlog3, Jlog6
 from .orthonormal import check_rotation, nearest_rotation
 from .plucker import SE3, force_transform, motion_transform
 from .rotation import exp3, log3, quaternion_to_rotation, rotation_to_quaternion, rpy_to_rotation, skew, unskew
@@ -31,6 +33,10 @@ from .wrench import Wrench, power
 
 __all__ = [
     "SE3",
+    "Jexp3",
+    "Jexp6",
+    "Jlog3",
+    "Jlog6",
     "Screw",
     "SpatialInertia",
     "Twist",
@@ -42,6 +48,7 @@ __all__ = [
     "exp6",
     "force_transform",
     "hat",
+    "interpolate",
     "log3",
     "log6",
     "motion_transform",

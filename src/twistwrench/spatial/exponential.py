@@ -1,17 +1,17 @@
-"""Exponential and logarithm of SE(3): from a constant twist to a placement and back (section 49.3)."""
+"""Exponential and logarithm of SE(3): from a constant twist to a placement and back, and between two (49.3)."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, check_overflow
+from ..arrays import Array, as_array, check_kind, check_overflow
 from ._elementary import cosine_defect, length, sinc, sine_defect_root
 from ._vector import as_spatial
 from .plucker import SE3
 from .rotation import exp3, log3
 
-__all__ = ["exp6", "log6"]
+__all__ = ["exp6", "interpolate", "log6"]
 
 
 def exp6(V: ArrayLike) -> SE3:
@@ -86,3 +86,37 @@ def log6(T: SE3 | ArrayLike) -> Array:
     D = cosine_defect(half) / (4 * sinc(half))
     wp = np.cross(w, p)
     return np.concatenate([w, p - wp / 2 + D * np.cross(w, wp)], axis=-1)
+
+
+def interpolate(T0: SE3, T1: SE3, u: ArrayLike) -> SE3:
+    """Placement on the way from T0 to T1 along one screw: T0 exp6(u log6(T0⁻¹ T1)) (section 49.3).
+
+    The twist of the way is constant. With equal translations only the rotation changes, about an axis that stands
+    still, at most by π; with equal rotations it is the straight line.
+
+    Parameters
+    ----------
+    T0, T1 : SE3
+    u : array_like, shape (...)
+        0 at T0, 1 at T1; a number beyond these goes on along the same screw.
+
+    Returns
+    -------
+    SE3
+
+    Raises
+    ------
+    ShapeError, ValueError
+        If `u` is not a number or the batch axes do not broadcast.
+    TypeError
+        If `T0` or `T1` is not an SE3.
+
+    Examples
+    --------
+    >>> quarter = SE3(exp3([0, 0, np.pi / 2]), [1, 1, 0])
+    >>> interpolate(SE3.identity(), quarter, 0.5).translation.round(3)  # on an arc about (0, 1, 0)
+    array([0.707, 0.293, 0.   ])
+    """
+    for name, T in (("T0", T0), ("T1", T1)):
+        check_kind(T, name, SE3, "an SE3")
+    return T0 @ exp6(as_array(u, "u")[..., None] * log6(T0.inverse() @ T1))

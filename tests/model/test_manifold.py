@@ -1,0 +1,137 @@
+"""Derivatives of ⊕ and ⊖, interpolation and distance, for every kind of joint: steps, Pinocchio, and each other."""
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench import bridge
+from twistwrench.model import KINDS, Joint
+
+SHAPES = [(), (1,), (3, 1, 2), (0,)]
+
+
+def tree(kind, seed=0):
+    return tw.random_tree(4, rng=seed, kinds=(kind,), base="floating" if kind == "free_flyer" else "fixed")
+
+
+def states(model, seed, shape=()):
+    rng = np.random.default_rng(seed)
+    flat = np.prod(shape, dtype=int)
+    q = [np.reshape([model.random_configuration(rng=rng) for _ in range(flat)], (*shape, model.nq)) for _ in range(2)]
+    return *q, rng.normal(size=(*shape, model.nv))
+
+
+KIND = pytest.mark.parametrize("kind", KINDS)
+
+
+def test_every_kind_of_joint_is_looked_at():
+    ours = {kind for kind, joint in Joint.kinds.items() if joint.__module__.startswith("twistwrench.")}
+    assert ours <= {*KINDS}
+
+
+@KIND
+def test_a_complex_step_gives_the_derivatives(kind):
+    model, h = tree(kind), 1e-30
+    q0, q1, v = states(model, 1)
+    end, way, one = model.integrate(q0, v), model.difference(q0, q1), np.eye(model.nv)
+    J_q, J_v = model.d_integrate(q0, v)
+    J_0, J_1 = model.d_difference(q0, q1)
+    for k, dv in enumerate(1j * h * one):
+        ends = model.integrate(model.integrate(q0, dv), v), model.integrate(q0, v + dv)
+        for J, moved in zip((J_q, J_v), ends):
+            np.testing.assert_allclose(J[:, k], model.difference(end, moved).imag / h, rtol=0, atol=2e-14)
+        ways = model.difference(model.integrate(q0, dv), q1), model.difference(q0, model.integrate(q1, dv))
+        for J, changed in zip((J_0, J_1), ways):
+            np.testing.assert_allclose(J[:, k], changed.imag / h, rtol=0, atol=5e-14)
+            np.testing.assert_allclose(changed.real, way, rtol=0, atol=1e-14)
+
+
+@KIND
+def test_pinocchio_has_the_same_derivatives_way_and_distance(kind):
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    model = tree(kind, seed=3)
+    there, (q0, q1, v) = bridge.to_pinocchio_model(model), states(model, 2)
+    theirs = *pin.dIntegrate(there, q0, bridge.to_pinocchio_tangent(model, v)), *pin.dDifference(there, q0, q1)
+    ours = *model.d_integrate(q0, v), *model.d_difference(q0, q1)
+    for J, P in zip(ours, theirs):
+        # Pinocchio's Jlog6 is good to about 1e-12.
+        np.testing.assert_allclose(J, bridge.from_pinocchio_matrix(model, P), rtol=0, atol=2e-12)
+    between = pin.interpolate(there, q0, q1, 0.3)
+    assert model.distance(between, model.interpolate(q0, q1, 0.3)) < 1e-11
+    assert model.distance(q0, q1) == pytest.approx(pin.distance(there, q0, q1), rel=1e-11)
+
+
+@KIND
+def test_the_derivatives_undo_each_other(kind):
+    model = tree(kind, seed=1)
+    q0, _, v = states(model, 3)
+    q1 = model.integrate(q0, 0.5 * v)  # by less than half a turn, where ⊖ leads back
+    v = model.difference(q0, q1)
+    J_q, J_v = model.d_integrate(q0, v)
+    J_0, J_1 = model.d_difference(q0, q1)
+    np.testing.assert_allclose(J_1 @ J_v, np.eye(model.nv), rtol=0, atol=5e-14)  # q ⊕ v ⊖ q = v
+    np.testing.assert_allclose(J_0 + J_1 @ J_q, np.zeros((model.nv, model.nv)), rtol=0, atol=5e-14)
+
+
+@KIND
+@pytest.mark.parametrize("shape", SHAPES)
+def test_batch_axes_and_number_types_are_kept(kind, shape):
+    model = tree(kind)
+    q0, q1, v = states(model, 4, shape)
+    for dtype in (np.float32, np.float64, np.longdouble):
+        a, b, c = (x.astype(dtype) for x in (q0, q1, v))
+        for J in (*model.d_integrate(a, c), *model.d_difference(a, b)):
+            assert (J.shape, J.dtype) == ((*shape, model.nv, model.nv), dtype)
+        assert model.interpolate(a, b, dtype(0.5)).dtype == model.distance(a, b).dtype == dtype
+    J_0, _ = model.d_difference(q0, q1)
+    for k in np.ndindex(shape):
+        np.testing.assert_allclose(J_0[k], model.d_difference(q0[k], q1[k])[0], rtol=0, atol=1e-15)
+
+
+def test_a_way_has_its_ends_and_as_many_points_as_asked_for():
+    model = tw.load("go2")
+    q0, q1, _ = states(model, 5)
+    way = model.interpolate(q0, q1, np.linspace(0, 1, 7))
+    assert way.shape == (7, model.nq)
+    ends = model.distance(way[[0, -1]], [q0, q1])
+    np.testing.assert_allclose(ends, 0, atol=1e-13)
+    steps = model.distance(way[:-1], way[1:])
+    np.testing.assert_allclose(steps, np.full(6, model.distance(q0, q1) / 6), rtol=1e-13)
+
+
+def test_a_joint_of_ones_own_without_a_unit_part_needs_no_derivative():
+    class Sliding(Joint):
+        kind, nq, nv = "sliding of test_manifold", 2, 2
+
+        def subspace(self, dtype=np.float64):
+            return np.eye(6, dtype=dtype)[:, 3:5]
+
+        def transform(self, q):
+            return tw.SE3(np.eye(3), np.concatenate([q, np.zeros_like(q[..., :1])], axis=-1))
+
+    builder = tw.Builder("slider")
+    builder.link("table", parent="base_link", joint=Sliding())
+    model = builder.build()
+    for J in model.d_integrate([1, 2], [3, 4]):
+        np.testing.assert_array_equal(J, np.eye(2))
+    np.testing.assert_array_equal(model.d_difference([1, 2], [3, 4])[0], -np.eye(2))
+    Joint.kinds.pop(Sliding.kind)
+
+
+def test_a_mimic_model_has_them_too():
+    arm = tw.load("planar_arm")
+    from twistwrench.algorithms.mimic import follow
+
+    mimic = follow(arm, {"wrist": ("elbow", -1.0, 0.5)})
+    np.testing.assert_array_equal(mimic.d_integrate([0.1, 0.2], [1, 2])[1], np.eye(2))
+    assert mimic.distance([0, 0], [3, 4]) == 5
+
+
+def test_errors_name_the_argument():
+    model = tw.load("go2")
+    with pytest.raises(tw.ShapeError, match="v_dt: expected shape"):
+        model.d_integrate(model.neutral(), np.ones(19))
+    with pytest.raises(ValueError, match="q1: joint 'root_joint': the quaternion"):
+        model.d_difference(model.neutral(), 2 * model.neutral())
+    with pytest.raises(ValueError, match="u: expected numbers"):
+        model.interpolate(model.neutral(), model.neutral(), "half")
