@@ -2,8 +2,9 @@
 
 import ast
 import re
+import runpy
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -20,6 +21,11 @@ class Entry(NamedTuple):
     text: str
     blocks: list[str]
 
+    @property
+    def severity(self) -> str:
+        found = re.search(r"\*\*(?:Severity\.\*\* |程度\*\*：)([^.。]+)", self.text)
+        return found[1].lower() if found else ""
+
 
 def read(path: Path) -> tuple[str, list[Entry]]:
     """The lines that all blocks start from, and the entries."""
@@ -27,7 +33,23 @@ def read(path: Path) -> tuple[str, list[Entry]]:
     return preamble, [Entry(int(h[1]), h[2], h[3], text, blocks) for h, text, blocks in parts]
 
 
+def slug(title: str) -> str:
+    """The anchor that code hosts and the site give a heading."""
+    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+
+
 PREAMBLE, ENTRIES = read(ENGLISH)
+SEVERITIES = (["wrong number", "crash", "misleading", "history"], ["数值错误", "报错中断", "误导", "史实"])
+_TEXT = ENGLISH.read_text(encoding="utf-8")
+_HISTORY, _APPENDIX = (
+    int(HEADING.search(_TEXT, _TEXT.index(f"\n## {name}"))[1])  # type: ignore[index]
+    for name in ("Not shown by code", "Appendix")
+)
+PARTS = {
+    "main": ENTRIES[: _HISTORY - 1],
+    "history": ENTRIES[_HISTORY - 1 : _APPENDIX - 1],
+    "appendix": ENTRIES[_APPENDIX - 1 :],
+}
 SHOWN = [entry for entry in ENTRIES if entry.blocks]
 
 
@@ -46,17 +68,40 @@ def test_each_block_is_short_and_asserts_something(entry: Entry) -> None:
     assert any(isinstance(node, ast.Assert) for node in ast.walk(ast.parse(block)))
 
 
-def test_entries_are_numbered_in_the_order_of_the_chapter() -> None:
+def test_entries_are_numbered_and_each_part_is_in_the_order_of_the_chapter() -> None:
     assert [entry.number for entry in ENTRIES] == list(range(1, len(ENTRIES) + 1))
-    sections = [[int(part) for part in entry.section.split(".")[:2]] for entry in SHOWN]
-    assert sections == sorted(sections)
+    for part in PARTS.values():
+        sections = [[int(k) for k in e.section.split(".")[:2]] for e in part if e.blocks]
+        assert sections == sorted(sections)
 
 
-def test_entries_without_code_come_last_and_name_a_year_or_a_source() -> None:
-    assert ENTRIES[: len(SHOWN)] == SHOWN
-    for entry in ENTRIES[len(SHOWN) :]:
+def test_entries_without_code_come_last_in_their_part_and_name_a_year_or_a_source() -> None:
+    assert [bool(e.blocks) for e in PARTS["main"]] == [True] * len(PARTS["main"])
+    assert not any(e.blocks for e in PARTS["history"])
+    for entry in ENTRIES:
         true = entry.text.partition("**What is true.**")[2]
-        assert re.search(r"\b1[789]\d\d\b|\b20\d\d\b|https://", true), entry.title
+        assert entry.blocks or re.search(r"\b1[789]\d\d\b|\b20\d\d\b|https://", true), entry.title
+
+
+def test_the_table_of_severities_lists_every_entry_once_in_both_languages() -> None:
+    tables = [path.read_text(encoding="utf-8").partition("\n## 49.1")[0] for path in (ENGLISH, CHINESE)]
+    for head, entries, names in zip(tables, (ENTRIES, read(CHINESE)[1]), SEVERITIES, strict=True):
+        for name in names:
+            row = next(line for line in head.splitlines() if line.startswith(f"| {name} |"))
+            listed = [int(k) for k in re.findall(r"\d+", row.rsplit("|", 2)[1])]
+            assert listed == [entry.number for entry in entries if entry.severity == name]
+    assert {entry.severity for entry in ENTRIES} == set(SEVERITIES[0])
+    translated = dict(zip(SEVERITIES[1], SEVERITIES[0], strict=True))
+    assert [translated[e.severity] for e in read(CHINESE)[1]] == [e.severity for e in ENTRIES]
+
+
+def test_the_ten_at_the_top_are_entries_of_the_page() -> None:
+    for path in (ENGLISH, CHINESE):
+        text = path.read_text(encoding="utf-8")
+        anchors = {slug(h[0].removeprefix("### ")) for h in HEADING.finditer(text)}
+        links = re.findall(r"\]\(#([^)]+)\)", text.partition("\n## 49.1")[0])
+        assert len(links) == 10
+        assert set(links) <= anchors
 
 
 def test_each_entry_says_what_the_chapter_says_and_what_is_true() -> None:
@@ -79,3 +124,63 @@ def test_both_languages_have_the_same_entries_and_the_same_code() -> None:
 def test_both_pages_name_the_author_and_the_licence() -> None:
     assert names_author_and_licence(ENGLISH)
     assert names_author_and_licence(CHINESE)
+
+
+# ---------------------------------------------------------------- docs/chapter: the listing, and a patch for the author
+
+CHAPTER = DOCS / "chapter"
+LISTING = {
+    11: "pin.neutral()",
+    13: "SE3.action",
+    21: "Inertia.matrix()",
+    22: "body 0",
+    34: "crba",
+    41: "randomConfiguration",
+    50: "`h_G[3:]`",
+    51: "`J_full[3:, :]`",
+    52: "getFrameJacobian",
+    53: "rnea",
+    56: "Static equilibrium",
+}
+"""The entries that the comments of the listing name."""
+
+
+def test_the_mended_listing_passes_its_tests(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the listing is written for it")
+    monkeypatch.setattr("sys.argv", ["listing_49_11.py"])
+    runpy.run_path(str(CHAPTER / "listing_49_11.py"), run_name="__main__")
+    assert re.search(r"7 rank of J_c +12", capsys.readouterr().out)
+
+
+def test_the_listing_names_the_entries_that_it_mends() -> None:
+    numbers = re.findall(r"# .*\[(\d+)\]$", (CHAPTER / "listing_49_11.py").read_text(encoding="utf-8"), re.MULTILINE)
+    assert {int(k) for k in numbers} == set(LISTING)
+    assert [k for k, words in LISTING.items() if words not in ENTRIES[k - 1].title] == []
+
+
+def mend() -> dict[str, Any]:
+    return runpy.run_path(str(CHAPTER / "mend.py"), run_name="mend")
+
+
+def test_every_entry_that_the_chapter_could_mend_has_a_correction() -> None:
+    named = {correction.entry for correction in mend()["corrections"]()}
+    titles = {entry.title for entry in ENTRIES}
+    assert named <= titles
+    assert titles - named == set()
+    assert f"{len(mend()['corrections']())} passages" in _TEXT
+
+
+def test_the_patch_is_made_and_what_is_not_found_is_reported(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = mend()
+    chapter = tmp_path / "chapter.md"
+    passages = {c.find: c for c in own["corrections"]()}  # a chapter that consists of the passages alone
+    chapter.write_text("\n\n".join(c.find for c in passages.values() for _ in range(c.times)), encoding="utf-8")
+    own["main"]([str(chapter)])
+    assert "\n+要求:pip install pin numpy matplotlib\n" in capsys.readouterr().out
+    chapter.write_text("pip install pinocchio numpy matplotlib", encoding="utf-8")
+    assert own["main"]([str(chapter)]) == 1
+    assert "not found 1 time(s)" in capsys.readouterr().err
