@@ -149,6 +149,7 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "force_transform": {"p": np.zeros(3)},
     "motion_transform": {"p": np.zeros(3)},
     "bridge.from_pinocchio_force": {"F": np.ones(6)},
+    "operational_space_inertia": {"J": np.eye(6, GO2.nv)},
     "plot.arrows": {"points": np.zeros(3), "texts": ["a"]},
     "plot.felt_mass": {"inertia": BODY.matrix()},
     "plot.foot_forces": {"contacts": GO2.feet},

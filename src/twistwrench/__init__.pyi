@@ -2,6 +2,7 @@
 
 from . import bridge, exercises, fast, motions, newton_euler_3d, plot, templates
 from .algorithms.aba import aba, aba_terms
+from .algorithms.articulated import articulated_inertia
 from .algorithms.centroidal import (
     center_of_mass,
     centroidal_map,
@@ -11,8 +12,11 @@ from .algorithms.centroidal import (
 )
 from .algorithms.coriolis import coriolis_matrix
 from .algorithms.crba import crba, crba_terms
+from .algorithms.delassus import delassus_matrix, operational_space_inertia
 from .algorithms.energy import kinetic_energy, potential_energy
+from .algorithms.factorization import ltdl, ltl, solve_mass_matrix
 from .algorithms.floating_base import Equilibrium, contact_jacobian, selection_matrix, static_equilibrium
+from .algorithms.inverse_mass import inverse_mass_matrix
 from .algorithms.kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .algorithms.mimic import MimicModel
 from .algorithms.rnea import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
@@ -102,6 +106,7 @@ __all__ = [
     "aba",
     "aba_terms",
     "accuracy",
+    "articulated_inertia",
     "bridge",
     "center_of_mass",
     "centroidal_map",
@@ -120,6 +125,7 @@ __all__ = [
     "crba_terms",
     "cross_force",
     "cross_motion",
+    "delassus_matrix",
     "dynamics",
     "exercises",
     "exp3",
@@ -135,17 +141,21 @@ __all__ = [
     "hat",
     "impact",
     "interpolate",
+    "inverse_mass_matrix",
     "joint_wrenches",
     "kinetic_energy",
     "load",
     "lock_joints",
     "log3",
     "log6",
+    "ltdl",
+    "ltl",
     "motion_transform",
     "motions",
     "nearest_rotation",
     "newton_euler_3d",
     "nonlinear_effects",
+    "operational_space_inertia",
     "plot",
     "potential_energy",
     "power",
@@ -158,6 +168,7 @@ __all__ = [
     "selection_matrix",
     "simulate",
     "skew",
+    "solve_mass_matrix",
     "stance_margins",
     "static_equilibrium",
     "templates",

@@ -7,9 +7,13 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.algorithms.aba import articulated_body
+from twistwrench.algorithms.articulated import articulated_inertias
 from twistwrench.algorithms.centroidal import _to_center_of_mass, centroidal_composite
 from twistwrench.algorithms.coriolis import christoffel
 from twistwrench.algorithms.crba import composite_rigid_body
+from twistwrench.algorithms.delassus import delassus
+from twistwrench.algorithms.factorization import factorize, inboard_dofs, solve_inward, solve_outward
+from twistwrench.algorithms.inverse_mass import unit_force_responses
 from twistwrench.algorithms.kinematics import motion, placements
 from twistwrench.algorithms.rnea import newton_euler
 from twistwrench.model import KINDS, Joint, columns, composite_inertias, joint_placements, tree_terms, wrenches
@@ -162,6 +166,19 @@ def test_every_recursion_is_arithmetic(state):
     for x, y in zip(placements(model.parent, joint_placements(model, blind(q))), kinematics.placement, strict=True):
         close(x.matrix(), y.matrix())
     close(composite_inertias(tree)[0], composite_inertias(tree_terms(model, q))[0], "IC")
+
+
+def test_factors_solves_and_inverses_are_arithmetic(state):
+    model, q, v, _, _ = state
+    tree, inboard = tree_terms(model, blind(q)), inboard_dofs(tree_terms(model, q))
+    L, D = factorize(composite_rigid_body(tree).M, inboard)
+    for x, y in zip((L, D), tw.ltdl(model, q), strict=True):
+        close(x, y)
+    x = solve_outward(L, inboard, solve_inward(L, inboard, blind(v)[:, None]) / D[:, None])
+    close(x[:, 0], tw.solve_mass_matrix(model, q, v))
+    close(unit_force_responses(tree, articulated_inertias(tree)), tw.inverse_mass_matrix(model, q))
+    J = tw.frame_jacobian(model, q, model.frame_names[-1])
+    close(delassus(L, D, inboard, blind(J)), tw.delassus_matrix(model, q, J))
 
 
 # ---------------------------------------------------------------- checked once

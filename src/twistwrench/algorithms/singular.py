@@ -13,7 +13,7 @@ from ..arrays import Array, judged, resolution
 from ..errors import SingularError
 from ..model import Model, Tree, composite_inertias
 from ..spatial._elementary import at_first_index
-from .terms import AbaTerms
+from .terms import AbaTerms, ArticulatedTerms
 
 __all__ = ["refuse_lost", "refuse_singular", "refuse_weightless"]
 
@@ -21,7 +21,7 @@ ROUNDINGS = 100
 """An inertia, or a singular value of contacts, below so many times the bound on its rounding counts as zero."""
 
 
-def refuse_singular(model: Model, tree: Tree, terms: AbaTerms) -> None:
+def refuse_singular(model: Model, tree: Tree, terms: AbaTerms | ArticulatedTerms) -> None:
     """Raise SingularError where a D of the ABA is singular to rounding: q̈ is not determined there."""
     refuse_weightless(model, tree)
     if tree.I[0].dtype == object:  # not rounded: where D is zero, the division has raised

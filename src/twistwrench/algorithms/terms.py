@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["AbaTerms", "CentroidalTerms", "CrbaTerms", "RneaTerms", "matrices"]
+__all__ = ["AbaTerms", "ArticulatedTerms", "CentroidalTerms", "CrbaTerms", "RneaTerms", "matrices"]
 
 Batch = tuple[int, ...]
 Entries = Sequence[Array]
@@ -110,6 +110,22 @@ class AbaTerms(Terms):
             entries[name] = [np.zeros((*batch, *shape), dtype), *entries[name][1:]]
         is_vector = ("V", "c", "B", "pA", "u", "pa", "A")
         return cls(**{k: (vectors if k in is_vector else matrices)(x, batch) for k, x in entries.items()}, qdd=qdd)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ArticulatedTerms(Terms):
+    """What `articulated_inertias` returns: the terms of `AbaTerms` that depend on the posture alone.
+
+    Attributes
+    ----------
+    IA, U, D, D_inv : list of ndarray
+        As in `AbaTerms`.
+    """
+
+    IA: Entries
+    U: Entries
+    D: Entries
+    D_inv: Entries
 
 
 @dataclass(frozen=True, eq=False, repr=False)
