@@ -56,15 +56,29 @@ assert np.allclose(tw.frame_jacobian(model, q, "FR_foot", "world") @ v, spatial,
 # The **body twist** is what a passenger on the foot measures, in the axes of the foot: its linear part is the velocity of
 # the foot. The **spatial twist** is what is seen from the world: its linear part is the velocity of the point of the
 # foot's body that passes through the *world's origin* now. No such point exists in metal; imagine the body as large as
-# the room. One matrix leads from one to the other (49.3):
+# the room.
+#
+# How are the two related? From the first definition $\dot T = T\,[\boldsymbol V_{body}]$. Put this into the second:
+#
+# $$[\boldsymbol V_{spatial}] = \dot T\,T^{-1} = T\,[\boldsymbol V_{body}]\,T^{-1}.$$
+#
+# This holds for any two frames whose placement relative to each other is $T$. Written for six numbers instead of a 4 × 4
+# matrix it is one multiplication, $\boldsymbol V_{spatial} = X\,\boldsymbol V_{body}$; section 49.3 multiplies it out.
 # %% [markdown] lang="zh"
 # **Body twist** 是坐在脚上的乘客按脚的坐标轴量到的:线速度部分就是脚的速度。**Spatial twist** 是站在世界里看到的:
 # 线速度部分是脚这个刚体上此刻经过*世界原点*的那个点的速度。那里其实没有金属,请想象这个刚体和房间一样大。
-# 从一个到另一个只需乘一个矩阵(49.3):
+#
+# 两者有什么关系?由第一个定义得 $\dot T = T\,[\boldsymbol V_{body}]$,代入第二个:
+#
+# $$[\boldsymbol V_{spatial}] = \dot T\,T^{-1} = T\,[\boldsymbol V_{body}]\,T^{-1}.$$
+#
+# 任何两个坐标系,只要相对位姿是 $T$,都有这个关系。不写成 4 × 4 矩阵而写成六个数,就是一次乘法
+# $\boldsymbol V_{spatial} = X\,\boldsymbol V_{body}$;49.3 把它展开。
 # %%
 R, p = T[:3, :3], T[:3, 3]
 assert np.allclose(R @ body[3:], T_dot[:3, 3])  # the velocity of the foot
 assert np.allclose(spatial[3:], T_dot[:3, 3] + np.cross(spatial[:3], -p))  # of the point at the world's origin
+assert np.allclose(T @ tw.hat(body) @ np.linalg.inv(T), tw.hat(spatial))
 assert np.allclose(tw.motion_transform(R, p) @ body, spatial)
 # %% [markdown] lang="en"
 # ## A twist is a field of velocities
@@ -160,7 +174,8 @@ assert stretched > 10
 #
 # ## The screw
 #
-# Chasles: every instantaneous motion is a turn about some line and a slide along the same line. A twist with
+# At every instant a rigid body turns about some line and slides along the same line (Mozzi, 1763). Chasles's theorem of
+# 1830 says the same of a finite displacement, so the two are named together. A twist with
 # $\boldsymbol\omega \ne 0$ gives the line (direction $\boldsymbol\omega/|\boldsymbol\omega|$, through the point
 # $\boldsymbol\omega \times \boldsymbol v / |\boldsymbol\omega|^2$) and the **pitch**
 # $\boldsymbol\omega\cdot\boldsymbol v / |\boldsymbol\omega|^2$, metres along per radian. The pitch is negative for a
@@ -170,7 +185,8 @@ assert stretched > 10
 #
 # ## 螺旋
 #
-# Chasles 定理:任何瞬时运动都是绕某条直线的转动加上沿同一条直线的滑动。$\boldsymbol\omega \ne 0$ 的 twist 给出这条直线
+# 在每一瞬间,刚体都绕某条直线转动并沿同一条直线滑动(Mozzi,1763)。Chasles 1830 年的定理说的是有限位移,所以两人常常并称。
+# $\boldsymbol\omega \ne 0$ 的 twist 给出这条直线
 # (方向 $\boldsymbol\omega/|\boldsymbol\omega|$,经过点 $\boldsymbol\omega \times \boldsymbol v / |\boldsymbol\omega|^2$)
 # 和**螺距** $\boldsymbol\omega\cdot\boldsymbol v / |\boldsymbol\omega|^2$,即每转一弧度沿轴前进多少米。
 # 左旋时螺距为负,铰链的螺距为零,平移的螺距是无穷大。

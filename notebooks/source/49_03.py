@@ -34,7 +34,8 @@ plt.show()
 # %% [markdown] lang="en"
 # ## Six steps
 #
-# **1.** 49.2 shows how a body twist becomes a spatial one. The same holds between any two frames:
+# **1.** In 49.2 a body twist became a spatial one by putting $\dot T = T\,[\boldsymbol V_{body}]$ into
+# $[\boldsymbol V_{spatial}] = \dot T\,T^{-1}$. Between any two frames it is the same:
 #
 # $$[\boldsymbol V_A] = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
 #
@@ -49,7 +50,8 @@ plt.show()
 # %% [markdown] lang="zh"
 # ## 六步推导
 #
-# **第一步。** 49.2 说明了 body twist 怎样变成 spatial twist。任意两个坐标系之间也是如此:
+# **第一步。** 49.2 把 $\dot T = T\,[\boldsymbol V_{body}]$ 代入 $[\boldsymbol V_{spatial}] = \dot T\,T^{-1}$,
+# body twist 就变成了 spatial twist。任意两个坐标系之间也是如此:
 #
 # $$[\boldsymbol V_A] = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
 #
@@ -114,6 +116,40 @@ assert np.allclose(-W @ p, tw.skew(p) @ R @ w, atol=1e-15)  # 5
 X = T_AB.motion_transform()
 assert np.array_equal(X, np.block([[R, np.zeros((3, 3))], [tw.skew(p) @ R, R]]))  # 6
 assert np.allclose(X @ V_B, tw.vee(carried), atol=1e-15)
+# %% [markdown] lang="en"
+# ## Plücker's lines, and why X bears his name
+#
+# In 1865 Julius Plücker described a line in space by six numbers: its direction $\boldsymbol d$ and its moment
+# $\boldsymbol m = \boldsymbol r \times \boldsymbol d$, where $\boldsymbol r$ is any point of the line. (Another point
+# $\boldsymbol r + s\boldsymbol d$ gives the same $\boldsymbol m$.) Seen from another frame the line has the direction
+# $R\boldsymbol d$ and the moment $R\boldsymbol m + \boldsymbol p \times R\boldsymbol d$. These are the rules for
+# $\boldsymbol\omega$ and $\boldsymbol v$: **$X$ transforms lines**, and therefore bears Plücker's name.
+#
+# The reason is simple. A body that turns about the line at 1 rad/s has the twist $(\boldsymbol d, \boldsymbol m)$, since
+# its point at the origin moves with $\boldsymbol d \times (-\boldsymbol r) = \boldsymbol m$. A force of 1 N along the
+# line has the same six numbers in the other order, $(\boldsymbol m, \boldsymbol d)$, and is transformed by $X^*$. A screw
+# is a line and a pitch: $(\boldsymbol d, \boldsymbol m + h\boldsymbol d)$.
+# %% [markdown] lang="zh"
+# ## Plücker 直线,以及 X 为什么叫这个名字
+#
+# 1865 年,Julius Plücker 用六个数描述空间中的一条直线:方向 $\boldsymbol d$ 和矩
+# $\boldsymbol m = \boldsymbol r \times \boldsymbol d$,其中 $\boldsymbol r$ 是直线上任意一点。(换一点
+# $\boldsymbol r + s\boldsymbol d$,$\boldsymbol m$ 不变。)换一个坐标系看,方向成为 $R\boldsymbol d$,矩成为
+# $R\boldsymbol m + \boldsymbol p \times R\boldsymbol d$。这正是 $\boldsymbol\omega$ 与 $\boldsymbol v$ 的变换规则:
+# **$X$ 变换的是直线**,所以用 Plücker 的名字。
+#
+# 原因很简单。刚体以 1 rad/s 绕这条直线转动时,它在原点处的点以
+# $\boldsymbol d \times (-\boldsymbol r) = \boldsymbol m$ 运动,所以 twist 就是 $(\boldsymbol d, \boldsymbol m)$。
+# 沿这条直线的 1 N 的力是同样六个数换个次序,$(\boldsymbol m, \boldsymbol d)$,用 $X^*$ 变换。螺旋就是一条直线加一个螺距:
+# $(\boldsymbol d, \boldsymbol m + h\boldsymbol d)$。
+# %%
+d, point = np.array([0, 0.6, 0.8]), np.array([0.1, -0.2, 0.3])  # a line, in B
+line = np.concatenate([d, np.cross(point, d)])
+assert np.allclose(np.cross(point + 5 * d, d), line[3:])  # any of its points will do
+in_A = np.concatenate([R @ d, np.cross(R @ point + p, R @ d)])  # the same line from its points in A
+assert np.allclose(tw.motion_transform(R, p) @ line, in_A)
+assert np.allclose(tw.force_transform(R, p) @ np.roll(line, 3), np.roll(in_A, 3))  # a force along the line
+assert np.isclose(tw.screw(line + np.concatenate([np.zeros(3), 0.2 * d])).pitch, 0.2)  # a screw: line and pitch
 # %% [markdown] lang="en"
 # ## The blocks
 #

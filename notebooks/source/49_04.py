@@ -180,8 +180,8 @@ ax.legend(loc="upper left")
 plt.show()
 # %% [markdown] lang="en"
 # The dotted lines are the levers; each moment is at right angles to its lever and to the force. (The chapter's first
-# exercise makes Go2 12 kg heavy. The model that the chapter loads has 16.085 kg: 39.45 N for each foot on average, a
-# little more behind than in front.)
+# exercise makes Go2 12 kg heavy. The description used here has 16.085 kg with its rotors: 39.45 N for each foot on average,
+# a little more behind than in front. Unitree's own has no rotors and 15.019 kg.)
 #
 # ## From wrenches to joints
 #
@@ -190,8 +190,8 @@ plt.show()
 # by $J_i^T$. For all feet that is $J_c^T \boldsymbol\lambda$. The same thing another way: hand the wrench to `rnea` as
 # `f_ext`, on the body that carries the foot and in its frame.
 # %% [markdown] lang="zh"
-# 虚线是力臂;每个力矩都垂直于自己的力臂,也垂直于力。(本章第一道练习里的 Go2 是 12 kg。本章加载的那个模型是
-# 16.085 kg,平均每只脚 39.45 N,后脚比前脚略多。)
+# 虚线是力臂;每个力矩都垂直于自己的力臂,也垂直于力。(本章第一道练习里的 Go2 是 12 kg。这里所用的模型带转子,是
+# 16.085 kg,平均每只脚 39.45 N,后脚比前脚略多;宇树自己的模型不带转子,是 15.019 kg。)
 #
 # ## 从 wrench 到关节
 #
@@ -268,6 +268,44 @@ plot.screw_axis(trot, length=0.7, near=middle, colour=plot.COLOURS["blue"], labe
 ax.view_init(elev=22, azim=-70)
 ax.legend(loc="upper left")
 plt.show()
+# %% [markdown] lang="en"
+# ## Reciprocal screws: forces that do no work
+#
+# Put both screws into the power. If the wrench has the axis through $\boldsymbol q_F$ and the pitch $h_F$, and the twist
+# the axis through $\boldsymbol q_V$ and the pitch $h_V$, then the origin drops out:
+#
+# $$P = \boldsymbol F^T \boldsymbol V = (h_F + h_V)\,\boldsymbol f \cdot \boldsymbol\omega
+# + (\boldsymbol q_F - \boldsymbol q_V) \cdot (\boldsymbol f \times \boldsymbol\omega).$$
+#
+# This is what power means in the language of screws: pitches, the angle between the axes, and their distance. If $P = 0$
+# the screws are **reciprocal**. A pure force and a hinge ($h_F = h_V = 0$) are reciprocal if their lines meet or are
+# parallel. You use this whenever you look at a leg: a force of the ground whose line meets the axis of a joint asks
+# nothing of that motor. Below, a force on the right front foot aims at a point of the hip's axis.
+# %% [markdown] lang="zh"
+# ## 互易螺旋:不做功的力
+#
+# 把两个螺旋都代入功率。设 wrench 的轴经过 $\boldsymbol q_F$,螺距为 $h_F$;twist 的轴经过 $\boldsymbol q_V$,螺距为
+# $h_V$。这时原点消去了:
+#
+# $$P = \boldsymbol F^T \boldsymbol V = (h_F + h_V)\,\boldsymbol f \cdot \boldsymbol\omega
+# + (\boldsymbol q_F - \boldsymbol q_V) \cdot (\boldsymbol f \times \boldsymbol\omega).$$
+#
+# 这才是功率的螺旋解释:两个螺距、两轴的夹角、两轴的距离。$P = 0$ 时称两个螺旋**互易**。纯力与铰链($h_F = h_V = 0$)互易,
+# 当且仅当两条直线相交或平行。看一条腿时随时用得上:地面反力的作用线如果与某个关节轴相交,这个关节的电机就不必出力。
+# 下面,右前脚上的力正好指向髋关节轴上的一点。
+# %%
+V, F = np.random.default_rng(4).standard_normal((2, 6))
+of_V, of_F = tw.screw(V), tw.screw(F, of="wrench")
+distance = (of_F.point - of_V.point) @ np.cross(F[3:], V[:3])
+assert np.isclose((of_F.pitch + of_V.pitch) * (F[3:] @ V[:3]) + distance, F @ V)
+
+hip = model.joint_id("FR_hip_joint")
+axis_point = tw.forward_kinematics(model, q).placement[hip].act(np.array([0.05, 0, 0]))  # the hip turns about x
+foot = tw.frame_placement(model, q, "FR_foot").translation
+J = tw.contact_jacobian(model, q, ["FR_foot"])
+torques = J.T @ (axis_point - foot)  # a force along the line from the foot to the axis
+assert np.isclose(torques[model.v_slice[hip]], 0, atol=1e-15)
+assert np.abs(torques[6:]).max() > 0.01  # the other motors of the leg are not spared
 # %% [markdown] lang="en"
 # ## A sole can do more, but not everything
 #

@@ -90,6 +90,22 @@ plt.show()
 # 3. **Outward**: $\ddot q_i = D_i^{-1}\big(u_i - U_i^T (X_i \boldsymbol a_\lambda + \boldsymbol c_i)\big)$, and on to the
 #    next.
 #
+# Where do the two formulas of step 2 come from? Write $\boldsymbol a' = X_i\boldsymbol a_\lambda + \boldsymbol c_i$ for the
+# acceleration that body $i$ has if its joint does not accelerate. Then $\boldsymbol a_i = \boldsymbol a' + S_i\ddot q_i$,
+# and the motor fixes the part of the wrench along the joint, $S_i^T\boldsymbol F_i = \tau_i$:
+#
+# $$S_i^T\big(\hat I_i^A(\boldsymbol a' + S_i\ddot q_i) + \boldsymbol p_i^A\big) = \tau_i
+# \quad\Rightarrow\quad \ddot q_i = D_i^{-1}(u_i - U_i^T\boldsymbol a').$$
+#
+# That is step 3. Put it back into $\boldsymbol F_i = \hat I_i^A\boldsymbol a_i + \boldsymbol p_i^A$:
+#
+# $$\boldsymbol F_i = \hat I_i^A\boldsymbol a' + U_i D_i^{-1}(u_i - U_i^T\boldsymbol a') + \boldsymbol p_i^A
+# = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
+# + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
+#
+# So the parent sees an inertia and a bias wrench again. The bias has three parts: the one from before, what the
+# velocities cost, and what the motor pushes back with.
+#
 # The chapter writes $X_i^* \hat I X_i^{-1}$ and $X_i^* \boldsymbol p$ here, with $X_i$ from parent to child. That leads
 # outward, as in 49.6: the calf ends up above the thigh.
 # %% [markdown] lang="zh"
@@ -110,6 +126,21 @@ plt.show()
 #    再换到它的坐标系:$\hat I_{\lambda}^A$ 加上 $X_i^T \hat I_i^a X_i$，$\boldsymbol p_{\lambda}^A$ 加上
 #    $X_i^T \boldsymbol p_i^a$。
 # 3. **向外**：$\ddot q_i = D_i^{-1}\big(u_i - U_i^T (X_i \boldsymbol a_\lambda + \boldsymbol c_i)\big)$,再到下一个。
+#
+# 第 2 步的两个公式从哪里来?设 $\boldsymbol a' = X_i\boldsymbol a_\lambda + \boldsymbol c_i$,即关节没有加速度时刚体 $i$
+# 的加速度。于是 $\boldsymbol a_i = \boldsymbol a' + S_i\ddot q_i$,而电机决定了 wrench 沿关节的分量,
+# $S_i^T\boldsymbol F_i = \tau_i$:
+#
+# $$S_i^T\big(\hat I_i^A(\boldsymbol a' + S_i\ddot q_i) + \boldsymbol p_i^A\big) = \tau_i
+# \quad\Rightarrow\quad \ddot q_i = D_i^{-1}(u_i - U_i^T\boldsymbol a').$$
+#
+# 这就是第 3 步。再代回 $\boldsymbol F_i = \hat I_i^A\boldsymbol a_i + \boldsymbol p_i^A$:
+#
+# $$\boldsymbol F_i = \hat I_i^A\boldsymbol a' + U_i D_i^{-1}(u_i - U_i^T\boldsymbol a') + \boldsymbol p_i^A
+# = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
+# + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
+#
+# 所以父刚体看到的又是一个惯量和一个偏置力。偏置力有三部分:原有的、速度引起的、电机反推的。
 #
 # 本章这里写的是 $X_i^* \hat I X_i^{-1}$ 和 $X_i^* \boldsymbol p$,而 $X_i$ 是从父到子。这和 49.6 一样是向外的:
 # 小腿会跑到大腿上方去。
@@ -138,7 +169,9 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 #
 # - **composite** $\hat I^C$: joints *locked*, one rigid body (49.5). CRBA builds $M$ from it, and $S_i^T \hat I_i^C S_i$
 #   is the entry $M_{ii}$.
-# - **articulated** $\hat I^A$: joints *free*. $D_i = S_i^T \hat I_i^A S_i$ is the apparent inertia at the motor.
+# - **articulated** $\hat I^A$: joints *free*. $D_i = S_i^T \hat I_i^A S_i$ is the apparent inertia at the motor, provided
+#   that the parent body is held. (The motor pushes the parent back with the same torque. If the parent gives way, the
+#   joint accelerates more; you will see by how much below.)
 #
 # Freeing joints can only make it smaller. Below, six equal rods: at each hinge the apparent mass seen by the rod before it,
 # drawn as above. All hinges locked, the circles grow with the number of rods. All hinges free, the other five add
@@ -150,7 +183,8 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 #
 # - **复合惯量** $\hat I^C$:关节*锁死*,成为一个刚体(49.5)。CRBA 用它构造 $M$，$S_i^T \hat I_i^C S_i$ 就是元素
 #   $M_{ii}$。
-# - **铰接体惯量** $\hat I^A$:关节*自由*。$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。
+# - **铰接体惯量** $\hat I^A$:关节*自由*。父刚体固定时,$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。(电机以同样大小的
+#   力矩反推父刚体;父刚体如果退让,关节就加速得更快。下面会看到快多少。)
 #
 # 放开关节只会变轻。下面是六根相同的杆:每个铰链处画的是对前一根杆的表观质量,画法同上。铰链全锁死,圆随杆数变大;
 # 铰链全自由,后面那五根杆横着第一根杆的方向几乎没有增加什么,沿着它的方向也远远不到它们的质量。
@@ -218,11 +252,13 @@ figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", 
 plt.show()
 assert np.isclose(IA[1][0, 0] / M[0, 0], 0.24, atol=0.01)
 # %% [markdown] lang="en"
-# The base matters as much. Give the front left hip 1 N m. With the base held it accelerates with 54 rad/s²; on a free
-# robot with 95, since the trunk gives way, and every other joint moves too. (The chapter's pseudocode sets
-# $\boldsymbol a_0 = -\boldsymbol g$ for the base and so computes the held robot.)
+# The base matters as much. Give the front left hip 1 N m. With the base held it accelerates with $1/D_i$ = 54 rad/s²; on
+# a free robot with 95, since the trunk gives way, and every other joint moves too. So $\hat I_i^A$ is not the answer to a
+# torque at joint $i$, as the chapter pictures it: it is the answer of body $i$ to a wrench that acts on it from outside.
+# (The chapter's pseudocode sets $\boldsymbol a_0 = -\boldsymbol g$ for the base and so computes the held robot.)
 # %% [markdown] lang="zh"
-# 基座的影响同样大。给左前髋 1 N m。托住基座时它以 54 rad/s² 加速;机器人自由时是 95,因为躯干会让开,而且其他关节都跟着动。
+# 基座的影响同样大。给左前髋 1 N m。固定基座时它以 $1/D_i$ = 54 rad/s² 加速;机器人自由时是 95,因为躯干会退让,而且其他关节
+# 都跟着动。所以 $\hat I_i^A$ 并不像本章描述的那样是对关节 $i$ 处扭矩的响应,而是刚体 $i$ 对外界作用在它上面的 wrench 的响应。
 # (本章的伪代码给基座设 $\boldsymbol a_0 = -\boldsymbol g$,算的其实是被托住的机器人。)
 # %%
 fixed, push = tw.load("go2", base="fixed"), np.eye(model.nv)[6]
@@ -230,6 +266,7 @@ held = tw.aba(fixed, q[7:], rest[6:], push[6:]) - tw.aba(fixed, q[7:], rest[6:],
 loose = tw.aba(model, q, rest, push) - tw.aba(model, q, rest, rest)
 print(f"front left hip: {held[0]:.0f} rad/s² with the base held, {loose[6]:.0f} with the base free")
 assert np.allclose([held[0], loose[6]], [54.3, 95.5], atol=0.1)
+assert np.isclose(held[0], 1 / tw.aba_terms(model, q, rest, rest).D[2].item())  # the hip is joint 2
 assert np.allclose(held[3:], 0, atol=1e-12)  # held, the other legs notice nothing
 assert (np.abs(loose[9:]) > 0.1).all()
 # %% [markdown] lang="en"

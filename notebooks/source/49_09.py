@@ -324,10 +324,25 @@ ax.invert_xaxis()
 ax.legend()
 plt.show()
 # %% [markdown] lang="en"
-# What does cost rank is a contact too many. The ankle end and the knee end of one calf are a fixed distance apart: of
-# their six velocities only five are independent.
+# The base's six columns make up for the direction that each leg gives up, as long as these four directions do not depend
+# on each other. Here they do not: the hips of Go2 are 95.5 mm wide, so with the hip joints at 0 the legs lean outward.
+# Turn each hip until the foot is right below it. Now the four legs are parallel, and the rank falls to 11: no motion of the
+# robot can lengthen one leg alone, and nothing tells how four upright posts share the load.
 # %% [markdown] lang="zh"
-# 真正使秩下降的是多余的接触。同一根小腿的两端距离固定:它们的六个速度分量里只有五个是独立的。
+# 每条腿失去一个方向,基座的六列可以补上,只要这四个方向彼此不相关。这里正是如此:Go2 的髋宽 95.5 mm,髋关节为 0 时腿向外斜。
+# 再转动髋关节,让每只脚都在髋的正下方。这时四条腿平行,秩降为 11:任何运动都不能只改变一条腿的长度,
+# 四根直立的柱子怎样分担重量也就无法确定。
+# %%
+upright = stretched[-1].copy()
+upright[7::3] = np.array([-1, 1, -1, 1]) * np.arctan2(0.0955, 0.426)  # hips, rad: width and length of a leg
+of_upright = np.linalg.svd(tw.contact_jacobian(model, upright, model.feet))[1]
+print(f"smallest singular value {of_upright.min():.1e}, the next {of_upright[-2]:.2f}")
+assert of_upright.min() < 1e-12 < 1e-2 < of_upright[-2]
+# %% [markdown] lang="en"
+# A contact too many costs rank as well. The ankle end and the knee end of one calf are a fixed distance apart: of their
+# six velocities only five are independent.
+# %% [markdown] lang="zh"
+# 多余的接触也会使秩下降。同一根小腿的两端距离固定:它们的六个速度分量里只有五个是独立的。
 # %%
 twice = tw.contact_jacobian(model, q, ["FL_foot", "FL_calf"])
 assert np.linalg.matrix_rank(twice) == 5

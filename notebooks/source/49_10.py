@@ -87,6 +87,9 @@ assert np.allclose(A_G @ v, h_G, rtol=1e-12)
 #
 # $$\dot h_G = \begin{pmatrix} \sum_k (p_k - p_G) \times f_k \\ \sum_k f_k + m g \end{pmatrix}.$$
 #
+# This is for point contacts, such as the feet of Go2. A sole also passes a moment $\tau_k$ (49.4), which is added to the
+# upper half.
+#
 # Any state, any torques, any forces at the feet. Then once more without forces: no motor can change more than how the
 # momentum is shared out inside.
 # %% [markdown] lang="zh"
@@ -95,6 +98,8 @@ assert np.allclose(A_G @ v, h_G, rtol=1e-12)
 # 把牛顿和欧拉方程用于整个机器人:只有来自外界的力起作用,再加上重力,而重力对 $G$ 没有力矩。
 #
 # $$\dot h_G = \begin{pmatrix} \sum_k (p_k - p_G) \times f_k \\ \sum_k f_k + m g \end{pmatrix}.$$
+#
+# 这是点接触的情形,例如 Go2 的脚。脚底(面接触)还传递力矩 $\tau_k$(49.4),要加到上半部分里。
 #
 # 任意状态、任意力矩、任意足端力。然后去掉足端力再来一次:电机能改变的只是动量在内部怎样分配。
 # %%
