@@ -189,7 +189,7 @@ KINDS = {"contacts": "frame|contact", "feet": "frame", "frames": "frame", "hold"
 KINDS |= {"kinds": "kind", "names": "joint", "want": "quantity", "anchors": "anchor", "wrenches": "frame"}
 """What is unknown where one of several names is."""
 
-FLAT = {"flow", "felt_mass", "mass_matrix", "matrix", "side_view", "sole"}
+FLAT = {"fill_in", "flow", "felt_mass", "mass_matrix", "matrix", "side_view", "sole"}
 """The pictures that are flat."""
 
 

@@ -38,6 +38,7 @@ def random_postures():
     ("draw", "fixture"),
     [
         (lambda ax: plot.mass_matrix(MODEL, tw.crba(MODEL, Q), ax=ax), "flat"),
+        (lambda ax: plot.fill_in(MODEL, ax=ax), "flat"),
         (lambda ax: plot.side_view(MODEL, Q, ax=ax), "flat"),
         (lambda ax: plot.support_polygon(np.eye(3), [0, 0, 1], ax=ax), "space"),
         (lambda ax: plot.foot_forces(MODEL, Q, np.ones((4, 3)), ax=ax), "space"),
@@ -125,6 +126,19 @@ def test_each_joint_stands_at_its_row_right_of_the_one_that_carries_it(name, fla
         assert place[names[i]][0] < -1  # left of the matrix
         if model.parent[i]:
             assert place[names[i]][0] == pytest.approx(place[names[model.parent[i]]][0] + 0.9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_is_filled_in_is_what_numpys_cholesky_fills_in(seed, flat):
+    model = tw.random_tree(8, rng=seed, base="floating")
+    filled = plot.filled_in(model)
+    M = tw.crba(model, model.random_configuration(rng=seed))
+    off = np.tril(~plot.same_branch(model))
+    assert filled[off].sum() == np.count_nonzero(np.linalg.cholesky(M)[off]) > 0
+    plot.fill_in(model, ax=flat)
+    grey, orange = (line.get_xydata().astype(int) for line in flat.lines[:2])
+    assert {(r, c) for c, r in orange} == set(zip(*np.nonzero(filled), strict=True))
+    assert {(r, c) for c, r in grey} == set(zip(*np.nonzero(np.tril(plot.same_branch(model))), strict=True))
 
 
 def test_a_mass_matrix_of_another_robot_is_refused(flat):

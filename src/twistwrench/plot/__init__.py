@@ -10,7 +10,7 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `contacts`: friction cones, soles and their centre of pressure.
 - `inertias`: bodies as ellipsoids, the apparent mass in each direction.
 - `flow`: what a recursion carries along the tree.
-- `sparsity`: the mass matrix beside the tree.
+- `sparsity`: the mass matrix and its factors beside the tree.
 - `stance`: a robot on its feet, with its support polygon.
 - `stride`: a robot from the side.
 """
@@ -22,7 +22,7 @@ from .inertias import ellipsoid, ellipsoids, felt_mass, semi_axes
 from .matrices import ANGULAR_LINEAR, matrix
 from .robot import robot, sticks
 from .screws import point_velocity, screw_axis, twist_field
-from .sparsity import mass_matrix, same_branch
+from .sparsity import fill_in, filled_in, mass_matrix, same_branch
 from .stance import foot_forces, hull, support_polygon
 from .stride import side_view
 from .style import COLOURS, XYZ, axes_2d, axes_3d, fit
@@ -38,6 +38,8 @@ __all__ = [
     "ellipsoid",
     "ellipsoids",
     "felt_mass",
+    "fill_in",
+    "filled_in",
     "fit",
     "flow",
     "foot_forces",

@@ -13,7 +13,7 @@ from ..model import Model, check_model
 from .matrices import ANGULAR_LINEAR, matrix
 from .style import COLOURS, axes_2d, drawn, drawn_number
 
-__all__ = ["mass_matrix", "same_branch"]
+__all__ = ["fill_in", "filled_in", "mass_matrix", "same_branch"]
 
 
 def same_branch(model: Model) -> Array:
@@ -41,6 +41,79 @@ def same_branch(model: Model) -> Array:
         for j in model.support(i):
             carries[model.v_slice[j], model.v_slice[i]] = True
     return np.asarray(carries | carries.mT)
+
+
+def filled_in(model: Model) -> Array:
+    """Return the zeros of M that Cholesky's usual order loses: those of L in M = L Lᵀ, from the root outward (49.8).
+
+    In M = LᵀL, from the tips inward (`ltl`), none is lost.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    ndarray of bool, shape (nv, nv)
+        Lower triangular.
+
+    Examples
+    --------
+    Once the base of a Go2 is eliminated, each leg is coupled to every other:
+
+    >>> import twistwrench as tw
+    >>> int(filled_in(tw.load("go2")).sum()) == 6 * 3 * 3
+    True
+    """
+    coupled = same_branch(model)
+    kept = coupled.copy()
+    for k in range(model.nv):
+        later = k + 1 + np.flatnonzero(coupled[k + 1 :, k])
+        coupled[np.ix_(later, later)] = True  # elimination of k couples all that k was coupled to
+    filled: Array = np.tril(coupled & ~kept)
+    return filled
+
+
+def fill_in(model: Model, title: str = "", *, indent: float = 0.9, ax: Any = None) -> Any:
+    """Draw which entries of L are not zero, with the tree beside its rows.
+
+    Grey in both orders of elimination; orange in M = L Lᵀ alone, where M itself is zero.
+
+    Parameters
+    ----------
+    model : Model
+    title : str
+    indent : float
+        As `mass_matrix`.
+    ax : matplotlib Axes, optional
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> from matplotlib.figure import Figure
+    >>> ax = fill_in(tw.load("cart_pole"), ax=Figure().add_subplot())
+    >>> [text.get_text() for text in ax.texts]
+    ['slide', 'hinge']
+    """
+    indent = drawn_number(indent, "indent")
+    check_model(model)
+    ax = axes_2d(ax, size=(7.5, 5.4))
+    for entries, colour in ((np.tril(same_branch(model)), "grey"), (filled_in(model), "vermilion")):
+        rows, columns = np.nonzero(entries)
+        ax.plot(columns, rows, "s", color=COLOURS[colour], markersize=8)
+    ax.set_aspect("equal")
+    ax.set_title(title)
+    ax.set_xticks([])
+    ax.set_yticks([])
+    _tree(model, indent, ax)
+    ax.set_ylim(model.nv - 0.4, -0.6)
+    for side in ax.spines.values():
+        side.set_visible(False)
+    return ax
 
 
 def mass_matrix(
