@@ -15,13 +15,13 @@ TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
     *("errors", "tables", "arrays", "newton_euler_3d", "spatial", "model", "algorithms"),
-    *("fast", "error_bounds", "tracing", "robots", "plot"),
+    *("compiler", "fast", "error_bounds", "tracing", "robots", "plot"),
     *("files", "stopping", "options", "timing", "contact", "simulation", "motions", "templates", "scene"),
     *("bridge", "viewing", "__init__", "validate", "study", "exercises", "cli", "__main__"),
 ]
 """The rooms, the chapter's first. A room imports from earlier ones only."""
 
-CHAPTER = ("arrays", "spatial", "model", "algorithms")
+CHAPTER = ("arrays", "spatial", "model", "algorithms", "compiler")
 """The rooms whose `__init__` has a table of their files: there each file imports only from those above it."""
 
 LONGEST_FILE = 300

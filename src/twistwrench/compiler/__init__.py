@@ -1,0 +1,26 @@
+"""One source, every speed: the recursions of the chapter as straight lines, and what runs them.
+
+Each file imports only from those above it in this table.
+
+============  ===================================================================================
+file          what it holds
+============  ===================================================================================
+number        `Number`, which only remembers what is done to it, and the `Tape` it writes on
+line          `Line`: the operations that a question needs, one after the other
+instructions  LLVM's language: arithmetic, and the way in and out of memory
+sine          sin and cos of many angles at once
+llvm          machine code, by LLVM
+registers     NumPy, for every number type
+watch         what a program watches, so that the textbook can take the states that raise the alarm
+quantities    what can be compiled: the textbook's functions
+recording     from quantities to a line
+outputs       arrays of the caller that are to be filled
+program       `Program`, which is called as the textbook's functions are
+compile       `compile`
+============  ===================================================================================
+"""
+
+from .compile import compile
+from .program import Program, Results
+
+__all__ = ["Program", "Results", "compile"]

@@ -1,0 +1,120 @@
+"""Instructions of LLVM's language, each for the same number of W states at once."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+import numpy as np
+
+__all__ = ["Text"]
+
+INSTRUCTIONS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
+INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
+
+
+class Text:
+    """Instructions for `width` states at once."""
+
+    def __init__(self, scalar: str, width: int) -> None:
+        self.scalar, self.width = scalar, width
+        self.type = self.vector(scalar)
+        self.bytes = 8 if scalar == "double" else 4
+        self.lines: list[str] = []
+        self.declared: set[str] = set()
+
+    def vector(self, scalar: str) -> str:
+        """Return the type of `width` numbers of a type."""
+        return scalar if self.width == 1 else f"<{self.width} x {scalar}>"
+
+    def splat(self, scalar: str, one: str) -> str:
+        """Return a constant that is the same for all states."""
+        return one if self.width == 1 else "<" + ", ".join([f"{scalar} {one}"] * self.width) + ">"
+
+    def new(self, instruction: str) -> str:
+        """Write an instruction, and return the name of its result."""
+        name = f"%t{len(self.lines)}"
+        self.lines.append(f"{name} = {instruction}")
+        return name
+
+    def constant(self, x: Any) -> str:
+        """Return a constant, rounded to the number type."""
+        rounded = float(x) if self.scalar == "double" else float(np.float32(float(x)))
+        return self.splat(self.scalar, f"0x{struct.unpack('<Q', struct.pack('<d', rounded))[0]:016X}")
+
+    def operate(self, operation: str, *operands: str) -> str:
+        """Write an operation of a line."""
+        if operation == "neg":
+            return self.new(f"fneg {self.type} {operands[0]}")
+        if operation in INSTRUCTIONS:
+            return self.new(f"{INSTRUCTIONS[operation]} {self.type} {operands[0]}, {operands[1]}")
+        kind = ("" if self.width == 1 else f"v{self.width}") + f"f{8 * self.bytes}"
+        function = f"{self.type} @llvm.{INTRINSICS[operation]}.{kind}"
+        self.declared.add(f"declare {function}({', '.join([self.type] * len(operands))})")
+        return self.new(f"call {function}({', '.join(f'{self.type} {x}' for x in operands)})")
+
+    # ---------------------------------------------------------------- memory
+
+    def rows(self, k: int) -> list[str]:
+        """Return where each of the states of this turn has its entries in array k of the table."""
+        pointer = self.new(f"getelementptr i64, ptr %table, i64 {2 * k}")
+        stride = self.new(f"getelementptr i64, ptr %table, i64 {2 * k + 1}")
+        start, step = self.new(f"load ptr, ptr {pointer}"), self.new(f"load i64, ptr {stride}")
+        rows = []
+        for lane in range(self.width):
+            state = self.new(f"add i64 %state, {lane}")
+            offset = self.new(f"mul i64 {state}, {step}")
+            rows.append(self.new(f"getelementptr i8, ptr {start}, i64 {offset}"))
+        return rows
+
+    def load(self, rows: list[str], start: int, count: int) -> list[str]:
+        """Return up to W entries of all states."""
+        if count == self.width:
+            places = [self.entry(row, start) for row in rows]
+            return self.transposed([self.new(f"load {self.type}, ptr {p}, align {self.bytes}") for p in places])
+        values = []
+        for k in range(start, start + count):
+            value = "undef"
+            for lane, row in enumerate(rows):
+                value = self.insert(value, self.new(f"load {self.scalar}, ptr {self.entry(row, k)}"), lane)
+            values.append(value)
+        return values
+
+    def store(self, rows: list[str], start: int, values: list[str]) -> None:
+        """Store up to W entries: the way of `load` back."""
+        if len(values) == self.width:
+            for row, x in zip(rows, self.transposed(values)):
+                self.lines.append(f"store {self.type} {x}, ptr {self.entry(row, start)}, align {self.bytes}")
+            return
+        for k, value in enumerate(values, start):
+            for lane, row in enumerate(rows):
+                self.lines.append(f"store {self.scalar} {self.extract(value, lane)}, ptr {self.entry(row, k)}")
+
+    def insert(self, values: str, one: str, lane: int) -> str:
+        """Put a number into a register."""
+        return (
+            one if self.width == 1 else self.new(f"insertelement {self.type} {values}, {self.scalar} {one}, i32 {lane}")
+        )
+
+    def extract(self, values: str, lane: int) -> str:
+        """Take a number out of a register."""
+        return values if self.width == 1 else self.new(f"extractelement {self.type} {values}, i32 {lane}")
+
+    def entry(self, row: str, k: int) -> str:
+        """Return where entry k of a row is."""
+        return self.new(f"getelementptr {self.scalar}, ptr {row}, i64 {k}")
+
+    def transposed(self, rows: list[str]) -> list[str]:
+        """Transpose W vectors of W entries, in log2 W rounds: the off-diagonal halves of each square change places."""
+        W, half = self.width, 1
+        while half < W:
+            turned = [*rows]
+            for k in (k for k in range(W) if not k & half):
+                low = [j - half + W if j & half else j for j in range(W)]
+                high = [j + W if j & half else j + half for j in range(W)]
+                for place, choice in ((k, low), (k + half, high)):
+                    mask = ", ".join(f"i32 {j}" for j in choice)
+                    pair = f"{self.type} {rows[k]}, {self.type} {rows[k + half]}"
+                    turned[place] = self.new(f"shufflevector {pair}, <{W} x i32> <{mask}>")
+            rows, half = turned, 2 * half
+        return rows

@@ -1,0 +1,220 @@
+"""Numbers that only remember what was done to them: how a recursion becomes a straight line (49.6 to 49.10).
+
+The algorithms of this package are arithmetic. Called with arrays of `Number` in the place of q and v, they run as they
+stand, and each + − × ÷, sin, cos and sqrt is written down instead of computed. Once the tree is known the loops are
+gone: what is left is one line after the other. Nothing of it need be read twice, so that
+
+- what is multiplied by 0 is dropped, and so is a factor of 1 or an addition of 0: most entries of S, of X and of the
+  inertias are such;
+- what occurs a second time is the first one again;
+- signs go outward, −a · b = −(a · b), where a sum absorbs them.
+
+None of these rules changes a rounding: a program computes what the textbook computes, to the last bit but for signs
+of zero, the order of a sum of two, and doublings.
+
+>>> tape = Tape()
+>>> x, y = tape.input("x"), tape.input("y")
+>>> z = x * y + 0 * x - y * x * 1
+>>> z
+Fraction(0, 1)
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, NoReturn
+
+import numpy as np
+
+from ..arrays import Array
+
+__all__ = ["Node", "Number", "Tape", "numbers"]
+
+Node = tuple[Any, ...]
+"""An operation and its operands: (op, index, …) of earlier nodes; ("input", name) and ("const", Fraction)."""
+
+ZERO, ONE = Fraction(0), Fraction(1)
+
+
+class Tape:
+    """The operations so far, each once.
+
+    Attributes
+    ----------
+    nodes : list of tuple
+        See `Node`. Operands come before what uses them.
+    """
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self._index: dict[Node, int] = {}
+
+    def input(self, name: Any) -> Number:
+        """Return a number that is given when the program runs."""
+        return Number(self, self.enter("input", name))
+
+    def number(self, x: Number | Fraction | float) -> Number:
+        """Return a constant as a number of this tape."""
+        return x if isinstance(x, Number) else Number(self, self.enter("const", Fraction(x)))
+
+    def at(self, index: int) -> Number:
+        """Return the number of a node."""
+        return Number(self, index)
+
+    def enter(self, *node: Any) -> int:
+        """Return the index of an operation, which is entered where it is new."""
+        index = self._index.get(node)
+        if index is None:
+            index = self._index[node] = len(self.nodes)
+            self.nodes.append(node)
+        return index
+
+    def _signed(self, index: int) -> tuple[bool, int]:
+        """Return whether a node is the negative of another one, and that one."""
+        node = self.nodes[index]
+        return (True, node[1]) if node[0] == "neg" else (False, index)
+
+    def _negated(self, index: int, negative: bool = True) -> Number:
+        return Number(self, self.enter("neg", index) if negative else index)
+
+    def negate(self, a: int) -> Number:
+        """Return −a."""
+        minus, a = self._signed(a)
+        return self._negated(a, not minus)
+
+    def add(self, a: int, b: int) -> Number | Fraction:
+        """Return a + b."""
+        (minus_a, a), (minus_b, b) = self._signed(a), self._signed(b)
+        if minus_a != minus_b:
+            return self._minus(b, a) if minus_a else self._minus(a, b)
+        if a == b:
+            return self._negated(self._scaled(Fraction(2), a), minus_a)
+        return self._negated(self.enter("add", min(a, b), max(a, b)), minus_a)
+
+    def _minus(self, a: int, b: int) -> Number | Fraction:
+        if a == b:
+            return ZERO
+        return self._negated(self.enter("sub", min(a, b), max(a, b)), a > b)
+
+    def multiply(self, a: int, b: int) -> Number:
+        """Return a b."""
+        (minus_a, a), (minus_b, b) = self._signed(a), self._signed(b)
+        return self._negated(self.enter("mul", min(a, b), max(a, b)), minus_a != minus_b)
+
+    def divide(self, a: int, b: int) -> Number | Fraction:
+        """Return a / b."""
+        (minus_a, a), (minus_b, b) = self._signed(a), self._signed(b)
+        if a == b:
+            return -ONE if minus_a != minus_b else ONE
+        return self._negated(self.enter("div", a, b), minus_a != minus_b)
+
+    def scale(self, c: Fraction, a: int) -> Number | Fraction:
+        """Return c a."""
+        if c == 0:
+            return ZERO
+        minus, a = self._signed(a)
+        return self._negated(self._scaled(abs(c), a), minus != (c < 0))
+
+    def _scaled(self, c: Fraction, a: int) -> int:
+        """Return the index of c a with c > 0; powers of two, which round nothing, are put together."""
+        node = self.nodes[a]
+        if node[0] == "mul" and _is_power_of_two(c):
+            for factor, rest in ((node[1], node[2]), (node[2], node[1])):
+                if self.nodes[factor][0] == "const" and _is_power_of_two(self.nodes[factor][1]):
+                    return self._scaled(c * self.nodes[factor][1], rest)
+        if c == 1:
+            return a
+        k = self.enter("const", c)
+        return self.enter("mul", min(a, k), max(a, k))
+
+
+class Number:
+    """A number without a value: what is done to it is entered on its tape. Constants are fractions.
+
+    It cannot be compared or looked at: a program is the same for every state.
+    """
+
+    __slots__ = ("index", "tape")
+
+    def __init__(self, tape: Tape, index: int) -> None:
+        self.tape, self.index = tape, index
+
+    def __add__(self, other: Any) -> Any:
+        if type(other) is Number:
+            return self.tape.add(self.index, other.index)
+        if not isinstance(other, Fraction | int):
+            return NotImplemented  # NumPy takes an array entry by entry
+        return self if other == 0 else self.tape.add(self.index, self.tape.number(other).index)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Any:
+        if type(other) is Number or isinstance(other, Fraction | int):
+            return self + -other
+        return NotImplemented
+
+    def __rsub__(self, other: Any) -> Any:
+        return -self + other
+
+    def __mul__(self, other: Any) -> Any:
+        if type(other) is Number:
+            return self.tape.multiply(self.index, other.index)
+        if not isinstance(other, Fraction | int):
+            return NotImplemented
+        return self.tape.scale(Fraction(other), self.index)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Any:
+        if type(other) is Number:
+            return self.tape.divide(self.index, other.index)
+        if not isinstance(other, Fraction | int):
+            return NotImplemented
+        if _is_power_of_two(abs(Fraction(other))):
+            return self * (1 / Fraction(other))
+        return self.tape.divide(self.index, self.tape.number(other).index)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        if not isinstance(other, Fraction | int):
+            return NotImplemented
+        return ZERO if other == 0 else self.tape.divide(self.tape.number(other).index, self.index)
+
+    def __neg__(self) -> Number:
+        return self.tape.negate(self.index)
+
+    def sin(self) -> Number:
+        """Return the sine, −sin x for −x."""
+        minus, x = self.tape._signed(self.index)
+        return self.tape._negated(self.tape.enter("sin", x), minus)
+
+    def cos(self) -> Number:
+        """Return the cosine, the same for −x."""
+        return Number(self.tape, self.tape.enter("cos", self.tape._signed(self.index)[1]))
+
+    def sqrt(self) -> Number:
+        """Return the square root."""
+        return Number(self.tape, self.tape.enter("sqrt", self.index))
+
+    def _has_no_value(self, *others: Any) -> NoReturn:
+        compare = f" to compare with {others[0]!r}" if others else ""
+        raise TypeError(f"a recorded number has no value{compare}: a straight line is the same for every state")
+
+    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = __bool__ = __abs__ = _has_no_value
+    __float__ = __int__ = __index__ = __complex__ = _has_no_value
+    __hash__ = object.__hash__
+
+    def __repr__(self) -> str:
+        return f"<Number {self.index}: {self.tape.nodes[self.index]}>"
+
+
+def _is_power_of_two(c: Fraction) -> bool:
+    n, d = c.as_integer_ratio()
+    return n > 0 and n & (n - 1) == 0 and d & (d - 1) == 0
+
+
+def numbers(tape: Tape, name: str, *shape: int) -> Array:
+    """Return an array of inputs of this shape; the input's name is (name, index)."""
+    x = np.empty(shape, object)
+    for k in np.ndindex(shape):
+        x[k] = tape.input((name, *k))
+    return x

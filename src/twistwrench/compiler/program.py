@@ -1,0 +1,247 @@
+"""A compiled program: called with arrays as the textbook's functions are."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from math import prod
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array
+from ..model import Model, floats_of
+from .line import Line
+from .llvm import MachineCode, lanes, table_of
+from .outputs import check_outputs, finish, targets
+from .quantities import ARGUMENTS, Quantity, shapes
+from .recording import ALARM, record
+from .registers import Registers
+
+__all__ = ["Program", "Results"]
+
+
+class Results(SimpleNamespace):
+    """Several quantities, as attributes by their symbols."""
+
+    def __repr__(self) -> str:
+        return f"Results({', '.join(f'{name}: {np.shape(x)}' for name, x in vars(self).items())})"
+
+
+class Program:
+    """What `twistwrench.compile` returns: call it with arrays like any function of the package.
+
+    Attributes
+    ----------
+    model : Model
+    quantities : tuple of Quantity
+    single : bool
+        Whether the result is one array; else it is `Results`.
+    given : mapping of str to ndarray
+        Arguments that are the same for every state.
+    dtype : dtype
+    backend : {"llvm", "numpy"}
+    threads : int
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        quantities: Sequence[Quantity],
+        single: bool,
+        given: Mapping[str, Array],
+        dtype: np.dtype[Any],
+        backend: str,
+        threads: int,
+    ) -> None:
+        self.model, self.quantities, self.single, self.given = model, tuple(quantities), single, dict(given)
+        self.dtype, self.backend, self.threads = dtype, backend, threads
+        needed = {name for quantity in quantities for name in quantity.arguments} - set(given)
+        self.arguments = tuple(name for name in ARGUMENTS if name in needed)
+        self._plain = tuple(name for name in self.arguments if name != "f_ext")
+        self._shapes = {name: shapes(model)[name] for name in self.arguments}
+        self._lines: dict[tuple[str, ...], Line] = {}
+        self._codes: dict[tuple[Any, ...], Any] = {}
+        self._pool: list[One] = []
+
+    @property
+    def operations(self) -> Counter[str]:
+        """How many operations one state takes, by kind."""
+        return self.line.operations
+
+    @property
+    def line(self) -> Line:
+        """The straight line, without wrenches from outside."""
+        return self._line(self._plain)
+
+    def _line(self, names: tuple[str, ...]) -> Line:
+        """Return the line for states with these arguments, recorded once."""
+        if names not in self._lines:
+            wanted = {name: self._shapes[name] for name in names}
+            self._lines[names] = record(self.model, self.quantities, wanted, self.given, self.dtype)
+        return self._lines[names]
+
+    def _code(self, names: tuple[str, ...], width: int) -> Any:
+        """Return that line in the program's back end, made once."""
+        code = self._codes.get((names, width))
+        if code is None:
+            line = self._line(names)
+            native = self.backend == "llvm"
+            code = MachineCode(line, self.dtype, width) if native else Registers(line, self.dtype)
+            self._codes[names, width] = code
+        return code
+
+    def __call__(self, *args: ArrayLike | None, out: Any = None, **named: ArrayLike | None) -> Any:
+        """Return the quantities in a state, or in many.
+
+        Parameters
+        ----------
+        *args, **named : array_like
+            The arguments of the program, `arguments`, in this order or by name: q (..., nq), v, a and tau (..., nv),
+            f_ext (..., nbodies, 6), which may be left out.
+        out : ndarray, or mapping of str to ndarray, optional
+            To be filled.
+
+        Returns
+        -------
+        ndarray or Results
+
+        Raises
+        ------
+        ShapeError, SingularError, ValueError
+            As the textbook's functions.
+        TypeError
+            If an argument is missing, or is not one of the program's.
+        """
+        if not named and out is None and len(args) == len(self._plain) and self.backend == "llvm":
+            one = self._pool.pop() if self._pool else One(self)
+            results = one.run(args)
+            self._pool.append(one)
+            if results is not None:
+                return results
+        return self._many(self._bound(args, named), out)
+
+    def _bound(self, args: Sequence[ArrayLike | None], named: Mapping[str, ArrayLike | None]) -> dict[str, ArrayLike]:
+        """Return the arguments by name."""
+        expected = ", ".join(self.arguments) or "no arguments"
+        if len(args) > len(self.arguments):
+            raise TypeError(f"expected {expected}, got {len(args)} arguments")
+        bound = dict(zip(self.arguments, args))
+        for name, x in named.items():
+            if name not in self.arguments or name in bound:
+                raise TypeError(f"expected {expected}, got {name!r}{' twice' if name in bound else ''}")
+            bound[name] = x
+        missing = [name for name in self._plain if bound.get(name) is None]
+        if missing:
+            raise TypeError(f"expected {expected}: {', '.join(missing)} missing")
+        return {name: x for name in self.arguments if (x := bound.get(name)) is not None}
+
+    def _many(self, bound: Mapping[str, ArrayLike], out: Any) -> Any:
+        """Return the results for any number of states."""
+        names = tuple(bound)
+        states = self._arrays(bound)
+        batch = states[0].shape[: states[0].ndim - len(self._shapes[names[0]])] if states else ()
+        line = self._line(names)
+        tails = {name: shape for name, (shape, _) in line.outputs.items() if name != ALARM}
+        given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
+        check_outputs(given, batch, tails, self.dtype)
+        filled = targets(given, states, batch, tails, self.dtype)
+        count = prod(batch)
+        flat = [x.reshape(count, -1) for x in states]
+        flat = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in flat]
+        results = {name: _rows(x, count, prod(tails[name])) for name, x in filled.items()}
+        alarm = np.empty((count, 1), self.dtype)
+        if count:
+            self._run(names, [*flat, *results.values(), alarm])
+        for name, x in results.items():
+            if not np.may_share_memory(x, filled[name]):
+                filled[name][...] = x.reshape(filled[name].shape)
+        sure = alarm[:, 0].real <= 1
+        if not sure.all():
+            self._by_the_textbook(dict(zip(names, states)), filled, ~sure.reshape(batch))
+        done = finish(given, filled)
+        return next(iter(done.values())) if self.single else Results(**done)
+
+    def _arrays(self, bound: Mapping[str, ArrayLike]) -> tuple[Array, ...]:
+        """Return the arguments as arrays of one batch shape, in the program's number type."""
+        arrays, batch = [], None
+        for name, x in bound.items():
+            tail = self._shapes[name]
+            if type(x) is not np.ndarray or x.dtype != self.dtype or x.shape[x.ndim - len(tail) :] != tail:
+                break
+            if x.shape[: x.ndim - len(tail)] != (batch := x.shape[: x.ndim - len(tail)] if batch is None else batch):
+                break
+            arrays.append(x)
+        else:
+            return tuple(arrays)
+        given = dict(bound)
+        checked = dict(zip(given, floats_of(self.model, given.pop("q", self.model.neutral()), **given)))
+        return tuple(checked[name].astype(self.dtype, copy=False) for name in bound)
+
+    def _run(self, names: tuple[str, ...], arrays: Sequence[Array]) -> None:
+        """Fill the results of many states, by several threads where that is wanted."""
+        count, width = len(arrays[-1]), 1
+        if self.backend == "llvm" and count >= lanes(self.dtype):
+            width = lanes(self.dtype)
+        code = self._code(names, width)
+        parts = min(self.threads, count // 64) if self.threads > 1 else 1
+        if parts <= 1:
+            code.run(arrays)
+            return
+        edges = [count * k // parts for k in range(parts + 1)]
+        with ThreadPoolExecutor(parts) as pool:
+            list(pool.map(lambda k: code.run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
+
+    def _by_the_textbook(self, states: Mapping[str, Array], filled: Mapping[str, Array], where: Array) -> None:
+        """Do the states that raise the alarm by the textbook, which raises what there is to raise."""
+        checked = floats_of(self.model, **states)
+        states = dict(zip(states, checked))
+        for quantity in self.quantities:
+            args = [states[name] for name in quantity.arguments if name in states]
+            result, _ = quantity.compute(*args)
+            filled[quantity.symbol][where] = result[where]
+
+    def __repr__(self) -> str:
+        what = ", ".join(quantity.symbol for quantity in self.quantities)
+        total = self.operations.total()
+        return f"<Program {what} of {self.model.name!r}: {total} operations, {self.dtype}, {self.backend}>"
+
+
+class One:
+    """Memory for one state, whose addresses are known."""
+
+    def __init__(self, program: Program) -> None:
+        names = program._plain
+        line = program._line(names)
+        self.program, self.code = program, program._code(names, 1)
+        self.inputs = [np.empty(program._shapes[name], program.dtype) for name in names]
+        self.outputs = [np.empty(shape, program.dtype) for shape, _ in line.outputs.values()]
+        self.names = [*line.outputs][:-1]
+        self.table = table_of([*self.inputs, *self.outputs])
+        self.address = self.table.ctypes.data
+
+    def run(self, args: Sequence[Any]) -> Any:
+        """Return the results; or None where the arguments are not arrays of one state, or the textbook must look."""
+        for mine, x in zip(self.inputs, args):
+            if type(x) is not np.ndarray or x.dtype is not mine.dtype or x.shape != mine.shape:
+                return None
+            mine[...] = x
+        self.code.call(self.address, 1)
+        if not self.outputs[-1].item() <= 1:
+            return None
+        if self.program.single:
+            return self.outputs[0].copy()
+        return Results(**{name: x.copy() for name, x in zip(self.names, self.outputs)})
+
+
+def _rows(x: Array, count: int, size: int) -> Array:
+    """Return an array of shape (count, size) to be filled: a view of x where there is one, else a new one."""
+    try:
+        rows = np.reshape(x, (count, size), copy=False)
+    except ValueError:
+        return np.empty((count, size), x.dtype)
+    contiguous = rows.strides[1] == rows.itemsize and rows.flags.aligned
+    return rows if contiguous else np.empty((count, size), x.dtype)

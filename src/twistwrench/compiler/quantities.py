@@ -1,0 +1,138 @@
+"""What can be compiled: the quantities of the chapter, by the name of their function or by their symbol."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..algorithms.aba import aba_terms
+from ..algorithms.centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
+from ..algorithms.coriolis import coriolis_matrix
+from ..algorithms.crba import crba
+from ..algorithms.energy import kinetic_energy, potential_energy
+from ..algorithms.floating_base import contact_jacobian, selection_matrix
+from ..algorithms.kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
+from ..algorithms.rnea import gravity, nonlinear_effects, rnea
+from ..arrays import Array
+from ..errors import check_known
+from ..model import Model, tree_terms
+from .watch import pivots
+
+__all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities"]
+
+ARGUMENTS = ("q", "v", "a", "tau", "f_ext")
+"""The arguments of a program, in this order."""
+
+
+class Quantity(NamedTuple):
+    """Something that a program can compute.
+
+    Attributes
+    ----------
+    symbol : str
+        The chapter's, and the name of the result where several are asked for.
+    arguments : tuple of str
+        What it depends on, of `ARGUMENTS`; f_ext may be left out.
+    compute : callable
+        From these arguments to an array, by the textbook's function; and to what is to be watched besides: see `watch`.
+    """
+
+    symbol: str
+    arguments: tuple[str, ...]
+    compute: Callable[..., tuple[Array, list[Any]]]
+
+
+SYMBOLS = {
+    "rnea": "tau",
+    "aba": "qdd",
+    "crba": "M",
+    "nonlinear_effects": "h",
+    "gravity": "g",
+    "coriolis_matrix": "C",
+    "kinetic_energy": "T",
+    "potential_energy": "U",
+    "selection_matrix": "S",
+    "contact_jacobian": "J_c",
+    "center_of_mass": "p_G",
+    "centroidal_map": "A_G",
+    "centroidal_momentum": "h_G",
+    "centroidal_momentum_rate": "dh_G",
+    "frame_placement": "placement",
+    "frame_jacobian": "J",
+    "frame_bias_acceleration": "dJ_v",
+}
+"""The symbol of each function of the package that can be compiled."""
+
+
+def quantities(
+    model: Model,
+    dtype: np.dtype[Any],
+    contacts: Sequence[str] = (),
+    frames: Sequence[str] = (),
+    reference: Reference = "local",
+) -> dict[str, Quantity]:
+    """Return what can be computed of a model, by symbol.
+
+    Parameters
+    ----------
+    model : Model
+    dtype : dtype
+        Decides what counts as singular.
+    contacts : sequence of str
+        The frames whose origins are in J_c.
+    frames : sequence of str
+        The frames whose placements, Jacobians J and J̇ v are meant, along an axis before their own.
+    reference : str
+        Of J and J̇ v: see `twistwrench.frame_jacobian`.
+    """
+
+    def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
+        return Quantity(symbol, tuple(arguments.split()), lambda *x: (function(model, *x), []))
+
+    def of_frames(symbol: str, arguments: str, one: Callable[..., Array], *tail: int) -> Quantity:
+        def stacked(model: Model, *x: Array) -> Array:
+            each = [one(model, *x, name) for name in frames]
+            return np.stack(each, axis=-1 - len(tail)) if each else np.zeros((0, *tail))
+
+        return of(symbol, arguments, stacked)
+
+    def forward_dynamics(q: Array, v: Array, tau: Array, f_ext: Array | None = None) -> tuple[Array, list[Any]]:
+        terms = aba_terms(model, q, v, tau, f_ext)
+        return terms.qdd, [*pivots(model, tree_terms(model, q), terms, dtype)]
+
+    nv = model.nv
+    every = [
+        of("tau", "q v a f_ext", rnea),
+        Quantity("qdd", ("q", "v", "tau", "f_ext"), forward_dynamics),
+        of("M", "q", crba),
+        of("h", "q v", nonlinear_effects),
+        of("g", "q", gravity),
+        of("C", "q v", coriolis_matrix),
+        of("T", "q v", kinetic_energy),
+        of("U", "q", potential_energy),
+        of("S", "", selection_matrix),
+        of("J_c", "q", lambda m, q: contact_jacobian(m, q, contacts)),
+        of("p_G", "q", center_of_mass),
+        of("A_G", "q", centroidal_map),
+        of("h_G", "q v", centroidal_momentum),
+        of("dh_G", "q v a", centroidal_momentum_rate),
+        of_frames("placement", "q", lambda m, q, name: frame_placement(m, q, name).matrix(), 4, 4),
+        of_frames("J", "q", lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv),
+        of_frames("dJ_v", "q v", lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6),
+    ]
+    return {quantity.symbol: quantity for quantity in every}
+
+
+def chosen(known: Mapping[str, Quantity], want: Sequence[str]) -> tuple[Quantity, ...]:
+    """Return the quantities of these names, which are symbols or names of functions."""
+    for name in want:
+        check_known("quantity", name, [*known, *(f for f, symbol in SYMBOLS.items() if symbol in known)])
+    return tuple(dict.fromkeys(known[SYMBOLS.get(name, name)] for name in want))
+
+
+def shapes(model: Model) -> dict[str, tuple[int, ...]]:
+    """Return the shape of each argument of one state."""
+    nv = (model.nv,)
+    return {"q": (model.nq,), "v": nv, "a": nv, "tau": nv, "f_ext": (model.nbodies, 6)}

@@ -1,0 +1,59 @@
+"""From quantities to a straight line: the textbook's functions, called with numbers that remember."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array, convert
+from ..model import Model
+from .line import Line
+from .number import Tape, numbers
+from .quantities import Quantity
+from .watch import LARGEST_ANGLE, alarm, state_questions
+
+__all__ = ["ALARM", "record"]
+
+ALARM = "alarm"
+"""The name of the result that says whether a state is the textbook's: see `watch`."""
+
+
+def record(
+    model: Model,
+    quantities: Sequence[Quantity],
+    shapes: Mapping[str, tuple[int, ...]],
+    given: Mapping[str, Array],
+    dtype: np.dtype[Any],
+) -> Line:
+    """Return the line of several quantities, which share their work.
+
+    Parameters
+    ----------
+    model : Model
+    quantities : sequence of Quantity
+    shapes : mapping of str to tuple of int
+        The arguments that a state has, and the shape of each.
+    given : mapping of str to ndarray
+        The values of other arguments, the same for every state.
+    dtype : dtype
+        Decides what counts as too large or as singular.
+    """
+    tape = Tape()
+    arguments = {name: numbers(tape, name, *shape) for name, shape in shapes.items()}
+    if "f_ext" in arguments:
+        world = arguments["f_ext"][0].copy()
+        arguments["f_ext"][0] = convert(np.zeros(6), object)
+    values = {**arguments, **{name: convert(x, object) for name, x in given.items()}}
+    questions = [*state_questions(model, arguments, dtype)]
+    results: dict[str, Array] = {}
+    for quantity in quantities:
+        result, watched = quantity.compute(*(values[name] for name in quantity.arguments if name in values))
+        results[quantity.symbol] = np.asarray(result, object)
+        questions += watched
+    angles = {node[1] for node in tape.nodes if node[0] in ("sin", "cos")}
+    questions += [tape.at(k) / int(LARGEST_ANGLE) for k in sorted(angles)]
+    if "f_ext" in arguments:
+        questions += [x * 2**120 for x in world]  # anything but zero is too much
+    return Line.of(tape, shapes, {**results, ALARM: np.asarray(alarm(tape, questions), object)})
