@@ -37,6 +37,8 @@ PHYSICS_AND_ORACLES = [
     "spatial/test_jacobians.py",
     "spatial/test_plucker.py",
     "spatial/test_inertia.py",
+    "spatial/test_ten_numbers.py",
+    "spatial/test_shapes.py",
     "robots/test_urdf.py",
     "simulation/test_simulation.py",
     "newton_euler_3d/test_newton_euler_3d.py",
@@ -57,6 +59,8 @@ TESTED_BY = {
     "joints": "joint",
     "error_bounds": "accuracy",
     "fast": "extremes",
+    "_ten_numbers": "ten_numbers",
+    "_shapes": "shapes",
 }
 """Files and folders of the source whose tests go by another name."""
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_number_arrays, tolerance, without_overflow
-from ..errors import ModelError, ShapeError
+from ..arrays import Array, as_array, judged, tolerance, without_overflow
+from ..errors import ModelError
 from ._elementary import at_first_index, largest
-from ._physical import check_numbers, check_physical
+from ._physical import check_physical
+from ._shapes import Shapes
 from ._vector import aligned, as_spatial
 from .cross import cross_force, cross_motion
 from .plucker import SE3, blocks, placed_point
@@ -22,8 +22,7 @@ from .wrench import Wrench
 __all__ = ["SpatialInertia", "cross_force", "cross_motion"]
 
 
-@dataclass(frozen=True, slots=True, eq=False, init=False)
-class SpatialInertia:
+class SpatialInertia(Shapes):
     """Mass, centre of mass and inertia about it: ten numbers, kept apart (section 49.5).
 
     Parameters
@@ -49,47 +48,8 @@ class SpatialInertia:
     array([ 0.03,  0.  ,  0.  ,  0.  , -0.2 ])
     """
 
-    mass: Array
-    com: Array
-    inertia_at_com: Array
-
+    __slots__ = ()
     __array_ufunc__ = None  # NumPy arrays leave the operators to this class
-
-    def __init__(self, mass: ArrayLike, com: ArrayLike, inertia_at_com: ArrayLike) -> None:
-        m, c, I_c = as_number_arrays(mass=(mass, ()), com=(com, (3,)), inertia_at_com=(inertia_at_com, (3, 3)))
-        try:
-            batch = np.broadcast_shapes(m.shape, c.shape[:-1], I_c.shape[:-2])
-        except ValueError:
-            axes = f"batch axes {m.shape}, {c.shape[:-1]} and {I_c.shape[:-2]} do not broadcast"
-            raise ShapeError(f"mass, com and inertia_at_com: {axes}") from None
-        check_numbers(m, I_c)
-        self._set(
-            np.array(np.broadcast_to(m, batch)),
-            np.array(np.broadcast_to(c, (*batch, 3))),
-            np.array(np.broadcast_to(I_c / 2 + I_c.mT / 2, (*batch, 3, 3))),
-        )
-
-    def _set(self, mass: Array, com: Array, inertia_at_com: Array) -> None:
-        for name, x in (("mass", mass), ("com", com), ("inertia_at_com", inertia_at_com)):
-            x.setflags(write=False)
-            object.__setattr__(self, name, x)
-
-    @classmethod
-    def _trusted(cls, mass: Array, com: Array, inertia_at_com: Array) -> SpatialInertia:
-        """Make an inertia from valid arrays, without checks: they become read-only."""
-        (body := object.__new__(cls))._set(np.asarray(mass), com, inertia_at_com)
-        return body
-
-    @classmethod
-    def zero(cls) -> SpatialInertia:
-        """Return the zero inertia, which changes no sum.
-
-        Examples
-        --------
-        >>> SpatialInertia.zero().mass
-        array(0.)
-        """
-        return cls._trusted(np.zeros(()), np.zeros(3), np.zeros((3, 3)))
 
     @classmethod
     def from_matrix(cls, I6: ArrayLike) -> SpatialInertia:
@@ -185,15 +145,34 @@ class SpatialInertia:
             raise TypeError(f"SpatialInertia + {type(other).__name__}: only inertias add, once they are in one frame")
         m1, m2, m = self.mass, other.mass, self.mass + other.mass
         nonzero = np.where(m == 0, 1, m)
-        com = (m1 / nonzero)[..., None] * self.com + (m2 / nonzero)[..., None] * other.com
+        com = np.asarray(m1 / nonzero)[..., None] * self.com + np.asarray(m2 / nonzero)[..., None] * other.com
         # Parallel axes from each centre of mass to the common one add up to m₁m₂/m times the square of their distance.
-        D, reduced = cross_matrix(other.com - self.com), (m1 * m2 / nonzero)[..., None, None]
+        D, reduced = cross_matrix(other.com - self.com), np.asarray(m1 * m2 / nonzero)[..., None, None]
         return SpatialInertia._trusted(m, com, self.inertia_at_com + other.inertia_at_com - reduced * (D @ D))
 
     def __radd__(self, other: object) -> SpatialInertia:
         if type(other) is int and other == 0:  # where Python's sum starts
             return self
         raise TypeError(f"{type(other).__name__} + SpatialInertia: only inertias add, once they are in one frame")
+
+    def __sub__(self, other: SpatialInertia) -> SpatialInertia:
+        """Take a part away: (a + b) − b is a."""
+        if not isinstance(other, SpatialInertia):
+            raise TypeError(f"SpatialInertia - {type(other).__name__}: only inertias subtract, in one frame")
+        m1, m2, apart = self.mass, other.mass, self.com - other.com
+        m, nothing = np.asarray(m1 - m2), np.asarray(judged(m1) == judged(m2))
+        wrong = np.asarray((judged(m) < 0) | (nothing & (judged(m1) > 0) & (judged(apart) != 0).any(-1)))
+        if wrong.any():
+            masses = (
+                f"{judged(m1 + 0 * m)[wrong][0]:.6g} kg − {judged(m2 + 0 * m)[wrong][0]:.6g} kg{at_first_index(wrong)}"
+            )
+            raise ModelError(f"SpatialInertia - SpatialInertia: expected a part of the first, got {masses}")
+        ratio = np.asarray(m2 / np.where(nothing, 1, m))  # both masses zero, or at one point: nothing is left but I_c
+        com = np.where(nothing[..., None], 0, self.com + ratio[..., None] * apart)
+        D = cross_matrix(apart)
+        return SpatialInertia._trusted(
+            m, com, self.inertia_at_com - other.inertia_at_com + np.asarray(m1 * ratio)[..., None, None] * (D @ D)
+        )
 
     def __matmul__(self, V: Twist) -> Wrench:
         if not isinstance(V, Twist):
