@@ -7,7 +7,6 @@ import traceback
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -17,6 +16,7 @@ from .diagnose import explain
 from .exercise import Exercise, Part
 from .failing import Case, cases, failing_case
 from .phrases import say
+from .rules import Calls, file_or_cell, is_ours, watching
 from .text import Language, Text
 from .wrapping import hanging
 
@@ -84,11 +84,11 @@ def judge(
     -------
     Verdict
     """
-    tried = cases(part, seed)
+    tried, calls = cases(part, seed), Calls(part.name)
     answers: list[Any] = []
     for k, arguments in enumerate(tried):
         try:
-            with watch():
+            with watch(), watching(part, function, calls):
                 answer = _run(part, function, arguments)
         except NotImplementedError:
             return Verdict("to do")
@@ -100,7 +100,7 @@ def judge(
     expected = [part.value(part.solution, arguments) for arguments in tried]
     right = [agree(part, *each) for each in zip(answers, expected, tried)]
     if all(right):
-        return Verdict("done")
+        return Verdict("wrong", (_head(exercise, part), *calls.lines)) if calls.lines else Verdict("done")
     slips, lines = explain(exercise, part, answers, tried)
     k = right.index(False)
     case = failing_case(part, k, seed, tried[k], (expected[k], answers[k]))
@@ -133,17 +133,12 @@ def _unchanged(before: Any, after: Any) -> bool:
 def _stopped(error: BaseException) -> list[Text]:
     """Report what was raised, and at which line of the student's file."""
     lines = [say("stopped", error=f"{type(error).__name__}: {error}")]
-    own = [f for f in traceback.extract_tb(error.__traceback__) if not _ours(f.filename)]
+    own = [f for f in traceback.extract_tb(error.__traceback__) if not is_ours(f.filename)]
     if own:
         frame = own[-1]
-        lines.append(say("at line", file=Path(frame.filename).name, line=frame.lineno))
+        lines.append(say("at line", file=file_or_cell(frame.filename), line=frame.lineno))
         lines.append(Text(f"    {frame.line}", f"    {frame.line}"))
     return lines
-
-
-def _ours(file: str) -> bool:
-    """Whether a frame is in this package, in NumPy or in another library, and not in the student's file."""
-    return str(Path(__file__).parents[1]) in file or "site-packages" in file or file.startswith("<")
 
 
 def _head(exercise: Exercise, part: Part) -> Text:

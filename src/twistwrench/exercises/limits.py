@@ -24,7 +24,7 @@ def contained() -> Iterator[None]:
         os.register_at_fork(after_in_child=lambda: os._exit(0))
     _limit_memory()
     before = sys.stdout, sys.stderr
-    sys.stdout, sys.stderr = (_Short(stream) for stream in before)  # type: ignore[assignment]
+    sys.stdout, sys.stderr = (_Short(stream) for stream in before)
     try:
         yield
     finally:

@@ -1,0 +1,79 @@
+"""What an exercise forbids is noticed: calls that its text rules out, and the reference itself."""
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.algorithms.rnea import newton_euler
+from twistwrench.exercises import catalogue, mine, start
+from twistwrench.exercises.items.project_trees import tree_of
+from twistwrench.exercises.judge import judge
+from twistwrench.exercises.rules import FORBIDDEN
+
+from .test_exercises_isolation import said, write
+
+
+def verdict(name, function):
+    return judge(*catalogue.find_part(name), function)
+
+
+def rest_wrench(model, q):
+    return tw.rnea(model, q, np.zeros(model.nv), np.zeros(model.nv))[:6]
+
+
+def summed(model, q):
+    return tw.centroidal_map(model, q) @ np.eye(model.nv)
+
+
+@pytest.mark.parametrize("name", FORBIDDEN)
+def test_every_rule_is_that_of_a_function_and_names_what_there_is(name):
+    assert catalogue.find_part(name)[1].name == name
+    assert all(callable(getattr(tw, called)) for called in FORBIDDEN[name])
+
+
+@pytest.mark.parametrize(
+    ("name", "function", "called"),
+    [
+        ("base_wrench_at_rest", rest_wrench, "rnea"),
+        ("base_wrench_at_rest", lambda model, q: tw.gravity(model, q)[:6], "gravity"),
+        ("mass_matrix_by_rnea", lambda model, q: tw.crba(model, q), "crba"),
+        ("base_block", lambda model, q: tw.crba(model, q)[:6, :6], "crba"),
+        ("own_centroidal_map", summed, "centroidal_map"),
+    ],
+)
+def test_a_forbidden_call_is_wrong_though_the_numbers_are_right(name, function, called):
+    found = verdict(name, function)
+    assert found.state == "wrong"
+    assert f"calls tw.{called}, and the exercise asks to do without it" in " ".join(found.message("en").split())
+    assert f"调用了 tw.{called}" in found.message("zh")
+
+
+def test_what_the_package_calls_by_itself_is_not_held_against_the_student():
+    def by_levers(model, q):
+        base = tw.forward_kinematics(model, q).placement[1]
+        force = -model.mass * base.rotation.mT @ model.gravity
+        return np.concatenate([np.cross(base.inverse().act(tw.center_of_mass(model, q)), force), force])
+
+    assert verdict("base_wrench_at_rest", by_levers).state == "done"
+    assert verdict("torques_two_ways", catalogue.find_part("torques_two_ways")[1].solution).state == "done"
+
+
+def test_wrong_numbers_are_explained_first():
+    assert "calls tw.rnea" not in verdict("base_wrench_at_rest", lambda m, q: -rest_wrench(m, q)).message("en")
+
+
+def test_the_reference_is_not_an_answer(tmp_path):
+    skew = mine("skew")
+    assert "those of the reference" in verdict("skew", lambda w: skew(w)).message("en")
+    start(tmp_path, language="en")
+    body = "from twistwrench.exercises.catalogue import find_part\nreturn find_part('skew')[1].solution(w)"
+    write(tmp_path, "49.0", {"skew": body})
+    assert "those of the reference, which it calls" in " ".join(said(tmp_path, "skew")[1].split())
+
+
+def test_the_listing_of_an_algorithm_is_not_an_answer():
+    def by_listing(parent, S, I, X, qd, qdd, a0):
+        column = [x[:, None] for x in qd], [x[:, None] for x in qdd], [np.zeros((6, 1))] * len(parent)
+        return newton_euler(tree_of(parent, S, I, X, a0), *column).tau
+
+    assert "those of the reference" in verdict("tree_rnea", by_listing).message("en")
