@@ -1,7 +1,8 @@
 """The chapter's exercises, checked.
 
 `start` writes skeletons into a folder; there, ``python -m pytest`` checks the student's functions and explains
-what is wrong with them. `status` shows the progress, `hint` and `solution` help.
+what is wrong with them. `status` shows the progress, `hint` and `solution` help. In a notebook, `check` does the same
+for the functions of a cell.
 
 The exercises are those of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
 How to add one is in the README beside this file.
@@ -15,16 +16,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .cells import Checked, check
     from .failing import case
     from .helping import hint, solution
     from .progress import Status, status
     from .skeletons import start
     from .workbook import mine
 
-__all__ = ["Status", "case", "hint", "mine", "solution", "start", "status"]
+__all__ = ["Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
 
 _HOME = {"hint": "helping", "solution": "helping", "Status": "progress", "status": "progress"}
-_HOME |= {"start": "skeletons", "mine": "workbook", "case": "failing"}
+_HOME |= {"start": "skeletons", "mine": "workbook", "case": "failing", "check": "cells", "Checked": "cells"}
 
 
 def __getattr__(name: str) -> Any:

@@ -34,6 +34,9 @@ SAY = {
 FULL = 36
 """Entries of an array that is shown whole."""
 
+NOISE = 1e-12
+"""Numbers below this are shown as zero."""
+
 LISTED = 6
 """Entries that are listed of a block that is too large to show."""
 
@@ -230,7 +233,9 @@ def _number(x: Any) -> str:
     """Write a number in a fixed width."""
     if isinstance(x, bool | np.bool_):
         return f"{x!s:>9}"
-    return f"{x:>9.4g}" if not isinstance(x, complex) else f"{x:.3g}"
+    if isinstance(x, complex):
+        return f"{x:.3g}"
+    return f"{x if abs(x) > NOISE else 0.0:>9.4g}"
 
 
 def _assigned(name: str, value: Any) -> list[str]:

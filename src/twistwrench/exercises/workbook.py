@@ -24,7 +24,7 @@ from .judge import Verdict, judge
 from .phrases import say
 from .text import Language, Text, default_language
 
-__all__ = ["STATE_FILE", "Workbook", "mine"]
+__all__ = ["STATE_FILE", "Workbook", "mine", "verdict_on_words"]
 
 STATE_FILE = ".twistwrench.json"
 """Remembers the language, how many hints were shown and which model answers."""
@@ -161,9 +161,7 @@ class Workbook:
         words = self.words(exercise)
         if words is None:
             return Verdict("to do", (say("words missing", name=exercise.answer_name),))
-        if len(words) < SHORTEST_ANSWER:
-            return Verdict("wrong", (say("words short", name=exercise.answer_name),))
-        return Verdict("done")
+        return verdict_on_words(exercise, words)
 
     def verdicts(self, exercise: Exercise) -> dict[str, Verdict]:
         """Return the verdicts on all parts of an exercise, by the name in the file."""
@@ -182,6 +180,13 @@ class Workbook:
             return function
         self.borrowed.add(name)
         return part.solution
+
+
+def verdict_on_words(exercise: Exercise, words: str) -> Verdict:
+    """Judge an answer in words: only whether there is enough of it."""
+    if len(words.strip()) < SHORTEST_ANSWER:
+        return Verdict("wrong", (say("words short", name=exercise.answer_name),))
+    return Verdict("done")
 
 
 def _line(error: BaseException, path: Path) -> int | None:

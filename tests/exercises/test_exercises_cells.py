@@ -1,0 +1,163 @@
+"""`check`, where the answer is written: the same verdict as in a folder, as text and as HTML, and nothing hangs."""
+
+import re
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.exercises import catalogue, check, forking
+from twistwrench.exercises.failing import Block, Compared
+from twistwrench.exercises.judge import judge
+from twistwrench.exercises.markup import case_html
+
+LIMIT = 1.0
+
+
+def act(R, p, x):
+    return R @ x - p
+
+
+def right(R, p, x):
+    return R @ x + p
+
+
+def endless(R, p, x):
+    while True:
+        pass
+
+
+def html(checked):
+    text = checked._repr_html_()
+    for tag in ("div", "table", "details", "pre", "svg"):
+        assert len(re.findall(f"<{tag}[ >]", text)) == text.count(f"</{tag}>"), tag
+    return text
+
+
+def test_a_wrong_answer_has_the_message_and_the_numbers():
+    checked = check("49.0.2", act, seed=4, language="en")
+    plain = judge(*catalogue.find_part("act"), act, seed=4)
+    assert checked.verdicts["act"].lines == plain.lines
+    assert plain.report("en") in repr(checked)
+    text = html(checked)
+    assert text.count('class="tw-bad"') == text.count('class="tw-good"') == 3
+    assert "the translation has the wrong sign" in text
+    assert not checked.right
+    assert checked.points == 0
+
+
+def test_the_hints_come_one_click_at_a_time():
+    text = html(check("49.0.2", act, language="en"))
+    first, second = (text.index(f"hint {k} of 2") for k in (1, 2))
+    assert "</details>" not in text[first:second]  # the second is inside the first
+    assert "<details open" not in text
+    assert "hint 1" not in html(check("49.0.2", right, language="en"))
+
+
+def test_a_large_array_has_a_map():
+    def mass_matrix_by_rnea(model, q):
+        return np.ones((model.nv, model.nv))
+
+    part = catalogue.find_part("mass_matrix_by_rnea")
+    by_blocks = judge(*part, mass_matrix_by_rnea)
+    whole = Block(None, (0, 0), np.eye(12), np.ones((12, 12)), np.eye(12) == 0)
+    case = replace(by_blocks.case, compared=(Compared(part[1].returns[0], (whole,)),))
+    assert case_html(case, "en").count("<rect") == 144
+    assert case_html(case, "en").count('fill="#d55e00"') == 132
+
+
+def test_one_part_of_two_gives_half_the_points():
+    def mass_matrix_by_rnea(model, q):
+        rest = np.zeros(model.nv)
+        gravity = tw.rnea(model, q, rest, rest)
+        return np.array([tw.rnea(model, q, rest, e) - gravity for e in np.eye(model.nv)]).T
+
+    checked = check("49.6.1", mass_matrix_by_rnea, language="zh")
+    assert checked.right
+    assert checked.points == 0.5
+    assert "正确" in repr(checked)
+
+
+def test_a_name_is_needed_only_where_there_are_several_functions():
+    assert check("49.0.2", right).right
+    assert check("49.0.2").verdicts["act"].state == "wrong"  # `act`, as it is defined in this file
+    with pytest.raises(tw.NameNotFound, match=r"function of 49\.6\.1"):
+        check("49.6.1", right)
+    with pytest.raises(TypeError, match=r"expected the function itself, as in check\('49.0.2', act\), got ndarray"):
+        check("49.0.2", act(np.eye(3), np.zeros(3), np.zeros(3)))
+    with pytest.raises(tw.ModelError, match=r"expected a function of 49.6.1 \(torques_two_ways, "):
+        check("49.6.1")
+    with pytest.raises(tw.NameNotFound, match="did you mean"):
+        check("49.0.22", act)
+
+
+def test_words_stand_beside_the_model_answer():
+    checked = check("49.6.2", words="The world rises, <so> every body feels it.", language="en")
+    assert "<pre>The world rises, &lt;so&gt; every body" in html(checked)
+    assert catalogue.exercise("49.6.2").answer.en.strip().split("\n")[0] in repr(checked)
+    assert not check("49.6.2", words="up", language="en").right
+
+
+@pytest.mark.parametrize("platform", [sys.platform, "win32"])
+def test_an_endless_loop_is_stopped_with_its_line(monkeypatch, platform):
+    monkeypatch.setattr(forking.sys, "platform", platform)
+    said = repr(check("49.0.2", endless, language="en", time_limit=LIMIT))
+    assert "It did not finish in 1 s" in said
+    assert "while True:" in said or "pass" in said
+    assert "twistwrench exercises case act 0" in said
+
+
+def test_elsewhere_than_on_linux_it_runs_here(monkeypatch):
+    monkeypatch.setattr(forking.sys, "platform", "darwin")
+    assert check("49.0.2", right, time_limit=LIMIT).right
+
+    def interrupted(R, p, x):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        check("49.0.2", interrupted, time_limit=LIMIT)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a copy of the process is made on Linux only")
+def test_what_ends_python_does_not_end_the_notebook(capsys):
+    def ended(R, p, x):
+        import os
+
+        print("here")
+        os._exit(3)
+
+    def loud(R, p, x):
+        print("here")
+        return R @ x + p
+
+    assert "It ended the whole process of Python" in repr(check("49.0.2", ended, language="en"))
+    assert check("49.0.2", loud).right
+    assert capsys.readouterr().out.count("here") == 5
+    assert check("49.0.2", right, time_limit=0).right
+
+
+def test_the_progress_is_that_of_the_section():
+    check("49.0.2", act, language="en")
+    before = check("49.0.2", act, language="en").progress
+    after = check("49.0.2", right, language="en").progress
+    assert after.count("●") == before.count("●") + 1
+    assert "of 5 exercises" in after
+
+
+def test_a_notebook_shows_it(tmp_path):
+    nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: no notebook is run")
+    nbclient = pytest.importorskip("nbclient", reason="nbclient is not installed: no notebook is run")
+    cells = [
+        "from twistwrench.exercises import check",
+        "def act(R, p, x):\n    return R @ x + p[7]\ncheck('49.0.2', act, language='en')",
+        "def act(R, p, x):\n    while True:\n        n = 1\ncheck('49.0.2', act, language='en', time_limit=1)",
+    ]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    wrong, late = (cell.outputs[-1].data for cell in notebook.cells[1:])
+    assert "in your cell, line 2:" in wrong["text/plain"]
+    assert '<div class="tw-wrong">' in wrong["text/html"]
+    assert "It did not finish in 1 s" in late["text/plain"]
+    assert "in your cell, line " in late["text/plain"]
