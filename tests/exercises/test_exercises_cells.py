@@ -96,7 +96,7 @@ def test_a_name_is_needed_only_where_there_are_several_functions():
 def test_words_stand_beside_the_model_answer():
     checked = check("49.6.2", words="The world rises, <so> every body feels it.", language="en")
     assert "<pre>The world rises, &lt;so&gt; every body" in html(checked)
-    assert catalogue.exercise("49.6.2").answer.en.strip().split("\n")[0] in repr(checked)
+    assert "".join(catalogue.exercise("49.6.2").answer.en.split()) in "".join(repr(checked).split())
     assert not check("49.6.2", words="up", language="en").right
 
 

@@ -15,6 +15,7 @@ from .isolation import TIME_LIMIT, drawn
 from .judge import State, Verdict
 from .text import Language, Text, default_language
 from .workbook import verdict_on_words
+from .wrapping import wrapped
 
 __all__ = ["Checked", "check"]
 
@@ -111,7 +112,7 @@ def check(
     number : str
         Of the exercise, as "49.6.1".
     functions : callable
-        The answers, in any order, told apart by their names. Without any: those functions of the exercise that the
+        The answers, in any order, matched by their names. Without any: those functions of the exercise that the
         caller has defined.
     words : str, optional
         The answer in words, where the exercise asks for one; the model answer is then shown beside it.

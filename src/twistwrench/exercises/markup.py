@@ -81,7 +81,7 @@ def verdict_html(verdict: Verdict, language: Language) -> str:
 
 
 def case_html(case: Case, language: Language) -> str:
-    """Return the failing case: expected and got side by side, a map of large arrays, the inputs behind a click."""
+    """Return the failing case: expected and got side by side, a map of large arrays, the inputs after a click."""
     parts = [_compared(compared, language) for compared in case.compared if not compared.is_right]
     inputs = case.text(language).split("\n")[1:]
     first = next((k for k, line in enumerate(inputs) if not line.startswith(" ")), len(inputs))

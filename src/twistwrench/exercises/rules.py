@@ -39,7 +39,7 @@ SAY = {
 
 
 class Calls:
-    """What a student's function called that it must not; `lines` says so, empty where there is nothing to say."""
+    """What a student's function called that it must not; `lines` is the message, empty where there is nothing."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -71,8 +71,8 @@ def watching(part: Part, function: Callable[..., Any], calls: Calls) -> Iterator
     """Note the forbidden calls of a student's function while it runs."""
     forbidden, wrappers = _forbidden(part) if function is not part.solution else ({}, set())
 
-    def noted(frame: FrameType, event: str, _: Any) -> None:
-        if event == "call" and id(frame.f_code) in forbidden:
+    def noted(frame: FrameType, *event: Any) -> None:
+        if event[0] == "call" and id(frame.f_code) in forbidden:
             name, caller = forbidden[id(frame.f_code)], frame.f_back
             while caller is not None and id(caller.f_code) in wrappers:
                 caller = caller.f_back
