@@ -19,7 +19,14 @@ from .algorithms.floating_base import Equilibrium, contact_jacobian, selection_m
 from .algorithms.inverse_mass import inverse_mass_matrix
 from .algorithms.kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .algorithms.mimic import MimicModel
+from .algorithms.momentum_rate import (
+    center_of_mass_acceleration,
+    center_of_mass_velocity,
+    centroidal_inertia,
+    centroidal_map_rate,
+)
 from .algorithms.rnea import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
+from .algorithms.subtree import subtree
 from .algorithms.whole_body import Dynamics, dynamics
 from .contact import (
     Baumgarte,
@@ -109,7 +116,11 @@ __all__ = [
     "articulated_inertia",
     "bridge",
     "center_of_mass",
+    "center_of_mass_acceleration",
+    "center_of_mass_velocity",
+    "centroidal_inertia",
     "centroidal_map",
+    "centroidal_map_rate",
     "centroidal_momentum",
     "centroidal_momentum_rate",
     "centroidal_terms",
@@ -171,6 +182,7 @@ __all__ = [
     "solve_mass_matrix",
     "stance_margins",
     "static_equilibrium",
+    "subtree",
     "templates",
     "trace",
     "unskew",

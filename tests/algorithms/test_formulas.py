@@ -8,14 +8,16 @@ import pytest
 import twistwrench as tw
 from twistwrench.algorithms.aba import articulated_body
 from twistwrench.algorithms.articulated import articulated_inertias
-from twistwrench.algorithms.centroidal import _to_center_of_mass, centroidal_composite
+from twistwrench.algorithms.centroidal import centroidal_composite, to_center_of_mass
 from twistwrench.algorithms.coriolis import christoffel
 from twistwrench.algorithms.crba import composite_rigid_body
 from twistwrench.algorithms.delassus import delassus
 from twistwrench.algorithms.factorization import factorize, inboard_dofs, solve_inward, solve_outward
 from twistwrench.algorithms.inverse_mass import unit_force_responses
 from twistwrench.algorithms.kinematics import motion, placements
+from twistwrench.algorithms.momentum_rate import momentum_map_rate, total_inertia
 from twistwrench.algorithms.rnea import newton_euler
+from twistwrench.algorithms.subtree import subtree_momentum_map
 from twistwrench.model import KINDS, Joint, columns, composite_inertias, joint_placements, tree_terms, wrenches
 from twistwrench.spatial import SE3
 
@@ -158,7 +160,7 @@ def test_every_recursion_is_arithmetic(state):
     close(articulated_body(tree, qd, columns(model, blind(expected.tau)), wrench).qdd, a, "qdd")
     close(composite_rigid_body(tree).M, tw.crba(model, q), "M")
     close(christoffel(tree, qd), tw.coriolis_matrix(model, q, v), "C")
-    close(centroidal_composite(tree, _to_center_of_mass(model, tree, blind(q))).A_G, tw.centroidal_map(model, q), "A_G")
+    close(centroidal_composite(tree, to_center_of_mass(model, tree, blind(q))).A_G, tw.centroidal_map(model, q), "A_G")
     kinematics = tw.forward_kinematics(model, q, v, a)
     V, A = motion(tree, qd, qdd)
     close(np.stack(V)[..., 0], kinematics.twist, "V")
@@ -179,6 +181,15 @@ def test_factors_solves_and_inverses_are_arithmetic(state):
     close(unit_force_responses(tree, articulated_inertias(tree)), tw.inverse_mass_matrix(model, q))
     J = tw.frame_jacobian(model, q, model.frame_names[-1])
     close(delassus(L, D, inboard, blind(J)), tw.delassus_matrix(model, q, J))
+
+
+def test_rates_and_parts_of_the_momentum_are_arithmetic(state):
+    model, q, v, _, _ = state
+    tree = tree_terms(model, blind(q))
+    X = to_center_of_mass(model, tree, blind(q))
+    close(momentum_map_rate(tree, X, columns(model, blind(v))), tw.centroidal_map_rate(model, q, v), "dA_G")
+    close(total_inertia(tree, X, range(model.nbodies)), tw.centroidal_inertia(model, q), "I_G")
+    close(subtree_momentum_map(tree, X, 0), tw.centroidal_map(model, q), "A_G")
 
 
 # ---------------------------------------------------------------- checked once

@@ -20,6 +20,8 @@ energy          49.8     kinetic and potential energy
 floating_base   49.9     the selection matrix S, contact Jacobians J_c, static equilibrium
 delassus        49.9     the inertia at a contact: Λ⁻¹ = J M⁻¹ Jᵀ, and Λ
 centroidal      49.10    the centre of mass, the centroidal momentum h_G, its map A_G and its rate
+momentum_rate   49.10    Ȧ_G, I_G, and velocity and acceleration of the centre of mass
+subtree         49.10    mass, centre, Jacobian, inertia and momentum of a part of the robot
 whole_body      49.11    M, h, J_c and A_G at once
 mimic                    joints that follow others: a smaller model, projected
 ==============  =======  ==============================================================================

@@ -6,6 +6,8 @@ h_G = (k_G, l_G) at the centre of mass G, in the axes of the world.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -26,6 +28,10 @@ __all__ = [
     "centroidal_momentum",
     "centroidal_momentum_rate",
     "centroidal_terms",
+    "mean_center",
+    "placements_from_first_body",
+    "to_center_of_mass",
+    "total_mass",
 ]
 
 
@@ -69,18 +75,26 @@ def center_of_mass(model: Model, q: ArrayLike) -> Array:
     array([ 0.,  0., -1.])
     """
     (q,) = check_state(model, q)
-    return _center_of_mass(model, placements(model.parent, joint_placements(model, q)), q)
+    placement = placements(model.parent, joint_placements(model, q))
+    return mean_center(model, placement, q, range(model.nbodies), model.name)
 
 
-def _center_of_mass(model: Model, placement: list[SE3], q: Array) -> Array:
-    if model.mass == 0:
-        raise SingularError(f"centre of mass of {model.name!r}: nothing that moves has mass")
+def mean_center(model: Model, placement: list[SE3], q: Array, bodies: Sequence[int], name: str) -> Array:
+    """Return the centre of mass of some of the bodies, which have a name together; raise where they have no mass."""
     moment = np.zeros((*q.shape[:-1], 3), q.dtype)
-    for T, inertia in zip(placement, model.inertia):
+    for i in bodies:
+        T, inertia = placement[i], model.inertia[i]
         com = placed_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
         moment = moment + convert(inertia.mass, q.dtype) * com
-    p_G: Array = moment / np.sum([convert(inertia.mass, q.dtype) for inertia in model.inertia])  # 49.10 p_G
+    p_G: Array = moment / total_mass(model, q, bodies, name)  # 49.10 p_G
     return p_G
+
+
+def total_mass(model: Model, q: Array, bodies: Sequence[int], name: str) -> Array:
+    """Return the mass of some of the bodies, in q's number type; raise SingularError where it is zero."""
+    if not any(model.inertia[i].mass for i in bodies):
+        raise SingularError(f"centre of mass of {name!r}: nothing that moves has mass")
+    return np.asarray(np.sum([convert(model.inertia[i].mass, q.dtype) for i in bodies]))
 
 
 @also_of_mimics
@@ -148,7 +162,7 @@ def centroidal_terms(model: Model, q: ArrayLike) -> CentroidalTerms:
     """
     (q,) = check_state(model, q)
     tree = tree_terms(model, q)
-    return centroidal_composite(tree, _to_center_of_mass(model, tree, q))
+    return centroidal_composite(tree, to_center_of_mass(model, tree, q))
 
 
 @also_of_mimics
@@ -180,7 +194,7 @@ def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """
     q, v = check_state(model, q, v=v)
     tree = tree_terms(model, q)
-    X, I = _to_center_of_mass(model, tree, q), tree.I
+    X, I = to_center_of_mass(model, tree, q), tree.I
     V, _ = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
     h_G: Array = np.sum([X[i] @ I[i] @ V[i] for i in range(model.nbodies)], axis=0)  # 49.10 h_G
     return h_G[..., 0]
@@ -221,21 +235,21 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
     """
     q, v, a = check_state(model, q, v=v, a=a)
     tree = tree_terms(model, q)
-    X, I = _to_center_of_mass(model, tree, q), tree.I
+    X, I = to_center_of_mass(model, tree, q), tree.I
     V, A = motion(tree, columns(model, v), columns(model, a))
     F = [I[i] @ A[i] + bias_wrench(I[i], V[i]) for i in range(model.nbodies)]  # 49.10 F
     rate: Array = np.sum([X[i] @ F[i] for i in range(model.nbodies)], axis=0)  # 49.10 rate
     return rate[..., 0]
 
 
-def _to_center_of_mass(model: Model, tree: Tree, q: Array) -> list[Array]:
+def to_center_of_mass(model: Model, tree: Tree, q: Array) -> list[Array]:
     """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
-    placement = _placements_from_first_body(model, tree)
-    p_G = _center_of_mass(model, placement, q)
+    placement = placements_from_first_body(model, tree)
+    p_G = mean_center(model, placement, q, range(model.nbodies), model.name)
     return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]  # 49.10 X
 
 
-def _placements_from_first_body(model: Model, tree: Tree) -> list[SE3]:
+def placements_from_first_body(model: Model, tree: Tree) -> list[SE3]:
     """Return the placement of each body, in the world's axes but about the origin of the first body that moves.
 
     A lever p_i − p_G does not depend on where the robot stands. As the difference of two world coordinates it would
