@@ -74,6 +74,8 @@ METHODS = {
     "Template.rate": MASS.rate,
     "Template.residual": MASS.residual,
     "Twist.transform": tw.Twist(np.ones(6)).transform,
+    "Twist.from_screw": tw.Twist.from_screw,
+    "Wrench.from_force": tw.Wrench.from_force,
     "Wrench.transform": tw.Wrench(np.ones(6)).transform,
 }
 SIGNATURES = {"Builder.build": tw.Builder("b").build, "Builder.link": tw.Builder("b").link}
@@ -154,6 +156,11 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "Model.frame": {"name": "FR_foot"},
     "Model.joint_id": {"name": "FR_hip_joint"},
     "SpatialInertia.from_parameters": {"p": BODY.parameters()},
+    "Twist.from_screw": {"axis": np.ones(3), "frame": "base"},
+    "Wrench.from_force": {"force": np.ones(3), "frame": "base"},
+    "from_dh": {"a": np.ones(2), "alpha": np.zeros(2), "d": np.zeros(2), "convention": "classical"},
+    "from_screw_axes": {"M": np.eye(4), "Slist": np.eye(6)[:, :2]},
+    "screw_axes": {"model": tw.load("planar_arm"), "frame": "tool"},
     "bridge.from_pinocchio_f_ext": {"f_ext": [np.zeros(6)] * GO2.nbodies},
     "contact_jacobian": {"contacts": GO2.feet},
     "motions.Motion": {name: getattr(WALK, name) for name in ("name", "t", "q", "v", "a", "feet", "contacts")},

@@ -53,6 +53,7 @@ from .model.joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Rev
 from .model.model import Model
 from .model.reduction import Reduction, lock_joints
 from .model.samples import chain, random_tree
+from .model.serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
 from .robots import load, robots
 from .scene import Scene
 from .simulation import DivergenceError, Simulation, simulate
@@ -100,6 +101,7 @@ __all__ = [
     "Revolute",
     "Scene",
     "Screw",
+    "ScrewAxes",
     "ShapeError",
     "Simulation",
     "SingularError",
@@ -148,6 +150,8 @@ __all__ = [
     "frame_jacobian",
     "frame_placement",
     "friction_inverse_dynamics",
+    "from_dh",
+    "from_screw_axes",
     "gravity",
     "hat",
     "impact",
@@ -176,6 +180,7 @@ __all__ = [
     "rnea_terms",
     "robots",
     "screw",
+    "screw_axes",
     "selection_matrix",
     "simulate",
     "skew",

@@ -38,6 +38,8 @@ PHYSICS_AND_ORACLES = [
     "spatial/test_plucker.py",
     "spatial/test_inertia.py",
     "spatial/test_ten_numbers.py",
+    "spatial/test_screws.py",
+    "model/test_serial.py",
     "spatial/test_shapes.py",
     "robots/test_urdf.py",
     "simulation/test_simulation.py",
@@ -61,6 +63,8 @@ TESTED_BY = {
     "fast": "extremes",
     "_ten_numbers": "ten_numbers",
     "_shapes": "shapes",
+    "_vector": "screws",
+    "wrench": "screws",
 }
 """Files and folders of the source whose tests go by another name."""
 

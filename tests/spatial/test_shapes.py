@@ -114,6 +114,15 @@ def test_a_tetrahedron_has_the_moments_of_its_closed_form():
     np.testing.assert_allclose(about_corner, [[4, -1, -1], [-1, 4, -1], [-1, -1, 4]], rtol=0, atol=1e-14)
 
 
+def test_a_pyramid_has_its_centre_at_a_quarter_of_its_height():
+    corners = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 3]]
+    faces = [[0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    body = SpatialInertia.from_mesh(20.0, corners, faces)
+    np.testing.assert_allclose(body.com, [0, 0, 0.75], rtol=0, atol=1e-15)
+    moments = [20 * (4 * 4 + 3 * 9) / 80] * 2 + [20 * 4 / 10]  # m (4 s² + 3 h²)/80 and m s²/10, with s = 2 and h = 3
+    np.testing.assert_allclose(body.inertia_at_com, np.diag(moments), rtol=0, atol=1e-14)
+
+
 def test_trimesh_has_the_same_body_for_a_surface_that_is_not_convex():
     trimesh = pytest.importorskip("trimesh", reason="trimesh is not installed: the comparison with it is skipped")
     for mesh in (trimesh.creation.annulus(0.5, 1.0, 0.7), trimesh.creation.icosphere(radius=0.4)):

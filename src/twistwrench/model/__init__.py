@@ -19,6 +19,7 @@ link            a link of a model that is being built
 numbering       the order of the joints; links that are welded together
 builder         `Builder`: a model made in Python
 samples         `chain` and `random_tree`
+serial          `from_screw_axes`, `screw_axes`, `from_dh`: arms as textbooks print them
 reduction       `lock_joints`: a smaller model
 ==============  ======================================================================================
 """
@@ -28,7 +29,7 @@ from .builder import Builder
 from .configuration import ConfigurationSpace
 from .constants import Constants, cast, readonly
 from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
-from .joints import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
+from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .link import UNLIMITED, WORLD, Link
 from .manifold import Manifold
 from .model import PER_DOF, Frame, Model
@@ -36,6 +37,7 @@ from .numbering import NumberedTree
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
 from .report import Entry, Report
 from .samples import KINDS, chain, random_tree
+from .serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
 from .state import check_arrays, checked_state
 from .tree import Tree, columns, composite_inertias, joint_placements, stacked, tree_terms, wrenches
 
@@ -53,6 +55,7 @@ __all__ = [
     "Frame",
     "FreeFlyer",
     "GroupJoint",
+    "Helical",
     "Joint",
     "Link",
     "Manifold",
@@ -63,6 +66,7 @@ __all__ = [
     "Reduction",
     "Report",
     "Revolute",
+    "ScrewAxes",
     "Spherical",
     "Tree",
     "cast",
@@ -74,6 +78,8 @@ __all__ = [
     "columns",
     "composite_inertias",
     "floats_of",
+    "from_dh",
+    "from_screw_axes",
     "idle_joints",
     "in_double",
     "joint_placements",
@@ -84,6 +90,7 @@ __all__ = [
     "random_tree",
     "readonly",
     "same_side",
+    "screw_axes",
     "stacked",
     "tree_terms",
     "turn",

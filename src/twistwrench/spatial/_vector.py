@@ -7,8 +7,9 @@ from typing import Any, ClassVar, Literal, NoReturn, Self
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from ..arrays import Array, as_number_array, as_number_arrays
-from ..errors import FrameError, unknown_name
+from ..arrays import Array, as_arrays, as_number_array, as_number_arrays, check_overflow
+from ..errors import FrameError, SingularError, unknown_name
+from ._elementary import at_first_index, length
 
 __all__ = ["SpatialVector", "aligned", "as_spatial", "common_frame", "latex_matrix"]
 
@@ -25,6 +26,7 @@ class SpatialVector:
     # NumPy arrays leave the operators to this class.
     __array_ufunc__ = None
     _symbol: ClassVar[str]
+    _line_first: ClassVar[bool]
 
     def __init__(self, vector: ArrayLike, *others: ArrayLike, frame: str | None = None) -> None:
         if others:
@@ -38,6 +40,72 @@ class SpatialVector:
         self._vector = as_number_array(vector, "vector", 6).copy()
         self._vector.flags.writeable = False
         self._frame = frame
+
+    @classmethod
+    def from_screw(
+        cls,
+        axis: ArrayLike,
+        point: ArrayLike = (0, 0, 0),
+        pitch: ArrayLike = 0.0,
+        magnitude: ArrayLike = 1.0,
+        *,
+        frame: str | None = None,
+    ) -> Self:
+        """Make a twist or a wrench from its screw: the inverse of `twistwrench.screw` (sections 49.2 and 49.4).
+
+        Of a twist: ω = magnitude axis and v = point × ω + pitch ω. Of a wrench the same, with f for ω and τ for v. With
+        an infinite pitch a translation or a couple: v or τ = magnitude axis, and the point does not count.
+
+        Parameters
+        ----------
+        axis : array_like, shape (..., 3)
+            Its direction; the length is divided out.
+        point : array_like, shape (..., 3)
+            Any point of the axis, m.
+        pitch : array_like, shape (...)
+            m/rad; of a wrench, moment per force, m.
+        magnitude : array_like, shape (...)
+            rad/s, or N; of a translation m/s, of a couple N m.
+        frame : str, optional
+            The frame that the numbers are expressed in.
+
+        Returns
+        -------
+        Twist or Wrench
+
+        Raises
+        ------
+        ShapeError
+            If a shape is wrong.
+        SingularError
+            If an axis is zero.
+        ValueError
+            If a number is not finite, but for the pitch, or products overflow.
+
+        Examples
+        --------
+        >>> from twistwrench import Twist, screw
+        >>> Twist.from_screw(axis=[0, 0, 2], point=[1, 0, 0], pitch=0.5)
+        Twist([0.0, 0.0, 1.0, 0.0, -1.0, 0.5])
+        >>> V = Twist([0, 0, 2, 0, -2, 1])
+        >>> Twist.from_screw(*screw(V)) == V
+        True
+        """
+        h = np.asarray(pitch)
+        free = np.isinf(h) if h.dtype.kind in "fc" else np.zeros(h.shape, bool)
+        h = np.where(free, 0, h)
+        a, p, h, m = as_arrays(axis=(axis, (3,)), point=(point, (3,)), pitch=(h, ()), magnitude=(magnitude, ()))
+        size = length(a)[..., None]
+        none = np.asarray(size.real == 0)[..., 0]
+        if none.any():
+            raise SingularError(f"axis: the zero vector has no direction{at_first_index(none)}")
+        along = m[..., None] * (a / size)
+        line = np.where(free[..., None], 0, along)
+        with np.errstate(over="ignore", invalid="ignore"):
+            moment = np.where(free[..., None], along, np.cross(p, line) + h[..., None] * line)
+        check_overflow(moment, "point, pitch, magnitude")
+        halves = np.broadcast_arrays(line, moment)
+        return cls(np.concatenate(halves if cls._line_first else halves[::-1], axis=-1), frame=frame)
 
     @property
     def vector(self) -> Array:

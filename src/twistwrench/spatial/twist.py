@@ -220,6 +220,7 @@ class Twist(SpatialVector):
 
     __slots__ = ()
     _symbol = "V"
+    _line_first = True
 
     def transform(self, T: Placement, *, frame: str | None = None) -> Twist:
         """Return the twist in another frame, V_A = X V_B (section 49.3).

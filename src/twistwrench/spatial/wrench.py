@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_number_arrays, without_overflow
+from ..arrays import Array, as_number_arrays, check_overflow, without_overflow
 from ._vector import SpatialVector, as_spatial, common_frame
+from .rotation import cross_matrix
 from .twist import Placement, Screw, Twist, check_placement, screw
 
 __all__ = ["Wrench", "power"]
@@ -77,6 +78,7 @@ class Wrench(SpatialVector):
 
     __slots__ = ()
     _symbol = "F"
+    _line_first = False
 
     @property
     def moment(self) -> Array:
@@ -122,6 +124,42 @@ class Wrench(SpatialVector):
 
     def _line_and_free(self) -> tuple[Array, Array]:
         return self.linear, self.angular
+
+    @classmethod
+    def from_force(
+        cls, force: ArrayLike, point: ArrayLike, couple: ArrayLike = (0, 0, 0), *, frame: str | None = None
+    ) -> Wrench:
+        """Make the wrench of a force that acts at a point, and of a couple: τ = point × f + couple (section 49.4).
+
+        Parameters
+        ----------
+        force : array_like, shape (..., 3)
+            N.
+        point : array_like, shape (..., 3)
+            Where it acts, from the origin of the frame, m.
+        couple : array_like, shape (..., 3)
+            A moment in addition, N m.
+        frame : str, optional
+            The frame that the numbers are expressed in.
+
+        Returns
+        -------
+        Wrench
+
+        Raises
+        ------
+        ShapeError
+            If a last axis is not 3 long, or the batch axes do not broadcast.
+
+        Examples
+        --------
+        >>> Wrench.from_force([0, 0, 10], point=[0.5, 0, 0])
+        Wrench([0.0, -5.0, 0.0, 0.0, 0.0, 10.0])
+        """
+        f, p, c = as_number_arrays(force=(force, (3,)), point=(point, (3,)), couple=(couple, (3,)))
+        moment = np.matvec(cross_matrix(p), f) + c
+        check_overflow(moment, "force, point")
+        return cls(np.concatenate(np.broadcast_arrays(moment, f), axis=-1), frame=frame)
 
     def power(self, twist: Twist | ArrayLike) -> Array:
         """Return the power spent on a twist, W: see `twistwrench.power`."""
