@@ -1,4 +1,4 @@
-"""The command line of the exercises: ``twistwrench exercises start | status | case | hint | solution | list``."""
+"""The command line: ``twistwrench exercises start | status | case | hint | solution | list | grade``."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import argparse
 import sys
 from typing import Any
 
+from ..files import write_text
 from .text import Language, Text
 
 __all__ = ["register"]
@@ -45,6 +46,18 @@ def register(commands: Any) -> None:
     hint.add_argument("--again", action="store_true", help="the last hint again")
     solution.add_argument("--yes", action="store_true", help="do not ask whether you are sure")
     _action(actions, "list", "all exercises", run_list)
+    _add_grade(_action(actions, "grade", "for instructors: the folders of a whole class, each by itself", run_grade))
+
+
+def _add_grade(grade: Any) -> None:
+    grade.add_argument("folders", nargs="+", metavar="FOLDER", help="of a student, or a folder of such folders")
+    grade.add_argument("--only", nargs="+", default=[], metavar="ID", help="exercises or sections: 49.6 49.7.1 (all)")
+    grade.add_argument("--csv", metavar="FILE", help="a row for each function of each student")
+    grade.add_argument("--html", metavar="FILE", help="a page: points, messages, words beside the model answer")
+    grade.add_argument("--junit", metavar="FILE", help="a test suite for each student")
+    grade.add_argument("--seed", type=int, metavar="N", help="of the random cases, the same for all; else drawn")
+    grade.add_argument("--timeout", type=_seconds, metavar="S", help="seconds for one call of a function (10)")
+    grade.add_argument("--jobs", type=int, metavar="N", help="folders at a time (one for each processor)")
 
 
 def _action(actions: Any, name: str, help: str, run: Any) -> Any:
@@ -116,13 +129,14 @@ def run_hint(args: argparse.Namespace) -> int:
 
 def run_solution(args: argparse.Namespace) -> int:
     """Print a solution, once the student is sure."""
+    from . import catalogue
     from .helping import solution
     from .workbook import Workbook
 
-    text = solution(args.id, args.dir, language=args.language)
+    catalogue.exercise(args.id)
     if not args.yes and not _sure(args.id, Workbook(args.dir, language=args.language).language):
         return REFUSED
-    print(text)
+    print(solution(args.id, args.dir, language=args.language))
     return 0
 
 
@@ -132,6 +146,23 @@ def _sure(number: str, language: Language) -> bool:
         print(UNASKED.fill(id=number).of(language))
         return False
     return input(ASK.fill(id=number).of(language)).strip().lower() in ("y", "yes", "是")
+
+
+def run_grade(args: argparse.Namespace) -> int:
+    """Grade folders, print a table, and write what is asked for."""
+    from .grading import grade
+    from .isolation import TIME_LIMIT, drawn
+    from .sheets import as_csv, as_html, as_junit, as_table
+    from .text import default_language
+
+    seed, language = drawn(args.seed), args.language or default_language()
+    limit = args.timeout or TIME_LIMIT
+    found = grade(args.folders, only=args.only, seed=seed, time_limit=limit, jobs=args.jobs, language=language)
+    print(as_table(found, seed, language))
+    for path, made in ((args.csv, as_csv), (args.html, as_html), (args.junit, as_junit)):
+        if path is not None:
+            write_text(path, made(found, seed, language))
+    return 0
 
 
 def run_list(args: argparse.Namespace) -> int:

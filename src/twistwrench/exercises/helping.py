@@ -96,7 +96,8 @@ def _has_words(book: Workbook, exercise: Exercise) -> bool:
 def solution(number: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
     """Return a solution of an exercise, as it could stand in the student's file.
 
-    It includes the model answer to a question in words once the student has answered it.
+    It includes the model answer to a question in words once the student has answered it. That it was shown is
+    remembered in the folder.
 
     Parameters
     ----------
@@ -123,6 +124,8 @@ def solution(number: str, folder: str | PathLike[str] = ".", *, language: Langua
     """
     exercise, book = catalogue.exercise(number), Workbook(folder, language=language)
     spoken = book.language
+    if (book.folder / catalogue.file_name(exercise.section)).exists():
+        book.remember(solutions=sorted({*book.state["solutions"], number}))
     lines = [SAY["solution"].fill(id=number, title=exercise.title).of(spoken)]
     lines += ["\n" + source.rstrip() for source in solution_sources(exercise, spoken)]
     if exercise.answer is not None:

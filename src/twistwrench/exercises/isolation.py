@@ -46,6 +46,7 @@ def opened(
     language: Language | None = None,
     seed: int | None = None,
     time_limit: float = TIME_LIMIT,
+    quiet: bool = False,
 ) -> Iterator[Workbook]:
     """Open a folder that was started before, and close it again.
 
@@ -58,6 +59,8 @@ def opened(
         Of the random cases; drawn anew unless given.
     time_limit : float
         Seconds for one call of a student's function; 0 for none, and no other process, as a debugger needs it.
+    quiet : bool
+        Drop what the other process prints.
 
     Yields
     ------
@@ -66,7 +69,7 @@ def opened(
     if not time_limit or not sys.executable or sys.platform == "emscripten":
         yield Workbook(folder, language=language, seed=drawn(seed))
         return
-    book = IsolatedWorkbook(folder, language=language, seed=drawn(seed), time_limit=time_limit)
+    book = IsolatedWorkbook(folder, language=language, seed=drawn(seed), time_limit=time_limit, quiet=quiet)
     try:
         yield book
     finally:
@@ -85,6 +88,8 @@ class IsolatedWorkbook(Workbook):
         Of the random cases.
     time_limit : float
         Seconds for one call of a student's function.
+    quiet : bool
+        Drop what the other process prints.
     """
 
     def __init__(
@@ -94,8 +99,10 @@ class IsolatedWorkbook(Workbook):
         language: Language | None = None,
         seed: int = 0,
         time_limit: float = TIME_LIMIT,
+        quiet: bool = False,
     ) -> None:
         super().__init__(folder, language=language, seed=seed)
+        self._quiet = quiet
         self._time_limit = time_limit
         self._worker: _Worker | None = None
         self._unreadable: dict[str, Text] = {}
@@ -120,7 +127,7 @@ class IsolatedWorkbook(Workbook):
         while True:
             if self._worker is None:
                 known = self._verdicts, self._unreadable
-                self._worker = _Worker(str(self.folder), self.seed, self._time_limit, *known)
+                self._worker = _Worker(self._quiet, str(self.folder), self.seed, self._time_limit, *known)
             try:
                 answer, borrowed = self._worker.ask(what, name)
             except _Died as died:
@@ -171,7 +178,7 @@ class _Died(Exception):
 class _Worker:
     """The other process."""
 
-    def __init__(self, folder: str, seed: int, limit: float, *known: dict[str, Any]) -> None:
+    def __init__(self, quiet: bool, folder: str, seed: int, limit: float, *known: dict[str, Any]) -> None:
         handle, trace = tempfile.mkstemp(prefix="twistwrench-", suffix=".trace")
         with open(handle, "wb"):
             self._trace = Path(trace)
@@ -180,6 +187,7 @@ class _Worker:
                 [sys.executable, "-u", "-c", WORKER.format(path=sys.path)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL if quiet else None,
                 creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
                 process_group=0 if os.name == "posix" else None,  # all that the answers start ends with it
             )

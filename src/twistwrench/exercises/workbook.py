@@ -24,10 +24,10 @@ from .judge import Verdict, judge
 from .phrases import say
 from .text import Language, Text, default_language
 
-__all__ = ["STATE_FILE", "Workbook", "mine", "verdict_on_words"]
+__all__ = ["STATE_FILE", "Workbook", "has_started", "mine", "verdict_on_words"]
 
 STATE_FILE = ".twistwrench.json"
-"""Remembers the language, how many hints were shown and which model answers."""
+"""Remembers the language, how many hints were shown, which solutions and which model answers."""
 
 SHORTEST_ANSWER = 12
 """Characters of an answer in words; a sentence in Chinese needs no more."""
@@ -68,7 +68,7 @@ class Workbook:
             If nothing was started there.
         """
         book = cls(folder, language=language)
-        if not _started(book.folder):
+        if not has_started(book.folder):
             raise ModelError(f"{book.folder}: no exercises here; {_where(book.folder)}")
         return book
 
@@ -81,7 +81,7 @@ class Workbook:
             kept = json.loads((self.folder / STATE_FILE).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             kept = {}
-        return {"hints": {}, "compared": [], **(kept if isinstance(kept, dict) else {})}
+        return {"hints": {}, "compared": [], "solutions": [], **(kept if isinstance(kept, dict) else {})}
 
     def remember(self, **news: Any) -> None:
         """Write the hidden file."""
@@ -250,7 +250,7 @@ def mine(name: str) -> Callable[..., Any]:
     return function
 
 
-def _started(folder: Path) -> bool:
+def has_started(folder: Path) -> bool:
     """Whether a folder holds a student's files."""
     return any(isfile(folder / catalogue.file_name(section)) for section in catalogue.SECTIONS)
 
@@ -259,7 +259,7 @@ def _where(folder: Path) -> str:
     """Return where the exercises may be, for a student who is in another folder."""
     near = [folder / "..", *(sorted(folder.iterdir()) if folder.is_dir() else ())]
     for other in near:
-        if _started(other):
+        if has_started(other):
             return f"there are some in {other}: twistwrench exercises status {shlex.quote(str(other))}"
     named, new = "twistwrench exercises status DIR", "twistwrench exercises start DIR"
     return f"name the folder that they are in: {named} (to make one: {new})"
