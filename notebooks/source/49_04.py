@@ -195,7 +195,7 @@ plt.show()
 #
 # ## 从 wrench 到关节
 #
-# 脚上的力也会带动关节。脚的 Jacobian 说的是脚有多快,$\boldsymbol v_i = J_i v$;由功率相等,
+# 脚上的力也会带动关节。脚的雅可比矩阵说的是脚有多快,$\boldsymbol v_i = J_i v$;由功率相等,
 # $\boldsymbol f_i^T J_i v = (J_i^T \boldsymbol f_i)^T v$,就知道力怎样进入运动方程:乘 $J_i^T$。所有脚合起来就是
 # $J_c^T \boldsymbol\lambda$。也可以换条路:把 wrench 作为 `f_ext` 交给 `rnea`,放在带着这只脚的刚体上,用它自己的坐标系。
 # %%

@@ -119,7 +119,7 @@ assert np.allclose(again.inertia_at_com, heap.inertia_at_com)
 #
 # $$\hat I_A = X^{-T} \hat I_B X^{-1} = X^* \hat I_B X^{-1}.$$
 #
-# 然后相加:twist 相同的刚体,动量可以相加,惯量也就可以相加。这个和就是**复合惯量**，CRBA 以它为基础(49.8)。
+# 然后相加:twist 相同的刚体,动量可以相加,惯量也就可以相加。这个和就是**复合刚体惯量**，CRBA 以它为基础(49.8)。
 # %%
 placement = tw.forward_kinematics(model, q).placement
 in_base = [placement[1].inverse() @ T for T in placement]  # of each body in the base

@@ -7,7 +7,7 @@
 # %% [markdown] lang="zh"
 # # 49.6 RNEA:逆动力学
 #
-# 给定运动,需要什么样的力?递归牛顿-欧拉算法沿运动树走两遍来回答:向外带着运动,向内带着力。这个笔记本在 Go2 上
+# 给定运动,需要什么样的力?递归牛顿-欧拉算法沿运动树走两遍来回答:向外传递运动,向内传递力。这个笔记本在 Go2 上
 # 一步一步走一遍,画出每一步带的是什么,说明重力在里面是什么,最后看看本章的伪代码错在哪里。
 # %%
 import dataclasses
@@ -41,7 +41,7 @@ for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs
 # ## 运动树
 #
 # 刚体 0 是世界,刚体 1 是基座;每个刚体 $i$ 由关节 $i$ 挂在父刚体 $\lambda(i)$ 上。对递推来说,一个关节就是两样东西:
-# 把 twist 从父坐标系换到坐标系 $i$ 的矩阵 $X_i$,以及关节所允许的运动的子空间 $S_i$,转动关节是 6 × 1,自由的基座是
+# 把 twist 从父坐标系换到坐标系 $i$ 的矩阵 $X_i$,以及关节所允许的运动的子空间 $S_i$,旋转关节是 6 × 1,自由的基座是
 # 6 × 6。`tree_terms` 负责算出它们。因为 $\lambda(i) < i$,编号从小到大就是由内向外。
 # %%
 tree = tree_terms(model, q)
@@ -119,7 +119,7 @@ assert np.allclose(moving.imag / h, kin.acceleration, atol=1e-12)
 # $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
 # \sum_{\lambda(j) = i} X_j^T \boldsymbol F_j, \qquad \boldsymbol\tau_i = S_i^T \boldsymbol F_i.$$
 #
-# 用 $X_j^T$,是因为 $X_j$ 向外,而功率相等使它的转置向内(49.4)。$\boldsymbol F_i$ 的六个数里,转动关节自己就承受了五个,
+# 用 $X_j^T$,是因为 $X_j$ 向外,而功率相等使它的转置向内(49.4)。$\boldsymbol F_i$ 的六个数里,旋转关节自己就承受了五个,
 # 只有沿 $S_i$ 的那一个归电机。
 # %%
 own, F, tau = np.array(terms.B), np.array(terms.F), terms.tau

@@ -181,7 +181,7 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 #
 # 对同一棵子树,两种惯量回答两个问题:
 #
-# - **复合惯量** $\hat I^C$:关节*锁死*,成为一个刚体(49.5)。CRBA 用它构造 $M$，$S_i^T \hat I_i^C S_i$ 就是元素
+# - **复合刚体惯量** $\hat I^C$:关节*锁死*,成为一个刚体(49.5)。CRBA 用它构造 $M$，$S_i^T \hat I_i^C S_i$ 就是元素
 #   $M_{ii}$。
 # - **铰接体惯量** $\hat I^A$:关节*自由*。父刚体固定时,$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。(电机以同样大小的
 #   力矩反推父刚体;父刚体如果退让,关节就加速得更快。下面会看到快多少。)

@@ -54,3 +54,26 @@ def test_chinese_has_its_own_punctuation():
 )
 def test_a_narrow_mark_is_noticed(text, places):
     assert len(narrow(text)) == places
+
+
+ONE_TERM = {
+    "构型": "位形",
+    "转动关节": "旋转关节",
+    "棱柱关节": "移动关节",
+    "(?<!复合刚体)复合惯量(?!（)": "复合刚体惯量",
+    rf"(?<=[{HAN}])\s?Jacobian(?![A-Za-z(])|(?<![A-Za-z_.])Jacobian\s?(?=[{HAN}])": "雅可比矩阵",
+    "带不动|全部家当|看见机器人|沿树行走": "a mistranslation",
+}
+"""What a thing is not called, and what it is called: docs/glossary.zh-CN.md."""
+ELSEWHERE = ("docs/glossary", "docs/mirror", "src/", "docs/trade")
+"""The glossary and the chapter's own headings have the chapter's words."""
+
+
+@pytest.mark.parametrize("word", ONE_TERM)
+def test_one_thing_has_one_term(word):
+    assert re.search(word, "构型，转动关节，棱柱关节，复合惯量，脚的 Jacobian 矩阵，带不动")
+    own = [path for path in FILES if not path.relative_to(ROOT).as_posix().startswith(ELSEWHERE)]
+    found = {
+        path.name: re.findall(rf".{{0,9}}(?:{word}).{{0,9}}", NOT_WORDS.sub("x", "".join(texts(path)))) for path in own
+    }
+    assert {name: places for name, places in found.items() if places} == {}, ONE_TERM[word]
