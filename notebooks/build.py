@@ -13,11 +13,15 @@ whose language it names; an English cell is followed by the Chinese one that say
     # %%
     v[2] = 0.5
 
+Asserts at the top of a code cell, and what draws a picture from its figure to `plt.show()`, go into cells of their own
+after it, whose code is folded away: a reader sees what is computed, and unfolds the rest.
+
 In the Chinese text, commas, brackets, quotation marks and the like may be typed as English has them, and a line may
 end anywhere.
 """
 
 import argparse
+import ast
 import re
 import sys
 from pathlib import Path
@@ -107,12 +111,57 @@ def _brackets(found: re.Match[str]) -> str:
     return f"（{text.strip()[1:-1]}）"
 
 
+CLAIMS, DRAWING = "# The claims above, checked", "# The picture"
+"""The first line of a folded cell."""
+FOLDED = {"jupyter": {"source_hidden": True}, "tags": ["hide-input"], "cellView": "form"}
+"""For JupyterLab, for the site, for Colab."""
+DRAWS = re.compile(r"\b(plt|plot|ax|axes|axis|figure|fig|picture)\b")
+
+
+def unfolded(code: str) -> list[tuple[str, bool]]:
+    """Return the cells of a code cell, what is computed, drawn and claimed, each with whether it is folded away."""
+    lines, start = code.split("\n"), 0
+    shown: list[str] = []
+    drawn: list[str] = []
+    claimed: list[str] = []
+    body = ast.parse(code).body
+    pictures = [k for k, node in enumerate(body) if ast.unparse(node) == "plt.show()"]
+    for k, node in enumerate(body):
+        text = "\n".join(lines[start : node.end_lineno])
+        start = node.end_lineno or 0
+        show = next((end for end in pictures if end >= k), None)
+        if _is_claim(node):
+            claimed.append(text)
+        elif show is not None and (drawn or (DRAWS.search(ast.unparse(node)) and not _defines(node))):
+            drawn.append(text)
+        else:
+            shown.append(text)
+    rest = "\n".join(lines[start:])
+    folded = [(head, part) for head, part in ((DRAWING, drawn), (CLAIMS, claimed)) if part]
+    if not shown and len(folded) == 1 and not claimed:
+        return [(code, False)] if len(drawn) < 4 else [(f"{DRAWING}\n{code}", True)]
+    cells = [("\n".join([*shown, rest]).strip("\n"), False)] if shown else []
+    return cells + [(head + "\n" + "\n".join(part).strip("\n"), True) for head, part in folded]
+
+
+def _is_claim(node: ast.stmt) -> bool:
+    """Whether a statement is an assert, or a loop of nothing but asserts."""
+    if isinstance(node, ast.For | ast.With):
+        return all(map(_is_claim, node.body))
+    return isinstance(node, ast.Assert)
+
+
+def _defines(node: ast.stmt) -> bool:
+    return isinstance(node, ast.Import | ast.ImportFrom | ast.FunctionDef | ast.ClassDef)
+
+
 def build(source: Path, language: str) -> str:
     """Return the notebook of a source in one language, as the text of an .ipynb."""
     notebook = nbformat.v4.new_notebook(metadata=METADATA)
     for cell in cells(source):
         if cell.cell_type == "code":
-            notebook.cells.append(nbformat.v4.new_code_cell(cell.source))
+            for code, folded in unfolded(cell.source):
+                notebook.cells.append(nbformat.v4.new_code_cell(code, metadata=FOLDED if folded else {}))
         elif cell.metadata["lang"] == language:
             text = chinese(cell.source) if language == "zh" else cell.source
             notebook.cells.append(nbformat.v4.new_markdown_cell(text))

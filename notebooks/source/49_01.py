@@ -22,6 +22,18 @@ from twistwrench import newton_euler_3d, plot
 
 model = tw.load("go2")
 # %% [markdown] lang="en"
+# Before you read on: Go2 stands and turns on the spot, 0.5 rad/s about the vertical, its joints still. How fast
+# does a front foot move, in m/s? Write your number down first.
+# %% [markdown] lang="zh"
+# 先想一想:Go2 站立,关节不动,绕竖直轴以 0.5 rad/s 原地转动。前脚的速度是多少 m/s?请先写下你的数。
+# %%
+guess = ...  # your number
+# %%
+turning = np.eye(model.nv)[2] * 0.5
+foot = tw.frame_jacobian(model, model.standing(), "FR_foot", reference="local_world_aligned") @ turning
+answer = np.linalg.norm(foot[3:])
+print(f"you: {guess}, computed: {answer:.4g} m/s")
+# %% [markdown] lang="en"
 # ## The velocity of a point
 #
 # Go2 stands at (2, 1) m, turned by 20°. It walks at 0.8 m/s along its own x axis and turns left at 0.6 rad/s, its
@@ -382,6 +394,20 @@ else:
     assert np.abs(theirs.linear - ours[3:]).max() < 1e-12 * np.abs(ours).max()
     assert np.abs(theirs.angular - ours[:3]).max() < 1e-12 * np.abs(ours).max()
     print("foot", ours[3:].round(3), "m/s, in both")
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.1.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.1.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def polishing_torques(M, h, J, a, force):
+    """Return the joint torques of a fixed-base arm with three joints whose tip touches something."""
+    return ...
+
+
+tw.exercises.check("49.1.2", polishing_torques)
 # %% [markdown] lang="en"
 # ## Exercises
 #

@@ -81,6 +81,16 @@ assert np.allclose(spatial[3:], T_dot[:3, 3] + np.cross(spatial[:3], -p))  # of 
 assert np.allclose(T @ tw.hat(body) @ np.linalg.inv(T), tw.hat(spatial))
 assert np.allclose(tw.motion_transform(R, p) @ body, spatial)
 # %% [markdown] lang="en"
+# Before you read on: a base goes forward at 0.4 m/s and turns left at 0.5 rad/s. One point beside it stands still
+# at this instant. How far to the left, in m?
+# %% [markdown] lang="zh"
+# 先想一想:基座以 0.4 m/s 前进,同时以 0.5 rad/s 左转。这一瞬间旁边有一个点静止不动。它在左边多远,单位 m?
+# %%
+guess = ...  # your number
+# %%
+answer = tw.screw([0, 0, 0.5, 0.4, 0, 0]).point[1]
+print(f"you: {guess}, computed: {answer:.4g} m")
+# %% [markdown] lang="en"
 # ## A twist is a field of velocities
 #
 # Given the six numbers, every point of space has a velocity, $\boldsymbol v + \boldsymbol\omega \times \boldsymbol p$.
@@ -169,6 +179,20 @@ print(
     f"after one round the straight steps have det R = {stretched:.1f}; exp has {np.linalg.det(walk.rotation[-1]):.1f}"
 )
 assert stretched > 10
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.2.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.2.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def twist_matrix(omega_z, v_x):
+    """Return [V]∧ of V = (0, 0, omega_z, v_x, 0, 0)."""
+    return ...
+
+
+tw.exercises.check("49.2.2", twist_matrix)
 # %% [markdown] lang="en"
 # That is why `model.integrate` uses exp, and why a quaternion that is advanced by $q + \dot q\,dt$ must be normalised.
 #

@@ -173,6 +173,20 @@ assert not X[:3, 3:].any()
 assert not X_star[3:, :3].any()
 assert np.array_equal(X[3:, :3], X_star[:3, 3:])
 assert np.isclose(np.linalg.det(X), 1)
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.3.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.3.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def translation_transforms(p):
+    """Return X, X⁻¹ and X* of the placement (1, p)."""
+    return ...
+
+
+tw.exercises.check("49.3.1", translation_transforms)
 # %% [markdown] lang="en"
 # ## Chains and inverses
 #
@@ -220,6 +234,16 @@ for metres in (0.3, 10, 1000):
         f"{metres:6} m: condition {cond:8.2g}, error of np.linalg.inv {errors[0]:.1e}, of the formula {errors[1]:.1e}"
     )
     assert errors[0] > 2 * errors[1]
+# %% [markdown] lang="en"
+# Before you read on: a force of 100 N points upwards at a point 0.4 m in front of the origin. How large is its
+# moment about the origin, in N m, and about which axis?
+# %% [markdown] lang="zh"
+# 先想一想:原点前方 0.4 m 处有一个向上的 100 N 的力。它关于原点的力矩有多大(N m),绕哪个轴?
+# %%
+guess = ...  # your number
+# %%
+answer = (tw.force_transform(np.eye(3), [0.4, 0, 0]) @ [0, 0, 0, 0, 0, 100])[1]  # about y
+print(f"you: {guess}, computed: {answer:.4g} N m")
 # %% [markdown] lang="en"
 # ## Wrenches: the power decides
 #

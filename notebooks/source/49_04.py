@@ -138,6 +138,17 @@ ax.set(xticks=x, xticklabels=parts, ylabel="W", title="one push, five frames")
 ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
 plt.show()
 # %% [markdown] lang="en"
+# Before you read on: a Go2 of 16.085 kg stands on four feet. How many newtons does a front foot carry? A quarter
+# of the weight?
+# %% [markdown] lang="zh"
+# 先想一想:16.085 kg 的 Go2 四脚站立。一只前脚承受多少牛顿?是重量的四分之一吗?
+# %%
+guess = ...  # your number
+# %%
+loads = tw.static_equilibrium(model, model.standing()).forces[:, 2]
+answer = loads[model.feet.index("FR_foot")]
+print(f"you: {guess}, computed: {answer:.4g} N")
+# %% [markdown] lang="en"
 # ## What a foot gets from the ground
 #
 # Go2 stands on rubber balls. A contact that small is a **point contact**: it transmits a force, but no moment about
@@ -401,6 +412,20 @@ assert np.hypot(*twisting[3:5]) <= mu * twisting[5]  # within the friction cone
 assert np.allclose(plot.center_of_pressure(twisting), 0)  # its COP in the middle of the sole
 print(f"friction gives {mu * twisting[5] * reach:.1f} N m at most, not {twisting[2]:.0f}")
 assert twisting[2] > 10 * mu * twisting[5] * reach
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.4.3: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.4.3:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def center_of_pressure(F):
+    """Return the centre of pressure of a sole."""
+    return ...
+
+
+tw.exercises.check("49.4.3", center_of_pressure)
 # %% [markdown] lang="en"
 # ## Pinocchio agrees
 #

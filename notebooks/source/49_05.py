@@ -94,6 +94,20 @@ again = tw.SpatialInertia.from_matrix(heap.matrix())
 assert np.isclose(again.mass, heap.mass)
 assert np.allclose(again.com, heap.com)
 assert np.allclose(again.inertia_at_com, heap.inertia_at_com)
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.5.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.5.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def spatial_inertia(m, c, I_c):
+    """Return the spatial inertia of a body about the origin of its frame."""
+    return ...
+
+
+tw.exercises.check("49.5.1", spatial_inertia)
 # %% [markdown] lang="en"
 # ## What a robot's inertias look like
 #
@@ -148,6 +162,16 @@ for k in range(2):
 plt.show()
 lengths, _ = plot.semi_axes(locked)
 print("semi-axes of the locked robot", lengths.round(3), "m")
+# %% [markdown] lang="en"
+# Before you read on: how many times harder is it to turn a thin rod about its end than about its middle?
+# %% [markdown] lang="zh"
+# 先想一想:绕端点转动一根细杆,比绕中点转动难多少倍?
+# %%
+guess = ...  # your number
+# %%
+rod = tw.SpatialInertia(1.0, [0.5, 0, 0], np.diag([1e-6, 1 / 12, 1 / 12]))  # 1 kg, 1 m, seen from its end
+answer = rod.matrix()[2, 2] / (1 / 12)
+print(f"you: {guess}, computed: {answer:.4g} times")
 # %% [markdown] lang="en"
 # An ellipsoid is not the shape of a link, and may stick out of it. But it shows that calves are thin, and that thighs
 # have their mass near the hip, where the motors sit. The chapter says "twelve links": there are thirteen bodies, the

@@ -249,6 +249,31 @@ for ax, (title, f_ext) in zip(axes, {"held by the base with 157.8 N": None, "sta
     ax.set(xlabel="y [m]", title=title, aspect="equal", xlim=(0.2, -0.24), ylim=(-0.02, 0.34))
 axes[0].set_ylabel("z [m]")
 plt.show()
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.6.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.6.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def mass_matrix_by_rnea(model, q):
+    """Return the mass matrix, found with RNEA alone."""
+    return ...
+
+
+tw.exercises.check("49.6.1", mass_matrix_by_rnea)
+# %% [markdown] lang="en"
+# Before you read on: every velocity doubles. How many times as large are the joint forces that come from
+# velocity?
+# %% [markdown] lang="zh"
+# 先想一想:所有速度加倍。由速度引起的关节力变成几倍?
+# %%
+guess = ...  # your number
+# %%
+slow, fast = (tw.nonlinear_effects(model, q, k * v) - tw.gravity(model, q) for k in (1, 2))
+answer = np.linalg.norm(fast) / np.linalg.norm(slow)
+print(f"you: {guess}, computed: {answer:.4g} times")
 # %% [markdown] lang="en"
 # ## h, g, C and M from one function
 #

@@ -285,6 +285,31 @@ accelerations = tw.aba(model, qs, vs, taus)
 assert accelerations.shape == (100, 18)
 assert np.abs(tw.rnea(model, qs, vs, accelerations) - taus).max() < 1e-12 * np.abs(accelerations).max()
 assert np.allclose(tw.aba(model, qs, vs, tw.rnea(model, qs, vs, vs)), vs, atol=1e-10)
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.7.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.7.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def forward_dynamics_two_ways(model, q, v, tau):
+    """Return the acceleration under given forces: by ABA, and with the mass matrix."""
+    return ...
+
+
+tw.exercises.check("49.7.2", forward_dynamics_two_ways)
+# %% [markdown] lang="en"
+# Before you read on: a Go2 is dropped with bent knees, its motors off. How fast do its knees begin to turn, in
+# rad/s²?
+# %% [markdown] lang="zh"
+# 先想一想:一台屈膝的 Go2 被松手落下,电机全部断电。膝关节开始转动的角加速度是多少 rad/s²?
+# %%
+guess = ...  # your number
+# %%
+still = np.zeros(model.nv)
+answer = np.abs(tw.aba(model, model.standing(), still, still)[6:]).max()
+print(f"you: {guess}, computed: {answer:.4g} rad/s²")
 # %% [markdown] lang="en"
 # ## Free fall
 #

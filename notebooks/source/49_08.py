@@ -119,6 +119,16 @@ F_thigh = link[calf].force_transform() @ terms.F[calf, calf]
 assert np.allclose(terms.F[thigh, calf], F_thigh, rtol=1e-12, atol=1e-12)  # T_λj leads inward, and so does its X*
 print(inspect.getsource(composite_rigid_body))
 # %% [markdown] lang="en"
+# Before you read on: the M of a Go2 has 18 × 18 = 324 entries. How many of them are zero, whatever the posture?
+# %% [markdown] lang="zh"
+# 先想一想:Go2 的 M 有 18 × 18 = 324 个元素。其中多少个在任何位形下都是零?
+# %%
+guess = ...  # your number
+# %%
+shapes = [tw.crba(model, model.random_configuration(rng=np.random.default_rng(k))) for k in range(3)]
+answer = (np.abs(shapes) < 1e-12).all(axis=0).sum()
+print(f"you: {guess}, computed: {answer:.4g} entries")
+# %% [markdown] lang="en"
 # The last six numbers are a wrench on the base, moment first. The way to the base never visits another leg, so those
 # entries are zero. Above is the whole algorithm, as it stands in the package: inward, with a climb to the base for each
 # joint. (The chapter's pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong way round; and it
@@ -168,6 +178,20 @@ assert zero[:6, :6].sum() == 12
 hips = [model.v_slice[model.joint_id(f"{leg}_hip_joint")].start for leg in ("FL", "FR", "RL", "RR")]
 assert np.argwhere(zero[:6, 6:]).tolist() == [[3, hip - 6] for hip in hips]  # row 3 is the force along x
 assert (zero & branch).sum() == 12 + 2 * 4  # the same four again in the columns
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.8.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.8.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def held_mass_matrix(M):
+    """Return the mass matrix of the same robot in the same posture with its base held."""
+    return ...
+
+
+tw.exercises.check("49.8.2", held_mass_matrix)
 # %% [markdown] lang="en"
 # ## Keeping the zeros
 #

@@ -54,6 +54,20 @@ assert not S.T[:6].any()  # no torque in the base's rows
 leg_of_column = np.repeat(np.arange(4), 3)
 assert (d.J_c.T[6:][leg_of_column[:, None] != leg_of_column] == 0).all()  # a foot's force acts on its own leg …
 assert np.array_equal(np.abs(d.J_c.T[3:6]) > 0.5, np.tile(np.eye(3, dtype=bool), 4))  # … and by the base
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.9.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.9.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def on_all_rows(tau):
+    """Return Sᵀτ without building S."""
+    return ...
+
+
+tw.exercises.check("49.9.2", on_all_rows)
 # %% [markdown] lang="en"
 # ## It holds in every state
 #
@@ -175,6 +189,16 @@ ax.set_xticks(x, ["τx", "τy", "τz", "fx", "fy", "fz", *rows[6:]], rotation=60
 ax.set(ylabel="out of balance [N m, N]", title="equilibrium, row by row", ylim=(-7.5, 3))
 ax.legend(loc="upper right", fontsize=8)
 plt.show()
+# %% [markdown] lang="en"
+# Before you read on: four feet push with three numbers each, and the base has six equations. Of how many numbers
+# of the contact forces are you free to choose?
+# %% [markdown] lang="zh"
+# 先想一想:四只脚各有三个力的分量,基座有六个方程。接触力中有几个数可以自由选择?
+# %%
+guess = ...  # your number
+# %%
+answer = 12 - np.linalg.matrix_rank(tw.contact_jacobian(model, model.standing(), model.feet)[:, :6])
+print(f"you: {guess}, computed: {answer:.4g} numbers")
 # %% [markdown] lang="en"
 # ## Many ways to stand
 #

@@ -79,6 +79,33 @@ assert np.allclose(terms.X[1:], to_G[1:], atol=1e-12)
 assert np.isclose(terms.IC[1][5, 5], model.mass)  # the base carries everything
 print(inspect.getsource(centroidal_composite))
 assert np.allclose(A_G @ v, h_G, rtol=1e-12)
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.10.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.10.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def linear_momentum(A_G, v):
+    """Return the linear momentum l_G, from the centroidal momentum matrix of twistwrench."""
+    return ...
+
+
+tw.exercises.check("49.10.2", linear_momentum)
+# %% [markdown] lang="en"
+# Before you read on: in the air all twelve motors pull with 10 N m. How much does that add to the force on the
+# centre of mass, in N?
+# %% [markdown] lang="zh"
+# 先想一想:机器人在空中,十二个电机都输出 10 N m。这给质心增加了多大的力,单位 N?
+# %%
+guess = ...  # your number
+# %%
+still, pull = np.zeros(model.nv), np.concatenate([np.zeros(6), np.full(12, 10.0)])
+a_pulled = tw.aba(model, model.standing(), still, pull)
+rate = tw.centroidal_momentum_rate(model, model.standing(), still, a_pulled)
+answer = np.linalg.norm(rate[3:] - model.mass * model.gravity)
+print(f"you: {guess}, computed: {answer:.4g} N")
 # %% [markdown] lang="en"
 # ## What changes it
 #

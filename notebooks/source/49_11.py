@@ -102,6 +102,16 @@ for formula, here, there, bridge in MAP:
     table.append(f"| {formula} | `{here}` | `{there}` | {bridge or 'as it is'} | {shown} |")
 display(Markdown("\n".join(table)))
 # %% [markdown] lang="en"
+# Before you read on: in our `v` the base's $\omega_z$ is entry 2. At which index does it stand in Pinocchio's
+# `v`?
+# %% [markdown] lang="zh"
+# 先想一想:在我们的 `v` 里,基座的 $\omega_z$ 是第 2 个元素(从 0 数)。它在 Pinocchio 的 `v` 里是第几个?
+# %%
+guess = ...  # your number
+# %%
+answer = np.flatnonzero(tw.bridge.to_pinocchio_tangent(model, np.eye(model.nv)[2]))[0]
+print(f"you: {guess}, computed: {answer}")
+# %% [markdown] lang="en"
 # ## The bridge
 #
 # `q` is the same on both sides. In everything that belongs to `v`, the six entries of the base change places; in twists and
@@ -137,6 +147,20 @@ if pin:
     assert np.abs(forgotten - right).max() > 1
     back = tw.bridge.from_pinocchio_model(P)
     assert np.array_equal(tw.crba(back, q), M)
+
+
+# %% [markdown] lang="en"
+# **Your turn**, exercise 49.11.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
+# the message.
+# %% [markdown] lang="zh"
+# **轮到你了**,练习 49.11.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# %%
+def com_velocity(h_G, m):
+    """Return the velocity of the centre of mass from Pinocchio's centroidal momentum (test 6)."""
+    return ...
+
+
+tw.exercises.check("49.11.1", com_velocity)
 
 
 # %% [markdown] lang="en"

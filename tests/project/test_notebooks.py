@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import twistwrench as tw
+from twistwrench.exercises import catalogue
 
 nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: the notebooks are not checked")
 pytest.importorskip("jupytext", reason="jupytext is not installed: the notebooks are not checked")
@@ -192,6 +193,51 @@ def test_a_section_ends_with_its_exercises(source, language):
 
 
 # ---------------------------------------------------------------- run
+
+
+@pytest.mark.parametrize("source", SECTIONS, ids=by_name)
+def test_a_section_asks_before_it_shows_and_has_a_cell_for_the_student(source):
+    """A question with a guess, then the cell that answers; and one function to write, checked in place."""
+    cells = code(source)
+    asked = cells.index("guess = ...  # your number")
+    assert not any("answer = " in cell for cell in cells[:asked])
+    assert re.search(r"^answer = .*\nprint\(f\"you: \{guess\}", cells[asked + 1], flags=re.MULTILINE)
+    number = source.stem.replace("_0", ".").replace("_", ".")
+    (turn,) = (cell for cell in cells if "tw.exercises.check(" in cell)
+    (name,) = (node.name for node in ast.parse(turn).body if isinstance(node, ast.FunctionDef))
+    assert turn.endswith(f", {name})")
+    exercise, part = catalogue.find_part(name)
+    assert exercise.section == number
+    assert f"def {name}({part.arguments}):" in turn
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_asserts_and_drawing_are_folded_away(source):
+    cells = [cell for cell in notebook(source, "en").cells if cell.cell_type == "code"]
+    folded = [cell for cell in cells if cell.metadata.get("jupyter", {}).get("source_hidden")]
+    shown = [node for cell in cells if cell not in folded for node in ast.parse(cell.source).body]
+    assert not any(isinstance(node, ast.Assert) for node in shown)
+    assert all(cell.source.startswith((build.CLAIMS, build.DRAWING)) for cell in folded)
+    assert (
+        len([node for cell in folded for node in ast.walk(ast.parse(cell.source)) if isinstance(node, ast.Assert)]) > 5
+    )
+
+
+@pytest.mark.parametrize(
+    ("cell", "parts"),
+    [
+        ("x = 1\nassert x\ny = 2  # two", ["x = 1\ny = 2  # two", "# The claims above, checked\nassert x"]),
+        ("for k in a:\n    assert k", ["# The claims above, checked\nfor k in a:\n    assert k"]),
+        ("for k in a:\n    b = k\n    assert b", ["for k in a:\n    b = k\n    assert b"]),
+        (
+            "x = 1\n# why\nax = plot.axes_2d()\nplt.show()",
+            ["x = 1", "# The picture\n# why\nax = plot.axes_2d()\nplt.show()"],
+        ),
+        ("import matplotlib.pyplot as plt\nx = 1", ["import matplotlib.pyplot as plt\nx = 1"]),
+    ],
+)
+def test_a_cell_is_parted_into_what_is_computed_drawn_and_claimed(cell, parts):
+    assert [text for text, _ in build.unfolded(cell)] == parts
 
 
 def test_the_extra_of_the_notebooks_brings_the_solver_that_one_of_them_asks():
