@@ -27,7 +27,7 @@ model = tw.load("go2")
 # %% [markdown] lang="zh"
 # 先想一想:Go2 站立,关节不动,绕竖直轴以 0.5 rad/s 原地转动。前脚的速度是多少 m/s?请先写下你的数。
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 turning = np.eye(model.nv)[2] * 0.5
 foot = tw.frame_jacobian(model, model.standing(), "FR_foot", reference="local_world_aligned") @ turning

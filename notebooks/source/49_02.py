@@ -86,7 +86,7 @@ assert np.allclose(tw.motion_transform(R, p) @ body, spatial)
 # %% [markdown] lang="zh"
 # 先想一想:基座以 0.4 m/s 前进,同时以 0.5 rad/s 左转。这一瞬间旁边有一个点静止不动。它在左边多远,单位 m?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 answer = tw.screw([0, 0, 0.5, 0.4, 0, 0]).point[1]
 print(f"you: {guess}, computed: {answer:.4g} m")

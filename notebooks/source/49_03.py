@@ -240,7 +240,7 @@ for metres in (0.3, 10, 1000):
 # %% [markdown] lang="zh"
 # 先想一想:原点前方 0.4 m 处有一个向上的 100 N 的力。它关于原点的力矩有多大(N m),绕哪个轴?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 answer = (tw.force_transform(np.eye(3), [0.4, 0, 0]) @ [0, 0, 0, 0, 0, 100])[1]  # about y
 print(f"you: {guess}, computed: {answer:.4g} N m")

@@ -143,7 +143,7 @@ plt.show()
 # %% [markdown] lang="zh"
 # 先想一想:16.085 kg 的 Go2 四脚站立。一只前脚承受多少牛顿?是重量的四分之一吗?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 loads = tw.static_equilibrium(model, model.standing()).forces[:, 2]
 answer = loads[model.feet.index("FR_foot")]

@@ -167,7 +167,7 @@ print("semi-axes of the locked robot", lengths.round(3), "m")
 # %% [markdown] lang="zh"
 # 先想一想:绕端点转动一根细杆,比绕中点转动难多少倍?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 rod = tw.SpatialInertia(1.0, [0.5, 0, 0], np.diag([1e-6, 1 / 12, 1 / 12]))  # 1 kg, 1 m, seen from its end
 answer = rod.matrix()[2, 2] / (1 / 12)

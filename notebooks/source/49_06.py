@@ -269,7 +269,7 @@ tw.exercises.check("49.6.1", mass_matrix_by_rnea)
 # %% [markdown] lang="zh"
 # 先想一想:所有速度加倍。由速度引起的关节力变成几倍?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 slow, fast = (tw.nonlinear_effects(model, q, k * v) - tw.gravity(model, q) for k in (1, 2))
 answer = np.linalg.norm(fast) / np.linalg.norm(slow)

@@ -305,7 +305,7 @@ tw.exercises.check("49.7.2", forward_dynamics_two_ways)
 # %% [markdown] lang="zh"
 # 先想一想:一台屈膝的 Go2 被松手落下,电机全部断电。膝关节开始转动的角加速度是多少 rad/s²?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 still = np.zeros(model.nv)
 answer = np.abs(tw.aba(model, model.standing(), still, still)[6:]).max()

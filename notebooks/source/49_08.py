@@ -123,7 +123,7 @@ print(inspect.getsource(composite_rigid_body))
 # %% [markdown] lang="zh"
 # 先想一想:Go2 的 M 有 18 × 18 = 324 个元素。其中多少个在任何位形下都是零?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 shapes = [tw.crba(model, model.random_configuration(rng=np.random.default_rng(k))) for k in range(3)]
 answer = (np.abs(shapes) < 1e-12).all(axis=0).sum()

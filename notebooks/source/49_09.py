@@ -195,7 +195,7 @@ plt.show()
 # %% [markdown] lang="zh"
 # 先想一想:四只脚各有三个力的分量,基座有六个方程。接触力中有几个数可以自由选择?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 answer = 12 - np.linalg.matrix_rank(tw.contact_jacobian(model, model.standing(), model.feet)[:, :6])
 print(f"you: {guess}, computed: {answer:.4g} numbers")

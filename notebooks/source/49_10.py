@@ -99,7 +99,7 @@ tw.exercises.check("49.10.2", linear_momentum)
 # %% [markdown] lang="zh"
 # 先想一想:机器人在空中,十二个电机都输出 10 N m。这给质心增加了多大的力,单位 N?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 still, pull = np.zeros(model.nv), np.concatenate([np.zeros(6), np.full(12, 10.0)])
 a_pulled = tw.aba(model, model.standing(), still, pull)

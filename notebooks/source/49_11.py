@@ -107,7 +107,7 @@ display(Markdown("\n".join(table)))
 # %% [markdown] lang="zh"
 # 先想一想:在我们的 `v` 里,基座的 $\omega_z$ 是第 2 个元素(从 0 数)。它在 Pinocchio 的 `v` 里是第几个?
 # %%
-guess = ...  # your number
+guess = "…"  # your number
 # %%
 answer = np.flatnonzero(tw.bridge.to_pinocchio_tangent(model, np.eye(model.nv)[2]))[0]
 print(f"you: {guess}, computed: {answer}")

@@ -199,7 +199,7 @@ def test_a_section_ends_with_its_exercises(source, language):
 def test_a_section_asks_before_it_shows_and_has_a_cell_for_the_student(source):
     """A question with a guess, then the cell that answers; and one function to write, checked in place."""
     cells = code(source)
-    asked = cells.index("guess = ...  # your number")
+    asked = cells.index('guess = "…"  # your number')
     assert not any("answer = " in cell for cell in cells[:asked])
     assert re.search(r"^answer = .*\nprint\(f\"you: \{guess\}", cells[asked + 1], flags=re.MULTILINE)
     number = source.stem.replace("_0", ".").replace("_", ".")
