@@ -33,7 +33,7 @@ MADE_BY_HAND += ["SpatialInertia", "SurfaceContact", "Twist", "Wrench", "motions
 """The classes whose constructors take what a user types; functions fill in the others."""
 
 LEFT_OUT = {"axes_2d", "axes_3d", "import_pinocchio", "robots", "Template"}
-LEFT_OUT |= {"from_pinocchio_inertia", "from_pinocchio_model", "from_pinocchio_se3"}
+LEFT_OUT |= {"from_mujoco_model", "from_pinocchio_inertia", "from_pinocchio_model", "from_pinocchio_se3"}
 NOT_SWEPT = {"colour", "label", "text", "title", "progress", "com", "inward", "alpha", "there"}
 """Arguments that matplotlib takes as they are, that are true or false, and Pinocchio's own objects."""
 
@@ -156,6 +156,9 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "Model.frame": {"name": "FR_foot"},
     "Model.joint_id": {"name": "FR_hip_joint"},
     "SpatialInertia.from_parameters": {"p": BODY.parameters()},
+    "attach": {"model": GO2, "other": GO2, "frame": "base", "prefix": "second_"},
+    "bridge.from_mujoco_configuration": {"qpos": STAND},
+    "replace_inertia": {"inertia": BODY},
     "Twist.from_screw": {"axis": np.ones(3), "frame": "base"},
     "Wrench.from_force": {"force": np.ones(3), "frame": "base"},
     "from_dh": {"a": np.ones(2), "alpha": np.zeros(2), "d": np.zeros(2), "convention": "classical"},

@@ -49,6 +49,7 @@ from .contact import (
 from .error_bounds import Accuracy, accuracy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
 from .model.builder import Builder
+from .model.editing import attach, replace_inertia
 from .model.joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .model.model import Model
 from .model.reduction import Reduction, lock_joints
@@ -116,6 +117,7 @@ __all__ = [
     "aba_terms",
     "accuracy",
     "articulated_inertia",
+    "attach",
     "bridge",
     "center_of_mass",
     "center_of_mass_acceleration",
@@ -176,6 +178,7 @@ __all__ = [
     "power",
     "project_state",
     "random_tree",
+    "replace_inertia",
     "rnea",
     "rnea_terms",
     "robots",

@@ -220,3 +220,26 @@ def test_a_fixed_joint_that_mimics_moves_nothing_and_is_not_mentioned(tmp_path):
 def test_following_joints_are_refused_not_ignored(tmp_path):
     with pytest.raises(ValueError, match="mimic: expected 'independent'"):
         load(mimicking(tmp_path), mimic="follow")
+
+
+# -------------------------------------------------------------------- a text in place of a file
+
+
+def test_a_text_is_read_as_the_file_with_this_text(tmp_path):
+    path = one_joint(tmp_path, "revolute")
+    file, text = load(path), load(path.read_text())
+    assert (text.name, text.joint_names, text.inertia) == (file.name, file.joint_names, file.inertia)
+    assert load("\ufeff\n  " + path.read_text()).inertia == file.inertia
+
+
+def test_the_encoding_that_a_text_declares_no_longer_counts():
+    assert load('<?xml version="1.0" encoding="iso-8859-1"?><robot name="ä"><link name="a"/></robot>').name == "ä"
+
+
+def test_an_error_in_a_text_has_its_line():
+    with pytest.raises(tw.ModelError, match="<string>, line 2: "):
+        load('<robot name="r">\n<lin name="a"/></robot>')
+    with pytest.raises(tw.ModelError, match="<string>, line 1, column 7: not well-formed XML"):
+        load("<robot")
+    with pytest.raises(tw.ModelError, match="<string>, line 1"):
+        load('<robot name="\ud800"><link name="a"/></robot>')

@@ -1,4 +1,4 @@
-"""The bridge to Pinocchio: the only place where (ω, v) and (v, ω) change places (section 49.11).
+"""The bridge to Pinocchio and MuJoCo: the only place where (ω, v) and (v, ω) change places (section 49.11).
 
 Pinocchio writes a twist as (v, ω) and a wrench as (f, τ); here it is (ω, v) and (τ, f) throughout.
 The consequences, and where to find them:
@@ -22,9 +22,19 @@ model                                  `Model`, ``pin.Model``               ``mo
 Each has its ``from_pinocchio_…``. q is the same on both sides, entry for entry, and so are the joint
 ids, τ of a joint with one degree of freedom, the centre of mass and the energies: none is converted.
 The functions on arrays do not need Pinocchio.
+
+From MuJoCo come models (`from_mujoco_model`) and, both ways, states: ``from_mujoco_configuration`` for q, and
+``from_mujoco_tangent`` for v and forces, of which only free and ball joints differ.
 """
 
 from .model import from_pinocchio_model, to_pinocchio_model
+from .mujoco import from_mujoco_model
+from .mujoco_states import (
+    from_mujoco_configuration,
+    from_mujoco_tangent,
+    to_mujoco_configuration,
+    to_mujoco_tangent,
+)
 from .objects import (
     from_pinocchio_f_ext,
     from_pinocchio_inertia,
@@ -54,6 +64,9 @@ from .tangent import (
 )
 
 __all__ = [
+    "from_mujoco_configuration",
+    "from_mujoco_model",
+    "from_mujoco_tangent",
     "from_pinocchio_contact_jacobian",
     "from_pinocchio_f_ext",
     "from_pinocchio_force",
@@ -66,6 +79,8 @@ __all__ = [
     "from_pinocchio_tangent",
     "from_pinocchio_transform",
     "import_pinocchio",
+    "to_mujoco_configuration",
+    "to_mujoco_tangent",
     "to_pinocchio_contact_jacobian",
     "to_pinocchio_f_ext",
     "to_pinocchio_force",

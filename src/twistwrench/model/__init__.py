@@ -21,6 +21,7 @@ builder         `Builder`: a model made in Python
 samples         `chain` and `random_tree`
 serial          `from_screw_axes`, `screw_axes`, `from_dh`: arms as textbooks print them
 reduction       `lock_joints`: a smaller model
+editing         `attach`: two models as one; `replace_inertia`
 ==============  ======================================================================================
 """
 
@@ -28,6 +29,7 @@ from .arguments import check_model, check_state, floats_of, in_double, one_confi
 from .builder import Builder
 from .configuration import ConfigurationSpace
 from .constants import Constants, cast, readonly
+from .editing import attach, replace_inertia
 from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
 from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .link import UNLIMITED, WORLD, Link
@@ -69,6 +71,7 @@ __all__ = [
     "ScrewAxes",
     "Spherical",
     "Tree",
+    "attach",
     "cast",
     "chain",
     "check_arrays",
@@ -89,6 +92,7 @@ __all__ = [
     "placement",
     "random_tree",
     "readonly",
+    "replace_inertia",
     "same_side",
     "screw_axes",
     "stacked",

@@ -31,7 +31,7 @@ def load(
     mimic: Literal["independent", "reduce"] | None = None,
     strict: bool = False,
 ) -> Model:
-    """Load a robot of the catalogue, or a URDF.
+    """Load a robot of the catalogue, or a URDF: a file, or its text.
 
     Masses, centres of mass, inertias, joints and limits are read; meshes are not, and need not exist. Links
     welded by fixed joints are merged and stay as frames: every link and every joint of the file is one. A link
@@ -45,8 +45,9 @@ def load(
     Parameters
     ----------
     source : str or path
-        A name of `twistwrench.robots`, or a path to a ``.urdf``. Where both packages have a robot of one name,
-        the plain name is the one of this package; ``"example-robot-data/go2"`` is the other.
+        A name of `twistwrench.robots`, a path to a ``.urdf``, or the text of one, which begins with ``<``. Where both
+        packages have a robot of one name, the plain name is the one of this package; ``"example-robot-data/go2"`` is
+        the other.
     base : {"fixed", "floating"}, optional
         Whether the root link is welded to the world or flies freely (joint 1, ``"root_joint"``). A robot of the
         catalogue has its own default; a file is loaded with a fixed base.
@@ -109,7 +110,10 @@ def load(
     if not isinstance(source, str | PathLike):
         raise no_model(source, "source", "a name or a path")
     options: dict[str, Any] = {"gravity": gravity, "physical": physical, "mimic": mimic, "strict": strict}
-    if not isinstance(source, str) or _is_path(source):
+    if isinstance(source, str) and source.lstrip("\ufeff \t\r\n").startswith("<"):
+        path = Path("<string>")
+        model, laws = load_urdf(path, base=base or "fixed", quiet=False, text=source, **options)
+    elif not isinstance(source, str) or _is_path(source):
         _refuse_folder_before_name(source)
         path = Path(source)
         model, laws = load_urdf(path, base=base or "fixed", quiet=False, **options)

@@ -32,12 +32,14 @@ TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 """The entries below the diagonal, which the format leaves out, and those above it."""
 
 
-def read_urdf(path: Path) -> UrdfRobot:
+def read_urdf(path: Path, text: str | None = None) -> UrdfRobot:
     """Read a URDF.
 
     Parameters
     ----------
     path : Path
+    text : str, optional
+        The URDF itself; `path` then only names it.
 
     Returns
     -------
@@ -48,7 +50,7 @@ def read_urdf(path: Path) -> UrdfRobot:
     ModelError
         Naming the file, the line, the link or joint, and what was expected.
     """
-    xml, remarks = read_document(path)
+    xml, remarks = read_document(path, text)
     robot = Element(xml, path, "the robot", remarks)
     for child in xml.iterchildren("*"):
         if child.tag not in CHILDREN["robot"] and words_of(str(child.tag)) & {*CHILDREN["robot"]}:

@@ -24,6 +24,8 @@ XML = Any
 DOCTYPE = "declares a document type (<!DOCTYPE ...>); a URDF has none, and entities are not expanded: remove it"
 GIT_LFS = b"version https://git-lfs.github.com/spec/"
 DECLARATION = re.compile(rb"(\xef\xbb\xbf|\s)*(<\?xml\s[^>]*\?>)")
+ENCODING = re.compile(r"(?<=<\?xml)([^>]*?)\s+encoding\s*=\s*([\"'])[^\"'>]*\2")
+"""Of a text, which has been decoded: what it declares no longer holds."""
 VERSION = re.compile(rb"version\s*=\s*([\"'])([^\"']*)\1")
 OTHER_FORMATS = {"sdf": "SDF", "mujoco": "MJCF", "COLLADA": "COLLADA"}
 
@@ -55,9 +57,14 @@ def read_robot_xml(path: Path) -> XML:
     return read_document(path)[0]
 
 
-def read_document(path: Path) -> tuple[XML, list[Entry]]:
-    """Read the ``<robot>`` element, as `read_robot_xml` does, and the violations of XML 1.0 in it."""
-    data, remarks = _declared(_read(path))
+def read_document(path: Path, text: str | None = None) -> tuple[XML, list[Entry]]:
+    """Read the ``<robot>`` element, as `read_robot_xml` does, and the violations of XML 1.0 in it.
+
+    With `text` that is read, and `path` only names it.
+    """
+    data, remarks = _declared(
+        _read(path) if text is None else ENCODING.sub(r"\1", text, count=1).encode(errors="xmlcharrefreplace")
+    )
     root, undeclared = _parse(path, data)
     remarks += undeclared
     if root.getroottree().docinfo.doctype:

@@ -25,7 +25,15 @@ FREE = "free to move on its own, as in Pinocchio (mimic='independent' silences t
 
 
 def load_urdf(
-    path: Path, *, base: Base, gravity: ArrayLike, physical: bool, mimic: Mimic | None, strict: bool, quiet: bool
+    path: Path,
+    *,
+    base: Base,
+    gravity: ArrayLike,
+    physical: bool,
+    mimic: Mimic | None,
+    strict: bool,
+    quiet: bool,
+    text: str | None = None,
 ) -> tuple[Model, dict[str, Law]]:
     """Load a URDF. The arguments are those of `twistwrench.load`.
 
@@ -43,6 +51,8 @@ def load_urdf(
         Raise for what would be reported.
     quiet : bool
         Report, and do not warn.
+    text : str, optional
+        The URDF itself; `path` then only names it.
 
     Returns
     -------
@@ -56,7 +66,7 @@ def load_urdf(
         See `twistwrench.load`.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        robot = read_urdf(path)
+        robot = read_urdf(path, text)
         if mimic == "reduce" or (mimic is None and not quiet):
             _check_mimics(path, robot)
         try:

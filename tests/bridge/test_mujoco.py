@@ -1,0 +1,143 @@
+"""Models and states from MuJoCo: M, h, placements and accelerations of models with every joint that MuJoCo has."""
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench import bridge
+
+mujoco = pytest.importorskip("mujoco", reason="MuJoCo is not installed: the bridge to it is not asked")
+
+EVERY_JOINT = """
+<mujoco model="every joint">
+  <compiler angle="radian" autolimits="true"/>
+  <option gravity="0.3 -0.2 -9.7"/>
+  <worldbody>
+    <body name="base" pos="0.1 0.2 0.3" quat="0.8 0 0.6 0">
+      <freejoint name="root"/>
+      <inertial pos="0.02 -0.01 0.03" quat="0.9 0.1 -0.2 0.3" mass="3" diaginertia="0.03 0.04 0.05"/>
+      <body name="shoulder" pos="0.2 0 0.1" quat="0.7 0.1 0.2 -0.3">
+        <joint name="pitch" axis="0 1 0" pos="0 0.05 0.02" ref="0.4" range="-1 2" armature="0.02" damping="0.3"/>
+        <joint name="slide" type="slide" axis="1 2 0" ref="-0.1" range="-0.5 0.5" frictionloss="0.7"/>
+        <joint name="yaw" axis="0.1 0 1" pos="0.03 0 0"/>
+        <inertial pos="0.1 0 0" mass="1.5" diaginertia="0.01 0.02 0.015"/>
+        <body name="cover" pos="0 0 0.1" quat="0.5 0.5 0.5 0.5">
+          <inertial pos="0 0.02 0" mass="0.4" diaginertia="0.002 0.001 0.002"/>
+          <body name="hand" pos="0.1 0 0">
+            <joint name="ball" type="ball" pos="0 0 0.04" armature="0.01"/>
+            <inertial pos="0 0 0.1" mass="0.7" fullinertia="0.004 0.005 0.006 0.001 -0.0005 0.0007"/>
+            <site name="tip" pos="0 0 0.2" quat="0.6 0 0 0.8"/>
+          </body>
+        </body>
+      </body>
+      <body pos="-0.2 0 0"><joint axis="1 0 0"/><geom size="0.1" mass="0.5" pos="0 0.1 0"/></body>
+    </body>
+    <body name="second" pos="1 0 0"><freejoint/><geom type="box" size="0.1 0.2 0.3" mass="2" pos="0.05 0 0"/></body>
+  </worldbody>
+  <keyframe><key name="up" qpos="0 0 1 1 0 0 0  0 0 0  1 0 0 0  0  0 0 2 0 0 0 1"/></keyframe>
+</mujoco>"""
+
+FIXED = """
+<mujoco model="fixed"><worldbody><body name="arm" pos="0 0 0.5">
+<joint name="arm" axis="0 1 0" pos="0.1 0 0" stiffness="5"/><geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.03"/>
+<body name="pad" pos="0.5 0 0" gravcomp="1"><geom size="0.05"/></body></body></worldbody></mujoco>"""
+
+
+def both(xml, seed):
+    """Return MuJoCo's model and data, our model, and one state of both."""
+    there, rng = mujoco.MjModel.from_xml_string(xml), np.random.default_rng(seed)
+    here, data = bridge.from_mujoco_model(there), mujoco.MjData(there)
+    q, v = here.random_configuration(rng=rng), rng.normal(size=here.nv)
+    data.qpos[:], data.qvel[:] = bridge.to_mujoco_configuration(here, q), bridge.to_mujoco_tangent(here, q, v)
+    mujoco.mj_forward(there, data)
+    return there, data, here, q, v
+
+
+def mass_matrix(there, data):
+    M = np.zeros((there.nv, there.nv))
+    mujoco.mj_fullM(there, data, M)
+    return M
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_every_joint_moves_and_weighs_the_same(seed):
+    there, data, here, q, v = both(EVERY_JOINT, seed)
+    assert (here.nq, here.nv, here.base) == (there.nq, there.nv, "floating")
+    for name in ("base", "shoulder", "cover", "hand", "second"):
+        T = tw.frame_placement(here, q, name)
+        np.testing.assert_allclose(T.translation, data.body(name).xpos, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(T.rotation, data.body(name).xmat.reshape(3, 3), rtol=0, atol=1e-14)
+    tip = tw.frame_placement(here, q, "tip")
+    np.testing.assert_allclose(tip.translation, data.site("tip").xpos, rtol=0, atol=1e-14)
+    B = np.stack([bridge.to_mujoco_tangent(here, q, e) for e in np.eye(here.nv)], axis=-1)
+    np.testing.assert_allclose(B @ tw.crba(here, q) @ B.T, mass_matrix(there, data), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(B @ tw.gravity(here, q), _gravity(there, data), rtol=0, atol=1e-13)
+    assert tw.kinetic_energy(here, q, v) == pytest.approx(v @ B.T @ mass_matrix(there, data) @ B @ v / 2, rel=1e-13)
+
+
+def _gravity(there, data):
+    still = mujoco.MjData(there)
+    still.qpos[:] = data.qpos
+    mujoco.mj_forward(there, still)
+    return still.qfrc_bias
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_acceleration_is_the_same_but_for_the_turning_of_a_free_joint(seed):
+    there, data, here, q, v = both(EVERY_JOINT, seed)
+    there.dof_damping[:] = there.dof_frictionloss[:] = 0
+    there.jnt_limited[:] = 0
+    there.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+    tau = np.random.default_rng(seed).normal(size=here.nv)
+    data.qfrc_applied[:] = bridge.to_mujoco_tangent(here, q, tau)
+    mujoco.mj_forward(there, data)
+    a = bridge.from_mujoco_tangent(here, q, data.qacc)
+    for joint, s in zip(here.joints, here.v_slice):
+        if isinstance(joint, tw.FreeFlyer):  # MuJoCo's is classical, ours spatial
+            a[s][3:] -= np.cross(v[s][:3], v[s][3:])
+    np.testing.assert_allclose(tw.aba(here, q, v, tau), a, rtol=0, atol=1e-11 * np.abs(a).max())
+
+
+def test_states_go_both_ways():
+    *_, here, q, v = both(EVERY_JOINT, 0)
+    qs, vs = np.stack([q, q]), np.stack([v, 2 * v])
+    there = bridge.to_mujoco_configuration(here, qs)
+    assert there[0, 3] == q[6]  # the scalar of the first quaternion
+    np.testing.assert_array_equal(bridge.from_mujoco_configuration(here, there), qs)
+    back = bridge.from_mujoco_tangent(here, qs, bridge.to_mujoco_tangent(here, qs, vs))
+    np.testing.assert_allclose(back, vs, rtol=0, atol=1e-15)
+    force = np.random.default_rng(1).normal(size=here.nv)
+    power = bridge.to_mujoco_tangent(here, q, force) @ bridge.to_mujoco_tangent(here, q, v)
+    assert power == pytest.approx(force @ v, rel=1e-13)
+
+
+def test_limits_armature_damping_and_keyframes_are_read():
+    _, _, here, _, _ = both(EVERY_JOINT, 0)
+    at = here.q_slice[here.joint_id("pitch")].start
+    np.testing.assert_array_equal([here.lower[at], here.upper[at]], [-1, 2])
+    dof = here.v_slice[here.joint_id("pitch")].start
+    assert (here.armature[dof], here.damping[dof], here.friction[dof + 1]) == (0.02, 0.3, 0.7)
+    np.testing.assert_array_equal(here.postures["up"][3:7], [0, 0, 0, 1])
+    assert {"joint6", "tip", "ball"} <= {*here.frame_names} | {*here.joint_names}
+
+
+def test_what_has_a_force_there_and_none_here_is_reported():
+    _, data, here, q, v = both(FIXED, 0)
+    assert [(entry.where, entry.read_as) for entry in here.report] == [
+        ("joint 'arm'", "left out"),
+        ("body 'pad'", "left out"),
+    ]
+    assert here.base == "fixed"
+    np.testing.assert_allclose(tw.nonlinear_effects(here, q, v), data.qfrc_bias, rtol=0, atol=1e-13)
+    assert {"body:arm", "joint:arm"} & {*here.frame_names}  # one name, two places
+
+
+def test_what_cannot_be_converted_is_named():
+    with pytest.raises(TypeError, match=r"there: expected a mujoco.MjModel, got str"):
+        bridge.from_mujoco_model("humanoid.xml")
+    with pytest.raises(tw.ModelError, match="MuJoCo has no planar joint"):
+        bridge.to_mujoco_configuration(tw.random_tree(2, rng=0, kinds=("planar",)), np.zeros(8))
+    there = mujoco.MjModel.from_xml_string(EVERY_JOINT)
+    there.dof_armature[0] = 1.0
+    with pytest.raises(tw.ModelError, match="joint 'root': expected one armature in all directions"):
+        bridge.from_mujoco_model(there)
