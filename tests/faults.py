@@ -265,6 +265,45 @@ FAULTS = [
     step("own inertia for the composite one in A_G", "49.10 IC", "IC = tree.I"),
     Fault("potential energy of the wrong sign", "algorithms/energy.py", "weight = -model", "weight = model"),
     Fault("kinetic energy not halved", "algorithms/energy.py", "return twice / 2", "return twice"),
+    # 49.7 to 49.10: what is made of M, of IA and of A_G
+    step("own inertia left to the parent", "49.7 IA_alone", "IA[p] = IA[p] + X[i].mT @ IA[i] @ X[i]"),
+    step("row of L not scaled", "49.8 L", "scaled = L[..., k, inboard[k]]"),
+    step(
+        "row of L added",
+        "49.8 LTDL",
+        "L[..., i, j] = L[..., i, j] + scaled[..., place, None] * L[..., k, j]",
+    ),
+    step("L left without its roots", "49.8 LTL", "return L * D[..., None]"),
+    step("solved outward with Lᵀ", "49.8 outward", "Y[..., k, :] = Y[..., k, :] - L[..., i, k, None] * Y[..., i, :]"),
+    step(
+        "unit force not passed through the joint",
+        "49.8 inverse_inward",
+        "pA[p] = pA[p] + X[i].mT @ pA[i]",
+    ),
+    step(
+        "M⁻¹: what the parent brings of the wrong sign",
+        "49.8 inverse_outward",
+        "qdd = D_inv[i] @ (u[i][..., rest] + U[i].mT @ a)",
+    ),
+    step("Λ⁻¹ without D", "49.9 Delassus", "return symmetric(Y.mT @ Y)"),
+    step("inertias that do not turn", "49.10 dI", "dIC = [0 * I[i] for i in bodies]"),
+    step("only one half of an inertia's rate", "49.10 dI", "dIC = [cross_force(V[i]) @ I[i] for i in bodies]"),
+    step(
+        "rate of the body alone",
+        "49.10 dIC",
+        "dIC[parent[i]] = dIC[parent[i]]",
+    ),
+    step("S that does not turn", "49.10 dA_G", "dA_G = [X[i] @ dIC[i] @ S[i] for i in bodies]"),
+    Fault(
+        "the centre of mass taken to rest", "algorithms/momentum_rate.py", "np.zeros_like(v_G), -v_G", "v_G, -0 * v_G"
+    ),
+    step(
+        "I_G turned the wrong way",
+        "49.10 I_G",
+        "inertia: Array = np.sum([X[i].mT @ tree.I[i] @ X[i] for i in bodies], axis=0)",
+    ),
+    step("own inertia for what joint i carries", "49.10 A_sub", "A_G[i] = X[i] @ tree.I[i] @ S[i]"),
+    step("inboard joints do not move a subtree", "49.10 A_whole", "A_G[i] = 0 * whole @ S[i]"),
     # 49.9: contact
     Fault(
         "contact: spatial acceleration for the classical one",

@@ -28,6 +28,11 @@ PHYSICS_AND_ORACLES = [
     "algorithms/test_energy.py",
     "algorithms/test_floating_base.py",
     "algorithms/test_centroidal.py",
+    "algorithms/test_factorization.py",
+    "algorithms/test_inverse_mass.py",
+    "algorithms/test_delassus.py",
+    "algorithms/test_momentum_rate.py",
+    "algorithms/test_subtree.py",
     "algorithms/test_every_algorithm.py",
     "model/test_joint.py",
     "model/test_manifold.py",
@@ -65,6 +70,7 @@ TESTED_BY = {
     "_shapes": "shapes",
     "_vector": "screws",
     "wrench": "screws",
+    "articulated": "inverse_mass",
 }
 """Files and folders of the source whose tests go by another name."""
 

@@ -115,6 +115,15 @@ def test_laws_of_mechanics_hold_in_the_smaller_model(save, text, base):
     close(tw.coriolis_matrix(model, q, v) @ v + tw.gravity(model, q), tw.nonlinear_effects(model, q, v))
     close(v @ tw.crba(model, q) @ v / 2, tw.kinetic_energy(model, q, v))
     close(tw.centroidal_map(model, q) @ v, tw.centroidal_momentum(model, q, v))
+    bias = tw.centroidal_momentum_rate(model, q, v, a) - tw.centroidal_map(model, q) @ a
+    close(tw.centroidal_map_rate(model, q, v) @ v, bias)
+    close(tw.center_of_mass_velocity(model, q, v) * model.full.mass, tw.centroidal_momentum(model, q, v)[3:])
+    close(tw.center_of_mass_acceleration(model, q, v, a) * model.full.mass,
+          tw.centroidal_momentum_rate(model, q, v, a)[3:])  # fmt: skip
+    close(tw.centroidal_inertia(model, q)[3:, 3:], model.full.mass * np.eye(3))
+    for function in (tw.ltdl, tw.ltl, tw.inverse_mass_matrix):  # M of followers is coupled where the tree is not
+        with pytest.raises(TypeError, match="full"):
+            function(model, q)
     tip = model.full.frame("l2").body
     close(tw.frame_jacobian(model, q, "l2") @ v, tw.forward_kinematics(model, q, v).twist[tip])
     h = 1e-6

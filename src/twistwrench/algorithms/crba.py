@@ -60,6 +60,7 @@ def crba(model: Model, q: ArrayLike) -> Array:
     See Also
     --------
     twistwrench.crba_terms : what is computed on the way.
+    twistwrench.ltdl : factors of M that keep its zeros.
 
     Notes
     -----
