@@ -144,5 +144,5 @@ assert (M[:6, rear] != 0).any()
 # - 笔记本 49.1 从本章的开头讲起:速度为什么要用六个数。
 # - `help(tw.rnea)` 给出形状、单位和坐标系;每个函数都有例子。
 # - 在终端运行 `twistwrench validate go2`,把每个量与 Pinocchio 逐一比较。
-# - `twistwrench exercises start my_answers` 把本章练习放进你自己的文件夹,在那里运行 `python -m pytest` 就能检查答案。
+# - `twistwrench exercises start my_answers --language zh` 把本章练习放进你自己的文件夹,在那里运行 `python -m pytest` 就能检查答案。
 # - 代码是写来读的:`rnea` 一屏就能看完,在 `algorithms/rnea.py` 里。

@@ -422,5 +422,5 @@ tw.exercises.check("49.1.2", polishing_torques)
 # - **49.1.1** Go2 的 nq 与 nv;改用欧拉角;为什么选四元数
 # - **49.1.2** 机械臂为什么没有 $J_c^T\lambda$,抛光时要怎样改
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
+# `twistwrench exercises start my_answers --language zh` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.1.1` 给提示。下一个:笔记本 49.2。

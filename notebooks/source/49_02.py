@@ -372,5 +372,5 @@ for name, attempt in nonsense.items():
 # - **49.2.1** 只有基座在转,脚为什么有线速度
 # - **49.2.2** 沿圆行走的 hat 与 exp,要精确解
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.2.1` 给提示。
+# `twistwrench exercises start my_answers --language zh`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.2.1` 给提示。
 # 下一个:笔记本 49.3。

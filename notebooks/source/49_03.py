@@ -418,5 +418,5 @@ else:
 # - **49.3.2** 纯旋转的 $X$;什么时候只要分别旋转两半就够了
 # - **49.3.3** 证明链式法则
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.3.1` 给提示。
+# `twistwrench exercises start my_answers --language zh`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.3.1` 给提示。
 # 下一个:笔记本 49.4。

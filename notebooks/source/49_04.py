@@ -470,5 +470,5 @@ else:
 # - **49.4.2** 参考点移到世界原点,力矩从哪里来
 # - **49.4.3** COP,以及它为什么必须在支撑多边形内
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
+# `twistwrench exercises start my_answers --language zh` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.4.2` 给提示。下一个:笔记本 49.5。

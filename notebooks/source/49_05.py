@@ -429,5 +429,5 @@ else:
 # - **49.5.2** Go2 的基座,与 Pinocchio 逐元素比较
 # - **49.5.3** 为什么在质心处矩阵分成两块
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
+# `twistwrench exercises start my_answers --language zh` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.5.1` 给提示。下一个:笔记本 49.6。

@@ -388,5 +388,5 @@ else:
 # - **49.6.2** 重力为什么从世界那里进入,为什么这样是等价的
 # - **49.6.3** 静止时基座的 wrench
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
+# `twistwrench exercises start my_answers --language zh` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.6.2` 给提示。下一个:笔记本 49.7。

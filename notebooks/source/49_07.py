@@ -451,5 +451,5 @@ else:
 # - **49.7.1** 没有力矩时 Go2 的加速度
 # - **49.7.2** `aba` 与"`crba` 加 `solve`"比时间:自己量一量
 #
-# `twistwrench exercises start my_answers` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
+# `twistwrench exercises start my_answers --language zh` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
 # `twistwrench exercises hint 49.7.1` 给提示。下一个:笔记本 49.8。

@@ -355,5 +355,5 @@ else:
 # - **49.8.1** 零位形下 $M$ 的基座块,它为什么不是对角阵
 # - **49.8.2** 浮动基座时 $M$ 多大,固定基座时多大
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.8.1` 给提示。
+# `twistwrench exercises start my_answers --language zh`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.8.1` 给提示。
 # 下一个:笔记本 49.9。

@@ -413,5 +413,5 @@ else:
 # - **49.9.2** 手动构造 $S$；$S^T\tau$ 的前六个元素
 # - **49.9.3** 基座行为什么叫"动力学约束"
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.9.1` 给提示。
+# `twistwrench exercises start my_answers --language zh`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.9.1` 给提示。
 # 下一个:笔记本 49.10。

@@ -482,5 +482,5 @@ else:
 # - **49.10.2** $l_G = m v_G$
 # - **49.10.3** 为什么 $\dot k_G = 0$ 适用于慢走,却不适用于翻跟头
 #
-# `twistwrench exercises start my_answers`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.10.1` 给提示。
+# `twistwrench exercises start my_answers --language zh`,然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.10.1` 给提示。
 # 下一个:笔记本 49.11。

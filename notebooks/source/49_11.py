@@ -483,5 +483,5 @@ if pin:
 # - **49.11.2** RNEA 的耗时怎样随 $N$ 增长
 # - **49.11.3** 站立的 Go2 的所有量,以及它的足端力
 #
-# `twistwrench exercises start my_answers`，然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.11.1` 给提示;
+# `twistwrench exercises start my_answers --language zh`，然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.11.1` 给提示;
 # `twistwrench exercises status my_answers` 显示还剩哪些没做,累积项目也在内。这是最后一个笔记本。

@@ -12,7 +12,7 @@ HAN = "\u4e00-\u9fff"
 NOT_WORDS = re.compile(r"`[^`\n]+`|\$\$[^$]+\$\$|\$[^$\n]+\$|\]\([^)\s]*\)")
 NARROW = re.compile(rf"[{HAN}][,;:!?()]|[,;:!?()](?=[{HAN}])")
 PATTERNS = ("*.md", "benchmarks/*.md", "docs/**/*.md", "docs/website/*/*.toml", "models/*.md")
-PATTERNS += ("notebooks/zh/*.ipynb", "src/**/*.md", "src/**/*.py", "src/**/*.toml")
+PATTERNS += ("notebooks/*.md", "notebooks/zh/*.ipynb", "src/**/*.md", "src/**/*.py", "src/**/*.toml")
 FILES = sorted(path for pattern in PATTERNS for path in ROOT.glob(pattern))
 
 
