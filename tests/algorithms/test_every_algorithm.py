@@ -87,6 +87,17 @@ def test_every_argument_changes_the_answer_of_every_algorithm(base):
         (tw.centroidal_map, {"q": q}),
         (tw.centroidal_momentum, {"q": q, "v": v}),
         (tw.centroidal_momentum_rate, {"q": q, "v": v, "a": a}),
+        (tw.centroidal_map_rate, {"q": q, "v": v}),
+        (tw.centroidal_inertia, {"q": q}),
+        (tw.center_of_mass_velocity, {"q": q, "v": v}),
+        (tw.center_of_mass_acceleration, {"q": q, "v": v, "a": a}),
+        (lambda m, q, frame: tw.subtree(m, q, frame).momentum_map, {"q": q, "frame": frame}),
+        (tw.articulated_inertia, {"q": q, "frame": body_frame(model, 1)}),  # of a tip it is the body's own
+        (tw.ltl, {"q": q}),
+        (tw.solve_mass_matrix, {"q": q, "tau": tau}),
+        (tw.inverse_mass_matrix, {"q": q}),
+        (tw.delassus_matrix, {"q": q, "J": np.eye(2, model.nv)}),
+        (tw.operational_space_inertia, {"q": q, "J": np.eye(2, model.nv)}),
         (lambda m, q, v, a: tw.forward_kinematics(m, q, v, a).acceleration, {"q": q, "v": v, "a": a}),
         (lambda m, q, v: tw.forward_kinematics(m, q, v).twist, {"q": q, "v": v}),
         (lambda m, q: tw.forward_kinematics(m, q).placement[-1].matrix(), {"q": q}),
@@ -99,7 +110,7 @@ def test_every_argument_changes_the_answer_of_every_algorithm(base):
     ]
     changed = {
         "q": other_q, "q0": other_q, "q1": other_q, "v": change, "a": change, "tau": change, "v_dt": change,
-        "f_ext": f_ext, "frame": elsewhere, "contacts": [elsewhere],
+        "f_ext": f_ext, "frame": elsewhere, "contacts": [elsewhere], "J": np.eye(2, model.nv, 1),
     }  # fmt: skip
     for function, arguments in functions:
         before = function(model, **arguments)
