@@ -11,6 +11,7 @@ from ..errors import ModelError, check_known
 from . import catalogue
 from .exercise import Exercise, Part
 from .forking import judged
+from .formulas import judge_formula
 from .isolation import TIME_LIMIT, drawn
 from .judge import State, Verdict
 from .text import Language, Text, default_language
@@ -104,6 +105,7 @@ def check(
     language: Language | None = None,
     seed: int | None = None,
     time_limit: float = TIME_LIMIT,
+    **formulas: str,
 ) -> Checked:
     """Check an exercise where it is written: in a notebook, a script or a shell.
 
@@ -122,6 +124,9 @@ def check(
         Of the random cases; drawn anew unless given.
     time_limit : float
         Seconds for one call; 0 for none. On Linux the answers run in a process of their own.
+    formulas : str
+        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them,
+        and compares exactly where the right answer is a formula.
 
     Returns
     -------
@@ -146,8 +151,8 @@ def check(
     Section 49.0: ●○○○○  1 of 5 exercises
     """
     exercise = catalogue.exercise(number)
-    given = functions or _of_caller(exercise, sys._getframe(1).f_globals)
-    if not given and words is None:
+    given = functions or (() if formulas or words else _of_caller(exercise, sys._getframe(1).f_globals))
+    if not given and not formulas and words is None:
         names = ", ".join(part.name for part in exercise.parts)
         raise ModelError(f"check: expected a function of {number} ({names}), got none, and none is defined here")
     spoken, seed = language or default_language(), drawn(seed)
@@ -155,7 +160,10 @@ def check(
     for function in given:
         part = _part(exercise, function, alone=len(functions) == 1)
         verdicts[part.name] = judged(exercise, part, function, seed=seed, time_limit=time_limit)
-        _STATES.setdefault(number, {})[part.name] = verdicts[part.name].state
+    for name, formula in formulas.items():
+        check_known(f"function of {number}", name, [part.name for part in exercise.parts])
+        verdicts[name] = judge_formula(exercise, catalogue.find_part(name)[1], formula, seed=seed)
+    _STATES.setdefault(number, {}).update({name: verdict.state for name, verdict in verdicts.items()})
     if words is not None:
         verdicts["words"] = verdict_on_words(exercise, words)
     return Checked(exercise, verdicts, words, spoken)

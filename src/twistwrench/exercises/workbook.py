@@ -20,6 +20,7 @@ from ..errors import ModelError
 from ..files import write_text
 from . import catalogue
 from .exercise import Exercise, Part
+from .formulas import judge_formula, typed
 from .judge import Verdict, judge
 from .phrases import say
 from .text import Language, Text, default_language
@@ -149,6 +150,8 @@ class Workbook:
             missing = not (self.folder / file).exists()
             return Verdict("to do" if missing else "wrong", (head, module))
         function = getattr(module, part.name, None)
+        if isinstance(function, str):
+            return judge_formula(exercise, part, function, seed=self.seed)
         if not callable(function):
             phrase = "missing" if function is None else "not a function"
             return Verdict("wrong", (head, say(phrase, name=part.name, file=file)))
@@ -176,7 +179,8 @@ class Workbook:
         exercise, part = catalogue.find_part(name)
         module = self.module(exercise.section)
         if name not in self._judging and not isinstance(module, Text) and self.verdict(exercise, part).state == "done":
-            function: Callable[..., Any] = getattr(module, name)
+            found = getattr(module, name)
+            function: Callable[..., Any] = typed(part, found) if isinstance(found, str) else found
             return function
         self.borrowed.add(name)
         return part.solution
