@@ -239,6 +239,8 @@ FAULTS = [
         "49.2 world",
         "return SE3._trusted(T.rotation, zero).motion_transform()",
     ),
+    Fault("point: sign of the lever", "algorithms/points.py", "- cross_matrix(r) @ J", "+ cross_matrix(r) @ J"),
+    Fault("point: no ω × (ω × r)", "algorithms/points.py", "+ np.cross(w, np.cross(w, r))", "+ 0 * r"),
     step("spatial for classical acceleration", "49.9 classical", "classical = 0 * np.cross(V[..., :3], V[..., 3:])"),
     step("no V × S q̇ in the accelerations", "49.2 A", "A[i] = X[i] @ A[p] + S[i] @ qdd[i]"),
     # 49.9, 49.10

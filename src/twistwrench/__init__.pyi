@@ -25,6 +25,7 @@ from .algorithms.momentum_rate import (
     centroidal_inertia,
     centroidal_map_rate,
 )
+from .algorithms.points import point_acceleration, point_jacobian, point_velocity
 from .algorithms.rnea import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
 from .algorithms.subtree import subtree
 from .algorithms.whole_body import Dynamics, dynamics
@@ -174,6 +175,9 @@ __all__ = [
     "nonlinear_effects",
     "operational_space_inertia",
     "plot",
+    "point_acceleration",
+    "point_jacobian",
+    "point_velocity",
     "potential_energy",
     "power",
     "project_state",

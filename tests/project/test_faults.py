@@ -21,6 +21,7 @@ ROOT = Path(__file__).parents[2]
 # Closed forms and invariants first: they are quick, and need no Pinocchio.
 PHYSICS_AND_ORACLES = [
     "algorithms/test_kinematics.py",
+    "algorithms/test_points.py",
     "algorithms/test_rnea.py",
     "algorithms/test_aba.py",
     "algorithms/test_crba.py",

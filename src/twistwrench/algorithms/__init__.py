@@ -8,6 +8,7 @@ file            section  what it answers
 _mimic                   a decorator: the function also takes a model whose joints follow others
 terms                    what the recursions return: `RneaTerms`, `AbaTerms`, `CrbaTerms`, …
 kinematics      49.6     where are the bodies, and how do they move: placements, twists, Jacobians
+points          49.6     velocity, acceleration and Jacobian of a point given at run time
 rnea            49.6     which forces make a motion happen
 singular                 where is q̈ not determined: `refuse_singular` raises with the joint's name
 aba             49.7     how does the robot accelerate

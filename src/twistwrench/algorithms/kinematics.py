@@ -121,6 +121,7 @@ def motion(tree: Tree, qd: list[Array], qdd: list[Array]) -> tuple[list[Array], 
     return V, A
 
 
+@also_of_mimics
 def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     """Return the placement of a named frame in the world.
 

@@ -1,7 +1,6 @@
 """Arms as textbooks print them: by screw axes (49.2), or by a table of Denavit and Hartenberg (49.3).
 
-A table of screws holds one column for each joint, in one frame; a table of DH a row, four numbers from each frame
-to the next. Either says all about the placements of a chain, and nothing about its masses: these come beside it.
+Either says all about the placements of a chain, and nothing about its masses: these come beside it.
 """
 
 from __future__ import annotations
@@ -14,7 +13,17 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_exactly, as_real, as_sequence, check_choice, check_kind, resolution, tolerance
+from ..arrays import (
+    Array,
+    as_exactly,
+    as_real,
+    as_sequence,
+    check_choice,
+    check_kind,
+    check_size,
+    resolution,
+    tolerance,
+)
 from ..errors import ModelError, ShapeError, check_known
 from ..spatial import SE3, SpatialInertia, exp3, screw
 from .arguments import check_model
@@ -64,10 +73,8 @@ def screw_axes(model: Model, frame: str) -> ScrewAxes:
 
     Raises
     ------
-    ModelError
-        If a joint has more than one degree of freedom: its placement is not one exponential.
-    NameNotFound
-        If there is no such frame.
+    ModelError, NameNotFound
+        If a joint has more than one degree of freedom (its placement is not one exponential); an unknown frame.
 
     Examples
     --------
@@ -284,8 +291,10 @@ def from_dh(
 def _columns(**named: ArrayLike) -> tuple[int, Array]:
     """Return the number of joints, and the columns of a table as rows of one array."""
     columns = {name: as_real(x, name) for name, x in named.items()}
+    for k, x in columns.items():
+        check_size(x, k)
     shapes = {name: x.shape for name, x in columns.items() if x.ndim}
     if len(set(shapes.values())) != 1 or len(next(iter(shapes.values()))) != 1:
         raise ShapeError(f"expected columns of one length, got {', '.join(f'{k} {s}' for k, s in shapes.items())}")
-    (n,) = next(iter(shapes.values()))
+    n = max(x.size for x in columns.values())
     return n, np.stack([np.broadcast_to(x, n) for x in columns.values()])

@@ -266,7 +266,7 @@ def _closed(faces: ArrayLike, count: int) -> Array:
     """Return the triangles; raise unless each edge belongs to two of them, once in each direction."""
     k = as_real(faces, "faces", 3)
     if k.ndim != 2 or not ((k >= 0) & (k < count) & (k == k.round())).all():
-        raise ShapeError(f"faces: expected whole numbers from 0 to {count - 1}, shape (k, 3), got shape {k.shape}")
+        raise ShapeError(f"faces: expected rows of vertices, 0 to {count - 1}, shape (k, 3), got shape {k.shape}")
     k = k.astype(np.intp)
     edges = set(chain.from_iterable(((a, b), (b, c), (c, a)) for a, b, c in k.tolist()))
     open_ = [(a, b) for a, b in edges if (b, a) not in edges]
