@@ -196,7 +196,7 @@ def centroidal_momentum(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     tree = tree_terms(model, q)
     X, I = to_center_of_mass(model, tree, q), tree.I
     V, _ = motion(tree, columns(model, v), columns(model, np.zeros_like(v)))
-    h_G: Array = np.sum([X[i] @ I[i] @ V[i] for i in range(model.nbodies)], axis=0)  # 49.10 h_G
+    h_G: Array = np.sum([X[i] @ (I[i] @ V[i]) for i in range(model.nbodies)], axis=0)  # 49.10 h_G
     return h_G[..., 0]
 
 

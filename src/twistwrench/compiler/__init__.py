@@ -11,7 +11,10 @@ instructions  LLVM's language: arithmetic, and the way in and out of memory
 sine          sin and cos of many angles at once
 llvm          machine code, by LLVM
 registers     NumPy, for every number type
+tangent       the derivatives of what is on a tape, and steps along v from q
 watch         what a program watches, so that the textbook can take the states that raise the alarm
+quantity      `Quantity`: what a quantity depends on, and how it is computed
+derivatives   derivatives of all quantities, and the regressor
 quantities    what can be compiled: the textbook's functions
 recording     from quantities to a line
 outputs       arrays of the caller that are to be filled

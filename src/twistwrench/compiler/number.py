@@ -28,7 +28,7 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["Node", "Number", "Tape", "numbers"]
+__all__ = ["Node", "Number", "Tape", "is_power_of_two", "numbers"]
 
 Node = tuple[Any, ...]
 """An operation and its operands: (op, index, …) of earlier nodes; ("input", name) and ("const", Fraction)."""
@@ -69,7 +69,7 @@ class Tape:
             self.nodes.append(node)
         return index
 
-    def _signed(self, index: int) -> tuple[bool, int]:
+    def signed(self, index: int) -> tuple[bool, int]:
         """Return whether a node is the negative of another one, and that one."""
         node = self.nodes[index]
         return (True, node[1]) if node[0] == "neg" else (False, index)
@@ -79,12 +79,12 @@ class Tape:
 
     def negate(self, a: int) -> Number:
         """Return −a."""
-        minus, a = self._signed(a)
+        minus, a = self.signed(a)
         return self._negated(a, not minus)
 
     def add(self, a: int, b: int) -> Number | Fraction:
         """Return a + b."""
-        (minus_a, a), (minus_b, b) = self._signed(a), self._signed(b)
+        (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
         if minus_a != minus_b:
             return self._minus(b, a) if minus_a else self._minus(a, b)
         if a == b:
@@ -98,12 +98,12 @@ class Tape:
 
     def multiply(self, a: int, b: int) -> Number:
         """Return a b."""
-        (minus_a, a), (minus_b, b) = self._signed(a), self._signed(b)
+        (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
         return self._negated(self.enter("mul", min(a, b), max(a, b)), minus_a != minus_b)
 
     def divide(self, a: int, b: int) -> Number | Fraction:
         """Return a / b."""
-        (minus_a, a), (minus_b, b) = self._signed(a), self._signed(b)
+        (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
         if a == b:
             return -ONE if minus_a != minus_b else ONE
         return self._negated(self.enter("div", a, b), minus_a != minus_b)
@@ -112,15 +112,15 @@ class Tape:
         """Return c a."""
         if c == 0:
             return ZERO
-        minus, a = self._signed(a)
+        minus, a = self.signed(a)
         return self._negated(self._scaled(abs(c), a), minus != (c < 0))
 
     def _scaled(self, c: Fraction, a: int) -> int:
         """Return the index of c a with c > 0; powers of two, which round nothing, are put together."""
         node = self.nodes[a]
-        if node[0] == "mul" and _is_power_of_two(c):
+        if node[0] == "mul" and is_power_of_two(c):
             for factor, rest in ((node[1], node[2]), (node[2], node[1])):
-                if self.nodes[factor][0] == "const" and _is_power_of_two(self.nodes[factor][1]):
+                if self.nodes[factor][0] == "const" and is_power_of_two(self.nodes[factor][1]):
                     return self._scaled(c * self.nodes[factor][1], rest)
         if c == 1:
             return a
@@ -170,7 +170,7 @@ class Number:
             return self.tape.divide(self.index, other.index)
         if not isinstance(other, Fraction | int):
             return NotImplemented
-        if _is_power_of_two(abs(Fraction(other))):
+        if is_power_of_two(abs(Fraction(other))):
             return self * (1 / Fraction(other))
         return self.tape.divide(self.index, self.tape.number(other).index)
 
@@ -184,12 +184,12 @@ class Number:
 
     def sin(self) -> Number:
         """Return the sine, −sin x for −x."""
-        minus, x = self.tape._signed(self.index)
+        minus, x = self.tape.signed(self.index)
         return self.tape._negated(self.tape.enter("sin", x), minus)
 
     def cos(self) -> Number:
         """Return the cosine, the same for −x."""
-        return Number(self.tape, self.tape.enter("cos", self.tape._signed(self.index)[1]))
+        return Number(self.tape, self.tape.enter("cos", self.tape.signed(self.index)[1]))
 
     def sqrt(self) -> Number:
         """Return the square root."""
@@ -207,7 +207,8 @@ class Number:
         return f"<Number {self.index}: {self.tape.nodes[self.index]}>"
 
 
-def _is_power_of_two(c: Fraction) -> bool:
+def is_power_of_two(c: Fraction) -> bool:
+    """Return whether a constant is a power of two: a product with it rounds nothing."""
     n, d = c.as_integer_ratio()
     return n > 0 and n & (n - 1) == 0 and d & (d - 1) == 0
 

@@ -150,7 +150,7 @@ class Program:
         check_outputs(given, batch, tails, self.dtype)
         filled = targets(given, states, batch, tails, self.dtype)
         count = prod(batch)
-        flat = [x.reshape(count, -1) for x in states]
+        flat = [x.reshape(count, prod(self._shapes[name])) for name, x in zip(names, states)]
         flat = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in flat]
         results = {name: _rows(x, count, prod(tails[name])) for name, x in filled.items()}
         alarm = np.empty((count, 1), self.dtype)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -18,31 +18,11 @@ from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..arrays import Array
 from ..errors import check_known
 from ..model import Model, tree_terms
+from .derivatives import derivatives, regressor
+from .quantity import ARGUMENTS, Quantity, shapes
 from .watch import pivots
 
-__all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities"]
-
-ARGUMENTS = ("q", "v", "a", "tau", "f_ext")
-"""The arguments of a program, in this order."""
-
-
-class Quantity(NamedTuple):
-    """Something that a program can compute.
-
-    Attributes
-    ----------
-    symbol : str
-        The chapter's, and the name of the result where several are asked for.
-    arguments : tuple of str
-        What it depends on, of `ARGUMENTS`; f_ext may be left out.
-    compute : callable
-        From these arguments to an array, by the textbook's function; and to what is to be watched besides: see `watch`.
-    """
-
-    symbol: str
-    arguments: tuple[str, ...]
-    compute: Callable[..., tuple[Array, list[Any]]]
-
+__all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
 
 SYMBOLS = {
     "rnea": "tau",
@@ -122,6 +102,7 @@ def quantities(
         of_frames("J", "q", lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv),
         of_frames("dJ_v", "q v", lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6),
     ]
+    every += [of("Y", "q v a", regressor), *(d for quantity in every for d in derivatives(model, quantity))]
     return {quantity.symbol: quantity for quantity in every}
 
 
@@ -130,9 +111,3 @@ def chosen(known: Mapping[str, Quantity], want: Sequence[str]) -> tuple[Quantity
     for name in want:
         check_known("quantity", name, [*known, *(f for f, symbol in SYMBOLS.items() if symbol in known)])
     return tuple(dict.fromkeys(known[SYMBOLS.get(name, name)] for name in want))
-
-
-def shapes(model: Model) -> dict[str, tuple[int, ...]]:
-    """Return the shape of each argument of one state."""
-    nv = (model.nv,)
-    return {"q": (model.nq,), "v": nv, "a": nv, "tau": nv, "f_ext": (model.nbodies, 6)}

@@ -1,0 +1,148 @@
+"""Derivatives of all that can be compiled, and the regressor: lines that are made of lines.
+
+To differentiate with respect to an argument, it must be one, even where its value is known or is a result itself. So a
+quantity is recorded and differentiated on a tape of its own, and the line that comes of it is run again where it is
+wanted: with numbers that remember, which drop what is zero there and share what is there already, or with floats.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ..algorithms.articulated import articulated_inertias
+from ..algorithms.inverse_mass import unit_force_responses
+from ..algorithms.rnea import newton_euler, rnea
+from ..arrays import Array
+from ..arrays.exact import elementary
+from ..model import Model, columns, tree_terms
+from ..spatial.rotation import cross_matrix
+from .line import Line
+from .number import Tape, numbers
+from .quantity import Quantity, shapes
+from .registers import as_number_of
+from .tangent import directions, jacobian, steps
+
+__all__ = ["derivatives", "regressor", "replay"]
+
+ARITHMETIC: dict[str, Callable[..., Any]] = {
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "div": operator.truediv,
+    "neg": operator.neg,
+}
+
+
+Compute = Callable[..., tuple[Array, list[Any]]]
+
+
+def derivatives(model: Model, quantity: Quantity) -> Iterator[Quantity]:
+    """Yield the derivatives of a quantity with respect to its arguments, ``dtau_dq``: its axes, and one of nv columns.
+
+    Those with respect to q are for steps along v, as in `Model.integrate`: x(q ⊕ ε e_k) = x(q) + ε column k.
+    """
+    make = _of_acceleration if quantity.symbol == "qdd" else _of_line
+    for name in quantity.arguments:
+        if name != "f_ext":
+            yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, make(model, quantity, name))
+
+
+def _of_line(model: Model, quantity: Quantity, of: str) -> Compute:
+    """Return what computes a derivative: by the line, differentiated."""
+
+    def compute(*args: Array) -> tuple[Array, list[Any]]:
+        known = dict(zip(quantity.arguments, args))
+        tape, x = _fresh(model, known)
+        result, watched = quantity.compute(*x.values())
+        tangents = steps(model, x["q"]) if of == "q" else directions(x[of])
+        J = jacobian(tape, np.asarray(result, object), tangents, model.nv)
+        line = Line.of(tape, _shapes_of(x), {"J": J, "watched": np.array(watched, object)})
+        J, questions = replay(line, known)
+        return J, [*questions] if J.dtype.hasobject else []
+
+    return compute
+
+
+def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
+    """Return what computes ∂q̈: M⁻¹ for τ, and −M⁻¹ ∂τ at this q̈ for q and v, since M q̈ + h = τ stays as it is.
+
+    Fewer operations than the ABA's own line, differentiated: 22 500 for a Go2 in place of 36 000.
+    """
+    inverse = Quantity("tau", ("q", "v", "a", "f_ext"), lambda *x: (rnea(model, *x), []))
+    d_tau = _of_line(model, inverse, of) if of != "tau" else None
+
+    def compute(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
+        qdd, watched = forward.compute(q, v, tau, *f_ext)
+        tree = tree_terms(model, q)
+        M_inv = unit_force_responses(tree, articulated_inertias(tree))
+        return -M_inv @ d_tau(q, v, qdd, *f_ext)[0] if d_tau else M_inv, watched
+
+    return compute
+
+
+def regressor(model: Model, q: Array, v: Array, a: Array) -> Array:
+    """Return Y with τ = Y π for a motion; π has the ten numbers of each body, `SpatialInertia.parameters`.
+
+    Shape (..., nv, 10 (nbodies − 1)): the world is left out, and so are the rotors, which no body has. The RNEA is
+    linear in π: its derivative with respect to π is Y, and has no π in it.
+    """
+    known = {"q": q, "v": v, "a": a}
+    tape, x = _fresh(model, known)
+    ten = numbers(tape, "ten", model.nbodies - 1, 10)
+    tree = tree_terms(model, x["q"])
+    nothing = [np.zeros_like(tree.gravity)] * model.nbodies
+    bodies = replace(tree, I=[tree.I[0], *map(_inertia, ten)], rotor=[0 * rotor for rotor in tree.rotor])
+    tau = newton_euler(bodies, columns(model, x["v"]), columns(model, x["a"]), nothing).tau
+    Y = jacobian(tape, tau, directions(ten), ten.size)
+    return replay(Line.of(tape, _shapes_of(x), {"Y": Y}), known)[0]
+
+
+def _inertia(ten: Array) -> Array:
+    """Return the inertia [I, m[c]×; −m[c]×, m 1] of ten numbers: see `SpatialInertia.parameters`."""
+    xx, xy, yy, xz, yz, zz = ten[4:]
+    C = cross_matrix(ten[1:4])
+    return np.block([[np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), C], [-C, ten[0] * np.eye(3, dtype=object)]])
+
+
+def _fresh(model: Model, like: Mapping[str, Array]) -> tuple[Tape, dict[str, Array]]:
+    """Return a new tape, and arguments of these names on it; no wrench on the world."""
+    tape = Tape()
+    x = {name: numbers(tape, name, *shapes(model)[name]) for name in like}
+    if "f_ext" in x:
+        x["f_ext"][0] = Fraction(0)
+    return tape, x
+
+
+def _shapes_of(x: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
+    return {name: array.shape for name, array in x.items()}
+
+
+def replay(line: Line, arguments: Mapping[str, Array]) -> list[Array]:
+    """Return the results of a line for numbers of any kind: floats with batch axes, or numbers that remember again."""
+    dtype, q = np.result_type(*arguments.values()), arguments["q"]
+    exact = dtype.hasobject
+    values: list[Any] = []
+    for operation, *rest in line.nodes:
+        if operation == "input":
+            name, *index = rest[0]
+            values.append(arguments[name][(*index,) if exact else (..., *index)])
+        elif operation == "const":
+            values.append(rest[0] if exact else as_number_of(dtype, rest[0]))
+        elif operation in ARITHMETIC:
+            values.append(ARITHMETIC[operation](*(values[k] for k in rest)))
+        else:
+            x = values[rest[0]]
+            values.append(elementary(operation, x) if exact else getattr(np, operation)(x))
+    results = []
+    for shape, nodes in line.outputs.values():
+        result = np.empty((*q.shape[:-1], len(nodes)), dtype)
+        for entry, k in enumerate(nodes):
+            result[..., entry] = values[k]
+        results.append(result.reshape(*q.shape[:-1], *shape))
+    return results
