@@ -12,7 +12,9 @@ from .compare import Value, agree, close, pieces, values
 from .exercise import Exercise, Part
 from .phrases import say
 from .relations import describe
+from .search import Found, exchanged_results, found_edits, right_where
 from .slips import SLIPS, Slip
+from .steps import first_wrong
 from .text import Text
 from .wrong import swap
 
@@ -92,8 +94,10 @@ def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | N
     return None
 
 
-def explain(exercise: Exercise, part: Part, answers: Answers, cases: Cases) -> tuple[list[str], list[Text]]:
-    """Explain a wrong answer.
+def explain(
+    exercise: Exercise, part: Part, answers: Answers, cases: Cases, again: Callable[[tuple[Any, ...]], Any]
+) -> tuple[list[str], list[Text]]:
+    """Explain a wrong answer; `again` calls the student's function once more, with other arguments.
 
     Returns
     -------
@@ -104,24 +108,46 @@ def explain(exercise: Exercise, part: Part, answers: Answers, cases: Cases) -> t
     """
     found = matching_slips(part, answers, cases)
     if found:
-        return found, _named(exercise, part, found)
+        return found, _named(exercise, part, found, cases)
+    exchanged = exchanged_results(part, answers, cases)
+    if exchanged is not None:
+        return [], [say("slip", title=exchanged), say("exchanged"), _where(exercise, exercise.section)]
     pieces_found = slips_by_piece(part, answers, cases)
     if pieces_found:
         names = list(dict.fromkeys(name for found in pieces_found.values() for name in found))
         return names, _named_by_piece(exercise, part, pieces_found)
+    structure = _structure(part, answers)
+    if structure is not None:
+        return [], [structure, _where(exercise, exercise.section)]
+    edited = found_edits(part, answers, cases)
+    if edited:
+        return [], _edited(exercise, part, edited, answers, cases)
     pair = two_slips(part, answers, cases)
     if pair is not None:
         first, second = (_slip(exercise, part, name) for name in pair)
         line = say("two slips", first=first.title, second=second.title)
         return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
-    structure = _structure(part, answers)
-    if structure is not None:
-        return [], [structure, _where(exercise, exercise.section)]
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
+    where = right_where(part, again, cases)
+    if where is not None:
+        lines.append(where)
     broken = _broken_property(part, answers, cases)
     if broken is not None:
         lines.append(say("broken", text=broken))
     return [], [*lines, _where(exercise, exercise.section)]
+
+
+def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers, cases: Cases) -> list[Text]:
+    """Say which change of a right solution gives the answer, or each wrong thing of it."""
+    lines = []
+    for edit in found:
+        if edit.piece is None:
+            lines.append(say("slip", title=edit.title()))
+        else:
+            lines.append(say("slip in", name=part.returns[edit.piece].name, title=edit.title()))
+    lines.append(say("edited", all=len(cases)) if len(cases) > 1 else say("edited once"))
+    step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
+    return [*lines, *([step] if step else []), _where(exercise, exercise.section)]
 
 
 def _slip(exercise: Exercise, part: Part, name: str) -> Slip:
@@ -131,10 +157,18 @@ def _slip(exercise: Exercise, part: Part, name: str) -> Slip:
     return Slip(SLIPS[name].title, part.reasons[name], exercise.section)
 
 
-def _named(exercise: Exercise, part: Part, found: list[str]) -> list[Text]:
+def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases) -> list[Text]:
     slips = [_slip(exercise, part, name) for name in found]
     if len(slips) == 1:
-        return [say("slip", title=slips[0].title), slips[0].why, _where(exercise, slips[0].section)]
+        wrong = part.slips[found[0]]
+        within = getattr(wrong, "within", None)
+        step = first_wrong(part, wrong, within, cases[0]) if within in part.beside else None
+        return [
+            say("slip", title=slips[0].title),
+            slips[0].why,
+            *([step] if step else []),
+            _where(exercise, slips[0].section),
+        ]
     each = [Text(f"  - {s.title.en}. {s.why.en}", f"  - {s.title.zh}。{s.why.zh}") for s in slips]
     return [say("slips"), *each, _where(exercise, slips[0].section)]
 

@@ -58,6 +58,9 @@ class Part:
         Name of a slip of `slips.SLIPS` to a wrong implementation with the same signature.
     alike : tuple
         Groups of those names that cannot be distinguished here: the message then names all of a group.
+    ways : tuple of callable
+        Other right functions, written as a student might who goes another way: a wrong answer is explained by a small
+        edit of any of them.
     residuals : tuple of callable
         Of the properties, in the order of their texts in the data file: ``residual(answer, *arguments)`` is zero, entry
         by entry, for every right answer, however it was computed. They explain a wrong answer that is not a known slip.
@@ -77,6 +80,7 @@ class Part:
     slips: Mapping[str, Callable[..., Any]]
     beside: tuple[Callable[..., Any], ...] = ()
     alike: tuple[frozenset[str], ...] = ()
+    ways: tuple[Callable[..., Any], ...] = ()
     residuals: tuple[Callable[..., Any], ...] = ()
     canonical: Callable[..., Any] | None = None
     call: Callable[..., Any] | None = None

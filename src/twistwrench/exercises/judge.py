@@ -101,11 +101,20 @@ def judge(
     right = [agree(part, *each) for each in zip(answers, expected, tried)]
     if all(right):
         return Verdict("wrong", (_head(exercise, part), *calls.lines)) if calls.lines else Verdict("done")
-    slips, lines = explain(exercise, part, answers, tried)
+    slips, lines = explain(exercise, part, answers, tried, lambda given: _again(part, function, given, watch))
     k = right.index(False)
     case = failing_case(part, k, seed, tried[k], (expected[k], answers[k]))
     context = _context(part, tried, right)
     return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips), case)
+
+
+def _again(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...], watch: Watch) -> Any:
+    """Call the student's function with other arguments; None where it stops."""
+    try:
+        with watch():
+            return _run(part, function, arguments)
+    except (NotImplementedError, _Stop):
+        return None
 
 
 def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:

@@ -13,6 +13,35 @@ PHRASES = {
     "slip in": Text("The slip in {name}: {title}.", "{name} 的错因：{title}。"),
     "slips": Text("One of these, which cannot be distinguished here:", "以下几种之一（此处无法区分）："),
     "two slips": Text("Two slips at once: {first}; and {second}.", "两处错误：{first}；并且 {second}。"),
+    "edit sign": Text("the sign of `{right}` is wrong", "`{right}` 的符号错了"),
+    "edit left out": Text("`{right}` is left out", "漏掉了 `{right}`"),
+    "edit exchanged": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit instead": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit inserted": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit number": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit last": Text("only the last term of the sum `{right}` is kept", "求和 `{right}` 只保留了最后一项"),
+    "edit argument": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit result": Text(
+        "`{wrong}` is returned in place of `{right}`, the right result", "返回了 `{wrong}`，而不是正确的结果 `{right}`"
+    ),
+    "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
+    "everywhere": Text("{title}, wherever it stands", "{title}（每一处都是）"),
+    "edited": Text(
+        "A right solution with this change, and no other, gives your numbers, in all {all} cases.",
+        "正确的解法只作这一改动，就会在全部 {all} 组数据中给出你的数值。",
+    ),
+    "edited once": Text(
+        "A right solution with this change, and no other, gives your numbers.",
+        "正确的解法只作这一改动，就会给出你的数值。",
+    ),
+    "first wrong": Text(
+        "The first that is wrong with it is {wrong}. Right for every body: {right}.",
+        "这样最先出错的是 {wrong}。各刚体都正确的有：{right}。",
+    ),
+    "wrong first": Text("The first that is wrong with it is {wrong}.", "这样最先出错的是 {wrong}。"),
+    "in line": Text("{title}, where `{target}` is computed", "计算 `{target}` 时，{title}"),
+    "results exchanged": Text("{first} and {second} are exchanged", "{first} 与 {second} 互换了"),
+    "exchanged": Text("Each of them is right: return them in the other order.", "二者都正确，只是返回的顺序反了。"),
     "where": Text(
         "Read {section}; ask for a hint: twistwrench exercises hint {id}",
         "参阅 {section}；需要提示：twistwrench exercises hint {id}",
@@ -79,6 +108,11 @@ PHRASES = {
     "diagonal": Text("only the diagonal is right", "只有对角线正确"),
     "off diagonal": Text("right but for the diagonal", "除对角线外正确"),
     "entries": Text("wrong in {entries}, right elsewhere", "错在 {entries}，其余正确"),
+    "rows": Text("wrong in rows {rows}, right in the others", "第 {rows} 行有错，其余各行正确"),
+    "only where": Text(
+        "It is right where {name} = {value}: look at what you do with {name}.",
+        "当 {name} = {value} 时结果正确：请检查你对 {name} 的处理。",
+    ),
     "inexact": Text("right to {digits} digits only: an approximation?", "只有 {digits} 位正确：是不是用了近似？"),
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),

@@ -53,7 +53,7 @@ def faulty(solution: Function, *changes: tuple[str, str], of: Function | None = 
             source = source.replace(right, wrong)
         modules = (sys.modules[function.__module__] for function in (solution, changed))
         names = {"doubled": doubled, "swap": swap} | {k: x for module in modules for k, x in vars(module).items()}
-        exec(compile(source, f"<{name}, changed>", "exec"), names)
+        exec(compile(source, "<changed>", "exec"), names)
         found: Function = names[name]
         return found if of is None else FunctionType(solution.__code__, {**solution.__globals__, name: found})
 
@@ -61,6 +61,7 @@ def faulty(solution: Function, *changes: tuple[str, str], of: Function | None = 
     def wrong(*arguments: Any) -> Any:
         return compiled()(*arguments)
 
+    wrong.within = changed  # type: ignore[attr-defined]
     return wrong
 
 

@@ -23,6 +23,11 @@ def adjoint(T: Any) -> Any:
     return np.array(columns).mT
 
 
+def _by_blocks(T: Any) -> Any:
+    R, p = T[:3, :3], T[:3, 3]
+    return np.block([[R, np.zeros((3, 3))], [tw.skew(p) @ R, R]])
+
+
 def _cases(rng: Any) -> Any:
     return [(tw.SE3(tw.exp3(rng.standard_normal(3)), rng.standard_normal(3)).matrix(),) for _ in range(5)]
 
@@ -33,6 +38,7 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=adjoint,
+            ways=(_by_blocks,),
             returns=(Quantity("Ad_T", MOTION_TRANSFORM),),
             cases=_cases,
             slips={

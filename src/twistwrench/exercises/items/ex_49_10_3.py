@@ -20,6 +20,10 @@ def com_acceleration(p_G: Any, p: Any, k_rate: Any, m: Any) -> Any:
     return np.array([g / z * (x - p_x) - k_y / (m * z), g / z * (y - p_y) + k_x / (m * z)])
 
 
+def _by_components(p_G: Any, p: Any, k_rate: Any, m: Any) -> Any:
+    return 9.81 / p_G[2] * (p_G[:2] - p) + np.array([-k_rate[1], k_rate[0]]) / (m * p_G[2])
+
+
 def rate_at_pace(model: Any, q: Any, v: Any, a: Any, s: Any) -> Any:
     """k̇_G of the same motion at another pace."""
     return tw.centroidal_momentum_rate(model, q, s * v, s**2 * a)[:3]
@@ -49,6 +53,7 @@ def _rate(model: Any, q: Any, v: Any, a: Any) -> Any:
 
 ACCELERATION = Part(
     solution=com_acceleration,
+    ways=(_by_components,),
     returns=(Quantity("p̈_G", unit="m/s²"),),
     cases=_walks,
     slips={

@@ -30,6 +30,13 @@ def foot_speed() -> Any:
     return 0.5 * np.hypot(x, y)
 
 
+def _by_vectors(model: Any, q: Any, omega_z: Any) -> Any:
+    base, foot = tw.frame_placement(model, q, "base"), tw.frame_placement(model, q, "FR_foot")
+    omega = base.rotation @ np.array([0, 0, omega_z])
+    velocity = np.cross(omega, foot.translation - base.translation)
+    return np.concatenate([foot.rotation.mT @ omega, foot.rotation.mT @ velocity])
+
+
 _speed = cache(foot_speed)
 
 
@@ -40,6 +47,7 @@ def _cases(rng: Any) -> Any:
 
 TWIST_OF_FOOT = Part(
     solution=foot_twist,
+    ways=(_by_vectors,),
     returns=(Quantity("V", TWIST),),
     cases=_cases,
     slips={

@@ -23,6 +23,13 @@ def base_wrench_at_rest(model: Any, q: Any) -> Any:
     return np.concatenate([np.cross(lever, force), force])
 
 
+def _in_the_world(model: Any, q: Any) -> Any:
+    base = tw.forward_kinematics(model, q).placement[1]
+    force = -sum(body.mass for body in model.inertia) * model.gravity
+    moment = np.cross(tw.center_of_mass(model, q) - base.translation, force)
+    return np.concatenate([base.rotation.mT @ moment, base.rotation.mT @ force])
+
+
 def go2_base_wrench() -> Any:
     """Wrench on the base of Go2 in its neutral posture, by RNEA."""
     model = tw.load("go2")
@@ -38,6 +45,7 @@ def _of_base(model: Any, q: Any) -> Any:
 
 BY_HAND = Part(
     solution=base_wrench_at_rest,
+    ways=(_in_the_world,),
     returns=(Quantity("F", WRENCH),),
     cases=lambda rng: [*states(rng)],
     slips={

@@ -24,6 +24,15 @@ def base_block(model: Any, q: Any) -> Any:
     return block
 
 
+def _by_transforms(model: Any, q: Any) -> Any:
+    placement = tw.forward_kinematics(model, q).placement
+    block = np.zeros((6, 6))
+    for i in range(1, model.nbodies):
+        X = (placement[i].inverse() @ placement[1]).motion_transform()
+        block = block + X.mT @ model.inertia[i].matrix() @ X
+    return block
+
+
 def whole_robot(block: Any) -> Any:
     """Mass, centre of mass and inertia about it, out of a spatial inertia."""
     m = block[3, 3]
@@ -57,6 +66,7 @@ def _cases(rng: Any) -> Any:
 
 BLOCK = Part(
     solution=base_block,
+    ways=(_by_transforms,),
     returns=(Quantity("M_bb", INERTIA),),
     cases=_cases,
     slips={

@@ -25,6 +25,19 @@ def own_centroidal_map(model: Any, q: Any) -> Any:
     return A_G
 
 
+def _about_the_origin(model: Any, q: Any) -> Any:
+    placement, p_G, A_G = (
+        tw.forward_kinematics(model, q).placement,
+        tw.center_of_mass(model, q),
+        np.zeros((6, model.nv)),
+    )
+    for i in range(1, model.nbodies):
+        J = tw.frame_jacobian(model, q, model.joint_names[i], reference="local")
+        X_star = tw.force_transform(placement[i].rotation, placement[i].translation)
+        A_G = A_G + X_star @ model.inertia[i].matrix() @ J
+    return tw.force_transform(np.eye(3), -p_G) @ A_G
+
+
 def momentum_rate(model: Any, q: Any, v: Any, a: Any) -> Any:
     """Rate of the centroidal momentum in a given motion."""
     p_G = tw.center_of_mass(model, q)
@@ -68,6 +81,7 @@ def _motions(rng: Any) -> Any:
 
 MAP = Part(
     solution=own_centroidal_map,
+    ways=(_about_the_origin,),
     returns=(Quantity("A_G", CENTROIDAL_MAP),),
     cases=lambda rng: [*states(rng)],
     slips={

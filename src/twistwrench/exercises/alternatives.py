@@ -1,0 +1,227 @@
+"""What could stand in place of a piece of a program by a small mistake, and how that is written."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import Any
+
+__all__ = ["FACTORS", "KINDS", "alternatives", "context", "exchanges", "parsed", "target", "term"]
+
+Change = tuple[str, Any]
+"""Kind of an edit, and what is put in place of a node."""
+
+KINDS = ("sign", "exchanged", "left out", "last", "instead", "inserted", "number")
+"""The kinds of edits, the likeliest first."""
+
+TWINS = (
+    *(("motion_transform", "force_transform"), ("cross_motion", "cross_force"), ("inward", "outward")),
+    *(("nonlinear_effects", "gravity"), ("cos", "sin"), ("rotation", "translation"), ("cross", "multiply", "outer")),
+    *(("max", "min", "mean", "sum"), ("mean", "median"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
+    *(("local", "world", "local_world_aligned"), ("com", "translation"), ("neutral", "standing"), ("triu", "tril")),
+)
+"""Names that are taken for each other."""
+
+FACTORS = ("2", "9.81")
+SLICES = (":3", "3:6", "3:", ":6", "6:")
+OPPOSITE = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
+COMPARED = {ast.LtE: ast.Lt, ast.Lt: ast.LtE, ast.GtE: ast.Gt, ast.Gt: ast.GtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
+
+
+def alternatives(
+    node: Any, parent: Any, names: Sequence[str], matrices: Sequence[ast.expr], scalars: Sequence[ast.expr]
+) -> Iterator[Change]:
+    """Yield what could stand in place of a node.
+
+    Parameters
+    ----------
+    node, parent : ast.AST
+    names : sequence of str
+        Those that the node, where it is a name, may be taken for.
+    matrices, scalars : sequence of ast.expr
+        Square matrices and numbers that are at hand as a further factor.
+    """
+    for changes in (_statements, _operations, _containers, _calls, _numbers):
+        yield from changes(node)
+    if isinstance(getattr(parent, "ctx", None), ast.Store):
+        return  # the name of what is written to
+    if isinstance(node, ast.Name):
+        yield from (("instead", parsed(name)) for name in names)
+    if _is_term(node, parent):
+        yield "sign", ast.UnaryOp(ast.USub(), node)
+        yield "instead", _transposed(node)
+        yield "instead", parsed("np.linalg.inv(_)", node)
+        for R in matrices:
+            yield "inserted", ast.BinOp(R, ast.MatMult(), node)
+            yield "inserted", ast.BinOp(_transposed(R), ast.MatMult(), node)
+        for scalar in scalars:
+            yield from (("inserted", ast.BinOp(node, op, scalar)) for op in (ast.Mult(), ast.Div()))
+
+
+def _transposed(node: ast.expr) -> ast.expr:
+    return ast.Attribute(node, "mT", ast.Load())
+
+
+def parsed(text: str, node: ast.expr | None = None) -> ast.expr:
+    """Parse an expression; an underscore in it stands for a node."""
+    tree = ast.parse(text, mode="eval").body
+    if node is not None and isinstance(tree, ast.Call):
+        tree.args = [node if isinstance(x, ast.Name) and x.id == "_" else x for x in tree.args]
+    return tree
+
+
+def _is_term(node: Any, parent: Any) -> bool:
+    """Whether a node is a term, a factor, an argument, an entry or a result, and not a number or a text."""
+    if isinstance(node, ast.Constant | ast.Slice | ast.Starred | ast.Tuple | ast.List | ast.ListComp | ast.keyword):
+        return False
+    if isinstance(getattr(node, "ctx", ast.Load()), ast.Store):
+        return False
+    return isinstance(parent, ast.BinOp | ast.Call | ast.List | ast.Tuple | ast.Return | ast.Assign) and not (
+        isinstance(parent, ast.Call) and node is parent.func
+    )
+
+
+def _statements(node: Any) -> Iterator[Any]:
+    """Yield an assignment with another sign, with = in place of +=, or with its targets exchanged."""
+    if isinstance(node, ast.AugAssign):
+        if type(node.op) in OPPOSITE:
+            yield "instead", ast.AugAssign(node.target, OPPOSITE[type(node.op)](), node.value)
+        yield "instead", ast.Assign([node.target], node.value, lineno=node.lineno)
+    if isinstance(node, ast.While):
+        yield "instead", ast.If(node.test, node.body, [])
+    if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
+        for targets in exchanges(node.targets[0].elts):
+            yield "exchanged", ast.Assign([ast.Tuple(targets, ast.Store())], node.value, lineno=node.lineno)
+
+
+def _operations(node: Any) -> Iterator[Change]:
+    """Yield an operation without a term or factor, with another sign, or with its factors exchanged."""
+    if isinstance(node, ast.BinOp):
+        left, op, right = node.left, node.op, node.right
+        if isinstance(op, ast.Add | ast.Sub | ast.Mult | ast.Div | ast.MatMult | ast.Pow):
+            yield "left out", left
+            if not isinstance(op, ast.Pow):
+                minus, over = isinstance(op, ast.Sub), isinstance(op, ast.Div)
+                one = ast.BinOp(ast.Constant(1), op, right)
+                yield "left out", ast.UnaryOp(ast.USub(), right) if minus else one if over else right
+        if type(op) in OPPOSITE:
+            kind = "sign" if isinstance(op, ast.Add | ast.Sub) else "instead"
+            yield kind, ast.BinOp(left, OPPOSITE[type(op)](), right)
+        if isinstance(op, ast.MatMult | ast.Sub | ast.Div):
+            yield "exchanged", ast.BinOp(right, op, left)
+        if isinstance(op, ast.MatMult) and isinstance(left, ast.BinOp) and isinstance(left.op, ast.MatMult):
+            yield "exchanged", ast.BinOp(ast.BinOp(right, op, left.right), op, left.left)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        yield "sign", node.operand
+    if isinstance(node, ast.Compare) and type(node.ops[0]) in COMPARED:
+        yield "instead", ast.Compare(node.left, [COMPARED[type(node.ops[0])]()], node.comparators)
+    if isinstance(node, ast.BoolOp):
+        yield "instead", ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
+        for k, _ in enumerate(node.values):
+            yield "left out", ast.BoolOp(node.op, node.values[:k] + node.values[k + 1 :])
+
+
+def exchanges(entries: list[Any]) -> Iterator[list[Any]]:
+    """Yield the entries with two of them exchanged."""
+    for i, j in combinations(range(len(entries)), 2):
+        yield [entries[j if k == i else i if k == j else k] for k in range(len(entries))]
+
+
+def _containers(node: Any) -> Iterator[Change]:
+    """Yield a list or tuple with two entries exchanged, with an entry that is zero, or another slice."""
+    if isinstance(node, ast.List | ast.Tuple) and isinstance(node.ctx, ast.Load):
+        for entries in exchanges(node.elts):
+            yield "exchanged", type(node)(entries, node.ctx)
+        for k, entry in enumerate(node.elts):
+            if not isinstance(entry, ast.Constant | ast.Slice | ast.List):
+                zero = ast.BinOp(ast.Constant(0), ast.Mult(), entry)
+                yield "left out", type(node)([*node.elts[:k], zero, *node.elts[k + 1 :]], node.ctx)
+    if isinstance(node, ast.Slice) and ast.unparse(node) in SLICES:
+        for other in SLICES:
+            if other != ast.unparse(node):
+                subscript = ast.parse(f"x[{other}]", mode="eval").body
+                yield "instead", subscript.slice  # type: ignore[attr-defined]
+
+
+def _calls(node: Any) -> Iterator[Change]:
+    """Yield a call with two arguments exchanged, its argument alone, or what is called or named by a twin."""
+    if isinstance(node, ast.Call):
+        for arguments in exchanges(node.args):
+            yield "exchanged", ast.Call(node.func, arguments, node.keywords)
+        if len(node.args) == 1:
+            yield "left out", node.args[0]
+        if isinstance(node.func, ast.Name) and node.func.id == "sum":
+            yield "last", ast.Subscript(ast.List([ast.Starred(node.args[0])], ast.Load()), LAST)
+        if isinstance(node.func, ast.Attribute) and node.func.attr == "sum":
+            yield "last", ast.Subscript(node.func.value, LAST)
+        if not node.args and isinstance(node.func, ast.Attribute):
+            yield "left out", node.func.value
+        if isinstance(node.func, ast.Name) and node.func.id == "range":
+            yield "instead", parsed("reversed(_)", node)
+    if isinstance(node, ast.Attribute):
+        if node.attr in ("mT", "T"):
+            yield "left out", node.value
+        for other in _twins(node.attr):
+            yield "instead", ast.Attribute(node.value, other, node.ctx)
+    if isinstance(node, ast.Name):
+        yield from (("instead", ast.Name(other, node.ctx)) for other in _twins(node.id))
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield from (("instead", ast.Constant(other)) for other in _twins(node.value))
+
+
+LAST = ast.parse("-1", mode="eval").body
+
+
+def _twins(name: str) -> Iterator[str]:
+    yield from (other for twins in TWINS if name in twins for other in twins if other != name)
+
+
+def _numbers(node: Any) -> Iterator[Change]:
+    """Yield other numbers."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
+        x = node.value
+        others = [x + 1, x - 1, 0, -x, 2 * x, x / 2, 3, 6] if isinstance(x, int) else [10, 9.8, 1.0, -x, 2 * x, x / 2]
+        yield from (("number", ast.Constant(other)) for other in dict.fromkeys(others) if other != x)
+
+
+def term(node: ast.expr, other: ast.expr) -> str:
+    """Return what a node has more than the other, or the term whose sign differs."""
+    if isinstance(other, ast.UnaryOp) and other.operand is node:
+        return _text(node)
+    if isinstance(node, ast.BinOp):
+        kept = getattr(other, "operand", getattr(other, "right", other))
+        gone = other is not node.left and (kept is node.right and getattr(other, "left", None) is not node.left)
+        return _text(node.left if gone else node.right)
+    if isinstance(node, ast.List | ast.Tuple | ast.BoolOp):
+        mine = node.values if isinstance(node, ast.BoolOp) else node.elts
+        theirs = other.values if isinstance(other, ast.BoolOp) else getattr(other, "elts", [])
+        return _text(next((x for x in mine if x not in theirs), node))
+    if isinstance(node, ast.Call) and isinstance(other, ast.expr):
+        return _text(node.func) if node.args else f".{getattr(node.func, 'attr', '')}()"
+    if isinstance(node, ast.Attribute):
+        return f".{node.attr}"
+    return _text(node.operand if isinstance(node, ast.UnaryOp) else node)
+
+
+def target(parents: list[Any]) -> str:
+    """Return what the statement around a node computes; nothing for a result."""
+    for parent in reversed(parents):
+        if isinstance(parent, ast.Assign | ast.AugAssign):
+            return _text(parent.targets[0] if isinstance(parent, ast.Assign) else parent.target)
+    return ""
+
+
+def context(parents: list[Any], node: Any) -> str:
+    """Return the text of a node, with what is around it where it is only a name, a number or a slice."""
+    for parent in reversed(parents):
+        small = isinstance(node, ast.Constant | ast.Slice | ast.Name | ast.UnaryOp)
+        small |= isinstance(node, ast.Tuple) and isinstance(parent, ast.Subscript)
+        if not small or not isinstance(parent, ast.expr):
+            break
+        node = parent
+    return _text(node)
+
+
+def _text(node: ast.AST) -> str:
+    return ast.unparse(node).split("\n")[0].replace(".mT", ".T")

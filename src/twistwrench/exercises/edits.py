@@ -1,0 +1,275 @@
+"""Small edits of a right function: a sign, a transpose, a factor, an index, a term left out, two things exchanged.
+
+They are made in its syntax tree, so that no list has to name them. A wrong answer is explained by the edit that gives
+the same numbers; and as no edit may pass the check, they measure the cases of an exercise too.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import sys
+import textwrap
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import wraps
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from .alternatives import FACTORS, KINDS, alternatives, context, exchanges, parsed, target, term
+from .calls import CHANGED, count
+
+__all__ = ["Edit", "edits"]
+
+Function = Callable[..., Any]
+Place = tuple[list[Any], Any, Any, Any]
+"""The nodes around a node, its place in the innermost, itself, and what is put there."""
+
+LIKELY = KINDS[:3]
+"""Those of which two are tried together."""
+
+ARGUMENTS: dict[str, Function] = {
+    "-{}": lambda x: -x,
+    "0 * {}": lambda x: [0 * y for y in x] if isinstance(x, list) else 0 * x,
+    "{}.T": lambda x: x.mT,
+    "np.linalg.inv({})": np.linalg.inv,
+    "{}[::-1]": lambda x: x[::-1],
+    "{} + {}.T": lambda x: x + x.mT,
+    "{}.T.reshape({}.shape)": lambda x: x.mT.reshape(x.shape),
+}
+"""What can be done to an argument on the way in."""
+
+RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * {}", "{}.T.reshape({}.shape)")}
+
+
+@dataclass(frozen=True)
+class Edit:
+    """A right function with one small change.
+
+    Attributes
+    ----------
+    kind : str
+        One of `KINDS`.
+    right, wrong : str
+        What stands in the right function, and what in this one; of what is left out or has the other sign, the term.
+    within : callable
+        The function whose text is changed, the reference or a listing that it calls.
+    function : callable
+        With the arguments of the reference.
+    everywhere : bool
+        Whether it is made in all places where this stands.
+    target : str
+        What is computed there, if it has a name.
+    first : tuple of str, optional
+        Kind, right and wrong of another edit that is made as well.
+    """
+
+    kind: str
+    right: str
+    wrong: str
+    within: Function
+    function: Function
+    everywhere: bool = False
+    target: str = ""
+    first: tuple[str, str, str] | None = None
+
+
+def edits(
+    solution: Function,
+    listings: tuple[Function, ...] = (),
+    *,
+    shown: Mapping[str, Any] = {},
+    names: Mapping[str, Any] = {},
+) -> Iterator[Edit]:
+    """Yield every small edit of a function and of the listings that it calls, the likeliest first.
+
+    Parameters
+    ----------
+    solution : callable
+        A function, or a class, with its source.
+    listings : tuple of callable
+        What it calls and can be edited as well.
+    shown : mapping
+        Values of the names in each of them, by its name: only names of the same kind are exchanged.
+    names : mapping
+        Put in place of what the edited functions call by these names.
+
+    Examples
+    --------
+    >>> from twistwrench.exercises.catalogue import find_part
+    >>> newton_euler = find_part("newton_euler")[1].solution
+    >>> [edit.right for edit in edits(newton_euler) if edit.kind == "sign"][:2]
+    ['np.cross(omega, I_c @ omega)', 'I_c @ alpha']
+    """
+    sources = [_Source(f, solution, shown.get(f.__name__, {}), names) for f in (solution, *listings)]
+    for kind in KINDS:
+        for source in sources:
+            yield from source.edits(kind)
+        if kind == "sign" and not inspect.isclass(solution):
+            yield from _of_arguments(_guarded(sources))
+    for source in sources[:1]:
+        yield from source.pairs()
+
+
+def _guarded(sources: list[_Source]) -> Function:
+    """Return the solution as it is, with loops that cannot be endless, whatever its arguments are."""
+    solution, *listings = (source.compiled() for source in sources)
+    names = {**solution.__globals__, **{f.__name__: f for f in listings}}
+    return wraps(sources[0].function)(FunctionType(solution.__code__, names, closure=solution.__closure__))
+
+
+def _of_arguments(solution: Function) -> Iterator[Edit]:
+    """Yield the function with a change to one of its arguments, or two of them exchanged."""
+    names = [*inspect.signature(solution).parameters]
+    for k, name in enumerate(names):
+        for wrong, change in ARGUMENTS.items():
+
+            def function(*given: Any, k: int = k, change: Function = change) -> Any:
+                return solution(*(change(x) if j == k else x for j, x in enumerate(given)))
+
+            yield Edit("argument", name, wrong.format(name, name), solution, function, True)
+    for wrong, change in RESULTS.items():
+
+        def result(*given: Any, change: Function = change) -> Any:
+            answer = solution(*given)
+            return tuple(map(change, answer)) if isinstance(answer, tuple) else change(np.asarray(answer))
+
+        yield Edit("result", "x", wrong.format("x", "x"), solution, result)
+    for order in exchanges([*range(len(names))]):
+
+        def exchanged(*given: Any, order: list[int] = order) -> Any:
+            return solution(*(given[k] for k in order))
+
+        right, wrong = ", ".join(names), ", ".join(names[k] for k in order)
+        yield Edit("argument", right, wrong, solution, exchanged, True)
+
+
+def _kind(value: Any) -> Any:
+    """Return what two values must have in common to be taken for each other."""
+    if isinstance(value, np.ndarray):
+        return "array", value.shape
+    if isinstance(value, list | tuple) and value:
+        return type(value), len(value), type(value[-1])
+    return type(value)
+
+
+class _Source:
+    """The syntax tree of a function, in which one place at a time is changed."""
+
+    def __init__(
+        self, function: Function, solution: Function, values: Mapping[str, Any], names: Mapping[str, Any]
+    ) -> None:
+        self.function, self.solution = function, solution
+        module = vars(sys.modules[function.__module__])
+        self.names = {**module, "count": count, **{k: x for k, x in names.items() if k in module}}
+        self.tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
+        for node in ast.walk(self.tree):
+            if isinstance(node, ast.While):
+                node.body.insert(0, ast.parse("count()").body[0])
+        self.kinds = {name: _kind(x) for name, x in values.items()}
+        square = [n for n, x in values.items() if isinstance(x, np.ndarray) and x.ndim == 2 and len({*x.shape}) == 1]
+        placed = [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
+        self.scalars = [parsed(name) for name, x in values.items() if isinstance(x, float)] + [*map(parsed, FACTORS)]
+        self.matrices = [parsed(name) for name in square + placed]
+        self.places = [*_places(self.tree.body[0])]
+
+    def edits(self, kind: str) -> Iterator[Edit]:
+        """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
+        alike: dict[tuple[str, str], list[Place]] = {}
+        for parents, field, node in self.places:
+            for found, other in self._alternatives(node, parents):
+                if found == kind:
+                    place = parents, field, node, other
+                    texts = self._texts(kind, place)
+                    alike.setdefault(texts if kind in ("instead", "inserted") else (texts[0], ""), []).append(place)
+                    yield from self._made(kind, texts, [place])
+        for (right, wrong), places in alike.items():
+            if len(places) > 1:
+                yield from self._made(kind, (right, wrong), places, everywhere=True)
+
+    def pairs(self) -> Iterator[Edit]:
+        """Yield two edits at once, of the kinds that are likeliest."""
+        for k, (parents, field, node) in enumerate(self.places):
+            for kind, other in self._alternatives(node, parents):
+                if kind in LIKELY:
+                    first = kind, *self._texts(kind, (parents, field, node, other))
+                    _put(parents[-1], field, other)
+                    for place in self.places[k + 1 :]:
+                        if not any(parent is node for parent in place[0]):
+                            yield from self._second(first, place)
+                    _put(parents[-1], field, node)
+
+    def _second(self, first: tuple[str, str, str], where: Any) -> Iterator[Edit]:
+        parents, field, node = where
+        for kind, other in self._alternatives(node, parents):
+            if kind in LIKELY:
+                place = parents, field, node, other
+                for edit in self._made(kind, self._texts(kind, place), [place]):
+                    yield replace(edit, first=first)
+
+    def _texts(self, kind: str, place: Place) -> tuple[str, str]:
+        """Return the texts of an edit, right and wrong."""
+        parents, field, node, other = place
+        if kind in ("sign", "left out"):
+            return term(node, other), ""
+        right = context(parents, node)
+        _put(parents[-1], field, other)
+        wrong = context(parents, other)
+        _put(parents[-1], field, node)
+        return right, wrong
+
+    def _made(
+        self, kind: str, texts: tuple[str, str], places: list[Place], *, everywhere: bool = False
+    ) -> Iterator[Edit]:
+        """Yield the edit in some places, if it is a program."""
+        for parents, field, _, other in places:
+            _put(parents[-1], field, other)
+        try:
+            changed = self.compiled()
+        except (RecursionError, SyntaxError, TypeError, ValueError):
+            return
+        finally:
+            for parents, field, node, _ in places:
+                _put(parents[-1], field, node)
+        function = changed
+        if self.function is not self.solution:
+            names = {**self.solution.__globals__, self.function.__name__: changed}
+            function = FunctionType(self.solution.__code__, names, closure=self.solution.__closure__)
+        computed = "" if everywhere else target(places[0][0])
+        yield Edit(kind, *texts, self.function, function, everywhere, computed)
+
+    def compiled(self) -> Function:
+        """Return the function as the tree is now."""
+        name, names = self.function.__name__, dict(self.names)
+        exec(compile(ast.fix_missing_locations(self.tree), CHANGED, "exec"), names)
+        found: Function = names[name]
+        return found
+
+    def _alternatives(self, node: Any, parents: list[Any]) -> Iterator[tuple[str, Any]]:
+        kind = self.kinds.get(getattr(node, "id", ""))
+        names = [name for name, other in self.kinds.items() if kind and other == kind and name not in (node.id, "_")]
+        return alternatives(node, parents[-1], names, self.matrices, self.scalars)
+
+
+def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:
+    """Yield every expression and assignment with the nodes around it and its place in the innermost of them."""
+    for name, value in ast.iter_fields(node):
+        if name in ("args", "returns", "annotation", "decorator_list") and not isinstance(node, ast.Call):
+            continue
+        for field, child in (
+            [((name, k), x) for k, x in enumerate(value)] if isinstance(value, list) else [(name, value)]
+        ):
+            if isinstance(child, ast.AST) and not isinstance(child, ast.expr_context | ast.operator | ast.cmpop):
+                if isinstance(child, ast.expr | ast.Assign | ast.AugAssign | ast.While):
+                    yield [*parents, node], field, child
+                yield from _places(child, (*parents, node))
+
+
+def _put(parent: Any, field: Any, node: Any) -> None:
+    """Put a node in its place."""
+    if isinstance(field, tuple):
+        getattr(parent, field[0])[field[1]] = node
+    else:
+        setattr(parent, field, node)

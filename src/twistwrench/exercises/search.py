@@ -1,0 +1,178 @@
+"""The search for the small edit of the right function that gives the student's own numbers."""
+
+from __future__ import annotations
+
+import copy
+import time
+from collections.abc import Callable, Iterator, Sequence
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import twistwrench
+
+from .calls import copied, local_values, tried
+from .compare import agree, close, values
+from .edits import Edit, edits
+from .exercise import Part
+from .phrases import say
+from .text import Text
+
+__all__ = ["Found", "exchanged_results", "found_edits", "right_where"]
+
+BUDGET = 6.0
+"""Seconds of a search."""
+
+Answers = Sequence[Any]
+Cases = Sequence[tuple[Any, ...]]
+
+
+class Found(NamedTuple):
+    """An edit that gives the student's numbers, and in which of the things returned: None for all of them."""
+
+    edit: Edit
+    piece: int | None
+
+    def title(self) -> Text:
+        """Say what is done in place of what."""
+        title = say(f"edit {self.edit.kind}", right=self.edit.right, wrong=self.edit.wrong)
+        if self.edit.target and self.edit.target not in title.en:
+            title = say("in line", title=title, target=self.edit.target)
+        if self.edit.first is not None:
+            kind, right, wrong = self.edit.first
+            return say("both edits", first=say(f"edit {kind}", right=right, wrong=wrong), second=title)
+        return say("everywhere", title=title) if self.edit.everywhere else title
+
+
+def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:
+    """Return the likeliest edit that gives all of an answer, or one for each wrong thing of several returned."""
+    right = [part.value(part.solution, copied(arguments)) for arguments in cases]
+    wrong = [not agree(part, a, b, arguments) for a, b, arguments in zip(answers, right, cases)]
+    first = min((k for k, bad in enumerate(wrong) if bad), key=lambda k: _seconds(part, cases[k]))
+    several = len(part.returns) > 1 and part.canonical is None
+    bad = [k for k in range(len(part.returns)) if not _same(part, answers, right, k)] if several else []
+    found: dict[int, Edit] = {}
+    for edit in candidates(part, cases[first]):
+        answer = tried(part, edit.function, cases[first])
+        here = [k for k in bad if k not in found and _same(part, [answers[first]], [answer], k)]
+        if not here and not agree(part, answers[first], answer, cases[first]):
+            continue
+        others = [tried(part, edit.function, arguments) for arguments in cases]
+        if all(agree(part, a, b, c) for a, b, c in zip(answers, others, cases)):
+            return [Found(edit, None)]
+        found.update((k, edit) for k in here if _same(part, answers, others, k))
+    return [Found(found[k], k) for k in bad if k in found]
+
+
+def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
+    """Yield the edits of all right ways, for as long as a search may take."""
+    end = time.monotonic() + BUDGET
+    names = {"tw": _Remembering(twistwrench)}
+    for way in (part.solution, *part.ways):
+        listings = part.beside if way is part.solution else ()
+        call = _calling(part, way)
+        shown = {f.__name__: local_values(call, f, copied(arguments)) for f in (way, *listings)}
+        for edit in edits(way, listings, shown=shown, names=names):
+            if time.monotonic() > end:
+                return
+            if arguments or edit.kind != "number":  # one number is met by chance
+                yield edit
+
+
+def _seconds(part: Part, arguments: tuple[Any, ...]) -> float:
+    """Return how long the reference takes."""
+    start = time.perf_counter()
+    tried(part, part.solution, arguments)
+    return time.perf_counter() - start
+
+
+PROBES: dict[str, Callable[[Any], Any]] = {
+    "0": lambda x: [0 * y for y in x] if isinstance(x, list) else 0 * x[...],
+    "1": lambda x: [*map(_one, x)] if isinstance(x, list) else _one(x),
+}
+"""Simple values of an argument, on which a wrong function may be right."""
+
+
+def _one(x: Any) -> Any:
+    if not isinstance(x, np.ndarray) or x.ndim < 2 or x.shape[-1] != x.shape[-2]:
+        raise TypeError("a matrix is expected")
+    return np.broadcast_to(np.eye(x.shape[-1]), x.shape).copy()
+
+
+def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Cases) -> Text | None:
+    """Say for which argument a simple value makes the student's function right, if there is one."""
+    for k, name in enumerate(part.arguments.split(", ")):
+        for value, simple in PROBES.items():
+            try:
+                tests = [(*c[:k], simple(c[k]), *c[k + 1 :]) for c in cases]
+            except (IndexError, TypeError):  # no such value
+                continue
+            right = [tried(part, part.solution, test) for test in tests]
+            if all(map(_telling, right)) and all(agree(part, again(t), x, t) for t, x in zip(tests, right)):
+                return say("only where", name=name, value=value)
+    return None
+
+
+def _telling(answer: Any) -> bool:
+    """Whether a right answer has only finite numbers, and not only zeros."""
+    arrays = [np.asarray(x) for x in (answer if isinstance(answer, tuple) else [answer])]
+    return all(x.dtype.kind == "f" and np.isfinite(x).all() for x in arrays) and any(x.any() for x in arrays)
+
+
+def _calling(part: Part, way: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda *arguments: part.value(way, arguments)
+
+
+def _same(part: Part, first: Answers, second: Answers, k: int) -> bool:
+    """Whether two answers have the same k-th thing in all cases."""
+    for a, b in zip(first, second):
+        x, y = values(a, part.returns), values(b, part.returns)
+        if x is None or y is None or not close(x[k], y[k], part.rtol):
+            return False
+    return True
+
+
+def exchanged_results(part: Part, answers: Answers, cases: Cases) -> Text | None:
+    """Say which two of the things returned are exchanged, if that is all that is wrong."""
+    for i in range(len(part.returns)) if part.canonical is None else ():
+        for j in range(i):
+            if all(
+                agree(part, _exchanged(a, i, j), part.value(part.solution, copied(c)), c)
+                for a, c in zip(answers, cases)
+            ):
+                return say("results exchanged", first=part.returns[j].name, second=part.returns[i].name)
+    return None
+
+
+def _exchanged(answer: Any, i: int, j: int) -> Any:
+    if not isinstance(answer, tuple | list) or len(answer) <= max(i, j):
+        return None
+    return tuple(answer[j if k == i else i if k == j else k] for k in range(len(answer)))
+
+
+class _Remembering:
+    """The package, whose functions compute nothing twice: most edits leave most calls as they are."""
+
+    def __init__(self, package: ModuleType) -> None:
+        self._package, self._known = package, dict[Any, Any]()
+
+    def __getattr__(self, name: str) -> Any:
+        function = getattr(self._package, name)
+        if not callable(function) or isinstance(function, type):
+            return function
+
+        def remembered(*arguments: Any, **named: Any) -> Any:
+            given = (*arguments, *named.values())
+            key = (name, *named, *((x.shape, x.tobytes()) if isinstance(x, np.ndarray) else _key(x) for x in given))
+            if key not in self._known:
+                self._known[key] = function(*arguments, **named), given
+            return (
+                copy.copy(self._known[key][0]) if isinstance(self._known[key][0], np.ndarray) else self._known[key][0]
+            )
+
+        return remembered
+
+
+def _key(x: Any) -> Any:
+    return x if isinstance(x, int | float | str) else repr(x) if isinstance(x, list | tuple) else id(x)
