@@ -26,6 +26,9 @@ Cases = Sequence[tuple[Any, ...]]
 NOTICEABLE = 1e-6
 """The least residual of a property that counts, for answers of the size of 1."""
 
+FEW = 3
+"""Lines, or wrong entries, that are taken in at a glance."""
+
 MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
 
 TWISTS: dict[str, Callable[[Any], Any]] = {
@@ -120,13 +123,15 @@ def explain(
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
     edited = found_edits(part, answers, cases)
-    if edited:
+    if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, edited, answers, cases)
-    pair = two_slips(part, answers, cases)
+    pair = None if _few_entries(part, answers, cases) else two_slips(part, answers, cases)
     if pair is not None:
         first, second = (_slip(exercise, part, name) for name in pair)
         line = say("two slips", first=first.title, second=second.title)
         return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
+    if edited:
+        return [], _edited(exercise, part, edited, answers, cases)
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
     where = right_where(part, again, cases)
     if where is not None:
@@ -146,6 +151,9 @@ def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers
         else:
             lines.append(say("slip in", name=part.returns[edit.piece].name, title=edit.title()))
     lines.append(say("edited", all=len(cases)) if len(cases) > 1 else say("edited once"))
+    shown = _comparison(part, answers, cases)
+    if len(shown) <= FEW:
+        lines += [say("it shows"), *map(_indented, shown)]
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
     return [*lines, *([step] if step else []), _where(exercise, exercise.section)]
 
@@ -200,6 +208,20 @@ def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
     wrong, expected, _ = next(case for case in tried if not agree(part, *case))
     got, right = values(wrong, part.returns), values(expected, part.returns)
     return [line for a, b in zip(got or [], right or []) for line in describe(a, b, part.rtol)]
+
+
+def _few_entries(part: Part, answers: Answers, cases: Cases) -> bool:
+    """Whether only a few entries are wrong: then two slips of the whole are not the likeliest explanation."""
+    for answer, arguments in zip(answers, cases):
+        pairs = zip(
+            values(answer, part.returns) or (), values(part.value(part.solution, arguments), part.returns) or ()
+        )
+        arrays = [(a.array, b.array) for a, b in pairs]
+        if any(a is None or b is None or a.shape != b.shape for a, b in arrays):
+            return False
+        if sum(int((~np.isclose(a, b)).sum()) for a, b in arrays) > FEW:
+            return False
+    return True
 
 
 def _structure(part: Part, answers: Answers) -> Text | None:

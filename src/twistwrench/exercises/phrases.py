@@ -34,6 +34,7 @@ PHRASES = {
         "A right solution with this change, and no other, gives your numbers.",
         "正确的解法只作这一改动，就会给出你的数值。",
     ),
+    "it shows": Text("It shows in the result:", "反映在结果上："),
     "first wrong": Text(
         "The first that is wrong with it is {wrong}. Right for every body: {right}.",
         "这样最先出错的是 {wrong}。各刚体都正确的有：{right}。",
