@@ -19,12 +19,13 @@ TWINS = (
     *(("motion_transform", "force_transform"), ("cross_motion", "cross_force"), ("inward", "outward")),
     *(("nonlinear_effects", "gravity"), ("cos", "sin"), ("rotation", "translation"), ("cross", "multiply", "outer")),
     *(("max", "min", "mean", "sum"), ("mean", "median"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
+    *(("FR_foot", "FL_foot", "RR_foot"), ("hypot", "add")),
     *(("local", "world", "local_world_aligned"), ("com", "translation"), ("neutral", "standing"), ("triu", "tril")),
 )
 """Names that are taken for each other."""
 
 FACTORS = ("2", "9.81")
-SLICES = (":3", "3:6", "3:", ":6", "6:")
+SLICES = (":3", "3:6", "3:", ":6", "6:", "-6:")
 OPPOSITE = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
 COMPARED = {ast.LtE: ast.Lt, ast.Lt: ast.LtE, ast.GtE: ast.Gt, ast.Gt: ast.GtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
 
@@ -112,6 +113,11 @@ def _operations(node: Any) -> Iterator[Change]:
             yield "exchanged", ast.BinOp(right, op, left)
         if isinstance(op, ast.MatMult) and isinstance(left, ast.BinOp) and isinstance(left.op, ast.MatMult):
             yield "exchanged", ast.BinOp(ast.BinOp(right, op, left.right), op, left.left)
+        if isinstance(op, ast.MatMult):
+            yield "instead", ast.BinOp(left, ast.Mult(), right)
+        if isinstance(op, ast.Mult):
+            yield "instead", ast.BinOp(right, ast.Div(), left)
+        yield from _brackets(left, op, right)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         yield "sign", node.operand
     if isinstance(node, ast.Compare) and type(node.ops[0]) in COMPARED:
@@ -120,6 +126,19 @@ def _operations(node: Any) -> Iterator[Change]:
         yield "instead", ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
         for k, _ in enumerate(node.values):
             yield "left out", ast.BoolOp(node.op, node.values[:k] + node.values[k + 1 :])
+
+
+def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:
+    """Yield A (b + c) in place of A b + c, and the other way round."""
+    if (
+        isinstance(op, ast.Add | ast.Sub)
+        and isinstance(left, ast.BinOp)
+        and isinstance(left.op, ast.MatMult | ast.Mult)
+    ):
+        for sign in (ast.Add(), ast.Sub()):
+            yield "instead", ast.BinOp(left.left, left.op, ast.BinOp(left.right, sign, right))
+    if isinstance(op, ast.MatMult | ast.Mult) and isinstance(right, ast.BinOp) and type(right.op) in (ast.Add, ast.Sub):
+        yield "instead", ast.BinOp(ast.BinOp(left, op, right.left), right.op, right.right)
 
 
 def exchanges(entries: list[Any]) -> Iterator[list[Any]]:
@@ -149,8 +168,13 @@ def _calls(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Call):
         for arguments in exchanges(node.args):
             yield "exchanged", ast.Call(node.func, arguments, node.keywords)
-        if len(node.args) == 1:
-            yield "left out", node.args[0]
+        if len(node.args) <= 2:
+            kind = "left out" if len(node.args) == 1 else "instead"
+            yield from ((kind, argument) for argument in node.args)
+        for k, argument in enumerate(node.args):
+            if isinstance(argument, ast.Name):
+                zero = ast.BinOp(ast.Constant(0), ast.Mult(), argument)
+                yield "instead", ast.Call(node.func, [*node.args[:k], zero, *node.args[k + 1 :]], node.keywords)
         if isinstance(node.func, ast.Name) and node.func.id == "sum":
             yield "last", ast.Subscript(ast.List([ast.Starred(node.args[0])], ast.Load()), LAST)
         if isinstance(node.func, ast.Attribute) and node.func.attr == "sum":
@@ -162,6 +186,7 @@ def _calls(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Attribute):
         if node.attr in ("mT", "T"):
             yield "left out", node.value
+            yield "instead", parsed("np.linalg.inv(_)", node.value)
         for other in _twins(node.attr):
             yield "instead", ast.Attribute(node.value, other, node.ctx)
     if isinstance(node, ast.Name):
@@ -181,7 +206,9 @@ def _numbers(node: Any) -> Iterator[Change]:
     """Yield other numbers."""
     if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
         x = node.value
-        others = [x + 1, x - 1, 0, -x, 2 * x, x / 2, 3, 6] if isinstance(x, int) else [10, 9.8, 1.0, -x, 2 * x, x / 2]
+        others = (
+            [x + 1, x - 1, 0, -x, 2 * x, x / 2, 3, 6, -1] if isinstance(x, int) else [10, 9.8, 1.0, -x, 2 * x, x / 2]
+        )
         yield from (("number", ast.Constant(other)) for other in dict.fromkeys(others) if other != x)
 
 
@@ -216,7 +243,7 @@ def context(parents: list[Any], node: Any) -> str:
     """Return the text of a node, with what is around it where it is only a name, a number or a slice."""
     for parent in reversed(parents):
         small = isinstance(node, ast.Constant | ast.Slice | ast.Name | ast.UnaryOp)
-        small |= isinstance(node, ast.Tuple) and isinstance(parent, ast.Subscript)
+        small |= isinstance(parent, ast.Subscript) and node is parent.slice
         if not small or not isinstance(parent, ast.expr):
             break
         node = parent

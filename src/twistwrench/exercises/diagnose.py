@@ -143,7 +143,7 @@ def explain(
 
 
 def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers, cases: Cases) -> list[Text]:
-    """Say which change of a right solution gives the answer, or each wrong thing of it."""
+    """Report which change of a right solution gives the answer, or each wrong thing of it."""
     lines = []
     for edit in found:
         if edit.piece is None:

@@ -36,6 +36,8 @@ ARGUMENTS: dict[str, Function] = {
     "{}.T": lambda x: x.mT,
     "np.linalg.inv({})": np.linalg.inv,
     "{}[::-1]": lambda x: x[::-1],
+    "np.abs({})": np.abs,
+    "np.roll({}, 3, 0)": lambda x: np.roll(x, 3, 0),
     "{} + {}.T": lambda x: x + x.mT,
     "{}.T.reshape({}.shape)": lambda x: x.mT.reshape(x.shape),
 }
@@ -183,7 +185,7 @@ class _Source:
                 if found == kind:
                     place = parents, field, node, other
                     texts = self._texts(kind, place)
-                    alike.setdefault(texts if kind in ("instead", "inserted") else (texts[0], ""), []).append(place)
+                    alike.setdefault(_alike(kind, texts, node, other), []).append(place)
                     yield from self._made(kind, texts, [place])
         for (right, wrong), places in alike.items():
             if len(places) > 1:
@@ -250,7 +252,22 @@ class _Source:
     def _alternatives(self, node: Any, parents: list[Any]) -> Iterator[tuple[str, Any]]:
         kind = self.kinds.get(getattr(node, "id", ""))
         names = [name for name, other in self.kinds.items() if kind and other == kind and name not in (node.id, "_")]
+        if kind is int and "parent" in self.kinds and isinstance(parents[-1], ast.Subscript):
+            names.append(f"parent[{node.id}]")
         return alternatives(node, parents[-1], names, self.matrices, self.scalars)
+
+
+def _alike(kind: str, texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
+    """Return by what an edit is recognised in another place."""
+    if (
+        isinstance(node, ast.BinOp)
+        and isinstance(other, ast.BinOp)
+        and (node.left, node.right) == (other.left, other.right)
+    ):
+        signs = (ast.unparse(ast.BinOp(ast.Name("x"), op, node.right)) for op in (node.op, other.op))
+        right, wrong = signs
+        return right, wrong
+    return texts if kind in ("instead", "inserted") else (texts[0], "")
 
 
 def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:

@@ -21,8 +21,11 @@ from .text import Text
 
 __all__ = ["Found", "exchanged_results", "found_edits", "right_where"]
 
-BUDGET = 6.0
+BUDGET = 8.0
 """Seconds of a search."""
+
+MANY = 6
+"""Numbers in an answer that are not met by chance."""
 
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
@@ -35,7 +38,7 @@ class Found(NamedTuple):
     piece: int | None
 
     def title(self) -> Text:
-        """Say what is done in place of what."""
+        """Report what is done in place of what."""
         title = say(f"edit {self.edit.kind}", right=self.edit.right, wrong=self.edit.wrong)
         if self.edit.target and self.edit.target not in title.en:
             title = say("in line", title=title, target=self.edit.target)
@@ -68,6 +71,7 @@ def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:
 def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
     """Yield the edits of all right ways, for as long as a search may take."""
     end = time.monotonic() + BUDGET
+    many = sum(np.size(x.array) for x in values(part.value(part.solution, arguments), part.returns) or ()) > MANY
     names = {"tw": _Remembering(twistwrench)}
     for way in (part.solution, *part.ways):
         listings = part.beside if way is part.solution else ()
@@ -76,7 +80,7 @@ def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
         for edit in edits(way, listings, shown=shown, names=names):
             if time.monotonic() > end:
                 return
-            if arguments or edit.kind != "number":  # one number is met by chance
+            if arguments or edit.kind != "number" or many:  # one number is met by chance
                 yield edit
 
 
@@ -101,7 +105,7 @@ def _one(x: Any) -> Any:
 
 
 def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Cases) -> Text | None:
-    """Say for which argument a simple value makes the student's function right, if there is one."""
+    """Report for which argument a simple value makes the student's function right, if there is one."""
     for k, name in enumerate(part.arguments.split(", ")):
         for value, simple in PROBES.items():
             try:
@@ -134,7 +138,7 @@ def _same(part: Part, first: Answers, second: Answers, k: int) -> bool:
 
 
 def exchanged_results(part: Part, answers: Answers, cases: Cases) -> Text | None:
-    """Say which two of the things returned are exchanged, if that is all that is wrong."""
+    """Report which two of the things returned are exchanged, if that is all that is wrong."""
     for i in range(len(part.returns)) if part.canonical is None else ():
         for j in range(i):
             if all(

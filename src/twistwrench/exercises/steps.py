@@ -21,7 +21,7 @@ INWARD = ("inward", "reversed", "-1")
 
 
 def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ...]) -> Text | None:
-    """Say which quantity of which body is the first that a change within a listing makes wrong, and which are right."""
+    """Report which quantity of which body a change within a listing makes wrong first, and which stay right."""
     bodies = _computed(within)
     right, wrong = (
         local_values(lambda *given, f=f: part.value(f, given), within, copied(arguments))

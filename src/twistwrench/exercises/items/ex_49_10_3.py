@@ -29,6 +29,10 @@ def rate_at_pace(model: Any, q: Any, v: Any, a: Any, s: Any) -> Any:
     return tw.centroidal_momentum_rate(model, q, s * v, s**2 * a)[:3]
 
 
+def _by_scaling(model: Any, q: Any, v: Any, a: Any, s: Any) -> Any:
+    return s**2 * tw.centroidal_momentum_rate(model, q, v, a)[:3]
+
+
 def _walks(rng: Any) -> Any:
     def state() -> Any:
         p_G = np.concatenate([rng.uniform(-1, 1, 2), [rng.uniform(0.2, 1.2)]])
@@ -71,6 +75,7 @@ ACCELERATION = Part(
 
 PACE = Part(
     solution=rate_at_pace,
+    ways=(_by_scaling,),
     returns=(Quantity("k̇_G", unit="N m"),),
     cases=_gaits,
     slips={
