@@ -168,8 +168,10 @@ def run_grade(args: argparse.Namespace) -> int:
 def run_list(args: argparse.Namespace) -> int:
     """Print number, kind and title of every exercise."""
     from . import catalogue
+    from .phrases import say
     from .text import default_language
 
+    language = args.language or default_language()
     for exercise in map(catalogue.exercise, catalogue.available()):
-        print(f"{exercise.id:10} {exercise.kind:8} {exercise.title.of(args.language or default_language())}")
+        print(f"{exercise.id:10} {say(exercise.kind).of(language):8} {exercise.title.of(language)}")
     return 0

@@ -149,10 +149,10 @@ def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers
         if edit.piece is None:
             lines.append(say("slip", title=edit.title()))
         else:
-            lines.append(say("slip in", name=part.returns[edit.piece].name, title=edit.title()))
+            lines.append(say("slip in", name=part.returns[edit.piece].title, title=edit.title()))
     lines.append(say("edited", all=len(cases)) if len(cases) > 1 else say("edited once"))
     shown = _comparison(part, answers, cases)
-    if len(shown) <= FEW:
+    if len(shown) <= FEW and not all(line.en.endswith(say("other").en) for line in shown):
         lines += [say("it shows"), *map(_indented, shown)]
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
     return [*lines, *([step] if step else []), _where(exercise, exercise.section)]
@@ -187,7 +187,8 @@ def _named_by_piece(exercise: Exercise, part: Part, found: dict[str, list[str]])
     for name, slips in found.items():
         titles = [SLIPS[slip].title for slip in slips]
         title = Text(", or ".join(t.en for t in titles), "，或 ".join(t.zh for t in titles))
-        lines.append(say("slip in", name=name, title=title))
+        quantity = next(q for q in part.returns if q.name == name)
+        lines.append(say("slip in", name=quantity.title, title=title))
         lines += [_indented(_slip(exercise, part, slip).why) for slip in slips if slip not in given]
         given.update(slips)
         last = _slip(exercise, part, slips[0]).section
@@ -216,10 +217,12 @@ def _few_entries(part: Part, answers: Answers, cases: Cases) -> bool:
         pairs = zip(
             values(answer, part.returns) or (), values(part.value(part.solution, arguments), part.returns) or ()
         )
-        arrays = [(a.array, b.array) for a, b in pairs]
-        if any(a is None or b is None or a.shape != b.shape for a, b in arrays):
-            return False
-        if sum(int((~np.isclose(a, b)).sum()) for a, b in arrays) > FEW:
+        wrong = 0
+        for a, b in pairs:
+            if a.array is None or b.array is None or a.array.shape != b.array.shape:
+                return False
+            wrong += int((~np.isclose(a.array, b.array)).sum())
+        if wrong > FEW:
             return False
     return True
 
@@ -230,7 +233,7 @@ def _structure(part: Part, answers: Answers) -> Text | None:
         if answer is None:
             return say("none")
         if pieces(answer, part.returns) is None:
-            names = ", ".join(q.name for q in part.returns)
+            names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
             return say("pieces", n=len(part.returns), names=names, got=_count(answer))
     return None
 

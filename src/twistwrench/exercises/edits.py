@@ -37,7 +37,7 @@ ARGUMENTS: dict[str, Function] = {
     "np.linalg.inv({})": np.linalg.inv,
     "{}[::-1]": lambda x: x[::-1],
     "np.abs({})": np.abs,
-    "np.roll({}, 3, 0)": lambda x: np.roll(x, 3, 0),
+    "np.roll({}, len({}) // 2, 0)": lambda x: np.roll(x, len(x) // 2, 0),
     "{} + {}.T": lambda x: x + x.mT,
     "{}.T.reshape({}.shape)": lambda x: x.mT.reshape(x.shape),
 }

@@ -20,6 +20,44 @@ Kind = Literal["code", "number", "explain", "prove"]
 Cases = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
 
 
+CHINESE = {
+    "F by X*": "用 X* 求得的 F",
+    "F by vectors": "用矢量求得的 F",
+    "M (base held)": "M（基座固定）",
+    "X of T_AB T_BC": "T_AB T_BC 的 X",
+    "a of the base": "基座的 a",
+    "a of the centre of mass": "质心的 a",
+    "error": "误差",
+    "f_z (12 kg)": "f_z（12 kg）",
+    "f_z (model)": "f_z（模型）",
+    "front": "前脚",
+    "rear": "后脚",
+    "holds": "能否支撑",
+    "nq (Euler)": "nq（欧拉角）",
+    "nq (quaternion)": "nq（四元数）",
+    "nv (Euler)": "nv（欧拉角）",
+    "nv (quaternion)": "nv（四元数）",
+    "q̈ as expected": "预期的 q̈",
+    "q̈ by ABA": "用 ABA 求得的 q̈",
+    "q̈ by CRBA": "用 CRBA 求得的 q̈",
+    "ratio": "比值",
+    "rows (fixed)": "行数（固定基座）",
+    "rows (floating)": "行数（浮动基座）",
+    "rows of J_c": "J_c 的各行",
+    "smallest eigenvalue": "最小特征值",
+    "the error of V + F": "V + F 的异常",
+    "the error of V.power(W)": "V.power(W) 的异常",
+    "time": "时间",
+    "lower": "下限 lower",
+    "upper": "上限 upper",
+    "wrench from outside": "外部的 wrench",
+    "τ by RNEA": "用 RNEA 求得的 τ",
+    "τ with a₀ = −g": "取 a₀ = −g 时的 τ",
+    "τ with weights": "把重力作为外力时的 τ",
+}
+"""Names of quantities that are not symbols alone."""
+
+
 @dataclass(frozen=True)
 class Quantity:
     """One thing that a function returns: its symbol, how its numbers are arranged, and its unit."""
@@ -27,6 +65,17 @@ class Quantity:
     name: str
     layout: Layout = PLAIN
     unit: str = ""
+
+    @property
+    def title(self) -> Text:
+        """The name in both languages: a symbol is the same in both."""
+        return Text(self.name, CHINESE.get(self.name, self.name))
+
+    @property
+    def label(self) -> Text:
+        """The name and the unit."""
+        unit = f" [{self.unit}]" if self.unit else ""
+        return Text(self.title.en + unit, self.title.zh + unit)
 
 
 @dataclass(frozen=True)

@@ -180,7 +180,7 @@ def whole(part: Part, arguments: tuple[Any, ...], language: Language) -> str:
     with np.printoptions(floatmode="unique", threshold=10**6, linewidth=120):
         lines = [f"{name} = {value!r}" for name, value in zip(names, arguments)]
         lines += ["", SAY["expected"].of(language) + ":"]
-        lines += [f"{value.quantity.name} = {value.raw!r}" for value in right]
+        lines += [f"{value.quantity.title.of(language)} = {value.raw!r}" for value in right]
     return "\n".join(lines)
 
 
@@ -251,8 +251,7 @@ def _assigned(name: str, value: Any) -> list[str]:
 
 def _beside(compared: Compared, language: Language) -> list[str]:
     """Write expected and got, block by block: a block that is right in a word, one that is not in numbers."""
-    quantity = compared.quantity
-    name = quantity.name + (f" [{quantity.unit}]" if quantity.unit else "")
+    name = compared.quantity.label.of(language)
     lines, shown = [SAY["compared"].fill(name=name).of(language)], 0
     for block in compared.blocks:
         bad = bool(block.wrong.any())

@@ -54,13 +54,18 @@ class Layout:
 def _joined(names: list[Text]) -> Text:
     """Name a block: the rows of a vector, or rows and columns of a matrix."""
     if len(names) == 1:
-        return Text(f"the {names[0].en} rows", f"{names[0].zh} 各行")
+        rows = f"the rows {names[0].en}" if names[0].en.startswith("of ") else f"the {names[0].en} rows"
+        return Text(rows, f"{names[0].zh} 各行")
     rows, columns = names
-    return Text(f"the block of rows {rows.en}, columns {columns.en}", f"{rows.zh} 行 {columns.zh} 列的块")
+    column = "column" if columns.en.startswith("3 ") else "columns"
+    return Text(f"the block of rows {rows.en}, {column} {columns.en}", f"{rows.zh} 行 {columns.zh} 列的块")
 
 
 def _halves(angular: str, linear: str) -> Parts:
-    return (Text(angular, angular), slice(0, 3)), (Text(linear, linear), slice(3, 6))
+    first, second = (
+        Text(x, x.replace(" (angular)", "（角）").replace(" (linear)", "（线）")) for x in (angular, linear)
+    )
+    return (first, slice(0, 3)), (second, slice(3, 6))
 
 
 _MOTION, _FORCE, _MOMENTUM = _halves("ω", "v"), _halves("τ", "f"), _halves("k (angular)", "l (linear)")

@@ -92,8 +92,7 @@ def case_html(case: Case, language: Language) -> str:
 
 
 def _compared(compared: Compared, language: Language) -> str:
-    quantity = compared.quantity
-    name = quantity.name + (f" [{quantity.unit}]" if quantity.unit else "")
+    name = compared.quantity.label.of(language)
     parts = [f"<p><b>{escape(name)}</b></p>"]
     for block in compared.blocks:
         bad = bool(block.wrong.any())

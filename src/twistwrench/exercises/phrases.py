@@ -89,6 +89,11 @@ PHRASES = {
         "The function is right. Now explain it in words: fill in {name}.", "函数已正确。请再用文字作答：填写 {name}。"
     ),
     "words short": Text("{name} is very short: a sentence or two, please.", "{name} 太短：请写一两句话。"),
+    # the kinds of exercises
+    "code": Text("code", "编程"),
+    "number": Text("number", "计算"),
+    "explain": Text("explain", "解释"),
+    "prove": Text("prove", "证明"),
     # how an entry or a block compares
     "whole": Text("{name}", "{name}"),
     "block": Text("{name}, {block}", "{name}，{block}"),

@@ -18,13 +18,13 @@ TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi
 
 def describe(got: Value, right: Value, rtol: float) -> list[Text]:
     """Explain what is wrong with one value; empty where it is right."""
-    name = got.quantity.name + (f" [{got.quantity.unit}]" if got.quantity.unit else "")
+    name = got.quantity.label
     problem = _not_comparable(got, right)
     if problem is not None:
         return [problem]
     if got.array is None or right.array is None:
         same = str(got.raw).strip() == str(right.raw).strip()
-        return [] if same else [_is(Text(name, name), say("text differs"))]
+        return [] if same else [_is(name, say("text differs"))]
     if right.array.dtype.kind == "b":
         return _truths(name, got.array, right.array)
     tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
@@ -32,13 +32,13 @@ def describe(got: Value, right: Value, rtol: float) -> list[Text]:
     if relation == say("right"):
         return []
     if relation is not None:
-        return [_is(Text(name, name), relation)]
+        return [_is(name, relation)]
     return _blocks(name, got.quantity.layout, got.array, right.array, tolerance)
 
 
-def _truths(name: str, got: Array, right: Array) -> list[Text]:
+def _truths(name: Text, got: Array, right: Array) -> list[Text]:
     wrong = [str(bool(x)) for x, y in zip(got.flat, right.flat) if x != y]
-    return [_is(Text(name, name), say("false", got=wrong[0]))] if wrong else []
+    return [_is(name, say("false", got=wrong[0]))] if wrong else []
 
 
 def _is(what: Text, relation: Text) -> Text:
@@ -47,7 +47,7 @@ def _is(what: Text, relation: Text) -> Text:
 
 def _not_comparable(got: Value, right: Value) -> Text | None:
     """Explain why an answer cannot be compared: its type, its shape, its NaN."""
-    name = got.quantity.name
+    name = got.quantity.title
     if right.array is None:
         return None if isinstance(got.raw, str) else _type(got, "words")
     truths = right.array.dtype.kind == "b"
@@ -62,10 +62,10 @@ def _not_comparable(got: Value, right: Value) -> Text | None:
 
 
 def _type(got: Value, expected: str) -> Text:
-    return say("not numbers", name=got.quantity.name, what=say(expected), got=type(got.raw).__name__)
+    return say("not numbers", name=got.quantity.title, what=say(expected), got=type(got.raw).__name__)
 
 
-def _blocks(name: str, layout: Layout, a: Array, b: Array, tolerance: float) -> list[Text]:
+def _blocks(name: Text, layout: Layout, a: Array, b: Array, tolerance: float) -> list[Text]:
     """Explain what is wrong with each block, where the whole shows no pattern."""
     lines, some_right = [], False
     for block, index in layout.blocks(b.shape):
@@ -76,7 +76,7 @@ def _blocks(name: str, layout: Layout, a: Array, b: Array, tolerance: float) -> 
         else:
             lines.append(_is(say("block", name=name, block=block), relation))
     if not lines:
-        return [_is(Text(name, name), _relation(a, b, tolerance, [0] * b.ndim))]
+        return [_is(name, _relation(a, b, tolerance, [0] * b.ndim))]
     return lines + [say("others right", name=name)] * some_right
 
 

@@ -71,7 +71,7 @@ def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:
 def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
     """Yield the edits of all right ways, for as long as a search may take."""
     end = time.monotonic() + BUDGET
-    many = sum(np.size(x.array) for x in values(part.value(part.solution, arguments), part.returns) or ()) > MANY
+    many = sum(np.size(x.raw) for x in values(part.value(part.solution, arguments), part.returns) or ()) > MANY
     names = {"tw": _Remembering(twistwrench)}
     for way in (part.solution, *part.ways):
         listings = part.beside if way is part.solution else ()
@@ -145,7 +145,7 @@ def exchanged_results(part: Part, answers: Answers, cases: Cases) -> Text | None
                 agree(part, _exchanged(a, i, j), part.value(part.solution, copied(c)), c)
                 for a, c in zip(answers, cases)
             ):
-                return say("results exchanged", first=part.returns[j].name, second=part.returns[i].name)
+                return say("results exchanged", first=part.returns[j].title, second=part.returns[i].title)
     return None
 
 
