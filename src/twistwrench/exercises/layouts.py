@@ -54,8 +54,8 @@ class Layout:
 def _joined(names: list[Text]) -> Text:
     """Name a block: the rows of a vector, or rows and columns of a matrix."""
     if len(names) == 1:
-        rows = f"the rows {names[0].en}" if names[0].en.startswith("of ") else f"the {names[0].en} rows"
-        return Text(rows, f"{names[0].zh} 各行")
+        english = f"the rows {names[0].en}" if names[0].en.startswith("of ") else f"the {names[0].en} rows"
+        return Text(english, f"{names[0].zh} 各行")
     rows, columns = names
     column = "column" if columns.en.startswith("3 ") else "columns"
     return Text(f"the block of rows {rows.en}, {column} {columns.en}", f"{rows.zh} 行 {columns.zh} 列的块")
