@@ -9,12 +9,16 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 from twistwrench.compiler import compile
+from twistwrench.compiler.derivatives import of_line
 from twistwrench.compiler.llvm import available
 from twistwrench.compiler.number import Tape, numbers
 from twistwrench.compiler.quantities import quantities
+from twistwrench.compiler.quantity import Quantity, shapes
+from twistwrench.compiler.recording import record
 from twistwrench.compiler.tangent import jacobian, steps
 from twistwrench.model import KINDS
 
+from ..pages import blocks, page
 from ..strategies import random_state
 
 BACKENDS = [
@@ -121,6 +125,29 @@ def test_the_derivatives_of_forward_dynamics_are_those_of_inverse_dynamics(model
     inverse = program(model, "dtau_dq", "dtau_dv")(q=q, v=v, a=forward.qdd, f_ext=f_ext)
     close(M @ forward.dqdd_dq, -inverse.dtau_dq, 1e-14 * loss)
     close(M @ forward.dqdd_dv, -inverse.dtau_dv, 1e-14 * loss)
+
+
+@pytest.mark.parametrize("name", ["go2", "spherical", "fixed"])
+def test_the_aba_differentiated_itself_says_the_same_with_more_operations(name):
+    model = MODELS[name]
+    q, v, _, tau, _ = random_state(model, rng=6)
+    aba = quantities(model, np.dtype(float))["qdd"]
+    itself = Quantity("itself", aba.arguments, of_line(model, aba, "q"))
+    ours = program(model, "dqdd_dq")
+    close(itself.compute(q, v, tau)[0], ours(q, v, tau), 1e-14 * np.linalg.cond(tw.crba(model, q)))
+    line = record(model, [itself], {name: shapes(model)[name] for name in ("q", "v", "tau")}, {}, np.dtype(float))
+    assert line.operations.total() > 1.2 * ours.operations.total()
+
+
+# ---------------------------------------------------------------- the page
+
+
+def test_the_page_runs_and_both_languages_have_the_same_code():
+    pages = [page("derivatives", language).read_text(encoding="utf-8") for language in ("", ".zh-CN")]
+    code, twin = (["".join(block.splitlines()) for block in blocks(text, 0, len(text))] for text in pages)
+    assert code == twin
+    assert len(code) == 5
+    exec("\n".join(blocks(pages[0], 0, len(pages[0]))), {})
 
 
 # ---------------------------------------------------------------- the regressor

@@ -28,7 +28,7 @@ from .quantity import Quantity, shapes
 from .registers import as_number_of
 from .tangent import directions, jacobian, steps
 
-__all__ = ["derivatives", "regressor", "replay"]
+__all__ = ["derivatives", "of_line", "regressor", "replay"]
 
 ARITHMETIC: dict[str, Callable[..., Any]] = {
     "add": operator.add,
@@ -47,14 +47,14 @@ def derivatives(model: Model, quantity: Quantity) -> Iterator[Quantity]:
 
     Those with respect to q are for steps along v, as in `Model.integrate`: x(q ⊕ ε e_k) = x(q) + ε column k.
     """
-    make = _of_acceleration if quantity.symbol == "qdd" else _of_line
+    make = _of_acceleration if quantity.symbol == "qdd" else of_line
     for name in quantity.arguments:
         if name != "f_ext":
             yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, make(model, quantity, name))
 
 
-def _of_line(model: Model, quantity: Quantity, of: str) -> Compute:
-    """Return what computes a derivative: by the line, differentiated."""
+def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
+    """Return what computes the derivative of a quantity with respect to an argument: its line, differentiated."""
 
     def compute(*args: Array) -> tuple[Array, list[Any]]:
         known = dict(zip(quantity.arguments, args))
@@ -75,7 +75,7 @@ def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
     Fewer operations than the ABA's own line, differentiated: 22 500 for a Go2 in place of 36 000.
     """
     inverse = Quantity("tau", ("q", "v", "a", "f_ext"), lambda *x: (rnea(model, *x), []))
-    d_tau = _of_line(model, inverse, of) if of != "tau" else None
+    d_tau = of_line(model, inverse, of) if of != "tau" else None
 
     def compute(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
         qdd, watched = forward.compute(q, v, tau, *f_ext)
