@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..arrays import Array
@@ -41,6 +41,25 @@ class Line:
         nodes = tuple(_renumbered(tape.nodes[old], new) for old in needed)
         outputs = {name: (results[name].shape, tuple(new[k] for k in result)) for name, result in indices.items()}
         return cls(nodes, dict(inputs), outputs)
+
+    def in_order_of(self, wanted: Iterable[int]) -> Line:
+        """Return the same line, each operation just before it is first needed if the wanted are computed in this order.
+
+        So that fewer numbers are waiting at any time.
+        """
+        new: dict[int, int] = {}
+        left = [(k, False) for k in [*wanted, *(k for _, entries in self.outputs.values() for k in entries)][::-1]]
+        while left:
+            k, ready = left.pop()
+            if k in new:
+                continue
+            if ready:
+                new[k] = len(new)
+            else:
+                left += [(k, True), *((j, False) for j in reversed(operands(self.nodes[k])))]
+        nodes = tuple(_renumbered(self.nodes[k], new) for k in new)
+        outputs = {name: (shape, tuple(new[k] for k in entries)) for name, (shape, entries) in self.outputs.items()}
+        return Line(nodes, self.inputs, outputs)
 
     @property
     def operations(self) -> Counter[str]:
