@@ -29,6 +29,7 @@ from .algorithms.points import point_acceleration, point_jacobian, point_velocit
 from .algorithms.rnea import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
 from .algorithms.subtree import subtree
 from .algorithms.whole_body import Dynamics, dynamics
+from .compiler import Program, compile
 from .contact import (
     Baumgarte,
     ContactDynamics,
@@ -99,6 +100,7 @@ __all__ = [
     "Planar",
     "PointContact",
     "Prismatic",
+    "Program",
     "Reduction",
     "Revolute",
     "Scene",
@@ -130,6 +132,7 @@ __all__ = [
     "centroidal_momentum_rate",
     "centroidal_terms",
     "chain",
+    "compile",
     "constraint_bias",
     "constraint_jacobian",
     "contact_forward_dynamics",

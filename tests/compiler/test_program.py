@@ -1,12 +1,16 @@
 """Programs compute what the textbook computes, whatever runs them."""
 
+import pickle
+from concurrent.futures import ThreadPoolExecutor
+
+import mpmath
 import numpy as np
 import pytest
 
 import twistwrench as tw
 from twistwrench.compiler import compile
 from twistwrench.compiler.llvm import available
-from twistwrench.compiler.quantities import SYMBOLS, shapes
+from twistwrench.compiler.quantities import SYMBOLS
 
 from ..strategies import random_state
 
@@ -34,16 +38,91 @@ def textbook(model, name, args, frame):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-@pytest.mark.parametrize("name", SYMBOLS)
-@pytest.mark.parametrize("model", MODELS, ids=lambda model: f"{model.name} {model.nv}")
-def test_every_quantity_is_the_textbooks(model, name, backend):
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: f"{model.name} {model.base} {model.nv}")
+def test_every_quantity_is_the_textbooks(model, backend):
     frame = model.frame_names[-1]
-    program = compile(model, name, contacts=[frame], frames=[frame], backend=backend)
-    state = random_state(model, rng=0)._asdict()
-    args = [state[argument] for argument in program.arguments if argument in shapes(model)]
-    expected = textbook(model, name, args, frame)
-    size = max(1.0, np.abs(expected).max(initial=0))
-    np.testing.assert_allclose(program(*args), expected, rtol=0, atol=1e-12 * size)
-    many = [np.stack([x] * 11) for x in args]
-    if args:
-        np.testing.assert_allclose(program(*many)[10], expected, rtol=0, atol=1e-12 * size)
+    program = compile(model, SYMBOLS, contacts=[frame], frames=[frame], backend=backend)
+    one, many = random_state(model, rng=0), random_state(model, rng=1, batch=(3, 11))
+    for state in (one, many):
+        got = program(**state._asdict())
+        for name, symbol in SYMBOLS.items():
+            arguments = compile(model, name, contacts=[frame], frames=[frame]).arguments
+            expected = textbook(model, name, [getattr(state, argument) for argument in arguments], frame)
+            size = max(1.0, np.abs(expected).max(initial=0))
+            shape = (*state.q.shape[:-1], *expected.shape) if name == "selection_matrix" else expected.shape
+            assert getattr(got, symbol).shape == shape, name
+            np.testing.assert_allclose(
+                getattr(got, symbol), np.broadcast_to(expected, shape), rtol=0, atol=1e-12 * size, err_msg=name
+            )
+
+
+def test_a_program_pickles():
+    model = tw.load("go2")
+    program = pickle.loads(pickle.dumps(tw.compile(model, ["M", "J_c"], contacts=["FL_foot"], dtype=np.float32)))
+    result = program(model.standing().astype(np.float32))
+    assert result.M.dtype == np.float32
+    np.testing.assert_allclose(result.J_c, tw.contact_jacobian(model, model.standing(), ["FL_foot"]), atol=1e-6)
+
+
+def test_threads_give_the_same_numbers():
+    model = tw.load("go2")
+    s = random_state(model, rng=0, batch=(7, 100))
+    one, two = (tw.compile(model, "aba", threads=n)(s.q, s.v, s.tau, s.f_ext) for n in (1, 3))
+    assert np.array_equal(one, two)
+
+
+def test_a_program_is_called_by_several_threads_at_once():
+    model = tw.load("go2")
+    program, s = tw.compile(model, "rnea"), random_state(model, rng=0, batch=(400,))
+    expected = program(s.q, s.v, s.a)
+    with ThreadPoolExecutor(4) as pool:
+        for k, got in enumerate(pool.map(lambda k: program(s.q[k % 400], s.v[k % 400], s.a[k % 400]), range(4000))):
+            assert np.array_equal(got, expected[k % 400]) or np.abs(got - expected[k % 400]).max() < 1e-12
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_what_is_given_need_not_be_computed_with(backend):
+    model = tw.load("go2")
+    rest, q = np.zeros(model.nv), random_state(model, rng=0).q
+    held = tw.compile(model, "rnea", given={"v": rest, "a": rest}, backend=backend)
+    assert held.arguments == ("q", "f_ext")
+    assert held.operations.total() < tw.compile(model, "rnea").operations.total() / 3
+    np.testing.assert_allclose(held(q), tw.gravity(model, q), atol=1e-11)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_state_that_is_wrong_is_named_as_by_the_textbook(backend):
+    model = tw.load("go2")
+    s = random_state(model, rng=0, batch=(30,))
+    program = tw.compile(model, "rnea", backend=backend)
+    for spoil, message in (
+        (lambda q, v: v.__setitem__((7, 3), np.nan), r"v: expected finite numbers, got nan at index \(7, 3\)"),
+        (lambda q, v: v.__setitem__((7, 3), np.inf), r"v: expected finite numbers, got inf at index \(7, 3\)"),
+        (lambda q, v: q.__setitem__((7, 3), 2), r"joint 'root_joint': the quaternion q\[3:7\] has norm"),
+        (lambda q, v: v.__setitem__((7, 3), 1e80), r"v: expected at most"),
+    ):
+        q, v = s.q.copy(), s.v.copy()
+        spoil(q, v)
+        for states in ((q, v, s.a), (q[7], v[7], s.a[7])):
+            with pytest.raises(ValueError, match=message.replace(r"\(7, 3\)", r".*3,?\)")):
+                program(*states)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_large_angle_is_right(backend):
+    model = tw.load("double_pendulum")
+    q = np.array([1e6 + 0.3, -3e5])
+    np.testing.assert_allclose(tw.compile(model, "M", backend=backend)(q), tw.crba(model, q), atol=1e-13)
+
+
+@pytest.mark.skipif(not available(), reason="llvmlite is not installed")
+@pytest.mark.parametrize("number", [np.float64, np.float32])
+def test_sine_and_cosine_are_within_a_rounding(number):
+    """Of the frame of a pendulum's bob the rotation is (cos, sin) untouched."""
+    program = compile(tw.load("pendulum"), "placement", frames=["bob"], dtype=number)
+    some = np.random.default_rng(0).uniform(-100, 100, 500)
+    x = np.concatenate([some, [0, 1e-8, np.pi / 2, np.pi, 1e5], np.linspace(-9, 9, 500)]).astype(number)
+    R = program(x[:, None])[:, 0]
+    exact = [(mpmath.cos(float(angle)), mpmath.sin(float(angle))) for angle in x]
+    errors = [(float(R[k, 0, 0]) - cos, abs(float(R[k, 0, 2])) - abs(sin)) for k, (cos, sin) in enumerate(exact)]
+    assert max(abs(float(error)) for pair in errors for error in pair) < 0.6 * np.finfo(number).eps

@@ -44,7 +44,7 @@ def articulated_body(tree: Tree, qd: list[Array], tau: list[Array], f_ext: list[
         u[i] = tau[i] - S[i].mT @ pA[i]  # 49.7 u
         Ia[i] = symmetric(IA[i] - U[i] @ D_inv[i] @ U[i].mT)  # 49.7 Ia: Schur complement
         pa[i] = pA[i] + Ia[i] @ c[i] + U[i] @ D_inv[i] @ u[i]  # 49.7 pa
-        IA[p] = IA[p] + X[i].mT @ Ia[i] @ X[i]  # 49.7 IA_p
+        IA[p] = IA[p] + symmetric(X[i].mT @ Ia[i] @ X[i])  # 49.7 IA_p
         pA[p] = pA[p] + X[i].mT @ pa[i]  # 49.7 pA_p
     A[0] = -tree.gravity  # 49.7 A0: gravity, as a world that rises
     for i in tree.outward:  # pass 3: accelerations

@@ -26,7 +26,7 @@ def composite_rigid_body(tree: Tree) -> CrbaTerms:
     IC = [*I]  # 49.8 IC: at first the body's own
     for i in tree.inward:
         p = parent[i]
-        IC[p] = IC[p] + X[i].mT @ IC[i] @ X[i]  # 49.8 IC_p
+        IC[p] = IC[p] + symmetric(X[i].mT @ IC[i] @ X[i])  # 49.8 IC_p
         F[i, i] = IC[i] @ S[i]  # 49.8 F: wrench for a unit acceleration of joint i
         M[i, i] = symmetric(S[i].mT @ F[i, i]) + rotor[i]  # 49.8 M_ii
         j = i

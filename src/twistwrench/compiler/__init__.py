@@ -10,6 +10,8 @@ line          `Line`: the operations that a question needs, one after the other
 instructions  LLVM's language: arithmetic, and the way in and out of memory
 sine          sin and cos of many angles at once
 llvm          machine code, by LLVM
+source        a line as text: Python, annotated with the chapter's steps, and C
+plain         Python's floats, for a few states
 registers     NumPy, for every number type
 tangent       the derivatives of what is on a tape, and steps along v from q
 watch         what a program watches, so that the textbook can take the states that raise the alarm

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import partial
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from ..algorithms.kinematics import Reference
-from ..arrays import as_count, as_names
-from ..model import Model, check_model
+from ..arrays import Array, as_count, as_names, check_choice
+from ..errors import check_known
+from ..model import Model, check_arrays, check_model
 from .llvm import NATIVE, available
 from .program import Program
-from .quantities import chosen, quantities
+from .quantities import ARGUMENTS, Quantity, chosen, quantities
 
 __all__ = ["compile"]
+
+BACKENDS = ("llvm", "numpy")
 
 
 def compile(
@@ -59,25 +64,91 @@ def compile(
     Raises
     ------
     NameNotFound
-        If there is no such quantity or frame.
+        If there is no such quantity, frame, reference or argument; the message lists those that are.
+    ImportError
+        If `backend` is "llvm" and llvmlite is not installed.
+    ShapeError, TypeError, ValueError
+        If an option is not one of those above.
 
     Examples
     --------
     >>> import numpy as np
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
-    >>> program = compile(model, "gravity")
-    >>> program.arguments, program(model.standing())[5].round(3)
-    (('q',), np.float64(157.794))
+    >>> program = tw.compile(model, "rnea")
+    >>> program(model.standing(), np.zeros(18), np.zeros(18))[5].round(3)
+    np.float64(157.794)
+
+    What a question does not need is not in its program:
+
+    >>> held = tw.compile(model, "rnea", given={"v": np.zeros(18), "a": np.zeros(18)})
+    >>> program.operations.total(), held.operations.total(), held.arguments
+    (2658, 687, ('q', 'f_ext'))
+
+    Several at once share their work:
+
+    >>> both = tw.compile(model, ["M", "h"])
+    >>> both(np.tile(model.standing(), (1000, 1)), np.zeros((1000, 18)))
+    Results(M: (1000, 18, 18), h: (1000, 18))
     """
+    options: dict[str, Any] = {
+        "dtype": np.dtype(dtype),
+        "contacts": None if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True),
+        "frames": as_names(frames, "frames", "frame names", ordered=True),
+        "reference": reference,
+        "given": {} if given is None else dict(given),
+        "backend": backend,
+        "threads": as_count(threads, "threads", 1),
+    }
+    asked = want if isinstance(want, str) else as_names(want, "want", "quantities")
+    known, body = _known(model, **options)
+    return Program(
+        body,
+        chosen(known, (asked,) if isinstance(asked, str) else asked),
+        single=isinstance(asked, str),
+        given=_checked(body, options["given"]),
+        dtype=options["dtype"],
+        backend=_backend(backend, options["dtype"]),
+        threads=options["threads"],
+        remake=partial(compile, model, asked, **options),
+    )
+
+
+def _known(
+    model: Any,
+    *,
+    dtype: np.dtype[Any],
+    contacts: tuple[str, ...] | None,
+    frames: tuple[str, ...],
+    reference: Reference,
+    **_: Any,
+) -> tuple[dict[str, Quantity], Model]:
+    """Return what can be computed of a model or a scene, and the model."""
+    check_known("reference", reference, get_args(Reference))
+    if dtype.kind not in "fc":
+        raise TypeError(f"dtype: expected a floating-point type, got {dtype}")
     check_model(model)
-    dtype = np.dtype(dtype)
-    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names", ordered=True)
-    frames = as_names(frames, "frames", "frame names", ordered=True)
-    single = isinstance(want, str)
-    names = (want,) if isinstance(want, str) else as_names(want, "want", "quantities")
-    if backend is None:
-        backend = "llvm" if dtype in NATIVE and available() else "numpy"
-    values = {name: np.asarray(x) for name, x in (given or {}).items()}
-    known = quantities(model, dtype, contacts, frames, reference)
-    return Program(model, chosen(known, names), single, values, dtype, backend, as_count(threads, "threads", 1))
+    return quantities(model, dtype, model.feet if contacts is None else contacts, frames, reference), model
+
+
+def _checked(model: Model, given: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    """Return the arguments that are the same for every state, each of one state."""
+    for name in given:
+        check_known("argument", name, ARGUMENTS)
+    checked = dict(zip(given, check_arrays(model, **given)))
+    for name, x in checked.items():
+        if x.ndim != (2 if name == "f_ext" else 1):
+            raise ValueError(f"given[{name!r}]: expected the values for one state, got shape {x.shape}")
+    return checked
+
+
+def _backend(asked: str | None, dtype: np.dtype[Any]) -> str:
+    """Return what runs the program: LLVM where it is there and has the number type, unless something else is asked."""
+    if asked is None:
+        return "llvm" if dtype in NATIVE and available() else "numpy"
+    check_choice(asked, "backend", BACKENDS)
+    if asked == "llvm" and not available():
+        raise ImportError('backend: "llvm" needs llvmlite: pip install "twistwrench[compile]"')
+    if asked == "llvm" and dtype not in NATIVE:
+        raise TypeError(f'dtype: LLVM has float32 and float64, got {dtype}; backend="numpy" has it')
+    return asked

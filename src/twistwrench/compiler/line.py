@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 from ..arrays import Array
 from .number import Node, Tape
 
 __all__ = ["Line", "Output", "operands"]
+
+DEEPEST = 8
+"""How deep operations stand within each other in a text, at most."""
 
 Output = tuple[tuple[int, ...], tuple[int, ...]]
 """The shape of a result, and the node of each of its entries."""
@@ -26,21 +31,53 @@ class Line:
     inputs : mapping of str to tuple of int
         The shape of each argument.
     outputs : mapping of str to Output
+    notes : tuple
+        Of each node, where the tape took notes: the step of the chapter that it belongs to.
     """
 
     nodes: tuple[Node, ...]
     inputs: Mapping[str, tuple[int, ...]]
     outputs: Mapping[str, Output]
+    notes: tuple[Any, ...] = ()
 
     @classmethod
     def of(cls, tape: Tape, inputs: Mapping[str, tuple[int, ...]], results: Mapping[str, Array]) -> Line:
         """Keep of a tape what the results depend on."""
-        indices = {name: [tape.number(x).index for x in result.flat] for name, result in results.items()}
-        needed = _needed(tape.nodes, [k for result in indices.values() for k in result])
+        outputs = {
+            name: (result.shape, tuple(tape.number(x).index for x in result.flat)) for name, result in results.items()
+        }
+        return cls._reduced(tape.nodes, tape.notes, inputs, outputs)
+
+    def without(self, name: str) -> Line:
+        """Return what is left where a result is not asked for."""
+        outputs = {other: output for other, output in self.outputs.items() if other != name}
+        return self._reduced(list(self.nodes), list(self.notes), self.inputs, outputs)
+
+    @classmethod
+    def _reduced(
+        cls, nodes: list[Node], notes: list[Any], inputs: Mapping[str, tuple[int, ...]], outputs: Mapping[str, Output]
+    ) -> Line:
+        needed = _needed(nodes, [k for _, entries in outputs.values() for k in entries])
         new = {old: k for k, old in enumerate(needed)}
-        nodes = tuple(_renumbered(tape.nodes[old], new) for old in needed)
-        outputs = {name: (results[name].shape, tuple(new[k] for k in result)) for name, result in indices.items()}
-        return cls(nodes, dict(inputs), outputs)
+        kept = tuple(_renumbered(nodes[old], new) for old in needed)
+        renamed = {name: (shape, tuple(new[k] for k in entries)) for name, (shape, entries) in outputs.items()}
+        return cls(kept, dict(inputs), renamed, tuple(notes[old] for old in needed) if notes else ())
+
+    @cached_property
+    def inner(self) -> frozenset[int]:
+        """The nodes that only one other operation needs, of the same step: as text they stand within that one."""
+        users: dict[int, list[int]] = {}
+        for k, node in enumerate(self.nodes):
+            for needed in operands(node):
+                users.setdefault(needed, []).append(k)
+        results = {k for _, entries in self.outputs.values() for k in entries}
+        depth: dict[int, int] = {}
+        for k, node in enumerate(self.nodes):
+            depth[k] = 1 + max((depth.get(j, 0) for j in operands(node)), default=0)
+            alone = len(users.get(k, ())) == 1 and k not in results and node[0] not in ("input", "const")
+            if not (alone and depth[k] <= DEEPEST and (not self.notes or self.notes[k] == self.notes[users[k][0]])):
+                depth[k] = 0
+        return frozenset(k for k, size in depth.items() if size)
 
     def in_order_of(self, wanted: Iterable[int]) -> Line:
         """Return the same line, each operation just before it is first needed if the wanted are computed in this order.

@@ -21,13 +21,17 @@ from .instructions import Text
 from .line import Line, operands
 from .sine import sine_and_cosine
 
-__all__ = ["NATIVE", "MachineCode", "available", "lanes"]
+__all__ = ["NATIVE", "ONE", "MachineCode", "available", "lanes"]
 
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
 
 PIECE = 1000
 """Instructions that are compiled at once."""
+
+
+ONE = ctypes.c_int64(1)
+"""One state."""
 
 
 @cache
@@ -63,8 +67,9 @@ class MachineCode:
 
     Attributes
     ----------
-    arrays : tuple of str
-        The arguments and results of the line, in the order in which `run` takes them.
+    call, hold : callable
+        Take the address of a table of pointers and strides, and the number of states. `call` lets other threads of
+        Python run in the meantime, `hold` does not: for one state that would take longer than the state.
     """
 
     def __init__(self, line: Line, dtype: np.dtype[Any], width: int) -> None:
@@ -72,7 +77,6 @@ class MachineCode:
 
         llvm.initialize_native_target()
         llvm.initialize_native_asmprinter()
-        self.arrays = (*line.inputs, *line.outputs)
         features = llvm.get_host_cpu_features().flatten()
         host = llvm.Target.from_default_triple().create_target_machine(
             opt=2, cpu=llvm.get_host_cpu_name(), features=features
@@ -81,13 +85,18 @@ class MachineCode:
         self._engine = llvm.create_mcjit_compiler(module, host)  # keeps the code alive
         self._engine.finalize_object()
         address = self._engine.get_function_address("program")
-        self.call = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int64)(address)
-        """Takes the address of a table of pointers and strides, and the number of states; holds no lock."""
+        kind = (None, ctypes.c_void_p, ctypes.c_int64)
+        self.call, self.hold = ctypes.CFUNCTYPE(*kind)(address), ctypes.PYFUNCTYPE(*kind)(address)
+
+    @staticmethod
+    def address_of(table: Array) -> ctypes.c_void_p:
+        """Return where a table of pointers and strides is."""
+        return ctypes.c_void_p(table.ctypes.data)
 
     def run(self, arrays: Sequence[Array]) -> None:
         """Fill the results: each array has shape (states, entries), its entries next to each other in memory."""
         table = table_of(arrays)
-        self.call(table.ctypes.data, len(arrays[0]))
+        self.call(self.address_of(table), len(arrays[0]))
 
 
 def table_of(arrays: Sequence[Array]) -> Array:

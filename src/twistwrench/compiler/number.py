@@ -21,6 +21,7 @@ Fraction(0, 1)
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, NoReturn
 
@@ -43,10 +44,14 @@ class Tape:
     ----------
     nodes : list of tuple
         See `Node`. Operands come before what uses them.
+    note : callable, optional
+        Called for each new operation; what it returns is in `notes`: see `source.step`.
+    notes : list
     """
 
-    def __init__(self) -> None:
+    def __init__(self, note: Callable[[], Any] | None = None) -> None:
         self.nodes: list[Node] = []
+        self.note, self.notes = note, list[Any]()
         self._index: dict[Node, int] = {}
 
     def input(self, name: Any) -> Number:
@@ -67,17 +72,20 @@ class Tape:
         if index is None:
             index = self._index[node] = len(self.nodes)
             self.nodes.append(node)
+            self.notes.append(self.note() if self.note is not None else None)
         return index
 
     def signed(self, index: int) -> tuple[bool, int]:
         """Return whether a node is the negative of another one, and that one."""
-        node = self.nodes[index]
-        return (True, node[1]) if node[0] == "neg" else (False, index)
+        operation, *rest = self.nodes[index]
+        if operation == "const" and rest[0] < 0:
+            return True, self.enter("const", -rest[0])
+        return (True, rest[0]) if operation == "neg" else (False, index)
 
     def _negated(self, index: int, negative: bool = True) -> Number:
         return Number(self, self.enter("neg", index) if negative else index)
 
-    def negate(self, a: int) -> Number:
+    def negative(self, a: int) -> Number:
         """Return −a."""
         minus, a = self.signed(a)
         return self._negated(a, not minus)
@@ -180,7 +188,7 @@ class Number:
         return ZERO if other == 0 else self.tape.divide(self.tape.number(other).index, self.index)
 
     def __neg__(self) -> Number:
-        return self.tape.negate(self.index)
+        return self.tape.negative(self.index)
 
     def sin(self) -> Number:
         """Return the sine, −sin x for −x."""

@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from math import prod
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..model import Model, floats_of
 from .line import Line
-from .llvm import MachineCode, lanes, table_of
+from .llvm import ONE, MachineCode, lanes, table_of
 from .outputs import check_outputs, finish, targets
+from .plain import Plain
 from .quantities import ARGUMENTS, Quantity, shapes
 from .recording import ALARM, record
 from .registers import Registers
+from .source import c_source, python_source, step
 
 __all__ = ["Program", "Results"]
+
+
+FEW, MANY = 20, 1000
+"""Without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy."""
 
 
 class Results(SimpleNamespace):
@@ -34,7 +41,7 @@ class Results(SimpleNamespace):
 class Program:
     """What `twistwrench.compile` returns: call it with arrays like any function of the package.
 
-    Attributes
+    Parameters
     ----------
     model : Model
     quantities : tuple of Quantity
@@ -45,19 +52,29 @@ class Program:
     dtype : dtype
     backend : {"llvm", "numpy"}
     threads : int
+    remake : callable
+        Makes the program anew, from what can be pickled.
+
+    Attributes
+    ----------
+    arguments : tuple of str
+        The names of the program's arguments, in their order.
     """
 
     def __init__(
         self,
         model: Model,
         quantities: Sequence[Quantity],
+        *,
         single: bool,
         given: Mapping[str, Array],
         dtype: np.dtype[Any],
         backend: str,
         threads: int,
+        remake: Callable[[], Program],
     ) -> None:
         self.model, self.quantities, self.single, self.given = model, tuple(quantities), single, dict(given)
+        self._remake = remake
         self.dtype, self.backend, self.threads = dtype, backend, threads
         needed = {name for quantity in quantities for name in quantity.arguments} - set(given)
         self.arguments = tuple(name for name in ARGUMENTS if name in needed)
@@ -66,16 +83,82 @@ class Program:
         self._lines: dict[tuple[str, ...], Line] = {}
         self._codes: dict[tuple[Any, ...], Any] = {}
         self._pool: list[One] = []
+        self._fast, self._count = backend == "llvm", len(self._plain)
 
     @property
     def operations(self) -> Counter[str]:
-        """How many operations one state takes, by kind."""
+        """How many operations a state takes, by kind, without those that watch the state.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> tw.compile(tw.load("pendulum"), "gravity").operations  # m g l sin q
+        Counter({'sin': 1, 'mul': 1})
+        """
         return self.line.operations
 
     @property
     def line(self) -> Line:
-        """The straight line, without wrenches from outside."""
-        return self._line(self._plain)
+        """The straight line, for states without wrenches from outside."""
+        return self._line(self._plain).without(ALARM)
+
+    def source(self, functions: str = "math") -> str:
+        """Return the straight line as a Python function: for floats, or any numbers with + − × ÷, cos, sin and sqrt.
+
+        Each value has the name of the chapter's step that it belongs to, and of its body. Nothing is checked.
+
+        Parameters
+        ----------
+        functions : str
+            The module of cos, sin and sqrt: "math", "mpmath", "sympy", "jax.numpy", "torch".
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> print(tw.compile(tw.load("pendulum"), "gravity").source())
+        from math import sin
+        <BLANKLINE>
+        <BLANKLINE>
+        def g(q):
+            # 49.3 T_J: tree constant, then joint
+            T_J_1 = sin(q[0])
+            # 49.6 A: acceleration, body 1
+            A1_1 = T_J_1 * 9.81
+            return [A1_1]
+        <BLANKLINE>
+        """
+        return python_source(self._noted(), self._name, functions)
+
+    def c(self) -> str:
+        """Return the straight line as a function in C99: pointers to the arguments, then to the results, in doubles.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> print(tw.compile(tw.load("pendulum"), "gravity").c())
+        #include <math.h>
+        <BLANKLINE>
+        void g(const double *q, double *result)
+        {
+            // 49.3 T_J: tree constant, then joint
+            const double T_J_1 = sin(q[0]);
+            // 49.6 A: acceleration, body 1
+            const double A1_1 = T_J_1 * 9.81;
+            result[0] = A1_1;
+        }
+        <BLANKLINE>
+        """
+        return c_source(self._noted(), self._name)
+
+    @property
+    def _name(self) -> str:
+        """The name of the function in the texts."""
+        return self.quantities[0].symbol if self.single else "program"
+
+    def _noted(self) -> Line:
+        """Return the line with the steps of the chapter, recorded anew."""
+        wanted = {name: self._shapes[name] for name in self._plain}
+        return record(self.model, self.quantities, wanted, self.given, self.dtype, step).without(ALARM)
 
     def _line(self, names: tuple[str, ...]) -> Line:
         """Return the line for states with these arguments, recorded once."""
@@ -89,8 +172,10 @@ class Program:
         code = self._codes.get((names, width))
         if code is None:
             line = self._line(names)
-            native = self.backend == "llvm"
-            code = MachineCode(line, self.dtype, width) if native else Registers(line, self.dtype)
+            if self.backend == "llvm":
+                code = MachineCode(line, self.dtype, width)
+            else:
+                code = Plain(line) if width == 1 else Registers(line, self.dtype)
             self._codes[names, width] = code
         return code
 
@@ -116,13 +201,26 @@ class Program:
         TypeError
             If an argument is missing, or is not one of the program's.
         """
-        if not named and out is None and len(args) == len(self._plain) and self.backend == "llvm":
-            one = self._pool.pop() if self._pool else One(self)
-            results = one.run(args)
+        if out is None and not named and self._fast and len(args) == self._count:  # one state: each µs counts
+            one = self._pool.pop() if self._pool else self._one()
+            dtype = self.dtype
+            for (mine, shape), x in zip(one.inputs, args):
+                if type(x) is not ndarray or x.dtype is not dtype or x.shape != shape:
+                    break
+                mine[...] = x
+            else:
+                one.call(one.where, ONE)
+                if one.alarm.item() <= 1:
+                    results = one.results()
+                    self._pool.append(one)
+                    return results
             self._pool.append(one)
-            if results is not None:
-                return results
         return self._many(self._bound(args, named), out)
+
+    def _one(self) -> One:
+        """Return memory for one state: several threads take one each."""
+        names = self._plain
+        return One(self._code(names, 1), self._line(names), self.dtype, self.single)
 
     def _bound(self, args: Sequence[ArrayLike | None], named: Mapping[str, ArrayLike | None]) -> dict[str, ArrayLike]:
         """Return the arguments by name."""
@@ -183,10 +281,13 @@ class Program:
 
     def _run(self, names: tuple[str, ...], arrays: Sequence[Array]) -> None:
         """Fill the results of many states, by several threads where that is wanted."""
-        count, width = len(arrays[-1]), 1
-        if self.backend == "llvm" and count >= lanes(self.dtype):
+        count = len(arrays[-1])
+        if self.backend == "llvm":
             width = lanes(self.dtype)
-        code = self._code(names, width)
+            code = self._code(names, width if count >= width else 1)
+        else:
+            few = self.dtype == np.float64 and count <= FEW
+            code = self._code(names, 1 if few else MANY)
         parts = min(self.threads, count // 64) if self.threads > 1 else 1
         if parts <= 1:
             code.run(arrays)
@@ -197,12 +298,14 @@ class Program:
 
     def _by_the_textbook(self, states: Mapping[str, Array], filled: Mapping[str, Array], where: Array) -> None:
         """Do the states that raise the alarm by the textbook, which raises what there is to raise."""
-        checked = floats_of(self.model, **states)
-        states = dict(zip(states, checked))
+        values: dict[str, ArrayLike] = {**self.given, **states}
+        checked = dict(zip(("q", *(name for name in values if name != "q")), floats_of(self.model, **values)))
         for quantity in self.quantities:
-            args = [states[name] for name in quantity.arguments if name in states]
-            result, _ = quantity.compute(*args)
+            result, _ = quantity.compute(*(checked[name] for name in quantity.arguments if name in checked))
             filled[quantity.symbol][where] = result[where]
+
+    def __reduce__(self) -> tuple[Callable[[], Program], tuple[()]]:
+        return self._remake, ()
 
     def __repr__(self) -> str:
         what = ", ".join(quantity.symbol for quantity in self.quantities)
@@ -211,30 +314,24 @@ class Program:
 
 
 class One:
-    """Memory for one state, whose addresses are known."""
+    """Memory for one state, whose addresses are known.
 
-    def __init__(self, program: Program) -> None:
-        names = program._plain
-        line = program._line(names)
-        self.program, self.code = program, program._code(names, 1)
-        self.inputs = [np.empty(program._shapes[name], program.dtype) for name in names]
-        self.outputs = [np.empty(shape, program.dtype) for shape, _ in line.outputs.values()]
-        self.names = [*line.outputs][:-1]
-        self.table = table_of([*self.inputs, *self.outputs])
-        self.address = self.table.ctypes.data
+    Parameters
+    ----------
+    code : MachineCode
+    line : Line
+    dtype : dtype
+    single : bool
+    """
 
-    def run(self, args: Sequence[Any]) -> Any:
-        """Return the results; or None where the arguments are not arrays of one state, or the textbook must look."""
-        for mine, x in zip(self.inputs, args):
-            if type(x) is not np.ndarray or x.dtype is not mine.dtype or x.shape != mine.shape:
-                return None
-            mine[...] = x
-        self.code.call(self.address, 1)
-        if not self.outputs[-1].item() <= 1:
-            return None
-        if self.program.single:
-            return self.outputs[0].copy()
-        return Results(**{name: x.copy() for name, x in zip(self.names, self.outputs)})
+    def __init__(self, code: MachineCode, line: Line, dtype: np.dtype[Any], single: bool) -> None:
+        inputs = [np.empty(shape, dtype) for shape in line.inputs.values()]
+        *outputs, self.alarm = [np.empty(shape, dtype) for shape, _ in line.outputs.values()]
+        self.inputs = [(x, x.shape) for x in inputs]
+        copies = {name: x.copy for name, x in zip(line.outputs, outputs)}
+        self.results = outputs[0].copy if single else lambda: Results(**{name: copy() for name, copy in copies.items()})
+        self._table = table_of([*inputs, *outputs, self.alarm])
+        self.call, self.where = code.hold, code.address_of(self._table)
 
 
 def _rows(x: Array, count: int, size: int) -> Array:

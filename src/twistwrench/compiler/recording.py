@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,7 @@ def record(
     shapes: Mapping[str, tuple[int, ...]],
     given: Mapping[str, Array],
     dtype: np.dtype[Any],
+    note: Callable[[], Any] | None = None,
 ) -> Line:
     """Return the line of several quantities, which share their work.
 
@@ -39,8 +40,10 @@ def record(
         The values of other arguments, the same for every state.
     dtype : dtype
         Decides what counts as too large or as singular.
+    note : callable, optional
+        See `Tape`.
     """
-    tape = Tape()
+    tape = Tape(note)
     arguments = {name: numbers(tape, name, *shape) for name, shape in shapes.items()}
     if "f_ext" in arguments:
         world = arguments["f_ext"][0].copy()

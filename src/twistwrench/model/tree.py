@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..spatial import SE3
+from ..spatial.formulas import symmetric
 from .model import Model
 
 __all__ = ["Tree", "columns", "composite_inertias", "joint_placements", "stacked", "tree_terms", "wrenches"]
@@ -103,7 +104,7 @@ def composite_inertias(tree: Tree) -> list[Array]:
     IC = [*tree.I]
     for i in tree.inward:
         p = tree.parent[i]
-        IC[p] = IC[p] + tree.X[i].mT @ IC[i] @ tree.X[i]  # 49.5 IC: congruences and sums
+        IC[p] = IC[p] + symmetric(tree.X[i].mT @ IC[i] @ tree.X[i])  # 49.5 IC: congruences and sums
     return IC
 
 

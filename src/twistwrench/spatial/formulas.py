@@ -6,6 +6,8 @@ shape (..., 6, 1), so that a product reads as in the chapter: ``X @ V``.
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from ..arrays import Array
@@ -39,9 +41,18 @@ def bias_wrench(I: Array, V: Array) -> Array:
 
 
 def symmetric(A: Array) -> Array:
-    """Return (A + Aᵀ)/2, of a matrix that is symmetric but for rounding: an asymmetry would grow from link to link."""
-    half: Array = (A + A.mT) / 2
-    return half
+    """Return A with its upper triangle in place of the lower one, too: rounding alone makes a difference.
+
+    An asymmetry would grow from link to link.
+    """
+    return A[..., *_upper(A.shape[-1])]
+
+
+@cache
+def _upper(n: int) -> tuple[Array, Array]:
+    """Return for each entry of a symmetric matrix the place of it, or of its mirror image, in the upper triangle."""
+    k = np.arange(n)
+    return np.minimum.outer(k, k), np.maximum.outer(k, k)
 
 
 def inverse(D: Array) -> Array:

@@ -53,11 +53,13 @@ ABA = Part(
         "composite-for-articulated": _changed(("IA[i] - U[i] @ D_inv[i] @ U[i].mT", "IA[i]")),
         "articulated-bias": _changed((" + Ia[i] @ c[i]", "")),
         "joint-force-not-passed": _changed((" + U[i] @ D_inv[i] @ u[i]", "")),
-        "children-dropped": _changed((" + X[i].mT @ Ia[i] @ X[i]", ""), (" + X[i].mT @ pa[i]", "")),
+        "children-dropped": _changed((" + symmetric(X[i].mT @ Ia[i] @ X[i])", ""), (" + X[i].mT @ pa[i]", "")),
         "acceleration-not-carried": _changed(("X[i] @ A[parent[i]] + c[i]", "c[i]")),
         "own-acceleration-missing": _changed((" + S[i] @ qdd[i]", "")),
         "force-outward": _changed(("X[i].mT @ pa[i]", "np.linalg.inv(X[i]).mT @ pa[i]")),
-        "inertia-half-rotated": _changed(("X[i].mT @ Ia[i] @ X[i]", "X[i].mT @ Ia[i]"), ("symmetric(IA", "(IA")),
+        "inertia-half-rotated": _changed(
+            ("symmetric(X[i].mT @ Ia[i] @ X[i])", "X[i].mT @ Ia[i]"), ("symmetric(IA", "(IA")
+        ),
         "untransposed": _changed(("X[i].mT @ pa[i]", "X[i] @ pa[i]")),
         "carried-motion-missing": _changed(("u[i] - U[i].mT @ a", "u[i]")),
         "torques-missing": _changed(("tau[i] - S[i].mT", "-S[i].mT")),

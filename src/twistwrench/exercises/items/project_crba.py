@@ -36,7 +36,7 @@ def _summed_outward(parent: Any, S: Any, I: Any, X: Any) -> Any:
 
 _changed = partial(faulty, tree_crba, of=composite_rigid_body)
 
-CARRIED = " + X[i].mT @ IC[i] @ X[i]"
+CARRIED = " + symmetric(X[i].mT @ IC[i] @ X[i])"
 AS_IT_IS = ("symmetric(S", "(S")
 """Leave a block that a slip has made asymmetric as the student finds it."""
 
