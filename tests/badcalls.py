@@ -165,6 +165,7 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "from_screw_axes": {"M": np.eye(4), "Slist": np.eye(6)[:, :2]},
     "screw_axes": {"model": tw.load("planar_arm"), "frame": "tool"},
     "bridge.from_pinocchio_f_ext": {"f_ext": [np.zeros(6)] * GO2.nbodies},
+    "compile": {"want": "gravity", "contacts": GO2.feet},
     "contact_jacobian": {"contacts": GO2.feet},
     "motions.Motion": {name: getattr(WALK, name) for name in ("name", "t", "q", "v", "a", "feet", "contacts")},
     "Reduction.expand": {"q": HELD.reduce(STAND, REST)[0], "v": REST[:-1]},
@@ -209,7 +210,14 @@ CALLED = {
 """What messages call an argument, where it is not by its name alone."""
 
 KINDS = {"contacts": "frame|contact", "feet": "frame", "frames": "frame", "hold": "joint", "joints": "joint"}
-KINDS |= {"kinds": "kind", "names": "joint", "want": "quantity", "anchors": "anchor", "wrenches": "frame"}
+KINDS |= {
+    "given": "argument",
+    "kinds": "kind",
+    "names": "joint",
+    "want": "quantity",
+    "anchors": "anchor",
+    "wrenches": "frame",
+}
 """What is unknown where one of several names is."""
 
 FLAT = {"fill_in", "flow", "felt_mass", "mass_matrix", "matrix", "side_view", "sole"}

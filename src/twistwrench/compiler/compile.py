@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from ..algorithms.kinematics import Reference
-from ..arrays import Array, as_count, as_names, check_choice
+from ..arrays import Array, as_count, as_names, check_choice, check_kind
 from ..errors import check_known
 from ..model import Model, check_arrays, check_model
 from .llvm import NATIVE, available
@@ -92,11 +92,11 @@ def compile(
     Results(M: (1000, 18, 18), h: (1000, 18))
     """
     options: dict[str, Any] = {
-        "dtype": np.dtype(dtype),
+        "dtype": _number_type(dtype),
         "contacts": None if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True),
         "frames": as_names(frames, "frames", "frame names", ordered=True),
         "reference": reference,
-        "given": {} if given is None else dict(given),
+        "given": _mapping(given),
         "backend": backend,
         "threads": as_count(threads, "threads", 1),
     }
@@ -124,11 +124,30 @@ def _known(
     **_: Any,
 ) -> tuple[dict[str, Quantity], Model]:
     """Return what can be computed of a model or a scene, and the model."""
-    check_known("reference", reference, get_args(Reference))
-    if dtype.kind not in "fc":
-        raise TypeError(f"dtype: expected a floating-point type, got {dtype}")
     check_model(model)
-    return quantities(model, dtype, model.feet if contacts is None else contacts, frames, reference), model
+    check_known("reference", reference, get_args(Reference))
+    contacts = model.feet if contacts is None else contacts
+    for frame in (*contacts, *frames):
+        model.frame(frame)
+    return quantities(model, dtype, contacts, frames, reference), model
+
+
+def _number_type(dtype: DTypeLike) -> np.dtype[Any]:
+    """Return a floating-point type."""
+    try:
+        found = np.dtype(dtype)
+    except (TypeError, ValueError, SyntaxError):
+        found = None
+    if dtype is None or found is None or found.kind not in "fc":
+        raise TypeError(f"dtype: expected a floating-point type, got {dtype!r}")
+    return found
+
+
+def _mapping(given: Mapping[str, ArrayLike] | None) -> dict[str, ArrayLike]:
+    if given is None:
+        return {}
+    check_kind(given, "given", Mapping, "values of arguments by their names")
+    return dict(given)
 
 
 def _checked(model: Model, given: Mapping[str, ArrayLike]) -> dict[str, Array]:
