@@ -14,18 +14,21 @@ source        a line as text: Python, annotated with the chapter's steps, and C
 plain         Python's floats, for a few states
 registers     NumPy, for every number type
 tangent       the derivatives of what is on a tape, and steps along v from q
+backend       which of them runs a line
 watch         what a program watches, so that the textbook can take the states that raise the alarm
 quantity      `Quantity`: what a quantity depends on, and how it is computed
 derivatives   derivatives of all quantities, and the regressor
 quantities    what can be compiled: the textbook's functions
 recording     from quantities to a line
 outputs       arrays of the caller that are to be filled
+memory        of one state at known addresses; rows of a caller's arrays
 program       `Program`, which is called as the textbook's functions are
 compile       `compile`
 ============  ===================================================================================
 """
 
 from .compile import compile
-from .program import Program, Results
+from .memory import Results
+from .program import Program
 
 __all__ = ["Program", "Results", "compile"]

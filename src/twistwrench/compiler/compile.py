@@ -101,7 +101,7 @@ def compile(
         "threads": as_count(threads, "threads", 1),
     }
     asked = want if isinstance(want, str) else as_names(want, "want", "quantities")
-    known, body = _known(model, **options)
+    known, body = _known(model, *(options[name] for name in ("dtype", "contacts", "frames", "reference")))
     return Program(
         body,
         chosen(known, (asked,) if isinstance(asked, str) else asked),
@@ -116,12 +116,10 @@ def compile(
 
 def _known(
     model: Any,
-    *,
     dtype: np.dtype[Any],
     contacts: tuple[str, ...] | None,
     frames: tuple[str, ...],
     reference: Reference,
-    **_: Any,
 ) -> tuple[dict[str, Quantity], Model]:
     """Return what can be computed of a model or a scene, and the model."""
     check_model(model)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ class Plain:
     """
 
     def __init__(self, line: Line) -> None:
-        names: dict[str, object] = {}
+        names: dict[str, Any] = {}
         exec(python_source(line, "program"), names)  # our own text
         self.function = names["program"]
         self.shapes = [*line.inputs.values()]

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from math import prod
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,27 +13,16 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..model import Model, floats_of
+from .backend import BackEnd
 from .line import Line
-from .llvm import ONE, MachineCode, lanes, table_of
+from .llvm import ONE
+from .memory import OneState, Results, rows
 from .outputs import check_outputs, finish, targets
-from .plain import Plain
 from .quantities import ARGUMENTS, Quantity, shapes
 from .recording import ALARM, record
-from .registers import Registers
 from .source import c_source, python_source, step
 
-__all__ = ["Program", "Results"]
-
-
-FEW, MANY = 20, 1000
-"""Without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy."""
-
-
-class Results(SimpleNamespace):
-    """Several quantities, as attributes by their symbols."""
-
-    def __repr__(self) -> str:
-        return f"Results({', '.join(f'{name}: {np.shape(x)}' for name, x in vars(self).items())})"
+__all__ = ["Program"]
 
 
 class Program:
@@ -59,6 +46,19 @@ class Program:
     ----------
     arguments : tuple of str
         The names of the program's arguments, in their order.
+
+    Raises
+    ------
+    TypeError
+        Where it is called without one of its arguments, or with others.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import twistwrench as tw
+    >>> program = tw.compile(tw.load("pendulum"), "gravity")
+    >>> program([np.pi / 2]), program([[0.0], [np.pi / 2]]).shape
+    (array([9.81]), (2, 1))
     """
 
     def __init__(
@@ -81,8 +81,8 @@ class Program:
         self._plain = tuple(name for name in self.arguments if name != "f_ext")
         self._shapes = {name: shapes(model)[name] for name in self.arguments}
         self._lines: dict[tuple[str, ...], Line] = {}
-        self._codes: dict[tuple[Any, ...], Any] = {}
-        self._pool: list[One] = []
+        self._codes: dict[tuple[str, ...], BackEnd] = {}
+        self._pool: list[OneState] = []
         self._fast, self._count = backend == "llvm", len(self._plain)
 
     @property
@@ -167,17 +167,11 @@ class Program:
             self._lines[names] = record(self.model, self.quantities, wanted, self.given, self.dtype)
         return self._lines[names]
 
-    def _code(self, names: tuple[str, ...], width: int) -> Any:
-        """Return that line in the program's back end, made once."""
-        code = self._codes.get((names, width))
-        if code is None:
-            line = self._line(names)
-            if self.backend == "llvm":
-                code = MachineCode(line, self.dtype, width)
-            else:
-                code = Plain(line) if width == 1 else Registers(line, self.dtype)
-            self._codes[names, width] = code
-        return code
+    def _code(self, names: tuple[str, ...]) -> BackEnd:
+        """Return what runs that line, made once."""
+        if names not in self._codes:
+            self._codes[names] = BackEnd(self._line(names), self.dtype, self.backend)
+        return self._codes[names]
 
     def __call__(self, *args: ArrayLike | None, out: Any = None, **named: ArrayLike | None) -> Any:
         """Return the quantities in a state, or in many.
@@ -217,10 +211,10 @@ class Program:
             self._pool.append(one)
         return self._many(self._bound(args, named), out)
 
-    def _one(self) -> One:
+    def _one(self) -> OneState:
         """Return memory for one state: several threads take one each."""
         names = self._plain
-        return One(self._code(names, 1), self._line(names), self.dtype, self.single)
+        return OneState(self._code(names).machine_code(1), self._line(names), self.dtype, self.single)
 
     def _bound(self, args: Sequence[ArrayLike | None], named: Mapping[str, ArrayLike | None]) -> dict[str, ArrayLike]:
         """Return the arguments by name."""
@@ -250,10 +244,10 @@ class Program:
         count = prod(batch)
         flat = [x.reshape(count, prod(self._shapes[name])) for name, x in zip(names, states)]
         flat = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in flat]
-        results = {name: _rows(x, count, prod(tails[name])) for name, x in filled.items()}
+        results = {name: rows(x, count, prod(tails[name])) for name, x in filled.items()}
         alarm = np.empty((count, 1), self.dtype)
         if count:
-            self._run(names, [*flat, *results.values(), alarm])
+            self._code(names).run([*flat, *results.values(), alarm], self.threads)
         for name, x in results.items():
             if not np.may_share_memory(x, filled[name]):
                 filled[name][...] = x.reshape(filled[name].shape)
@@ -279,23 +273,6 @@ class Program:
         checked = dict(zip(given, floats_of(self.model, given.pop("q", self.model.neutral()), **given)))
         return tuple(checked[name].astype(self.dtype, copy=False) for name in bound)
 
-    def _run(self, names: tuple[str, ...], arrays: Sequence[Array]) -> None:
-        """Fill the results of many states, by several threads where that is wanted."""
-        count = len(arrays[-1])
-        if self.backend == "llvm":
-            width = lanes(self.dtype)
-            code = self._code(names, width if count >= width else 1)
-        else:
-            few = self.dtype == np.float64 and count <= FEW
-            code = self._code(names, 1 if few else MANY)
-        parts = min(self.threads, count // 64) if self.threads > 1 else 1
-        if parts <= 1:
-            code.run(arrays)
-            return
-        edges = [count * k // parts for k in range(parts + 1)]
-        with ThreadPoolExecutor(parts) as pool:
-            list(pool.map(lambda k: code.run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
-
     def _by_the_textbook(self, states: Mapping[str, Array], filled: Mapping[str, Array], where: Array) -> None:
         """Do the states that raise the alarm by the textbook, which raises what there is to raise."""
         values: dict[str, ArrayLike] = {**self.given, **states}
@@ -311,34 +288,3 @@ class Program:
         what = ", ".join(quantity.symbol for quantity in self.quantities)
         total = self.operations.total()
         return f"<Program {what} of {self.model.name!r}: {total} operations, {self.dtype}, {self.backend}>"
-
-
-class One:
-    """Memory for one state, whose addresses are known.
-
-    Parameters
-    ----------
-    code : MachineCode
-    line : Line
-    dtype : dtype
-    single : bool
-    """
-
-    def __init__(self, code: MachineCode, line: Line, dtype: np.dtype[Any], single: bool) -> None:
-        inputs = [np.empty(shape, dtype) for shape in line.inputs.values()]
-        *outputs, self.alarm = [np.empty(shape, dtype) for shape, _ in line.outputs.values()]
-        self.inputs = [(x, x.shape) for x in inputs]
-        copies = {name: x.copy for name, x in zip(line.outputs, outputs)}
-        self.results = outputs[0].copy if single else lambda: Results(**{name: copy() for name, copy in copies.items()})
-        self._table = table_of([*inputs, *outputs, self.alarm])
-        self.call, self.where = code.hold, code.address_of(self._table)
-
-
-def _rows(x: Array, count: int, size: int) -> Array:
-    """Return an array of shape (count, size) to be filled: a view of x where there is one, else a new one."""
-    try:
-        rows = np.reshape(x, (count, size), copy=False)
-    except ValueError:
-        return np.empty((count, size), x.dtype)
-    contiguous = rows.strides[1] == rows.itemsize and rows.flags.aligned
-    return rows if contiguous else np.empty((count, size), x.dtype)

@@ -51,8 +51,8 @@ def local_values(function: Function, within: Function, arguments: tuple[Any, ...
     """Return the values of the names in a function, or a changed one, when another one that calls it is called."""
     found: dict[str, Any] = {}
 
-    def note(*told: Any) -> None:
-        frame, event, _ = told
+    def note(*given: Any) -> None:
+        frame, event, _ = given
         code, own = frame.f_code, getattr(within, "__code__", None)
         if event == "return" and own and code.co_name == own.co_name and code.co_filename in (own.co_filename, CHANGED):
             found.update(frame.f_locals)

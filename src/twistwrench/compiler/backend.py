@@ -1,0 +1,67 @@
+"""Which of the back ends runs a line: LLVM, NumPy, or for a few states plain Python."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array
+from .line import Line
+from .llvm import MachineCode, lanes
+from .plain import Plain
+from .registers import Registers
+
+__all__ = ["BackEnd"]
+
+FEW = 20
+"""Without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy."""
+
+LEAST = 64
+"""A thread does at least so many states."""
+
+
+class BackEnd:
+    """A line, and what runs it: made when it is first needed.
+
+    Parameters
+    ----------
+    line : Line
+    dtype : dtype
+    name : {"llvm", "numpy"}
+    """
+
+    def __init__(self, line: Line, dtype: np.dtype[Any], name: str) -> None:
+        self.line, self.dtype, self.name = line, dtype, name
+        self._made: dict[Any, Any] = {}
+
+    def machine_code(self, width: int) -> MachineCode:
+        """Return machine code for so many states at once."""
+        if width not in self._made:
+            self._made[width] = MachineCode(self.line, self.dtype, width)
+        code: MachineCode = self._made[width]
+        return code
+
+    def run(self, arrays: Sequence[Array], threads: int) -> None:
+        """Fill the results: each array has shape (states, entries). The states are divided among threads."""
+        run, count = self._chosen(len(arrays[-1])).run, len(arrays[-1])
+        parts = max(1, min(threads, count // LEAST))
+        if parts == 1:
+            run(arrays)
+            return
+        edges = [count * k // parts for k in range(parts + 1)]
+        with ThreadPoolExecutor(parts) as pool:
+            list(pool.map(lambda k: run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
+
+    def _chosen(self, count: int) -> MachineCode | Plain | Registers:
+        """Return what is quickest for so many states."""
+        if self.name == "llvm":
+            width = lanes(self.dtype)
+            return self.machine_code(width if count >= width else 1)
+        kind = Plain if self.dtype == np.float64 and count <= FEW else Registers
+        if kind not in self._made:
+            self._made[kind] = Plain(self.line) if kind is Plain else Registers(self.line, self.dtype)
+        code: Plain | Registers = self._made[kind]
+        return code
