@@ -115,6 +115,26 @@ def test_a_large_angle_is_right(backend):
     np.testing.assert_allclose(tw.compile(model, "M", backend=backend)(q), tw.crba(model, q), atol=1e-13)
 
 
+def test_arguments_are_taken_as_the_textbook_takes_them():
+    model = tw.load("cart_pole")
+    program, q, v = compile(model, "rnea"), [0.5, 1], np.ones((3, 1, 2), np.float32)
+    a = np.arange(8).reshape(4, 2)
+    np.testing.assert_allclose(program(q, v, a), tw.rnea(model, q, v, a), atol=1e-12)
+    np.testing.assert_allclose(program(a=a, q=q, v=v), tw.rnea(model, q, v, a), atol=1e-12)
+    flipped = np.arange(24.0).reshape(2, 12)[:, ::-2].T  # strides of every kind
+    np.testing.assert_allclose(
+        program(flipped, flipped, flipped), tw.rnea(model, flipped, flipped, flipped), rtol=1e-12
+    )
+    for args, named, message in (
+        ((q, v), {}, "expected q, v, a, f_ext: a missing"),
+        ((q, v, a, None, None), {}, "got 5 arguments"),
+        ((q, v, a), {"q": q}, "got 'q' twice"),
+        ((q, v, a), {"w": q}, "got 'w'"),
+    ):
+        with pytest.raises(TypeError, match=message):
+            program(*args, **named)
+
+
 @pytest.mark.skipif(not available(), reason="llvmlite is not installed")
 @pytest.mark.parametrize("number", [np.float64, np.float32])
 def test_sine_and_cosine_are_within_a_rounding(number):

@@ -269,8 +269,9 @@ class Program:
             arrays.append(x)
         else:
             return tuple(arrays)
-        given = dict(bound)
-        checked = dict(zip(given, floats_of(self.model, given.pop("q", self.model.neutral()), **given)))
+        others = dict(bound)
+        q = others.pop("q", self.model.neutral())
+        checked = dict(zip(("q", *others), floats_of(self.model, q, **others)))
         return tuple(checked[name].astype(self.dtype, copy=False) for name in bound)
 
     def _by_the_textbook(self, states: Mapping[str, Array], filled: Mapping[str, Array], where: Array) -> None:
