@@ -66,7 +66,6 @@ def tables() -> dict[str, str]:
         "batch": table((r["quantity"], f"{r['dtype']}, {int(r['batch']):,}", ratio(r)) for r in batches),
         "links": table((q, f"batch {b}", f"{growth(q, b):.2f}") for q in ("rnea", "aba", "A_G") for b in ("1", "100")),
         "peers": table((f"{r['way']}, {r['quantity']}", f"{int(r['batch']):,}", ratio(r)) for r in rows("peers")),
-        "profile": table((r["stage"], "µs", f"{float(r['us']):.1f}") for r in rows("profile_one")),
     }
 
 

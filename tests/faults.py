@@ -339,8 +339,8 @@ FAULTS = [
     Fault(
         "wrench from outside added to h",
         "scene/dynamics.py",
-        "h = h - np.matvec(angular",
-        "h = h + np.matvec(angular",
+        "h = h - J.mT",
+        "h = h + J.mT",
     ),
     Fault(
         "planar base: slides swapped",
@@ -429,10 +429,4 @@ FAULTS = [
         "eigh(M / np.trace(M, axis1=-2, axis2=-1)[..., None, None])",
     ),
     Fault("condition for its inverse", "error_bounds.py", "DIVIDED * eps / np.where(", "DIVIDED * eps * np.where("),
-    Fault(
-        "solve in kg and m",
-        "fast/single_aba.py",
-        "np.linalg.solve(IA / unit[:, None] / unit, (tau - K[:6, 6] - I.dot(rising)) / unit) / unit",
-        "np.linalg.solve(IA, tau - K[:6, 6] - I.dot(rising))",
-    ),
 ]

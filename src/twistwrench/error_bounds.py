@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .algorithms.crba import crba
 from .arrays import Array, resolution
-from .fast import crba
 from .model import Model, floats_of
 
 __all__ = ["Accuracy", "accuracy"]

@@ -8,17 +8,18 @@ from hypothesis import strategies as st
 import twistwrench as tw
 from twistwrench import bridge, fast
 from twistwrench import newton_euler_3d as slow
+from twistwrench.fast import programs
 from twistwrench.model import KINDS
 
 from ..strategies import BATCHES, Recipe, random_state, recipes
 from ..truth import largest, skeel
 
-WORSE = 4
+WORSE = 2
 """How many times the error of the textbook is allowed."""
 
-FEW = 16
+FEW = 8
 """Allowed besides: units of the resolution, of the size of the quantity or of its terms (of forward dynamics: of its
-condition). Over 1300 random trees 7 were needed, and the median errors were smaller than the textbook's."""
+condition)."""
 
 BIG_TREE = Recipe(40, seed=1, base="floating")
 
@@ -63,7 +64,7 @@ def truth(model, s, contacts):
 def assert_as_good(model, s, contacts, *, few=FEW):
     """No error is above `WORSE` times the textbook's and `few` units of the resolution."""
     one, book, true = by(fast, model, s, contacts), by(tw, model, s, contacts), truth(model, s, contacts)
-    many = by(fast, model, type(s)(*(np.stack([x] * 10) for x in s)), contacts)  # so many that all are done at once
+    many = by(fast, model, type(s)(*(np.stack([x] * 10) for x in s)), contacts)  # so many that vectors are full
     for name, right in true.items():
         assert one[name].shape == book[name].shape == many[name].shape[1:]
         assert one[name].dtype == many[name].dtype == book[name].dtype == s.q.dtype
@@ -85,25 +86,31 @@ def assert_as_good(model, s, contacts, *, few=FEW):
 # ---------------------------------------------------------------- the truth
 
 
-@given(recipes(10))
-@example(Recipe(1, base="floating"))
-@example(Recipe(10, seed=1, base="floating"))
-@settings(max_examples=12, deadline=None)
-def test_errors_are_within_four_times_those_of_the_textbook(recipe):
+@pytest.mark.parametrize("recipe", [Recipe(1, base="floating"), Recipe(5, seed=1, base="floating")], ids=str)
+def test_errors_are_within_twice_those_of_the_textbook(recipe):
     assert_as_good(recipe.model, recipe.state(), [recipe.frame(), recipe.model.frame_names[-1]])
+
+
+@given(recipes(10))
+@settings(max_examples=12, deadline=None)
+def test_so_they_are_without_machine_code(recipe):
+    """The same operations, so that more robots can be tried: nothing is compiled."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(programs, "available", lambda: False)
+        assert_as_good(recipe.model, recipe.state(), [recipe.frame(), recipe.model.frame_names[-1]])
 
 
 @pytest.mark.slow
 @given(recipes(25), st.sampled_from([np.float64, np.float32, np.longdouble]))
 @example(BIG_TREE, np.float64)
 @settings(max_examples=60, deadline=None)
-def test_errors_are_within_four_times_those_of_the_textbook_at_length(recipe, dtype):
+def test_errors_are_within_twice_those_of_the_textbook_at_length(recipe, dtype):
     assert_as_good(recipe.model, recipe.state(dtype=dtype), [recipe.frame(), recipe.model.frame_names[-1]])
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.longdouble])
 def test_so_they_are_in_other_number_types(dtype):
-    recipe = Recipe(8, seed=3, base="floating")
+    recipe = Recipe(5, seed=3, base="floating")
     assert_as_good(recipe.model, recipe.state(dtype=dtype), [recipe.frame()])
 
 

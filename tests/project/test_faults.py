@@ -66,7 +66,6 @@ TESTED_BY = {
     "tree": "kinematics",
     "joints": "joint",
     "error_bounds": "accuracy",
-    "fast": "extremes",
     "_ten_numbers": "ten_numbers",
     "_shapes": "shapes",
     "_vector": "screws",

@@ -33,11 +33,3 @@ def test_a_script_finds_what_it_imports(path, monkeypatch):
         if (missing.name or "").startswith("twistwrench"):
             raise
         pytest.skip(f"{missing.name} is not installed")
-
-
-def test_every_stage_of_the_profile_runs(monkeypatch):
-    """It calls what is private to `twistwrench.fast`, which no type checker looks at there."""
-    stages = script(ROOT / "benchmarks/profile_one.py", monkeypatch).stages()
-    assert len(stages) == 10
-    for call in stages.values():
-        call()

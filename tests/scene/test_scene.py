@@ -2,7 +2,6 @@
 
 import importlib.util
 import re
-from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -10,11 +9,8 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import fast, motions
-from twistwrench.fast import single as one
-from twistwrench.model import Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical
-from twistwrench.scene import dynamics as once
+from twistwrench.compiler import compile
 from twistwrench.scene.costs import limbs
-from twistwrench.scene.dynamics import angular_rows
 from twistwrench.templates import TEMPLATES
 
 from ..pages import DOCS, blocks, names_author_and_licence, page, run
@@ -181,75 +177,38 @@ def test_a_scene_may_have_wrenches_and_no_contacts():
     close(d.M @ a + d.h, tw.rnea(scene.model, q, v, a, scene.f_ext(q)))
 
 
-@pytest.mark.parametrize("base", ["fixed", "floating"])
-def test_angular_rows_are_those_of_the_jacobian(base):
-    model = tw.random_tree(12, rng=2, base=base)
-    q = model.random_configuration(rng=2)
-    frames = list(model.frame_names)[::3]
-    right = [tw.frame_jacobian(model, q, name, "local_world_aligned")[:3] for name in frames]
-    np.testing.assert_allclose(angular_rows(model, q, frames), right, rtol=0, atol=1e-14)
-
-
 # ---------------------------------------------------------------- how much work that is
 
 
-@pytest.fixture
-def work(monkeypatch):
-    """Counts the calls of what costs: the parts of `fast` for one state, and each joint's transform."""
-    counts = Counter()
-
-    def counted(name, function):
-        def call(*args, **kwargs):
-            counts[name] += 1
-            return function(*args, **kwargs)
-
-        return call
-
-    for name in ("place", "_inertias", "forces", "mass_matrix", "centroidal_matrix", "contact_jacobian"):
-        monkeypatch.setattr(one, name, counted(name, getattr(one, name)))
-    monkeypatch.setattr(once, "frames_of", counted("frames_of", once.frames_of))
-    for kind in (Continuous, FreeFlyer, Planar, Prismatic, Revolute, Spherical):
-
-        def transform(self, q, before=kind.transform):
-            counts[id(self)] += 1
-            return before(self, q)
-
-        monkeypatch.setattr(kind, "transform", transform)
-    return counts
-
-
-@pytest.mark.parametrize(
-    ("want", "parts"),
-    [
-        ({"J_c"}, {"contact_jacobian"}),
-        ({"M"}, {"_inertias", "mass_matrix"}),
-        ({"h"}, {"_inertias", "forces"}),
-        ({"M", "J_c"}, {"_inertias", "mass_matrix", "contact_jacobian"}),
-        (EVERYTHING, {"_inertias", "mass_matrix", "centroidal_matrix", "forces", "contact_jacobian"}),
-    ],
-)
-def test_only_what_is_wanted_is_computed_and_kinematics_once(work, want, parts):
-    scene = tw.Scene("go2", contacts=FEET, hold=["RR_*"])
-    q, v = scene.model.standing(), np.ones(15)
-    work.clear()
-    d = scene.dynamics(q, v, want=want)
-    assert work == dict.fromkeys({"place", *parts}, 1)
+def operations(scene, want):
+    """Return how many operations the scene's program for some quantities has, with those that watch the state."""
+    scene.model._programs.clear()
+    d = scene.dynamics(scene.model.standing(), np.ones(scene.model.nv), want=want)
     assert {name for name, x in vars(d).items() if x is not None} == want
+    (program,) = scene.model._programs.values()
+    return program.operations.total()
 
 
-def test_held_joints_are_no_work_and_soles_place_the_links_once_more(work):
-    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS, wrenches={"left_foot": [1.0, 0, 0, 0, 0, 0]})
-    q, v = scene.model.standing(), np.ones(19)
-    scene.dynamics(q, v)
-    plan = scene.model._constants["fast, single"]
-    assert len(plan.J) == 1 + 13  # links: the base, six in each leg, the torso with its arms
-    for want, parts in (
-        ({"M", "J_c"}, {"place", "_inertias", "mass_matrix", "contact_jacobian", "frames_of"}),
-        ({"M", "A_G"}, {"place", "_inertias", "mass_matrix", "centroidal_matrix"}),
-    ):
-        work.clear()
-        scene.dynamics(q, v, want=want)
-        assert work == dict.fromkeys(parts, 1)
+def test_only_what_is_wanted_is_computed_and_what_is_shared_once():
+    scene = tw.Scene("go2", contacts=FEET, hold=["RR_*"])
+    alone = {name: operations(scene, {name}) for name in EVERYTHING}
+    watched = operations(scene, set())
+    assert alone["J_c"] < alone["M"] < alone["h"]
+    together = operations(scene, EVERYTHING)
+    assert together < 0.95 * sum(count - watched for count in alone.values())
+    for name, count in alone.items():
+        assert operations(scene, EVERYTHING - {name}) < together, name
+        assert count - watched > 100
+
+
+def test_held_joints_are_no_work_and_the_rows_of_a_sole_that_no_one_asks_for_are_none():
+    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS)
+    whole = tw.Scene("humanoid", contacts=SOLES)
+    assert operations(scene, {"M", "J_c"}) < 0.75 * operations(whole, {"M", "J_c"})
+    points = tw.Scene("humanoid", contacts=[tw.PointContact(sole.frame, 0.7) for sole in SOLES], hold=ARMS)
+    assert operations(points, {"J_c"}) <= operations(scene, {"J_c"})
+    jacobian = compile(scene.model, "contact_jacobian", contacts=[sole.frame for sole in SOLES])
+    assert operations(points, {"J_c"}) == pytest.approx(jacobian.operations.total(), abs=4 * scene.model.nv)
 
 
 # ---------------------------------------------------------------- whether it can stand

@@ -80,6 +80,8 @@ def quantities(
 
     def forward_dynamics(q: Array, v: Array, tau: Array, f_ext: Array | None = None) -> tuple[Array, list[Any]]:
         terms = aba_terms(model, q, v, tau, f_ext)
+        if terms.qdd.dtype != object:
+            return terms.qdd, []
         return terms.qdd, [*pivots(model, tree_terms(model, q), terms, dtype)]
 
     nv = model.nv

@@ -39,11 +39,11 @@ def alarm(tape: Tape, questions: list[Any]) -> Number:
 
 def state_questions(model: Model, arguments: Mapping[str, Array], dtype: np.dtype[Any]) -> Iterator[Any]:
     """Yield what to watch of the arguments: sizes, norms, and a wrench on the world."""
-    largest = float(np.finfo(dtype).max)
+    largest = min(int(np.finfo(dtype).maxexp), 1024)  # more than a double holds is left to the textbook
     for name, x in arguments.items():
-        limit = Fraction(largest ** (1 / 4 if name == "q" else 1 / 5))
+        limit = Fraction(2) ** (largest // (4 if name == "q" else 5))
         for k in np.ndindex(x.shape):
-            yield x[k] / _power_of_two_below(limit)
+            yield x[k] / limit
     if "q" not in arguments:
         return
     tolerance = _power_of_two_below(Fraction(float(np.sqrt(resolution(dtype)))))

@@ -97,8 +97,7 @@ def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
 
     λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G.
     """
-    spreads = [np.linalg.cholesky(c.spread @ c.spread.mT) for c in contacts]
-    return block_diagonal([_turn(c, T) @ G for c, T, G in zip(contacts, at, spreads)]).mT
+    return block_diagonal([_turn(c, T) @ c.spread_root for c, T in zip(contacts, at)]).mT
 
 
 def point_map(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:

@@ -15,12 +15,11 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_number
 from ..errors import SingularError
-from ..fast import aba, crba
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose, lever
-from .rows import as_contacts, contact_errors, contact_rows, per_contact, real_state
+from .rows import as_contacts, contact_errors, contact_rows, contact_terms, per_contact, real_state
 from .types import Contact
 
 __all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
@@ -163,26 +162,26 @@ def contact_forward_dynamics(
     (np.float64(-9.92), 12, 0)
     """
     contacts = as_contacts(model, contacts)
-    q, v, tau, *pushed = real_state(model, q, f_ext, v=v, tau=tau)
-    at, J, bias = contact_rows(model, q, v, contacts)
-    W, slip, target = lever(contacts, at), np.matvec(J, v), -bias
+    q, v, others = real_state(model, q, f_ext, v=v, tau=tau)
+    terms = contact_terms(model, q, v, contacts, **others)
+    at, J, free = terms.placement, terms.J, terms.qdd
+    W, slip, target = lever(contacts, at), np.matvec(J, v), -terms.bias
     if stabilise is not None:
         if not isinstance(stabilise, Baumgarte):
             raise TypeError(f"stabilise: expected a Baumgarte or None, got {stabilise!r}")
         error = contact_errors(contacts, at, stabilise.anchors)
         target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
-    qdd = free = aba(model, q, v, tau, *pushed)
-    parts = decompose(model, crba(model, q), W @ J)
-    mu = np.zeros(slip.shape)
+    parts = decompose(model, terms.M, W @ J)
+    qdd, mu = free, np.zeros(slip.shape)
     for _ in range(2):  # the second time removes the rounding of the first
         x, change = parts.respond(np.matvec(W, target - np.matvec(J, qdd)))
         qdd, mu = qdd + parts.unwhiten(x), mu + change
     residual = np.matvec(J, qdd) - target
-    terms = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
-    if (largest(np.matvec(W, residual)) > CONTRADICTION * (terms + largest(np.matvec(W, target)))).any():
+    size = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
+    if (largest(np.matvec(W, residual)) > CONTRADICTION * (size + largest(np.matvec(W, target)))).any():
         held = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
         asked = np.matvec(W, -contact_rows(model, q, held, contacts).bias)
-        refuse_contradiction(contacts, asked - parts.within(asked), CONTRADICTION * (terms + largest(asked)))
+        refuse_contradiction(contacts, asked - parts.within(asked), CONTRADICTION * (size + largest(asked)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)
 

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_number
-from ..fast import crba
 from ..model import Model
 from .decomposition import decompose, lever
-from .rows import as_contacts, contact_rows, per_contact, real_state
+from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact
 
 __all__ = ["Impact", "impact"]
@@ -92,10 +91,10 @@ def impact(
     if not 0 <= as_number(restitution, "restitution") <= 1:
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
     contacts = as_contacts(model, contacts)
-    q, v = real_state(model, q, v=v)
-    at, J, _ = contact_rows(model, q, v, contacts)
-    W = lever(contacts, at)
-    parts = decompose(model, crba(model, q), W @ J)
+    q, v, _ = real_state(model, q, v=v)
+    terms = contact_terms(model, q, v, contacts)
+    J, W = terms.J, lever(contacts, terms.placement)
+    parts = decompose(model, terms.M, W @ J)
     x, mu = parts.respond(np.matvec(W @ J, v))  # the change at e = 0, with its sign turned
     return Impact(
         v=v - (1 + restitution) * parts.unwhiten(x),

@@ -14,16 +14,18 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import ShapeError, SingularError
-from ..fast import crba, rnea
 from ..model import Model
 from ..spatial._elementary import at_first_index
 from .decomposition import Decomposition, block_diagonal, decompose, point_map
 from .qp import least_breach, least_within
 from .reach import NEAR, Reach, reach
-from .rows import as_contacts, contact_rows, per_contact, real_state
+from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact, Pyramid
 
 __all__ = ["ContactForces", "Task", "contact_inverse_dynamics", "friction_inverse_dynamics"]
+
+FEW = 20
+"""So many times the textbook is asked: whether a robot stands is often asked once, of contacts that nobody meets again."""
 
 BALANCED = 1e-8
 """Tolerance of the base's wrench, relative to it; rounding stays far below."""
@@ -236,16 +238,16 @@ class Task:
     ) -> Task:
         """Set up and solve the base rows; raise SingularError if no forces at these contacts do."""
         contacts = as_contacts(model, contacts)
-        q, v, a, *pushed = real_state(model, q, f_ext, v=v, a=a)
-        at, J, bias = contact_rows(model, q, v, contacts)
-        b, P = rnea(model, q, v, a, *pushed), point_map(contacts, at)
+        q, v, others = real_state(model, q, f_ext, v=v, a=a)
+        terms = contact_terms(model, q, v, contacts, FEW, **others)
+        J, b, P = terms.J, terms.tau, point_map(contacts, terms.placement)
         base = slice(0, 6 if model.base == "floating" else 0)
-        parts = decompose(model, crba(model, q)[..., base, base], P.mT @ J[..., base])
+        parts = decompose(model, terms.M[..., base, base], P.mT @ J[..., base])
         least = parts.balance(b[..., base])
-        weight = rnea(model, q, v, 0 * a, *pushed)[..., base]
+        weight = terms.weight[..., base]
         left = b[..., base] - np.matvec(J[..., base].mT @ P, least)
-        off, *terms = (parts.size(x) for x in (left, b[..., base], weight))
-        missed = np.asarray(off > BALANCED * np.maximum(*terms))
+        off, *sizes = (parts.size(x) for x in (left, b[..., base], weight))
+        missed = np.asarray(off > BALANCED * np.maximum(*sizes))
         if missed.any():
             names = [c.frame for c in contacts]
             over = ", ".join(f"{x:.3g}" for x in left[missed][0])
@@ -253,8 +255,8 @@ class Task:
                 f"no forces at {names} do this{at_first_index(missed)}: (τ, f) = ({over}) is left over", left, parts.L
             )
         size = max(float(np.abs(f).max(initial=0)) for f in (least, parts.balance(weight)))
-        asked = float(np.maximum(*terms).max(initial=0))
-        return cls(contacts, b, J, P, parts, least, size, asked, np.matvec(J, a) + bias)
+        asked = float(np.maximum(*sizes).max(initial=0))
+        return cls(contacts, b, J, P, parts, least, size, asked, np.matvec(J, others["a"]) + terms.bias)
 
     def reach(
         self, sides: int, pyramid: Pyramid, also: tuple[Array, Array] | None = None, contacts: Sequence[Contact] = ()

@@ -9,13 +9,12 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_count, as_number
 from ..errors import SingularError
-from ..fast import crba
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose, lever
 from .impacts import impact
-from .rows import as_contacts, contact_errors, contact_rows, per_contact, real_state
+from .rows import as_contacts, contact_errors, contact_terms, per_contact, real_state
 from .types import Contact
 
 __all__ = ["project_state"]
@@ -81,15 +80,15 @@ def project_state(
     if not as_number(tolerance, "tolerance") >= 0:
         raise ValueError(f"tolerance: expected a number of at least 0, got {tolerance!r}")
     contacts = as_contacts(model, contacts)
-    q, v = real_state(model, q, v=v)
+    q, v, _ = real_state(model, q, v=v)
     for _ in range(steps + 1):
-        at, J, _ = contact_rows(model, q, v, contacts)
-        W = lever(contacts, at)
-        error = np.matvec(W, contact_errors(contacts, at, anchors))
+        terms = contact_terms(model, q, v, contacts)
+        W = lever(contacts, terms.placement)
+        error = np.matvec(W, contact_errors(contacts, terms.placement, anchors))
         far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
         if not far.any():
             return q, impact(model, q, v, contacts).v
-        parts = decompose(model, crba(model, q), W @ J)
+        parts = decompose(model, terms.M, W @ terms.J)
         q = model.integrate(q, -parts.unwhiten(parts.respond(error)[0]))
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])

@@ -7,15 +7,20 @@ zero where the point is at rest, not the linear half of the spatial acceleration
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.kinematics import frame_placement, motion, placements
+from ..algorithms.rnea import rnea
 from ..arrays import Array, as_sequence, check_kind
+from ..compiler import Results
+from ..compiler.quantities import Quantity, quantities
 from ..errors import unknown_name
+from ..fast.programs import remembered
 from ..model import Model, Tree, cast, check_model, columns, in_double, tree_terms
 from ..spatial import SE3, log3
 from .types import Contact
@@ -162,6 +167,40 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
     return ContactRows(place, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
 
 
+def contact_terms(
+    model: Model, q: Array, v: Array, contacts: Sequence[Contact], after: int = 0, **others: Array
+) -> Results:
+    """Return what the dynamics under contact need, from one program, the first times by the textbook: see `remembered`.
+
+    `placement`, J and `bias` of `ContactRows`, and M; with `tau` the q̈ of the free motion, `qdd`; with `a` the τ of the
+    motion, and `weight`, that of rest. f_ext may be among the others.
+    """
+
+    def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
+        return Quantity(symbol, tuple(arguments.split()), lambda *x: (function(*x), []))
+
+    def at_rest(q: Array, v: Array, f_ext: Array | None = None) -> Array:
+        return rnea(model, q, v, 0 * v, f_ext)
+
+    def asked() -> list[Quantity]:
+        known, rows = quantities(model, q.dtype), partial(contact_rows, model, contacts=contacts)
+        at = of("at", "q v", lambda q, v: np.stack([T.matrix() for T in rows(q, v).placement], axis=-3))
+        return [
+            *([at] if contacts else []),
+            of("J", "q v", lambda q, v: rows(q, v).J),
+            of("bias", "q v", lambda q, v: rows(q, v).bias),
+            known["M"],
+            *([known["qdd"]] if "tau" in others else []),
+            *([known["tau"], of("weight", "q v f_ext", at_rest)] if "a" in others else []),
+        ]
+
+    key = "contacts", q.dtype, tuple((c.frame, c.rows.start) for c in contacts), *(others.keys() - {"f_ext"})
+    found: Results = remembered(model, key, q.dtype, asked, after=after)(q, v, *others.values())
+    at = np.moveaxis(found.at, -3, 0) if contacts else ()
+    found.placement = [SE3._trusted(T[..., :3, :3], T[..., :3, 3]) for T in at]
+    return found
+
+
 def _jacobian(model: Model, bodies: Sequence[SE3], tree: Tree, body: int, point: Array) -> Array:
     """Return the rows (ω, v) of a point of a body, in the axes of the world, shape (..., 6, nv).
 
@@ -228,14 +267,27 @@ def per_contact(contacts: Sequence[Contact], rows: Array) -> dict[str, Array]:
     return {c.frame: rows[..., end - c.dim : end] for c, end in zip(contacts, ends)}
 
 
-def real_state(model: Model, q: ArrayLike, f_ext: ArrayLike | None = None, **others: ArrayLike) -> tuple[Array, ...]:
+def real_state(
+    model: Model, q: ArrayLike, f_ext: ArrayLike | None = None, *, v: ArrayLike, **others: ArrayLike
+) -> tuple[Array, Array, dict[str, Array]]:
     """Check a state as `Model.state` does, and bring it to double precision: the decompositions need it.
 
-    In the order q, the others, and f_ext where there is one.
+    Return q, v, and the others by name, f_ext among them where there is one. Of arrays of doubles only the shapes are
+    checked: what is in them is watched by the programs that they go to next.
     """
-    if f_ext is not None:
-        others["f_ext"] = f_ext
-    state = model.state(q, **others)
-    if state[0].dtype.kind == "c":
-        raise ValueError(f"q: expected real numbers in all arguments, got {state[0].dtype}")
-    return in_double(model, state[0]), *(x.astype(np.float64) for x in state[1:])
+    if f_ext is None and _are_plain(model, q, v, *others.values()):
+        return q, v, others  # type: ignore[return-value]
+    given = {"v": v, **others} | ({} if f_ext is None else {"f_ext": f_ext})
+    q, *state = model.state(q, **given)
+    if q.dtype.kind == "c":
+        raise ValueError(f"q: expected real numbers in all arguments, got {q.dtype}")
+    named = {name: x.astype(np.float64) for name, x in zip(given, state)}
+    return in_double(model, q), named.pop("v"), named
+
+
+def _are_plain(model: Model, q: ArrayLike, *others: ArrayLike) -> bool:
+    """Return whether these are arrays of doubles of one batch shape, with the right last axes."""
+    if not (type(q) is np.ndarray and q.dtype == np.float64 and q.shape[-1:] == (model.nq,)):
+        return False
+    shape = (*q.shape[:-1], model.nv)
+    return all(type(x) is np.ndarray and x.dtype == np.float64 and x.shape == shape for x in others)

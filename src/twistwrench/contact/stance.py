@@ -109,11 +109,11 @@ def stance_margins(
     contacts = as_contacts(model, contacts)
     if model.base != "floating" or not contacts or not model.gravity.any():
         raise ValueError(f"{model.name!r}: expected a floating base, gravity and at least one contact")
-    (q,) = real_state(model, q)
+    q, rest, _ = real_state(model, q, v=np.zeros(model.nv))
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
     limits(contacts, sides, pyramid)  # raises for invalid `sides` and `pyramid` where it falls, too
-    tip, rest = tip_distance(model, q, contacts), np.zeros(model.nv)
+    tip = tip_distance(model, q, contacts)
     try:
         task = Task.of(model, q, rest, rest, contacts, None)
     except Unbalanced as error:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_exactly
 from ..errors import unknown_name
+from ..model import readonly
 from ..spatial import exp3
 from ..spatial.rotation import cross_matrix
 
@@ -71,11 +73,16 @@ class Contact(ABC):
         """The number of constrained rows: 3 for a point, 6 for a surface."""
         return len(range(6)[self.rows])
 
-    @property
+    @cached_property
     def spread(self) -> Array:
         """The matrix G that makes λ of forces at the points, in the contact's axes, shape (dim, 3 k)."""
         G = np.concatenate([np.concatenate([cross_matrix(p), np.eye(3)]) for p in self.points], axis=1)
-        return G[self.rows]
+        return readonly(G[self.rows])
+
+    @cached_property
+    def spread_root(self) -> Array:
+        """The lower triangle L with L Lᵀ = G Gᵀ, shape (dim, dim)."""
+        return readonly(np.linalg.cholesky(self.spread @ self.spread.mT))
 
     def limits(self, sides: int, pyramid: Pyramid) -> Array:
         """Return A, shape (k (sides + 1), 3 k): the contact bears the forces f at its points where A f ≤ 0.
@@ -180,12 +187,16 @@ class PointContact(Contact):
 
     def axes(self, rotation: Array) -> Array:
         """Return the axes of the world, turned the shortest way until z is the normal."""
+        return np.broadcast_to(self._axes, rotation.shape)
+
+    @cached_property
+    def _axes(self) -> Array:
         x, y, z = self.normal
         sine = np.hypot(x, y)
         turn = (
             np.arctan2(sine, z) / sine * np.array([-y, x, 0]) if sine > 0 else np.array([0.0 if z > 0 else np.pi, 0, 0])
         )
-        return np.broadcast_to(exp3(turn), rotation.shape)
+        return exp3(turn)
 
     @property
     def points(self) -> Array:

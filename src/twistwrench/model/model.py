@@ -113,6 +113,7 @@ class Model(Manifold):
     friction: Array = field(default_factory=lambda: np.zeros(0))
     report: Report = field(default_factory=Report)
     _constants: dict[Any, Constants] = field(default_factory=dict, init=False)
+    _programs: dict[Any, Any] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
         for name in ("gravity", "armature", "lower", "upper", "velocity_limit", "effort_limit"):

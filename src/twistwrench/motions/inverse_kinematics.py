@@ -14,11 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..algorithms.centroidal import center_of_mass, centroidal_momentum_rate
+from ..algorithms.centroidal import center_of_mass, centroidal_map, centroidal_momentum_rate
 from ..algorithms.kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
 from ..arrays import Array
 from ..errors import SingularError
-from ..fast import centroidal_map
 from ..spatial import log3
 from .legs import Stand
 from .orientation import body_rates

@@ -14,9 +14,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import Chebyshev
 
+from ..algorithms.centroidal import centroidal_map
 from ..arrays import Array
 from ..errors import SingularError
-from ..fast import centroidal_map
 from .curves import Pieces, between, hop, stair
 from .inverse_kinematics import Goal, free_columns, nearer, place, solve, targets, tasks, turned
 from .legs import Stand

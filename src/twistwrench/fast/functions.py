@@ -1,4 +1,4 @@
-"""The public functions of `twistwrench.fast`: those of the textbook, by other means."""
+"""The public functions of `twistwrench.fast`: those of the textbook, as programs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array, as_names
 from ..model import Model
-from .dispatch import accelerations, parts, torques
+from .programs import program, states_of
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
 
@@ -36,7 +36,7 @@ def rnea(
     Returns
     -------
     ndarray, shape (..., nv)
-        N m or N. Of many states, the states come last in memory.
+        N m or N.
 
     Raises
     ------
@@ -53,7 +53,9 @@ def rnea(
     >>> np.allclose(tau[0], tw.rnea(model, model.standing(), v[0], v[0]), rtol=0, atol=1e-11)
     True
     """
-    return torques(model, q, v, a, f_ext, {} if out is None else {"tau": out})
+    args, dtype = states_of(model, {"q": q, "v": v, "a": a}, f_ext)
+    tau: Array = program(model, ("tau",), dtype)(*args, out=out)
+    return tau
 
 
 def nonlinear_effects(
@@ -75,7 +77,7 @@ def nonlinear_effects(
     Returns
     -------
     ndarray, shape (..., nv)
-        N m or N. Of many states, the states come last in memory.
+        N m or N.
 
     Raises
     ------
@@ -88,8 +90,9 @@ def nonlinear_effects(
     >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0])  # standing: nothing for the cart
     array([0., 0.])
     """
-    given = {} if out is None else {"h": out}
-    return parts(model, q, (("v", v),), ("h",), (), given)["h"]
+    args, dtype = states_of(model, {"q": q, "v": v})
+    h: Array = program(model, ("h",), dtype)(*args, out=out)
+    return h
 
 
 def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -105,7 +108,7 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
     Returns
     -------
     ndarray, shape (..., nv, nv)
-        kg m², kg m and kg. Of many states, the states come last in memory.
+        kg m², kg m and kg.
 
     Raises
     ------
@@ -119,8 +122,9 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
     >>> tw.fast.crba(model, [[0.0], [1.0]]).shape
     (2, 1, 1)
     """
-    given = {} if out is None else {"M": out}
-    return parts(model, q, (), ("M",), (), given)["M"]
+    args, dtype = states_of(model, {"q": q})
+    M: Array = program(model, ("M",), dtype)(*args, out=out)
+    return M
 
 
 def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -136,7 +140,7 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
     Returns
     -------
     ndarray, shape (..., 6, nv)
-        Rows (angular, linear), in the axes of the world. Of many states, the states come last in memory.
+        Rows (angular, linear), in the axes of the world.
 
     Raises
     ------
@@ -152,8 +156,9 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
     >>> tw.fast.centroidal_map(model, model.standing())[5, 5].round(3)  # the whole mass
     np.float64(16.085)
     """
-    given = {} if out is None else {"A_G": out}
-    return parts(model, q, (), ("A_G",), (), given)["A_G"]
+    args, dtype = states_of(model, {"q": q})
+    A_G: Array = program(model, ("A_G",), dtype)(*args, out=out)
+    return A_G
 
 
 def dynamics(
@@ -179,7 +184,7 @@ def dynamics(
     Returns
     -------
     Dynamics
-        Quantities that were not wanted are None. Of many states, the states come last in memory.
+        Quantities that were not wanted are None.
 
     Raises
     ------
@@ -199,12 +204,17 @@ def dynamics(
     >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
-    want = wanted(want)
-    contacts = None if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)
+    names = wanted(want)
+    want = tuple(name for name in QUANTITIES if name in names)
+    contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
-    given = {} if out is None else {name: x for name, x in vars(out).items() if x is not None}
-    return Dynamics(**parts(model, q, (("v", v),), want, contacts, given))
+    for name in contacts if "J_c" in want else ():
+        model.frame(name)  # raises for a name that it has not
+    args, dtype = states_of(model, {"q": q, "v": v})
+    given = None if out is None else {name: x for name in want if (x := getattr(out, name)) is not None}
+    found = program(model, want, dtype, tuple(contacts) if "J_c" in want else ())(*args, out=given)
+    return Dynamics(**{name: getattr(found, name) for name in want})
 
 
 def aba(
@@ -228,7 +238,7 @@ def aba(
     Returns
     -------
     ndarray, shape (..., nv)
-        rad/s² or m/s². Of many states, the states come last in memory.
+        rad/s² or m/s².
 
     Raises
     ------
@@ -245,4 +255,6 @@ def aba(
     >>> np.allclose(tw.fast.rnea(model, q, q, qdd), q)
     True
     """
-    return accelerations(model, q, v, tau, f_ext, {} if out is None else {"qdd": out})
+    args, dtype = states_of(model, {"q": q, "v": v, "tau": tau}, f_ext)
+    qdd: Array = program(model, ("qdd",), dtype)(*args, out=out)
+    return qdd

@@ -1,0 +1,165 @@
+"""The program for a model and a question: made when it is first asked for, and remembered with the model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array
+from ..compiler import Program, Results
+from ..compiler.llvm import NATIVE, available
+from ..compiler.outputs import check_outputs, finish
+from ..compiler.quantities import Quantity, quantities
+from ..errors import SingularError
+from ..model import Model, check_model, floats_of
+
+__all__ = ["ASKED", "LONGEST", "MOST", "Textbook", "is_too_long", "program", "remembered", "states_of"]
+
+LONGEST = 80
+"""Degrees of freedom of a robot that is not too long for a straight line."""
+
+MOST = 2500
+"""Entries of M on and below its diagonal that are not always zero, where M is asked for."""
+
+REMEMBERED = 64
+"""Programs that a model remembers: of gaits each set of feet is one."""
+
+CHUNK = 2**17
+"""States times degrees of freedom that the textbook takes at a time."""
+
+PLAIN = (np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.longdouble))
+"""Number types of which a program sees for itself whether a state is valid."""
+
+ASKED = Quantity("asked", ("q", "v"), lambda q, v: (q[..., :0], []))
+"""Nothing; but q and v are looked at, whatever else depends on them."""
+
+
+def states_of(
+    model: Model, named: Mapping[str, ArrayLike], f_ext: ArrayLike | None = None
+) -> tuple[tuple[Any, ...], np.dtype[Any]]:
+    """Return the arguments, and their number type: as they are where they are arrays of one type, else converted."""
+    args = tuple(named.values()) if f_ext is None else (*named.values(), f_ext)
+    dtype = args[0].dtype if type(args[0]) is np.ndarray else None
+    if dtype in PLAIN and all([type(x) is np.ndarray and x.dtype == dtype for x in args]):
+        return args, dtype
+    others = dict(named) if f_ext is None else {**named, "f_ext": f_ext}
+    args = floats_of(model, others.pop("q"), **others)
+    return args, args[0].dtype
+
+
+def program(
+    model: Model, want: tuple[str, ...], dtype: np.dtype[Any], contacts: tuple[str, ...] | None = None
+) -> Program | Textbook:
+    """Return what computes some quantities of a model, by symbol.
+
+    Parameters
+    ----------
+    model : Model
+    want : tuple of str
+        One symbol: the program returns an array. With `contacts`, any number: `Results`.
+    dtype : dtype
+    contacts : tuple of str, optional
+        The frames of J_c, which the model has.
+    """
+
+    def asked() -> list[Quantity]:
+        known = quantities(model, dtype, contacts or ())
+        return [known[name] for name in want] + ([] if contacts is None else [ASKED])
+
+    check_model(model)
+    return remembered(model, (want, dtype, contacts), dtype, asked, single=contacts is None)
+
+
+def remembered(
+    model: Model,
+    key: Hashable,
+    dtype: np.dtype[Any],
+    asked: Callable[[], Sequence[Quantity]],
+    *,
+    single: bool = False,
+    after: int = 0,
+) -> Program | Textbook:
+    """Return the program for the quantities that `asked` returns, the one that was made for this key before if any.
+
+    For the first `after` calls it is the textbook: a program is not worth its making for a few states.
+    """
+    programs = model._programs
+    found: Program | Textbook | int | None = programs.get(key)
+    if found is None or isinstance(found, int):
+        calls = found or 0
+        if calls < after:
+            programs[key] = calls + 1
+            return Textbook(model, asked(), single)
+        for forgotten in [*programs][: len(programs) + 1 - REMEMBERED]:
+            programs.pop(forgotten, None)
+        found = programs[key] = _made(model, asked(), dtype, single)
+    return found
+
+
+def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single: bool) -> Program | Textbook:
+    if not is_too_long(model, [quantity.symbol for quantity in asked]):
+        backend = "llvm" if dtype in NATIVE and available() else "numpy"
+        made = Program(model, asked, single, {}, dtype, backend, 1)
+        try:
+            made.operations  # noqa: B018 - records it
+        except (TypeError, ArithmeticError, SingularError):
+            pass  # a joint that asks what its q is; no inertia
+        else:
+            return made
+    return Textbook(model, asked, single)
+
+
+def is_too_long(model: Model, want: Collection[str]) -> bool:
+    """Return whether a model is too long for a straight line that computes these symbols."""
+    above = [0]  # degrees of freedom from the world up to a body
+    for p, joint in zip(model.parent[1:], model.joints[1:]):
+        above.append(above[p] + (joint.nv if joint else 0))
+    entries = sum(above[i] * joint.nv for i, joint in enumerate(model.joints) if joint)
+    return model.nv > LONGEST or ("M" in want and entries > MOST)
+
+
+class Textbook:
+    """What no program can be made for: called as a program, it is the textbook, some states at a time.
+
+    Parameters
+    ----------
+    model : Model
+    quantities : sequence of Quantity
+    single : bool
+        Whether the result is one array; else it is `Results`.
+    """
+
+    def __init__(self, model: Model, quantities: Sequence[Quantity], single: bool) -> None:
+        self.model, self.quantities, self.single = model, tuple(quantities), single
+        self.arguments = max((quantity.arguments for quantity in quantities), key=len)
+
+    def __call__(self, *args: ArrayLike, out: Any = None) -> Any:
+        """Return the quantities: see `Program`."""
+        others = dict(zip(self.arguments[1:], args[1:]))
+        states = dict(zip(("q", *others), floats_of(self.model, args[0], **others)))
+        batch, dtype = states["q"].shape[:-1], states["q"].dtype
+        count, size = prod(batch), max(1, CHUNK // max(1, self.model.nv))
+        flat = {name: x.reshape(count, *x.shape[len(batch) :]) for name, x in states.items()}
+        chunks = [{name: x[k : k + size] for name, x in flat.items()} for k in range(0, max(count, 1), size)]
+        try:
+            pieces = [self._compute(chunk) for chunk in chunks]
+        except SingularError:
+            self._compute(states)  # raises, with the place in the batch
+            raise
+        results = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+        tails = {name: x.shape[1:] for name, x in results.items()}
+        given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
+        check_outputs(given, batch, tails, dtype)
+        done = finish(given, {name: x.reshape(*batch, *tails[name]) for name, x in results.items()})
+        return next(iter(done.values())) if self.single else Results(**done)
+
+    def _compute(self, states: Mapping[str, Array]) -> dict[str, Array]:
+        """Return the quantities by symbol."""
+        return {
+            quantity.symbol: quantity.compute(*(states[name] for name in quantity.arguments if name in states))[0]
+            for quantity in self.quantities
+        }
