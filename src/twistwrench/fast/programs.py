@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
+from functools import partial
 from math import prod
 from typing import Any
 
@@ -44,7 +45,7 @@ def states_of(
     """Return the arguments, and their number type: as they are where they are arrays of one type, else converted."""
     args = tuple(named.values()) if f_ext is None else (*named.values(), f_ext)
     dtype = args[0].dtype if type(args[0]) is np.ndarray else None
-    if dtype in PLAIN and all([type(x) is np.ndarray and x.dtype == dtype for x in args]):
+    if dtype in PLAIN and all(type(x) is np.ndarray and x.dtype == dtype for x in args):
         return args, dtype
     others = dict(named) if f_ext is None else {**named, "f_ext": f_ext}
     args = floats_of(model, others.pop("q"), **others)
@@ -103,7 +104,16 @@ def remembered(
 def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single: bool) -> Program | Textbook:
     if not is_too_long(model, [quantity.symbol for quantity in asked]):
         backend = "llvm" if dtype in NATIVE and available() else "numpy"
-        made = Program(model, asked, single, {}, dtype, backend, 1)
+        made = Program(
+            model,
+            asked,
+            single=single,
+            given={},
+            dtype=dtype,
+            backend=backend,
+            threads=1,
+            remake=partial(_made, model, asked, dtype, single),
+        )
         try:
             made.operations  # noqa: B018 - records it
         except (TypeError, ArithmeticError, SingularError):

@@ -45,10 +45,9 @@ def scene_dynamics(
 
 def contact_rows(model: Model, contacts: Sequence[Contact], q: Array) -> Array:
     """Return J_c, shape (..., m, nv): of each contact the rows that it holds, in the axes of the world."""
-    rows = [np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)]
-    for contact in contacts:
-        rows.append(frame_jacobian(model, q, contact.frame, "local_world_aligned")[..., contact.rows, :])
-    return np.concatenate(rows, axis=-2)
+    none = np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)
+    six = [frame_jacobian(model, q, contact.frame, "local_world_aligned") for contact in contacts]
+    return np.concatenate([none, *(J[..., c.rows, :] for c, J in zip(contacts, six))], axis=-2)
 
 
 def without(model: Model, wrenches: Mapping[str, Array], q: Array, v: Array) -> Array:

@@ -93,8 +93,7 @@ class Scene(SmallestModel):
     def dynamics(self, q: ArrayLike, v: ArrayLike, *, want: Iterable[str] = QUANTITIES) -> Dynamics:
         """Return what is wanted of M q̈ + h = Sᵀ τ + J_cᵀ λ, and nothing else.
 
-        All of it from one placement of the links (`fast.dynamics`); the angular rows of a sole, or of a moment, take a
-        second one.
+        By a program for just this, made at the first call: see `twistwrench.fast`.
 
         Parameters
         ----------
