@@ -193,9 +193,9 @@ def test_only_what_is_wanted_is_computed_and_what_is_shared_once():
     scene = tw.Scene("go2", contacts=FEET, hold=["RR_*"])
     alone = {name: operations(scene, {name}) for name in EVERYTHING}
     watched = operations(scene, set())
-    assert alone["J_c"] < alone["M"] < alone["h"]
+    assert alone["J_c"] < alone["M"]
     together = operations(scene, EVERYTHING)
-    assert together < 0.95 * sum(count - watched for count in alone.values())
+    assert together - watched < sum(count - watched for count in alone.values())
     for name, count in alone.items():
         assert operations(scene, EVERYTHING - {name}) < together, name
         assert count - watched > 100

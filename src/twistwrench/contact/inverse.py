@@ -25,7 +25,7 @@ from .types import Contact, Pyramid
 __all__ = ["ContactForces", "Task", "contact_inverse_dynamics", "friction_inverse_dynamics"]
 
 FEW = 20
-"""So many times the textbook is asked: whether a robot stands is often asked once, and never of these contacts again."""
+"""So many times the textbook is asked: whether a robot stands is often asked once, and not of these contacts again."""
 
 BALANCED = 1e-8
 """Tolerance of the base's wrench, relative to it; rounding stays far below."""
