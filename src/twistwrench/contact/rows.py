@@ -194,7 +194,12 @@ def contact_terms(
             *([known["tau"], of("weight", "q v f_ext", at_rest)] if "a" in others else []),
         ]
 
-    key = "contacts", q.dtype, tuple((c.frame, c.rows.start) for c in contacts), *(others.keys() - {"f_ext"})
+    key = (
+        "contacts",
+        q.dtype,
+        tuple((c.frame, c.rows.start, c.rows.stop) for c in contacts),
+        *(others.keys() - {"f_ext"}),
+    )
     found: Results = remembered(model, key, q.dtype, asked, after=after)(q, v, *others.values())
     at = np.moveaxis(found.at, -3, 0) if contacts else ()
     found.placement = [SE3._trusted(T[..., :3, :3], T[..., :3, 3]) for T in at]
@@ -237,8 +242,9 @@ def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Map
     for c, T in zip(contacts, now):
         check_kind(anchors[c.frame], f"anchors[{c.frame!r}]", SE3, "an SE3")
         anchor = cast(anchors[c.frame], np.float64)
-        turned = log3(T.rotation @ anchor.rotation.mT)
-        parts.append(np.concatenate([turned, T.translation - anchor.translation], axis=-1)[..., c.rows])
+        moved = T.translation - anchor.translation
+        turned = log3(T.rotation @ anchor.rotation.mT) if c.rows.start < 3 else np.zeros_like(moved)
+        parts.append(np.concatenate([turned, moved], axis=-1)[..., c.rows])
     return np.concatenate(parts, axis=-1)
 
 

@@ -26,7 +26,8 @@ from ..arrays import Array, as_number
 from ..errors import ModelError
 from ..spatial import SE3, rotation_to_quaternion
 from ..spatial._elementary import cos, sin
-from ..spatial.rotation import cross_matrix, quaternion_matrix
+from ..spatial.exponential import shift
+from ..spatial.rotation import cross_matrix, exp_quaternion, quaternion_matrix, quaternion_product
 from .joint import AxisJoint, GroupJoint, placement, same_side, turn, unit
 
 __all__ = ["Continuous", "FreeFlyer", "Helical", "Planar", "Prismatic", "Revolute", "Spherical"]
@@ -246,6 +247,10 @@ class Spherical(GroupJoint):
         """Return the turn of the quaternion."""
         return placement(quaternion_matrix(q), np.zeros(3, q.dtype))
 
+    def integrate(self, q: Array, dv: Array) -> Array:
+        """Turn by dv for one unit of time: as the joints with a unit part do, by a product of quaternions."""
+        return same_side(unit(quaternion_product(q, exp_quaternion(dv))), q)
+
     def from_placement(self, T: SE3, near: Array) -> Array:
         """Read the quaternion off the turn, with the sign that is closer to `near`."""
         return same_side(rotation_to_quaternion(T.rotation), near)
@@ -273,6 +278,12 @@ class FreeFlyer(GroupJoint):
     def transform(self, q: Array) -> SE3:
         """Return the placement with this position and quaternion."""
         return placement(quaternion_matrix(q[..., 3:]), q[..., :3])
+
+    def integrate(self, q: Array, dv: Array) -> Array:
+        """Go along the twist dv for one unit of time: T(q) exp(dv), the turn by a product of quaternions."""
+        there = q[..., :3] + np.matvec(quaternion_matrix(q[..., 3:]), shift(dv))
+        turned = quaternion_product(q[..., 3:], exp_quaternion(dv[..., :3]))
+        return np.concatenate([there, same_side(unit(turned), q[..., 3:])], axis=-1)
 
     def from_placement(self, T: SE3, near: Array) -> Array:
         """Read position and quaternion off the placement, the sign closer to `near`."""

@@ -30,7 +30,7 @@ def scene_dynamics(
     """See `Scene.dynamics`."""
     args, dtype = states_of(model, {"q": q, "v": v})
     want = tuple(name for name in QUANTITIES if name in want)
-    held = tuple((contact.frame, contact.rows.start) for contact in contacts) if "J_c" in want else ()
+    held = tuple((c.frame, c.rows.start, c.rows.stop) for c in contacts) if "J_c" in want else ()
     pushed = tuple((frame, wrench.tobytes()) for frame, wrench in wrenches.items()) if "h" in want else ()
 
     def asked() -> list[Quantity]:

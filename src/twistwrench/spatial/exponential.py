@@ -9,7 +9,7 @@ from ..arrays import Array, as_array, check_kind, check_overflow
 from ._elementary import cosine_defect, length, sinc, sine_defect_root
 from ._vector import as_spatial
 from .plucker import SE3
-from .rotation import exp3, log3
+from .rotation import cross_matrix, exp3, log3
 
 __all__ = ["exp6", "interpolate", "log6"]
 
@@ -45,14 +45,20 @@ def exp6(V: ArrayLike) -> SE3:
     array([1., 2., 3.])
     """
     V = as_array(as_spatial(V, "V"), "V", 6)
+    p = shift(V)
+    return SE3._trusted(exp3(V[..., :3]), p)
+
+
+def shift(V: Array) -> Array:
+    """Return the translation p of exp6(V)."""
     w, v = V[..., :3], V[..., 3:]
     theta = length(w)[..., None]
     check_overflow(theta, "V")
-    H, c = sinc(theta / 2) / 2, sine_defect_root(theta) * w
+    H, C = sinc(theta / 2) / 2, cross_matrix(sine_defect_root(theta) * w)
     with np.errstate(over="ignore", invalid="ignore"):
-        p = v + 2 * H * np.cross(H * w, v) + np.cross(c, np.cross(c, v))
+        p = v + 2 * H * np.matvec(cross_matrix(H * w), v) + np.matvec(C, np.matvec(C, v))
     check_overflow(p, "V")
-    return SE3._trusted(exp3(w), p)
+    return np.asarray(p)
 
 
 def log6(T: SE3 | ArrayLike) -> Array:
