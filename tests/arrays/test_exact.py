@@ -8,7 +8,8 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.arrays import convert, elementary, exact_unit
-from twistwrench.spatial.rotation import exact_rotation, quaternion_to_rotation
+from twistwrench.spatial._quaternions import exact_rotation
+from twistwrench.spatial.rotation import quaternion_to_rotation
 
 TWO = tw.chain(2)
 QUARTER = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])

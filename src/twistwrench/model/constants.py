@@ -10,7 +10,7 @@ from numpy.typing import DTypeLike
 
 from ..arrays import Array, convert, resolution
 from ..spatial import SE3, SpatialInertia
-from ..spatial.rotation import exact_rotation
+from ..spatial._quaternions import exact_rotation
 
 if TYPE_CHECKING:
     from .model import Model

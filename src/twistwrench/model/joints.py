@@ -26,8 +26,9 @@ from ..arrays import Array, as_number
 from ..errors import ModelError
 from ..spatial import SE3, rotation_to_quaternion
 from ..spatial._elementary import cos, sin
+from ..spatial._quaternions import exp_quaternion, quaternion_product
 from ..spatial.exponential import shift
-from ..spatial.rotation import cross_matrix, exp_quaternion, quaternion_matrix, quaternion_product
+from ..spatial.rotation import cross_matrix, quaternion_matrix
 from .joint import AxisJoint, GroupJoint, placement, same_side, turn, unit
 
 __all__ = ["Continuous", "FreeFlyer", "Helical", "Planar", "Prismatic", "Revolute", "Spherical"]

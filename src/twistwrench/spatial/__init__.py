@@ -8,6 +8,7 @@ file            section  what it holds
 _elementary              functions of one number that lose no digits
 orthonormal     49.2     `nearest_rotation`, and the test whether a matrix is a rotation
 rotation        49.2     `skew` [ω]×, `exp3`, `log3`; quaternions, roll, pitch and yaw
+_quaternions    49.2     steps by quaternions, and rotations as fractions
 _physical       49.5     which inertias a body can have
 _vector                  what twists and wrenches share
 twist           49.2     `Twist`, `hat` [V], `vee`, `screw`
