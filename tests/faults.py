@@ -35,7 +35,7 @@ FAULTS = [
         "roll and yaw swapped", "spatial/rotation.py", "(cr, cp, cy), (sr, sp, sy) =", "(cy, cp, cr), (sy, sp, sr) ="
     ),
     Fault("log: whole angle for half of it", "spatial/rotation.py", "2 * atan2(n, w)", "atan2(n, w)"),
-    Fault("exp: no ω × v", "spatial/exponential.py", "v + 2 * H * np.cross(H * w, v) +", "v +"),
+    Fault("exp: no ω × v", "spatial/exponential.py", "v + 2 * H * np.matvec(cross_matrix(H * w), v) +", "v +"),
     Fault("log: sign of ½ ω × p", "spatial/exponential.py", "p - wp / 2", "p + wp / 2"),
     Fault("Jacobian of exp: its side", "spatial/jacobians.py", "- 2 * H * (H * W) + CW", "+ 2 * H * (H * W) + CW"),
     Fault("Jacobian of log: no square", "spatial/jacobians.py", "+ W / 2 + D * (W @ W))", "+ W / 2)"),
