@@ -168,7 +168,7 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
 
 
 def contact_terms(
-    model: Model, q: Array, v: Array, contacts: Sequence[Contact], after: int = 0, **others: Array
+    model: Model, q: Array, v: Array, contacts: Sequence[Contact], after: int = 0, /, **others: Array
 ) -> Results:
     """Return what the dynamics under contact need, from one program, the first times by the textbook: see `remembered`.
 

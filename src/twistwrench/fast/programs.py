@@ -112,7 +112,7 @@ def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single:
             dtype=dtype,
             backend=backend,
             threads=1,
-            remake=partial(_made, model, asked, dtype, single),
+            remake=partial(_made, model, asked, dtype, single),  # type: ignore[arg-type]  # a program, as here
         )
         try:
             made.operations  # noqa: B018 - records it
