@@ -90,7 +90,7 @@ def judged(x: NDArray[Any]) -> NDArray[Any]:
 
 
 def exact_unit(x: NDArray[Any]) -> NDArray[Any]:
-    """Return the fractions nearest to a unit vector of three doubles whose squares add up to 1 exactly.
+    """Return fractions whose squares add up to 1 exactly, within 2⁻¹²⁷ of three doubles divided by their length.
 
     The point of the sphere is projected from the pole across onto the plane, and back with fractions.
 
@@ -102,7 +102,10 @@ def exact_unit(x: NDArray[Any]) -> NDArray[Any]:
     """
     k = int(np.abs(x).argmax())
     side = 1 if x[k] > 0 else -1
-    flat = exact_numbers(x / (1 + abs(x[k])), "axis")
+    given = exact_numbers(x, "axis")
+    square = (given * given).sum()
+    length = Fraction(isqrt((square.numerator << 300) // square.denominator), 2**150)
+    flat = np.array([Fraction(round(one / (length + abs(given[k])) * 2**128), 2**128) for one in given], object)
     flat[k] = Fraction(0)
     square = (flat * flat).sum()
     n: NDArray[Any] = 2 * flat / (1 + square)

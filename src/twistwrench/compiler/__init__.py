@@ -15,6 +15,10 @@ plain         Python's floats, for a few states
 registers     NumPy, for every number type
 tangent       the derivatives of what is on a tape, and steps along v from q
 backend       which of them runs a line
+pairs         arithmetic with pairs of doubles
+pair_sine     sin and cos of a pair
+bounds        how far a computed number can be off
+double_double a line rewritten into pairs, with bounds
 watch         what a program watches, so that the textbook can take the states that raise the alarm
 quantity      `Quantity`: what a quantity depends on, and how it is computed
 derivatives   derivatives of all quantities, and the regressor
@@ -23,12 +27,14 @@ recording     from quantities to a line
 outputs       arrays of the caller that are to be filled
 memory        of one state at known addresses; rows of a caller's arrays
 program       `Program`, which is called as the textbook's functions are
+digits        programs with more digits, and with a bound
 compile       `compile`
 ============  ===================================================================================
 """
 
 from .compile import compile
+from .digits import DoubleDouble
 from .memory import Results
 from .program import Program
 
-__all__ = ["Program", "Results", "compile"]
+__all__ = ["DoubleDouble", "Program", "Results", "compile"]

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from ..algorithms.kinematics import Reference
-from ..arrays import Array, as_count, as_names, check_choice, check_kind
+from ..arrays import Array, as_count, as_flag, as_names, check_choice, check_kind
 from ..errors import check_known
 from ..model import Model, check_arrays, check_model
+from .digits import with_digits
 from .llvm import NATIVE, available
 from .program import Program
 from .quantities import ARGUMENTS, Quantity, chosen, quantities
@@ -33,6 +34,7 @@ def compile(
     given: Mapping[str, ArrayLike] | None = None,
     backend: str | None = None,
     threads: int = 1,
+    bound: bool = False,
 ) -> Program:
     """Return a program for this model and this question, and nothing else in it.
 
@@ -43,7 +45,8 @@ def compile(
         Functions or symbols of `quantities.SYMBOLS`: of one name the program returns an array, of several `Results`,
         which share their work.
     dtype : dtype_like
-        float32 and float64 have machine code; every floating-point type has NumPy.
+        float32 and float64 have machine code; every floating-point type has NumPy. "double-double" has 32 digits, in
+        pairs of doubles: see `digits.DoubleDouble`.
     contacts : iterable of str, optional
         The frames of J_c; `model.feet` unless given.
     frames : iterable of str
@@ -56,10 +59,13 @@ def compile(
         LLVM where it is installed and has the number type, unless given.
     threads : int
         Into how many parts a batch is divided.
+    bound : bool
+        Whether the program returns with each entry how far it can be off, proved: ``value, bound = program(…)``. For
+        float32, float64 and "double-double".
 
     Returns
     -------
-    Program
+    Program, or `digits.DoubleDoubleProgram`, or `digits.BoundedProgram`
 
     Raises
     ------
@@ -91,8 +97,9 @@ def compile(
     >>> both(np.tile(model.standing(), (1000, 1)), np.zeros((1000, 18)))
     Results(M: (1000, 18, 18), h: (1000, 18))
     """
+    pairs = isinstance(dtype, str) and dtype == "double-double"
     options: dict[str, Any] = {
-        "dtype": _number_type(dtype),
+        "dtype": _number_type(np.float64 if pairs else dtype),
         "contacts": None if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True),
         "frames": as_names(frames, "frames", "frame names", ordered=True),
         "reference": reference,
@@ -102,7 +109,7 @@ def compile(
     }
     asked = want if isinstance(want, str) else as_names(want, "want", "quantities")
     known, body = _known(model, *(options[name] for name in ("dtype", "contacts", "frames", "reference")))
-    return Program(
+    program = Program(
         body,
         chosen(known, (asked,) if isinstance(asked, str) else asked),
         single=isinstance(asked, str),
@@ -112,6 +119,7 @@ def compile(
         threads=options["threads"],
         remake=partial(compile, model, asked, **options),
     )
+    return with_digits(program, pairs=pairs, bound=as_flag(bound, "bound"))  # type: ignore[no-any-return]
 
 
 def _known(

@@ -66,6 +66,10 @@ class Tape:
         """Return the number of a node."""
         return Number(self, index)
 
+    def apply(self, operation: str, *operands: Number | Fraction | float) -> Number:
+        """Return the result of an operation as it stands: no rule simplifies it."""
+        return Number(self, self.enter(operation, *(self.number(x).index for x in operands)))
+
     def enter(self, *node: Any) -> int:
         """Return the index of an operation, which is entered where it is new."""
         index = self._index.get(node)

@@ -27,6 +27,7 @@ FUNCTIONS = {
     "cos": np.cos,
     "sqrt": np.sqrt,
     "abs": np.abs,
+    "round": np.rint,
 }
 
 CHUNK = 2**20

@@ -1,0 +1,150 @@
+"""Arithmetic with pairs of doubles, hi + lo: 32 digits, from the operations that a processor has.
+
+The rounding error of a sum of two doubles is a double itself, and so is that of a product: both can be computed. So a
+number is kept as the double nearest to it and what is left, and each operation on such pairs is a few on doubles. With
+u = 2⁻⁵³ the relative error is at most 3u² for a sum, 5u² for a product (7u² without fma), 15u² for a quotient and 4u²
+for a root: Joldes, Muller, Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
+arithmetic* (2017), and Lefèvre et al., *Accurate calculation of Euclidean norms using double-word arithmetic* (2023).
+
+Nothing of it may be simplified as if it were exact: (a + b) − a is not b, but what is left of it.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from .number import Number, Tape
+
+__all__ = ["EACH", "Pair", "Pairs", "split"]
+
+EACH = Fraction(16, 2**106)
+"""No operation on pairs has a larger relative error."""
+
+SPLITTER = 2**27 + 1
+"""Times a double, it parts the upper 26 bits from the lower ones."""
+
+NOTHING = Fraction(0)
+
+
+class Pair(NamedTuple):
+    """Two numbers whose sum is meant; where they are constants, fractions that are doubles."""
+
+    hi: Any
+    lo: Any
+
+
+def split(x: Fraction, parts: int = 2) -> tuple[Fraction, ...]:
+    """Return the double nearest to x, the one nearest to what is left, and so on."""
+    found: list[Fraction] = []
+    for _ in range(parts):
+        found.append(Fraction(float(x - sum(found))))
+    return tuple(found)
+
+
+class Pairs:
+    """Writes operations on pairs to a tape, as operations on doubles.
+
+    Parameters
+    ----------
+    tape : Tape
+    fma : bool
+        Whether there is an operation a b + c with one rounding; where there is none, factors are split in halves.
+    """
+
+    def __init__(self, tape: Tape, *, fma: bool) -> None:
+        self.tape, self.fma = tape, fma
+
+    def constant(self, x: Fraction) -> Pair:
+        """Return a constant to all digits of a pair."""
+        return Pair(*split(x))
+
+    def negative(self, a: Pair) -> Pair:
+        """Return −a."""
+        return Pair(-a.hi, -a.lo)
+
+    def add(self, a: Pair, b: Pair) -> Pair:
+        """Return a + b."""
+        s, e = two_sum(a.hi, b.hi)
+        t, f = two_sum(a.lo, b.lo)
+        for rest in (t, f):
+            if _is_zero(rest):
+                break
+            s, e = quick_two_sum(s, e + rest)
+        return Pair(s, e)
+
+    def add_smaller(self, a: Pair, b: Pair) -> Pair:
+        """Return a + b where |a| ≥ 2 |b|: nothing cancels, and half the operations do."""
+        s, e = quick_two_sum(a.hi, b.hi)
+        return Pair(*quick_two_sum(s, e + (a.lo + b.lo)))
+
+    def multiply(self, a: Pair, b: Pair) -> Pair:
+        """Return a b."""
+        for x, y in ((a, b), (b, a)):
+            if isinstance(x.hi, Fraction) and _is_zero(x.lo) and _is_power_of_two(abs(x.hi)):
+                return Pair(x.hi * y.hi, x.hi * y.lo)
+        p, e = self.two_product(a.hi, b.hi)
+        if _is_zero(a.lo) and _is_zero(b.lo):
+            return Pair(p, e)
+        return Pair(*quick_two_sum(p, e + self._sum_of_products(a.hi, b.lo, a.lo, b.hi)))
+
+    def divide(self, a: Pair, b: Pair) -> Pair:
+        """Return a / b: a quotient of doubles, and that of what is left."""
+        q = a.hi / b.hi
+        p = self.multiply(b, Pair(q, NOTHING))
+        left = (a.hi - p.hi) + (a.lo - p.lo)
+        return Pair(*quick_two_sum(q, left / b.hi))
+
+    def sqrt(self, a: Pair) -> Pair:
+        """Return √a."""
+        root = a.hi.sqrt()
+        p, e = self.two_product(root, root)
+        left = ((a.hi - p) - e) + a.lo
+        return Pair(*quick_two_sum(root, left / (2 * root)))
+
+    def two_product(self, a: Any, b: Any) -> tuple[Any, Any]:
+        """Return a b rounded, and the rounding error."""
+        p = a * b
+        if self.fma:
+            return p, self.tape.apply("fma", a, b, -p)
+        (a1, a2), (b1, b2) = self._halves(a), self._halves(b)
+        return p, (((a1 * b1 - p) + a1 * b2) + a2 * b1) + a2 * b2
+
+    def _halves(self, a: Any) -> tuple[Any, Any]:
+        """Return the upper and the lower bits of a double: products of halves round nothing."""
+        if isinstance(a, Fraction):
+            c = Fraction(float(SPLITTER) * float(a))
+            high = Fraction(float(c) - float(c - a))
+            return high, a - high
+        c = SPLITTER * a
+        high = c - (c - a)
+        return high, a - high
+
+    def _sum_of_products(self, a: Any, b: Any, c: Any, d: Any) -> Any:
+        """Return a b + c d."""
+        ab = a * b
+        if self.fma and not (_is_zero(ab) or _is_zero(c)):
+            return self.tape.apply("fma", c, d, ab)
+        return ab + c * d
+
+
+def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+    """Return a + b rounded, and the rounding error."""
+    s = a + b
+    of_b = s - a
+    return s, (a - (s - of_b)) + (b - of_b)
+
+
+def quick_two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+    """Return the same where |a| ≥ |b|."""
+    s = a + b
+    return s, b - (s - a)
+
+
+def _is_zero(x: Any) -> bool:
+    return not isinstance(x, Number) and x == 0
+
+
+def _is_power_of_two(c: Fraction) -> bool:
+    n, d = c.as_integer_ratio()
+    return n > 0 and n & (n - 1) == 0 and d & (d - 1) == 0
