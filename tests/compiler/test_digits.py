@@ -252,8 +252,8 @@ def test_nothing_is_certain_of_a_division_by_what_may_be_zero():
 
 
 def test_a_bound_notices_what_a_sum_has_lost():
-    """(x + y) − x with y far below the last digit of x: the result is off by y, and the bound knows."""
-    line = double_double(of_inputs(lambda x, y: [(x + y) - x], 2), fma=False, bound=True)
-    found = run(line, [np.array([[2.0**60, 1.5 * 2.0**-60]])], fma=False)
-    off = abs(found["y"][0, 0] + found["y.lo"][0, 0] - 1.5 * 2.0**-60)
-    assert 0 < off <= found["y.bound"][0, 0] < 2.0**-40
+    """((x + y) + y²) − x − y with y² far below the last digit of x: the result is off by y², and the bound knows."""
+    line = double_double(of_inputs(lambda x, y: [((x + y) + y * y) - x - y], 2), low=(), fma=False, bound=True)
+    found = run(line, [np.array([[1.0, 2.0**-80]])], fma=False)
+    off = abs(found["y"][0, 0] + found["y.lo"][0, 0] - 2.0**-160)
+    assert 0 < off <= found["y.bound"][0, 0] < 2.0**-90
