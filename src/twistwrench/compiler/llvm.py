@@ -10,6 +10,7 @@ together or reordered by the compiler: what comes out is what the operations say
 from __future__ import annotations
 
 import ctypes
+import sys
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
@@ -26,8 +27,8 @@ __all__ = ["NATIVE", "ONE", "MachineCode", "available", "lanes"]
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
 
-PIECE = 1000
-"""Instructions that are compiled at once."""
+WHOLE, PIECE = 10_000, 600
+"""Operations of a line that is compiled as a whole; a longer one is in pieces of so many instructions."""
 
 
 ONE = ctypes.c_int64(1)
@@ -79,7 +80,7 @@ class MachineCode:
         llvm.initialize_native_asmprinter()
         features = llvm.get_host_cpu_features().flatten()
         host = llvm.Target.from_default_triple().create_target_machine(
-            opt=2, cpu=llvm.get_host_cpu_name(), features=features
+            opt=1, cpu=llvm.get_host_cpu_name(), features=features
         )
         module = llvm.parse_assembly(written(line, NATIVE[dtype], width))
         self._engine = llvm.create_mcjit_compiler(module, host)  # keeps the code alive
@@ -108,7 +109,7 @@ def table_of(arrays: Sequence[Array]) -> Array:
 def written(line: Line, scalar: str, width: int) -> str:
     """Return a line as a module of LLVM's language: pieces of some operations, and a loop over the states.
 
-    In pieces, since the time that a compiler takes grows faster than the length of what it compiles at once.
+    A long one in pieces, since the time that a compiler takes grows faster than the length of what it compiles at once.
     """
     pieces = Pieces(line, scalar, width)
     for k, (operation, *_) in enumerate(line.nodes):
@@ -138,6 +139,7 @@ class Pieces:
         self.slot: dict[int, int] = {}  # of the nodes that later pieces need
         self.free: list[int] = []
         self.slots = 0
+        self.longest = PIECE if len(line.nodes) > WHOLE else sys.maxsize
         self.rows: dict[int, list[str]] = {}
         self.last = {}
         for k, node in enumerate(line.nodes):
@@ -160,7 +162,7 @@ class Pieces:
             self.name |= {place: value for place, value in found.items() if place is not None}
         else:
             self.name[k] = self.text.operate(operation, *values)
-        if len(self.text.lines) > PIECE:
+        if len(self.text.lines) > self.longest:
             self.end(k)
 
     def value(self, k: int) -> str:
@@ -193,7 +195,7 @@ class Pieces:
     def store(self, array: int, start: int, nodes: Sequence[int]) -> None:
         """Store entries of a result."""
         self.text.store(self.row(array), start, [self.value(k) for k in nodes])
-        if len(self.text.lines) > PIECE:
+        if len(self.text.lines) > self.longest:
             self.end(len(self.line.nodes) - 1)
 
     def row(self, array: int) -> list[str]:
