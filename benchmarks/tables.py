@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -72,12 +72,11 @@ def tables() -> dict[str, str]:
 WAYS = {"fast": "tw.fast", "textbook": "tw"}
 
 
-def fill(page: str) -> str:
+def fill(page: str, made: Mapping[str, str]) -> str:
     """Return a page with its tables made anew, each after a line ``<!-- table: NAME -->``."""
-    made = tables()
     return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{made[found[2]]}\n", page)
 
 
 if __name__ == "__main__":
     for page in PAGES:
-        page.write_text(fill(page.read_text(encoding="utf-8")), encoding="utf-8")
+        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")

@@ -12,12 +12,11 @@ import one_thread  # noqa: F401 - before NumPy
 # isort: on
 import argparse
 import json
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from tables import table
+from tables import fill, table
 
 import twistwrench as tw
 from twistwrench.plot.style import COLOURS
@@ -75,12 +74,6 @@ def _time(p: Point) -> str:
     return "~" * (not p.quiet) + duration(p.seconds)
 
 
-def fill(page: str) -> str:
-    """Return a page with its tables made anew, each after a line ``<!-- table: NAME -->``."""
-    made = tables()
-    return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{made[found[2]]}\n", page)
-
-
 def draw_steps(path: Path) -> None:
     """Draw the error of a derivative over the step, in double precision: forward, central, complex."""
     from matplotlib.figure import Figure
@@ -130,7 +123,7 @@ def main() -> None:
             draw(trade, DOCS / "pictures" / f"trade_{robot}.png")
         draw_steps(DOCS / "pictures" / "trade_steps.png")
     for page in PAGES:
-        page.write_text(fill(page.read_text(encoding="utf-8")), encoding="utf-8")
+        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The command line: ``twistwrench validate``, ``robots``, ``view``, ``study``, ``exercises``.
+"""The command line: ``twistwrench validate``, ``robots``, ``view``, ``study``, ``advise``, ``exercises``.
 
 A command is a function that adds its parser; it names in ``set_defaults(run=...)`` what does the work
 and returns the exit status. It imports there what it needs, so that ``--help`` is quick.
@@ -27,6 +27,7 @@ from .files import write_text
 from .options import at_least, check_writable
 from .stopping import INTERRUPTED, UNREAD, Stopped, heeded
 from .study.commands import register as add_study
+from .study.uses import add_advise
 from .viewing.commands import register as add_view
 
 if TYPE_CHECKING:
@@ -249,4 +250,11 @@ def _shows_bar(args: argparse.Namespace) -> bool:
     return args.progress or sys.stderr.isatty()
 
 
-COMMANDS: tuple[Callable[[Commands], None], ...] = (add_validate, add_robots, add_view, add_study, add_exercises)
+COMMANDS: tuple[Callable[[Commands], None], ...] = (
+    add_validate,
+    add_robots,
+    add_view,
+    add_study,
+    add_advise,
+    add_exercises,
+)

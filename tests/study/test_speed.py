@@ -79,5 +79,5 @@ def test_the_tables_of_the_page_are_those_of_the_results(name, monkeypatch):
     monkeypatch.syspath_prepend(str(folder))
     tables = importlib.import_module("tables")
     page = (folder / name).read_text(encoding="utf-8")
-    assert tables.fill(page) == page
+    assert tables.fill(page, tables.tables()) == page
     assert page.count("<!-- table") == len(tables.tables())

@@ -1,0 +1,277 @@
+"""``twistwrench advise``: who needs which digits for what, and what they cost on this machine.
+
+An error is worth a number of digits only to somebody. So each use has a function, a number type and a number of states
+in a call; what it gives is measured: the error against the truth in 60 digits, in N m or in mm, and the time.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import twistwrench as tw
+
+from .. import newton_euler_3d as ne
+from ..arrays import Array
+from ..compiler import Results
+from ..errors import check_known
+from ..model import Model
+from ..timing import round_robin
+from .cases import random_states
+from .trade.choice import duration
+from .trade.derivatives import difference_in_twice_the_digits
+from .trade.numbers import TRUTH, convert
+from .trade.run import NO_MPMATH
+
+__all__ = ["USES", "Advice", "Use", "add_advise", "advise"]
+
+CHECKED = 3
+"""States at which the error is measured; the worst counts."""
+
+MILLIMETRES = "mm after 1 s"
+"""Where an error of an acceleration, if it stayed, would lead 1 m away from the joint: 500 mm for 1 rad/s²."""
+
+MM_OF_ACCELERATION = 500.0
+
+
+class Use(NamedTuple):
+    """What somebody computes, and how exactly.
+
+    Attributes
+    ----------
+    what : str
+        In words.
+    function : str
+        The call, as it is written.
+    make : callable
+        From a model to the function of (q, v, u), where u is the acceleration or the torque.
+    number : str
+        float32, float64, or 50 digits.
+    states : int
+        In a call.
+    truth : callable
+        From a model and a state in 60 digits to the truth of what `make` returns first.
+    unit : str
+        Of the error.
+    enough : str
+        What is larger than this error.
+    """
+
+    what: str
+    function: str
+    make: Callable[[Model], Callable[[Array, Array, Array], Any]]
+    number: str
+    states: int
+    truth: Callable[[Model, Array, Array, Array], Array]
+    unit: str
+    enough: str
+
+
+class Advice(NamedTuple):
+    """What a use costs, and what it gives.
+
+    Attributes
+    ----------
+    use, function, number : str
+    states : int
+    error : float
+        Largest error of an entry, in `unit`.
+    unit : str
+    seconds : float
+        For one state.
+    enough : str
+    """
+
+    use: str
+    function: str
+    number: str
+    states: int
+    error: float
+    unit: str
+    seconds: float
+    enough: str
+
+    def __str__(self) -> str:
+        some = "one state" if self.states == 1 else f"{self.states} states in a call"
+        cost = f"{duration(self.seconds)} a state"
+        return (
+            f"{self.use}: {self.function}, {self.number}, {some}: {self.error:.0e} {self.unit}, {cost}; {self.enough}"
+        )
+
+
+def _program(want: str | tuple[str, ...], arguments: str, dtype: str = "float64") -> Any:
+    """Return what makes a program of a model, called with those of (q, v, u) that it takes."""
+    names = arguments.split()
+
+    def make(model: Model) -> Callable[..., Any]:
+        program = tw.compile(model, want, dtype=dtype)
+
+        def call(q: Array, v: Array, u: Array) -> Any:
+            state = {"q": q, "v": v, "a": u, "tau": u}
+            return program(*(state[name] for name in names))
+
+        return call
+
+    return make
+
+
+def _torques_of_regressor(model: Model, q: Array, v: Array, a: Array) -> Array:
+    """Return τ = Y π: the regressor has no truth of its own."""
+    return ne.inverse_dynamics(model, q, v, a)
+
+
+USES = {
+    "learn": Use(
+        "read, change and trace an algorithm",
+        "tw.rnea(model, q, v, a)",
+        lambda model: partial(tw.rnea, model),
+        "float64",
+        1,
+        ne.inverse_dynamics,
+        "N m",
+        "every number of a page is reached",
+    ),
+    "control": Use(
+        "M and h in a control loop",
+        'tw.compile(model, ("h", "M", "J_c", "A_G"))',
+        _program(("h", "M", "J_c", "A_G"), "q v"),
+        "float64",
+        1,
+        lambda model, q, v, a: ne.inverse_dynamics(model, q, v, 0 * a),
+        "N m",
+        "friction in a gearbox is 0.1 N m and more",
+    ),
+    "mpc": Use(
+        "τ and its derivatives along a horizon",
+        'tw.compile(model, ("dtau_dq", "dtau_dv", "tau"))',
+        _program(("dtau_dq", "dtau_dv", "tau"), "q v a"),
+        "float64",
+        100,
+        difference_in_twice_the_digits,
+        "N m/rad",
+        "a difference of doubles leaves some 1e-6",
+    ),
+    "sampling": Use(
+        "thousands of rollouts, as for learning a policy",
+        'tw.compile(model, "aba", dtype="float32")',
+        _program("aba", "q v tau", "float32"),
+        "float32",
+        10_000,
+        ne.forward_dynamics,
+        MILLIMETRES,
+        "masses are known to some percent",
+    ),
+    "simulation": Use(
+        "energy and momentum over minutes",
+        'tw.compile(model, "aba")',
+        _program("aba", "q v tau"),
+        "float64",
+        1,
+        ne.forward_dynamics,
+        MILLIMETRES,
+        "the error of a step of 1 ms is larger",
+    ),
+    "identification": Use(
+        "masses and inertias from measured torques",
+        'tw.compile(model, "Y")',
+        _program("Y", "q v a"),
+        "float64",
+        1000,
+        _torques_of_regressor,
+        "N m",
+        "a torque is measured to 0.01 N m",
+    ),
+    "verification": Use(
+        "hold another program against it",
+        "tw.newton_euler_3d.inverse_dynamics, mpmath",
+        lambda model: partial(ne.inverse_dynamics, model),
+        "50 digits",
+        1,
+        ne.inverse_dynamics,
+        "N m",
+        "no error of a double is in it",
+    ),
+}
+"""By name: who computes what."""
+
+
+def advise(model: Model, use: str, *, rounds: int = 5) -> Advice:
+    """Return what a use takes on this machine, and what it gives.
+
+    Parameters
+    ----------
+    model : Model
+    use : str
+        A key of `USES`.
+    rounds : int
+        Of the timing.
+
+    Raises
+    ------
+    NameNotFound
+        If there is no such use.
+    ImportError
+        If mpmath, which computes the truth, is not installed.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> found = advise(tw.load("pendulum"), "simulation", rounds=1)
+    >>> found.function, found.number, found.error < 1e-12
+    ('tw.compile(model, "aba")', 'float64', True)
+    """
+    check_known("use", use, USES)
+    wanted = USES[use]
+    try:
+        import mpmath  # noqa: F401
+    except ImportError:
+        raise ImportError(NO_MPMATH) from None
+    s = random_states(model, max(wanted.states, CHECKED))
+    compute = wanted.make(model)
+    error = max(_error(model, wanted, compute, *(x[k] for x in s)) for k in range(CHECKED))
+    one = wanted.states == 1
+    args = [convert(x[0] if one else x[: wanted.states], wanted.number) for x in s]
+    (lap,) = round_robin([lambda: compute(*args)], rounds=rounds, least=0.005)
+    seconds = float(np.median(lap.seconds)) / wanted.states
+    return Advice(use, wanted.function, wanted.number, wanted.states, error, wanted.unit, seconds, wanted.enough)
+
+
+def _error(model: Model, use: Use, compute: Callable[..., Any], q: Array, v: Array, u: Array) -> float:
+    """Return the largest error of an entry of the first result, the state's own rounding included."""
+    found = compute(*(convert(x, use.number) for x in (q, v, u)))
+    first = next(iter(vars(found).values())) if isinstance(found, Results) else found
+    if use.truth is _torques_of_regressor:
+        first = first @ np.concatenate([I.parameters() for I in model.inertia[1:]]) + model.armature * u
+    truth = use.truth(model, *(convert(x, TRUTH) for x in (q, v, u)))
+    value = first if first.dtype == object else convert(first, TRUTH)
+    return float(abs(value - truth).max()) * (MM_OF_ACCELERATION if use.unit == MILLIMETRES else 1)
+
+
+# -------------------------------------------------------------------- the command
+
+
+def add_advise(commands: Any) -> None:
+    """Add ``twistwrench advise``."""
+    parser = commands.add_parser(
+        "advise",
+        help="which function and number type for a use, with its error and time here",
+        description="Measure what a use takes on this machine: function, number type, error in its unit, time.",
+    )
+    parser.add_argument("robot", nargs="?", default="go2", metavar="ROBOT", help="a catalogue name or a URDF (go2)")
+    parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own")
+    parser.add_argument("--use", metavar="USE", help=f"of {', '.join(USES)}; all unless given")
+    parser.set_defaults(run=run_advise)
+
+
+def run_advise(args: argparse.Namespace) -> int:
+    """Print the row of a use, or of all."""
+    if args.use is not None:
+        check_known("use", args.use, USES)
+    model = tw.load(args.robot, base=args.base)
+    for use in USES if args.use is None else (args.use,):
+        print(f"{USES[use].what}:\n  {advise(model, use)}")
+    return 0
