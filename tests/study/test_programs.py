@@ -4,6 +4,7 @@ import importlib
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import twistwrench as tw
@@ -46,7 +47,7 @@ def test_each_rule_saves_what_the_page_says(maker):
 
 def test_without_a_rule_the_numbers_are_the_same(maker):
     model = tw.load("double_pendulum")
-    q, v, a = [0.3, -0.4], [1.0, 2.0], [0.5, 0.6]
+    q, v, a = np.array([[0.3, -0.4], [1.0, 2.0], [0.5, 0.6]])
     for tape in maker.RULES.values():
         with maker.recorded_on(tape):
             program = tw.compile(model, "rnea")
