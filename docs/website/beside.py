@@ -26,6 +26,7 @@ WORDS = {
     "en": ("What it does", "The source: lines {} to {} of `{}`", "Documentation of {}."),
     "zh": ("这一步做什么", "源码：`{2}` 第 {0}–{1} 行", "接口文档见 {}。"),
 }
+LINES = {"en": "## The lines", "zh": "## 逐行解释"}
 
 
 class Lines(NamedTuple):
@@ -82,6 +83,8 @@ def page(name: str, language: str) -> str:
         f"# {said['title'][language]}",
         joined(said["intro"][language].strip(), language),
         WORDS[language][2].format(call),
+        steps.step_through(said, language),
+        *([LINES[language]] if said["call"] in steps.STEPPED else []),
     ]
     for part in said["part"]:
         out += _table(part, numbers, language)

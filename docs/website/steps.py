@@ -1,11 +1,42 @@
-"""The values of a step-through on Go2: what each body received and passed on, from `tw.trace`."""
+"""The stepper of an algorithm's page, and its values on Go2: what each body received and passed on, from `tw.trace`."""
 
 from __future__ import annotations
 
 import contextlib
 import io
 import re
+from collections.abc import Iterator
 from typing import Any
+
+import numpy as np
+
+import twistwrench as tw
+from twistwrench.tracing.printing import html as table_of
+from twistwrench.tracing.stepper import stepper
+
+STEPPED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "centroidal_map": ()}
+"""The algorithms that can be gone through, by the call, and what each takes besides q."""
+
+STEP = {
+    "en": (
+        "## Step through it",
+        "Every line in the order in which it runs, with the numbers that it gives. Turn the base: what is seen from "
+        "the bodies' frames changes only where gravity is in it; raise a leg, and the inertias change.",
+    ),
+    "zh": (
+        "## 逐行运行",
+        "按运行的顺序列出每一行和它给出的数值。试着转动基座：用刚体坐标系表示的量，只有含重力的才会改变；抬起一条腿，惯量就变了。",
+    ),
+}
+ATTITUDES = {
+    ("level", "水平"): (0.0, 0.0, 0.0),
+    ("nose up by 30°", "抬头 30°"): (0.0, -np.pi / 6, 0.0),
+    ("lying on its left side", "左侧卧"): (-np.pi / 2, 0.0, 0.0),
+    ("upside down", "四脚朝天"): (np.pi, 0.0, 0.0),
+}
+"""How the base of Go2 is turned: a rotation vector, rad."""
+
+RAISED, PENDULUM = ("level, left front leg raised", "水平，抬起左前腿"), ("Double pendulum", "双摆")
 
 CODE = {
     "rnea": 't = tw.trace(model, "rnea", q, v, a)',
@@ -47,6 +78,36 @@ CHINESE = {
 }
 
 
+def step_through(said: dict[str, Any], language: str) -> str:
+    """Return the section of a page in which the reader goes from line to line; empty where there is none."""
+    if said["call"] not in STEPPED:
+        return ""
+    page = stepper(dict(_traces(said["call"], language)), language)
+    return "\n\n".join([*STEP[language], f"```{{raw}} html\n{page}\n```"])
+
+
+def _traces(call: str, language: str) -> Iterator[tuple[str, Any]]:
+    """Yield Go2 in each attitude and with a leg raised, and a double pendulum, by the page's names for them."""
+    which, names = ("en", "zh").index(language), {}
+    exec(MOTION.format(*COMMENTS[language]), names)
+    go2, standing, v, a = (names[name] for name in ("model", "q", "v", "a"))
+    given = {"v": v, "a": a, "tau": tw.rnea(go2, standing, v, a)}
+    raised = standing.copy()
+    raised[8:10] += 0.6, -0.5  # the thigh and the calf
+    turned = {label[which]: standing.copy() for label in ATTITUDES}
+    for q, rotation in zip(turned.values(), ATTITUDES.values()):
+        q[3:7] = go2.integrate(standing, [*rotation, *np.zeros(go2.nv - 3)])[3:7]
+    for label, q in (turned | {RAISED[which]: raised}).items():
+        yield f"Go2, {label}" if language == "en" else f"Go2，{label}", _trace(go2, call, q, given)
+    given = {"v": [1.0, -2.0], "a": [0.5, 3.0], "tau": [2.0, -1.0]}
+    yield PENDULUM[which], _trace(tw.load("double_pendulum"), call, [0.3, 0.6], given)
+
+
+def _trace(model: Any, call: str, q: Any, given: dict[str, Any]) -> Any:
+    algorithm = "ccrba" if call == "centroidal_map" else call
+    return tw.trace(model, algorithm, q, **{name: given[name] for name in STEPPED[call]})
+
+
 def section(said: dict[str, Any], language: str) -> str:
     """Return the section of an algorithm's page that shows the values; empty where there is no trace of it."""
     if said["call"] not in CODE:
@@ -62,7 +123,7 @@ def section(said: dict[str, Any], language: str) -> str:
 
 def _table(trace: Any, language: str) -> str:
     """Return a trace's table, in the words of the page, and such that a narrow window scrolls it."""
-    html = trace._repr_html_()
+    html = table_of(trace)
     caption = f"<caption>{CAPTION[language].format(trace.algorithm)}</caption>"
     html = re.sub("<caption>.*?</caption>", caption, html, flags=re.DOTALL)
     for word, own in CHINESE.items() if language == "zh" else ():

@@ -1,4 +1,4 @@
-"""`trace`: run the textbook's rnea, aba or crba, and read off what each body received and passed on."""
+"""`trace`: run the textbook's rnea, aba, crba or ccrba, and read off what each body received and passed on."""
 
 from __future__ import annotations
 
@@ -9,27 +9,30 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.aba import aba_terms, articulated_body
+from ..algorithms.centroidal import centroidal_composite, centroidal_terms, to_center_of_mass
 from ..algorithms.crba import composite_rigid_body, crba_terms
+from ..algorithms.kinematics import placements
 from ..algorithms.rnea import newton_euler, rnea_terms
-from ..algorithms.terms import AbaTerms, CrbaTerms, RneaTerms
+from ..algorithms.terms import AbaTerms, CentroidalTerms, CrbaTerms, RneaTerms
 from ..arrays import Array
 from ..errors import ShapeError, check_known
-from ..model import Model, Tree, check_model, tree_terms
+from ..model import Model, Tree, check_model, composite_inertias, tree_terms
+from .anchors import anchors
 from .ledger import Account, Row, Trace
 from .listing import Step, places
 
-__all__ = ["trace"]
+__all__ = ["listings", "trace"]
 
-NEEDED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": ()}
+NEEDED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "ccrba": ()}
 """The arguments of each algorithm besides q."""
 
-RESULT = {"rnea": "tau", "aba": "qdd", "crba": "M"}
+RESULT = {"rnea": "tau", "aba": "qdd", "crba": "M", "ccrba": "A_G"}
 """The result of each algorithm."""
 
 
 def trace(
     model: Model,
-    algorithm: Literal["rnea", "aba", "crba"],
+    algorithm: Literal["rnea", "aba", "crba", "ccrba"],
     q: ArrayLike,
     v: ArrayLike | None = None,
     a: ArrayLike | None = None,
@@ -40,13 +43,14 @@ def trace(
     """Run an algorithm, and return what each body received and passed on.
 
     The algorithm is the textbook's, and every value is a term of its record (`rnea_terms`, `aba_terms`,
-    `crba_terms`), under the name that it has in the source. What a body passes on is expressed in its parent's frame,
-    where it is added.
+    `crba_terms`, `centroidal_terms`), under the name that it has in the source. What a body passes on is expressed in
+    its parent's frame, where it is added.
 
     Parameters
     ----------
     model : Model
-    algorithm : {"rnea", "aba", "crba"}
+    algorithm : {"rnea", "aba", "crba", "ccrba"}
+        The last is that of `centroidal_map`.
     q : array_like, shape (nq,)
         One configuration.
     v : array_like, shape (nv,), optional
@@ -61,7 +65,7 @@ def trace(
     Returns
     -------
     Trace
-        A table by `print`, a tree by ``tree()``; ``rows`` and ``steps`` hold the arrays.
+        A table by `print`, a tree by ``tree()``, line by line in a notebook; ``rows`` and ``steps`` hold the arrays.
 
     Raises
     ------
@@ -72,7 +76,7 @@ def trace(
 
     Notes
     -----
-    Sections 49.6, 49.7 and 49.8; Featherstone, RBDA tables 5.1, 7.1 and 6.2.
+    Sections 49.6, 49.7, 49.8 and 49.10; Featherstone, RBDA tables 5.1, 7.1 and 6.2.
 
     Examples
     --------
@@ -92,16 +96,23 @@ def trace(
     if tuple(given) != NEEDED[algorithm]:
         expected = ", ".join(("q", *NEEDED[algorithm]))
         raise ValueError(f"{algorithm} takes {expected}; got {', '.join(('q', *given))}")
-    if f_ext is not None and algorithm == "crba":
-        raise ValueError("f_ext: the mass matrix does not depend on it")
+    if f_ext is not None and not NEEDED[algorithm]:
+        raise ValueError("f_ext: the mass matrix does not depend on it, nor does the centroidal map")
     wrenches = {} if f_ext is None else {"f_ext": f_ext}
     checked, *_ = model.state(q, **given, **wrenches)  # of one batch shape
     if checked.ndim != 1:
         raise ShapeError(f"{', '.join(('q', *given, *wrenches))}: expected one state, got a batch {checked.shape[:-1]}")
-    run, listing, read = _ALGORITHMS[algorithm]
+    run, read, _ = _ALGORITHMS[algorithm]
     terms, tree = run(model, q, *given.values(), **wrenches), tree_terms(model, checked)
     rows = tuple(read(model, tree, terms))
-    return Trace(algorithm, model, getattr(terms, RESULT[algorithm]), rows, tuple(_steps(listing, model, terms, rows)))
+    steps = (_ccrba_steps if algorithm == "ccrba" else _steps)(algorithm, model, terms, rows)
+    place = placements(model.parent, list(tree.placement))
+    return Trace(algorithm, model, getattr(terms, RESULT[algorithm]), rows, tuple(steps), tuple(place))
+
+
+def listings(algorithm: str) -> tuple[Callable[..., Any], ...]:
+    """Return the functions in whose source the steps of an algorithm stand."""
+    return _ALGORITHMS[algorithm].listings
 
 
 def _rnea_rows(model: Model, tree: Tree, x: RneaTerms) -> list[Row]:
@@ -134,6 +145,13 @@ def _crba_rows(model: Model, tree: Tree, x: CrbaTerms) -> list[Row]:
     return rows
 
 
+def _ccrba_rows(model: Model, tree: Tree, x: CentroidalTerms) -> list[Row]:
+    """49.10: composite inertias inward; the columns of each joint, seen from the centre of mass."""
+    IC = _accounts(tree, tree.I, x.IC, [X.mT @ IC @ X for X, IC in zip(tree.X, x.IC)])
+    A_G = [x.A_G[:, s] for s in model.v_slice]
+    return [_row(model, i, {"IC": IC[i]}, {"X": x.X[i], "A_G": A_G[i]}) for i in range(model.nbodies)]
+
+
 def _inward(X: Array, wrench: Array) -> Array:
     """Return a wrench in the parent's frame, as the recursions take it there."""
     there: Array = X.mT @ wrench[:, None]
@@ -152,11 +170,12 @@ def _row(model: Model, i: int, accounts: Mapping[str, Account], values: Mapping[
     return Row(i, model.joint_names[i], model.parent[i], {k: x for k, x in values.items() if x.size}, accounts)
 
 
-def _steps(listing: Callable[..., Any], model: Model, terms: Any, rows: Sequence[Row]) -> Iterator[Step]:
+def _steps(algorithm: str, model: Model, terms: Any, rows: Sequence[Row]) -> Iterator[Step]:
     """Yield every line that gave a term its value; what adds up has a value more with each child."""
     sums: dict[Any, list[Array]] = {
         (name, row.body): _sums(account) for row in rows for name, account in row.accounts.items()
     }
+    (listing,) = listings(algorithm)
     for place in places(listing, model.parent):
         name, index = place.name, place.index
         if (name, index) in sums:
@@ -165,6 +184,21 @@ def _steps(listing: Callable[..., Any], model: Model, terms: Any, rows: Sequence
         else:
             value = _value(model, getattr(terms, name), index)
         yield Step(listing.__name__, place.line, place.source, place.body, name, index, value)
+
+
+def _ccrba_steps(algorithm: str, model: Model, terms: CentroidalTerms, rows: Sequence[Row]) -> Iterator[Step]:
+    """Yield the three lines of the CCRBA, which stand in three functions, for every body in turn."""
+    functions = [function.__name__ for function in listings(algorithm)]
+    to_G, composite, column = (anchors()[name] for name in ("49.10 X", "49.5 IC", "49.10 A_G"))
+    sums = {row.body: _sums(row.accounts["IC"]) for row in rows}
+    outward = range(1, model.nbodies)
+    for i in outward:
+        yield Step(functions[0], to_G.number, to_G.line, i, "X", i, terms.X[i])
+    for i in reversed(outward):
+        p = model.parent[i]
+        yield Step(functions[1], composite.number, composite.line, i, "IC", p, sums[p].pop(1))
+    for i in outward:
+        yield Step(functions[2], column.number, column.line, i, "A_G", i, rows[i].values.get("A_G"))
 
 
 def _sums(account: Account) -> list[Array]:
@@ -186,13 +220,14 @@ def _value(model: Model, term: Any, index: Any) -> Array:
 
 class _Algorithm(NamedTuple):
     run: Callable[..., Any]
-    listing: Callable[..., Any]
     read: Callable[[Model, Tree, Any], list[Row]]
+    listings: tuple[Callable[..., Any], ...]
 
 
 _ALGORITHMS = {
-    "rnea": _Algorithm(rnea_terms, newton_euler, _rnea_rows),
-    "aba": _Algorithm(aba_terms, articulated_body, _aba_rows),
-    "crba": _Algorithm(crba_terms, composite_rigid_body, _crba_rows),
+    "rnea": _Algorithm(rnea_terms, _rnea_rows, (newton_euler,)),
+    "aba": _Algorithm(aba_terms, _aba_rows, (articulated_body,)),
+    "crba": _Algorithm(crba_terms, _crba_rows, (composite_rigid_body,)),
+    "ccrba": _Algorithm(centroidal_terms, _ccrba_rows, (to_center_of_mass, composite_inertias, centroidal_composite)),
 }
-"""An algorithm, its listing, and the function that reads the accounts off its record."""
+"""An algorithm, the function that reads the accounts off its record, and where its lines stand."""

@@ -9,6 +9,7 @@ from typing import Any
 from ..arrays import Array
 from ..errors import unknown_name
 from ..model import Model
+from ..spatial import SE3
 from .listing import Step
 
 __all__ = ["Account", "Row", "Trace"]
@@ -60,11 +61,13 @@ class Row:
 
 @dataclass(frozen=True, repr=False)
 class Trace:
-    """What each body received and passed on; made by `twistwrench.trace`, prints as a table.
+    """What each body received and passed on, made by `twistwrench.trace`.
+
+    It prints as a table; a notebook shows it as a page to go through line by line.
 
     Attributes
     ----------
-    algorithm : {"rnea", "aba", "crba"}
+    algorithm : {"rnea", "aba", "crba", "ccrba"}
     model : Model
     result : ndarray
         What the algorithm returned.
@@ -72,6 +75,8 @@ class Trace:
         For each body, the world first.
     steps : tuple of Step
         Every line of the source that gave a term of a body its value, in the order in which they are run.
+    placement : tuple of SE3
+        Of each body, in the world.
     """
 
     algorithm: str
@@ -79,6 +84,7 @@ class Trace:
     result: Array
     rows: tuple[Row, ...]
     steps: tuple[Step, ...]
+    placement: tuple[SE3, ...]
 
     def row(self, body: int | str) -> Row:
         """Return the row of a body, by its number or by the name of its joint; raises NameNotFound, IndexError."""
@@ -108,5 +114,6 @@ class Trace:
 
     def _repr_html_(self) -> str:
         from .printing import html
+        from .stepper import stepper
 
-        return html(self)
+        return f"{stepper({self.model.name: self})}<details><summary>All the numbers</summary>{html(self)}</details>"

@@ -19,20 +19,30 @@ UNITS = {
     "c": "rad/s², m/s²",
     "F": "N m, N",
     "pA": "N m, N",
+    "pa": "N m, N",
     "tau": "N m, N",
     "u": "N m, N",
     "IA": "kg m², kg",
+    "Ia": "kg m², kg",
     "IC": "kg m², kg",
     "U": "kg m², kg m",
     "D": "kg m², kg",
     "M": "kg m² to kg",
+    "A_G": "kg m² to kg",
+    "X": "1, m",
+    "D_inv": "1/(kg m²) to 1/kg",
     "qdd": "rad/s², m/s²",
 }
 
-FIRST = {"rnea": ("V", "A"), "aba": ("V", "c"), "crba": ()}
+FIRST = {"rnea": ("V", "A"), "aba": ("V", "c"), "crba": (), "ccrba": ()}
 """The values found before anything is passed inward; the others follow the accounts."""
 
-PASSED = {"rnea": "wrenches", "aba": "articulated inertias and bias wrenches", "crba": "composite inertias"}
+PASSED = {
+    "rnea": "wrenches",
+    "aba": "articulated inertias and bias wrenches",
+    "crba": "composite inertias",
+    "ccrba": "composite inertias",
+}
 
 Line = tuple[str, list[str], str]
 """What it is, its numbers, their unit."""
@@ -115,6 +125,8 @@ def _passes(algorithm: str, row: Row) -> str:
     if algorithm == "aba":
         diagonal = _few(np.diagonal(row.values["D"]))
         return f"{mass} kg to {row.parent}; D = {diagonal}; qdd = {_few(row.values['qdd'])}"
+    if algorithm == "ccrba":
+        return f"{mass} kg to {row.parent}"
     own = f"M[{row.body}, {row.body}]"
     return f"{mass} kg to {row.parent}; {own} = {_few(np.diagonal(row.values[own]))}"
 
