@@ -17,6 +17,7 @@ from ..algorithms.terms import AbaTerms, CentroidalTerms, CrbaTerms, RneaTerms
 from ..arrays import Array
 from ..errors import ShapeError, check_known
 from ..model import Model, Tree, check_model, composite_inertias, tree_terms
+from ..spatial.formulas import symmetric
 from .anchors import anchors
 from .ledger import Account, Row, Trace
 from .listing import Step, places
@@ -124,7 +125,7 @@ def _rnea_rows(model: Model, tree: Tree, x: RneaTerms) -> list[Row]:
 
 def _aba_rows(model: Model, tree: Tree, x: AbaTerms) -> list[Row]:
     """49.7: twists outward, articulated inertias and bias wrenches inward, accelerations outward."""
-    IA = _accounts(tree, tree.I, x.IA, [X.mT @ Ia @ X for X, Ia in zip(tree.X, x.Ia)])
+    IA = _accounts(tree, tree.I, x.IA, [symmetric(X.mT @ Ia @ X) for X, Ia in zip(tree.X, x.Ia)])
     pA = _accounts(tree, x.B, x.pA, [_inward(X, pa) for X, pa in zip(tree.X, x.pa)])
     qdd = [x.qdd[s] for s in model.v_slice]
     names = ("V", "c", "U", "D", "u", "A")
@@ -134,7 +135,7 @@ def _aba_rows(model: Model, tree: Tree, x: AbaTerms) -> list[Row]:
 
 def _crba_rows(model: Model, tree: Tree, x: CrbaTerms) -> list[Row]:
     """49.8: composite inertias inward; the wrench of each joint's unit acceleration on its way to the base."""
-    IC = _accounts(tree, tree.I, x.IC, [X.mT @ IC @ X for X, IC in zip(tree.X, x.IC)])
+    IC = _accounts(tree, tree.I, x.IC, [symmetric(X.mT @ IC @ X) for X, IC in zip(tree.X, x.IC)])
     at = model.v_slice
     rows: list[Row] = []
     for i in range(model.nbodies):
@@ -147,7 +148,7 @@ def _crba_rows(model: Model, tree: Tree, x: CrbaTerms) -> list[Row]:
 
 def _ccrba_rows(model: Model, tree: Tree, x: CentroidalTerms) -> list[Row]:
     """49.10: composite inertias inward; the columns of each joint, seen from the centre of mass."""
-    IC = _accounts(tree, tree.I, x.IC, [X.mT @ IC @ X for X, IC in zip(tree.X, x.IC)])
+    IC = _accounts(tree, tree.I, x.IC, [symmetric(X.mT @ IC @ X) for X, IC in zip(tree.X, x.IC)])
     A_G = [x.A_G[:, s] for s in model.v_slice]
     return [_row(model, i, {"IC": IC[i]}, {"X": x.X[i], "A_G": A_G[i]}) for i in range(model.nbodies)]
 
