@@ -76,7 +76,9 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
     try:
         L = np.linalg.cholesky(M)
     except np.linalg.LinAlgError:
-        raise SingularError(f"the mass matrix is not positive definite: {_without_inertia(model, M)}") from None
+        L = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
+    if not np.isfinite(L).all():
+        raise SingularError(f"the mass matrix is not positive definite: {_without_inertia(model, M)}")
     Y = np.linalg.solve(L, J.mT)
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
     bound = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))

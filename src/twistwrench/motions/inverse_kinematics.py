@@ -132,9 +132,12 @@ def solve(stand: Stand, J: Array, wanted: Array) -> Array:
         If there is no such x, as with a straight leg.
     """
     try:
-        return np.asarray(np.linalg.solve(J, wanted[..., None])[..., 0])
+        x = np.asarray(np.linalg.solve(J, wanted[..., None])[..., 0])
     except np.linalg.LinAlgError:
-        raise SingularError(f"{stand.model.name!r}: a leg is straight, or otherwise cannot do what it should") from None
+        x = np.full_like(wanted, np.nan)  # which is what a browser's NumPy gives instead of raising
+    if not np.isfinite(x).all():
+        raise SingularError(f"{stand.model.name!r}: a leg is straight, or otherwise cannot do what it should")
+    return x
 
 
 def free_columns(stand: Stand) -> list[int]:

@@ -113,7 +113,7 @@ def _step(trace: Trace, step: Step, listing: int, language: str) -> dict[str, An
     return {
         "listing": listing,
         "line": step.line,
-        "body": frame if step.body is None else step.body,
+        "body": _turn(step),
         "frame": frame,
         "name": step.name,
         "anchor": step.anchor,
@@ -127,7 +127,7 @@ def _step(trace: Trace, step: Step, listing: int, language: str) -> dict[str, An
 
 def _numbers(model: Model, step: Step) -> dict[str, int]:
     """Return which body each letter of a formula stands for: i, its parent p, j towards the base, k outboard of j."""
-    i = step.index if step.body is None else step.body
+    i = _turn(step)
     numbers = {"i": i, "p": max(model.parent[i], 0)}
     if isinstance(step.index, tuple):
         numbers["j"] = j = next((b for b in step.index if b != i), i)
@@ -154,12 +154,17 @@ def formula(text: str, numbers: Mapping[str, int]) -> str:
     return re.sub(r"^(.*?)( [=←] )", r"<mark>\1</mark>\2", html)
 
 
+def _turn(step: Step) -> int:
+    """Return the body whose turn it is; outside of the loops it is the world's."""
+    return 0 if step.body is None else step.body
+
+
 def _units(trace: Trace, step: Step) -> list[str]:
     """Return the units of the angular and of the linear part; those of a joint depend on whether it turns or slides."""
-    model, name, i = trace.model, step.name, step.body
+    model, name, i = trace.model, step.name, _turn(step)
     per_acceleration = name in ("U", "A_G") or (name, trace.algorithm) == ("F", "crba")
     joints = step.index if isinstance(step.index, tuple) else (i, i)
-    if i is not None and all(_dofs(model, k) == 1 for k in joints if name == "M" or k == i):
+    if i and all(_dofs(model, k) == 1 for k in joints if name == "M" or k == i):
         turning = [_is_turning(model, k) for k in joints]
         if per_acceleration:
             return ["kg m²", "kg m"] if _is_turning(model, i) else ["kg m", "kg"]
@@ -173,7 +178,7 @@ def _units(trace: Trace, step: Step) -> list[str]:
 
 
 def _dofs(model: Model, i: int) -> int:
-    return model.v_slice[i].stop - model.v_slice[i].start
+    return int(model.v_slice[i].stop - model.v_slice[i].start)
 
 
 def _is_turning(model: Model, i: int) -> bool:
