@@ -47,7 +47,7 @@ class Peer(NamedTuple):
 
 def peers(model: tw.Model, urdf: str) -> Iterator[Peer]:
     """Yield what is installed; what cannot be set up says so and is left out."""
-    for make in (_mujoco, _adam_numpy, _adam_jax, _frax):
+    for make in (_ours, _pinocchio_batches, _mujoco, _adam_numpy, _adam_jax, _frax):
         try:
             with warnings.catch_warnings(), contextlib.redirect_stderr(io.StringIO()):
                 warnings.simplefilter("ignore")
@@ -73,6 +73,33 @@ def _placement(model: tw.Model, q: np.ndarray) -> np.ndarray:
     out = np.zeros((len(q), 4, 4))
     out[:, :3, :3], out[:, :3, 3], out[:, 3, 3] = T.rotation, T.translation, 1
     return out
+
+
+def _ours(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    for quantity in ("rnea", "aba"):
+        program = tw.compile(model, quantity)
+
+        def prepare(s: States, program=program):
+            return lambda: program(s.q, s.v, s.a)[:, JOINTS]
+
+        yield Peer("tw.compile", version("twistwrench"), quantity, True, "body", prepare)
+
+
+def _pinocchio_batches(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    import pinocchio as pin
+
+    pool = pin.ModelPool(tw.bridge.to_pinocchio_model(model), 2)
+    calls = {"rnea": pin.rneaInParallel, "aba": pin.abaInParallel}
+    for quantity, call in calls.items():
+        for threads in (1, 2):
+
+            def prepare(s: States, call=call, threads=threads):
+                v, a = (tw.bridge.to_pinocchio_tangent(model, x) for x in (s.v, s.a))
+                columns = [np.asfortranarray(x.T) for x in (s.q, v, a)]
+                return lambda: call(threads, pool, *columns).T[:, JOINTS]
+
+            name = f"Pinocchio, {call.__name__}({threads})"
+            yield Peer(name, version("pin"), quantity, True, "body", prepare)
 
 
 def _mujoco(model: tw.Model, urdf: str) -> Iterator[Peer]:
@@ -191,6 +218,9 @@ def _frax(model: tw.Model, urdf: str) -> Iterator[Peer]:
 
 def expected(model: tw.Model, peer: Peer, s: States) -> np.ndarray:
     """Return our joints' entries of what a peer computes."""
+    if peer.quantity in ("rnea", "aba"):
+        found: np.ndarray = getattr(tw, peer.quantity)(model, s.q, s.v, s.a)[:, JOINTS]
+        return found
     if peer.quantity == "crba":
         return tw.fast.crba(model, s.q)[:, JOINTS, JOINTS]
     a = np.zeros_like(s.v)

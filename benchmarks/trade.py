@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from speed import environment
 from tables import fill, table
 
 import twistwrench as tw
@@ -23,12 +24,14 @@ from twistwrench.plot.style import COLOURS
 from twistwrench.study.trade import Point, weigh
 from twistwrench.study.trade.choice import TARGETS, best, duration
 from twistwrench.study.trade.picture import draw
+from twistwrench.study.uses import USES, Advice, advise
 from twistwrench.validate.report import number
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent / "docs"
 PAGES = (DOCS / "trade.md", DOCS / "trade.zh-CN.md")
 ROBOTS = ("go2", "humanoid")
+USES_RESULTS = HERE / "results" / "uses.json"
 
 
 def points(robot: str) -> list[Point]:
@@ -40,7 +43,9 @@ def points(robot: str) -> list[Point]:
 def tables() -> dict[str, str]:
     """Return all tables by name. A cell is a time for one state, or that and an error."""
     go2 = points("go2")
+    uses = json.loads(USES_RESULTS.read_text(encoding="utf-8"))["uses"]
     return {
+        "uses": table(cell for row in uses for cell in _use(Advice(**row))),
         "one": table(_answers([p for p in go2 if p.states == 1])),
         "alone": table(_answers([p for p in go2 if p.states == 1 and not p.way.startswith("pin.")])),
         "many": table(_answers(go2)),
@@ -52,6 +57,15 @@ def tables() -> dict[str, str]:
         "humanoid": table(_answers(points("humanoid"))),
         "heavier": table(_cells(points("humanoid"), "FD")),
     }
+
+
+def _use(row: Advice) -> Iterator[tuple[str, str, str]]:
+    """Yield the row of a use."""
+    some = "1 state" if row.states == 1 else f"{row.states} states"
+    cells = {"function": f"`{row.function}`", "number type": row.number, "in a call": some}
+    cells |= {"error": f"{row.error:.0e} {row.unit}", "time": duration(row.seconds)}
+    for column, cell in cells.items():
+        yield f"`{row.use}`", column, cell
 
 
 def _answers(some: list[Point]) -> Iterator[tuple[str, str, str]]:
@@ -116,7 +130,14 @@ def main() -> None:
     """Run what is asked for."""
     parser = argparse.ArgumentParser(description="Make the numbers, the pictures and the tables of docs/trade.md.")
     parser.add_argument("--tables", action="store_true", help="only the tables, from results/")
-    if not parser.parse_args().tables:
+    parser.add_argument("--uses", action="store_true", help="only the uses: half a minute")
+    args = parser.parse_args()
+    if not args.tables:
+        model = tw.load("go2")
+        rows = [advise(model, use)._asdict() for use in USES]
+        found = {**environment("python benchmarks/trade.py"), "robot": model.name, "uses": rows}
+        USES_RESULTS.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    if not (args.tables or args.uses):
         for robot in ROBOTS:
             trade = weigh(robot, progress=None)
             (HERE / "results" / f"trade_{robot}.json").write_text(trade.to_json() + "\n", encoding="utf-8")

@@ -81,6 +81,9 @@ class Pairwise:
         width = lanes(DOUBLE) if self.native else 1
         code = self._code(width if count >= width else 1)
         parts = max(1, min(self.threads, count // 64))
+        if parts == 1:
+            code.run(arrays)
+            return
         edges = [count * k // parts for k in range(parts + 1)]
         with ThreadPoolExecutor(parts) as pool:
             list(pool.map(lambda k: code.run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
