@@ -146,3 +146,26 @@ def test_sine_and_cosine_are_within_a_rounding(number):
     exact = [(mpmath.cos(float(angle)), mpmath.sin(float(angle))) for angle in x]
     errors = [(float(R[k, 0, 0]) - cos, abs(float(R[k, 0, 2])) - abs(sin)) for k, (cos, sin) in enumerate(exact)]
     assert max(abs(float(error)) for pair in errors for error in pair) < 0.6 * np.finfo(number).eps
+
+
+def test_a_scene_is_compiled_with_its_contacts_and_wrenches():
+    soles = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
+    push = {"left_sole": [1.0, 2, 3, 40, 50, 60]}
+    scene = tw.Scene("humanoid", contacts=soles, hold=["*_shoulder_*", "*_elbow"], wrenches=push)
+    model, s = scene.model, random_state(scene.model, rng=0)
+    f_ext = scene.f_ext(s.q)
+    program = compile(scene, ["tau", "qdd", "h", "g", "J_c", "M", "dg_dq"])
+    got = program(s.q, s.v, s.a, s.tau)
+    expected = scene.dynamics(s.q, s.v)
+    tau, qdd = tw.rnea(model, s.q, s.v, s.a, f_ext), tw.aba(model, s.q, s.v, s.tau, f_ext)
+    h, g = tw.rnea(model, s.q, s.v, 0 * s.v, f_ext), tw.rnea(model, s.q, 0 * s.v, 0 * s.v, f_ext)
+    for x, y in ((got.tau, tau), (got.qdd, qdd), (got.h, h), (got.g, g), (got.J_c, expected.J_c), (got.M, expected.M)):
+        np.testing.assert_allclose(x, y, rtol=0, atol=1e-12 * np.abs(y).max())
+    step = 1e-6 * s.a
+    change = (tw.rnea(model, q := model.integrate(s.q, step), 0 * s.v, 0 * s.v, scene.f_ext(q)) - g) / 1e-6
+    np.testing.assert_allclose(got.dg_dq @ s.a, change, rtol=0, atol=1e-3 * np.abs(change).max())
+    assert pickle.loads(pickle.dumps(program)).operations == program.operations
+    with pytest.raises(tw.NameNotFound, match="unknown quantity 'dqdd_dq'"):
+        compile(scene, "dqdd_dq")
+    with pytest.raises(ValueError, match="contacts: a scene has its own"):
+        compile(scene, "J_c", contacts=["left_sole"])

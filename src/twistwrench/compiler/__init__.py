@@ -28,11 +28,11 @@ outputs       arrays of the caller that are to be filled
 memory        of one state at known addresses; rows of a caller's arrays
 program       `Program`, which is called as the textbook's functions are
 digits        programs with more digits, and with a bound
-compile       `compile`
+compilation   `compile`
 ============  ===================================================================================
 """
 
-from .compile import compile
+from .compilation import compile
 from .digits import DoubleDouble
 from .memory import Results
 from .program import Program

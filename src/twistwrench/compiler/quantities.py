@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -52,6 +52,7 @@ def quantities(
     contacts: Sequence[str] = (),
     frames: Sequence[str] = (),
     reference: Reference = "local",
+    instead: Iterable[Quantity] = (),
 ) -> dict[str, Quantity]:
     """Return what can be computed of a model, by symbol.
 
@@ -66,6 +67,8 @@ def quantities(
         The frames whose placements, Jacobians J and J̇ v are meant, along an axis before their own.
     reference : str
         Of J and J̇ v: see `twistwrench.frame_jacobian`.
+    instead : iterable of Quantity
+        Take the place of those of the same symbols, also where derivatives are asked for: a scene's.
     """
 
     def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
@@ -104,6 +107,7 @@ def quantities(
         of_frames("J", "q", lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv),
         of_frames("dJ_v", "q v", lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6),
     ]
+    every = [*({quantity.symbol: quantity for quantity in every} | {x.symbol: x for x in instead}).values()]
     every += [of("Y", "q v a", regressor), *(d for quantity in every for d in derivatives(model, quantity))]
     return {quantity.symbol: quantity for quantity in every}
 

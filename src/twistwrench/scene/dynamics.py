@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..algorithms.kinematics import frame_jacobian
-from ..algorithms.rnea import nonlinear_effects
+from ..algorithms.kinematics import Reference, frame_jacobian
+from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..algorithms.whole_body import QUANTITIES, Dynamics
 from ..arrays import Array, convert
 from ..compiler.quantities import Quantity, quantities
@@ -16,7 +17,7 @@ from ..contact import Contact
 from ..fast.programs import ASKED, remembered, states_of
 from ..model import Model
 
-__all__ = ["scene_dynamics"]
+__all__ = ["scene_dynamics", "scene_quantities"]
 
 
 def scene_dynamics(
@@ -34,13 +35,39 @@ def scene_dynamics(
     pushed = tuple((frame, wrench.tobytes()) for frame, wrench in wrenches.items()) if "h" in want else ()
 
     def asked() -> list[Quantity]:
-        known = quantities(model, dtype)
-        known["J_c"] = Quantity("J_c", ("q",), lambda q: (contact_rows(model, contacts, q), []))
-        known["h"] = Quantity("h", ("q", "v"), lambda q, v: (without(model, wrenches, q, v), []))
+        known = scene_quantities(model, contacts, wrenches, dtype)
         return [*(known[name] for name in want), ASKED]
 
     found = remembered(model, ("scene", want, dtype, held, pushed), dtype, asked)(*args)
     return Dynamics(**{name: getattr(found, name) for name in want})
+
+
+def scene_quantities(
+    model: Model,
+    contacts: Sequence[Contact],
+    wrenches: Mapping[str, Array],
+    dtype: np.dtype[Any],
+    frames: Sequence[str] = (),
+    reference: Reference = "local",
+) -> dict[str, Quantity]:
+    """Return what can be computed of a scene, by symbol: of its model, with the rows of its contacts and its wrenches.
+
+    Derivatives of q̈ are made of those of τ without wrenches; a scene that has wrenches does not offer them.
+    """
+    free = quantities(model, dtype)
+
+    def accelerated(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
+        return free["qdd"].compute(q, v, tau + push(model, wrenches, q), *f_ext)
+
+    pushed = [
+        Quantity("h", ("q", "v"), lambda q, v: (nonlinear_effects(model, q, v) - push(model, wrenches, q), [])),
+        Quantity("g", ("q",), lambda q: (gravity(model, q) - push(model, wrenches, q), [])),
+        Quantity("tau", free["tau"].arguments, lambda q, *rest: (rnea(model, q, *rest) - push(model, wrenches, q), [])),
+        Quantity("qdd", free["qdd"].arguments, accelerated),
+    ]
+    rows = Quantity("J_c", ("q",), lambda q: (contact_rows(model, contacts, q), []))
+    known = quantities(model, dtype, (), frames, reference, instead=[rows, *(pushed if wrenches else [])])
+    return {name: quantity for name, quantity in known.items() if not (wrenches and name.startswith("dqdd_"))}
 
 
 def contact_rows(model: Model, contacts: Sequence[Contact], q: Array) -> Array:
@@ -50,10 +77,10 @@ def contact_rows(model: Model, contacts: Sequence[Contact], q: Array) -> Array:
     return np.concatenate([none, *(J[..., c.rows, :] for c, J in zip(contacts, six))], axis=-2)
 
 
-def without(model: Model, wrenches: Mapping[str, Array], q: Array, v: Array) -> Array:
-    """Return h less Σ Jᵀ (τ, f) of the wrenches."""
-    h = nonlinear_effects(model, q, v)
+def push(model: Model, wrenches: Mapping[str, Array], q: Array) -> Array:
+    """Return Σ Jᵀ (τ, f) of the wrenches, shape (..., nv)."""
+    total = np.zeros((*q.shape[:-1], model.nv), q.dtype)
     for frame, wrench in wrenches.items():
         J = frame_jacobian(model, q, frame, "local_world_aligned")
-        h = h - J.mT @ convert(wrench, q.dtype)
-    return h
+        total = total + J.mT @ convert(wrench, q.dtype)
+    return total

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.centroidal import center_of_mass
-from ..algorithms.kinematics import frame_placement
+from ..algorithms.kinematics import Reference, frame_placement
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array, check_kind
+from ..compiler.quantity import Quantity
 from ..motions import Motion
 from ..motions.motion import check_motion
 from .anchored import Anchored
 from .costs import Candidate, Costs, State, costs, limbs
-from .dynamics import scene_dynamics
+from .dynamics import scene_dynamics, scene_quantities
 from .reduced_model import SmallestModel
 from .robot import posture
 from .standing import Standing, standing
@@ -115,6 +117,10 @@ class Scene(SmallestModel):
             As `twistwrench.dynamics`.
         """
         return scene_dynamics(self.model, self.contacts, self.wrenches, q, v, wanted(want))
+
+    def _quantities(self, dtype: np.dtype[Any], frames: tuple[str, ...], reference: Reference) -> dict[str, Quantity]:
+        """Return what `twistwrench.compile` can make a program of, by symbol."""
+        return scene_quantities(self.model, self.contacts, self.wrenches, dtype, frames, reference)
 
     def f_ext(self, q: ArrayLike) -> Array:
         """Return the scene's wrenches as `twistwrench.rnea` and `twistwrench.aba` take them, shape (..., nbodies, 6).

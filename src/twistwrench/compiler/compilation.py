@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterable, Mapping
 from functools import partial
-from typing import Any, get_args
+from typing import Any, Protocol, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
@@ -23,8 +24,21 @@ __all__ = ["compile"]
 BACKENDS = ("llvm", "numpy")
 
 
+class SceneLike(Protocol):
+    """What is compiled of a `Scene`, which is in a later room."""
+
+    @property
+    @abstractmethod
+    def model(self) -> Model: ...
+
+    @abstractmethod
+    def _quantities(
+        self, dtype: np.dtype[Any], frames: tuple[str, ...], reference: Reference
+    ) -> dict[str, Quantity]: ...
+
+
 def compile(
-    model: Model,
+    model: Model | SceneLike,
     want: str | Iterable[str],
     *,
     dtype: DTypeLike = np.float64,
@@ -40,7 +54,8 @@ def compile(
 
     Parameters
     ----------
-    model : Model
+    model : Model or Scene
+        Of a scene its smallest model, with the scene's wrenches in τ, h, g and q̈, and the rows of its contacts in J_c.
     want : str or iterable of str
         Functions or symbols of `quantities.SYMBOLS`: of one name the program returns an array, of several `Results`,
         which share their work.
@@ -48,7 +63,7 @@ def compile(
         float32 and float64 have machine code; every floating-point type has NumPy. "double-double" has 32 digits, in
         pairs of doubles: see `digits.DoubleDouble`.
     contacts : iterable of str, optional
-        The frames of J_c; `model.feet` unless given.
+        The frames of J_c; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
         The frames of placements, Jacobians and J̇ v: an axis before their own.
     reference : {"local", "world", "local_world_aligned"}
@@ -91,6 +106,12 @@ def compile(
     >>> program.operations.total(), held.operations.total(), held.arguments
     (2658, 687, ('q', 'f_ext'))
 
+    A scene's program has what the scene requires:
+
+    >>> scene = tw.Scene(model, base="fixed", hold=["F*", "RL*"])
+    >>> tw.compile(scene, "rnea").operations.total()
+    343
+
     Several at once share their work:
 
     >>> both = tw.compile(model, ["M", "h"])
@@ -130,8 +151,14 @@ def _known(
     reference: Reference,
 ) -> tuple[dict[str, Quantity], Model]:
     """Return what can be computed of a model or a scene, and the model."""
-    check_model(model)
     check_known("reference", reference, get_args(Reference))
+    if (of_scene := getattr(model, "_quantities", None)) is not None:
+        if contacts is not None:
+            raise ValueError(f"contacts: a scene has its own, got {list(contacts)}; tw.Scene(..., contacts=) sets them")
+        for frame in frames:
+            model.model.frame(frame)
+        return of_scene(dtype, frames, reference), model.model
+    check_model(model)
     contacts = model.feet if contacts is None else contacts
     for frame in (*contacts, *frames):
         model.frame(frame)
