@@ -1,6 +1,8 @@
 """Programs of 32 digits, and bounds that hold, against mpmath and against the 50-digit Newton-Euler of 49.1."""
 
+import pickle
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -60,6 +62,15 @@ def relative(found, right):
 def arguments(model, name, rng=0):
     state = random_state(model, rng=rng)._asdict()
     return [state[x] for x in TRUTH[name][1].split()]
+
+
+@cache
+def of_go2(name, dtype=np.float64):
+    """Return a state of Go2, in numbers of a type, and the truth."""
+    model = tw.load("go2")
+    args = [x.astype(dtype) for x in arguments(model, name)]
+    with mpmath.workdps(60):
+        return model, args, TRUTH[name][0](model, *(ne.as_mpmath(x) for x in args))
 
 
 def run(line, arrays, fma):
@@ -148,9 +159,7 @@ def test_sin_of_a_tiny_pair_is_relatively_right():
 
 @pytest.mark.parametrize(("name", "backend"), WAYS)
 def test_go2_has_thirty_digits(name, backend):
-    model = tw.load("go2")
-    args = arguments(model, name)
-    right = TRUTH[name][0](model, *(ne.as_mpmath(x) for x in args))
+    model, args, right = of_go2(name)
     found = compile(model, name, dtype="double-double", backend=backend)(*args)
     assert relative(whole(found), right) < DIGITS
     assert (found.hi + found.lo == found.hi).all()
@@ -174,7 +183,7 @@ def test_trees_of_every_joint_have_thirty_digits_and_bounds_that_hold(recipe, na
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_pairs_go_in_and_batches_and_wrenches(backend):
-    model = tw.load("go2")
+    model = aligned(tw.random_tree(4, rng=2, base="floating"))
     s = random_state(model, rng=3)
     program = compile(model, "rnea", dtype="double-double", backend=backend)
     f = np.zeros((model.nbodies, 6))
@@ -187,6 +196,7 @@ def test_pairs_go_in_and_batches_and_wrenches(backend):
     assert many.hi.shape == (2, 9, model.nv)
     assert (many.hi[1, 8] == one.hi).all()
     assert (many.lo[1, 8] == one.lo).all()
+    assert program(np.zeros((0, model.nq)), s.v, s.a).lo.shape == (0, model.nv)
     moved = program(s.q, DoubleDouble(s.v + low, -low / 2), s.a)  # the same numbers, written otherwise
     assert relative(whole(moved), right) < 1e-15
 
@@ -198,6 +208,16 @@ def test_several_results_are_pairs_by_name():
     assert relative(whole(both.M), ne.mass_matrix(model, ne.as_mpmath(q))) < 1e-15  # its placements are no rotations
     assert both.g.lo.shape == bound.g.shape == (model.nv,)
     assert bound.M.max() < 1e-25
+
+
+@pytest.mark.parametrize("options", [{"dtype": "double-double", "bound": True}, {"dtype": np.float32, "bound": True}])
+def test_programs_of_digits_pickle(options):
+    model = tw.load("double_pendulum")
+    program = compile(model, "M", backend="numpy", **options)
+    copy, q = pickle.loads(pickle.dumps(program)), np.array([0.3, 2.0])
+    assert (repr(copy), copy.arguments, copy.operations) == (repr(program), program.arguments, program.operations)
+    for one, other in zip(program(q), copy(q), strict=True):
+        np.testing.assert_array_equal(np.asarray(one), np.asarray(other))
 
 
 def test_errors_are_the_textbooks():
@@ -230,12 +250,10 @@ def test_errors_are_the_textbooks():
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize(("name", "backend"), WAYS)
 def test_bounds_hold_and_are_close(name, backend, dtype):
-    model = tw.load("go2")
-    args = [x.astype(dtype) for x in arguments(model, name)]
+    model, args, right = of_go2(name, dtype)
     value, bound = compile(model, name, backend=backend, dtype=dtype, bound=True)(*args)
     assert value.dtype == bound.dtype == dtype
     assert value.shape == bound.shape
-    right = TRUTH[name][0](model, *(ne.as_mpmath(x) for x in args))
     off, noise = abs(ne.as_mpmath(value) - right), NOISE * abs(right).max()
     assert (off <= ne.as_mpmath(bound) + noise).all()
     sure = off > noise

@@ -12,10 +12,10 @@ sine          sin and cos of many angles at once
 llvm          machine code, by LLVM
 source        a line as text: Python, annotated with the chapter's steps, and C
 plain         Python's floats, for a few states
+pairs         arithmetic with pairs of doubles
 registers     NumPy, for every number type
 tangent       the derivatives of what is on a tape, and steps along v from q
 backend       which of them runs a line
-pairs         arithmetic with pairs of doubles
 pair_sine     sin and cos of a pair
 bounds        how far a computed number can be off
 double_double a line rewritten into pairs, with bounds
@@ -27,7 +27,8 @@ recording     from quantities to a line
 outputs       arrays of the caller that are to be filled
 memory        of one state at known addresses; rows of a caller's arrays
 program       `Program`, which is called as the textbook's functions are
-digits        programs with more digits, and with a bound
+wide          programs in quadruple precision, and in mpmath's numbers
+digits        programs in pairs of doubles, and with a bound
 compilation   `compile`
 ============  ===================================================================================
 """

@@ -14,10 +14,11 @@ from ..algorithms.kinematics import Reference
 from ..arrays import Array, as_count, as_flag, as_names, check_choice, check_kind
 from ..errors import check_known
 from ..model import Model, check_arrays, check_model
-from .digits import with_digits
+from .digits import NUMBERS, with_digits
 from .llvm import NATIVE, available
 from .program import Program
 from .quantities import ARGUMENTS, Quantity, chosen, quantities
+from .wide import WIDE, DigitsProgram, wide_type
 
 __all__ = ["compile"]
 
@@ -49,7 +50,7 @@ def compile(
     backend: str | None = None,
     threads: int = 1,
     bound: bool = False,
-) -> Program:
+) -> Program | DigitsProgram:
     """Return a program for this model and this question, and nothing else in it.
 
     Parameters
@@ -61,7 +62,8 @@ def compile(
         which share their work.
     dtype : dtype_like
         float32 and float64 have machine code; every floating-point type has NumPy. "double-double" has 32 digits, in
-        pairs of doubles: see `digits.DoubleDouble`.
+        pairs of doubles: see `digits.DoubleDouble`. "quad" has 34, by numpy-quaddtype, and "mpmath" as many as
+        ``mpmath.mp.dps`` is when the program is called.
     contacts : iterable of str, optional
         The frames of J_c; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
@@ -80,14 +82,16 @@ def compile(
 
     Returns
     -------
-    Program, or `digits.DoubleDoubleProgram`, or `digits.BoundedProgram`
+    Program
+        Of other digits or with a bound, one of its kin: `digits.DoubleDoubleProgram`, `digits.BoundedProgram`,
+        `wide.WideProgram`.
 
     Raises
     ------
     NameNotFound
         If there is no such quantity, frame, reference or argument; the message lists those that are.
     ImportError
-        If `backend` is "llvm" and llvmlite is not installed.
+        If `backend` is "llvm" and llvmlite is not installed, or the package of the number type.
     ShapeError, TypeError, ValueError
         If an option is not one of those above.
 
@@ -118,29 +122,34 @@ def compile(
     >>> both(np.tile(model.standing(), (1000, 1)), np.zeros((1000, 18)))
     Results(M: (1000, 18, 18), h: (1000, 18))
     """
-    pairs = isinstance(dtype, str) and dtype == "double-double"
+    number = dtype if isinstance(dtype, str) and dtype in NUMBERS else None
+    own = _number_type(np.float64 if number else dtype)
     options: dict[str, Any] = {
-        "dtype": _number_type(np.float64 if pairs else dtype),
+        "dtype": own,
         "contacts": None if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True),
         "frames": as_names(frames, "frames", "frame names", ordered=True),
         "reference": reference,
         "given": _mapping(given),
-        "backend": backend,
+        "backend": _backend(backend, wide_type(number) if number in WIDE else own),
         "threads": as_count(threads, "threads", 1),
     }
     asked = want if isinstance(want, str) else as_names(want, "want", "quantities")
+    return with_digits(_program(model, asked, options), number, bound=as_flag(bound, "bound"))
+
+
+def _program(model: Model | SceneLike, asked: str | tuple[str, ...], options: Mapping[str, Any]) -> Program:
+    """Return a program in numbers of NumPy."""
     known, body = _known(model, *(options[name] for name in ("dtype", "contacts", "frames", "reference")))
-    program = Program(
+    return Program(
         body,
         chosen(known, (asked,) if isinstance(asked, str) else asked),
         single=isinstance(asked, str),
         given=_checked(body, options["given"]),
         dtype=options["dtype"],
-        backend=_backend(backend, options["dtype"]),
+        backend=options["backend"],
         threads=options["threads"],
-        remake=partial(compile, model, asked, **options),
+        remake=partial(_program, model, asked, options),
     )
-    return with_digits(program, pairs=pairs, bound=as_flag(bound, "bound"))  # type: ignore[no-any-return]
 
 
 def _known(

@@ -1,4 +1,4 @@
-"""Programs with more digits than a double, and programs whose results have a bound.
+"""Programs of 32 digits in pairs of doubles, and programs whose results have a bound.
 
 They hold a program in doubles, which knows the arguments and raises the errors, and run its line in other numbers.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from math import prod
 from typing import Any, NamedTuple
 
@@ -19,12 +20,16 @@ from ..errors import ShapeError
 from .double_double import BOUND, LO, double_double
 from .line import Line
 from .llvm import NATIVE, MachineCode, lanes
-from .memory import Results
 from .program import Program
 from .recording import ALARM
 from .registers import Registers
+from .wide import WIDE, DigitsProgram, WideProgram
 
-__all__ = ["BoundedProgram", "DoubleDouble", "DoubleDoubleProgram", "with_digits"]
+__all__ = ["NUMBERS", "BoundedProgram", "DoubleDouble", "DoubleDoubleProgram", "with_digits"]
+
+PAIRS = "double-double"
+NUMBERS = (PAIRS, *WIDE)
+"""Number types that are not NumPy's, by name."""
 
 DOUBLE = np.dtype(np.float64)
 
@@ -71,7 +76,8 @@ class Pairwise:
     def run(self, states: Mapping[str, Array], batch: tuple[int, ...]) -> dict[str, Array]:
         """Return the results, the parts of pairs by the names of `double_double`."""
         count = prod(batch)
-        given = [np.ascontiguousarray(states[name].reshape(count, -1)) for name in self.line.inputs]
+        shapes = self.line.inputs.items()
+        given = [np.ascontiguousarray(states[name].reshape(count, prod(shape))) for name, shape in shapes]
         results = {name: np.empty((count, len(entries))) for name, (_, entries) in self.line.outputs.items()}
         if count:
             self._run([*given, *results.values()], count)
@@ -95,7 +101,7 @@ class Pairwise:
         return self._codes[width]
 
 
-class DoubleDoubleProgram:
+class DoubleDoubleProgram(DigitsProgram):
     """A program with 32 digits: what `twistwrench.compile` returns with ``dtype="double-double"``.
 
     Parameters
@@ -107,8 +113,8 @@ class DoubleDoubleProgram:
     """
 
     def __init__(self, program: Program, *, bound: bool = False) -> None:
-        self.program, self.bound = program, bound
-        self.arguments = program.arguments
+        super().__init__(program)
+        self.bound = bound
         self._pairwise: dict[Any, Pairwise] = {}
 
     @property
@@ -147,34 +153,25 @@ class DoubleDoubleProgram:
         given = self.program._bound(args, named)
         pairs = {name: _as_pair(name, x) for name, x in given.items() if isinstance(x, DoubleDouble)}
         states = self.program._arrays({name: pairs[name].hi if name in pairs else x for name, x in given.items()})
-        batch = _batch(self.program, tuple(given), states)
+        batch = self._batch(tuple(given), states)
         high = dict(zip(given, states))
         low = {name + LO: np.broadcast_to(pair.lo, high[name].shape) for name, pair in pairs.items()}
         found = self.of(tuple(given), tuple(pairs)).run(high | low, batch)
-        self._check(high, found)
-        value = {symbol: DoubleDouble(found[symbol], found[symbol + LO]) for symbol in _symbols(self.program)}
+        self._check(high, found, "angles up to 2**45 rad, and sizes ")
+        value = {symbol: DoubleDouble(found[symbol], found[symbol + LO]) for symbol in self._symbols}
         if not self.bound:
-            return _packed(self.program, value)
+            return self._packed(value)
         certain = {symbol: _certain(found[symbol + BOUND]) for symbol in value}
-        return _packed(self.program, value), _packed(self.program, certain)
-
-    def _check(self, states: Mapping[str, Array], found: Mapping[str, Array]) -> None:
-        """Let the textbook look at the states that raise the alarm: it raises what there is to raise."""
-        unsure = ~(found[ALARM] <= 1)
-        if unsure.any():
-            looked_at = {symbol: found[symbol].copy() for symbol in _symbols(self.program)}
-            self.program._by_the_textbook(states, looked_at, unsure)
-        if not all(np.isfinite(found[symbol]).all() for symbol in _symbols(self.program)):
-            raise ValueError("expected angles up to 2**45 rad, and sizes whose products are numbers")
+        return self._packed(value), self._packed(certain)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _double_double_program, (self.program, self.bound)
+        return partial(DoubleDoubleProgram, bound=self.bound), (self.program,)
 
     def __repr__(self) -> str:
         return f"{self.program!r}"[:-1].replace("float64", "double-double") + ">"
 
 
-class BoundedProgram:
+class BoundedProgram(DigitsProgram):
     """A program whose results have a bound: what `twistwrench.compile` returns with ``bound=True``.
 
     The bound of an entry is its distance from the same entry with 32 digits, and what those are off at most by the
@@ -187,8 +184,8 @@ class BoundedProgram:
     """
 
     def __init__(self, program: Program) -> None:
-        self.program, self.dtype = program, program.dtype
-        self.arguments = program.arguments
+        super().__init__(program)
+        self.dtype = program.dtype
         self._reference = DoubleDoubleProgram(program, bound=True)
 
     @property
@@ -218,17 +215,17 @@ class BoundedProgram:
         given = self.program._bound(args, named)
         states = dict(zip(given, self.program._arrays(given)))
         value = self.program(**states)
-        batch = _batch(self.program, tuple(given), tuple(states.values()))
+        batch = self._batch(tuple(given), tuple(states.values()))
         wide = {name: x.astype(DOUBLE) for name, x in states.items()}
         found = self._reference.of(tuple(given), ()).run(wide, batch)
         bound = {}
-        for symbol in _symbols(self.program):
+        for symbol in self._symbols:
             own = (value if self.program.single else getattr(value, symbol)).astype(DOUBLE)
             off = np.abs((own - found[symbol]) - found[symbol + LO])
             bound[symbol] = np.nextafter(
                 _certain(off + found[symbol + BOUND]).astype(self.dtype), self.dtype.type("inf")
             )
-        return value, _packed(self.program, bound)
+        return value, self._packed(bound)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return BoundedProgram, (self.program,)
@@ -237,30 +234,23 @@ class BoundedProgram:
         return f"{self.program!r}"[:-1] + ", bound>"
 
 
-def with_digits(program: Program, *, pairs: bool, bound: bool) -> Any:
-    """Return a program in doubles as it is, or with pairs of doubles, or with a bound."""
-    if pairs:
+def with_digits(program: Program, number: str | None, *, bound: bool) -> Program | DigitsProgram:
+    """Return a program as it is, or in other numbers than NumPy's ("double-double", "quad", "mpmath"), or with a bound.
+
+    Raises
+    ------
+    ImportError
+        If the package of the number type is not installed.
+    TypeError
+        If there is no bound for it.
+    """
+    if number == PAIRS:
         return DoubleDoubleProgram(program, bound=bound)
-    if bound and program.dtype not in NATIVE:
-        raise TypeError(f'bound: expected dtype float32, float64 or "double-double", got {program.dtype}')
+    if bound and (number or program.dtype not in NATIVE):
+        raise TypeError(f'bound: expected dtype float32, float64 or "double-double", got {number or program.dtype}')
+    if number:
+        return WideProgram(program, number)
     return BoundedProgram(program) if bound else program
-
-
-def _double_double_program(program: Program, bound: bool) -> DoubleDoubleProgram:
-    return DoubleDoubleProgram(program, bound=bound)
-
-
-def _symbols(program: Program) -> list[str]:
-    return [quantity.symbol for quantity in program.quantities]
-
-
-def _packed(program: Program, results: Mapping[str, Any]) -> Any:
-    """Return one result as it is, several as `Results`."""
-    return next(iter(results.values())) if program.single else Results(**results)
-
-
-def _batch(program: Program, names: tuple[str, ...], states: Sequence[Array]) -> tuple[int, ...]:
-    return states[0].shape[: states[0].ndim - len(program._shapes[names[0]])] if states else ()
 
 
 def _as_pair(name: str, x: DoubleDouble) -> DoubleDouble:

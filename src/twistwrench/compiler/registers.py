@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import Array
 from .line import Line, operands
+from .pairs import split
 
 __all__ = ["Registers"]
 
@@ -41,11 +42,12 @@ class Registers:
     ----------
     line : Line
     dtype : dtype
-        Any floating-point type of NumPy, complex ones too.
+        Any floating-point type of NumPy, complex ones too; of objects, numbers of mpmath, whose constants have as many
+        digits as are set now.
     """
 
     def __init__(self, line: Line, dtype: np.dtype[Any]) -> None:
-        self.dtype = dtype
+        self.dtype, functions = dtype, functions_of(dtype)
         entry: dict[Any, tuple[int, int]] = {}
         for a, (name, shape) in enumerate(line.inputs.items()):
             entry |= {(name, *k): (a, j) for j, k in enumerate(np.ndindex(shape))}
@@ -69,7 +71,7 @@ class Registers:
             if operation == "input":
                 self.steps.append((None, entry[rest[0]], place[k]))
             else:
-                self.steps.append((FUNCTIONS[operation], [place[j] for j in needed], place[k]))
+                self.steps.append((functions[operation], [place[j] for j in needed], place[k]))
         self.results = [[place[k] for k in entries] for _, entries in line.outputs.values()]
 
     def run(self, arrays: Sequence[Array]) -> None:
@@ -94,7 +96,27 @@ class Registers:
                 x[:, k] = values[place]
 
 
+def functions_of(dtype: np.dtype[Any]) -> dict[str, np.ufunc]:
+    """Return what computes each operation; where numbers of mpmath raise an error, the result is NaN as in NumPy."""
+    if not dtype.hasobject:
+        return FUNCTIONS
+    from mpmath import mp
+
+    def quotient(a: Any, b: Any) -> Any:
+        return a / b if b else mp.nan
+
+    def root(a: Any) -> Any:
+        return mp.sqrt(a) if a >= 0 else mp.nan
+
+    own = {"div": np.frompyfunc(quotient, 2, 1), "sqrt": np.frompyfunc(root, 1, 1)}
+    return FUNCTIONS | own | {name: np.frompyfunc(getattr(mp, name), 1, 1) for name in ("sin", "cos")}
+
+
 def as_number_of(dtype: np.dtype[Any], x: Fraction) -> Any:
-    """Return a constant in a number type, to all of its digits."""
-    first = float(x)
-    return dtype.type(first) + dtype.type(float(x - Fraction(first)))
+    """Return a constant in a number type, to all of its digits: three doubles have more than quadruple precision."""
+    if dtype.hasobject:
+        from mpmath import mp
+
+        return mp.convert(x)
+    first, second, third = (dtype.type(float(part)) for part in split(x, 3))
+    return first + (second + third)

@@ -1,0 +1,200 @@
+"""Programs in numbers that no processor has: quadruple precision, and as many digits of mpmath as are set.
+
+They hold a program in doubles, which knows the arguments and raises the errors, and run its line in other numbers.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import Array
+from ..model import Model
+from ..newton_euler_3d import as_mpmath
+from .backend import BackEnd
+from .memory import Results
+from .program import Program
+from .recording import ALARM
+
+__all__ = ["WIDE", "DigitsProgram", "WideProgram", "wide_type"]
+
+WIDE = {"quad": ("numpy_quaddtype", 'pip install "twistwrench[quad]"'), "mpmath": ("mpmath", "pip install mpmath")}
+"""Number types of other packages: the package, and what installs it."""
+
+
+class DigitsProgram(ABC):
+    """A program whose line is run in other numbers than its own.
+
+    Parameters
+    ----------
+    program : Program
+        Knows the arguments, and the textbook that raises the errors.
+
+    Attributes
+    ----------
+    arguments : tuple of str
+        The names of the program's arguments, in their order.
+    """
+
+    def __init__(self, program: Program) -> None:
+        self.program, self.arguments = program, program.arguments
+
+    @property
+    def model(self) -> Model:
+        """The robot."""
+        return self.program.model
+
+    @property
+    @abstractmethod
+    def operations(self) -> Counter[str]:
+        """How many operations a state takes, by kind."""
+
+    @abstractmethod
+    def __call__(self, *args: Any, **named: Any) -> Any:
+        """Return the quantities in a state, or in many."""
+
+    def source(self, functions: str = "math") -> str:
+        """Return the straight line as a Python function: see `Program.source`."""
+        return self.program.source(functions)
+
+    def c(self) -> str:
+        """Return the straight line as a function in C99: see `Program.c`."""
+        return self.program.c()
+
+    @property
+    def _symbols(self) -> list[str]:
+        return [quantity.symbol for quantity in self.program.quantities]
+
+    def _packed(self, results: Mapping[str, Any]) -> Any:
+        """Return one result as it is, several as `Results`."""
+        return next(iter(results.values())) if self.program.single else Results(**results)
+
+    def _batch(self, names: Sequence[str], states: Sequence[Array]) -> tuple[int, ...]:
+        return states[0].shape[: states[0].ndim - len(self.program._shapes[names[0]])] if states else ()
+
+    def _check(self, states: Mapping[str, Array], found: Mapping[str, Array], sizes: str) -> None:
+        """Let the textbook look at the states that raise the alarm: it raises what there is to raise."""
+        unsure = ~(found[ALARM] <= 1)
+        if unsure.any():
+            looked_at = {symbol: np.empty(found[symbol].shape) for symbol in self._symbols}
+            self.program._by_the_textbook(states, looked_at, unsure)
+        if not all((abs(found[symbol]) < np.inf).all() for symbol in self._symbols):
+            raise ValueError(f"expected {sizes}whose products are numbers")
+
+
+class WideProgram(DigitsProgram):
+    """A program in quadruple precision or in mpmath's numbers: ``dtype="quad"`` or ``"mpmath"``.
+
+    Parameters
+    ----------
+    program : Program
+        The same in doubles.
+    number : {"quad", "mpmath"}
+
+    Raises
+    ------
+    ImportError
+        If the package of the number type is not installed.
+    """
+
+    def __init__(self, program: Program, number: str) -> None:
+        super().__init__(program)
+        self.number, self.dtype = number, wide_type(number)
+        self._codes: dict[Any, BackEnd] = {}
+
+    @property
+    def operations(self) -> Counter[str]:
+        """How many operations a state takes, by kind."""
+        return self.program.operations
+
+    def __call__(self, *args: ArrayLike | None, **named: ArrayLike | None) -> Any:
+        """Return the quantities in a state, or in many.
+
+        Parameters
+        ----------
+        *args, **named : array_like
+            As for `Program`: doubles, which are taken as exact, or numbers of the program's type.
+
+        Returns
+        -------
+        ndarray or Results
+            For "quad" of numpy-quaddtype's type, 34 digits; for "mpmath" of mpf, with ``mpmath.mp.dps`` digits as it
+            is at the call. An axis that is oblique to its frame is a unit vector to 38 digits.
+
+        Raises
+        ------
+        ShapeError, SingularError, TypeError, ValueError
+            As `Program`.
+        """
+        given = self.program._bound(args, named)
+        wide = {name: own for name, x in given.items() if (own := self._own(x)) is not None}
+        rounded = {name: wide[name].astype(np.float64) if name in wide else x for name, x in given.items()}
+        states = dict(zip(given, self.program._arrays(rounded)))
+        found = self._run({name: np.broadcast_to(wide.get(name, x), x.shape) for name, x in states.items()})
+        self._check(states, found, "sizes ")
+        return self._packed({symbol: found[symbol] for symbol in self._symbols})
+
+    def _own(self, x: Any) -> Array | None:
+        """Return numbers of more digits than a double has; None for others, which the program in doubles looks at."""
+        try:
+            array = np.asarray(x)
+            if array.dtype not in (self.dtype, np.longdouble):
+                return None
+            own = as_mpmath(array) if self.dtype.hasobject else array.astype(self.dtype)
+            own.astype(np.float64)  # which complex numbers do not become
+        except (TypeError, ValueError):
+            return None
+        return own
+
+    def _run(self, states: Mapping[str, Array]) -> dict[str, Array]:
+        """Return the results of the line."""
+        batch, names = self._batch(tuple(states), tuple(states.values())), tuple(states)
+        count, code = prod(batch), self._code(names)
+        given = [self._filled(states[name]).reshape(count, prod(shape)) for name, shape in code.line.inputs.items()]
+        results = {
+            name: np.empty((count, len(entries)), self.dtype) for name, (_, entries) in code.line.outputs.items()
+        }
+        if count:
+            code.run([*given, *results.values()], self.program.threads)
+        return {name: results[name].reshape(batch + shape) for name, (shape, _) in code.line.outputs.items()}
+
+    def _filled(self, x: Array) -> Array:
+        """Return doubles as numbers of the program's type; those are as they are."""
+        return as_mpmath(x) if self.dtype.hasobject and not x.dtype.hasobject else x.astype(self.dtype)
+
+    def _code(self, names: tuple[str, ...]) -> BackEnd:
+        """Return what runs the line; its constants have as many digits as mpmath now has."""
+        digits = import_module("mpmath").mp.prec if self.dtype.hasobject else None
+        if (names, digits) not in self._codes:
+            self._codes[names, digits] = BackEnd(self.program._line(names), self.dtype, "numpy")
+        return self._codes[names, digits]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return WideProgram, (self.program, self.number)
+
+    def __repr__(self) -> str:
+        return repr(self.program).replace("float64", self.number)
+
+
+def wide_type(number: Any) -> np.dtype[Any]:
+    """Return NumPy's type for quadruple precision, or for objects, which mpmath's numbers are.
+
+    Raises
+    ------
+    ImportError
+        If the package is not installed.
+    """
+    package, install = WIDE[number]
+    try:
+        module = import_module(package)
+    except ImportError:
+        raise ImportError(f'dtype: "{number}" needs {package.replace("_", "-")}: {install}') from None
+    found: np.dtype[Any] = np.dtype(object) if number == "mpmath" else module.QuadPrecDType()
+    return found
