@@ -39,7 +39,7 @@ class OneState:
         copies = {name: x.copy for name, x in zip(line.outputs, outputs)}
         self.results = outputs[0].copy if single else lambda: Results(**{name: copy() for name, copy in copies.items()})
         self._table = table_of([*inputs, *outputs, self.alarm])
-        self.call, self.where = code.hold, code.address_of(self._table)
+        self.code, self.call, self.where = code, code.hold, code.address_of(self._table)  # the code lives as long
 
 
 def rows(x: Array, count: int, size: int) -> Array:

@@ -195,21 +195,31 @@ class Program:
         TypeError
             If an argument is missing, or is not one of the program's.
         """
-        if out is None and not named and self._fast and len(args) == self._count:  # one state: each µs counts
-            one = self._pool.pop() if self._pool else self._one()
-            dtype = self.dtype
-            for (mine, shape), x in zip(one.inputs, args):
-                if type(x) is not ndarray or x.dtype is not dtype or x.shape != shape:
-                    break
-                mine[...] = x
-            else:
-                one.call(one.where, ONE)
-                if one.alarm.item() <= 1:
-                    results = one.results()
-                    self._pool.append(one)
-                    return results
-            self._pool.append(one)
+        if out is None and not named:
+            results = self.one_state(args)
+            if results is not None:
+                return results
         return self._many(self._bound(args, named), out)
+
+    def one_state(self, args: Sequence[Any]) -> Any:
+        """Return the results for one state, in arrays of the program's type, where each µs counts; None for others."""
+        if not self._fast or len(args) != self._count:
+            return None
+        try:  # another thread may take the last one at any time
+            one = self._pool.pop()
+        except IndexError:
+            one = self._one()
+        results, dtype = None, self.dtype
+        for (mine, shape), x in zip(one.inputs, args):
+            if type(x) is not ndarray or x.dtype is not dtype or x.shape != shape:
+                break
+            mine[...] = x
+        else:
+            one.call(one.where, ONE)
+            if one.alarm.item() <= 1:
+                results = one.results()
+        self._pool.append(one)
+        return results
 
     def _one(self) -> OneState:
         """Return memory for one state: several threads take one each."""
