@@ -26,6 +26,7 @@ quantities    what can be compiled: the textbook's functions
 recording     from quantities to a line
 outputs       arrays of the caller that are to be filled
 memory        of one state at known addresses; rows of a caller's arrays
+textbook      the textbook, for the states of a batch that raise the alarm
 program       `Program`, which is called as the textbook's functions are
 wide          programs in quadruple precision, and in mpmath's numbers
 digits        programs in pairs of doubles, and with a bound

@@ -21,6 +21,7 @@ from .outputs import check_outputs, finish, targets
 from .quantities import ARGUMENTS, Quantity, shapes
 from .recording import ALARM, record
 from .source import c_source, python_source, step
+from .textbook import by_the_textbook
 
 __all__ = ["Program"]
 
@@ -288,12 +289,7 @@ class Program:
 
     def _by_the_textbook(self, states: Mapping[str, Array], filled: Mapping[str, Array], where: Array) -> None:
         """Do the states that raise the alarm by the textbook, which raises what there is to raise."""
-        values: dict[str, ArrayLike] = {**self.given, **states}
-        checked = dict(zip(("q", *(name for name in values if name != "q")), floats_of(self.model, **values)))
-        for quantity in self.quantities:
-            args = [checked[name] for name in quantity.arguments if name in checked]
-            result, _ = quantity.compute(*args)
-            filled[quantity.symbol][where] = result[where]
+        by_the_textbook(self.model, self.quantities, {**self.given, **states}, filled, where)
 
     def __reduce__(self) -> tuple[Callable[[], Program], tuple[()]]:
         return self._remake, ()

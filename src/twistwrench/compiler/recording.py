@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -58,5 +59,6 @@ def record(
     angles = {node[1] for node in tape.nodes if node[0] in ("sin", "cos")}
     questions += [tape.at(k) / int(LARGEST_ANGLE) for k in sorted(angles)]
     if "f_ext" in arguments:
-        questions += [x * 2**120 for x in world]  # anything but zero is too much
+        large = 2 ** (min(int(np.finfo(dtype).maxexp), 1024) - 1)
+        questions += [x * large / tape.number(Fraction(1, large)) for x in world]  # anything but zero is too much
     return Line.of(tape, shapes, {**results, ALARM: np.asarray(alarm(tape, questions), object)})

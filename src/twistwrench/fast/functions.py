@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array, as_names
 from ..model import Model
-from .programs import program, states_of
+from .programs import one_state, program, result, states_of
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
 
@@ -53,9 +53,7 @@ def rnea(
     >>> np.allclose(tau[0], tw.rnea(model, model.standing(), v[0], v[0]), rtol=0, atol=1e-11)
     True
     """
-    args, dtype = states_of(model, {"q": q, "v": v, "a": a}, f_ext)
-    tau: Array = program(model, ("tau",), dtype)(*args, out=out)
-    return tau
+    return result(model, "tau", ("q", "v", "a"), (q, v, a), f_ext, out)
 
 
 def nonlinear_effects(
@@ -90,9 +88,7 @@ def nonlinear_effects(
     >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0])  # standing: nothing for the cart
     array([0., 0.])
     """
-    args, dtype = states_of(model, {"q": q, "v": v})
-    h: Array = program(model, ("h",), dtype)(*args, out=out)
-    return h
+    return result(model, "h", ("q", "v"), (q, v), None, out)
 
 
 def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -122,9 +118,7 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
     >>> tw.fast.crba(model, [[0.0], [1.0]]).shape
     (2, 1, 1)
     """
-    args, dtype = states_of(model, {"q": q})
-    M: Array = program(model, ("M",), dtype)(*args, out=out)
-    return M
+    return result(model, "M", ("q",), (q,), None, out)
 
 
 def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -156,9 +150,7 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
     >>> tw.fast.centroidal_map(model, model.standing())[5, 5].round(3)  # the whole mass
     np.float64(16.085)
     """
-    args, dtype = states_of(model, {"q": q})
-    A_G: Array = program(model, ("A_G",), dtype)(*args, out=out)
-    return A_G
+    return result(model, "A_G", ("q",), (q,), None, out)
 
 
 def dynamics(
@@ -204,6 +196,11 @@ def dynamics(
     >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
+    if out is None and type(want) is tuple and (contacts is None or type(contacts) is tuple):
+        feet = model.feet if contacts is None else contacts
+        found = one_state(model, want, feet if "J_c" in want else (), (q, v))
+        if found is not None:
+            return Dynamics(**{name: getattr(found, name) for name in want})
     names = wanted(want)
     want = tuple(name for name in QUANTITIES if name in names)
     contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)
@@ -255,6 +252,4 @@ def aba(
     >>> np.allclose(tw.fast.rnea(model, q, q, qdd), q)
     True
     """
-    args, dtype = states_of(model, {"q": q, "v": v, "tau": tau}, f_ext)
-    qdd: Array = program(model, ("qdd",), dtype)(*args, out=out)
-    return qdd
+    return result(model, "qdd", ("q", "v", "tau"), (q, v, tau), f_ext, out)

@@ -18,7 +18,18 @@ from ..compiler.quantities import Quantity, quantities
 from ..errors import SingularError
 from ..model import Model, check_model, floats_of
 
-__all__ = ["ASKED", "LONGEST", "MOST", "Textbook", "is_too_long", "program", "remembered", "states_of"]
+__all__ = [
+    "ASKED",
+    "LONGEST",
+    "MOST",
+    "Textbook",
+    "is_too_long",
+    "one_state",
+    "program",
+    "remembered",
+    "result",
+    "states_of",
+]
 
 LONGEST = 80
 """Degrees of freedom of a robot that is not too long for a straight line."""
@@ -50,6 +61,31 @@ def states_of(
     others = dict(named) if f_ext is None else {**named, "f_ext": f_ext}
     args = floats_of(model, others.pop("q"), **others)
     return args, args[0].dtype
+
+
+def one_state(model: Model, want: Any, contacts: Any, args: Sequence[Any]) -> Any:
+    """Return what the program that is remembered for a question has for one state; None where there is none.
+
+    It looks at nothing that the program looks at itself: for one state each µs counts.
+    """
+    try:
+        found = model._programs[want, args[0].dtype, contacts].one_state
+    except (AttributeError, KeyError, TypeError):  # none yet; or arguments of other kinds
+        return None
+    return found(args)
+
+
+def result(
+    model: Model, symbol: str, names: tuple[str, ...], args: tuple[ArrayLike, ...], f_ext: ArrayLike | None, out: Any
+) -> Array:
+    """Return one quantity, which depends on these arguments, of one state or many."""
+    found: Array | None = None
+    if f_ext is None and out is None:
+        found = one_state(model, (symbol,), None, args)
+    if found is None:
+        states, dtype = states_of(model, dict(zip(names, args)), f_ext)
+        found = program(model, (symbol,), dtype)(*states, out=out)
+    return found  # type: ignore[return-value]  # of one quantity it is an array
 
 
 def program(
@@ -146,6 +182,9 @@ class Textbook:
     def __init__(self, model: Model, quantities: Sequence[Quantity], single: bool) -> None:
         self.model, self.quantities, self.single = model, tuple(quantities), single
         self.arguments = max((quantity.arguments for quantity in quantities), key=len)
+
+    def one_state(self, args: Sequence[Any]) -> None:
+        """Return None: one state is as any."""
 
     def __call__(self, *args: ArrayLike, out: Any = None) -> Any:
         """Return the quantities: see `Program`."""

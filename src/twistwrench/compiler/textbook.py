@@ -1,0 +1,57 @@
+"""The textbook's functions for some states of a batch: those that a program does not trust itself with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array
+from ..model import Model, floats_of
+from .quantity import Quantity
+
+__all__ = ["CHUNK", "by_the_textbook"]
+
+CHUNK = 2**17
+"""States times degrees of freedom that the textbook takes at a time."""
+
+
+def by_the_textbook(
+    model: Model, quantities: Sequence[Quantity], states: Mapping[str, Any], filled: Mapping[str, Array], where: Array
+) -> None:
+    """Fill the results in some states of a batch, or raise for the first of the batch that is wrong.
+
+    Parameters
+    ----------
+    model : Model
+    quantities : sequence of Quantity
+    states : mapping of str to ndarray
+        The arguments; each has the batch axes, or none where it is the same in every state.
+    filled : mapping of str to ndarray
+        The result of each quantity, by symbol. Other states are left as they are.
+    where : ndarray of bool, shape (...)
+        Which states.
+    """
+    places, size = np.argwhere(where), max(1, CHUNK // max(1, model.nv))
+    alike = {name: np.ndim(x) == (2 if name == "f_ext" else 1) for name, x in states.items()}
+    try:
+        for k in range(0, len(places), size):
+            at = tuple(places[k : k + size].T)
+            chosen = {name: x if alike[name] else x[at] for name, x in states.items()}
+            for symbol, result in _results(model, quantities, chosen).items():
+                filled[symbol][at] = result
+        return
+    except ValueError as error:
+        raised = error
+    _results(model, quantities, states)  # raises with the place in the batch
+    raise raised
+
+
+def _results(model: Model, quantities: Sequence[Quantity], states: Mapping[str, Any]) -> dict[str, Array]:
+    """Return the quantities, by symbol."""
+    checked = dict(zip(("q", *(name for name in states if name != "q")), floats_of(model, **states)))
+    return {
+        quantity.symbol: quantity.compute(*(checked[name] for name in quantity.arguments if name in checked))[0]
+        for quantity in quantities
+    }
