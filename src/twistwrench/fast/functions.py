@@ -200,7 +200,8 @@ def dynamics(
         feet = model.feet if contacts is None else contacts
         found = one_state(model, want, feet if "J_c" in want else (), (q, v))
         if found is not None:
-            return Dynamics(**{name: getattr(found, name) for name in want})
+            del found.asked
+            return Dynamics(**vars(found))
     names = wanted(want)
     want = tuple(name for name in QUANTITIES if name in names)
     contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)

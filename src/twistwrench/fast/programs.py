@@ -70,7 +70,7 @@ def one_state(model: Model, want: Any, contacts: Any, args: Sequence[Any]) -> An
     """
     try:
         found = model._programs[want, args[0].dtype, contacts].one_state
-    except (AttributeError, KeyError, TypeError):  # none yet; or arguments of other kinds
+    except (AttributeError, KeyError, TypeError):  # none yet, the textbook, or arguments of other kinds
         return None
     return found(args)
 
@@ -85,7 +85,7 @@ def result(
     if found is None:
         states, dtype = states_of(model, dict(zip(names, args)), f_ext)
         found = program(model, (symbol,), dtype)(*states, out=out)
-    return found  # type: ignore[return-value]  # of one quantity it is an array
+    return found
 
 
 def program(
@@ -182,9 +182,6 @@ class Textbook:
     def __init__(self, model: Model, quantities: Sequence[Quantity], single: bool) -> None:
         self.model, self.quantities, self.single = model, tuple(quantities), single
         self.arguments = max((quantity.arguments for quantity in quantities), key=len)
-
-    def one_state(self, args: Sequence[Any]) -> None:
-        """Return None: one state is as any."""
 
     def __call__(self, *args: ArrayLike, out: Any = None) -> Any:
         """Return the quantities: see `Program`."""
