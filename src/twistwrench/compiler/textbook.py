@@ -37,7 +37,7 @@ def by_the_textbook(
     alike = {name: np.ndim(x) == (2 if name == "f_ext" else 1) for name, x in states.items()}
     try:
         for k in range(0, len(places), size):
-            at = tuple(places[k : k + size].T)
+            at = tuple(places[k : k + size].mT)
             chosen = {name: x if alike[name] else x[at] for name, x in states.items()}
             for symbol, result in _results(model, quantities, chosen).items():
                 filled[symbol][at] = result
