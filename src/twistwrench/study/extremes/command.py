@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,9 @@ def add_extremes(studies: Any) -> None:
         "--angles", type=_count, default=10_000, metavar="N", help="of exp and log; 0 leaves them out (10000)"
     )
     parser.add_argument(
+        "--bounds", action="store_true", help="instead: whether the bounds of compiled programs hold; half an hour"
+    )
+    parser.add_argument(
         "--progress", action="store_true", help="a progress bar on stderr, also where that is not a terminal"
     )
     parser.set_defaults(run=run_extremes)
@@ -57,6 +61,8 @@ def run_extremes(args: argparse.Namespace) -> int:
     from .run import run
 
     check_writable("--json", args.json)
+    if args.bounds:
+        return _run_bounds(args)
     if args.pictures is not None:
         args.pictures.mkdir(parents=True, exist_ok=True)
     kept = Path(args.cells or "extremes.jsonl") if args.full or args.cells else None
@@ -75,6 +81,22 @@ def run_extremes(args: argparse.Namespace) -> int:
     for cell, outcome in wrong:
         print(f"{cell}: {outcome.algorithm} by {outcome.who}: {outcome.bad}", file=sys.stderr)
     return FAILED if wrong else 0
+
+
+def _run_bounds(args: argparse.Namespace) -> int:
+    """Measure the bounds of compiled programs, print and write."""
+    from tqdm import tqdm
+
+    from .bounds import LONGEST, bounds, measured, table
+    from .grid import cells
+
+    recipes = [recipe for recipe in cells(full=args.full) if recipe.bodies <= LONGEST]
+    bar = tqdm(recipes, "bounds", unit="cell", disable=not (args.progress or sys.stderr.isatty()))
+    found = bounds(one for recipe in bar for one in measured(recipe))
+    print(table(found))
+    if args.json is not None:
+        _write(args.json, {"cells": len(recipes), "bounds": [asdict(bound) for bound in found]})
+    return FAILED if any(bound.broken for bound in found) else 0
 
 
 def _pinocchio() -> bool:
