@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_count, as_number
 from ..errors import SingularError
+from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
@@ -89,7 +90,7 @@ def project_state(
         if not far.any():
             return q, impact(model, q, v, contacts).v
         parts = decompose(model, terms.M, W @ terms.J)
-        q = model.integrate(q, -parts.unwhiten(parts.respond(error)[0]))
+        q = integrate(model, q, -parts.unwhiten(parts.respond(error)[0]))
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])
     raise SingularError(

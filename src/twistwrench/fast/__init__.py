@@ -24,6 +24,7 @@ file          what it holds
 ============  ===================================================================================
 programs      the program for a model and a question, made once; where there is none, the textbook
 functions     the public functions
+steps         steps q ⊕ u, for simulations
 ============  ===================================================================================
 
 >>> import numpy as np

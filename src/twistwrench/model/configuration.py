@@ -157,7 +157,10 @@ class ConfigurationSpace:
         >>> model.integrate(model.neutral(), step)[3:7].round(3)
         array([0.   , 0.   , 0.707, 0.707])
         """
-        q, v_dt = checked_state(self, q=q, v_dt=v_dt)
+        return self._step(*checked_state(self, q=q, v_dt=v_dt))
+
+    def _step(self, q: Array, v_dt: Array) -> Array:
+        """Return q ⊕ v_dt of a checked state, or of numbers that are recorded."""
         return self._by_joint(lambda joint, qs, vs: joint.integrate(q[..., qs], v_dt[..., vs]), q)
 
     def difference(self, q0: ArrayLike, q1: ArrayLike) -> Array:

@@ -22,7 +22,8 @@ from ..arrays import Array, as_array, as_constant, exact_unit, resolution
 from ..errors import ModelError
 from ..spatial import SE3, Jexp6, Jlog6, exp6, log6
 from ..spatial._elementary import at_first_index, sqrt
-from ..spatial.rotation import cross_matrix
+from ..spatial.exponential import shift
+from ..spatial.rotation import cross_matrix, turn_matrix
 
 __all__ = ["AxisJoint", "GroupJoint", "Joint", "check_subspace", "placement", "same_side", "turn", "unit"]
 
@@ -156,7 +157,8 @@ class GroupJoint(Joint):
     def integrate(self, q: Array, dv: Array) -> Array:
         """Go from q along the twist S dv for one unit of time: T(q) exp(S dv)."""
         S = self.subspace(dv.dtype)
-        return self.from_placement(self.transform(q) @ exp6(np.matvec(S, dv)), near=q)
+        V = np.matvec(S, dv)
+        return self.from_placement(self.transform(q) @ placement(turn_matrix(V[..., :3]), shift(V)), near=q)
 
     def difference(self, q0: Array, q1: Array) -> Array:
         """Return the dv that leads from q0 to q1: Sᵀ log(T(q0)⁻¹ T(q1)), a turn of at most π."""
@@ -232,5 +234,7 @@ def placement(R: Array, p: Array) -> SE3:
 
 
 def same_side(quaternion: Array, near: Array) -> Array:
-    """Of q and −q, which are the same turn, take the one closer to `near`."""
+    """Of q and −q, which are the same turn, take the one closer to `near`; a recorded step is so short that q is."""
+    if quaternion.dtype == object:
+        return quaternion
     return np.where((quaternion * near).sum(axis=-1, keepdims=True).real < 0, -quaternion, quaternion)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import cache
+from typing import Any
+
 import numpy as np
 
 from ..arrays import Array
@@ -20,12 +23,18 @@ class DivergenceError(ValueError):
 
 def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> None:
     """Raise DivergenceError where an entry of x, a velocity for dt, is not finite or goes beyond all bounds."""
-    bound = min(FARTHEST / dt, float(np.finfo(x.dtype).max ** (1 / 5)) / 2)  # the algorithms take no more
-    wrong = np.asarray(~(np.abs(x) <= bound))
-    if wrong.any():
+    bound = min(FARTHEST / dt, _largest(x.dtype))
+    if not np.abs(x).max(initial=0) <= bound:
+        wrong = np.asarray(~(np.abs(x) <= bound))
         entry = tuple(int(k) for k in np.argwhere(wrong)[0])
         joint = next(i for i, s in enumerate(model.v_slice) if s.start <= entry[-1] < s.stop)
         raise DivergenceError(
             f"the motion diverges: joint {model.joint_names[joint]!r} has {what}[{entry[-1]}] = {float(x[entry]):.3g}"
             f"{at_first_index(np.asarray(wrong.any(axis=-1)))}; a smaller dt or weaker forces?"
         )
+
+
+@cache
+def _largest(dtype: np.dtype[Any]) -> float:
+    """Return half of the largest number that the algorithms take."""
+    return float(np.finfo(dtype).max ** (1 / 5)) / 2

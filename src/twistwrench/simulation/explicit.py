@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import Array
 from .system import System
-from .tangent import bracket, dexp_inverse
+from .tangent import rate
 
 __all__ = ["EULER", "MIDPOINT", "RK4", "Tableau", "runge_kutta", "semi_implicit"]
 
@@ -33,13 +33,13 @@ def runge_kutta(tableau: Tableau, system: System, t: float, q: Array, v: Array) 
         u, v_stage = dt * weighted(row, u_rates, v), v + dt * weighted(row, v_rates, v)
         q_stage = system.integrate(q, u) if row else q
         v_rates.append(system.acceleration(t + c * system.dt, q_stage, v_stage))
-        u_rates.append(dexp_inverse(bracket(system.model, u), v_stage))  # u̇, not v
+        u_rates.append(rate(system.model, u, v_stage))  # u̇, not v
     return system.integrate(q, dt * weighted(weights, u_rates, v)), v + dt * weighted(weights, v_rates, v)
 
 
 def weighted(weights: Sequence[float], terms: Sequence[Array], like: Array) -> Array:
     """Return Σ w x, and zeros like another array where there is nothing to add."""
-    return sum((like.dtype.type(w) * x for w, x in zip(weights, terms)), np.zeros_like(like))
+    return sum((like.dtype.type(w) * x for w, x in zip(weights, terms) if w), np.zeros_like(like))
 
 
 def semi_implicit(system: System, t: float, q: Array, v: Array) -> tuple[Array, Array]:

@@ -11,11 +11,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array, resolution
+from ..compiler.quantities import Quantity
+from ..fast.programs import remembered
 from ..model import Model
 from ..spatial import cross_motion
 from .divergence import DivergenceError
 
-__all__ = ["bracket", "dexp_inverse", "dexp_transposed", "exp_transposed"]
+__all__ = ["bracket", "dexp_inverse", "dexp_transposed", "exp_transposed", "rate"]
 
 TERMS = 64
 """Enough of the series for a turn of 2π in one step, in every number type: (2π)⁶³/63! is 4e-38."""
@@ -38,6 +40,16 @@ def dexp_inverse(ad: Array, v: Array) -> Array:
     first = np.matvec(ad, v)
     rate: Array = v + first / 2 + np.matvec(ad, first) / 12
     return rate
+
+
+def rate(model: Model, u: Array, v: Array) -> Array:
+    """Return u̇ of a q₀ ⊕ u that moves with v, by a program: `dexp_inverse` of `bracket`."""
+
+    def asked() -> list[Quantity]:
+        return [Quantity("rate", ("v", "a"), lambda u, v: (dexp_inverse(bracket(model, u), v), []))]
+
+    found: Array = remembered(model, ("rate", v.dtype), v.dtype, asked, single=True)(u, v)
+    return found
 
 
 def exp_transposed(ad: Array, p: Array) -> Array:

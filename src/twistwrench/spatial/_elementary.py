@@ -1,7 +1,8 @@
 """Functions of one number that the rotations need, each good to the last few bits everywhere.
 
 All are analytic: a complex argument gives the complex value, so that a complex step differentiates
-what is built on them. The real part alone decides which formula is used.
+what is built on them. The real part alone decides which formula is used. Numbers that are objects, as a program's
+recorder passes them, cannot be asked how large they are: for them there is the series alone, good below 1.
 """
 
 from __future__ import annotations
@@ -49,6 +50,8 @@ def _of_each(x: Array, name: str) -> Array:
 
 def length(x: Array) -> Array:
     """Return the Euclidean length over the last axis, no conjugate: infinite only where it is beyond all numbers."""
+    if x.dtype == object:
+        return sqrt(np.asarray((x * x).sum(-1), object))
     size = np.maximum(largest(x.real, 1), largest(x.imag, 1))
     exponent = np.frexp(np.maximum(size, np.finfo(x.dtype).tiny))[1] - 1
     unit = np.ldexp(np.ones((), size.dtype), exponent)  # a power of two: dividing by it is exact
@@ -59,6 +62,8 @@ def length(x: Array) -> Array:
 
 def sinc(x: Array) -> Array:
     """Return sin x / x, and 1 at 0."""
+    if x.dtype == object:
+        return series(x, 2, 3, resolution(x.dtype))
     safe = np.where(x == 0, 1, x)
     return np.where(x == 0, 1, np.sin(safe) / safe)
 
@@ -68,6 +73,8 @@ def sine_defect_root(x: Array) -> Array:
 
     The root, about 1/x, since the quotient itself is lost where x³ overflows.
     """
+    if x.dtype == object:
+        return sqrt(series(x, 4, 5, resolution(x.dtype)) / 6)
     small = np.abs(x.real) < 1
     near, far = np.where(small, x, 0), np.where(small, 1, x)
     return np.where(

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 
 from ..arrays import Array, convert
-from ._elementary import length, sinc
+from ._elementary import cos, length, sinc
 from .rotation import cross_matrix, quaternion_matrix, rotation_to_quaternion, skew_part
 
 __all__ = ["exact_rotation", "exp_quaternion", "quaternion_product"]
@@ -16,7 +16,7 @@ __all__ = ["exact_rotation", "exp_quaternion", "quaternion_product"]
 def exp_quaternion(w: Array) -> Array:
     """Return the quaternion of exp3(w): (w sin ½θ / θ, cos ½θ)."""
     theta = length(w)[..., None]
-    return np.concatenate([sinc(theta / 2) / 2 * w, np.cos(theta / 2)], axis=-1)
+    return np.concatenate([sinc(theta / 2) / 2 * w, cos(theta / 2)], axis=-1)
 
 
 def quaternion_product(p: Array, q: Array) -> Array:

@@ -120,11 +120,7 @@ def exp3(w: ArrayLike) -> Array:
            [ 1.,  0.,  0.],
            [ 0.,  0.,  1.]])
     """
-    w = as_array(w, "w", 3)
-    theta, W = length(w)[..., None, None], cross_matrix(w)
-    check_overflow(theta, "w")
-    A, H = sinc(theta), sinc(theta / 2) / 2
-    return np.asarray(np.eye(3, dtype=w.dtype) + A * W + 2 * (H * W) @ (H * W))
+    return turn_matrix(as_array(w, "w", 3))
 
 
 def log3(R: ArrayLike) -> Array:
@@ -266,6 +262,14 @@ def rpy_matrix(rpy: Array) -> Array:
         [-sp, cp * sr, cp * cr],
     ]
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def turn_matrix(w: Array) -> Array:
+    """Return 1 + A [w]× + B [w]×²: the formula of `exp3`."""
+    theta, W = length(w)[..., None, None], cross_matrix(w)
+    check_overflow(theta, "w")
+    A, H = sinc(theta), sinc(theta / 2) / 2
+    return np.asarray(np.eye(3, dtype=w.dtype) + A * W + 2 * (H * W) @ (H * W))
 
 
 def quaternion_matrix(q: Array) -> Array:
