@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..algorithms.singular import ROUNDINGS
-from ..arrays import Array, resolution
+from ..arrays import Array, convert, resolution
 from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3
@@ -99,7 +99,7 @@ def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
 
     λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G.
     """
-    return block_diagonal([_turn(c, T) @ c.spread_root for c, T in zip(contacts, at)]).mT
+    return block_diagonal([_turn(c, T) @ convert(c.spread_root, T.rotation.dtype) for c, T in zip(contacts, at)]).mT
 
 
 def point_map(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
@@ -110,7 +110,8 @@ def point_map(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
 def block_diagonal(blocks: Sequence[Array]) -> Array:
     """Return matrices one after the other along the diagonal of one, shape (..., rows, columns)."""
     batch = blocks[0].shape[:-2] if blocks else ()
-    whole = np.zeros((*batch, sum(B.shape[-2] for B in blocks), sum(B.shape[-1] for B in blocks)))
+    shape = (*batch, sum(B.shape[-2] for B in blocks), sum(B.shape[-1] for B in blocks))
+    whole = np.zeros(shape, blocks[0].dtype if blocks else float)
     row = column = 0
     for B in blocks:
         below, right = row + B.shape[-2], column + B.shape[-1]
@@ -122,6 +123,7 @@ def block_diagonal(blocks: Sequence[Array]) -> Array:
 def _turn(contact: Contact, at: SE3) -> Array:
     """Return the matrix that takes a contact's λ from its own axes to the world's, shape (..., dim, dim)."""
     R = contact.axes(at.rotation)
-    turn = np.zeros((*R.shape[:-2], 6, 6))
+    R = R if R.dtype == at.rotation.dtype else convert(R, at.rotation.dtype)
+    turn = np.zeros((*R.shape[:-2], 6, 6), R.dtype)
     turn[..., :3, :3] = turn[..., 3:, 3:] = R
     return turn[..., contact.rows, contact.rows]

@@ -18,7 +18,7 @@ from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
-from .decomposition import decompose, lever
+from .decomposition import decompose
 from .rows import as_contacts, contact_errors, contact_rows, contact_terms, per_contact, real_state
 from .types import Contact
 
@@ -165,7 +165,7 @@ def contact_forward_dynamics(
     q, v, others = real_state(model, q, f_ext, v=v, tau=tau)
     terms = contact_terms(model, q, v, contacts, **others)
     at, J, free = terms.placement, terms.J, terms.qdd
-    W, slip, target = lever(contacts, at), np.matvec(J, v), -terms.bias
+    W, slip, target = terms.W, np.matvec(J, v), -terms.bias
     if stabilise is not None:
         if not isinstance(stabilise, Baumgarte):
             raise TypeError(f"stabilise: expected a Baumgarte or None, got {stabilise!r}")

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_number
+from ..compiler import Results
 from ..model import Model
-from .decomposition import decompose, lever
+from .decomposition import decompose
 from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact
 
-__all__ = ["Impact", "impact"]
+__all__ = ["Impact", "impact", "jump"]
 
 
 @dataclass(frozen=True)
@@ -92,8 +93,12 @@ def impact(
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
     contacts = as_contacts(model, contacts)
     q, v, _ = real_state(model, q, v=v)
-    terms = contact_terms(model, q, v, contacts)
-    J, W = terms.J, lever(contacts, terms.placement)
+    return jump(model, v, contacts, contact_terms(model, q, v, contacts), restitution)
+
+
+def jump(model: Model, v: Array, contacts: Sequence[Contact], terms: Results, restitution: float = 0.0) -> Impact:
+    """Return the impact at a velocity, from the terms of the configuration."""
+    J, W = terms.J, terms.W
     parts = decompose(model, terms.M, W @ J)
     x, mu = parts.respond(np.matvec(W @ J, v))  # the change at e = 0, with its sign turned
     return Impact(

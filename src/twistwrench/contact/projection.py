@@ -13,8 +13,8 @@ from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
-from .decomposition import decompose, lever
-from .impacts import impact
+from .decomposition import decompose
+from .impacts import jump
 from .rows import as_contacts, contact_errors, contact_terms, per_contact, real_state
 from .types import Contact
 
@@ -84,12 +84,11 @@ def project_state(
     q, v, _ = real_state(model, q, v=v)
     for _ in range(steps + 1):
         terms = contact_terms(model, q, v, contacts)
-        W = lever(contacts, terms.placement)
-        error = np.matvec(W, contact_errors(contacts, terms.placement, anchors))
+        error = np.matvec(terms.W, contact_errors(contacts, terms.placement, anchors))
         far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
         if not far.any():
-            return q, impact(model, q, v, contacts).v
-        parts = decompose(model, terms.M, W @ terms.J)
+            return q, jump(model, v, contacts, terms).v
+        parts = decompose(model, terms.M, terms.W @ terms.J)
         q = integrate(model, q, -parts.unwhiten(parts.respond(error)[0]))
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])

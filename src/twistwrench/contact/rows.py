@@ -23,6 +23,7 @@ from ..errors import unknown_name
 from ..fast.programs import remembered
 from ..model import Model, Tree, cast, check_model, columns, in_double, tree_terms
 from ..spatial import SE3, log3
+from .decomposition import lever
 from .types import Contact
 
 __all__ = [
@@ -172,8 +173,8 @@ def contact_terms(
 ) -> Results:
     """Return what the dynamics under contact need, from one program, the first times by the textbook: see `remembered`.
 
-    `placement`, J and `bias` of `ContactRows`, and M; with `tau` the q̈ of the free motion, `qdd`; with `a` the τ of the
-    motion, and `weight`, that of rest. f_ext may be among the others.
+    `placement`, J and `bias` of `ContactRows`, M and W, the `lever`; with `tau` the q̈ of the free motion, `qdd`; with
+    `a` the τ of the motion, and `weight`, that of rest. f_ext may be among the others.
     """
 
     def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
@@ -186,7 +187,7 @@ def contact_terms(
         known, rows = quantities(model, q.dtype), partial(contact_rows, model, contacts=contacts)
         at = of("at", "q v", lambda q, v: np.stack([T.matrix() for T in rows(q, v).placement], axis=-3))
         return [
-            *([at] if contacts else []),
+            *([at, of("W", "q v", lambda q, v: lever(contacts, rows(q, v).placement))] if contacts else []),
             of("J", "q v", lambda q, v: rows(q, v).J),
             of("bias", "q v", lambda q, v: rows(q, v).bias),
             known["M"],
@@ -197,11 +198,12 @@ def contact_terms(
     key = (
         "contacts",
         q.dtype,
-        tuple((c.frame, c.rows.start, c.rows.stop) for c in contacts),
+        tuple(contacts),
         *(others.keys() - {"f_ext"}),
     )
     found: Results = remembered(model, key, q.dtype, asked, after=after)(q, v, *others.values())
     at = np.moveaxis(found.at, -3, 0) if contacts else ()
+    found.W = found.W if contacts else np.zeros((0, 0))
     found.placement = [SE3._trusted(T[..., :3, :3], T[..., :3, 3]) for T in at]
     return found
 
@@ -269,8 +271,11 @@ def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...
 
 def per_contact(contacts: Sequence[Contact], rows: Array) -> dict[str, Array]:
     """Cut a vector with one entry for each row of J into pieces by the names of the frames."""
-    ends = np.cumsum([c.dim for c in contacts]).tolist()
-    return {c.frame: rows[..., end - c.dim : end] for c, end in zip(contacts, ends)}
+    pieces, end = {}, 0
+    for c in contacts:
+        start, end = end, end + c.dim
+        pieces[c.frame] = rows[..., start:end]
+    return pieces
 
 
 def real_state(

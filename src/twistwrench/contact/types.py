@@ -30,7 +30,7 @@ Pyramid = Literal["inner", "outer"]
 
 
 class Contact(ABC):
-    """A frame that is held at rest by its surroundings.
+    """A frame that is held at rest by its surroundings. It does not change: programs are made for it.
 
     Attributes
     ----------

@@ -13,10 +13,10 @@ __all__ = ["integrate", "turns"]
 
 
 def integrate(model: Model, q: Array, u: Array) -> Array:
-    """Return what `Model.integrate` does, of real arrays: q ⊕ u, from a program that is made when it is first asked for.
+    """Return what `Model.integrate` does, of real arrays: q ⊕ u, by a program.
 
-    The program has the series of the sines and needs no question; where the joints turn by more than a radian together
-    it is the textbook that goes the step.
+    It has the series of the sines, and needs no question; where the joints turn by more than a radian together it is
+    the textbook that goes the step.
     """
 
     def step(q: Array, u: Array) -> tuple[Array, list[object]]:
