@@ -195,12 +195,7 @@ def contact_terms(
             *([known["tau"], of("weight", "q v f_ext", at_rest)] if "a" in others else []),
         ]
 
-    key = (
-        "contacts",
-        q.dtype,
-        tuple(contacts),
-        *(others.keys() - {"f_ext"}),
-    )
+    key = ("contacts", q.dtype, tuple(contacts), *(others.keys() - {"f_ext"}))
     found: Results = remembered(model, key, q.dtype, asked, after=after)(q, v, *others.values())
     at = np.moveaxis(found.at, -3, 0) if contacts else ()
     found.W = found.W if contacts else np.zeros((0, 0))
@@ -271,11 +266,8 @@ def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...
 
 def per_contact(contacts: Sequence[Contact], rows: Array) -> dict[str, Array]:
     """Cut a vector with one entry for each row of J into pieces by the names of the frames."""
-    pieces, end = {}, 0
-    for c in contacts:
-        start, end = end, end + c.dim
-        pieces[c.frame] = rows[..., start:end]
-    return pieces
+    end = 0
+    return {c.frame: rows[..., end : (end := end + c.dim)] for c in contacts}
 
 
 def real_state(
