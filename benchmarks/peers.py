@@ -47,7 +47,7 @@ class Peer(NamedTuple):
 
 def peers(model: tw.Model, urdf: str) -> Iterator[Peer]:
     """Yield what is installed; what cannot be set up says so and is left out."""
-    for make in (_ours, _pinocchio_batches, _mujoco, _adam_numpy, _adam_jax, _frax):
+    for make in (_ours, _pinocchio_batches, _mujoco, _adam_numpy, _adam_casadi, _adam_jax, _frax):
         try:
             with warnings.catch_warnings(), contextlib.redirect_stderr(io.StringIO()):
                 warnings.simplefilter("ignore")
@@ -80,7 +80,8 @@ def _ours(model: tw.Model, urdf: str) -> Iterator[Peer]:
         program = tw.compile(model, quantity)
 
         def prepare(s: States, program=program):
-            return lambda: program(s.q, s.v, s.a)[:, JOINTS]
+            args = [x[0] if len(x) == 1 else x for x in (s.q, s.v, s.a)]
+            return lambda: program(*args)[..., JOINTS]
 
         yield Peer("tw.compile", version("twistwrench"), quantity, True, "body", prepare)
 
@@ -96,7 +97,7 @@ def _pinocchio_batches(model: tw.Model, urdf: str) -> Iterator[Peer]:
             def prepare(s: States, call=call, threads=threads):
                 v, a = (tw.bridge.to_pinocchio_tangent(model, x) for x in (s.v, s.a))
                 columns = [np.asfortranarray(x.T) for x in (s.q, v, a)]
-                return lambda: call(threads, pool, *columns).T[:, JOINTS]
+                return lambda: call(threads, pool, *columns).T[..., JOINTS]  # of one state it is a vector
 
             name = f"Pinocchio, {call.__name__}({threads})"
             yield Peer(name, version("pin"), quantity, True, "body", prepare)
@@ -179,6 +180,28 @@ def _adam_numpy(model: tw.Model, urdf: str) -> Iterator[Peer]:
     from adam.numpy import KinDynComputations
 
     yield from _adam(model, KinDynComputations(urdf, list(model.joint_names[2:])), "adam (NumPy)", lambda call: call)
+
+
+def _adam_casadi(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    import adam
+    from adam.casadi import KinDynComputations
+
+    kindyn = KinDynComputations(urdf, list(model.joint_names[2:]))
+    kindyn.set_frame_velocity_representation(adam.Representations.BODY_FIXED_REPRESENTATION)
+    kindyn.g = np.concatenate([model.gravity, np.zeros(3)])
+    M, h = kindyn.mass_matrix_fun(), kindyn.bias_force_fun()
+    calls = {
+        "crba": lambda T, q, V, v: np.asarray(M(T, q))[JOINTS, JOINTS],
+        "h": lambda T, q, V, v: np.asarray(h(T, q, V, v))[JOINTS, 0],
+    }
+    for quantity, call in calls.items():
+
+        def prepare(s: States, call=call):
+            V = np.concatenate([s.v[:, 3:6], s.v[:, :3]], -1)
+            states = list(zip(_placement(model, s.q), s.q[:, 7:], V, s.v[:, 6:], strict=True))
+            return lambda: np.stack([call(*state) for state in states])
+
+        yield Peer("adam (CasADi)", version("adam-robotics"), quantity, False, "body", prepare)
 
 
 def _adam_jax(model: tw.Model, urdf: str) -> Iterator[Peer]:

@@ -23,6 +23,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+from tables import rows
 
 import twistwrench as tw
 from twistwrench.study.cases import QUANTITIES, ours, pinocchio, random_states
@@ -112,7 +113,7 @@ def peers(rounds: int) -> Iterator[Row]:
 
 def row(study: str, way: str, quantity: str, result, **what) -> Row:
     """Return a row of the table, and print its gist."""
-    made = {"study": study, "way": way, "quantity": quantity, "links": "", **what, **result.row()}
+    made = {"study": study, "way": way, "quantity": quantity, "links": "", **what, **result.row(), "date": today()}
     place = f"{made['links']} links, " if made["links"] else ""
     print(
         f"{study:8} {way:18} {quantity:5} {what['dtype']:8} {place}batch {what['batch']:>7,}: "
@@ -125,16 +126,37 @@ def row(study: str, way: str, quantity: str, result, **what) -> Row:
     return made
 
 
+def kept(found: list[Row]) -> list[Row]:
+    """Return the rows of the last run whose package was not measured now: it is not installed."""
+    measured = {r["way"] for r in found}
+    return [dict(r) for r in rows("peers") if r["way"] not in measured]
+
+
+def today() -> str:
+    """Return the date of a row."""
+    return time.strftime("%Y-%m-%d")
+
+
 STUDIES = {"one": one, "batch": batch, "links": links, "peers": peers}
 COLUMNS = (
     *("study", "way", "quantity", "robot", "dtype", "batch", "links", "us", "us_q1", "us_q3"),
-    *("reference_us", "reference_us_q1", "reference_us_q3", "ratio", "ratio_q1", "ratio_q3", "rounds", "disturbed"),
+    *(
+        "reference_us",
+        "reference_us_q1",
+        "reference_us_q3",
+        "ratio",
+        "ratio_q1",
+        "ratio_q3",
+        "rounds",
+        "disturbed",
+        "date",
+    ),
 )
 
 
 def environment(command: str) -> dict[str, object]:
     """Return on what this ran."""
-    packages = ("twistwrench", "numpy", "pin", "mujoco", "adam-robotics", "frax", "jax")
+    packages = ("twistwrench", "numpy", "pin", "mujoco", "adam-robotics", "casadi", "frax", "jax")
     found = {}
     for name in packages:
         try:
@@ -150,7 +172,7 @@ def environment(command: str) -> dict[str, object]:
         "cores": os.cpu_count(),
         "system": platform.system(),
         "load": os.getloadavg() if hasattr(os, "getloadavg") else None,
-        "date": time.strftime("%Y-%m-%d"),
+        "date": today(),
     }
 
 
@@ -177,6 +199,8 @@ def main() -> None:
         if not found:  # no peers are installed, or there is one processor
             print(f"{name}: nothing was measured; what results/ holds of it stays")
             continue
+        if name == "peers":
+            found = [*kept(found), *found]
         with (RESULTS / f"{name}.csv").open("w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)
             writer.writeheader()

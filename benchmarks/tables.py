@@ -65,8 +65,14 @@ def tables() -> dict[str, str]:
         "one": table((r["quantity"], f"`{WAYS[r['way']]}`", f"{number(r['us'])} µs, {ratio(r)}") for r in rows("one")),
         "batch": table((r["quantity"], f"{r['dtype']}, {int(r['batch']):,}", ratio(r)) for r in batches),
         "links": table((q, f"batch {b}", f"{growth(q, b):.2f}") for q in ("rnea", "aba", "A_G") for b in ("1", "100")),
-        "peers": table((f"{r['way']}, {r['quantity']}", f"{int(r['batch']):,}", ratio(r)) for r in rows("peers")),
+        "peers": table((peer(r), f"{int(r['batch']):,}", ratio(r)) for r in rows("peers")),
     }
+
+
+def peer(r: Row) -> str:
+    """Return the name of a line: with a date if it was not measured in the last run."""
+    newest = max(other["date"] for other in rows("peers"))
+    return f"{r['way']}, {r['quantity']}" + f" ({r['date']})" * (r["date"] != newest)
 
 
 WAYS = {"fast": "tw.fast", "textbook": "tw"}

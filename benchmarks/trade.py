@@ -1,6 +1,6 @@
 """What docs/trade.md shows: two runs of ``twistwrench study trade``, their pictures, and its tables.
 
-python benchmarks/trade.py            # run both studies, three minutes; writes to results/ and docs/pictures/
+python benchmarks/trade.py            # run both studies, ten minutes; writes to results/ and docs/pictures/
 python benchmarks/trade.py --tables   # only make the tables anew from results/
 """
 
@@ -88,6 +88,12 @@ def _time(p: Point) -> str:
     return "~" * (not p.quiet) + duration(p.seconds)
 
 
+def _with_machine(text: str) -> str:
+    """Return JSON with a first line on the machine."""
+    machine = json.dumps(environment("python benchmarks/trade.py"), ensure_ascii=False)
+    return text.replace("{", f'{{\n  "machine": {machine},', 1) + "\n"
+
+
 def draw_steps(path: Path) -> None:
     """Draw the error of a derivative over the step, in double precision: forward, central, complex."""
     from matplotlib.figure import Figure
@@ -140,7 +146,7 @@ def main() -> None:
     if not (args.tables or args.uses):
         for robot in ROBOTS:
             trade = weigh(robot, progress=None)
-            (HERE / "results" / f"trade_{robot}.json").write_text(trade.to_json() + "\n", encoding="utf-8")
+            (HERE / "results" / f"trade_{robot}.json").write_text(_with_machine(trade.to_json()), encoding="utf-8")
             draw(trade, DOCS / "pictures" / f"trade_{robot}.png")
         draw_steps(DOCS / "pictures" / "trade_steps.png")
     for page in PAGES:

@@ -22,7 +22,7 @@ pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth
 from twistwrench.study.trade import KEYS, SHORT, Effort, LeftOut, Point, Trade, picture, weigh
 from twistwrench.study.trade.choice import advice, front
 from twistwrench.study.trade.measure import relative_error
-from twistwrench.study.trade.numbers import convert, epsilon
+from twistwrench.study.trade.numbers import convert, epsilon, sum_of_pair
 from twistwrench.study.trade.run import DRAWN, _versions
 from twistwrench.validate.states import random_states
 
@@ -151,13 +151,17 @@ def test_every_way_stands_beside_pinocchio_in_every_type_for_one_state_and_many(
     assert all(any(way.startswith("pin.") for way in names) for names in ways.values())
     fast = {(p.number, p.states) for p in floating.of("ID") if p.way == "tw.fast.rnea"}
     assert fast == {(number, n) for number in ("float32", "float64", "longdouble") for n in (1, QUICK.batch)}
+    programs = {(p.number, p.states) for p in floating.of("dJv") if p.way == "tw.compile frame_bias_acceleration"}
+    assert programs == {(number, n) for number in ("float32", "float64", "double-double") for n in (1, QUICK.batch)}
     slow = {p.number for p in floating.of("FD") if p.way == "newton_euler_3d"}
     assert slow == {"float32", "float64", "longdouble", "20 digits", "50 digits"}
 
 
 def test_the_words_name_ways_that_are_in_the_table(fixed):
     ways = {(p.way, p.number) for p in fixed.points}
-    named = re.findall(r"(?:use|Pinocchio) (\S.*?) in (float32|float64|longdouble|\d+ digits) \(", fixed.words())
+    named = re.findall(
+        r"(?:use|Pinocchio) (\S.*?) in (float32|float64|longdouble|double-double|\d+ digits) \(", fixed.words()
+    )
     assert len(named) > 2 * len(KEYS)
     assert set(named) <= ways
 
@@ -168,6 +172,15 @@ def test_the_fronts_are_those_of_the_points(fixed):
         assert {p.states for p in one} == {1}
         assert all(p.seconds < q.seconds and p.error > q.error for p, q in [*pairwise(one), *pairwise(many)])
         assert min(p.error for p in one) == min(p.error for p in fixed.of(key) if p.states == 1)
+
+
+def test_pairs_of_doubles_keep_what_one_double_loses():
+    """Their sum is taken in 60 digits: in doubles the second number would be lost, and its error with it."""
+    third = convert(np.array([1.0]), "60 digits") / 3
+    hi = third.astype(np.float64)
+    pair = hi, (third - hi).astype(np.float64)
+    assert relative_error(hi, third) > 1e-17
+    assert 0 < relative_error(sum_of_pair(pair), third) < epsilon("double-double")
 
 
 def test_a_relative_error_is_that_of_the_largest_entry():
@@ -354,7 +367,7 @@ def test_the_command_prints_writes_and_draws(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    ("errors", "said"), [([1e-3], []), ([1e-3, 1e-28, 1e-26], ["down to 1e-28"]), ([0.0], ["down to 0"])]
+    ("errors", "said"), [([1e-3], []), ([1e-3, 1e-32, 1e-45, 1e-43], ["down to 1e-45"]), ([0.0], ["down to 0"])]
 )
 def test_what_is_below_the_picture_is_said(errors, said):
     ax = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure().add_subplot()
@@ -421,10 +434,8 @@ def test_without_pinocchio_and_scipy_their_ways_are_left_out_and_a_line_says_so(
     for name in ("pinocchio", "scipy", "scipy.linalg", "scipy.spatial.transform"):
         monkeypatch.setitem(sys.modules, name, None)
     trade = weigh("pendulum", only=["FD", "exp"], effort=QUICK)
-    assert {p.way.split()[0] for p in trade.points} == {"tw.aba", "tw.fast.aba", "tw.fast", "tw.crba", "tw.exp6"} | {
-        "newton_euler_3d",
-        "mpmath",
-    }
+    ours = {"tw.aba", "tw.fast.aba", "tw.fast", "tw.compile", "tw.crba", "tw.exp6"}
+    assert {p.way.split()[0] for p in trade.points} == ours | {"newton_euler_3d", "mpmath"}
     assert "Pinocchio is not installed: its ways are left out" in str(trade)
     assert "SciPy is not installed: its ways are left out" in str(trade)
 

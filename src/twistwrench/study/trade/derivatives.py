@@ -16,7 +16,7 @@ from ...model import Model
 from ...validate.manifold import integrate
 from ...validate.oracle import Oracle
 from .dynamics import Robot, Truth
-from .numbers import DIGITS, digits, exactly
+from .numbers import DIGITS, HARDWARE, digits, exactly
 from .quantity import Way
 
 __all__ = ["central_difference", "complex_step", "derivative", "difference_in_twice_the_digits", "forward_difference"]
@@ -39,6 +39,7 @@ def derivative(robot: Robot) -> tuple[Truth, list[Way]]:
         return oracle.matrix(np.reshape(data.dtau_dq, (model.nv, model.nv)))
 
     return exact, [
+        *robot.compiled("dtau_dq", numbers=HARDWARE),
         Way("tw.fast.rnea, complex step", partial(complex_step, fast, model)),
         Way("tw.rnea, complex step", partial(complex_step, partial(tw.rnea, model), model)),
         Way("newton_euler_3d, forward difference", exact, DIGITS, batches=False),

@@ -17,7 +17,7 @@ from ...algorithms.kinematics import Reference
 from ...arrays import Array
 from ...model import Model
 from ...validate.oracle import Oracle
-from .numbers import DIGITS, FLOATS, HARDWARE
+from .numbers import DIGITS, FLOATS, HARDWARE, PAIRS, sum_of_pair
 from .quantity import Way
 
 __all__ = ["REFERENCE", "WAYS", "Robot", "Truth", "Ways"]
@@ -49,6 +49,22 @@ class Robot:
         """Return the way of 49.1: one state at a time, in any number type."""
         return Way("newton_euler_3d", truth, (*FLOATS, *DIGITS), batches=False)
 
+    def compiled(
+        self,
+        name: str,
+        after: Callable[[Array], Array] = lambda value: value,
+        numbers: tuple[str, ...] = (*HARDWARE, PAIRS),
+        **options: Any,
+    ) -> list[Way]:
+        """Return the programs of a quantity, one in each number type."""
+
+        def way(number: str) -> Way:
+            program = tw.compile(self.model, name, dtype=number, **options)
+            read = (lambda pair: after(sum_of_pair(pair))) if number == PAIRS else after
+            return Way(f"tw.compile {name}", program, (number,), after=read)
+
+        return [way(number) for number in numbers]
+
     def pinocchio(self, name: str, compute: Callable[..., Any], after: Callable[[Oracle, Any], Array]) -> list[Way]:
         """Return a way of Pinocchio's in a list, or an empty one. Reordering is not timed.
 
@@ -70,6 +86,7 @@ def inverse_dynamics(robot: Robot) -> tuple[Truth, list[Way]]:
     truth = partial(ne.inverse_dynamics, robot.model)
     return truth, [
         Way("tw.fast.rnea", partial(tw.fast.rnea, robot.model)),
+        *robot.compiled("rnea"),
         Way("tw.rnea", partial(tw.rnea, robot.model)),
         robot.slow(truth),
         *robot.pinocchio("pin.rnea", lambda pin, m, d, q, v, a: pin.rnea(m, d, q, v, a), Oracle.vector),
@@ -94,6 +111,7 @@ def forward_dynamics(robot: Robot) -> tuple[Truth, list[Way]]:
 
     return truth, [
         Way("tw.fast.aba", partial(tw.fast.aba, model)),
+        *robot.compiled("aba"),
         Way("tw.aba", partial(tw.aba, model)),
         robot.slow(truth),
         *robot.pinocchio("pin.aba", lambda pin, m, d, q, v, tau: pin.aba(m, d, q, v, tau), Oracle.vector),
@@ -135,6 +153,7 @@ def mass_matrix(robot: Robot) -> tuple[Truth, list[Way]]:
     truth = partial(ne.mass_matrix, robot.model)
     return truth, [
         Way("tw.fast.crba", partial(tw.fast.crba, robot.model)),
+        *robot.compiled("crba"),
         Way("tw.crba", partial(tw.crba, robot.model)),
         robot.slow(truth),
         *robot.pinocchio("pin.crba", lambda pin, m, d, q: pin.crba(m, d, q), Oracle.matrix),
@@ -150,6 +169,7 @@ def centroidal_map(robot: Robot) -> tuple[Truth, list[Way]]:
 
     return truth, [
         Way("tw.fast.centroidal_map", partial(tw.fast.centroidal_map, robot.model)),
+        *robot.compiled("centroidal_map"),
         Way("tw.centroidal_map", partial(tw.centroidal_map, robot.model)),
         robot.slow(truth),
         *robot.pinocchio("pin.computeCentroidalMap", pinocchio, Oracle.jacobian),
@@ -164,6 +184,7 @@ def momentum_rate(robot: Robot) -> tuple[Truth, list[Way]]:
         return pin.computeCentroidalMomentumTimeVariation(m, d, q, v, a)
 
     return truth, [
+        *robot.compiled("centroidal_momentum_rate"),
         Way("tw.centroidal_momentum_rate", partial(tw.centroidal_momentum_rate, robot.model)),
         robot.slow(truth),
         *robot.pinocchio(
@@ -188,6 +209,7 @@ def bias_acceleration(robot: Robot) -> tuple[Truth, list[Way]]:
         return pin.getFrameClassicalAcceleration(m, d, at, pin.LOCAL_WORLD_ALIGNED)
 
     return truth, [
+        *robot.compiled("frame_bias_acceleration", lambda x: x[..., 0, :], frames=[frame], reference=REFERENCE),
         Way("tw.frame_bias_acceleration", textbook),
         robot.slow(truth),
         *robot.pinocchio("pin.getFrameClassicalAcceleration", pinocchio, lambda _, V: bridge.from_pinocchio_motion(V)),

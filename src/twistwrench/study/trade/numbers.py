@@ -1,4 +1,4 @@
-"""The number types of the study: NumPy's three, and decimal digits of mpmath."""
+"""The number types of the study: NumPy's three, pairs of doubles, and decimal digits of mpmath."""
 
 from __future__ import annotations
 
@@ -9,13 +9,17 @@ import numpy as np
 
 from ...arrays import Array, resolution
 
-__all__ = ["DIGITS", "FLOATS", "HARDWARE", "TRUTH", "as_long_double", "convert", "digits", "epsilon", "exactly"]
+__all__ = ["DIGITS", "FLOATS", "HARDWARE", "PAIRS", "TRUTH"]
+__all__ += ["as_long_double", "convert", "digits", "epsilon", "exactly", "sum_of_pair"]
 
 HARDWARE = ("float32", "float64")
 """The number types of LAPACK, and with it of numpy.linalg."""
 
 FLOATS = (*HARDWARE, "longdouble") if resolution(np.longdouble) < resolution(np.float64) else HARDWARE
 """Without long doubles where they are doubles by another name, as on Windows."""
+
+PAIRS = "double-double"
+"""Of compiled programs: 32 digits, the sum of two doubles."""
 
 DIGITS = ("20 digits", "50 digits")
 TRUTH = "60 digits"
@@ -38,7 +42,7 @@ def exactly(x: Array, context: Any) -> Array:
 
 
 def convert(x: Array, number: str) -> Array:
-    """Turn doubles into a number type of this study.
+    """Turn doubles into a number type of this study. One double is a pair already, whose second number is zero.
 
     Examples
     --------
@@ -47,7 +51,22 @@ def convert(x: Array, number: str) -> Array:
     >>> print(convert(np.array([0.1]), "20 digits")[0])
     0.10000000000000000555
     """
-    return exactly(x, digits(int(number.split()[0]))) if number.endswith("digits") else x.astype(number)
+    if number.endswith("digits"):
+        return exactly(x, digits(int(number.split()[0])))
+    return x.astype(np.float64 if number == PAIRS else number)
+
+
+def sum_of_pair(pair: tuple[Array, Array]) -> Array:
+    """Turn pairs of doubles into mpmath numbers, which hold their sum.
+
+    Examples
+    --------
+    >>> print(sum_of_pair((np.array([1.0]), np.array([1e-20])))[0])
+    1.00000000000000000001
+    """
+    hi, lo = (convert(part, TRUTH) for part in pair)
+    total: Array = hi + lo
+    return total
 
 
 def as_long_double(x: Array) -> Array:
@@ -61,9 +80,11 @@ def epsilon(number: str) -> float:
 
     Examples
     --------
-    >>> epsilon("float64"), epsilon("20 digits") < 1e-19
-    (2.220446049250313e-16, True)
+    >>> epsilon("float64"), epsilon("20 digits") < 1e-19, epsilon("double-double") < 1e-31
+    (2.220446049250313e-16, True, True)
     """
     if number.endswith("digits"):
         return float(digits(int(number.split()[0])).eps)
+    if number == PAIRS:
+        return 2.0**-105  # the roundings of hi and of lo: 53 binary digits each, and a sign
     return resolution(np.dtype(number))

@@ -15,12 +15,19 @@ from .report import Trade
 
 __all__ = ["check_format", "draw"]
 
-FLOOR = 1e-25
+FLOOR = 1e-38
 """Smaller errors are drawn on the bottom line, and a note gives their size."""
 
-MARKERS = {"float32": "v", "float64": "o", "longdouble": "s", "20 digits": "D", "50 digits": "*"}
-OWN = {"tw.fast.": "vermilion", "tw.": "blue", "newton_euler_3d": "green", "mpmath": "green", "pin.": "black"}
-OTHERS = ("orange", "sky", "purple", "grey", "yellow")
+MARKERS = {"float32": "v", "float64": "o", "longdouble": "s", "double-double": "P", "20 digits": "D", "50 digits": "*"}
+OWN = {
+    "tw.fast.": "vermilion",
+    "tw.compile ": "orange",
+    "tw.": "blue",
+    "newton_euler_3d": "green",
+    "mpmath": "green",
+    "pin.": "black",
+}
+OTHERS = ("sky", "purple", "grey", "yellow")
 COLUMNS = 3
 FORMATS = (".png", ".svg", ".pdf")
 

@@ -23,7 +23,7 @@ from ...validate.states import States, random_states
 from .derivatives import derivative
 from .dynamics import REFERENCE, WAYS, Robot, Ways
 from .measure import Effort, candidates, measure
-from .numbers import TRUTH, convert
+from .numbers import PAIRS, TRUTH, convert
 from .poses import pose_quantities
 from .quantity import Arrays, Inputs, Quantity, repeated
 from .report import Trade
@@ -162,11 +162,11 @@ def _moving_frame(model: Model, s: States) -> str:
 
 
 def _inputs(model: Model, s: States, of: tuple[str, ...]) -> Inputs:
-    """Return q and others in a number type; quaternions are made unit to the last digit of that type."""
+    """Return q and others in a number type; NumPy's quaternions are made unit to the last digit of that type."""
 
     def inputs(number: str, where: int | slice) -> Arrays:
         q, *others = (convert(repeated(getattr(s, name), where), number) for name in of)
-        return (q if number.endswith("digits") else model.normalize(q)), *others
+        return (q if number == PAIRS or number.endswith("digits") else model.normalize(q)), *others
 
     return inputs
 
