@@ -339,8 +339,8 @@ FAULTS = [
     Fault(
         "wrench from outside added to h",
         "scene/dynamics.py",
-        "h = h - J.mT",
-        "h = h + J.mT",
+        "total = total + J.mT",
+        "total = total - J.mT",
     ),
     Fault(
         "planar base: slides swapped",

@@ -11,6 +11,8 @@ import pytest
 
 import twistwrench as tw
 
+from ..badcalls import SPECIAL
+
 FOLDERS = ["", ".fast", ".motions", ".newton_euler_3d", ".plot", ".templates", ".validate"]
 MADE_BY_HAND = ["Baumgarte", "Builder", "PointContact", "Scene", "SurfaceContact", "Twist", "Wrench"]
 GO2 = tw.load("go2")
@@ -117,7 +119,10 @@ def test_what_is_no_number_or_no_name_is_named(taker):
         pytest.importorskip("mpmath")
     parameters = inspect.signature(function).parameters
     needed = {name: p.kind for name, p in parameters.items() if p.default is p.empty}
-    given = {name: GOOD[name] for name, kind in needed.items() if kind not in (kind.VAR_POSITIONAL, kind.VAR_KEYWORD)}
+    own = SPECIAL.get(taker.partition("(")[0], {})
+    variable = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+    given = {name: own[name] if name in own else GOOD[name] for name, kind in needed.items() if kind not in variable}
+    given |= {name: value for name, value in own.items() if name in parameters}
     for bad in ("0.01", [1.0, 2.0], 1j) if is_number else (0.5, ["FR_foot"]):
         with pytest.raises((TypeError, ValueError), match=rf"\b{CALLED.get(taker, argument)}\b.*: .*, got "):
             function(**given | {argument: bad})

@@ -101,6 +101,10 @@ def test_what_is_given_need_not_be_computed_with(backend):
     assert held.arguments == ("q", "f_ext")
     assert held.operations.total() < tw.compile(model, "rnea").operations.total() / 3
     np.testing.assert_allclose(held(q), tw.gravity(model, q), atol=1e-11)
+    v = random_state(model, rng=0, batch=(30,)).v
+    there = compile(model, ["M", "h"], given={"q": q}, backend=backend)
+    np.testing.assert_allclose(there(v).h, tw.nonlinear_effects(model, q, v), rtol=0, atol=1e-11)
+    np.testing.assert_allclose(there(v[0]).M, tw.crba(model, q), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

@@ -49,7 +49,7 @@ def record(
     if "f_ext" in arguments:
         world = arguments["f_ext"][0].copy()
         arguments["f_ext"][0] = convert(np.zeros(6), object)
-    values = {**arguments, **{name: convert(x, object) for name, x in given.items()}}
+    values = {**arguments, **{name: _constants(tape, name, x) for name, x in given.items()}}
     questions = [*state_questions(model, arguments, dtype)]
     results: dict[str, Array] = {}
     for quantity in quantities:
@@ -62,3 +62,11 @@ def record(
         large = 2 ** (min(int(np.finfo(dtype).maxexp), 1024) - 1)
         questions += [x * large / tape.number(Fraction(1, large)) for x in world]  # anything but zero is too much
     return Line.of(tape, shapes, {**results, ALARM: np.asarray(alarm(tape, questions), object)})
+
+
+def _constants(tape: Tape, name: str, x: Array) -> Array:
+    """Return given values as fractions; those of q, whose cosines are not fractions, as numbers unless zero."""
+    exact = convert(x, object)
+    for k in np.ndindex(x.shape) if name == "q" else ():
+        exact[k] = tape.number(exact[k]) if exact[k] else exact[k]
+    return exact

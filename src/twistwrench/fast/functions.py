@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array, as_names
-from ..model import Model
+from ..model import Model, check_model
 from .programs import one_state, program, result, states_of
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
@@ -196,6 +196,7 @@ def dynamics(
     >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
+    check_model(model)
     if out is None and type(want) is tuple and (contacts is None or type(contacts) is tuple):
         feet = model.feet if contacts is None else contacts
         found = one_state(model, want, feet if "J_c" in want else (), (q, v))

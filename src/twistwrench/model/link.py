@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_constant, check_kind
+from ..arrays import Array, as_constant, as_exactly, check_kind
 from ..errors import ModelError, ShapeError
 from ..spatial import SE3, SpatialInertia
 from .constants import cast
 from .joint import Joint, check_subspace
 from .model import PER_DOF
 
-__all__ = ["UNLIMITED", "WORLD", "Link"]
+__all__ = ["UNLIMITED", "WORLD", "Link", "placement_of"]
 
 WORLD = "universe"
 """The name of the world, which carries the root; nothing else may have it."""
@@ -123,3 +123,11 @@ def _vector(value: ArrayLike, size: int, what: str) -> Array:
     if np.isnan(x).any():
         raise ModelError(f"{what}: is not a number")
     return np.broadcast_to(x, size).copy()
+
+
+def placement_of(T: ArrayLike, name: str) -> SE3:
+    """Return the placement of a 4 × 4 matrix; an error names the argument."""
+    try:
+        return SE3.from_matrix(as_exactly(T, name, 4, 4))
+    except ShapeError as error:
+        raise ShapeError(f"{name}: {str(error).removeprefix('T: ').removeprefix(f'{name}: ')}") from None

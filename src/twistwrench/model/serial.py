@@ -30,7 +30,7 @@ from .arguments import check_model
 from .builder import Builder
 from .joint import AxisJoint, Joint
 from .joints import Helical, Prismatic, Revolute
-from .link import UNLIMITED
+from .link import UNLIMITED, placement_of
 from .model import Model
 from .tree import joint_placements
 
@@ -147,10 +147,10 @@ def from_screw_axes(
     >>> M = SE3(np.diag([-1, 1, -1]), [0, 6, 2]).matrix()  # Modern Robotics, the example of FKinSpace
     >>> Slist = np.array([[0, 0, 1, 4, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, -1, -6, 0, -0.1]]).T
     >>> arm = from_screw_axes(M, Slist)
-    >>> tw.frame_placement(arm, [np.pi / 2, 3, np.pi], "tool").translation.round(8)
+    >>> tw.frameplacement_of(arm, [np.pi / 2, 3, np.pi], "tool").translation.round(8)
     array([-5.        ,  4.        ,  1.68584073])
     """
-    home = SE3.from_matrix(as_exactly(M, "M", 4, 4))
+    home = placement_of(M, "M")
     if (Slist is None) == (Blist is None):
         raise ModelError("expected either Slist or Blist, got both or neither")
     given, what = (Blist, "Blist") if Slist is None else (Slist, "Slist")
@@ -194,7 +194,7 @@ def _link_inertias(
     steps, G = as_sequence(Mlist, "Mlist", "placements"), as_sequence(Glist, "Glist", "inertias")
     if len(steps) not in (n, n + 1) or len(G) != n:
         raise ShapeError(f"expected {n} or {n + 1} entries of Mlist and {n} of Glist, got {len(steps)} and {len(G)}")
-    frames = [SE3.from_matrix(as_exactly(step, f"Mlist[{i}]", 4, 4)) for i, step in enumerate(steps)]
+    frames = [placement_of(step, f"Mlist[{i}]") for i, step in enumerate(steps)]
     inertias = [SpatialInertia.from_matrix(as_exactly(g, f"Glist[{i}]", 6, 6)) for i, g in enumerate(G)]
     return [
         inertia.transform(place.inverse() @ reduce(SE3.__matmul__, frames[: i + 1]))
@@ -259,7 +259,7 @@ def from_dh(
     --------
     >>> import twistwrench as tw
     >>> scara = from_dh(a=[1, 1, 0], alpha=[0, np.pi, 0], d=[0, 0, 0], convention="classical", kinds="RRP")
-    >>> tw.frame_placement(scara, [np.pi / 2, -np.pi / 2, 0.3], "link3").translation.round(12)
+    >>> tw.frameplacement_of(scara, [np.pi / 2, -np.pi / 2, 0.3], "link3").translation.round(12)
     array([ 1. ,  1. , -0.3])
     """
     check_choice(convention, "convention", ("classical", "modified"), ModelError)
@@ -277,9 +277,7 @@ def from_dh(
     builder = Builder(name, root="link0", gravity=gravity)
     for i, (a_i, alpha_i, d_i, theta_i) in enumerate(columns.mT):
         along_x = SE3(exp3([alpha_i, 0, 0]), [a_i, 0, 0])
-        along_z = SE3(
-            exp3([0, 0, theta_i]), [0, 0, d_i]
-        )  # a turn or a slide by q about the same z goes before or after
+        along_z = SE3(exp3([0, 0, theta_i]), [0, 0, d_i])  # q turns or slides about the same z, before or after
         before, after = (along_z, along_x) if convention == "classical" else (along_x @ along_z, SE3.identity())
         joint, own = Revolute("z") if kinds[i] == "R" else Prismatic("z"), {key: x[i] for key, x in numbers.items()}
         axis, link = f"axis{i + 1}", f"link{i + 1}"
