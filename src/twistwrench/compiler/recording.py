@@ -67,6 +67,6 @@ def record(
 def _constants(tape: Tape, name: str, x: Array) -> Array:
     """Return given values as fractions; those of q, whose cosines are not fractions, as numbers unless zero."""
     exact = convert(x, object)
-    for k in np.ndindex(x.shape) if name == "q" else ():
-        exact[k] = tape.number(exact[k]) if exact[k] else exact[k]
+    if name == "q":
+        exact[:] = [tape.number(one) if one else one for one in exact]
     return exact

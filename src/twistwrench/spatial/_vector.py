@@ -93,8 +93,8 @@ class SpatialVector:
         """
         h = np.asarray(pitch)
         free = np.isinf(h) if h.dtype.kind in "fc" else np.zeros(h.shape, bool)
-        h = np.where(free, 0, h) if free.any() else pitch
-        a, p, h, m = as_arrays(axis=(axis, (3,)), point=(point, (3,)), pitch=(h, ()), magnitude=(magnitude, ()))
+        turning = np.where(free, 0, h) if free.any() else pitch
+        a, p, h, m = as_arrays(axis=(axis, (3,)), point=(point, (3,)), pitch=(turning, ()), magnitude=(magnitude, ()))
         size = length(a)[..., None]
         none = np.asarray(size.real == 0)[..., 0]
         if none.any():
