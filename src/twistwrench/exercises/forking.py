@@ -156,12 +156,15 @@ def _interrupted(exercise: Exercise, part: Part, function: Function, seed: int, 
         finally:
             timer.cancel()
 
+    heard = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may ignore it for what runs behind it
     try:
         return calls, judge(exercise, part, function, seed=seed, watch=watch), "", ""
     except KeyboardInterrupt:
         if not stopped:
             raise
         return calls, None, stopped, ""
+    finally:
+        signal.signal(signal.SIGINT, heard)
 
 
 def _trace(error: BaseException) -> str:

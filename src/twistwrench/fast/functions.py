@@ -85,7 +85,7 @@ def nonlinear_effects(
     Examples
     --------
     >>> import twistwrench as tw
-    >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0])  # standing: nothing for the cart
+    >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0]) + 0.0  # standing: nothing for the cart
     array([0., 0.])
     """
     return result(model, "h", ("q", "v"), (q, v), None, out)
