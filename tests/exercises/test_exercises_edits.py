@@ -78,6 +78,7 @@ SOME = ("skew", "act", "adjoint", "newton_euler", "plucker", "contact_wrench", "
 SOME += ("spatial_inertia", "polishing_torques", "arc", "moved_inertia", "com_acceleration", "base_columns")
 
 
+@pytest.mark.slow  # seconds each
 @pytest.mark.parametrize("name", SOME)
 def test_no_edit_of_a_reference_passes(name):
     """An edit that passes on these cases gives the right answer on others too: it is another way to write the same."""

@@ -11,6 +11,9 @@ import pytest
 
 import twistwrench as tw
 
+from ..badcalls import GOOD as EVERY
+from ..badcalls import SPECIAL
+
 FOLDERS = ["", ".bridge", ".fast", ".motions", ".newton_euler_3d", ".plot", ".templates", ".validate"]
 GO2 = tw.load("go2")
 REST = np.zeros(GO2.nv)
@@ -62,7 +65,9 @@ def call(function, **given):
     """Call a function with what is given, and with a good value for all else that it must have."""
     for name, parameter in inspect.signature(function).parameters.items():
         if parameter.default is parameter.empty and name not in given:
-            given[name] = GOOD[name] if name in GOOD else GOOD[parameter.annotation]
+            given[name] = next(
+                known[key] for known in (GOOD, EVERY) for key in (name, parameter.annotation) if key in known
+            )
     return function(**given)
 
 
@@ -91,7 +96,7 @@ def test_what_is_no_model_is_named(taker):
         if (isinstance(bad, str | Path) and "str" in takes) or (isinstance(bad, tw.Scene) and "Scene" in takes):
             continue
         with pytest.raises(TypeError, match=rf"^{argument}: expected .*Model.*, got {came}$"):
-            call(function, **{argument: bad})
+            call(function, **SPECIAL.get(taker, {}) | {argument: bad})
 
 
 def test_model_of_pinocchio_is_led_to_the_bridge():

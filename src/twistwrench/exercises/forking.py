@@ -156,7 +156,7 @@ def _interrupted(exercise: Exercise, part: Part, function: Function, seed: int, 
         finally:
             timer.cancel()
 
-    heard = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may ignore it for what runs behind it
+    heard = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may ignore it for a background job
     try:
         return calls, judge(exercise, part, function, seed=seed, watch=watch), "", ""
     except KeyboardInterrupt:

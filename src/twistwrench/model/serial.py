@@ -147,7 +147,7 @@ def from_screw_axes(
     >>> M = SE3(np.diag([-1, 1, -1]), [0, 6, 2]).matrix()  # Modern Robotics, the example of FKinSpace
     >>> Slist = np.array([[0, 0, 1, 4, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, -1, -6, 0, -0.1]]).T
     >>> arm = from_screw_axes(M, Slist)
-    >>> tw.frameplacement_of(arm, [np.pi / 2, 3, np.pi], "tool").translation.round(8)
+    >>> tw.frame_placement(arm, [np.pi / 2, 3, np.pi], "tool").translation.round(8)
     array([-5.        ,  4.        ,  1.68584073])
     """
     home = placement_of(M, "M")
@@ -259,7 +259,7 @@ def from_dh(
     --------
     >>> import twistwrench as tw
     >>> scara = from_dh(a=[1, 1, 0], alpha=[0, np.pi, 0], d=[0, 0, 0], convention="classical", kinds="RRP")
-    >>> tw.frameplacement_of(scara, [np.pi / 2, -np.pi / 2, 0.3], "link3").translation.round(12)
+    >>> tw.frame_placement(scara, [np.pi / 2, -np.pi / 2, 0.3], "link3").translation.round(12)
     array([ 1. ,  1. , -0.3])
     """
     check_choice(convention, "convention", ("classical", "modified"), ModelError)

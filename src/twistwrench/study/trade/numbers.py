@@ -61,8 +61,8 @@ def sum_of_pair(pair: tuple[Array, Array]) -> Array:
 
     Examples
     --------
-    >>> print(sum_of_pair((np.array([1.0]), np.array([1e-20])))[0])
-    1.00000000000000000001
+    >>> print(sum_of_pair((np.array([1.0]), np.array([2.0**-70])))[0] - 1 == 2.0**-70)
+    True
     """
     hi, lo = (convert(part, TRUTH) for part in pair)
     total: Array = hi + lo

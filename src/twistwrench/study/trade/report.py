@@ -14,7 +14,7 @@ from .measure import Effort, LeftOut, Point
 __all__ = ["Trade"]
 
 HEADER = ("", "", "way", "number", "states", "time", "quartiles", "error")
-WIDTHS = (1, 1, 42, 13, 6, 8, 17, 8)
+WIDTHS = (1, 1, 39, 13, 6, 8, 17, 8)
 LINE = 100
 """Letters in a line of words."""
 
