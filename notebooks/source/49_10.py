@@ -289,11 +289,13 @@ plt.show()
 # 旁边那条正在支撑,两者的角动量几乎抵消;跳跑时躯干俯仰,两对腿也随之摆动。
 # %%
 strides = {}
+for name, gait in gaits.items():
+    t = np.linspace(0, 1, 241) / gait.strides
+    strides[name] = t, tw.centroidal_momentum(model, *move(t, gait))
+
 figure, axes = plt.subplots(2, 3, figsize=(12, 5), sharex=True, layout="constrained")
 for (name, gait), column in zip(gaits.items(), axes.T):
-    t = np.linspace(0, 1, 241) / gait.strides
-    momentum = tw.centroidal_momentum(model, *move(t, gait))
-    strides[name] = t, momentum
+    t, momentum = strides[name]
     wobble = momentum - momentum[:-1].mean(axis=0)
     for k in range(3):
         column[0].plot(t * gait.strides, momentum[:, k], color=plot.XYZ[k], label=f"k_{'xyz'[k]}")
