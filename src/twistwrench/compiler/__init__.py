@@ -2,36 +2,36 @@
 
 Each file imports only from those above it in this table.
 
-============  ===================================================================================
-file          what it holds
-============  ===================================================================================
-number        `Number`, which only remembers what is done to it, and the `Tape` it writes on
-line          `Line`: the operations that a question needs, one after the other
-instructions  LLVM's language: arithmetic, and the way in and out of memory
-sine          sin and cos of many angles at once
-llvm          machine code, by LLVM
-source        a line as text: Python, annotated with the chapter's steps, and C
-plain         Python's floats, for a few states
-pairs         arithmetic with pairs of doubles
-registers     NumPy, for every number type
-tangent       the derivatives of what is on a tape, and steps along v from q
-backend       which of them runs a line
-pair_sine     sin and cos of a pair
-bounds        how far a computed number can be off
-double_double a line rewritten into pairs, with bounds
-watch         what a program watches, so that the textbook can take the states that raise the alarm
-quantity      `Quantity`: what a quantity depends on, and how it is computed
-derivatives   derivatives of all quantities, and the regressor
-quantities    what can be compiled: the textbook's functions
-recording     from quantities to a line
-outputs       arrays of the caller that are to be filled
-memory        of one state at known addresses; rows of a caller's arrays
-textbook      the textbook, for the states of a batch that raise the alarm
-program       `Program`, which is called as the textbook's functions are
-wide          programs in quadruple precision, and in mpmath's numbers
-digits        programs in pairs of doubles, and with a bound
-compilation   `compile`
-============  ===================================================================================
+=============  ===============================================================================================
+file           what it holds
+=============  ===============================================================================================
+number         `Number`, which only remembers what is done to it, and the `Tape` it writes on
+line           `Line`: the operations that a question needs, one after the other
+instructions   LLVM's language: arithmetic, and the way in and out of memory
+sine           sin and cos of many angles at once
+llvm           machine code, by LLVM
+source         a line as text: Python, annotated with the chapter's steps, and C
+plain          Python's floats, for a few states
+pairs          arithmetic with pairs of doubles
+registers      NumPy, for every number type
+tangent        the derivatives of what is on a tape, and steps along v from q
+backend        which of them runs a line
+pair_sine      sin and cos of a pair
+bounds         how far a computed number can be off
+double_double  a line rewritten into pairs, with bounds
+watch          what a program watches, so that the textbook can take the states that raise the alarm
+quantity       `Quantity`: what a quantity depends on, and how it is computed
+derivatives    derivatives of all quantities, and the regressor
+quantities     what can be compiled: the textbook's functions
+recording      from quantities to a line
+outputs        arrays of the caller that are to be filled
+memory         of one state at known addresses; rows of a caller's arrays
+textbook       the textbook, for the states of a batch that raise the alarm
+program        `Program`, which is called as the textbook's functions are
+wide           programs in quadruple precision, and in mpmath's numbers
+digits         programs in pairs of doubles, and with a bound
+compilation    `compile`
+=============  ===============================================================================================
 """
 
 from .compilation import compile
