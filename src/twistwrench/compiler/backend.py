@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -14,7 +14,7 @@ from .llvm import MachineCode, lanes
 from .plain import Plain
 from .registers import Registers
 
-__all__ = ["BackEnd"]
+__all__ = ["BackEnd", "divided"]
 
 FEW = 20
 """Without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy."""
@@ -46,14 +46,7 @@ class BackEnd:
 
     def run(self, arrays: Sequence[Array], threads: int) -> None:
         """Fill the results: each array has shape (states, entries). The states are divided among threads."""
-        run, count = self._chosen(len(arrays[-1])).run, len(arrays[-1])
-        parts = max(1, min(threads, count // LEAST))
-        if parts == 1:
-            run(arrays)
-            return
-        edges = [count * k // parts for k in range(parts + 1)]
-        with ThreadPoolExecutor(parts) as pool:
-            list(pool.map(lambda k: run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
+        divided(self._chosen(len(arrays[-1])).run, arrays, threads)
 
     def _chosen(self, count: int) -> MachineCode | Plain | Registers:
         """Return what is quickest for so many states."""
@@ -65,3 +58,15 @@ class BackEnd:
             self._made[kind] = Plain(self.line) if kind is Plain else Registers(self.line, self.dtype)
         code: Plain | Registers = self._made[kind]
         return code
+
+
+def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], threads: int) -> None:
+    """Call `run` with the states of all arrays, divided among threads where there are enough of them."""
+    count = len(arrays[-1])
+    parts = max(1, min(threads, count // LEAST))
+    if parts == 1:
+        run(arrays)
+        return
+    edges = [count * k // parts for k in range(parts + 1)]
+    with ThreadPoolExecutor(parts) as pool:
+        list(pool.map(lambda k: run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))

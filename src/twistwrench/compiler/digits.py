@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from math import prod
 from typing import Any, NamedTuple
@@ -17,9 +16,11 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import ShapeError
+from .backend import divided
 from .double_double import BOUND, LO, double_double
 from .line import Line
 from .llvm import NATIVE, MachineCode, lanes
+from .pairs import two_sum
 from .program import Program
 from .recording import ALARM
 from .registers import Registers
@@ -85,14 +86,7 @@ class Pairwise:
 
     def _run(self, arrays: Sequence[Array], count: int) -> None:
         width = lanes(DOUBLE) if self.native else 1
-        code = self._code(width if count >= width else 1)
-        parts = max(1, min(self.threads, count // 64))
-        if parts == 1:
-            code.run(arrays)
-            return
-        edges = [count * k // parts for k in range(parts + 1)]
-        with ThreadPoolExecutor(parts) as pool:
-            list(pool.map(lambda k: code.run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
+        divided(self._code(width if count >= width else 1).run, arrays, self.threads)
 
     def _code(self, width: int) -> Any:
         if width not in self._codes:
@@ -153,8 +147,8 @@ class DoubleDoubleProgram(DigitsProgram):
         given = self.program._bound(args, named)
         pairs = {name: _as_pair(name, x) for name, x in given.items() if isinstance(x, DoubleDouble)}
         states = self.program._arrays({name: pairs[name].hi if name in pairs else x for name, x in given.items()})
-        batch = self._batch(tuple(given), states)
         high = dict(zip(given, states))
+        batch = self.program.batch(high)
         low = {name + LO: np.broadcast_to(pair.lo, high[name].shape) for name, pair in pairs.items()}
         found = self.of(tuple(given), tuple(pairs)).run(high | low, batch)
         self._check(high, found, "angles up to 2**45 rad, and sizes ")
@@ -215,7 +209,7 @@ class BoundedProgram(DigitsProgram):
         given = self.program._bound(args, named)
         states = dict(zip(given, self.program._arrays(given)))
         value = self.program(**states)
-        batch = self._batch(tuple(given), tuple(states.values()))
+        batch = self.program.batch(states)
         wide = {name: x.astype(DOUBLE) for name, x in states.items()}
         found = self._reference.of(tuple(given), ()).run(wide, batch)
         bound = {}
@@ -260,9 +254,7 @@ def _as_pair(name: str, x: DoubleDouble) -> DoubleDouble:
         raise ShapeError(f"{name}: expected hi and lo of the same shape, got {hi.shape} and {lo.shape}")
     if not (np.isfinite(hi).all() and np.isfinite(lo).all()):
         raise ValueError(f"{name}: expected finite numbers")
-    total = hi + lo
-    of_lo = total - hi
-    return DoubleDouble(total, (hi - (total - of_lo)) + (lo - of_lo))
+    return DoubleDouble(*two_sum(hi, lo))
 
 
 def _certain(bound: Array) -> Array:

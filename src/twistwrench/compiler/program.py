@@ -244,9 +244,9 @@ class Program:
 
     def _many(self, bound: Mapping[str, ArrayLike], out: Any) -> Any:
         """Return the results for any number of states."""
-        names = tuple(bound)
-        states = self._arrays(bound)
-        batch = states[0].shape[: states[0].ndim - len(self._shapes[names[0]])] if states else ()
+        names, states = tuple(bound), self._arrays(bound)
+        named = dict(zip(names, states))
+        batch = self.batch(named)
         line = self._line(names)
         tails = {name: shape for name, (shape, _) in line.outputs.items() if name != ALARM}
         given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
@@ -264,7 +264,7 @@ class Program:
                 filled[name][...] = x.reshape(filled[name].shape)
         sure = alarm[:, 0].real <= 1
         if not sure.all():
-            self._by_the_textbook(dict(zip(names, states)), filled, ~sure.reshape(batch))
+            by_the_textbook(self.model, self.quantities, self.given | named, filled, ~sure.reshape(batch))
         done = finish(given, filled)
         return next(iter(done.values())) if self.single else Results(**done)
 
@@ -287,9 +287,9 @@ class Program:
         checked = dict(zip(("q", *others), floats_of(self.model, q, **others)))
         return tuple(checked[name].astype(self.dtype, copy=False) for name in bound)
 
-    def _by_the_textbook(self, states: Mapping[str, Array], filled: Mapping[str, Array], where: Array) -> None:
-        """Do the states that raise the alarm by the textbook, which raises what there is to raise."""
-        by_the_textbook(self.model, self.quantities, {**self.given, **states}, filled, where)
+    def batch(self, states: Mapping[str, Array]) -> tuple[int, ...]:
+        """Return the batch axes of arguments that have been checked."""
+        return next((x.shape[: x.ndim - len(self._shapes[name])] for name, x in states.items()), ())
 
     def __reduce__(self) -> tuple[Callable[[], Program], tuple[()]]:
         return self._remake, ()

@@ -11,7 +11,7 @@ from ..arrays import Array
 from ..model import Model, floats_of
 from .quantity import Quantity
 
-__all__ = ["CHUNK", "by_the_textbook"]
+__all__ = ["CHUNK", "by_the_textbook", "computed"]
 
 CHUNK = 2**17
 """States times degrees of freedom that the textbook takes at a time."""
@@ -51,7 +51,12 @@ def by_the_textbook(
 def _results(model: Model, quantities: Sequence[Quantity], states: Mapping[str, Any]) -> dict[str, Array]:
     """Return the quantities, by symbol."""
     checked = dict(zip(("q", *(name for name in states if name != "q")), floats_of(model, **states)))
+    return computed(quantities, checked)
+
+
+def computed(quantities: Sequence[Quantity], states: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the quantities in checked states, by symbol."""
     return {
-        quantity.symbol: quantity.compute(*(checked[name] for name in quantity.arguments if name in checked))[0]
+        quantity.symbol: quantity.compute(*(states[name] for name in quantity.arguments if name in states))[0]
         for quantity in quantities
     }

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib import import_module
 from math import prod
 from typing import Any
@@ -22,6 +22,7 @@ from .backend import BackEnd
 from .memory import Results
 from .program import Program
 from .recording import ALARM
+from .textbook import by_the_textbook
 
 __all__ = ["WIDE", "DigitsProgram", "WideProgram", "wide_type"]
 
@@ -76,15 +77,13 @@ class DigitsProgram(ABC):
         """Return one result as it is, several as `Results`."""
         return next(iter(results.values())) if self.program.single else Results(**results)
 
-    def _batch(self, names: Sequence[str], states: Sequence[Array]) -> tuple[int, ...]:
-        return states[0].shape[: states[0].ndim - len(self.program._shapes[names[0]])] if states else ()
-
     def _check(self, states: Mapping[str, Array], found: Mapping[str, Array], sizes: str) -> None:
         """Let the textbook look at the states that raise the alarm: it raises what there is to raise."""
         unsure = ~(found[ALARM] <= 1)
         if unsure.any():
             looked_at = {symbol: np.empty(found[symbol].shape) for symbol in self._symbols}
-            self.program._by_the_textbook(states, looked_at, unsure)
+            asked = {**self.program.given, **states}
+            by_the_textbook(self.model, self.program.quantities, asked, looked_at, unsure)
         if not all((abs(found[symbol]) < np.inf).all() for symbol in self._symbols):
             raise ValueError(f"expected {sizes}whose products are numbers")
 
@@ -155,7 +154,7 @@ class WideProgram(DigitsProgram):
 
     def _run(self, states: Mapping[str, Array]) -> dict[str, Array]:
         """Return the results of the line."""
-        batch, names = self._batch(tuple(states), tuple(states.values())), tuple(states)
+        batch, names = self.program.batch(states), tuple(states)
         count, code = prod(batch), self._code(names)
         given = [self._filled(states[name]).reshape(count, prod(shape)) for name, shape in code.line.inputs.items()]
         results = {

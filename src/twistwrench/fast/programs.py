@@ -15,6 +15,7 @@ from ..compiler import Program, Results
 from ..compiler.llvm import NATIVE, available
 from ..compiler.outputs import check_outputs, finish
 from ..compiler.quantities import Quantity, quantities
+from ..compiler.textbook import CHUNK, computed
 from ..errors import SingularError
 from ..model import Model, check_model, floats_of
 
@@ -39,9 +40,6 @@ MOST = 2500
 
 REMEMBERED = 64
 """Programs that a model remembers: of gaits each set of feet is one."""
-
-CHUNK = 2**17
-"""States times degrees of freedom that the textbook takes at a time."""
 
 PLAIN = (np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.longdouble))
 """Number types of which a program sees for itself whether a state is valid."""
@@ -192,9 +190,9 @@ class Textbook:
         flat = {name: x.reshape(count, *x.shape[len(batch) :]) for name, x in states.items()}
         chunks = [{name: x[k : k + size] for name, x in flat.items()} for k in range(0, max(count, 1), size)]
         try:
-            pieces = [self._compute(chunk) for chunk in chunks]
+            pieces = [computed(self.quantities, chunk) for chunk in chunks]
         except SingularError:
-            self._compute(states)  # raises, with the place in the batch
+            computed(self.quantities, states)  # raises, with the place in the batch
             raise
         results = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
         tails = {name: x.shape[1:] for name, x in results.items()}
@@ -202,10 +200,3 @@ class Textbook:
         check_outputs(given, batch, tails, dtype)
         done = finish(given, {name: x.reshape(*batch, *tails[name]) for name, x in results.items()})
         return next(iter(done.values())) if self.single else Results(**done)
-
-    def _compute(self, states: Mapping[str, Array]) -> dict[str, Array]:
-        """Return the quantities by symbol."""
-        return {
-            quantity.symbol: quantity.compute(*(states[name] for name in quantity.arguments if name in states))[0]
-            for quantity in self.quantities
-        }
