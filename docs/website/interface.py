@@ -29,9 +29,10 @@ PACKAGES = (*(name for name in tw.__all__ if isinstance(getattr(tw, name), Modul
 LAST = "errors"
 RETURNED = (
     *(f"algorithms.terms.{name}" for name in ("RneaTerms", "AbaTerms", "CrbaTerms", "CentroidalTerms")),
+    "algorithms.subtree.Subtree",
     *("model.report.Entry", "model.report.Report"),
 )
-"""What public functions return, from files that have no other public name: users do not make one by hand."""
+"""What public functions return and has no public name itself: users do not make one by hand."""
 TITLE = {"en": "Interface", "zh": "接口"}
 INTRO = {
     "en": "Every public name, by the folder and the file that hold it, in the chapter's order. Each entry says shape, "

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array
+from ..arrays import Array, as_array, check_size
 from ..model import Model
 from ..spatial.rotation import cross_matrix
 from .kinematics import frame_bias_acceleration, frame_jacobian, frame_placement
@@ -120,4 +120,6 @@ def point_acceleration(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f
 
 def _lever(model: Model, q: ArrayLike, frame: str, point: ArrayLike) -> Array:
     """Return the way from the origin of the frame to the point, in the axes of the world."""
-    return np.asarray(np.matvec(frame_placement(model, q, frame).rotation, as_array(point, "point", 3)))
+    there = as_array(point, "point", 3)
+    check_size(there, "point")
+    return np.asarray(np.matvec(frame_placement(model, q, frame).rotation, there))

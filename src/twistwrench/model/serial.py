@@ -271,6 +271,8 @@ def from_dh(
     bodies = [SpatialInertia.zero()] * n if inertias is None else as_sequence(inertias, "inertias", "inertias")
     if len(bodies) != n:
         raise ShapeError(f"inertias: expected one for each of the {n} joints, got {len(bodies)}")
+    for i, body in enumerate(bodies):
+        check_kind(body, f"inertias[{i}]", SpatialInertia, "a SpatialInertia")
     for key in per_joint:
         check_known("argument", key, UNLIMITED)
     numbers = {key: np.broadcast_to(as_real(x, key), n) for key, x in per_joint.items()}
