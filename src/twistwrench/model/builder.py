@@ -25,7 +25,10 @@ from .model import PER_DOF, Model
 from .numbering import NumberedTree
 from .report import Report
 
-__all__ = ["Builder"]
+__all__ = ["GRAVITY", "Builder"]
+
+GRAVITY = (0.0, 0.0, -9.81)
+"""Acceleration of free fall in the world, m/s², unless another is given."""
 
 Base = Literal["fixed", "floating"]
 
@@ -76,7 +79,7 @@ class Builder:
         root: str = "base_link",
         root_inertia: SpatialInertia | None = None,
         root_joint: str = "root_joint",
-        gravity: ArrayLike = (0.0, 0.0, -9.81),
+        gravity: ArrayLike = GRAVITY,
     ) -> None:
         check_choice(base, "base", ("fixed", "floating"), ModelError)
         if not isinstance(name, str):

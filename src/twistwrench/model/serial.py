@@ -27,7 +27,7 @@ from ..arrays import (
 from ..errors import ModelError, ShapeError, check_known
 from ..spatial import SE3, SpatialInertia, exp3, screw
 from .arguments import check_model
-from .builder import Builder
+from .builder import GRAVITY, Builder
 from .joint import AxisJoint, Joint
 from .joints import Helical, Prismatic, Revolute
 from .link import UNLIMITED, placement_of
@@ -35,8 +35,6 @@ from .model import Model
 from .tree import joint_placements
 
 __all__ = ["ScrewAxes", "from_dh", "from_screw_axes", "screw_axes"]
-
-GRAVITY = (0.0, 0.0, -9.81)
 
 
 class ScrewAxes(NamedTuple):
@@ -86,7 +84,7 @@ def screw_axes(model: Model, frame: str) -> ScrewAxes:
     check_model(model)
     for name, joint in zip(model.joint_names, model.joints):
         if joint is not None and not isinstance(joint, AxisJoint):
-            raise ModelError(f"joint {name!r}: expected joints of one degree of freedom, got {joint.kind}")
+            raise ModelError(f"model: joint {name!r}: expected joints of one degree of freedom, got {joint.kind}")
     at, place = model.frame(frame), joint_placements(model, model.neutral())
     for i in range(1, model.nbodies):
         place[i] = place[model.parent[i]] @ place[i]
@@ -155,6 +153,7 @@ def from_screw_axes(
         raise ModelError("expected either Slist or Blist, got both or neither")
     given, what = (Blist, "Blist") if Slist is None else (Slist, "Slist")
     S = as_real([] if given is None else given, what)
+    check_size(S, what)
     if S.ndim != 2 or len(S) != 6:
         raise ShapeError(f"{what}: expected a column for each joint, shape (6, n), got {S.shape}")
     axes = (S if Blist is None else home.motion_transform() @ S).mT
@@ -271,8 +270,8 @@ def from_dh(
     bodies = [SpatialInertia.zero()] * n if inertias is None else as_sequence(inertias, "inertias", "inertias")
     if len(bodies) != n:
         raise ShapeError(f"inertias: expected one for each of the {n} joints, got {len(bodies)}")
-    for i, body in enumerate(bodies):
-        check_kind(body, f"inertias[{i}]", SpatialInertia, "a SpatialInertia")
+    for body in bodies:
+        check_kind(body, "inertias", SpatialInertia, "a SpatialInertia for each joint")
     for key in per_joint:
         check_known("argument", key, UNLIMITED)
     numbers = {key: np.broadcast_to(as_real(x, key), n) for key, x in per_joint.items()}

@@ -227,7 +227,9 @@ class Shapes(TenNumbers):
         corners = x[triangles] - middle
         volume = np.linalg.det(corners) / 6
         if not volume.sum() > 0:
-            raise ModelError(f"faces: expected a volume above zero, got {volume.sum():.3g} m³: is it inside out?")
+            raise ModelError(
+                f"vertices, faces: expected a volume above zero, got {volume.sum():.3g} m³: is it inside out?"
+            )
         share, total = volume / volume.sum(), corners.sum(axis=1)
         com = share @ total / 4
         about_middle = np.einsum("k,ki,kj->ij", share, total, total) + np.einsum(

@@ -91,7 +91,10 @@ class SpatialVector:
         >>> Twist.from_screw(*screw(V)) == V
         True
         """
-        h = np.asarray(pitch)
+        try:
+            h = np.asarray(pitch)
+        except ValueError:  # rows of different lengths: as_arrays raises for them
+            h = np.zeros(())
         free = np.isinf(h) if h.dtype.kind in "fc" else np.zeros(h.shape, bool)
         turning = np.where(free, 0, h) if free.any() else pitch
         a, p, h, m = as_arrays(axis=(axis, (3,)), point=(point, (3,)), pitch=(turning, ()), magnitude=(magnitude, ()))
