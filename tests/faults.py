@@ -212,7 +212,9 @@ FAULTS = [
     # 49.7: ABA
     step("bias acceleration forgotten in pa", "49.7 pa", "pa[i] = pA[i] + U[i] @ D_inv[i] @ u[i]"),
     step("Schur complement forgotten", "49.7 Ia", "Ia[i] = symmetric(IA[i])"),
-    step("articulated inertia left unsymmetric", "49.7 Ia", "Ia[i] = IA[i] - U[i] @ D_inv[i] @ U[i].mT"),
+    Fault(
+        "articulated inertia left unsymmetric", "spatial/formulas.py", "return A[..., *_upper(A.shape[-1])]", "return A"
+    ),
     step("Schur complement added", "49.7 Ia", "Ia[i] = symmetric(IA[i] + U[i] @ D_inv[i] @ U[i].mT)"),
     step("bias wrench not projected", "49.7 u", "u[i] = tau[i]"),
     step("external wrench of the wrong sign in ABA", "49.7 pA", "pA[i] = B[i] = bias_wrench(I[i], V[i]) + f_ext[i]"),

@@ -28,8 +28,7 @@ PACKAGES = (*(name for name in tw.__all__ if isinstance(getattr(tw, name), Modul
 """Rooms whose names are used with the room's, as in tw.fast.rnea."""
 LAST = "errors"
 RETURNED = (
-    *(f"algorithms.terms.{name}" for name in ("RneaTerms", "AbaTerms", "CrbaTerms", "CentroidalTerms")),
-    "algorithms.subtree.Subtree",
+    *(f"algorithms.terms.{name}" for name in ("RneaTerms", "AbaTerms", "CrbaTerms", "CentroidalTerms", "Subtree")),
     *("model.report.Entry", "model.report.Report"),
 )
 """What public functions return and has no public name itself: users do not make one by hand."""

@@ -227,7 +227,7 @@ def test_the_wheel_holds_every_section_and_every_robot_and_nothing_else(built):
     inside = {name for name in names if ".dist-info/" not in name}
     sections = {
         path.relative_to(ROOT / "src").as_posix()
-        for kind in ("*.py", "*.pyi", "*.md", "*.toml", "*.csv")
+        for kind in ("*.py", "*.pyi", "*.md", "*.toml", "*.csv", "*.html")
         for path in (ROOT / "src").rglob(kind)
     }
     robots = {f"twistwrench/models/{path.name}" for path in (ROOT / "models").iterdir() if path.is_file()}

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -13,34 +11,9 @@ from ..spatial import SE3
 from .centroidal import mean_center, placements_from_first_body, total_mass
 from .kinematics import placements
 from .momentum_rate import total_inertia
-from .terms import Terms
+from .terms import Subtree
 
-__all__ = ["Subtree", "subtree", "subtree_momentum_map"]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Subtree(Terms):
-    """What `subtree` returns; G is the subtree's own centre of mass, the axes are the world's.
-
-    Attributes
-    ----------
-    mass : ndarray, shape ()
-        kg.
-    center_of_mass : ndarray, shape (..., 3)
-        p_G in the world, m.
-    jacobian : ndarray, shape (..., 3, nv)
-        v_G = J_G v.
-    inertia : ndarray, shape (..., 6, 6)
-        At G, the joints of the subtree locked.
-    momentum_map : ndarray, shape (..., 6, nv)
-        The momentum (k_G, l_G) of the subtree alone is A_G v.
-    """
-
-    mass: Array
-    center_of_mass: Array
-    jacobian: Array
-    inertia: Array
-    momentum_map: Array
+__all__ = ["subtree", "subtree_momentum_map"]
 
 
 def subtree_momentum_map(tree: Tree, X: list[Array], body: int) -> Array:

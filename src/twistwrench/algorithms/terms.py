@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["AbaTerms", "ArticulatedTerms", "CentroidalTerms", "CrbaTerms", "RneaTerms", "matrices"]
+__all__ = ["AbaTerms", "ArticulatedTerms", "CentroidalTerms", "CrbaTerms", "RneaTerms", "Subtree", "matrices"]
 
 Batch = tuple[int, ...]
 Entries = Sequence[Array]
@@ -173,6 +173,31 @@ class CentroidalTerms(Terms):
     X: tuple[Array, ...]
     IC: tuple[Array, ...]
     A_G: Array
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Subtree(Terms):
+    """What `subtree` returns; G is the subtree's own centre of mass, the axes are the world's.
+
+    Attributes
+    ----------
+    mass : ndarray, shape ()
+        kg.
+    center_of_mass : ndarray, shape (..., 3)
+        p_G in the world, m.
+    jacobian : ndarray, shape (..., 3, nv)
+        v_G = J_G v.
+    inertia : ndarray, shape (..., 6, 6)
+        At G, the joints of the subtree locked.
+    momentum_map : ndarray, shape (..., 6, nv)
+        The momentum (k_G, l_G) of the subtree alone is A_G v.
+    """
+
+    mass: Array
+    center_of_mass: Array
+    jacobian: Array
+    inertia: Array
+    momentum_map: Array
 
 
 def matrices(entries: Entries, batch: Batch) -> tuple[Array, ...]:
