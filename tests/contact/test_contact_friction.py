@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import linprog, nnls
 
 import twistwrench as tw
-from twistwrench.contact.inverse import Task, limits
+from twistwrench.contact.inverse import Task
+from twistwrench.contact.limits import contact_limits
 from twistwrench.contact.qp import least_within
 
 from ..touching import (
@@ -31,6 +34,7 @@ REST, STILL = np.zeros(18), np.zeros(27)
 POSE = HUMANOID.standing()
 DOWN = np.r_[0, 0, 0, 0, 0, -9.81 - 4.81]  # the ground would have to pull at 8 kg with 4.81 m/s²
 FORWARDS = np.r_[0, 0, 0, 5.0, 0, 0, np.zeros(12)]  # m/s²
+SLOWER = 0.4 * FORWARDS
 
 
 def stacked(forces):
@@ -173,7 +177,7 @@ def test_forces_are_the_least_within_the_limits(model, q, a, contacts, sides, py
     assert (need.tau[:6] == 0).all()
 
     task = Task.of(model, q, v, a, contacts, None)
-    A, names = limits(contacts, sides, pyramid)
+    A, _, names, *_ = contact_limits(contacts, sides, pyramid)
     free = task.free
     z, _ = least_within(A @ free, -A @ task.least, task.size)
     f = task.least + free @ z
@@ -217,7 +221,7 @@ def test_the_pressure_on_a_sole_stays_within_it():
 @pytest.mark.parametrize("mu", np.linspace(0.45, 0.65, 9))
 def test_it_says_cannot_exactly_where_a_linear_programme_finds_no_forces(mu):
     task = Task.of(GO2, *poised(FORWARDS), feet(mu), None)
-    A, _ = limits(feet(mu), 8, "inner")
+    A = contact_limits(feet(mu), 8, "inner").A
     possible = linprog(np.zeros(12), A, np.zeros(len(A)), task.J[:, :6].T @ task.P, task.b[:6], (None, None)).success
     try:
         pushing(feet(mu))
@@ -234,6 +238,71 @@ def test_cannot_comes_with_the_limits_that_stand_in_the_way():
         tw.friction_inverse_dynamics(HUMANOID, POSE, STILL, STILL, SOLES[:1])
     with pytest.raises(tw.SingularError, match=r"break (lift-off at '[fr][lr]' by 9\.62 N(, )?){4} and 4 more$"):
         tw.friction_inverse_dynamics(BOX, BOX.neutral(), 0 * DOWN, DOWN, BOX_CORNERS)
+
+
+@pytest.fixture(scope="module")
+def tired():
+    """Go2 with motors of which the four knees are too weak for the least forces of a push, by a sixth."""
+    need = np.abs(tw.friction_inverse_dynamics(GO2, *poised(SLOWER), feet(0.75), sides=16).tau[8::3]).max()
+    limit = GO2.effort_limit.copy()
+    limit[8::3] = need / 1.2
+    return replace(GO2, effort_limit=limit), need / 1.2
+
+
+def test_forces_that_spare_the_motors_are_the_least_that_do(tired):
+    """By the conditions of Karush, Kuhn and Tucker again: the torques' limits are limits of the forces."""
+    model, limit = tired
+    contacts, state = feet(0.75), poised(SLOWER)
+    free = tw.friction_inverse_dynamics(model, *state, contacts, sides=16)
+    kept = tw.friction_inverse_dynamics(model, *state, contacts, sides=16, effort_limits=True)
+    assert np.abs(free.tau[8::3]).max() == pytest.approx(1.2 * limit)
+    assert np.abs(kept.tau[8::3]).max() == pytest.approx(limit, rel=1e-9)
+    J, h = tw.constraint_jacobian(model, state[0], contacts), tw.rnea(model, *state)
+    assert np.abs(h - kept.tau - J.T @ stacked(kept.forces)).max() < 1e-11 * model.mass * 9.81
+    motors = {name for name in kept.binding if name.startswith("the motor of")}
+    assert motors <= {f"the motor of '{leg}_calf_joint'" for leg in ("FL", "FR", "RL", "RR")}
+    assert motors
+    assert np.linalg.norm(stacked(kept.forces)) > np.linalg.norm(stacked(free.forces))
+
+    f = stacked(kept.forces)  # point feet: the contacts' axes are the world's
+    cones = contact_limits(contacts, 16, "inner").A
+    torques = np.concatenate([-J.T[8::3], J.T[8::3]])
+    room = np.concatenate([limit - h[8::3], limit + h[8::3]]) - torques @ f
+    assert room.min() > -1e-9 * limit
+    rows = np.concatenate([cones[cones @ f > -1e-7 * 158], torques[room < 1e-7 * limit]])
+    inner = np.linalg.svd(J[:, :6].T)[2][6:]  # what exerts no wrench
+    _, miss = nnls((rows @ inner.T).T, -inner @ f)
+    assert miss < 1e-7 * np.linalg.norm(f)
+
+
+def test_motors_that_nothing_spares_are_named(tired):
+    weak = replace(tired[0], effort_limit=np.r_[np.full(6, np.inf), np.full(12, 0.3)])
+    with pytest.raises(tw.SingularError, match=r"they would have to break the motor of '.*_joint' by \d.*N m"):
+        tw.friction_inverse_dynamics(weak, *poised(REST), FEET, effort_limits=True)
+
+
+def test_an_arm_leans_on_a_table_as_far_as_its_motors_cannot_hold_it():
+    """Of a fixed base nothing asks for forces but the motors; the largest that they spare, by a linear programme."""
+    arm, q = tw.load("planar_arm"), np.array([0.4, 0.5, 0.6])
+    strong, table = np.abs(tw.gravity(arm, q)), points(["tool"])
+    assert not stacked(tw.friction_inverse_dynamics(arm, q, 0 * q, 0 * q, table, effort_limits=True).forces).any()
+    J, A = tw.constraint_jacobian(arm, q, table), contact_limits(table, 16, "inner").A
+    g = tw.gravity(arm, q)
+    ways = np.block([[A, np.zeros((len(A), 1))], *([s * J.T, -strong[:, None]] for s in (-1, 1))])  # f, and the share
+    least = linprog([0, 0, 0, 1], ways, np.r_[np.zeros(len(A)), -g, g], bounds=[(None, None)] * 3 + [(0, None)]).fun
+    assert 0 < least < 0.9
+    for share, enough in ((1.001 * least, True), (0.999 * least, False)):
+        weak = replace(arm, effort_limit=share * strong)
+        try:
+            held = tw.friction_inverse_dynamics(weak, q, 0 * q, 0 * q, table, sides=16, effort_limits=True)
+        except tw.SingularError:
+            assert not enough
+        else:
+            assert enough
+            assert (np.abs(held.tau) <= weak.effort_limit * (1 + 1e-8)).all()
+            assert np.abs(g - held.tau - J.T @ held.forces["tool"]).max() < 1e-12 * g.max()
+    with pytest.raises(tw.SingularError, match=r"break the motor of 'shoulder' by \d.* N m"):
+        tw.friction_inverse_dynamics(weak, q, 0 * q, 0 * q, [], effort_limits=True)
 
 
 @pytest.mark.parametrize(

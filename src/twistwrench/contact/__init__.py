@@ -1,7 +1,7 @@
 """Contact dynamics: constraints, friction and the stability of a stance (49.9).
 
 In the order in which the files are best read: `types` (points and soles), `rows` (J and J̇ v), `decomposition` (the
-rank), `forward`, `impacts`, `projection`; `inverse` and its `qp` (friction), `nonnegative` least squares,
+rank), `forward`, `impacts`, `projection`; `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares,
 `reach` (whether forces within the limits are enough, and the proof), `stance` (slipping and tipping).
 """
 

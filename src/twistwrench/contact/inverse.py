@@ -12,11 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
+from ..arrays import Array, as_flag
 from ..errors import ShapeError, SingularError
 from ..model import Model
 from ..spatial._elementary import at_first_index
-from .decomposition import Decomposition, block_diagonal, decompose, point_map
+from .decomposition import Decomposition, decompose, point_map
+from .limits import Limits, contact_limits, motor_limits
 from .qp import least_breach, least_within
 from .reach import NEAR, Reach, reach
 from .rows import as_contacts, contact_terms, per_contact, real_state
@@ -118,6 +119,7 @@ def friction_inverse_dynamics(
     *,
     sides: int = 8,
     pyramid: Pyramid = "inner",
+    effort_limits: bool = False,
 ) -> ContactForces:
     """Return the joint forces and the least contact forces within the friction cones: a quadratic programme.
 
@@ -137,6 +139,8 @@ def friction_inverse_dynamics(
         71 % with 4, at 92 % with 8, at 98 % with 16.
     pyramid : {"inner", "outer"}, optional
         Inner: forces that are found are within the cones. Outer: if none are found, none exist in the cones.
+    effort_limits : bool, optional
+        Keep each joint force within `Model.effort_limit`, too: contacts take what a motor cannot hold.
 
     Returns
     -------
@@ -169,34 +173,23 @@ def friction_inverse_dynamics(
     if task.least.ndim != 1:
         asked = "q, v, a" if f_ext is None else "q, v, a, f_ext"
         raise ShapeError(f"{asked}: expected one state, got a batch of shape {task.least.shape[:-1]}")
-    A, names = limits(task.contacts, sides, pyramid)
-    free = task.free
-    found = least_within(A @ free, -A @ task.least, task.size)
+    effort_limits = as_flag(effort_limits, "effort_limits")
+    motors = task.motors(model) if effort_limits else None
+    rows, free = contact_limits(task.contacts, sides, pyramid), task.free
+    rows = rows.join(motors) if motors else rows
+    A, b = rows.A @ free, rows.b - rows.A @ task.least
+    found = least_within(A, b, task.size)
     if found is not None:
         z, tight = found
         f = task.least + free @ z
     else:  # no forces, or barely some
-        answer = task.reach(sides, pyramid)
+        answer = task.reach(sides, pyramid, motors)
         if not answer.reached:
-            worst = breached(names, least_breach(A @ free, -A @ task.least, task.size))
+            worst = rows.breached(least_breach(A, b, task.size))
             raise SingularError(f"cannot: no forces within the limits do this; they would have to break {worst}")
-        f, tight = answer.f, A @ answer.f > -NEAR * task.size
-    binding = tuple(dict.fromkeys(name for name, leans in zip(names, tight) if leans))
+        f, tight = answer.f, rows.A @ answer.f - rows.b > -NEAR * task.size
+    binding = tuple(dict.fromkeys(name for name, leans in zip(rows.names, tight) if leans))
     return task.result(model, f, binding)
-
-
-def breached(names: Sequence[str], by: Array) -> str:
-    """Return which limits would have to be broken, and by how much, the worst four first."""
-    worst = {names[k]: float(by[k]) for k in np.argsort(by) if by[k] > 0.01 * by.max()}  # of equal names the larger
-    ranked = sorted(worst, key=lambda name: -worst[name])
-    more = f" and {len(ranked) - 4} more" if len(ranked) > 4 else ""
-    return ", ".join(f"{name} by {worst[name]:.3g} N" for name in ranked[:4]) + more
-
-
-def limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> tuple[Array, list[str]]:
-    """Return A with A f ≤ 0 for forces f at all points, each in its contact's axes, and the names of its rows."""
-    A = block_diagonal([c.limits(sides, pyramid) for c in contacts])
-    return A, [name for c in contacts for name in c.limit_names(sides)]
 
 
 class Unbalanced(SingularError):
@@ -255,21 +248,25 @@ class Task:
                 f"no forces at {names} do this{at_first_index(missed)}: (τ, f) = ({over}) is left over", left, parts.L
             )
         size = max(float(np.abs(f).max(initial=0)) for f in (least, parts.balance(weight)))
-        asked = float(np.maximum(*sizes).max(initial=0))
-        return cls(contacts, b, J, P, parts, least, size, asked, np.matvec(J, others["a"]) + terms.bias)
+        asked = float(np.maximum(*sizes).max(initial=0))  # where neither is anything, any unit will do
+        return cls(contacts, b, J, P, parts, least, size or 1.0, asked or 1.0, np.matvec(J, others["a"]) + terms.bias)
 
     def reach(
-        self, sides: int, pyramid: Pyramid, also: tuple[Array, Array] | None = None, contacts: Sequence[Contact] = ()
+        self, sides: int, pyramid: Pyramid, also: Limits | None = None, contacts: Sequence[Contact] = ()
     ) -> Reach:
         """Return whether forces within the limits do this, and the proof, whose twist is the base's in b's order.
 
-        Of the task's contacts, or of others at the same points; `also` is (C, d) with C f ≤ d, in N.
+        Of the task's contacts, or of others at the same points; `also` are more limits.
         """
         base = slice(0, len(self.parts.L))
         G, w = (np.linalg.solve(self.parts.L, x) for x in ((self.J.mT @ self.P)[base], self.b[base]))
-        more = None if also is None else (also[0], also[1] / self.size)
+        more = None if also is None else (also.A, also.b / self.size)
         found = reach(G * self.size / self.asked, w / self.asked, contacts or self.contacts, sides, pyramid, more)
         return found._replace(f=self.size * found.f, away=np.linalg.solve(self.parts.L.mT, found.away))
+
+    def motors(self, model: Model) -> Limits:
+        """Return the limits of the motors, as limits of the forces."""
+        return motor_limits(model, self.b, self.J.mT @ self.P)
 
     @property
     def free(self) -> Array:

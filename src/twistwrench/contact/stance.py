@@ -14,7 +14,8 @@ from ..algorithms.kinematics import frame_placement
 from ..arrays import Array
 from ..errors import ShapeError
 from ..model import Model
-from .inverse import Task, Unbalanced, limits
+from .inverse import Task, Unbalanced
+from .limits import contact_limits
 from .rows import as_contacts, real_state
 from .types import Contact, Pyramid
 
@@ -112,7 +113,7 @@ def stance_margins(
     q, rest, _ = real_state(model, q, v=np.zeros(model.nv))
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
-    limits(contacts, sides, pyramid)  # raises for invalid `sides` and `pyramid` where it falls, too
+    contact_limits(contacts, sides, pyramid)  # raises for invalid `sides` and `pyramid` where it falls, too
     tip = tip_distance(model, q, contacts)
     try:
         task = Task.of(model, q, rest, rest, contacts, None)

@@ -67,21 +67,16 @@ def outside_limits(model: Model, q: Array) -> list[str]:
 
 
 def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> str:
-    """Name the motors that are too weak for all contact forces within the friction cones.
-
-    τ = b − Jᵀ P f, with the forces f at the touching points, which are free to press and to relieve.
-    """
-    rest, motors = np.zeros(model.nv), np.arange(6, model.nv)
-    strong = model.effort_limit[motors]
+    """Name the motor that is too weak whatever the contact forces within the friction cones."""
+    rest = np.zeros(model.nv)
     task = Task.of(model, q, rest, rest, contacts, f_ext)
-    with_motor = np.isfinite(strong)
-    B, limit = (task.J.mT @ task.P)[motors][with_motor], strong[with_motor]
-    b = task.b[motors][with_motor]
-    if task.reach(16, "inner", (np.concatenate([-B, B]), np.concatenate([limit - b, limit + b]))).reached:
+    if task.reach(16, "inner", task.motors(model)).reached:
         return ""
+    motors = np.arange(6, model.nv)
+    strong = model.effort_limit[motors]
     tau = friction_inverse_dynamics(model, q, rest, rest, contacts, f_ext, sides=16).tau[motors]
     names = [name for name, s in zip(model.joint_names[2:], model.v_slice[2:]) for _ in range(s.stop - s.start)]
-    worst = max(np.flatnonzero(with_motor), key=lambda k: abs(tau[k]) - strong[k])
+    worst = max(np.flatnonzero(np.isfinite(strong)), key=lambda k: abs(tau[k]) - strong[k])
     return (
         f"no forces at the contacts spare the motors: with the least ones that of {names[worst]!r} would have to hold "
         f"{abs(tau[worst]):.3g}, and its limit is {strong[worst]:.3g}"
