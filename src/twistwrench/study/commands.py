@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from .budget.command import add_budget
 from .extremes.command import add_extremes
 from .speed import add_speed
 from .templates import add_templates
@@ -26,5 +27,5 @@ def register(commands: Commands) -> None:
         add(studies)
 
 
-STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed, add_trade, add_templates, add_extremes)
+STUDIES: tuple[Callable[[Commands], None], ...] = (add_speed, add_trade, add_templates, add_extremes, add_budget)
 """Each adds its parser, and sets with ``set_defaults(run=...)`` the function that returns the exit status."""
