@@ -25,7 +25,8 @@ derivatives    derivatives of all quantities, and the regressor
 quantities     what can be compiled: the textbook's functions
 recording      from quantities to a line
 outputs        arrays of the caller that are to be filled
-memory         of one state at known addresses; rows of a caller's arrays
+extension      a program for one state as a function of the interpreter
+memory         what a program returns; rows of a caller's arrays
 textbook       the textbook, for the states of a batch that raise the alarm
 program        `Program`, which is called as the textbook's functions are
 wide           programs in quadruple precision, and in mpmath's numbers

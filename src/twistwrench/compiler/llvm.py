@@ -22,17 +22,13 @@ from .instructions import Text
 from .line import Line, operands
 from .sine import sine_and_cosine
 
-__all__ = ["NATIVE", "ONE", "MachineCode", "available", "lanes"]
+__all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
 
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
 
 WHOLE, PIECE = 10_000, 600
 """Operations of a line that is compiled as a whole; a longer one is in pieces of so many instructions."""
-
-
-ONE = ctypes.c_int64(1)
-"""One state."""
 
 
 @cache
@@ -68,42 +64,37 @@ class MachineCode:
 
     Attributes
     ----------
-    call, hold : callable
-        Take the address of a table of pointers and strides, and the number of states. `call` lets other threads of
-        Python run in the meantime, `hold` does not: for one state that would take longer than the state.
+    address : int
+        Where the function is that takes a table of pointers and strides, and the number of states.
     """
 
     def __init__(self, line: Line, dtype: np.dtype[Any], width: int) -> None:
-        import llvmlite.binding as llvm
-
-        llvm.initialize_native_target()
-        llvm.initialize_native_asmprinter()
-        features = llvm.get_host_cpu_features().flatten()
-        host = llvm.Target.from_default_triple().create_target_machine(
-            opt=1, cpu=llvm.get_host_cpu_name(), features=features
-        )
-        module = llvm.parse_assembly(written(line, NATIVE[dtype], width))
-        self._engine = llvm.create_mcjit_compiler(module, host)  # keeps the code alive
-        self._engine.finalize_object()
-        address = self._engine.get_function_address("program")
-        kind = (None, ctypes.c_void_p, ctypes.c_int64)
-        self.call, self.hold = ctypes.CFUNCTYPE(*kind)(address), ctypes.PYFUNCTYPE(*kind)(address)
-
-    @staticmethod
-    def address_of(table: Array) -> ctypes.c_void_p:
-        """Return where a table of pointers and strides is."""
-        return ctypes.c_void_p(table.ctypes.data)
+        self._engine = engine_of(written(line, NATIVE[dtype], width))  # keeps the code alive
+        self.address: int = self._engine.get_function_address("program")
+        self._call = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int64)(self.address)
 
     def run(self, arrays: Sequence[Array]) -> None:
-        """Fill the results: each array has shape (states, entries), its entries next to each other in memory."""
-        table = table_of(arrays)
-        self.call(self.address_of(table), len(arrays[0]))
+        """Fill the results: each array has shape (states, entries), its entries next to each other in memory.
+
+        Other threads of Python run in the meantime.
+        """
+        table = np.array([(x.ctypes.data, x.strides[0]) for x in arrays], np.int64)
+        self._call(table.ctypes.data, len(arrays[0]))
 
 
-def table_of(arrays: Sequence[Array]) -> Array:
-    """Return address and stride in bytes of each array."""
-    pairs = [(x.__array_interface__["data"][0], x.strides[0] if x.ndim > 1 else 0) for x in arrays]
-    return np.array(pairs, np.int64)
+def engine_of(text: str) -> Any:
+    """Return what holds the machine code of a text in LLVM's language, for this processor."""
+    import llvmlite.binding as llvm
+
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    features = llvm.get_host_cpu_features().flatten()
+    host = llvm.Target.from_default_triple().create_target_machine(
+        opt=1, cpu=llvm.get_host_cpu_name(), features=features
+    )
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(text), host)
+    engine.finalize_object()
+    return engine
 
 
 def written(line: Line, scalar: str, width: int) -> str:

@@ -1,17 +1,14 @@
-"""Memory that a program computes in: of one state at known addresses, and the rows of a caller's arrays."""
+"""What a program returns, and the rows of a caller's arrays."""
 
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
-from .line import Line
-from .llvm import MachineCode, table_of
 
-__all__ = ["OneState", "Results", "rows"]
+__all__ = ["Results", "rows"]
 
 
 class Results(SimpleNamespace):
@@ -19,27 +16,6 @@ class Results(SimpleNamespace):
 
     def __repr__(self) -> str:
         return f"Results({', '.join(f'{name}: {np.shape(x)}' for name, x in vars(self).items())})"
-
-
-class OneState:
-    """Memory for one state, whose addresses are known.
-
-    Parameters
-    ----------
-    code : MachineCode
-    line : Line
-    dtype : dtype
-    single : bool
-    """
-
-    def __init__(self, code: MachineCode, line: Line, dtype: np.dtype[Any], single: bool) -> None:
-        inputs = [np.empty(shape, dtype) for shape in line.inputs.values()]
-        *outputs, self.alarm = [np.empty(shape, dtype) for shape, _ in line.outputs.values()]
-        self.inputs = [(x, x.shape) for x in inputs]
-        copies = {name: x.copy for name, x in zip(line.outputs, outputs)}
-        self.results = outputs[0].copy if single else lambda: Results(**{name: copy() for name, copy in copies.items()})
-        self._table = table_of([*inputs, *outputs, self.alarm])
-        self.code, self.call, self.where = code, code.hold, code.address_of(self._table)  # the code lives as long
 
 
 def rows(x: Array, count: int, size: int) -> Array:

@@ -8,15 +8,14 @@ from math import prod
 from typing import Any
 
 import numpy as np
-from numpy import ndarray
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..model import Model, floats_of
 from .backend import BackEnd
+from .extension import POSSIBLE, state_function
 from .line import Line
-from .llvm import ONE
-from .memory import OneState, Results, rows
+from .memory import Results, rows
 from .outputs import check_outputs, finish, targets
 from .quantities import ARGUMENTS, Quantity, shapes
 from .recording import ALARM, record
@@ -47,6 +46,9 @@ class Program:
     ----------
     arguments : tuple of str
         The names of the program's arguments, in their order.
+    one_state : callable, optional
+        Where there is machine code and a state was asked for: returns its result, or a tuple of several, where each
+        0.1 µs counts. None for a state that raises the alarm, and for arguments of other kinds: see `extension`.
 
     Raises
     ------
@@ -83,8 +85,7 @@ class Program:
         self._shapes = {name: shapes(model)[name] for name in self.arguments}
         self._lines: dict[tuple[str, ...], Line] = {}
         self._codes: dict[tuple[str, ...], BackEnd] = {}
-        self._pool: list[OneState] = []
-        self._fast, self._count = backend == "llvm", len(self._plain)
+        self.one_state: Callable[..., Any] | None = None
 
     @property
     def operations(self) -> Counter[str]:
@@ -197,35 +198,17 @@ class Program:
             If an argument is missing, or is not one of the program's.
         """
         if out is None and not named:
-            results = self.one_state(args)
-            if results is not None:
-                return results
+            if self.one_state is None and self.backend == "llvm" and POSSIBLE and self._are_one_state(args):
+                code = self._code(self._plain).machine_code(1)
+                self.one_state = state_function(code, self._line(self._plain), self.dtype, self.single)
+            found = self.one_state(*args) if self.one_state else None
+            if found is not None:
+                return found if self.single else Results(**dict(zip((x.symbol for x in self.quantities), found)))
         return self._many(self._bound(args, named), out)
 
-    def one_state(self, args: Sequence[Any]) -> Any:
-        """Return the results for one state, in arrays of the program's type, where each µs counts; None for others."""
-        if not self._fast or len(args) != self._count:
-            return None
-        try:  # another thread may take the last one at any time
-            one = self._pool.pop()
-        except IndexError:
-            one = self._one()
-        results, dtype = None, self.dtype
-        for (mine, shape), x in zip(one.inputs, args):
-            if type(x) is not ndarray or x.dtype is not dtype or x.shape != shape:
-                break
-            mine[...] = x
-        else:
-            one.call(one.where, ONE)
-            if one.alarm.item() <= 1:
-                results = one.results()
-        self._pool.append(one)
-        return results
-
-    def _one(self) -> OneState:
-        """Return memory for one state: several threads take one each."""
-        names = self._plain
-        return OneState(self._code(names).machine_code(1), self._line(names), self.dtype, self.single)
+    def _are_one_state(self, args: Sequence[Any]) -> bool:
+        """Return whether arguments have the shapes of one state, and are arrays."""
+        return [getattr(x, "shape", None) for x in args] == [self._shapes[name] for name in self._plain]
 
     def _bound(self, args: Sequence[ArrayLike | None], named: Mapping[str, ArrayLike | None]) -> dict[str, ArrayLike]:
         """Return the arguments by name."""

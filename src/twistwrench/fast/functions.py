@@ -201,8 +201,11 @@ def dynamics(
         feet = model.feet if contacts is None else contacts
         found = one_state(model, want, feet if "J_c" in want else (), (q, v))
         if found is not None:
-            del found.asked
-            return Dynamics(**vars(found))
+            made = object.__new__(
+                Dynamics
+            )  # whose own way, entry by frozen entry, takes a third as long as the program
+            vars(made).update(zip(want, found))
+            return made
     names = wanted(want)
     want = tuple(name for name in QUANTITIES if name in names)
     contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)

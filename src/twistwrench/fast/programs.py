@@ -62,15 +62,15 @@ def states_of(
 
 
 def one_state(model: Model, want: Any, contacts: Any, args: Sequence[Any]) -> Any:
-    """Return what the program that is remembered for a question has for one state; None where there is none.
+    """Return what the program that is remembered for a question returns for one state; None where there is none.
 
-    It looks at nothing that the program looks at itself: for one state each µs counts.
+    It looks at nothing that the program looks at itself: for one state each 0.1 µs counts.
     """
     try:
         found = model._programs[want, args[0].dtype, contacts].one_state
     except (AttributeError, KeyError, TypeError):  # none yet, the textbook, or arguments of other kinds
         return None
-    return found(args)
+    return found and found(*args)
 
 
 def result(
