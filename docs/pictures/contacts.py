@@ -58,9 +58,9 @@ def side_view(ax, forward: float) -> None:
 def shares(ax) -> None:
     """Draw how much of its normal force each foot pushes along the ground."""
     pushes = np.linspace(0, 6, 61)
-    for cones, style in ((False, "--"), (True, "-")):
+    for cones, colour in ((False, COLOURS["vermilion"]), (True, COLOURS["blue"])):
         found = [(a, f) for a in pushes if (f := forces(a, cones=cones)) is not None]
-        for foot, colour in zip(SIDE, (COLOURS["vermilion"], COLOURS["blue"]), strict=True):
+        for foot, style in zip(SIDE, ("-", ":"), strict=True):
             share = [np.hypot(*f[foot][:2]) / f[foot][2] for _, f in found]
             label = f"{SIDE[foot]}, {'within the cones' if cones else 'least of all'}"
             ax.plot([a for a, _ in found], share, style, color=colour, lw=2, label=label)

@@ -32,7 +32,8 @@ def matrix(
 ) -> Any:
     """Draw a matrix: orange where it is negative, purple where it is positive, white only where it is zero.
 
-    The colour grows with the cube root of the entry, so that small ones are seen.
+    The colour grows with the cube root of the entry, so that small ones are seen: half of it is an eighth of the value.
+    Where no numbers are written, a line below says so.
 
     Parameters
     ----------
@@ -89,7 +90,9 @@ def matrix(
     ax.set_yticks(range(len(rows)), rows, fontsize=8)
     ax.tick_params(length=0, top=False, labeltop=True, bottom=False, labelbottom=False)
     ax.set_title(title, fontsize=11)
-    if numbers is not None:
+    if numbers is None:
+        ax.set_xlabel(f"full colour: ±{limit:.2g}, half: ±{limit / 8:.2g}", fontsize=8)
+    else:
         for i, k in np.argwhere(A != 0):
             dark = abs(shade[i, k]) > 0.7
             ax.text(k, i, format(A[i, k], numbers), ha="center", va="center", fontsize=8, color="w" if dark else "k")
