@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -63,6 +64,9 @@ class Accuracy:
         """Decimal digits that are certain, by algorithm; 0 where no digit is."""
         errors = {"rnea": self.rnea, "aba": self.aba, "crba_solve": self.crba_solve}
         return {name: np.maximum(-np.log10(np.minimum(error, 1.0)), 0.0) for name, error in errors.items()}
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
 
     def __str__(self) -> str:
         """Return the estimate in words; of a batch, that of its worst state."""

@@ -12,6 +12,7 @@ from ..arrays import Array, as_names, tolerance
 from ..errors import SingularError
 from ..model import FreeFlyer, Model, check_model, check_state, one_configuration
 from ..spatial import SE3
+from ..tables import html_table
 from ._mimic import also_of_mimics
 from .kinematics import frame_jacobian
 from .rnea import gravity
@@ -110,6 +111,11 @@ class Equilibrium:
     tau: Array
     forces: Array
     contacts: tuple[str, ...]
+
+    def _repr_html_(self) -> str:
+        forces = [[name, *(f"{round(float(x), 3) + 0.0:g}" for x in f)] for name, f in zip(self.contacts, self.forces)]
+        table = html_table(("contact", "f_x [N]", "f_y [N]", "f_z [N]"), forces)
+        return f"{table}<pre>tau = {np.array2string(self.tau, precision=4)} N m</pre>"
 
 
 def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | None = None) -> Equilibrium:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
+from html import escape
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_names
 from ..errors import check_known
 from ..model import Model, check_state
+from ..tables import html_matrix
 from ._mimic import also_of_mimics
 from .centroidal import centroidal_map
 from .crba import crba
@@ -46,6 +48,11 @@ class Dynamics:
     def __repr__(self) -> str:
         shapes = {f.name: np.shape(x) for f in fields(self) if (x := getattr(self, f.name)) is not None}
         return f"Dynamics({', '.join(f'{name}: {shape}' for name, shape in shapes.items())})"
+
+    def _repr_html_(self) -> str:
+        drawn = {name: x for name in ("M", "J_c", "A_G") if np.ndim(x := getattr(self, name)) == 2}
+        pictures = (f"<td>{name}<br>{html_matrix(x.real.astype(float), name)}</td>" for name, x in drawn.items())
+        return f"<code>{escape(repr(self))}</code><table><tr>{''.join(pictures)}</tr></table>"
 
 
 @also_of_mimics

@@ -12,6 +12,7 @@ state           what a state must be: shapes, finite numbers, quaternions of nor
 configuration   the manifold of q: `integrate`, `difference`, `normalize`, `random_configuration`
 manifold        derivatives of ⊕ and ⊖, `interpolate` and `distance`
 report          what a loader had to interpret, and how
+outline         a model as a tree that unfolds, for notebooks
 model           `Model`, frozen, and its frames
 arguments       input validation of the algorithms: a model and a state of it
 tree            what a recursion reads of a model: S, X, I and the parents

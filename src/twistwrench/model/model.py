@@ -224,6 +224,11 @@ class Model(Manifold):
         bodies = "1 moving body" if self.nbodies == 2 else f"{self.nbodies - 1} moving bodies"
         return f"Model {self.name!r}: {self.base} base, {bodies}, nq = {self.nq}, nv = {self.nv}, {self.mass:.6g} kg"
 
+    def _repr_html_(self) -> str:
+        from .outline import outline
+
+        return outline(self)
+
     def constants(self, dtype: DTypeLike) -> Constants:
         """Return the model's constants in a number type: S, I, tree constants and gravity, made once for each type.
 

@@ -33,7 +33,7 @@ def matrix(
     """Draw a matrix: orange where it is negative, purple where it is positive, white only where it is zero.
 
     The colour grows with the cube root of the entry, so that small ones are seen: half of it is an eighth of the value.
-    Where no numbers are written, a line below says so.
+    Where no numbers are written, a line below the matrix gives these two values.
 
     Parameters
     ----------

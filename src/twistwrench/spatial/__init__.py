@@ -19,6 +19,7 @@ wrench          49.4     `Wrench`, `power`
 cross           49.5     `cross_motion` V×, `cross_force` V×*
 _ten_numbers    49.5     mass, centre, inertia; as ten parameters, as pseudo-inertia; principal axes
 _shapes         49.5     the constructors of a `SpatialInertia` by shape
+ellipsoid       49.5     an inertia as a small picture, for notebooks
 inertia         49.5     `SpatialInertia` Î
 formulas                 the recursions' own V×, V×*, V ×* Î V: on columns, without checks
 ==============  =======  ==============================================================================

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from html import escape
 from typing import NoReturn
 
 import numpy as np
@@ -14,6 +15,7 @@ from ._physical import check_physical
 from ._shapes import Shapes
 from ._vector import aligned, as_spatial
 from .cross import cross_force, cross_motion
+from .ellipsoid import views
 from .plucker import SE3, blocks, placed_point
 from .rotation import cross_matrix, skew_part
 from .twist import Twist, check_placement
@@ -277,3 +279,10 @@ class SpatialInertia(Shapes):
             return f"<SpatialInertia: a batch, shape {self.mass.shape}>"
         com, I_c = aligned("    com=", self.com), aligned("    inertia_at_com=", self.inertia_at_com)
         return f"SpatialInertia(mass={self.mass},\n{com},\n{I_c})"
+
+    def _repr_html_(self) -> str:
+        if self.mass.ndim:
+            return f"<pre>{escape(repr(self))}</pre>"
+        com, I_c = (np.array2string(x, precision=4) for x in (self.com, self.inertia_at_com))
+        text = f"<pre>{self.mass:.4g} kg, centre of mass at {com} m, about it\n{I_c} kg m²</pre>"
+        return text + views(self.mass, self.com, self.inertia_at_com) if self.mass else text
