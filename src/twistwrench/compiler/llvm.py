@@ -10,8 +10,7 @@ together or reordered by the compiler: what comes out is what the operations say
 from __future__ import annotations
 
 import ctypes
-import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from typing import Any
 
@@ -27,8 +26,11 @@ __all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
 
-WHOLE, PIECE = 10_000, 600
-"""Operations of a line that is compiled as a whole; a longer one is in pieces of so many instructions."""
+PIECE = 1000
+"""Instructions that are compiled at once."""
+
+Group = tuple[int, int, Sequence[int]]
+"""Results that are stored together: their array, the place of the first one, and their nodes."""
 
 
 @cache
@@ -42,13 +44,17 @@ def available() -> bool:
 
 
 @cache
-def lanes(dtype: np.dtype[Any]) -> int:
-    """Return how many numbers of a type a register of this processor holds."""
+def register_bits() -> int:
+    """Return how long a register for vectors of this processor is."""
     import llvmlite.binding as llvm
 
     features = llvm.get_host_cpu_features()
-    bits = 512 if features.get("avx512f") else 256 if features.get("avx2") else 128
-    return bits // (8 * dtype.itemsize)
+    return 512 if features.get("avx512f") else 256 if features.get("avx2") else 128
+
+
+def lanes(dtype: np.dtype[Any]) -> int:
+    """Return how many numbers of a type a register of this processor holds."""
+    return register_bits() // (8 * dtype.itemsize)
 
 
 class MachineCode:
@@ -98,54 +104,67 @@ def engine_of(text: str) -> Any:
 
 
 def written(line: Line, scalar: str, width: int) -> str:
-    """Return a line as a module of LLVM's language: pieces of some operations, and a loop over the states.
+    """Return a line as a module of LLVM's language: pieces, and a loop over the states.
 
-    A long one in pieces, since the time that a compiler takes grows faster than the length of what it compiles at once.
+    In pieces, since the time that a compiler takes grows faster than the length of what it compiles at once.
     """
     pieces = Pieces(line, scalar, width)
-    for k, (operation, *_) in enumerate(line.nodes):
-        if operation not in ("input", "const"):
-            pieces.compute(k)
-    for array, (_, entries) in enumerate(line.outputs.values(), len(line.inputs)):
-        for start in range(0, len(entries), width):
-            pieces.store(array, start, entries[start : start + width])
+    for node, group in pieces.turns:
+        if group:
+            pieces.store(*group)
+        elif node not in pieces.name and node not in pieces.slot:  # a cosine is there with its sine
+            pieces.compute(node)
+        pieces.done(operands(line.nodes[node]) if group is None else group[2])
     pieces.end()
     return pieces.module()
 
 
 class Pieces:
-    """The pieces of a line, and the memory in which one leaves what the next ones need.
+    """The pieces of a line, and which values are in registers.
+
+    There are a few registers and thousands of values. When they are all taken, the value whose next use is farthest
+    goes to memory (Bélády), and is loaded when it is needed again. LLVM would find out itself, in twice the time.
 
     Parameters
     ----------
     line : Line
     scalar : {"double", "float"}
     width : int
+
+    Attributes
+    ----------
+    turns : list of tuple
+        What is to be written: a node to compute, or after it a group of results to store, as soon as all are there.
     """
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
         self.line, self.width = line, width
         self.text, self.finished = Text(scalar, width), list[Text]()
-        self.name: dict[int, str] = {}  # of the nodes that this piece has
-        self.slot: dict[int, int] = {}  # of the nodes that later pieces need
+        self.name: dict[int, str] = {}  # of the nodes that are in registers
+        self.slot: dict[int, int] = {}  # of the nodes that are in memory
         self.free: list[int] = []
         self.slots = 0
-        self.longest = PIECE if len(line.nodes) > WHOLE else sys.maxsize
+        self.registers = 24 if register_bits() == 512 else 12  # of 32 or 16: the others are for what lies between
         self.rows: dict[int, list[str]] = {}
-        self.last = {}
-        for k, node in enumerate(line.nodes):
-            self.last.update(dict.fromkeys(operands(node), k))
-        stored = len(line.nodes)
-        for _, entries in line.outputs.values():
-            self.last.update(dict.fromkeys(entries, stored))
         self.places = {node: k for k, node in enumerate(line.nodes) if node[0] in ("input", "sin", "cos")}
         self.arrays = {name: k for k, name in enumerate(line.inputs)}
+        self.turns = [*self._turns()]
+        self.uses: dict[int, list[int]] = {}  # of each node the turns that need it, the last first
+        for turn, (node, group) in reversed([*enumerate(self.turns)]):
+            for k in {*(operands(line.nodes[node]) if group is None else group[2])}:
+                self.uses.setdefault(k, []).append(turn)
+
+    def _turns(self) -> Iterator[tuple[int, Group | None]]:
+        for k, (operation, *_) in enumerate(self.line.nodes):
+            if operation not in ("input", "const"):
+                yield k, None
+        for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
+            for start in range(0, len(entries), self.width):
+                yield 0, (array, start, entries[start : start + self.width])
 
     def compute(self, k: int) -> None:
         """Write the operation of a node."""
         operation, *needed = self.line.nodes[k]
-        if k in self.name or k in self.slot:
-            return  # a cosine, with its sine
         values = [self.value(j) for j in needed]
         if operation in ("sin", "cos"):
             both = sine_and_cosine(self.text, *values)
@@ -153,23 +172,43 @@ class Pieces:
             self.name |= {place: value for place, value in found.items() if place is not None}
         else:
             self.name[k] = self.text.operate(operation, *values)
-        if len(self.text.lines) > self.longest:
-            self.end(k)
+
+    def done(self, needed: Iterable[int]) -> None:
+        """End a turn that needed some values."""
+        for k in {*needed}:
+            self.uses[k].pop()
+            if not self.uses[k]:
+                self.name.pop(k, None)
+                if k in self.slot:
+                    self.free.append(self.slot.pop(k))
+        if len(self.text.lines) > PIECE:
+            self.end()
+        while len(self.name) > self.registers:
+            self.put_away(max(self.name, key=lambda k: self.uses[k][-1]))
+
+    def put_away(self, k: int) -> None:
+        """Move a value from its register to memory."""
+        value = self.name.pop(k)
+        if k not in self.slot and self.uses.get(k):
+            if not self.free:
+                self.free.append(self.slots)
+                self.slots += 1
+            self.slot[k] = self.free.pop()
+            self.text.lines.append(f"store {self.text.type} {value}, ptr {self.kept(self.slot[k])}")
 
     def value(self, k: int) -> str:
         """Return the name of a node's value in this piece."""
         operation, *rest = self.line.nodes[k]
         if operation == "const":
             return self.text.constant(rest[0])
-        if k not in self.name:
-            if operation == "input":
-                self.load(*rest[0])
-            else:
-                self.name[k] = self.text.new(f"load {self.text.type}, ptr {self.kept(self.slot[k])}")
+        if k in self.slot and k not in self.name:
+            self.name[k] = self.text.new(f"load {self.text.type}, ptr {self.kept(self.slot[k])}")
+        elif k not in self.name:
+            self.load(*rest[0])
         return self.name[k]
 
     def kept(self, slot: int) -> str:
-        """Return where values are kept from one piece to the next."""
+        """Return a place in memory."""
         return self.text.new(f"getelementptr {self.text.type}, ptr %kept, i64 {slot}")
 
     def load(self, name: str, *index: int) -> None:
@@ -180,14 +219,12 @@ class Pieces:
         values = self.text.load(self.row(self.arrays[name]), start, len(keys))
         for key, value in zip(keys, values):
             place = self.places.get(("input", (name, *key)))
-            if place is not None:
+            if self.uses.get(place) and place not in self.slot:
                 self.name[place] = value
 
     def store(self, array: int, start: int, nodes: Sequence[int]) -> None:
         """Store entries of a result."""
         self.text.store(self.row(array), start, [self.value(k) for k in nodes])
-        if len(self.text.lines) > self.longest:
-            self.end(len(self.line.nodes) - 1)
 
     def row(self, array: int) -> list[str]:
         """Return where the states of this turn have their entries of an array."""
@@ -195,17 +232,10 @@ class Pieces:
             self.rows[array] = self.text.rows(array)
         return self.rows[array]
 
-    def end(self, now: int | None = None) -> None:
-        """End this piece after node `now`, and keep what is needed later."""
-        if now is not None:
-            self.free += [self.slot.pop(k) for k in [*self.slot] if self.last[k] <= now]
-            for k, value in self.name.items():
-                if self.last.get(k, -1) > now and k not in self.slot and self.line.nodes[k][0] != "input":
-                    if not self.free:
-                        self.free.append(self.slots)
-                        self.slots += 1
-                    self.slot[k] = self.free.pop()
-                    self.text.lines.append(f"store {self.text.type} {value}, ptr {self.kept(self.slot[k])}")
+    def end(self) -> None:
+        """End this piece: what is needed later goes to memory."""
+        for k in [*self.name]:
+            self.put_away(k)
         self.finished.append(self.text)
         self.text, self.name, self.rows = Text(self.text.scalar, self.width), {}, {}
 
