@@ -28,7 +28,7 @@ BODY = GO2.inertia[1]
 WALK = tw.motions.walk(GO2, samples=2)
 MASS = tw.templates.PointMass.of(GO2, STAND)
 
-MADE_BY_HAND = ["SE3", "Baumgarte", "Builder", "Continuous", "PointContact", "Prismatic", "Revolute", "Scene"]
+MADE_BY_HAND = ["SE3", "Baumgarte", "Builder", "Continuous", "Ground", "PointContact", "Prismatic", "Revolute", "Scene"]
 MADE_BY_HAND += ["SpatialInertia", "SurfaceContact", "Twist", "Wrench", "motions.Motion"]
 """The classes whose constructors take what a user types; functions fill in the others."""
 

@@ -59,7 +59,7 @@ from .model.samples import chain, random_tree
 from .model.serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
 from .robots import load, robots
 from .scene import Scene
-from .simulation import DivergenceError, Simulation, simulate
+from .simulation import DivergenceError, Ground, Simulation, simulate
 from .spatial.cross import cross_force, cross_motion
 from .spatial.exponential import exp6, interpolate, log6
 from .spatial.inertia import SpatialInertia
@@ -87,6 +87,7 @@ __all__ = [
     "Equilibrium",
     "FrameError",
     "FreeFlyer",
+    "Ground",
     "Helical",
     "Impact",
     "Jexp3",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from os import PathLike
+from typing import Any
 
 __all__ = ["FrameError", "ModelError", "ShapeError", "SingularError", "check_known", "no_model", "unknown_name"]
 
@@ -21,7 +22,15 @@ class ShapeError(ValueError):
 
 
 class SingularError(ValueError):
-    """A quantity that does not exist here. The message names what is singular, and where."""
+    """A quantity that does not exist here. The message names what is singular, and where.
+
+    Attributes
+    ----------
+    motion : Simulation or None
+        Where a step of a simulation failed: the motion until then.
+    """
+
+    motion: Any = None
 
 
 class FrameError(ValueError):

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Array
 from .nonnegative import nonnegative_least_squares
 
-__all__ = ["FEASIBLE", "least_breach", "least_within"]
+__all__ = ["FEASIBLE", "least_breach", "least_with_multipliers", "least_within"]
 
 FEASIBLE = 1e-10
 """How far a limit may be overstepped, relative to the size of the numbers in b."""
@@ -27,36 +27,45 @@ def least_within(A: Array, b: Array, size: float) -> tuple[Array, Array] | None:
 
     `size` is the scale of the numbers of b.
     """
+    found = least_with_multipliers(A, b, size)
+    return None if found is None else (found[0], found[1] > 0)
+
+
+def least_with_multipliers(A: Array, b: Array, size: float) -> tuple[Array, Array] | None:
+    """Return the z of least norm with A z ≤ b, and the multipliers u ≥ 0 of the rows, z = −Aᵀ u; None if none is found.
+
+    `size` is the scale of the numbers of b.
+    """
     if (b >= -FEASIBLE * size).all():
-        return np.zeros(A.shape[1]), np.zeros(len(b), bool)
+        return np.zeros(A.shape[1]), np.zeros(len(b))
     if A.shape[1] == 0:
         return None
     for method in (_by_daqp, _by_least_squares):
-        z, leans = method(A, b / size)
+        z, u = method(A, b / size)
         if np.isfinite(z).all() and (A @ z - b / size).max() <= 2 * FEASIBLE:
-            return size * z, leans
+            return size * z, size * u
     return None
 
 
 def _by_daqp(A: Array, b: Array) -> tuple[Array, Array]:
-    """Return z and its active rows, by DAQP; NaN where it finds no solution, or is not installed."""
-    n, nothing = A.shape[1], (np.full(A.shape[1], np.nan), np.zeros(len(b), bool))
+    """Return z and the multipliers, by DAQP; NaN where it finds no solution, or is not installed."""
+    n, nothing = A.shape[1], (np.full(A.shape[1], np.nan), np.zeros(len(b)))
     try:
         import daqp
     except ModuleNotFoundError:
         return nothing
     z, _, flag, info = daqp.solve(np.eye(n), np.zeros(n), np.ascontiguousarray(A), b, primal_tol=FEASIBLE)
-    return (z, info["lam"] > 0) if flag == SOLVED else nothing
+    return (z, np.maximum(info["lam"], 0)) if flag == SOLVED else nothing
 
 
 def _by_least_squares(A: Array, b: Array) -> tuple[Array, Array]:
-    """Return z and its active rows: z is the part of r in Aᵀ u + r₁ = 0, bᵀ u + r₂ = 1, over −r₂, with u ≥ 0."""
+    """Return z and the multipliers: of r in Aᵀ u + r₁ = 0, bᵀ u + r₂ = 1 with u ≥ 0, z is r₁ over −r₂."""
     E = np.concatenate([-A.mT, -b[None]])
     u, r = nonnegative_least_squares(E, np.concatenate([np.zeros(len(E) - 1), [1.0]]))
     leans = u > 0
     if not r[-1] > 0 or not leans.any():
-        return np.full(len(E) - 1, np.nan), leans
-    return np.linalg.lstsq(A[leans], b[leans])[0], leans  # active rows are met to rounding
+        return np.full(len(E) - 1, np.nan), u
+    return np.linalg.lstsq(A[leans], b[leans])[0], u / r[-1]  # active rows are met to rounding
 
 
 def least_breach(A: Array, b: Array, size: float) -> Array:

@@ -5,6 +5,10 @@
 - `explicit`: Euler's methods, midpoint and Runge-Kutta.
 - `variational`: the method that keeps momentum and, over long times, energy.
 - `tangent`: what the exponential map does to rates and momenta.
+- `stepping`: the method with a ground, a convex programme per step; start there for contact in time.
+- `cones`: Coulomb's law for one step.
+- `passive`: damping, dry friction and ranges of joints.
+- `ground`: the ground and the points that may touch it.
 - `system`: the forces of the policy, the contacts, and the acceleration.
 - `divergence`: when a step has gone wrong.
 - `result`: the motion.
@@ -12,9 +16,10 @@
 """
 
 from .divergence import DivergenceError
+from .ground import Ground
 from .methods import METHODS, Method
 from .result import Simulation
 from .run import simulate
 from .system import Policy
 
-__all__ = ["METHODS", "DivergenceError", "Method", "Policy", "Simulation", "simulate"]
+__all__ = ["METHODS", "DivergenceError", "Ground", "Method", "Policy", "Simulation", "simulate"]

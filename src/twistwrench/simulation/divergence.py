@@ -18,7 +18,15 @@ FARTHEST = 1e6
 
 
 class DivergenceError(ValueError):
-    """A motion that left all bounds, or a step that could not be solved. The message names the time and the joint."""
+    """A motion that left all bounds, or a step that could not be solved. The message names the time and the joint.
+
+    Attributes
+    ----------
+    motion : Simulation
+        The motion until then.
+    """
+
+    motion: Any = None
 
 
 def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> None:

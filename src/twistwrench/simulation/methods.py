@@ -18,6 +18,13 @@ Step = Callable[[System, float, Array, Array], tuple[Array, Array]]
 """From a system, t, q and v to the next q and v."""
 
 
+def time_stepping(system: System, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+    """Make one step with what may touch."""
+    if system.touching is None:
+        raise TypeError("a system without what may touch cannot be stepped so")
+    return system.touching.step(system.force(t, q, v), q, v)
+
+
 @dataclass(frozen=True)
 class Method:
     """A way to make one step.
@@ -52,6 +59,13 @@ METHODS = {
         2,
         variational,
         "conserved momenta to rounding; the symplectic form, and so nearly the energy",
+        contacts=False,
+    ),
+    "time-stepping": Method(
+        "time stepping",
+        1,
+        time_stepping,
+        "no impulse of a contact or a joint's range adds energy; in free motion nothing",
         contacts=False,
     ),
 }

@@ -45,7 +45,8 @@ class Simulation:
         step those in its middle.
     contact_forces : dict of str to ndarray, shape (n, ..., 3) or (n, ..., 6)
         Forces on the robot by the contact's frame, axes of the world, (τ, f) of a surface: those that went with `tau`,
-        and in the last state those with what the policy returns there. Empty without contacts.
+        and in the last state those under the last `tau`. With a ground, of each of the n − 1 steps the mean over it.
+        Empty without contacts.
     evaluations : int
         How often forces and accelerations were computed.
     seconds : float

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
@@ -14,12 +15,17 @@ from ..contact.rows import as_contacts
 from ..errors import SingularError, check_known
 from ..model import Model
 from .divergence import DivergenceError, refuse_divergence
+from .ground import Ground, check_normals
 from .methods import METHODS, Step
 from .result import Simulation
 from .scene_like import SceneLike, parts
+from .stepping import TimeStepping
 from .system import Policy, System
 
 __all__ = ["simulate"]
+
+Stop = Callable[[float, Array, Array], bool]
+"""From time, q (..., nq) and v (..., nv) to whether the motion ends here."""
 
 LONGEST = 1e60
 """Seconds: with a longer step products overflow."""
@@ -33,15 +39,20 @@ def simulate(
     dt: float,
     steps: int | None = None,
     duration: float | None = None,
+    t0: float = 0.0,
     tau: Policy | ArrayLike | None = None,
+    dt_control: float | None = None,
     contacts: Iterable[Contact] = (),
-    method: str = "rk4",
+    ground: Ground | None = None,
+    method: str | None = None,
+    stop: Stop | None = None,
     progress: bool = False,
 ) -> Simulation:
     """Let a robot move from a state, and return its motion.
 
-    There is no collision detection: a robot without contacts falls through the floor. Contacts stick where they are at
-    t = 0, all the time: none opens, closes or slips, and they pull where they must: see `Simulation.contact_forces`.
+    With a ground, contacts are the points and soles that may touch it: they land, lift off, stick and slide, and the
+    joints keep their ranges. Without one, contacts stick where they are at the start, all the time: none opens, closes
+    or slips, and they pull where they must; and a robot without contacts falls through the floor.
 
     Parameters
     ----------
@@ -56,16 +67,27 @@ def simulate(
     steps : int, optional
         How many of them; or else
     duration : float, optional
-        the time at the end, s: a whole number of steps.
+        the time at the end, s, from the start: a whole number of steps.
+    t0 : float, optional
+        The time at the start, s: that at the end of a motion that goes on here.
     tau : callable or array_like, shape (..., nv), optional
         Joint forces as `aba` takes them: a policy ``(t, q, v) -> tau``, which is called wherever the method needs
         the forces, or constant ones. Zero unless given.
-    contacts : iterable of Contact, optional
-        `PointContact` or `SurfaceContact`, besides those of a scene. After each step the state goes back to where they
-        hold (`project_state`). Computed in double precision.
-    method : {"euler", "semi-implicit", "midpoint", "rk4", "variational"}
-        Of order 1, 1, 2, 4 and 2 in dt. "variational" holds the energy over long times and keeps the momenta that
-        have a conservation law; it solves an equation in each step, and takes no contacts.
+    dt_control : float, optional
+        The period of the policy, a whole number of dt, s: it is called at the beginning of each period, once, and its
+        forces hold until the next.
+    contacts : iterable of Contact
+        `PointContact` or `SurfaceContact`, besides those of a scene. Without a ground, the state goes back to where
+        they hold after each step (`project_state`). Computed in double precision.
+    ground : Ground, optional
+        What the contacts may touch, each with its μ.
+    method : {"rk4", "euler", "semi-implicit", "midpoint", "variational", "time-stepping"}, optional
+        Of order 4, 1, 1, 2, 2 and 1 in dt. "variational" holds the energy over long times and keeps the momenta that
+        have a conservation law; it solves an equation in each step, and takes no contacts. "time-stepping" is that of
+        a ground, and the only one that applies damping and friction of the joints, and keeps their ranges. It is the
+        default with a ground, and "rk4" without.
+    stop : callable, optional
+        ``(t, q, v) -> bool``, called after each step: the motion ends where it is true.
     progress : bool
         Whether to show a progress bar.
 
@@ -79,18 +101,23 @@ def simulate(
     ------
     DivergenceError
         If the motion leaves all bounds, or the equation of a variational step cannot be solved. The message names the
-        time and the joint.
+        time and the joint; ``error.motion`` is the motion until then.
     SingularError
-        As `aba` and `contact_forward_dynamics`, with the time.
+        As `aba` and `contact_forward_dynamics`, with the time and the motion.
     NameNotFound
         If there is no such method, or no frame of a contact.
     ShapeError, ValueError
         As `Model.state`; if `tau` is or returns anything but finite forces of that shape; if dt is not positive; if
-        not one of `steps` and `duration` is given; if numbers are complex; if a contact moves at t = 0; if a
-        variational method is asked for contacts.
+        not one of `steps` and `duration` is given; if `dt_control` is not a whole number of dt, or without a policy;
+        if numbers are complex; if a contact that sticks moves at the start; if a method is asked for contacts or a
+        ground that it does not take; if a point begins below the ground, or a joint that is kept beyond its range.
+    TypeError
+        If `ground` is not a Ground, or `stop` not a function.
 
     Notes
     -----
+    The steps with a ground are those of Stewart and Trinkle and of Anitescu: see `twistwrench.simulation.stepping`.
+
     Every method moves on the configuration manifold: q = q ⊕ u, so that quaternions need no repair, and Runge-Kutta
     methods keep their order on balls and floating bases by Munthe-Kaas' correction of u̇.
 
@@ -104,52 +131,113 @@ def simulate(
     >>> damped = tw.simulate(pendulum, [2.0], [0.0], dt=0.01, steps=100, tau=lambda t, q, v: -0.5 * v)
     >>> bool((np.diff(damped.energy) <= 0).all())
     True
+
+    A Go2 that is dropped lands, and folds up on its feet where its legs end:
+
+    >>> go2 = tw.load("go2")
+    >>> q, feet = go2.standing(), [tw.PointContact(foot, 0.6) for foot in go2.feet]
+    >>> q[2] += 0.1
+    >>> drop = tw.simulate(go2, q, np.zeros(18), dt=0.002, duration=0.2, contacts=feet, ground=tw.Ground())
+    >>> round(max(force[:, 2].max() for force in drop.contact_forces.values())) > 0
+    True
     """
     model, own, push = parts(robot)
-    check_known("method", method, METHODS)
-    count = _count(dt, steps, duration)
-    contacts = (*own, *as_contacts(model, contacts))
+    count, contacts = _count(dt, steps, duration), (*own, *as_contacts(model, contacts))
+    name = _method(method, ground, contacts)
     q, v = model.state(q, v=v)
     if q.dtype.kind == "c":
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
-    if contacts:
-        if not METHODS[method].contacts:
-            raise ValueError(f"method: {method!r} takes no contacts, and there are {len(contacts)}")
+    if contacts or name == "time-stepping":
         q, v = model.normalize(q.astype(np.float64)), v.astype(np.float64)
-    system, step = System(model, contacts, push, tau, q, v, float(dt)), METHODS[method].step
-    qs, vs = np.empty((count + 1, *q.shape), q.dtype), np.empty((count + 1, *v.shape), v.dtype)
-    qs[0], vs[0], start = q, v, perf_counter()
-    taus = np.empty((count, *v.shape), v.dtype)
-    held: list[dict[str, Array]] = []
-    for k in _bar(count, progress):
-        system.begin()
-        qs[k + 1], vs[k + 1] = _advance(step, system, k, qs[k].copy(), vs[k].copy())
-        taus[k] = system.tau
-        held.append(system.forces)
-    t = np.arange(count + 1) * float(dt)
-    if contacts:
-        held.append(_at_the_end(system, float(t[-1]), qs[-1].copy(), vs[-1].copy()))
-    forces = {c.frame: np.stack([at[c.frame] for at in held]) for c in contacts}
-    return Simulation(system, method, t, qs, vs, taus, forces, system.evaluations, perf_counter() - start)
+    touching = TimeStepping(model, contacts, ground or Ground(), float(dt), q) if name == "time-stepping" else None
+    held = () if touching else contacts
+    system = System(model, held, push, tau, q, v, float(dt), _period(dt_control, dt, tau), touching)
+    step, start = METHODS[name].step, perf_counter()
+    if stop is not None and not callable(stop):
+        raise TypeError(f"stop: expected a function (t, q, v) -> bool, got {type(stop).__name__}")
+    made = Made([(q, v)], [], [])
+    failure = _loop(made, system, step, as_number(t0, "t0"), _bar(count, progress), stop)
+    qs, vs = (np.stack([state[i] for state in made.states]) for i in (0, 1))
+    taus, t = np.array(made.taus, v.dtype).reshape(len(vs) - 1, *v.shape), t0 + np.arange(len(vs)) * float(dt)
+    forces = touching.contact_forces(qs[:-1]) if touching else made.forces(system, held)
+    spent = perf_counter() - start
+    motion = Simulation(system, name, t, qs, vs, taus, forces, system.evaluations, spent)
+    if failure is not None:
+        failure.motion = motion
+        raise failure
+    return motion
 
 
-def _at_the_end(system: System, t: float, q: Array, v: Array) -> dict[str, Array]:
-    """Return the forces at the contacts in the last state, from which no step begins."""
-    try:
-        return system.held(t, q, v).forces
-    except SingularError as error:
-        raise SingularError(f"the end, t = {t:.6g} s: {error}") from error
+@dataclass
+class Made:
+    """What has been made of a motion: states, and of each step τ and the forces of the contacts that stick."""
+
+    states: list[tuple[Array, Array]]
+    taus: list[Array]
+    held: list[dict[str, Array]]
+
+    def forces(self, system: System, contacts: Sequence[Contact]) -> dict[str, Array]:
+        """Return the forces at the contacts over time, and in the last state those under the last τ."""
+        if not contacts:
+            return {}
+        q, v = (x.copy() for x in self.states[-1])
+        try:
+            held = [*self.held, system.held_last(q, v)]
+        except SingularError as error:
+            raise SingularError(f"the end: {error}") from error
+        return {c.frame: np.stack([at[c.frame] for at in held]) for c in contacts}
 
 
-def _advance(step: Step, system: System, k: int, q: Array, v: Array) -> tuple[Array, Array]:
-    """Make step k; where it fails, add the time to the error."""
-    t = k * system.dt
-    try:
-        q, v = system.settle(*step(system, t, q, v))
-        refuse_divergence(system.model, "v", v, dt=system.dt)
-    except (DivergenceError, SingularError) as error:
-        raise type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}") from error
-    return q, v
+def _loop(
+    made: Made, system: System, step: Step, t0: float, counter: Iterable[int], stop: Stop | None
+) -> DivergenceError | SingularError | None:
+    """Make the steps; where one fails, return the error, with the time."""
+    for k in counter:
+        t, (q, v) = t0 + k * system.dt, (x.copy() for x in made.states[-1])
+        try:
+            system.begin(k, t, q, v)
+            q, v = system.settle(*step(system, t, q, v))
+            refuse_divergence(system.model, "v", v, dt=system.dt)
+        except (DivergenceError, SingularError) as error:
+            failure = type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}")
+            failure.__cause__ = error
+            return failure
+        made.states.append((q, v))
+        made.taus.append(system.tau)
+        made.held.append(system.forces)
+        if stop is not None and stop(t + system.dt, q.copy(), v.copy()):
+            break
+    return None
+
+
+def _method(method: str | None, ground: Ground | None, contacts: Sequence[Contact]) -> str:
+    """Return the name of the method; raise an error where it does not take what is there."""
+    if ground is not None and not isinstance(ground, Ground):
+        raise TypeError(f"ground: expected a Ground, got {type(ground).__name__}")
+    name = ("rk4" if ground is None else "time-stepping") if method is None else method
+    check_known("method", name, METHODS)
+    if ground is not None:
+        if name != "time-stepping":
+            raise ValueError(f"method: {name!r} takes no ground; leave it out, or expected 'time-stepping'")
+        check_normals(contacts, ground)
+    elif contacts and not METHODS[name].contacts:
+        hint = " without a ground" if name == "time-stepping" else ""
+        raise ValueError(f"method: {name!r} takes no contacts{hint}, and there are {len(contacts)}")
+    return name
+
+
+def _period(dt_control: float | None, dt: float, tau: object) -> int:
+    """Return the period of the policy in steps; 0 if it has none."""
+    if dt_control is None:
+        return 0
+    if not callable(tau):
+        raise ValueError("dt_control: there is no policy that could be called: tau is not a function")
+    if not 0 < as_number(dt_control, "dt_control") < LONGEST:
+        raise ValueError(f"dt_control: expected a positive number of seconds, got {dt_control}")
+    period = round(dt_control / dt)
+    if period < 1 or abs(period * dt - dt_control) > 1e-9 * dt_control:
+        raise ValueError(f"dt_control: expected a whole number of steps of {dt} s, got {dt_control} s")
+    return period
 
 
 def _count(dt: float, steps: int | None, duration: float | None) -> int:

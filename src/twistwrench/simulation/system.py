@@ -21,6 +21,7 @@ from ..fast import aba, rnea
 from ..fast.steps import integrate
 from ..model import Model
 from .divergence import refuse_divergence
+from .stepping import TimeStepping
 
 __all__ = ["Policy", "Push", "System"]
 
@@ -50,6 +51,11 @@ class System:
         The state at the start.
     dt : float
         Duration of a step, s.
+    period : int, optional
+        The policy is called at the beginning of each so many steps, and its forces hold until then; 0: wherever the
+        method needs them.
+    touching : TimeStepping, optional
+        What may touch, for the method that steps with it.
 
     Attributes
     ----------
@@ -71,8 +77,11 @@ class System:
         q: Array,
         v: Array,
         dt: float,
+        period: int = 0,
+        touching: TimeStepping | None = None,
     ) -> None:
         self.model, self.contacts, self.push, self.dt, self.evaluations = model, contacts, push, dt, 0
+        self.period, self.touching = period, touching
         self.anchors = contact_placements(model, q, contacts)
         self._policy = tau if callable(tau) else None
         constant = np.zeros_like(v) if tau is None or callable(tau) else self._checked("tau", tau, v)
@@ -81,24 +90,30 @@ class System:
         self._first = True
         self._refuse_slip(q, v)
 
-    def begin(self) -> None:
-        """Begin a step: what is evaluated next counts."""
+    def begin(self, k: int, t: float, q: Array, v: Array) -> None:
+        """Begin step k: what is evaluated next counts. At the beginning of a period, call the policy."""
         self._first = True
+        if self.period and k % self.period == 0:
+            self._constant = self._asked(t, q, v)
 
     def force(self, t: float, q: Array, v: Array) -> Array:
         """Return the generalized forces of policy and external wrenches in a state: τ + Σ Jᵀ f, shape (..., nv)."""
         self.evaluations += 1
-        tau = self._constant
-        if self._policy is not None:
-            for x in (q, v):
-                x.flags.writeable = False  # a policy cannot change the state in place
-            tau = self._checked("tau(t, q, v)", self._policy(t, q, v), v, f" at t = {t:.6g}")
+        tau = self._constant if self.period else self._asked(t, q, v)
         if self._first:
             self.tau = np.broadcast_to(tau, v.shape).copy()
         if self.push is None:
             return np.broadcast_to(tau, v.shape)
         rest = np.zeros_like(v)
         return tau + rnea(self.model, q, rest, rest) - rnea(self.model, q, rest, rest, self.push(q))
+
+    def _asked(self, t: float, q: Array, v: Array) -> Array:
+        """Return what the policy returns in a state, or the constant forces."""
+        if self._policy is None:
+            return self._constant
+        for x in (q, v):
+            x.flags.writeable = False  # a policy cannot change the state in place
+        return self._checked("tau(t, q, v)", self._policy(t, q, v), v, f" at t = {t:.6g}")
 
     def acceleration(self, t: float, q: Array, v: Array) -> Array:
         """Return the acceleration in a state, shape (..., nv) (49.7)."""
@@ -115,6 +130,11 @@ class System:
         if self._first:
             self.forces, self._first = found.forces, False
         return found
+
+    def held_last(self, q: Array, v: Array) -> dict[str, Array]:
+        """Return the contact forces in a state under the last forces that were applied."""
+        self._policy, self._constant = None, self.tau
+        return self.held(0.0, q, v).forces
 
     def settle(self, q: Array, v: Array) -> tuple[Array, Array]:
         """Return the nearby state in which the contacts are where they stick, with zero velocity."""

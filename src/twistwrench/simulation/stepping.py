@@ -1,0 +1,172 @@
+"""Time stepping: convex programmes on the velocities, step by step, for ground, friction and joint limits.
+
+D. E. Stewart and J. C. Trinkle (1996) and M. Anitescu and F. A. Potra (1997): over a step, forces are impulses, and
+what may not be is said of the velocity at its end, along which q goes:
+
+    M v⁺ = M v* + Σ Jᵀ λ,    q⁺ = q ⊕ dt v⁺,    gap + dt u_n⁺ ≥ 0 at each point,
+
+with Coulomb's law between λ and u⁺ (`cones`). So it does not matter when in the step a foot lands: a force that is
+infinite is a finite impulse. v* is the velocity without contacts, by the midpoint rule; M and J are those of the
+beginning. There is no spring, and nothing to tune. What it costs: order 1 in dt; what falls freely loses ½ m g² dt of
+energy in a second, because q goes along the velocity at the end; what hits the ground is stopped where it hits within
+one step more.
+
+The gap is linear in v⁺ only to first order, so that a point may end below the ground, by O(dt²). Then q, and not v, is
+moved by the least step in the metric of M that brings all points up to it: no speed comes of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import Array
+from ..contact import Contact
+from ..fast import aba
+from ..fast.steps import integrate
+from ..model import Model
+from .cones import Answer, Metric, Points, coulomb
+from .divergence import refuse_divergence
+from .ground import Ground, ground_terms, point_forces
+from .passive import Joints
+
+__all__ = ["TimeStepping"]
+
+PROJECTIONS = 5
+BELOW = 1e-10
+"""m or rad: nearer than this, what is below the ground is on it."""
+
+ALIKE = 1e-6
+"""So much, relative to the fastest, may the free velocity change by that in the middle without being asked again."""
+
+DEEPEST = 1e-3
+"""m: a point that begins deeper below the ground is a mistake."""
+
+
+class State(NamedTuple):
+    """What a step needs of its beginning: M, the metric with damping, gaps and J of the points, gaps of the ranges."""
+
+    M: Array
+    metric: Metric
+    gap: Array
+    J: Array
+    ends: Array
+
+
+class TimeStepping:
+    """The steps of one motion.
+
+    Parameters
+    ----------
+    model : Model
+    contacts : sequence of Contact
+        The points and soles that may touch.
+    ground : Ground
+    dt : float
+    q : ndarray, shape (..., nq)
+        At the start.
+
+    Attributes
+    ----------
+    forces : list of ndarray, shape (..., k, 3)
+        Of each step, at the k points in the axes of the ground, the normal last, N.
+    missed : list of ndarray, shape (...)
+        Of each step, how far Coulomb's law was missed: the normal speed that a point that touches has too much, m/s.
+
+    Raises
+    ------
+    ValueError
+        If a point begins below the ground, or a joint beyond its range.
+    """
+
+    def __init__(self, model: Model, contacts: Sequence[Contact], ground: Ground, dt: float, q: Array) -> None:
+        self.model, self.contacts, self.ground, self.dt = model, tuple(contacts), ground, dt
+        self.mu = np.array([c.mu for c in self.contacts for _ in c.points])
+        self.joints = Joints(model, q)
+        self.forces: list[Array] = []
+        self.missed: list[Array] = []
+        self._slide = np.zeros((*q.shape[:-1], len(self.mu), 2))
+        self._refuse_below(q)
+
+    def step(self, tau: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        """Make one step of each item of a batch, under the joint forces τ, and return q and v at its end."""
+        refuse_divergence(self.model, "v", v, dt=self.dt)
+        q1, v1 = np.empty_like(q), np.empty_like(v)
+        force, missed = np.zeros((*q.shape[:-1], len(self.mu), 3)), np.zeros(q.shape[:-1])
+        for item in np.ndindex(q.shape[:-1]):
+            found = self.one(tau[item].copy(), q[item].copy(), v[item].copy(), self._slide[item])
+            self._slide[item], v1[item], missed[item] = found.slide, found.v, found.missed
+            force[item] = found.impulse / self.dt
+            q1[item] = self.settle(integrate(self.model, q[item].copy(), self.dt * found.v))
+        self.forces.append(force)
+        self.missed.append(missed)
+        return q1, v1
+
+    def one(self, tau: Array, q: Array, v: Array, slide: Array) -> Answer:
+        """Return the velocity at the end of a step; once more, where the velocity in its middle makes a difference."""
+        middle, at = integrate(self.model, q, self.dt / 2 * v), self.terms(q)
+        free = v + self.dt * aba(self.model, middle, v, tau)
+        found = self.solve(at, v, free, slide)
+        mean = (v + found.v) / 2
+        refuse_divergence(self.model, "v", mean, dt=self.dt)
+        better = v + self.dt * aba(self.model, middle, mean, tau)
+        if np.abs(better - free).max(initial=0) > ALIKE * np.abs(free).max(initial=0):
+            found = self.solve(at, v, better, found.slide)
+        refuse_divergence(self.model, "v dt", self.dt * found.v)
+        return found
+
+    def terms(self, q: Array) -> State:
+        """Return what a step needs of its beginning."""
+        terms = ground_terms(self.model, q, self.contacts, self.ground)
+        metric = Metric(terms.M + self.dt * np.diag(self.model.damping))
+        return State(terms.M, metric, terms.place[:, 2], terms.rows, self.joints.gap(q))
+
+    def solve(self, at: State, v: Array, free: Array, slide: Array) -> Answer:
+        """Return the velocity at the end of the step, from v and that of the free motion, and the impulses."""
+        metric, gap, J = at.metric, at.gap, at.J
+        free = metric.respond(at.M @ free)
+        ends = -np.maximum(at.ends, 0) / self.dt
+        hits = gap + self.dt * (J[:, 2] @ free) < 0
+        share, bound = self.ground.restitution, -np.maximum(gap, 0) / self.dt
+        while True:
+            points = Points(J, self.mu, np.maximum(bound, np.where(hits, J[:, 2] @ (free - (1 + share) * v), -np.inf)))
+
+            def solved(free: Array, rows: Array, points: Points = points) -> tuple[Answer, Array]:
+                others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
+                found = coulomb(metric, free, points, others, slide)
+                return found, found.others[len(ends) :]
+
+            found = self.joints.rubbed(metric, free, self.dt, solved)
+            gained = (found.impulse * (J @ (found.v + free))).sum() / 2
+            if gained <= 0 or share == 0:
+                return found
+            share = share / 2 if share > 0.01 else 0.0  # Newton's law with friction would add energy here
+
+    def settle(self, q: Array) -> Array:
+        """Return the nearest configuration with no point below the ground, and no joint beyond its range."""
+        for _ in range(PROJECTIONS):
+            terms = ground_terms(self.model, q, self.contacts, self.ground)
+            gap = np.concatenate([terms.place[:, 2], self.joints.gap(q)])
+            if gap.min(initial=0) >= -BELOW:
+                break
+            rows = np.concatenate([terms.rows[:, 2], self.joints.rows])
+            q = integrate(self.model, q, Metric(terms.M).nearest(np.zeros(self.model.nv), rows, -gap)[0])
+        return q
+
+    def contact_forces(self, q: Array) -> dict[str, Array]:
+        """Return λ of all steps, by the contact's frame; q are the states in which they begin, (n, ..., nq)."""
+        place = ground_terms(self.model, q, self.contacts, self.ground).place
+        force = np.array(self.forces).reshape(place.shape)
+        return point_forces(self.contacts, place, force, self.ground)
+
+    def _refuse_below(self, q: Array) -> None:
+        height = ground_terms(self.model, q, self.contacts, self.ground).place[..., 2]
+        gap = height.min(axis=tuple(range(q.ndim - 1)), initial=np.inf)
+        if gap.min(initial=0) < -DEEPEST:
+            names = [name for c in self.contacts for name in c.point_names]
+            raise ValueError(
+                f"q: {names[int(gap.argmin())]} begins {-gap.min():.3g} m below the ground; "
+                "raise the base, or lower the ground"
+            )

@@ -1,0 +1,289 @@
+"""Contact in time: closed forms, what no contact may do, other engines, and what is refused."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.simulation import cones
+from twistwrench.spatial import rotation_to_quaternion
+
+G = 9.81
+HALF = np.array([0.1, 0.08, 0.05])  # m: half the sides of the box
+
+
+def body(name, inertia, points):
+    """A flying body with frames at these points."""
+    builder = tw.Builder(name, base="floating", root=name, root_inertia=inertia)
+    for k, point in enumerate(points):
+        T = np.eye(4)
+        T[:3, 3] = point
+        builder.link(f"p{k}", parent=name, placement=tw.SE3.from_matrix(T))
+    return builder.build()
+
+
+BOX = body("box", tw.SpatialInertia.from_box(2.0, 2 * HALF), [HALF * [x, y, -1] for x in (1, -1) for y in (1, -1)])
+BALL = body("ball", tw.SpatialInertia(1.0, np.zeros(3), 0.01 * np.eye(3)), [np.zeros(3)])
+GO2 = tw.load("go2")
+
+
+def corners(mu):
+    return [tw.PointContact(f"p{k}", mu) for k in range(4)]
+
+
+def slide(mu, v, *, ground=None, q=None, dt=0.005, steps=100, **options):
+    """A box that begins flat on a ground."""
+    ground = ground or tw.Ground()
+    turn = rotation_to_quaternion(ground.axes.T)
+    q = np.r_[HALF[2] * np.array(ground.normal), turn] if q is None else q
+    return tw.simulate(BOX, q, v, dt=dt, steps=steps, contacts=corners(mu), ground=ground, **options)
+
+
+def tilted(angle):
+    """A plane that falls off in the direction of x."""
+    return tw.Ground(normal=[np.sin(angle), 0.0, np.cos(angle)])
+
+
+def downhill(ground):
+    down = -np.array([0, 0, 1.0]) + ground.normal[2] * np.array(ground.normal)
+    return down / np.sqrt(down @ down)
+
+
+# ---------------------------------------------------------------- closed forms
+
+
+@pytest.mark.parametrize("way", [0.0, 0.7])
+def test_a_box_that_slides_stops_after_v2_over_2_mu_g_in_any_direction(way):
+    """Of order 1 in dt: q goes along the velocity at the end of each step, which is short by v dt / 2."""
+    exact, errors = 1 / (2 * 0.4 * G), []
+    for dt in (0.01, 0.005):
+        s = slide(0.4, np.r_[0, 0, 0, np.cos(way), np.sin(way), 0], dt=dt, steps=round(0.4 / dt))
+        assert s.q[-1, :2] / exact == pytest.approx([np.cos(way), np.sin(way)], abs=dt * 5)
+        errors.append(exact - np.sqrt(s.q[-1, :2] @ s.q[-1, :2]))
+        assert np.abs(s.v[-1]).max() < 1e-12
+        assert np.abs(s.q[:, 2] - HALF[2]).max() < 1e-6  # and Anitescu's lift is gone
+    assert errors[0] / errors[1] == pytest.approx(2.0, abs=0.2)
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_on_a_slope_a_box_sticks_up_to_the_angle_of_friction_and_slides_beyond(share):
+    angle = np.arctan(0.5 * share)
+    ground = tilted(angle)
+    s = slide(0.5, np.zeros(6), ground=ground, steps=40)
+    along = s.v[:, 3:] @ (ground.axes @ downhill(ground))  # the box lies in the axes of the ground
+    if share < 1:
+        assert np.abs(s.v).max() < 1e-10
+    else:
+        assert along[-1] == pytest.approx(G * (np.sin(angle) - 0.5 * np.cos(angle)) * s.t[-1], abs=1e-4 * G * s.t[-1])
+
+
+@pytest.mark.parametrize("share", [0.98, 1.02])
+def test_on_a_slope_with_much_friction_a_box_topples_where_its_weight_passes_its_edge(share):
+    edge = HALF[0] if abs(downhill(tilted(0.3)) @ tilted(0.3).axes[0]) > 0.5 else HALF[1]
+    ground = tilted(np.arctan(edge / HALF[2]) * share)
+    s = slide(10.0, np.zeros(6), ground=ground, steps=40)
+    assert (np.abs(s.v[-1, :3]).max() > 0.01) == (share > 1)
+
+
+@pytest.mark.parametrize("share", [0.999, 1.001])
+@pytest.mark.parametrize("way", [0.0, 0.5])
+def test_the_largest_push_before_a_box_slips_is_mu_m_g(share, way):
+    push = share * 0.4 * 2.0 * G * np.array([np.cos(way), np.sin(way)])
+    s = slide(0.4, np.zeros(6), steps=10, tau=np.r_[0, 0, 0, push, 0])
+    speed = np.sqrt(s.v[-1, 3:5] @ s.v[-1, 3:5])
+    assert speed == pytest.approx(max(0.0, share - 1) * 0.4 * G * s.t[-1], abs=4e-5 * G * s.t[-1])
+    total = sum(s.contact_forces.values())
+    assert total[-1] == pytest.approx([*-min(1, 1 / share) * push, 2.0 * G], rel=1e-6)
+
+
+def test_a_ball_bounces_to_e2_of_its_height_and_with_e_1_for_ever():
+    q = np.r_[0, 0, 0.5, 0, 0, 0, 1]
+    for e, dt in ((0.8, 1e-3), (1.0, 2e-3)):
+        ground = tw.Ground(restitution=e)
+        s = tw.simulate(BALL, q, np.zeros(6), dt=dt, duration=1.2, contacts=[tw.PointContact("p0", 0.5)], ground=ground)
+        z = s.q[:, 2]
+        tops = z[1:-1][(z[1:-1] > z[:-2]) & (z[1:-1] >= z[2:])]
+        assert tops[:2] == pytest.approx([0.5 * e**2, 0.5 * e**4][: len(tops[:2])], rel=0.03)
+        assert (np.diff(s.energy) < 1e-12).all()
+        assert z.min() > -1e-9
+        lost = 0.5 * G**2 * dt * s.t[-1]  # what the semi-implicit step loses in free fall, and nothing else
+        if e == 1:
+            assert s.energy[0] - s.energy[-1] == pytest.approx(lost, rel=1e-6)
+
+
+def test_a_ball_that_bounces_with_spin_slides_by_coulombs_law():
+    """It lands at 45 degrees: the speed along the ground falls by μ (1 + e) times the speed of the impact."""
+    v = np.r_[0, 0, 0, 2.0, 0, -1.0]
+    hit = tw.simulate(
+        *(BALL, np.r_[0, 0, 1e-9, 0, 0, 0, 1], v),
+        dt=1e-6,
+        steps=1,
+        contacts=[tw.PointContact("p0", 0.3)],
+        ground=tw.Ground(restitution=0.5),
+    )
+    assert hit.v[-1, 3:] == pytest.approx([2.0 - 0.3 * 1.5 * 1.0, 0, 0.5], abs=1e-4)
+
+
+def test_a_wheel_of_spokes_loses_what_mcgeer_says_at_each_of_them():
+    """A rimless wheel that lands on its next spoke: ω is multiplied by (I + m r² cos 2α) / (I + m r²)."""
+    inertia, r, alpha = 0.02, 0.3, np.pi / 8
+    feet = [r * np.array([np.sin(a), y, -np.cos(a)]) for y in (0.1, -0.1) for a in (alpha, -alpha)]
+    wheel = body("wheel", tw.SpatialInertia(1.0, np.zeros(3), inertia * np.eye(3)), feet)
+    pivot = feet[1] * [1, 0, 1]
+    v = np.r_[0, 2.0, 0, np.cross([0, 2.0, 0], -pivot)]  # about the spoke behind
+    s = tw.simulate(
+        *(wheel, np.r_[0, 0, r * np.cos(alpha), 0, 0, 0, 1], v),
+        dt=1e-7,
+        steps=1,
+        contacts=[tw.PointContact(f"p{k}", 5.0) for k in range(4)],
+        ground=tw.Ground(),
+    )
+    m_r2 = 1.0 * r**2
+    assert s.v[-1, 1] / 2.0 == pytest.approx((inertia + m_r2 * np.cos(2 * alpha)) / (inertia + m_r2), rel=1e-5)
+
+
+# ---------------------------------------------------------------- what no contact may do
+
+
+def dropped(height=0.05, **options):
+    """A Go2 that falls on its feet, askew, and folds up."""
+    q, v = GO2.standing(), np.zeros(18)
+    q[2] += height
+    v[[0, 1, 3]] = 1.0, -0.5, 0.7
+    given = {"dt": 0.002, "steps": 120, "ground": tw.Ground(), "contacts": feet(0.6)} | options
+    return tw.simulate(GO2, GO2.normalize(q), v, **given)
+
+
+def feet(mu):
+    return [tw.PointContact(foot, mu) for foot in GO2.feet]
+
+
+def test_no_foot_pulls_leaves_its_cone_or_sinks_and_no_energy_comes_of_it():
+    s = dropped()
+    force = np.stack([*s.contact_forces.values()])
+    assert force[..., 2].min() >= 0
+    assert (np.sqrt((force[..., :2] ** 2).sum(axis=-1)) <= 0.6 * force[..., 2] * (1 + 1e-12)).all()
+    assert (force[:, -1, 2] > 0).any()
+    height = np.stack([tw.frame_placement(GO2, s.q, foot).translation[..., 2] for foot in GO2.feet])
+    assert height.min() > -1e-9
+    assert (height[:, -1] < 1e-3).any()
+    assert np.diff(s.energy).max() < 1e-4
+    assert (s.q[:, 7:] > GO2.lower[7:] - 1e-9).all()
+    assert (s.q[:, 7:] < GO2.upper[7:] + 1e-9).all()
+    assert max(map(np.max, s.system.touching.missed)) < 1e-4
+
+
+def test_where_no_solver_answers_the_step_is_made_all_the_same(monkeypatch):
+    expected = dropped(steps=30)
+    monkeypatch.setattr(cones, "least_with_multipliers", lambda A, b, size: None)
+    s = dropped(steps=30)
+    assert np.abs(s.v[-1] - expected.v[-1]).max() < 1e-3
+    assert min(force[:, 2].min() for force in s.contact_forces.values()) >= 0
+
+
+def test_a_batch_on_the_ground_is_its_items():
+    q = np.stack([GO2.standing(), GO2.standing()])
+    q[:, 2] += 0.01, 0.0
+    rest = np.zeros(18)
+    both = tw.simulate(GO2, q, rest, dt=0.002, steps=15, contacts=feet(0.6), ground=tw.Ground())
+    for k in range(2):
+        one = tw.simulate(GO2, q[k], rest, dt=0.002, steps=15, contacts=feet(0.6), ground=tw.Ground())
+        assert np.abs(both.v[:, k] - one.v).max() < 1e-9
+        for foot in GO2.feet:
+            assert both.contact_forces[foot][:, k] == pytest.approx(one.contact_forces[foot], abs=1e-6)
+
+
+def test_a_sole_stands_on_its_corners_and_rolls_over_its_edge():
+    """A board on one sole: what its corners do adds up to one wrench, and beyond its edge it turns over."""
+    board = body("board", tw.SpatialInertia.from_box(2.0, 2 * HALF), [[0, 0, -HALF[2]]])
+    q = np.r_[0, 0, HALF[2], 0, 0, 0, 1]
+    sole = [tw.SurfaceContact("p0", (HALF[0], HALF[1]), 0.5)]
+    for arm, stands in ((0.9, True), (1.1, False)):
+        moment = arm * HALF[0] * 2.0 * G  # about y, against the weight on the edge
+        push = np.r_[0, moment, 0, 0, 0, 0]
+        s = tw.simulate(board, q, np.zeros(6), dt=0.002, steps=20, tau=push, contacts=sole, ground=tw.Ground())
+        assert (np.abs(s.v[-1]).max() < 1e-10) == stands
+        if stands:
+            assert s.contact_forces["p0"][-1] == pytest.approx([0, -moment, 0, 0, 0, 2.0 * G], abs=1e-6)
+
+
+# ---------------------------------------------------------------- other engines
+
+
+def test_feet_that_stick_in_an_impact_do_what_pinocchio_says():
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its impulse dynamics is not asked")
+    there = tw.bridge.to_pinocchio_model(GO2)
+    data, q, v = there.createData(), GO2.standing(), np.zeros(18)
+    v[[0, 3, 5]] = 0.2, 0.1, -1.0
+    models = []
+    for foot in GO2.feet:
+        frame = there.frames[there.getFrameId(foot)]
+        models.append(
+            pin.RigidConstraintModel(
+                pin.ContactType.CONTACT_3D, there, frame.parentJoint, frame.placement, pin.LOCAL_WORLD_ALIGNED
+            )
+        )
+    datas = [m.createData() for m in models]
+    pin.initConstraintDynamics(there, data, models, datas)
+    after = pin.impulseDynamics(there, data, q, tw.bridge.to_pinocchio_tangent(GO2, v), models, datas, 0.0)
+    s = tw.simulate(GO2, q, v, dt=1e-8, steps=1, contacts=feet(50.0), ground=tw.Ground(height=0.0))
+    assert np.abs(s.v[-1] - tw.bridge.from_pinocchio_tangent(GO2, after)).max() < 1e-5
+
+
+def test_a_box_that_is_thrown_ends_where_mujoco_lets_it_end():
+    """Its contacts are soft and creep: to 2 % of the way."""
+    mujoco = pytest.importorskip("mujoco", reason="MuJoCo is not installed: the thrown box is not asked of it")
+    xml = f"""<mujoco><option timestep="0.0005" cone="elliptic" impratio="100"/><worldbody>
+    <geom type="plane" size="5 5 1" friction="0.4 0 0" condim="3"/><body pos="0 0 {HALF[2]}"><freejoint/>
+    <geom type="box" size="{HALF[0]} {HALF[1]} {HALF[2]}" mass="2" friction="0.4 0 0" condim="3"/></body>
+    </worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(xml)
+    data = mujoco.MjData(model)
+    data.qvel[:3] = 1.0, 0.5, 0.0
+    for _ in range(1000):
+        mujoco.mj_step(model, data)
+    s = slide(0.4, np.r_[0, 0, 0, 1.0, 0.5, 0], dt=0.001, steps=400)
+    assert s.q[-1, :2] == pytest.approx(data.qpos[:2], rel=0.02)
+
+
+# ---------------------------------------------------------------- what is refused
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"height": np.inf}, "height: expected a finite number"),
+        ({"restitution": 1.2}, "restitution: expected a number from 0 to 1, got 1.2"),
+        ({"normal": [0, 0, 0]}, "normal: expected a direction, got zero"),
+    ],
+)
+def test_a_ground_that_is_none_is_refused(options, said):
+    with pytest.raises(ValueError, match=said):
+        tw.Ground(**options)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"method": "rk4"}, "method: 'rk4' takes no ground"),
+        ({"ground": None, "method": "time-stepping"}, "'time-stepping' takes no contacts without a ground"),
+        ({"contacts": [tw.PointContact("FL_foot", 0.5, (1, 0, 0))]}, "contact 'FL_foot': its normal .* is not that"),
+        ({"height": -0.1}, r"q: '\w+_foot' begins 0.1 m below the ground; raise the base, or lower the ground"),
+    ],
+)
+def test_what_does_not_go_with_a_ground_is_refused(options, said):
+    with pytest.raises(ValueError, match=said):
+        dropped(**{"steps": 1, **options})
+
+
+def test_a_joint_that_begins_beyond_its_range_is_refused():
+    with pytest.raises(ValueError, match=re.escape("q: joint 'FL_calf_joint' begins 0.838 beyond its range, -2.7227")):
+        tw.simulate(GO2, GO2.neutral() + np.eye(19)[2], np.zeros(18), dt=0.002, steps=1, ground=tw.Ground())
+
+
+def test_a_ground_of_another_kind_is_refused():
+    with pytest.raises(TypeError, match="ground: expected a Ground, got float"):
+        dropped(ground=0.0)
