@@ -161,6 +161,66 @@ def test_progress_is_shown_where_asked_for(capsys):
     assert capsys.readouterr().err == ""
 
 
+# ---------------------------------------------------------------- a controller's clock, an end, and going on
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_policy_with_a_period_is_called_once_in_it_and_its_forces_hold(method):
+    """Of an integral controller the sum is that of its own clock, whatever method moves the robot."""
+    asked, total = [], []
+
+    def integral(t, q, v):
+        asked.append(t)
+        total.append((total[-1] if total else 0) + np.asarray(q))
+        return -total[-1]
+
+    s = run(dt=0.05, steps=6, tau=integral, dt_control=0.1, method=method)
+    assert asked == pytest.approx([0, 0.1, 0.2])
+    assert s.tau == pytest.approx(-np.repeat(np.cumsum(s.q[[0, 2, 4]], axis=0), 2, axis=0))
+    halves = [lambda t, q, v, tau=tau: tau for tau in s.tau[::2]]
+    q, v = s.q[0], s.v[0]
+    for k, constant in enumerate(halves):
+        part = run(q=q, v=v, dt=0.05, steps=2, t0=0.1 * k, tau=constant, method=method)
+        q, v = part.q[-1], part.v[-1]
+    assert q == pytest.approx(s.q[-1], abs=1e-12)
+    assert part.t[-1] == pytest.approx(s.t[-1])
+
+
+def test_a_motion_stops_where_its_condition_holds_and_goes_on_from_there():
+    whole = run(steps=100)
+    first = run(steps=100, stop=lambda t, q, v: q[0] < 0)
+    assert first.q[-2, 0] >= 0 > first.q[-1, 0]
+    rest = run(q=first.q[-1], v=first.v[-1], t0=first.t[-1], steps=100 - len(first.tau))
+    assert rest.t[-1] == pytest.approx(whole.t[-1])
+    assert rest.q[-1] == pytest.approx(whole.q[-1], abs=1e-12)
+
+
+def test_an_error_has_the_motion_until_then():
+    with pytest.raises(tw.DivergenceError) as caught:
+        run(v=np.ones(2), dt=0.1, steps=500, tau=lambda t, q, v: 100 * v)
+    motion = caught.value.motion
+    assert f"step {len(motion.t)}, from t = {motion.t[-1]:.6g}" in str(caught.value)
+    assert np.isfinite(motion.energy).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"dt_control": 0.1}, "dt_control: there is no policy"),
+        ({"dt_control": 0.025, "tau": lambda t, q, v: 0 * v}, "dt_control: expected a whole number of steps of 0.01 s"),
+        ({"dt_control": -1, "tau": lambda t, q, v: 0 * v}, "dt_control: expected a positive number of seconds, got -1"),
+    ],
+)
+def test_a_period_that_is_none_is_refused(options, said):
+    with pytest.raises(ValueError, match=said):
+        run(**options)
+
+
+def test_a_condition_that_is_no_function_is_refused():
+    with pytest.raises(TypeError, match=r"stop: expected a function \(t, q, v\) -> bool, got float"):
+        run(stop=0.5)
+
+
 # ---------------------------------------------------------------- what comes back
 
 

@@ -81,7 +81,7 @@ class Model(Manifold):
         The frames on which a legged robot stands.
     damping, friction : ndarray, shape (nv,)
         From a URDF's ``<dynamics>``: N m s/rad or N s/m, and N m or N; zero where the file has no
-        value. No algorithm applies them; a policy can: ``tau - model.damping * v - model.friction * np.sign(v)``.
+        value. `simulate` applies them with the method "time-stepping", as on a ground; no algorithm does.
     report : Report
         What the loader had to interpret, and how. Prints as a table.
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..contact.qp import FEASIBLE, least_with_multipliers
+from ..errors import SingularError
 
 __all__ = ["Answer", "Metric", "Points", "coulomb"]
 
@@ -43,7 +44,12 @@ class Metric:
     """The metric in which velocities are near each other: kinetic energy, M = L Lᵀ."""
 
     def __init__(self, M: Array) -> None:
-        self.inverse = np.linalg.inv(np.linalg.cholesky(M))
+        try:
+            self.inverse = np.linalg.inv(np.linalg.cholesky(M))
+        except np.linalg.LinAlgError:
+            self.inverse = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
+        if not np.isfinite(self.inverse).all():
+            raise SingularError("the mass matrix is not positive definite")
 
     def respond(self, impulse: Array) -> Array:
         """Return M⁻¹ times an impulse."""
@@ -134,7 +140,7 @@ def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
     J, mu, bound, k = points.J, points.mu, points.bound, len(points.mu)
     free, size = J @ v, len(others[1])
     fastest = float(np.abs(free).max(initial=0))
-    shift = mu * np.hypot(*slide.T)
+    shift = mu * np.hypot(*slide.mT)
     rays = edges(mu, np.where(shift[:, None] > 0, slide, free[:, :2])).reshape(k * SIDES, 3)
     at = np.repeat(np.arange(k), SIDES)
     for _ in range(ROUNDS):
@@ -144,7 +150,7 @@ def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         np.add.at(impulse, at, u[size:, None] * rays)
         moves = J @ after
         slide, touches = moves[:, :2], impulse[:, 2] > 0
-        speed = np.hypot(*slide.T)
+        speed = np.hypot(*slide.mT)
         before, shift = shift, mu * speed
         missed = np.where(touches, np.abs(moves[:, 2] - bound), 0).max(initial=0)
         if not touches.any() or missed <= SETTLED * fastest:

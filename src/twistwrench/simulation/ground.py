@@ -98,7 +98,7 @@ def ground_terms(model: Model, q: Array, contacts: Sequence[Contact], ground: Gr
         ]
 
     found: Results = remembered(model, ("ground", q.dtype, tuple(contacts)), q.dtype, asked)(q)
-    found.place = found.place @ ground.axes.T - np.array([0.0, 0.0, ground.height])
+    found.place = found.place @ ground.axes.mT - np.array([0.0, 0.0, ground.height])
     found.rows = ground.axes @ found.rows
     return found
 

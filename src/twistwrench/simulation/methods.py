@@ -20,9 +20,9 @@ Step = Callable[[System, float, Array, Array], tuple[Array, Array]]
 
 def time_stepping(system: System, t: float, q: Array, v: Array) -> tuple[Array, Array]:
     """Make one step with what may touch."""
-    if system.touching is None:
+    if system.stepping is None:
         raise TypeError("a system without what may touch cannot be stepped so")
-    return system.touching.step(system.force(t, q, v), q, v)
+    return system.stepping.step(system.force(t, q, v), q, v)
 
 
 @dataclass(frozen=True)

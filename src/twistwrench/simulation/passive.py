@@ -35,21 +35,21 @@ class Joints:
 
     def __init__(self, model: Model, q: Array) -> None:
         self.model = model
-        at_q, at_v, sign, end = [], [], [], []
+        ends = []
         for joint, sq, sv in zip(model.joints, model.q_slice, model.v_slice):
             if joint is None or not joint.nq == joint.nv == 1:
                 continue
             for side, limit in ((1.0, model.lower[sq.start]), (-1.0, model.upper[sq.start])):
                 if np.isfinite(limit):
-                    at_q.append(sq.start), at_v.append(sv.start), sign.append(side), end.append(limit)
-        self.at_q, self.sign, self.end = np.array(at_q, int), np.array(sign), np.array(end)
-        self.rows = np.zeros((len(sign), model.nv))
-        self.rows[np.arange(len(sign)), np.array(at_v, int)] = self.sign
+                    ends.append((sq.start, sv.start, side, limit))
+        at_q, at_v, self.sign, self.end = np.array(ends).reshape(len(ends), 4).mT
+        self.at_q, self.rows = at_q.astype(int), np.zeros((len(ends), model.nv))
+        self.rows[np.arange(len(ends)), at_v.astype(int)] = self.sign
         self.friction = np.flatnonzero(model.friction > 0)
         self._refuse_outside(q)
 
     def gap(self, q: Array) -> Array:
-        """Return how far the joints are from the ends of their ranges, below 0 beyond them."""
+        """Return how far the joints are from the ends of their ranges, below 0 outside."""
         return np.asarray(self.sign * (q[..., self.at_q] - self.end))
 
     def _refuse_outside(self, q: Array) -> None:

@@ -149,23 +149,31 @@ def simulate(
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
     if contacts or name == "time-stepping":
         q, v = model.normalize(q.astype(np.float64)), v.astype(np.float64)
-    touching = TimeStepping(model, contacts, ground or Ground(), float(dt), q) if name == "time-stepping" else None
-    held = () if touching else contacts
-    system = System(model, held, push, tau, q, v, float(dt), _period(dt_control, dt, tau), touching)
+    stepper = TimeStepping(model, contacts, ground or Ground(), float(dt), q) if name == "time-stepping" else None
+    system = System(
+        model, () if stepper else contacts, push, tau, q, v, float(dt), _period(dt_control, dt, tau), stepper
+    )
     step, start = METHODS[name].step, perf_counter()
     if stop is not None and not callable(stop):
         raise TypeError(f"stop: expected a function (t, q, v) -> bool, got {type(stop).__name__}")
     made = Made([(q, v)], [], [])
-    failure = _loop(made, system, step, as_number(t0, "t0"), _bar(count, progress), stop)
+    t0 = float(as_number(t0, "t0"))
+
+    try:
+        _loop(made, system, step, t0, _bar(count, progress), stop)
+    except (DivergenceError, SingularError) as error:
+        error.motion = _motion(made, system, name, t0, perf_counter() - start, failed=True)
+        raise
+    return _motion(made, system, name, t0, perf_counter() - start)
+
+
+def _motion(made: Made, system: System, name: str, t0: float, seconds: float, *, failed: bool = False) -> Simulation:
+    """Return what has been made of a motion."""
     qs, vs = (np.stack([state[i] for state in made.states]) for i in (0, 1))
-    taus, t = np.array(made.taus, v.dtype).reshape(len(vs) - 1, *v.shape), t0 + np.arange(len(vs)) * float(dt)
-    forces = touching.contact_forces(qs[:-1]) if touching else made.forces(system, held)
-    spent = perf_counter() - start
-    motion = Simulation(system, name, t, qs, vs, taus, forces, system.evaluations, spent)
-    if failure is not None:
-        failure.motion = motion
-        raise failure
-    return motion
+    taus, t = np.array(made.taus, vs.dtype).reshape(len(vs) - 1, *vs.shape[1:]), t0 + np.arange(len(vs)) * system.dt
+    stepper = system.stepping
+    forces = stepper.contact_forces(qs[:-1]) if stepper else made.forces(system, failed)
+    return Simulation(system, name, t, qs, vs, taus, forces, system.evaluations, seconds)
 
 
 @dataclass
@@ -176,22 +184,20 @@ class Made:
     taus: list[Array]
     held: list[dict[str, Array]]
 
-    def forces(self, system: System, contacts: Sequence[Contact]) -> dict[str, Array]:
-        """Return the forces at the contacts over time, and in the last state those under the last τ."""
-        if not contacts:
+    def forces(self, system: System, failed: bool) -> dict[str, Array]:
+        """Return the forces at the contacts over time; in the last state, those under the last τ."""
+        if not system.contacts or (failed and not self.held):
             return {}
         q, v = (x.copy() for x in self.states[-1])
         try:
-            held = [*self.held, system.held_last(q, v)]
+            held = [*self.held, self.held[-1] if failed else system.held_last(q, v)]
         except SingularError as error:
             raise SingularError(f"the end: {error}") from error
-        return {c.frame: np.stack([at[c.frame] for at in held]) for c in contacts}
+        return {c.frame: np.stack([at[c.frame] for at in held]) for c in system.contacts}
 
 
-def _loop(
-    made: Made, system: System, step: Step, t0: float, counter: Iterable[int], stop: Stop | None
-) -> DivergenceError | SingularError | None:
-    """Make the steps; where one fails, return the error, with the time."""
+def _loop(made: Made, system: System, step: Step, t0: float, counter: Iterable[int], stop: Stop | None) -> None:
+    """Make the steps; where one fails, add the time to the error."""
     for k in counter:
         t, (q, v) = t0 + k * system.dt, (x.copy() for x in made.states[-1])
         try:
@@ -199,15 +205,12 @@ def _loop(
             q, v = system.settle(*step(system, t, q, v))
             refuse_divergence(system.model, "v", v, dt=system.dt)
         except (DivergenceError, SingularError) as error:
-            failure = type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}")
-            failure.__cause__ = error
-            return failure
+            raise type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}") from error
         made.states.append((q, v))
         made.taus.append(system.tau)
         made.held.append(system.forces)
         if stop is not None and stop(t + system.dt, q.copy(), v.copy()):
             break
-    return None
 
 
 def _method(method: str | None, ground: Ground | None, contacts: Sequence[Contact]) -> str:

@@ -106,8 +106,8 @@ class TimeStepping:
 
     def one(self, tau: Array, q: Array, v: Array, slide: Array) -> Answer:
         """Return the velocity at the end of a step; once more, where the velocity in its middle makes a difference."""
-        middle, at = integrate(self.model, q, self.dt / 2 * v), self.terms(q)
-        free = v + self.dt * aba(self.model, middle, v, tau)
+        middle = integrate(self.model, q, self.dt / 2 * v)
+        free, at = v + self.dt * aba(self.model, middle, v, tau), self.terms(q)
         found = self.solve(at, v, free, slide)
         mean = (v + found.v) / 2
         refuse_divergence(self.model, "v", mean, dt=self.dt)

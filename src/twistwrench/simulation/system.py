@@ -54,7 +54,7 @@ class System:
     period : int, optional
         The policy is called at the beginning of each so many steps, and its forces hold until then; 0: wherever the
         method needs them.
-    touching : TimeStepping, optional
+    stepping : TimeStepping, optional
         What may touch, for the method that steps with it.
 
     Attributes
@@ -78,10 +78,10 @@ class System:
         v: Array,
         dt: float,
         period: int = 0,
-        touching: TimeStepping | None = None,
+        stepping: TimeStepping | None = None,
     ) -> None:
         self.model, self.contacts, self.push, self.dt, self.evaluations = model, contacts, push, dt, 0
-        self.period, self.touching = period, touching
+        self.period, self.stepping = period, stepping
         self.anchors = contact_placements(model, q, contacts)
         self._policy = tau if callable(tau) else None
         constant = np.zeros_like(v) if tau is None or callable(tau) else self._checked("tau", tau, v)
