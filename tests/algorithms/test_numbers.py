@@ -29,7 +29,7 @@ TREES = [Recipe(6, seed=1, base="floating"), Recipe(7, seed=4, branching=1.0), R
     ],
 )
 @given(recipes(5))
-@examples(8)
+@examples(3)
 def test_every_number_type_is_kept_and_is_right_to_its_own_precision(dtype, recipe):
     check_against_the_truth(recipe, dtype)
 

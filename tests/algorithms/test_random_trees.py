@@ -18,7 +18,7 @@ BIG_TREE = Recipe(40, seed=3, base="fixed")
 @given(recipes(8))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@examples(15)
+@examples(6)
 def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
     check_against_the_truth(recipe, np.float64)
 
@@ -31,7 +31,7 @@ def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(re
 
 
 @given(recipes(5))
-@examples(10)
+@examples(4)
 def test_complex_states_are_right_too(recipe):
     check_against_the_truth(recipe, np.complex128)
 
@@ -49,7 +49,7 @@ def check_against_pinocchio(recipe: Recipe) -> None:
 @given(recipes(40))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@examples(40)
+@examples(20)
 def test_every_quantity_is_pinocchios(recipe):
     check_against_pinocchio(recipe)
 

@@ -47,7 +47,7 @@ def test_aba_finds_inertia_enough_in_a_rotor():
 def test_aba_refuses_a_massless_base_wherever_its_leg_points(legs):
     # the base can turn and the leg turn back without anything that has inertia moving
     rng = np.random.default_rng(0)
-    for _ in range(40):
+    for trial in range(40):
         P = rng.standard_normal((6, 3))
         rod = tw.SpatialInertia(1.0, P.mean(axis=0), np.trace(np.cov(P.T)) * np.eye(3) - np.cov(P.T))
         builder = tw.Builder("hopper", base="floating")
@@ -58,7 +58,7 @@ def test_aba_refuses_a_massless_base_wherever_its_leg_points(legs):
         model = builder.build()
         v, tau = rng.standard_normal((2, model.nv))
         helpful = r"'root_joint': with its outboard joints free.*the base has no mass of its own.*base='fixed'"
-        for aba in (tw.aba, tw.fast.aba):
+        for aba in (tw.aba, tw.fast.aba)[: 1 + (trial < 3)]:  # a program is made for each
             with pytest.raises(tw.SingularError, match=helpful):
                 aba(model, model.random_configuration(rng=rng), v, tau)
 

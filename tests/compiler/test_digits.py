@@ -19,6 +19,7 @@ from twistwrench.compiler.number import Tape, numbers
 from twistwrench.compiler.pairs import two_sum
 from twistwrench.compiler.registers import Registers
 
+from ..sampling import sampled
 from ..strategies import examples, random_state, recipes
 
 mpmath = pytest.importorskip("mpmath")
@@ -157,7 +158,7 @@ def test_sin_of_a_tiny_pair_is_relatively_right():
 # ---------------------------------------------------------------- programs of 32 digits
 
 
-@pytest.mark.parametrize(("name", "backend"), WAYS)
+@pytest.mark.parametrize(("name", "backend"), sampled(WAYS, 2, several=True))
 def test_go2_has_thirty_digits(name, backend):
     model, args, right = of_go2(name)
     found = compile(model, name, dtype="double-double", backend=backend)(*args)
@@ -248,7 +249,7 @@ def test_errors_are_the_textbooks():
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize(("name", "backend"), WAYS)
+@pytest.mark.parametrize(("name", "backend"), sampled(WAYS, 2, several=True))
 def test_bounds_hold_and_are_close(name, backend, dtype):
     model, args, right = of_go2(name, dtype)
     value, bound = compile(model, name, backend=backend, dtype=dtype, bound=True)(*args)

@@ -13,6 +13,7 @@ from twistwrench.compiler import compile
 from twistwrench.compiler.llvm import available
 from twistwrench.compiler.quantities import SYMBOLS
 
+from ..sampling import sampled
 from ..strategies import random_state
 
 BACKENDS = [
@@ -39,7 +40,7 @@ def textbook(model, name, args, frame):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-@pytest.mark.parametrize("model", MODELS, ids=lambda model: f"{model.name} {model.base} {model.nv}")
+@pytest.mark.parametrize("model", sampled(MODELS, 3), ids=lambda model: f"{model.name} {model.base} {model.nv}")
 def test_every_quantity_is_the_textbooks(model, backend):
     frame = model.frame_names[-1]
     program = compile(model, SYMBOLS, contacts=[frame], frames=[frame], backend=backend)

@@ -6,6 +6,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import bridge
 
+from ..sampling import sampled
 from ..touching import BOX, BOX_CORNERS, FEET, GO2, HUMANOID, SOLE_CORNERS, straight
 
 STANDS = [(BOX, BOX_CORNERS, BOX.neutral()), (GO2, FEET, GO2.standing()), (HUMANOID, SOLE_CORNERS, HUMANOID.standing())]
@@ -100,7 +101,7 @@ def test_a_spring_keeps_its_anchors_when_the_callers_change():
     assert spring.anchors.keys() == {"fl", "fr", "rl", "rr"}
 
 
-@pytest.mark.parametrize("dt", [0.005, 0.01, 0.02])
+@pytest.mark.parametrize("dt", sampled([0.02, 0.01, 0.005], 1))
 def test_a_humanoid_sinks_on_its_eight_corners_as_on_its_soles(dt):
     q, v = HUMANOID.standing(), 0.5 * np.random.default_rng(1).standard_normal(HUMANOID.nv)
     q, v = tw.project_state(HUMANOID, q, v, SOLE_CORNERS, tw.contact_placements(HUMANOID, q, SOLE_CORNERS))

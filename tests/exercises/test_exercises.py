@@ -33,6 +33,7 @@ from twistwrench.exercises.text import Text
 from twistwrench.exercises.workbook import Workbook
 from twistwrench.exercises.wrong import after, faulty, swap
 
+from ..sampling import sampled
 from ..weak_answers import ANSWERS as WEAK
 
 HERE = [catalogue.exercise(number) for number in catalogue.available()]
@@ -325,6 +326,7 @@ def test_the_solutions_give_everything(tmp_path, language):
     assert "100 %" in str(found)
 
 
+@pytest.mark.slow
 def test_a_path_through_pytest(tmp_path):
     start(tmp_path, language="en")
     fresh = pytest_in(tmp_path, "-rs").stdout
@@ -415,19 +417,23 @@ def spoilt(change):
 
 @pytest.mark.parametrize(
     ("change", "en", "zh"),
-    [
-        (lambda B: -B, "the sign is wrong", "符号相反"),
-        (lambda B: 0 * B, "zero, and must not be", "为零，不应为零"),
-        (lambda B: 0 * B + 1, "other numbers altogether", "数值完全不同"),
-        (lambda B: B.mT, "transposed", "被转置"),
-        (lambda B: -B.mT, "transposed, and the sign is wrong", "被转置且符号相反"),
-        (lambda B: 2 * B, "too large by a factor of 2", "大了 2 倍"),
-        (lambda B: B / 1000, "too small by a factor of 1000", "小了 1000 倍"),
-        (lambda B: B[::-1], "the right numbers, in the wrong places", "数值正确，位置不对"),
-        (lambda B: np.abs(B), "the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
-        (lambda B: B + 1e-5, "right to ", "只有 "),
-        (lambda B: B + np.outer([1, 0, 0], [0, 0, 1]), "wrong in [3, 2], right elsewhere", "错在 [3, 2]"),
-    ],
+    sampled(
+        [
+            (lambda B: -B, "the sign is wrong", "符号相反"),
+            (lambda B: 0 * B, "zero, and must not be", "为零，不应为零"),
+            (lambda B: 0 * B + 1, "other numbers altogether", "数值完全不同"),
+            (lambda B: B.mT, "transposed", "被转置"),
+            (lambda B: -B.mT, "transposed, and the sign is wrong", "被转置且符号相反"),
+            (lambda B: 2 * B, "too large by a factor of 2", "大了 2 倍"),
+            (lambda B: B / 1000, "too small by a factor of 1000", "小了 1000 倍"),
+            (lambda B: B[::-1], "the right numbers, in the wrong places", "数值正确，位置不对"),
+            (lambda B: np.abs(B), "the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
+            (lambda B: B + 1e-5, "right to ", "只有 "),
+            (lambda B: B + np.outer([1, 0, 0], [0, 0, 1]), "wrong in [3, 2], right elsewhere", "错在 [3, 2]"),
+        ],
+        4,
+        several=True,
+    ),
 )
 def test_a_block_that_is_off_is_named_and_how(change, en, zh):
     said = message("plucker", spoilt(change))

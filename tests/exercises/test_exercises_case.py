@@ -116,6 +116,7 @@ def test_an_exception_and_an_endless_loop_have_their_case_too(tmp_path):
     assert verdict("act", lambda R, p, x: x[9], seed=2).case.shell.endswith("act 0 --seed 2")
 
 
+@pytest.mark.slow
 def test_pytest_draws_its_cases_anew_and_prints_the_seed(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"act": "return R @ x - p"})

@@ -14,6 +14,7 @@ from twistwrench.scene.costs import limbs
 from twistwrench.templates import TEMPLATES
 
 from ..pages import DOCS, blocks, names_author_and_licence, page, run
+from ..sampling import sampled
 from ..strategies import random_state
 from ..truth import largest
 
@@ -134,8 +135,8 @@ def test_gravity_is_the_scenes():
 # ---------------------------------------------------------------- what it computes
 
 
-@pytest.mark.parametrize("batch", [(), (1,), (3, 1, 2), (20,), (0,)])
-@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble, complex])
+@pytest.mark.parametrize("batch", sampled([(3, 1, 2), (1,), (20,), (0,), ()], 2))
+@pytest.mark.parametrize("dtype", sampled([np.float64, np.float32, np.longdouble, complex], 2))
 def test_dynamics_are_the_textbooks(batch, dtype):
     mixed = [SOLES[0], tw.PointContact("right_sole", 0.5), tw.PointContact("left_hand", 0.2)]
     scene = tw.Scene("humanoid", contacts=mixed, hold=["waist_yaw", "right_elbow"])

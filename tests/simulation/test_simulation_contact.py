@@ -8,6 +8,7 @@ import pytest
 import twistwrench as tw
 from twistwrench.spatial import rotation_to_quaternion
 
+from ..sampling import sampled
 from .test_simulation import ORDERS, pendulum
 
 WITH_CONTACTS = [method for method in ORDERS if method != "variational"]
@@ -84,7 +85,7 @@ def test_a_go2_that_stands_keeps_standing():
     assert weight == pytest.approx(np.broadcast_to([0, 0, model.mass * 9.81], (11, 3)), abs=1e-9)
 
 
-@pytest.mark.parametrize("method", WITH_CONTACTS)
+@pytest.mark.parametrize("method", sampled(WITH_CONTACTS, 1))
 def test_a_go2_that_is_pushed_sways_on_feet_that_stay(method):
     model, policy, feet = standing_go2()
     v = np.zeros(model.nv)
@@ -178,7 +179,7 @@ class Noisy:
         return self.said[-1][1]
 
 
-@pytest.mark.parametrize("integral", [False, True])
+@pytest.mark.parametrize("integral", sampled([True, False], 1))
 def test_forces_and_torques_are_those_that_were_applied(integral):
     """Their sum is what the momentum changes by, and the policy is not asked again."""
     model, policy, feet = standing_go2()

@@ -24,6 +24,7 @@ from twistwrench.study.extremes.truth import accelerations, truth
 
 from ..pages import DOCS, numbered, page
 from ..pages import run as run_page
+from ..sampling import sampled
 
 EPS = 2.0**-52
 
@@ -69,6 +70,7 @@ def test_a_heavy_rotor_takes_a_torque_alone():
 # ---------------------------------------------------------------- the truth and the measure
 
 
+@pytest.mark.slow
 def test_fifty_digits_are_enough():
     """Twice as many change no error by a thousandth."""
     recipe = Recipe(mass_ratio=1e9, speed=1e8, light=1e-9, parallel=1e-6, length=1e-9)
@@ -135,8 +137,8 @@ def usual_errors():
     return {(o.algorithm, o.who): o.error for o in measure(Recipe(), pinocchio=False)}
 
 
-@pytest.mark.parametrize("unit", ["length", "mass", "time"])
-@pytest.mark.parametrize("scale", [2.0**-30, 2.0**30], ids=["1e-9", "1e9"])
+@pytest.mark.parametrize("unit", sampled(["length", "mass", "time"], 1))
+@pytest.mark.parametrize("scale", sampled([2.0**-30, 2.0**30], 1), ids=["1e-9", "1e9"])
 def test_the_same_robot_in_other_units_loses_nothing(unit, scale):
     """Not a bit: by powers of two, of which 2**30 is about 1e9, rounding is the same."""
     usual = usual_errors()
@@ -148,7 +150,7 @@ def test_the_same_robot_in_other_units_loses_nothing(unit, scale):
             assert o.error == usual[o.algorithm, o.who], o
 
 
-@pytest.mark.parametrize("speed", [0.0, 1e4, 1e8])
+@pytest.mark.parametrize("speed", sampled([1e8, 0.0, 1e4], 1))
 def test_a_base_that_flies_fast_loses_nothing(speed):
     """Relative to the terms, in which ω × m v is one: with v × m v computed, `rnea` was off by 6e-9 at 1e8 m/s."""
     usual = usual_errors()
@@ -203,6 +205,7 @@ def nothing_is_silent(recipes):
     return found
 
 
+@pytest.mark.slow
 def test_no_cell_is_silently_bad():
     found = nothing_is_silent([*ENDS_ALONE, Recipe(mass_ratio=1e9, bodies=20), Recipe(light=1e-9, parallel=1e-6)])
     assert {recipe for recipe, o in found if o.raised and o.who == "textbook"} == {

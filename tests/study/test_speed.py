@@ -14,10 +14,12 @@ from twistwrench.study.cases import QUANTITIES, ours, random_states
 from twistwrench.study.speed import Speed, speed, table
 from twistwrench.timing import round_robin
 
+from ..sampling import sampled
+
 HUMANOID = tw.load("humanoid")
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("quantity", sampled(QUANTITIES, 2))
 def test_both_ways_are_asked_for_the_same(quantity):
     s = random_states(HUMANOID, 3)
     book, fast = (ours(package, HUMANOID, quantity, s)() for package in (tw, tw.fast))
@@ -37,6 +39,7 @@ def test_what_does_ten_times_the_work_takes_longer():
     assert 2 < np.median(much.seconds) / np.median(little.seconds) < 50
 
 
+@pytest.mark.slow
 def test_every_quantity_is_timed_in_every_way_and_shown():
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: there is nothing to compare with")
     model = tw.load("pendulum")
@@ -61,6 +64,7 @@ def test_without_pinocchio_times_stand_alone(monkeypatch):
     assert {row.ratio for row in found} == {None}
 
 
+@pytest.mark.slow
 def test_the_command_has_a_row_for_every_quantity_of_a_robot_with_feet(monkeypatch, capsys):
     monkeypatch.setattr("twistwrench.study.speed.round_robin", partial(round_robin, least=0, most=0))
     assert main(["study", "speed", "go2"]) == 0

@@ -26,6 +26,8 @@ from twistwrench.study.trade.numbers import convert, epsilon, sum_of_pair
 from twistwrench.study.trade.run import DRAWN, _versions
 from twistwrench.validate.states import random_states
 
+from ..sampling import sampled
+
 QUICK = Effort(states=2, batch=3, rounds=1, least=0, most=0)
 """Only the errors are looked at."""
 
@@ -115,7 +117,7 @@ def approximate(p: Point) -> bool:
     return p.way.endswith("difference") and not p.number.endswith("digits")
 
 
-@pytest.mark.parametrize("robot", ["floating", "fixed"])
+@pytest.mark.parametrize("robot", sampled(["fixed", "floating"], 1))
 def test_all_exact_ways_keep_what_their_number_type_holds(robot, request):
     trade = request.getfixturevalue(robot)
     assert trade.left_out == ()
@@ -124,6 +126,7 @@ def test_all_exact_ways_keep_what_their_number_type_holds(robot, request):
     assert bad == []
 
 
+@pytest.mark.slow
 def test_no_type_is_more_exact_than_it_can_be(floating):
     """Else its truth would be its own."""
     for key in ("ID", "FD", "dh_G", "dID/dq"):
@@ -143,6 +146,7 @@ def test_finite_differences_lose_what_theory_says(robot, request):
         assert errors["tw.fast.rnea, complex step", number] < ROUNDINGS * eps
 
 
+@pytest.mark.slow
 def test_every_way_stands_beside_pinocchio_in_every_type_for_one_state_and_many(floating):
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its ways are left out")
     ways = {key: {p.way for p in floating.of(key)} for key in KEYS}
@@ -481,6 +485,7 @@ def check_errors(maker, keys: list[str], robot: str = "go2") -> None:
     assert np.mean(ratio < 1 / REPRODUCED) < 0.1
 
 
+@pytest.mark.slow
 def test_the_errors_on_the_page_are_found_again(maker):
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its errors are not found again")
     check_errors(maker, ["ID", "exp"])

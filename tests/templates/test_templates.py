@@ -427,6 +427,7 @@ def in_a_millisecond(calls, *, rounds, after_round):
     return [Lap(call, **{"kept" if k else "spare": [1e-3]}) for k, call in enumerate(calls)]
 
 
+@pytest.mark.slow
 def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("twistwrench.study.templates.round_robin", in_a_millisecond)
     picture = tmp_path / "templates.png"
