@@ -5,6 +5,7 @@ usage:  python docs/pictures/scenes.py        (half a minute; needs example-robo
 
 import time
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib as mpl
@@ -19,6 +20,7 @@ HOLD = ["arm_*", "gripper_*", "head_*"]
 RATES = (0.0, 0.1, 1.0, 3.0)
 STATES = 200
 ROUNDS = 60
+SAMPLES = 60
 
 
 class Moving:
@@ -102,9 +104,56 @@ def time_saved(scene: tw.Scene) -> None:
 
 def cheapest(scene: tw.Scene) -> None:
     """Print the table of a walk and draw it."""
-    found = scene.cheapest(0.01, motions.walk(scene.full_model))
+    found = scene.cheapest(
+        {"tau": 2.0, "cop": 0.005}, motions.walk(scene.full_model), held_out=motions.trot(scene.full_model)
+    )
     print(found)
     found.plot().figure.savefig(HERE / "scenes_cheapest.png", dpi=110)
+
+
+def some_motions(
+    robot: str,
+) -> tuple[tw.Model, dict[str, float], dict[str, list[str]] | None, list[motions.Motion], list[motions.Motion]]:
+    """Return a robot, what is needed of it, groups of joints, the motions to choose on and those held out."""
+    model = tw.load(robot)
+    if robot in ("panda", "iris"):
+        rng, pace = np.random.default_rng(0), {"panda": 1.5, "iris": 1.0}[robot]
+        ends = model.neutral() if robot == "iris" else np.clip(model.neutral(), model.lower, model.upper)
+        goals = [model.integrate(ends, rng.uniform(-0.6, 0.6, model.nv)) for _ in range(5)]
+        if robot == "panda":
+            goals = [np.clip(q, model.lower, model.upper) for q in goals]
+        ways = [motions.reach(model, a, b, duration=pace, samples=SAMPLES) for a, b in pairwise(goals)]
+        groups = {
+            "panda": {"fingers": ["*finger*"], "wrist": ["*joint6", "*joint7"]},
+            "iris": {"rotors": ["*rotor*"]},
+        }[robot]
+        return model, {"tau": 2.0} if robot == "panda" else {"wrench": 0.01}, groups, ways[:2], ways[2:]
+    speed, need = {
+        "go2": (0.07, {"wrench": 0.05, "cop": 0.01}),
+        "talos_reduced": (0.23, {"tau": 2.0, "cop": 0.005}),
+        "humanoid": (0.19, {"tau": 0.2, "cop": 0.001}),
+    }[robot]
+    seen = [motions.walk(model, samples=SAMPLES, speed=share * speed) for share in (0.7, 1.0)]
+    other = [
+        {"speed": 1.25 * speed},
+        {"speed": 0.9 * speed, "direction": 0.4},
+        {"speed": speed, "step_length": 0.8 * speed * seen[1].t[-1]},
+    ]
+    return model, need, None, seen, [motions.walk(model, samples=SAMPLES, **gait) for gait in other]
+
+
+def held_out() -> None:
+    """Print what was promised and what was found on motions that the choice was not made on."""
+    for robot in ("go2", "talos_reduced", "humanoid", "panda", "iris"):
+        model, need, groups, seen, unseen = some_motions(robot)
+        for margin in (1.0, 1.5):
+            found = tw.Scene(model).cheapest(need, seen, held_out=unseen, margin=margin, groups=groups)
+            best = found.best
+            for name, most in need.items():
+                unit = {"cop": 1e3}.get(name, 1)
+                said = (unit * x for x in (most, best.worst(name), best.worst(name, held_out=True)))
+                numbers = " | ".join(f"{0 if x < 1e-9 else x:.2g}" for x in said)
+                print(f"| {robot} | {margin:g} | {best.name} | {name} | {numbers} |")
 
 
 def main() -> None:
@@ -116,6 +165,7 @@ def main() -> None:
     held_arms(scene)
     time_saved(scene)
     cheapest(scene)
+    held_out()
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ from twistwrench.motions.legs import stand
 from twistwrench.motions.orientation import body_rates
 
 G, H = 9.81, 1e-20
+GO2 = tw.load("go2")
 OWN = ("go2", "humanoid")
 DATA = ("solo12", "talos_reduced", "g1")
 NAMES = tuple(MOTIONS)
@@ -42,7 +43,7 @@ def plan(name, kind):
     standing = stand(robot(name))
     if kind == "jump":
         return standing, Leap(standing, FOUR_LEGS)
-    return standing, Steps(standing, {"walk": CRAWL, "trot": TROT}[kind])
+    return standing, Steps(standing, {"walk": replace(CRAWL, direction=0.4), "trot": TROT}[kind])
 
 
 every = pytest.mark.parametrize(
@@ -406,3 +407,74 @@ def test_a_motion_keeps_its_contacts_when_the_callers_change():
         x[:] = 0
     for name in given:
         assert np.array_equal(getattr(motion, name), getattr(walk, name))
+
+
+# ---------------------------------------------------------------- of one's own
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_a_gait_has_the_speed_the_height_the_direction_and_the_steps_that_it_is_given(name):
+    model = robot(name)
+    given = {"speed": 0.1, "height": 0.9 * stand(model).height, "direction": 0.5, "step_length": 0.12}
+    ours = tw.motions.walk(model, samples=30, **given)
+    G = tw.center_of_mass(model, ours.q)
+    assert ours.name == "walk at 0.1 m/s"
+    assert ours.t[-1] == pytest.approx(1.2)  # the time of a stride: of its length at that speed
+    gone = G[-1] - G[0]
+    assert np.linalg.norm(gone) == pytest.approx(0.12, rel=1e-9)
+    assert np.arctan2(gone[1], gone[0]) == pytest.approx(0.5)
+    feet = np.stack([tw.frame_placement(model, ours.q, foot).translation for foot in ours.feet])
+    assert np.linalg.norm(feet[:, -1] - feet[:, 0], axis=-1) == pytest.approx(0.12, rel=1e-9)
+    assert np.ptp(G[:, 2]) < 1e-9
+    assert G[0, 2] - feet[..., 2].min() == pytest.approx(given["height"], rel=1e-9)
+
+
+def test_on_the_spot_nothing_gets_any_further():
+    ours = tw.motions.trot(GO2, samples=12, speed=0)
+    assert np.abs(np.diff(tw.center_of_mass(GO2, ours.q)[[0, -1]], axis=0)).max() < 1e-12
+    assert not ours.contacts.all()
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"speed": -1.0}, "speed: expected a number of at least 0, got -1.0"),
+        ({"height": 0}, "height: expected a number above 0, got 0"),
+        ({"step_length": 0}, "step_length: expected a number above 0, got 0"),
+        ({"step_length": 0.1, "speed": 0}, "step_length: expected None, since the speed is 0, got 0.1"),
+    ],
+)
+def test_a_gait_that_is_none_is_named(given, said):
+    with pytest.raises(ValueError, match=said):
+        tw.motions.walk(GO2, samples=2, **given)
+
+
+@pytest.mark.parametrize("name", ["planar_arm", "go2"])
+def test_any_robot_reaches_from_rest_to_rest(name):
+    model, rng = robot(name), np.random.default_rng(1)
+    q0, q1 = (model.random_configuration(rng=rng) for _ in range(2))
+    ours = tw.motions.reach(model, q0, q1, duration=0.7, samples=9)
+    assert np.abs(model.difference(ours.q[[0, -1]], np.stack([q0, q1]))).max() < 1e-13
+    assert not ours.v[[0, -1]].any()
+    assert not ours.a[[0, -1]].any()
+    for k in (2, 4, 7):  # by a complex step along the curve, and of v
+        way = model.difference(q0, q1)
+        s, pace, change = stair((ours.t[k : k + 1] + H * 1j) / 0.7, 1 / 0.7)[:, 0]
+        ahead = model.difference(ours.q[k].astype(complex), model.integrate(q0.astype(complex), s * way))
+        assert np.abs(ahead.imag / H - ours.v[k]).max() < 1e-12 * np.abs(way).max() / 0.7
+        assert np.abs((pace * way).imag / H - ours.a[k]).max() < 1e-12 * np.abs(ours.a).max()
+        assert change.real * way == pytest.approx(ours.a[k])
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"duration": 0}, "duration: expected a number above 0, got 0"),
+        ({"samples": 1}, "samples: expected"),
+        ({"q1": np.zeros((2, 3))}, "q0, q1: expected one real configuration each"),
+        ({"q0": np.zeros(2)}, r"q0: expected shape \(..., 3\)"),
+    ],
+)
+def test_a_reach_that_is_none_is_named(given, said):
+    with pytest.raises(ValueError, match=said):
+        tw.motions.reach(robot("planar_arm"), **{"q0": np.zeros(3), "q1": np.ones(3)} | given)

@@ -10,8 +10,6 @@ import pytest
 import twistwrench as tw
 from twistwrench import fast, motions
 from twistwrench.compiler import compile
-from twistwrench.scene.costs import limbs
-from twistwrench.templates import TEMPLATES
 
 from ..pages import DOCS, blocks, names_author_and_licence, page, run
 from ..sampling import sampled
@@ -399,226 +397,6 @@ def test_a_quantity_or_a_state_that_is_none_is_refused():
     assert fast.dynamics(scene.model, q, v, want={"M"}).M.shape == (18, 18)
 
 
-# ---------------------------------------------------------------- what it costs to leave something out
-
-
-@pytest.fixture(scope="module")
-def walking():
-    """A humanoid of the catalogue of this package, its arms swinging as it walks."""
-    model = tw.load("humanoid")
-    return model, motions.walk(model, samples=24)
-
-
-def test_the_cheapest_is_the_quickest_within_the_tolerance(walking):
-    model, motion = walking
-    scene = tw.Scene(model, contacts=SOLES, hold=ARMS)
-    found = scene.cheapest(0.02, motion)
-    inside = [option for option in found.options if option.worst <= 0.02]
-    assert found.best is inside[0]
-    assert [o.seconds for o in found.options] == sorted(o.seconds for o in found.options)
-    assert {o.name for o in found.options} == {
-        *TEMPLATES,
-        "hold waist_yaw",
-        "hold left_shoulder_pitch",
-        "hold right_shoulder_pitch",
-        "this scene",
-    }
-    worst = {o.name: o.worst for o in found.options}
-    assert worst["full"] == 0
-    assert worst["centroidal"] < 1e-14
-    assert worst["hold left_shoulder_pitch"] < worst["this scene"] < worst["srbm_frozen"]
-    assert replace(found, tolerance=0.0).best.name == "full"
-    assert replace(found, tolerance=np.inf).best is found.options[0]
-
-
-def test_the_residuals_are_those_of_the_whole_robots_dynamics(walking):
-    """Of a template as it says itself; of held arms by finite differences of both momenta."""
-    model, motion = walking
-    found = {o.name: o for o in tw.Scene(model, hold=ARMS).cheapest(0.02, motion).options}
-    template = TEMPLATES["srbm"].of(model, motion.q[0])
-    np.testing.assert_array_equal(found["srbm"].residual, template.residual(motion.q, motion.v, motion.a).relative)
-    small = tw.lock_joints(model, ARMS, motion.q[0])
-    size = template.residual(motion.q[0], motion.v[0], motion.a[0])
-
-    def missed(k, h=1e-5):
-        rate = np.zeros(6)
-        for sign in (1, -1):
-            dv = sign * h * motion.v[k] + h * h / 2 * motion.a[k]
-            q, v = model.integrate(motion.q[k], dv), motion.v[k] + sign * h * motion.a[k]
-            held = tw.centroidal_momentum(small.model, *small.reduce(q, v))
-            rate += sign * (held - tw.centroidal_momentum(model, q, v)) / (2 * h)
-        return np.sqrt((rate[3:] ** 2).sum() + (rate[:3] ** 2).sum() / size.length**2) / size.weight
-
-    for k in (3, 11, 20):
-        assert found["this scene"].residual[k] == pytest.approx(missed(k), rel=1e-5)
-
-
-def test_held_joints_that_are_still_cost_nothing(walking):
-    model, motion = walking
-    arms = [k for k, name in enumerate(model.joint_names) if "shoulder" in name or "elbow" in name]
-    q, v, a = motion.q.copy(), motion.v.copy(), motion.a.copy()
-    for k in arms:
-        q[:, model.q_slice[k]] = q[0, model.q_slice[k]]
-        v[:, model.v_slice[k]] = a[:, model.v_slice[k]] = 0
-    still = replace(motion, q=q, v=v, a=a)
-    found = {o.name: o for o in tw.Scene(model).cheapest(1e-12, still, groups={"arms": ARMS}).options}
-    assert set(found) == {*TEMPLATES, "hold arms"}
-    assert found["hold arms"].worst < 1e-14
-    assert found["hold arms"].leaves_out == "The motion of 8 of 21 joints."
-
-
-def test_the_table_and_the_picture_show_every_option_and_the_choice(walking):
-    figure = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed: the picture is not made")
-    model, motion = walking
-    found = tw.Scene(model, contacts=SOLES).cheapest(0.02, motion)
-    lines = str(found).splitlines()
-    assert lines[0] == "walk: wrench missed, as a share of the weight; tolerance 2.0e-02"
-    assert len(lines) == 2 + len(found.options)
-    assert [line.split()[1] for line in lines if line.startswith("→")] == [found.best.name.split()[0]]
-    assert sum(" > " in line for line in lines) == sum(o.worst > 0.02 for o in found.options)
-    ax = figure.Figure().add_subplot()
-    assert found.plot(ax) is ax
-    ends = sorted(bar.get_x() + bar.get_width() for bar in ax.patches)
-    np.testing.assert_allclose(ends, [1e6 * o.seconds for o in found.options], rtol=1e-12)
-    assert [label.get_text() for label in ax.get_yticklabels()] == [o.name for o in found.options]
-    assert [float(text.get_text().split()[0]) for text in ax.texts] == [float(f"{o.worst:.2g}") for o in found.options]
-
-
-def test_limbs_are_what_touches_nothing():
-    humanoid, talos = tw.load("humanoid"), limbs(tw.load("humanoid"), [])
-    assert list(limbs(humanoid, ["left_hand", *humanoid.feet])) == ["right_shoulder_pitch"]
-    assert set(talos) >= {"left_hip_yaw", "right_hip_yaw", "waist_yaw"}
-    assert limbs(tw.load("go2"), tw.load("go2").feet) == {}
-
-
-@pytest.mark.parametrize(
-    ("given", "tolerance", "said"),
-    [
-        ({}, -0.1, "tolerance: expected a share of the weight, 0 or more, got -0.1"),
-        ({}, np.nan, "tolerance: expected"),
-    ],
-)
-def test_a_question_that_is_none_is_refused(walking, given, tolerance, said):
-    with pytest.raises(ValueError, match=said):
-        tw.Scene(walking[0], **given).cheapest(tolerance, walking[1])
-
-
-def test_groups_and_motions_that_do_not_fit_are_refused(walking):
-    model, motion = walking
-    with pytest.raises(tw.NameNotFound, match="fits no joint"):
-        tw.Scene(model).cheapest(0.1, motion, groups={"tail": ["tail_*"]})
-    with pytest.raises(tw.ShapeError):
-        tw.Scene("go2").cheapest(0.1, motion)
-
-
-# ---------------------------------------------------------------- robots of every kind
-
-
-def rows(found):
-    return {option.name: option for option in found.options}
-
-
-def unfit(found):
-    return {option.name: option.unfit for option in found.options if option.unfit}
-
-
-def swing(model, samples=12):
-    """A motion of any robot: each joint swings at a rate of its own, about where it stands."""
-    rng, t = np.random.default_rng(5), np.linspace(0, 1, samples)
-    rate, size = rng.uniform(1, 3, model.nv), rng.uniform(0.1, 0.4, model.nv)
-    u, v, a = (
-        size * f
-        for f in (np.sin(np.outer(t, rate)), rate * np.cos(np.outer(t, rate)), -(rate**2) * np.sin(np.outer(t, rate)))
-    )
-    if model.base == "floating":
-        u[:, :6] = v[:, :6] = a[:, :6] = 0
-    q = np.stack([model.integrate(model.neutral(), du) for du in u])
-    return motions.Motion("swing", t, q, v, a, (), np.zeros((samples, 0), bool))
-
-
-def test_a_robot_loaded_from_a_file_is_judged_as_the_one_of_the_catalogue():
-    """It knows no feet; the height of the pendulum is that above the scene's contacts."""
-    known = tw.load("go2")
-    unknown = replace(known, feet=(), postures={})
-    assert unknown.feet == ()
-    walk = motions.walk(known, samples=8)
-    feet = [tw.PointContact(foot, 0.7) for foot in known.feet]
-    here, there = (tw.Scene(model, contacts=feet).cheapest(0.1, walk) for model in (unknown, known))
-    assert unfit(here) == unfit(there) == {}
-    assert all(
-        np.allclose(rows(here)[name].residual, o.residual, rtol=0, atol=1e-14) for name, o in rows(there).items()
-    )
-    without = tw.Scene(unknown).cheapest(0.1, walk)
-    assert unfit(without) == {"lipm": "height: 'go2' has no feet, so it must be given"}
-    assert "  lipm         does not apply: height: 'go2' has no feet" in str(without)
-
-
-def test_without_gravity_the_pendulum_does_not_apply_and_the_rest_does():
-    go2 = tw.load("go2")
-    found = tw.Scene(go2, gravity=[0, 0, 0]).cheapest(0.1, motions.walk(go2, samples=8))
-    assert unfit(found) == {"lipm": "'go2' has no gravity: a pendulum needs one"}
-    assert str(found).startswith("walk: wrench missed, as a share of the largest ḣ_G of the motion; tolerance 1.0e-01")
-    assert rows(found)["centroidal"].worst < 1e-12
-    assert rows(found)["point_mass"].worst <= 1  # it has the force right, and misses what the moment is
-    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the picture is not made")
-    assert len(found.plot().patches) == len(found.options) - 1
-    still = replace(motions.walk(go2, samples=8))
-    still = replace(still, q=still.q[:1].repeat(8, 0), v=0 * still.v, a=0 * still.a)
-    assert tw.Scene(go2, gravity=[0, 0, 0]).cheapest(0.0, still).best.worst == 0  # nothing moves, nothing is missed
-
-
-def test_an_arm_has_no_templates_but_held_joints():
-    arm = tw.load("planar_arm")
-    motion = swing(arm)
-    found = tw.Scene(arm).cheapest(0.1, motion, groups={"tip": [arm.joint_names[-1]], "all": ["*"]})
-    assert set(unfit(found)) == {"point_mass", "lipm", "srbm_frozen", "srbm", "centroidal", "hold all"}
-    assert unfit(found)["srbm"] == "'planar_arm': expected a floating base, got a fixed one"
-    assert unfit(found)["hold all"] == "nothing is left to move"
-    assert rows(found)["full"].worst == 0
-    assert found.best.tells_torques
-    small = tw.lock_joints(arm, [arm.joint_names[-1]], motion.q[0])
-    q, v = small.reduce(motion.q, motion.v)
-    a = small.reduce(motion.q, motion.a)[1]
-    missed = np.zeros((len(motion), 6))  # about the world's origin, and then about the whole arm's centre of mass
-    for sign, model, x in ((1, small.model, (q, v, a)), (-1, arm, (motion.q, motion.v, motion.a))):
-        rate = tw.centroidal_momentum_rate(model, *x)
-        moment = rate[:, :3] + np.cross(tw.center_of_mass(model, x[0]), rate[:, 3:])
-        missed += sign * np.concatenate([moment, rate[:, 3:]], axis=-1)
-    moment = missed[:, :3] - np.cross(tw.center_of_mass(arm, motion.q), missed[:, 3:])
-    weight = arm.mass * 9.81
-    share = (
-        np.hypot(*(np.linalg.norm(x, axis=-1) for x in (missed[:, 3:], moment / _gyration(arm, motion.q[0])))) / weight
-    )
-    np.testing.assert_allclose(rows(found)["hold tip"].residual, share, rtol=1e-9, atol=1e-15)
-
-
-def _gyration(model, q):
-    from twistwrench.scene.anchored import radius_of_gyration
-
-    return radius_of_gyration(model, q)
-
-
-def test_the_radius_of_gyration_is_that_of_the_templates():
-    go2 = tw.load("go2")
-    assert np.isclose(_gyration(go2, go2.standing()), TEMPLATES["full"].of(go2, go2.standing()).length, rtol=1e-12)
-
-
-@pytest.mark.parametrize("base", ["planar", "fixed"])
-def test_what_another_base_costs_is_a_row(base):
-    go2 = tw.load("go2")
-    walk = motions.walk(go2, samples=8)
-    scene = tw.Scene(go2, base=base)
-    found = scene.cheapest(0.1, walk)
-    assert unfit(found) == {}
-    mine = rows(found)["this scene"]
-    assert (
-        mine.leaves_out == {"planar": "The height and the tilt of the base.", "fixed": "The motion of the base."}[base]
-    )
-    assert 1e-3 < mine.worst < 1
-    level = replace(walk, q=walk.q[:1].repeat(8, 0), v=0 * walk.v, a=0 * walk.a)
-    assert rows(tw.Scene(go2, base=base, q=walk.q[0]).cheapest(0.1, level))["this scene"].worst < 1e-12
-
-
 # ---------------------------------------------------------------- its page
 
 
@@ -637,7 +415,7 @@ def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
 
 
 @pytest.mark.slow
-def test_the_tables_of_the_page_are_what_its_command_finds():
+def test_the_tables_of_the_page_are_what_its_command_finds(capsys):
     """The errors; times are of the day."""
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: the command of the page is not run")
     if "talos_reduced" not in [robot.name for robot in tw.robots()]:
@@ -654,13 +432,27 @@ def test_the_tables_of_the_page_are_what_its_command_finds():
         said = [float(x.strip(" %")) / (100 if "%" in x else 1) for x in row]
         found = [f(x) for x in moving.errors(rate) for f in (np.median, np.max)]
         np.testing.assert_allclose(said, found, rtol=0.06)
-    found = {o.name: o for o in scene.cheapest(0.01, motions.walk(talos)).options}
-    rows = re.findall(r"^[ →] (\w[\w ]*?) +(\S+e-\d+) +(\S+e-\d+) ", text, re.MULTILINE)
-    assert {row[0] for row in rows} == set(found) - {"full"}
-    for name, median, worst in rows:
-        option = found[name]
-        got = np.array([np.median(option.residual), option.worst])
-        np.testing.assert_allclose([float(median), float(worst)], got, rtol=0.05, atol=2e-15)
+    scene = tw.Scene(
+        talos, contacts=[tw.SurfaceContact(foot, (0.1, 0.06), mu=0.7) for foot in talos.feet], hold=command.HOLD
+    )
+    found = scene.cheapest({"tau": 2.0, "cop": 0.005}, motions.walk(talos), held_out=motions.trot(talos))
+    for option in found.options:
+        row = re.search(rf"^[ →] {re.escape(option.name)}  +(.*)$", text, re.MULTILINE)[1].split()[:4]
+        for cell, (name, out) in zip(row, [(n, o) for n in ("tau", "cop") for o in (False, True)], strict=True):
+            worst = option.worst(name, held_out=out) * (1e3 if name == "cop" else 1)
+            if np.isfinite(worst):
+                assert float(cell.strip(">")) == pytest.approx(worst, rel=0.06, abs=1e-9)
+            else:
+                assert cell == "-"
+    capsys.readouterr()
+    command.held_out()
+    for printed in capsys.readouterr().out.splitlines():
+        robot, margin, choice, quantity, *numbers = (cell.strip() for cell in printed.strip("|").split("|"))
+        choice = "[^|]*" if choice in ("point_mass", "lipm") else re.escape(choice)  # as quick as each other
+        said = re.search(rf"^\| {robot} \| {margin} \| {choice} \| {quantity} \|(.*)\|$", text, re.MULTILINE)[1].split(
+            "|"
+        )
+        np.testing.assert_allclose(list(map(float, said)), list(map(float, numbers)), rtol=0.06)
 
 
 def test_wrenches_without_frames_are_refused():

@@ -1,4 +1,4 @@
-"""Smooth motions of legged robots, to try models on: a slow walk, a trot and a jump (49.10).
+"""Smooth motions to try models on: of legged robots a slow walk, a trot and a jump (49.10); of any robot `reach`.
 
 The robot's centre of mass, base and feet follow curves that are three times differentiable; positions come by Newton's
 method, velocities and accelerations from the same Jacobian. So v is the rate of q and a that of v to rounding, what
@@ -12,11 +12,15 @@ motion     four legs                                           two legs
 `trot`     a trot: diagonal pairs, no flight                   a brisk walk: a biped has no diagonals to trot with
 `jump`     forward off all feet, the trunk pitching in flight  the same off both feet
 =========  ==================================================  =====================================================
+
+Walk and trot take a speed, a height, a direction and a length of the steps. `reach` goes from one configuration to
+another on any robot, an arm or a drone.
 """
 
 from .limits import limits_broken
 from .motion import Motion
+from .reaching import reach
 from .support import Ground, ground
 from .walking import MOTIONS, jump, trot, walk
 
-__all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "limits_broken", "trot", "walk"]
+__all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "limits_broken", "reach", "trot", "walk"]

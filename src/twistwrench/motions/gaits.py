@@ -49,6 +49,8 @@ class Gait:
         How far the arms swing, rad.
     turn : tuple of float
         How far the base rolls and yaws once in a stride and pitches twice, rad: roll, pitch, yaw.
+    direction : float
+        Where it goes, from straight ahead to the left, rad. It does not turn.
     """
 
     period: float
@@ -61,6 +63,7 @@ class Gait:
     bob: float = 0.0
     swing: float = 0.0
     turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    direction: float = 0.0
 
 
 LEFT_RIGHT = (0.0, 0.5)
@@ -90,8 +93,9 @@ class Steps:
         times = np.arange(SAMPLES) / SAMPLES * self.period
         w = 2 * np.pi / self.period * np.arange(HARMONICS)
         gain = 1 / (1 + w**2 * gait.height * stand.unit**2)
-        forward = np.array([self.speed, 0, 0])
-        self.path = Harmonics(forward, self.pressure(times) - times[:, None] * forward, self.period, gain)
+        self.ahead = np.array([np.cos(gait.direction), np.sin(gait.direction), 0])
+        drift = self.speed * self.ahead
+        self.path = Harmonics(drift, self.pressure(times) - times[:, None] * drift, self.period, gain)
 
     def goal(self, t: Array) -> Goal:
         """Return how the robot should move at times t, shape (n,)."""
@@ -111,7 +115,8 @@ class Steps:
         stride = self.speed * self.period
         x = stride * stair(s, pace)
         x[0] += stride * (turns + phase + gait.duty / 2)  # below the hip in the middle of its stance
-        return np.stack([x, np.zeros_like(x), gait.lift * self.stand.height * hop(s, pace)], axis=-1)
+        up = gait.lift * self.stand.height * hop(s, pace)
+        return np.asarray(x[..., None] * self.ahead + up[..., None] * [0, 0, 1])
 
     def stands(self, t: Array) -> Array:
         """Return which of the model's feet stand, shape (n, k)."""

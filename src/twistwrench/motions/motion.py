@@ -86,6 +86,6 @@ class Motion:
         return f"<Motion {self.name!r}: {len(self)} states in {duration:.3g} s, {len(self.feet)} feet>"
 
 
-def check_motion(motion: object) -> None:
+def check_motion(motion: object, name: str = "motion") -> None:
     """Raise TypeError for an argument that is not a motion."""
-    check_kind(motion, "motion", Motion, "a Motion, as motions.walk(model) makes one")
+    check_kind(motion, name, Motion, "a Motion, as motions.walk(model) makes one")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
-from ..arrays import as_count
+from ..arrays import as_count, as_number
 from ..model import Model
 from .gaits import BRISK_WALK, CRAWL, TROT, WALK, Gait, Steps
 from .inverse_kinematics import follow
@@ -17,8 +18,16 @@ from .motion import Motion
 __all__ = ["MOTIONS", "jump", "trot", "walk"]
 
 
-def walk(model: Model, *, samples: int = 200) -> Motion:
-    """Return a slow walk: one stride, over which the robot goes straight ahead at a steady pace.
+def walk(
+    model: Model,
+    *,
+    samples: int = 200,
+    speed: float | None = None,
+    height: float | None = None,
+    direction: float = 0.0,
+    step_length: float | None = None,
+) -> Motion:
+    """Return a slow walk: one stride, over which the robot goes straight on at a steady pace.
 
     With four legs a crawl, one foot at a time. The trunk stays level, and at one height.
 
@@ -29,6 +38,14 @@ def walk(model: Model, *, samples: int = 200) -> Motion:
         sole.
     samples : int
         Number of states, evenly spaced over the stride.
+    speed : float, optional
+        m/s, at least 0; at 0 it steps in place.
+    height : float, optional
+        Of the centre of mass above the ground, m.
+    direction : float, optional
+        Where it goes, rad from straight ahead to the left; π is backwards. The robot does not turn.
+    step_length : float, optional
+        How far a foot is set when it steps, m. By it and the speed the time of a stride is changed.
 
     Returns
     -------
@@ -41,7 +58,7 @@ def walk(model: Model, *, samples: int = 200) -> Motion:
     SingularError
         If they are too short for these steps.
     ValueError
-        If there are less than two samples.
+        If there are less than two samples, or another number is out of its range.
 
     Examples
     --------
@@ -49,10 +66,18 @@ def walk(model: Model, *, samples: int = 200) -> Motion:
     >>> walk(tw.load("go2"), samples=50).contacts.sum(axis=1).min()  # never less than three feet
     np.int64(3)
     """
-    return _steps(model, "walk", {4: CRAWL, 2: WALK}, samples)
+    return _steps(model, "walk", {4: CRAWL, 2: WALK}, samples, speed, height, direction, step_length)
 
 
-def trot(model: Model, *, samples: int = 200) -> Motion:
+def trot(
+    model: Model,
+    *,
+    samples: int = 200,
+    speed: float | None = None,
+    height: float | None = None,
+    direction: float = 0.0,
+    step_length: float | None = None,
+) -> Motion:
     """Return a trot: one stride. Diagonal legs together; on two legs it is a brisk walk.
 
     Parameters
@@ -61,6 +86,14 @@ def trot(model: Model, *, samples: int = 200) -> Motion:
         As for `walk`.
     samples : int
         Number of states, evenly spaced over the stride.
+    speed : float, optional
+        m/s, at least 0; at 0 it steps in place.
+    height : float, optional
+        Of the centre of mass above the ground, m.
+    direction : float, optional
+        Where it goes, rad from straight ahead to the left; π is backwards. The robot does not turn.
+    step_length : float, optional
+        How far a foot is set when it steps, m. By it and the speed the time of a stride is changed.
 
     Returns
     -------
@@ -78,7 +111,7 @@ def trot(model: Model, *, samples: int = 200) -> Motion:
     >>> round(float(abs(motion.v).max()), 1)  # rad/s, of a knee
     15.0
     """
-    return _steps(model, "trot", {4: TROT, 2: BRISK_WALK}, samples)
+    return _steps(model, "trot", {4: TROT, 2: BRISK_WALK}, samples, speed, height, direction, step_length)
 
 
 def jump(model: Model, *, samples: int = 200) -> Motion:
@@ -118,9 +151,32 @@ def jump(model: Model, *, samples: int = 200) -> Motion:
     return _sample("jump", standing, leap, leap.breaks[-1], samples)
 
 
-def _steps(model: Model, name: str, gaits: dict[int, Gait], samples: int) -> Motion:
+def _steps(
+    model: Model,
+    name: str,
+    gaits: dict[int, Gait],
+    samples: int,
+    speed: float | None,
+    height: float | None,
+    direction: float,
+    step_length: float | None,
+) -> Motion:
     standing = stand(model)
-    steps = Steps(standing, gaits.get(len(standing.legs), gaits[4]))
+    gait = replace(gaits.get(len(standing.legs), gaits[4]), direction=as_number(direction, "direction"))
+    if speed is not None:
+        if not 0 <= as_number(speed, "speed") < np.inf:
+            raise ValueError(f"speed: expected a number of at least 0, got {speed!r}")
+        gait, name = replace(gait, speed=speed * standing.unit / standing.height), f"{name} at {speed:.3g} m/s"
+    if height is not None:
+        if not 0 < as_number(height, "height") < np.inf:
+            raise ValueError(f"height: expected a number above 0, got {height!r}")
+        gait = replace(gait, height=height / standing.height)
+    if step_length is not None:
+        if not 0 < as_number(step_length, "step_length") < np.inf or gait.speed == 0:
+            expected = "expected a number above 0" if gait.speed else "expected None, since the speed is 0"
+            raise ValueError(f"step_length: {expected}, got {step_length!r}")
+        gait = replace(gait, period=step_length / standing.height / gait.speed)
+    steps = Steps(standing, gait)
     return _sample(name, standing, steps, steps.period, samples)
 
 

@@ -1,37 +1,41 @@
-"""The cost of a reduced model: error and time of each over a motion, and the quickest that is exact enough.
-
-All models answer one question: which wrench the ground and the weight together must exert on the robot for the motion
-to happen, ḣ_G. The templates of 49.10 answer only this; a robot with held joints gives the torques of the rest as well.
-"""
+"""The cost of a reduced model: error and time of each over some motions, and the quickest that is exact enough."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..algorithms.centroidal import center_of_mass
-from ..algorithms.kinematics import frame_placement
 from ..arrays import Array, as_number
+from ..compiler.llvm import available
 from ..contact import Contact
-from ..model import Model, lock_joints
+from ..errors import check_known
+from ..model import Model
 from ..motions import Motion
-from ..templates import TEMPLATES, Residual
-from ..templates.full_model import Full
-from ..templates.pendulum import LinearPendulum
 from ..templates.template import Template
-from ..timing import round_robin
-from .anchored import Anchored, radius_of_gyration
+from .articulated import Articulated, radius_of_gyration
+from .candidates import Candidate
+from .compiled import compiled, seconds
+from .judging import QUANTITIES, Judge
 
-__all__ = ["Candidate", "Costs", "Option", "State", "costs", "limbs"]
+__all__ = ["Answer", "Costs", "Option", "costs", "needed"]
 
 
-@dataclass(frozen=True)
+class Answer(NamedTuple):
+    """What a model predicts: ḣ_G, (..., 6), and of the entries `Option.kept` τ without contact forces, or None."""
+
+    wrench: Array
+    tau: Array | None
+
+
+@dataclass(frozen=True, eq=False)
 class Option:
     """A model that could take the place of the full one, and what that costs.
+
+    Called with states of the whole robot, ``option(q, v, a)``, it returns an `Answer`.
 
     Attributes
     ----------
@@ -39,71 +43,132 @@ class Option:
         Of the template, or of the joints that are held.
     leaves_out : str
         What it assumes.
-    tells_torques : bool
-        Whether it gives joint torques, and not only ḣ_G.
-    residual : ndarray, shape (n,)
-        At each state of the motion, the wrench that it misses as a share of the weight (`Residual.relative`).
+    model : Template, Model or None
+        The model itself: a template, or the robot without the joints that are held. None where it does not apply.
+    kept : ndarray of int, shape (k,)
+        The entries of the whole robot's τ that it tells.
+    errors, held_out : dict of str to ndarray, shape (n,)
+        At each state of the motions, and of those that were held out: the ``"wrench"`` that it misses and that of the
+        worst contact, ``"forces"``, as shares of the weight; how far off its centre of pressure is, ``"cop"``, m; and
+        the torque of its worst motor, ``"tau"``, N m. Of all that it tells.
     seconds : float
-        For one state, when all states are done at once.
+        For one state, when all states are done at once by a compiled program; not a number where it was not timed,
+        because it is not exact enough or does not apply.
     unfit : str
-        Why it does not apply to this robot, with nothing then in `residual` and no number in `seconds`; empty where it
-        does.
+        Why it does not apply to this robot; empty where it does.
     """
 
     name: str
     leaves_out: str
-    tells_torques: bool
-    residual: Array
+    errors: Mapping[str, Array]
+    held_out: Mapping[str, Array]
     seconds: float
     unfit: str = ""
+    _runs: Candidate | None = field(default=None, repr=False)
 
     @property
-    def worst(self) -> float:
-        """The largest residual over the motion; infinite where the model does not apply."""
-        return np.inf if self.unfit else float(self.residual.max(initial=0))
+    def model(self) -> Template | Model | None:
+        """The model itself."""
+        found = self._runs.model if self._runs else None
+        return found.model if isinstance(found, Articulated) else found
+
+    @property
+    def kept(self) -> Array:
+        """The entries of the whole robot's τ that it tells."""
+        return self._runs.kept if self._runs else np.zeros(0, int)
+
+    @property
+    def tells_torques(self) -> bool:
+        """Whether it gives joint torques, and not only ḣ_G and what follows from it."""
+        return self._runs is not None and self._runs.tells_torques
+
+    def worst(self, quantity: str = "wrench", *, held_out: bool = False) -> float:
+        """Return the largest error over the motions; infinite where the model does not tell the quantity."""
+        found = self.held_out if held_out else self.errors
+        return float(found[quantity].max(initial=0)) if quantity in found else np.inf
+
+    def within(self, need: Mapping[str, float], margin: float = 1.0, *, held_out: bool = False) -> bool:
+        """Whether the largest errors times the margin are at most what is needed."""
+        return all(margin * self.worst(name, held_out=held_out) <= most for name, most in need.items())
+
+    def __call__(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Answer:
+        """Return what it predicts for states of the whole robot: q (..., nq), v and a (..., nv)."""
+        runs = self._runs
+        if runs is None or runs.model is None:
+            raise ValueError(f"{self.name!r} does not apply: {self.unfit}")
+        whole = runs.model.full if isinstance(runs.model, Articulated) else runs.model.model
+        rate, *tau = runs.law(*runs.model.read(*whole.state(q, v=v, a=a)))
+        return Answer(rate, tau[0] if tau else None)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Costs:
     """What `Scene.cheapest` returns: every option, the quickest first, and the choice. Printed, it is a table.
 
     Attributes
     ----------
     motion : str
-    tolerance : float
-        The largest residual that is allowed, as a share of the weight.
+        The names of the motions.
+    held_out : str
+        The names of those that the choice was not made on.
+    tolerance : dict of str to float
+        What is needed, and the largest error that is allowed: see `Option`.
+    margin : float
+        The largest errors times this must be within the tolerance.
     options : tuple of Option
-        Those that do not apply come last, with the reason.
+        The quickest of those that are exact enough come first, then the rest; those that do not apply come last.
     share_of : str
-        What the residuals are a share of: the weight, or without gravity the largest ḣ_G of the motion.
+        What errors of wrenches and forces are shares of: the weight, or without gravity the largest ḣ_G of the motion.
+    timed_by : str
+        The back end of the programs: "llvm" or "numpy".
     """
 
     motion: str
-    tolerance: float
+    held_out: str
+    tolerance: Mapping[str, float]
+    margin: float
     options: tuple[Option, ...]
-    share_of: str = "the weight"
+    share_of: str
+    timed_by: str
 
     @property
     def best(self) -> Option:
-        """The quickest option that stays within the tolerance over the whole motion."""
-        return next(option for option in self.options if option.worst <= self.tolerance)
+        """The quickest option that stays within the tolerance, with the margin, over the motions."""
+        return next(option for option in self.options if option.within(self.tolerance, self.margin))
+
+    @property
+    def holds(self) -> bool:
+        """Whether the choice stays within the tolerance on the motions that were held out."""
+        return self.best.within(self.tolerance, held_out=True)
 
     def __str__(self) -> str:
         width = max(len(option.name) for option in self.options)
+        columns = [(name, out) for name in self.tolerance for out in ((False, True) if self.held_out else (False,))]
+        head = "".join(f"{'held out' if out else name + _unit(name):>15} " for name, out in columns)
         rows = [
-            f"{'→' if option is self.best else ' '} {option.name:{width}}  {np.median(option.residual):8.1e}"
-            f"  {option.worst:8.1e} {'  ' if option.worst <= self.tolerance else '> '}{option.seconds * 1e6:8.2f}"
-            f"  {'ḣ_G, τ' if option.tells_torques else 'ḣ_G':6}  {option.leaves_out}"
+            f"{'→' if option is self.best else ' '} {option.name:{width}} "
+            + "".join(self._cell(option, *column) for column in columns)
+            + (f"{'-':>9}" if np.isnan(option.seconds) else f"{option.seconds * 1e6:9.3f}")
+            + f"  {'ḣ_G, τ' if option.tells_torques else 'ḣ_G':6}  {option.leaves_out}"
             for option in self.options
             if not option.unfit
         ]
         rows += [f"  {option.name:{width}}  does not apply: {option.unfit}" for option in self.options if option.unfit]
-        head = f"  {'model':{width}}    median     worst     µs/state  tells   leaves out"
-        title = f"{self.motion}: wrench missed, as a share of {self.share_of}; tolerance {self.tolerance:.1e}"
-        return "\n".join([title, head, *(row.rstrip() for row in rows)])
+        most = ", ".join(f"{name} {most * _scale(name):.3g}{_unit(name)}" for name, most in self.tolerance.items())
+        title = f"{self.motion}: the largest errors; shares are of {self.share_of}; at most {most}"
+        title += f", with a margin of {self.margin:g}" if self.margin != 1 else ""
+        title += f"; held out: {self.held_out}" if self.held_out else ""
+        return "\n".join([title, f"  {'model':{width}} {head} µs/state  tells   leaves out", *map(str.rstrip, rows)])
+
+    def _cell(self, option: Option, name: str, held_out: bool) -> str:
+        worst, most = option.worst(name, held_out=held_out), self.tolerance[name]
+        if not np.isfinite(worst):
+            return f"{'-':>15} "
+        over = worst * (1.0 if held_out else self.margin) > most
+        return f"{worst * _scale(name):15.2g}" + (">" if over else " ")
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw time over error: the options left of the line are exact enough, and the lowest of these is the choice.
+        """Draw the time of each option that is exact enough, the choice marked, and the error of every option.
 
         Parameters
         ----------
@@ -123,138 +188,66 @@ class Costs:
         return draw(self, ax)
 
 
-State = tuple[Array, Array, Array]
+def _unit(name: str) -> str:
+    return {"m": " mm", "N m": " N m"}.get(QUANTITIES[name], "")
 
 
-class Candidate(NamedTuple):
-    """A model to be tried, and the states of the motion as it knows them; or why it cannot be tried."""
+def _scale(name: str) -> float:
+    return 1e3 if QUANTITIES[name] == "m" else 1.0
 
-    name: str
-    leaves_out: str
-    template: Template | Anchored | None
-    state: State
-    unfit: str = ""
+
+def needed(tolerance: float | Mapping[str, float]) -> dict[str, float]:
+    """Return the largest error that is allowed of each quantity that is needed."""
+    given = tolerance if isinstance(tolerance, Mapping) else {"wrench": tolerance}
+    for name, most in given.items():
+        check_known("quantity", name, QUANTITIES)
+        if not as_number(most, "tolerance") >= 0:
+            raise ValueError(f"tolerance: expected an error of {name!r} that is allowed, 0 or more, got {most!r}")
+    if not given:
+        raise ValueError(f"tolerance: expected some of {', '.join(map(repr, QUANTITIES))}, got none")
+    return {name: float(most) for name, most in given.items()}
 
 
 def costs(
     model: Model,
-    motion: Motion,
-    tolerance: float,
-    groups: Mapping[str, Iterable[str]],
-    feet: Sequence[Contact] = (),
-    scene: Callable[[State], Candidate] | None = None,
+    motions: Sequence[Motion],
+    held_out: Sequence[Motion],
+    need: Mapping[str, float],
+    margin: float,
+    tried: Iterable[Candidate],
+    contacts: Sequence[Contact],
 ) -> Costs:
-    """See `Scene.cheapest`; `scene` is one more candidate, of the states of the motion."""
-    if not as_number(tolerance, "tolerance") >= 0:
-        raise ValueError(f"tolerance: expected a share of the weight, 0 or more, got {tolerance!r}")
-    q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
-    state = (q, v, a)
-    whole = _whole(model, state)
-    true = whole.law(*whole.read(*state))
-    scale, length, share_of = _scale(whole, q[0], true)
-    tried = candidates(model, state, groups, feet) + ([scene(state)] if scene else [])
-    fit = [(one.template, one) for one in tried if one.template is not None]
-    known = [template.read(*one.state) for template, one in fit]
-    laps = round_robin([partial(template.law, *x) for (template, _), x in zip(fit, known)], rounds=7, least=0)
-    options = []
-    for (template, one), x, lap in zip(fit, known, laps):
-        e = template.law(*x) - true
-        residual = Residual(e[..., :3], e[..., 3:], scale, length).relative
-        seconds = float(lap.seconds.min()) / len(true)
-        options.append(Option(one.name, one.leaves_out, isinstance(template, Full | Anchored), residual, seconds))
-    options.sort(key=lambda option: option.seconds)
-    unfit = [Option(one.name, one.leaves_out, False, np.zeros(0), np.nan, one.unfit) for one in tried if one.unfit]
-    return Costs(motion.name, float(tolerance), (*options, *unfit), share_of)
-
-
-def candidates(
-    model: Model, state: State, groups: Mapping[str, Iterable[str]], feet: Sequence[Contact]
-) -> list[Candidate]:
-    """Return the templates, and the full model with each group of joints held where the motion begins."""
-    (q, v, a), about = state, center_of_mass(model, state[0])
-    tried = [_template(name, kind, model, state, feet) for name, kind in TEMPLATES.items()]
-    for name, joints in groups.items():
-        small = lock_joints(model, joints, q[0])
-        leaves_out = f"The motion of {len(small.held)} of {len(_movable(model))} joints."
-        known = (q[..., small.kept_q], v[..., small.kept_v], a[..., small.kept_v])
-        if model.base == "floating":
-            tried.append(Candidate(name, leaves_out, Full.of(small.model, known[0][0]), known))
-        elif small.model.nv == 0:
-            tried.append(Candidate(name, leaves_out, None, known, "nothing is left to move"))
-        else:
-            tried.append(Candidate(name, leaves_out, Anchored(small.model, about), known))
-    return tried
-
-
-def _template(name: str, kind: type[Template], model: Model, state: State, feet: Sequence[Contact]) -> Candidate:
-    """Return a template, or why it does not apply to this robot."""
-    if kind is Full:
-        return Candidate(name, kind.assumes, _whole(model, state), state)
-    try:
-        if kind is LinearPendulum and feet and not model.feet:
-            pendulum = LinearPendulum.of(model, state[0][0], height=_height(model, state[0][0], feet))
-            return Candidate(name, kind.assumes, pendulum, state)
-        return Candidate(name, kind.assumes, kind.of(model, state[0][0]), state)
-    except ValueError as error:
-        return Candidate(name, kind.assumes, None, state, str(error))
-
-
-def _height(model: Model, q: Array, feet: Sequence[Contact]) -> float:
-    """Return how far the centre of mass is above the lowest point that touches, against gravity, m."""
-    places = [(c, frame_placement(model, q, c.frame)) for c in feet]
-    points = np.concatenate([T.translation + c.points @ c.axes(T.rotation).mT for c, T in places])
-    up = -model.gravity / max(float(np.sqrt(model.gravity @ model.gravity)), np.finfo(float).tiny)
-    return float(((center_of_mass(model, q) - points) @ up).max())
-
-
-def _whole(model: Model, state: State) -> Template | Anchored:
-    """Return the model that all others are held against."""
-    return Full.of(model, state[0][0]) if model.base == "floating" else Anchored(model, center_of_mass(model, state[0]))
-
-
-def _scale(whole: Template | Anchored, q: Array, true: Array) -> tuple[float, float, str]:
-    """Return the force, N, and the length, m, that wrenches are compared with, and what the force is."""
-    model = whole.model
-    length = whole.length if isinstance(whole, Template) else radius_of_gyration(model, q)
-    weight = model.mass * float(np.sqrt((model.gravity**2).sum()))
-    if weight > 0:
-        return weight, length, "the weight"
-    largest = float(Residual(true[..., :3], true[..., 3:], 1.0, length).relative.max(initial=0))
-    return largest or 1.0, length, "the largest ḣ_G of the motion"
-
-
-def _movable(model: Model) -> range:
-    """Return the bodies whose joints can be held: all but a floating base."""
-    return range(2 if model.base == "floating" else 1, model.nbodies)
-
-
-def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
-    """Return the limbs that do not touch the ground: by the joint that each hangs on, that one and all outboard of it.
-
-    A limb begins where the way to no foot leads, and again where a limb branches.
-
-    Parameters
-    ----------
-    model : Model
-    feet : iterable of str
-        Frames that touch the ground.
-
-    Returns
-    -------
-    dict of str to tuple of str
-
-    Examples
-    --------
-    >>> import twistwrench as tw
-    >>> model = tw.load("humanoid")
-    >>> list(limbs(model, model.feet))
-    ['waist_yaw', 'left_shoulder_pitch', 'right_shoulder_pitch']
-    """
-    busy = {*range(_movable(model).start), *(i for name in feet for i in model.support(model.frame(name).body))}
-    heads = [
-        i
-        for i in range(1, model.nbodies)
-        if i not in busy and (model.parent[i] in busy or model.parent.count(model.parent[i]) > 1)
-    ]
-    outboard = {head: [i for i in range(1, model.nbodies) if head in model.support(i)] for head in heads}
-    return {model.joint_names[head]: tuple(model.joint_names[i] for i in bodies) for head, bodies in outboard.items()}
+    """See `Scene.cheapest`."""
+    length = radius_of_gyration(model, motions[0].q[0])
+    judges = [[Judge.of(model, motion, contacts, length) for motion in some] for some in (motions, held_out)]
+    for judge, motion in zip([*judges[0], *judges[1]], [*motions, *held_out]):
+        for name in need:
+            if name not in judge.tells:
+                why = "it has no motors" if name == "tau" else "nothing stands on the ground, or nothing has weight"
+                raise ValueError(f"tolerance: {name!r} is nothing of {model.name!r} in {motion.name!r}: {why}")
+    options, calls = list[Option](), []
+    for one in tried:
+        if one.model is None:
+            options.append(Option(one.name, one.leaves_out, {}, {}, np.nan, one.unfit, one))
+            continue
+        known, found = list[tuple[Array, ...]](), list[dict[str, Array]]()
+        for judging, some in zip(judges, (motions, held_out)):
+            errors = list[Mapping[str, Array]]()
+            for judge, motion in zip(judging, some):
+                known.append(one.model.read(*model.state(motion.q, v=motion.v, a=motion.a)))
+                rate, *tau = one.law(*known[-1])
+                errors.append(judge.errors(rate, tau[0] if tau else None, one.kept))
+            found.append({name: np.concatenate([e[name] for e in errors]) for name in errors[0]} if errors else {})
+        options.append(Option(one.name, one.leaves_out, found[0], found[1], np.nan, "", one))
+        states = [np.concatenate(x) for x in zip(*known[: len(motions)])]
+        wanted = [0, 1] if "tau" in need else [0]
+        if options[-1].within(need, margin):
+            calls.append((options[-1], compiled(model, one.law, states, wanted[: 1 + one.tells_torques])))
+    times = seconds([call for _, call in calls], sum(map(len, motions)))
+    timed = {id(option): t for (option, _), t in zip(calls, times)}
+    options = [replace(option, seconds=timed.get(id(option), np.nan)) for option in options]
+    options.sort(key=lambda o: (bool(o.unfit), np.isnan(o.seconds), o.seconds if o.seconds >= 0 else 0))
+    share = "the weight" if model.gravity.any() else "the largest ḣ_G of the motion"
+    names, names_out = (", ".join(motion.name for motion in some) for some in (motions, held_out))
+    by = "llvm" if available() else "numpy"
+    return Costs(names, names_out, dict(need), float(margin), tuple(options), share, by)

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..algorithms.centroidal import center_of_mass
 from ..algorithms.kinematics import Reference, frame_placement
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
-from ..arrays import Array, check_kind
+from ..arrays import Array, as_number, as_sequence, check_kind
 from ..compiler.quantity import Quantity
+from ..model import Model
 from ..motions import Motion
 from ..motions.motion import check_motion
-from .anchored import Anchored
-from .costs import Candidate, Costs, State, costs, limbs
+from .articulated import Articulated
+from .candidates import Candidate, candidates, limbs
+from .costs import Costs, costs, needed
 from .dynamics import scene_dynamics, scene_quantities
 from .reduced_model import SmallestModel
 from .robot import posture
@@ -183,24 +184,35 @@ class Scene(SmallestModel):
         q = self.reduce(self.q, np.zeros(self.full_model.nv))[0] if q is None else posture(self.model, q)
         return standing(self.model, q, self.contacts, self.f_ext(q))
 
-    def cheapest(self, tolerance: float, motion: Motion, *, groups: Mapping[str, Iterable[str]] | None = None) -> Costs:
-        """Return what each smaller model of the robot costs over a motion, and the quickest that is exact enough.
-
-        The row of a model that does not apply (no pendulum without gravity, no template without a floating base) gives
-        the reason. Without gravity the largest ḣ_G of the motion takes the place of the weight. The base of the motion
-        is that of `full_model`; what a planar or fixed base of the scene costs is the row "this scene".
+    def cheapest(
+        self,
+        tolerance: float | Mapping[str, float],
+        motion: Motion | Iterable[Motion],
+        *,
+        held_out: Motion | Iterable[Motion] = (),
+        margin: float = 1.0,
+        groups: Mapping[str, Iterable[str]] | None = None,
+    ) -> Costs:
+        """Return what each smaller model of the robot costs over some motions, and the quickest that is exact enough.
 
         Compared are the templates of 49.10, the full model, and the full model with groups of joints held where the
-        motion begins. The residual is the wrench ḣ_G that a model misses, force and moment together, as a share of the
-        weight; the time is that of the model's law for one state of the motion, with all states done at once and its
-        own few variables (p̈_G, ω, …) known, by the textbook's functions.
+        first motion begins: each group, any two, and all. A model that does not apply (no pendulum without gravity, no
+        template without a floating base) is a row with the reason. The base of the motions is that of `full_model`;
+        what a planar or fixed base of the scene costs is the row "this scene".
 
         Parameters
         ----------
-        tolerance : float
-            The largest residual allowed, for example 0.05 for one twentieth of the weight.
-        motion : Motion
+        tolerance : float, or mapping of str to float
+            What is needed, and the largest error that is allowed: ``"wrench"``, ḣ_G, and ``"forces"``, that of the
+            worst contact, as shares of the weight (0.05 is one twentieth; without gravity, of the largest ḣ_G);
+            ``"cop"``, the centre of pressure, m; ``"tau"``, that of the worst motor that is left, N m. A number alone
+            is of the wrench.
+        motion : Motion, or iterable of Motion
             Of the whole robot, `full_model`: `twistwrench.motions` makes some.
+        held_out : Motion, or iterable of Motion, optional
+            Motions that the choice is not made on: the table has what the errors are there.
+        margin : float, optional
+            The largest errors over the motions times this must be within the tolerance, at least 1.
         groups : mapping of str to iterable of str, optional
             Names or patterns of joints to be held, by a name for each group; the limbs that touch nothing, each with
             all outboard of it, unless given. What the scene itself holds is a group of its own.
@@ -208,16 +220,24 @@ class Scene(SmallestModel):
         Returns
         -------
         Costs
-            Print it for the table; ``.plot()`` draws it; ``.best`` is the choice.
+            Print it for the table; ``.plot()`` draws it; ``.best`` is the choice, ``.best.model`` its model, and
+            ``.best(q, v, a)`` its answer.
 
         Raises
         ------
         ValueError
-            If the tolerance is below zero.
+            If a tolerance is below zero or of what the robot does not have; if the margin is below 1.
         SingularError
             If nothing that moves has mass.
         NameNotFound, ShapeError
-            As `lock_joints` and `Model.state`.
+            As `lock_joints` and `Model.state`; for an unknown quantity.
+
+        Notes
+        -----
+        The time is that of the model's law for one state of the motions, with all states done at once by a compiled
+        program, and its own few variables (p̈_G, ω, …) known; options that are not exact enough are not timed. The
+        ground wrench, ḣ_G less the weight, is shared out among the contacts that stand, the least forces that do,
+        those of a sole at its corners where the scene has one; torques are then those that are left, τ − Jᵀ f.
 
         Examples
         --------
@@ -227,29 +247,39 @@ class Scene(SmallestModel):
         >>> scene = tw.Scene(go2, contacts=[tw.PointContact(foot, mu=0.7) for foot in go2.feet])
         >>> scene.cheapest(0.3, motions.walk(go2, samples=50)).best.tells_torques
         False
-        >>> scene.cheapest(0.0, motions.walk(go2, samples=50)).best.name
+        >>> scene.cheapest({"tau": 0.5, "cop": 0.01}, motions.walk(go2, samples=50)).best.name
         'full'
         """
-        check_motion(motion)
-        self.full_model.state(motion.q, v=motion.v, a=motion.a)  # raises where it is another robot's
-        feet = [contact.frame for contact in self.contacts] or motion.feet
+        need, full = needed(tolerance), self.full_model
+        judged, unseen = (_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))
+        if not judged:
+            raise ValueError("motion: expected at least one motion, got none")
+        if not 1 <= as_number(margin, "margin") < np.inf:
+            raise ValueError(f"margin: expected a number of at least 1, got {margin!r}")
         if groups is None:
-            groups = limbs(self.full_model, feet)
-            whole = len(self.full_model.joint_names) - 1
-            groups = {name: joints for name, joints in groups.items() if len(joints) < whole}
+            feet = [contact.frame for contact in self.contacts] or judged[0].feet
+            whole = len(full.joint_names) - 1
+            groups = {name: joints for name, joints in limbs(full, feet).items() if len(joints) < whole}
         check_kind(groups, "groups", Mapping, "names of joints by the name of a group")
-        held = {f"hold {name}": joints for name, joints in groups.items()}
-        same = self._base == self.full_model.base
-        if same and (self.held or self.idle):
-            held["this scene"] = [*self.held, *self.idle]
-        return costs(self.full_model, motion, tolerance, held, self.contacts, None if same else self._candidate)
+        tried = [*candidates(full, judged[0].q[0], groups, self.contacts), *self._candidate()]
+        return costs(full, judged, unseen, need, margin, tried, self.contacts)
 
-    def _candidate(self, state: State) -> Candidate:
-        """Return this scene as a model of the whole robot's motion, where its base is another."""
-        q, v, a = state
-        known = (*self.reduce(q, v), self.reduce(q, a)[1])
-        leaves_out = {"planar": "The height and the tilt of the base", "fixed": "The motion of the base"}[self._base]
-        held = len({*self.held, *self.idle})
-        joints = f", and of {held} joints" if held else ""
-        about = center_of_mass(self.full_model, q)
-        return Candidate("this scene", f"{leaves_out}{joints}.", Anchored(self.model, about), known)
+    def _candidate(self) -> Iterator[Candidate]:
+        """Yield this scene as a model of the whole robot's motion, where it leaves anything out."""
+        full, gone = self.full_model, {*self.held, *self.idle}
+        same, joints = self._base == full.base, len(full.joint_names) - (2 if full.base == "floating" else 1)
+        if same and not gone:
+            return
+        base = {"planar": "the height and the tilt of the base", "fixed": "the motion of the base"}.get(self._base, "")
+        left_out = [*([] if same else [base]), *([f"the motion of {len(gone)} of {joints} joints"] if gone else [])]
+        said = " and ".join(left_out)
+        yield Candidate("this scene", f"{said[0].upper()}{said[1:]}.", Articulated.of(full, self.model, self.reduce))
+
+
+def _motions(model: Model, given: Motion | Iterable[Motion], name: str) -> tuple[Motion, ...]:
+    """Return motions of this robot."""
+    some = (given,) if isinstance(given, Motion) else as_sequence(given, name, "motions", ordered=True)
+    for motion in some:
+        check_motion(motion, name)
+        model.state(motion.q, v=motion.v, a=motion.a)  # raises where it is another robot's
+    return some

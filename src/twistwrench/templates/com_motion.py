@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..algorithms.kinematics import forward_kinematics
-from ..arrays import Array
+from ..arrays import Array, convert
 from ..model import Model, composite_inertias, tree_terms
 from ..spatial import skew
 
-__all__ = ["com_acceleration", "locked_inertia"]
+__all__ = ["com_acceleration", "force", "locked_inertia"]
 
 
 def com_acceleration(model: Model, q: Array, v: Array, a: Array) -> Array:
@@ -27,6 +27,11 @@ def com_acceleration(model: Model, q: Array, v: Array, a: Array) -> Array:
     local = moving.acceleration[..., 3:] + np.cross(w, moving.twist[..., 3:] + np.cross(w, c)) + np.cross(alpha, c)
     R = np.stack([T.rotation for T in moving.placement], axis=-3)
     return np.asarray((mass[:, None] * np.matvec(R, local)).sum(axis=-2) / mass.sum())
+
+
+def force(model: Model, p_ddot: Array) -> Array:
+    """Return l̇_G = m p̈_G."""
+    return np.asarray(convert(np.asarray(model.mass), p_ddot.dtype) * p_ddot)
 
 
 def locked_inertia(model: Model, q: Array) -> Array:

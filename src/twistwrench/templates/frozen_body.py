@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
+from ..arrays import Array, convert
 from ..model import Model
 from .com_motion import locked_inertia
 from .rigid_body import RigidBody
@@ -46,4 +46,4 @@ class FrozenRigidBody(RigidBody):
         return cls(*held, locked_inertia(model, held[1]))
 
     def _inertia(self, q: Array) -> Array:
-        return np.broadcast_to(self.inertia.astype(q.dtype), (*q.shape[:-1], 3, 3))
+        return np.broadcast_to(convert(self.inertia, q.dtype), (*q.shape[:-1], 3, 3))

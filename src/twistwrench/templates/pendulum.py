@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.centroidal import center_of_mass
 from ..algorithms.kinematics import frame_placement
-from ..arrays import Array, as_arrays, as_number
+from ..arrays import Array, as_arrays, as_number, convert
 from ..errors import SingularError
 from ..model import Model
-from .com_motion import com_acceleration
+from .com_motion import com_acceleration, force
 from .template import Template, checked
 
 __all__ = ["LinearPendulum"]
@@ -87,7 +87,7 @@ class LinearPendulum(Template):
     def law(self, *known: Array) -> Array:
         """Return (0, m p̈_G), its vertical part left out."""
         (p_ddot,) = known
-        return np.concatenate([np.zeros_like(p_ddot), self.model.mass * self._along_the_ground(p_ddot)], axis=-1)
+        return np.concatenate([np.zeros_like(p_ddot), force(self.model, self._along_the_ground(p_ddot))], axis=-1)
 
     def acceleration(self, p_G: ArrayLike, center_of_pressure: ArrayLike) -> Array:
         """Return p̈_G = (g/z)(p_G − c), along the ground.
@@ -128,8 +128,8 @@ class LinearPendulum(Template):
         return self.weight / self.model.mass / self.height
 
     def _along_the_ground(self, x: Array) -> Array:
-        up = _up(self.model).astype(x.dtype)
-        return np.asarray(x - (x @ up)[..., None] * up)
+        up = convert(_up(self.model), x.dtype)
+        return np.asarray(x - (x * up).sum(axis=-1, keepdims=True) * up)
 
 
 def _up(model: Model) -> Array:

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..arrays import Array
-from .com_motion import com_acceleration
+from .com_motion import com_acceleration, force
 from .template import Template
 
 __all__ = ["PointMass"]
@@ -39,4 +39,4 @@ class PointMass(Template):
     def law(self, *known: Array) -> Array:
         """Return (0, m p̈_G)."""
         (p_ddot,) = known
-        return np.concatenate([np.zeros_like(p_ddot), self.model.mass * p_ddot], axis=-1)
+        return np.concatenate([np.zeros_like(p_ddot), force(self.model, p_ddot)], axis=-1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..algorithms.floating_base import base_placement
 from ..arrays import Array
-from .com_motion import com_acceleration, locked_inertia
+from .com_motion import com_acceleration, force, locked_inertia
 from .template import Template
 
 __all__ = ["RigidBody"]
@@ -44,7 +44,7 @@ class RigidBody(Template):
         q, R, w, w_dot, p_ddot = known
         I = self._inertia(q)
         k_dot = np.matvec(R, np.matvec(I, w_dot) + np.cross(w, np.matvec(I, w)))
-        return np.concatenate([k_dot, self.model.mass * p_ddot], axis=-1)
+        return np.concatenate([k_dot, force(self.model, p_ddot)], axis=-1)
 
     def _inertia(self, q: Array) -> Array:
         return locked_inertia(self.model, q)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..algorithms.centroidal import center_of_mass
 from ..algorithms.floating_base import base_placement
 from ..algorithms.rnea import rnea
-from ..arrays import Array
+from ..arrays import Array, convert
 from ..errors import SingularError
 from ..model import Model, one_configuration
 from ..spatial import SE3
@@ -182,6 +182,6 @@ def full_rate(model: Model, q: Array, v: Array, a: Array) -> Array:
     at_origin[..., :3] = 0  # where the robot stands does not matter, and far away would cost digits
     base = base_placement(model, at_origin)
     to_G = SE3._trusted(base.rotation, base.translation - center_of_mass(model, at_origin)).force_transform()
-    g = (model.mass * model.gravity).astype(q.dtype)
+    g = convert(model.mass * model.gravity, q.dtype)
     rate: Array = np.matvec(to_G, rnea(model, q, v, a)[..., :6]) + np.concatenate([np.zeros_like(g), g])
     return rate

@@ -1,0 +1,160 @@
+"""What a model's answer misses, in what people think in: wrench, centre of pressure, contact forces, torques.
+
+The wrench that the ground must exert is ḣ_G less the weight, which a robot with held joints has elsewhere, too. It is
+shared out among the contacts that stand, the least forces that do; the torques are what is then left for the motors,
+τ − Jᵀ f. So whatever a model has wrong in the wrench, its forces and torques have wrong as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..algorithms.centroidal import center_of_mass
+from ..algorithms.floating_base import base_placement
+from ..algorithms.kinematics import frame_jacobian, frame_placement
+from ..arrays import Array
+from ..contact import Contact, PointContact
+from ..model import Model
+from ..motions import Motion
+from ..spatial import SE3, skew
+from ..templates import Residual
+from .articulated import Articulated
+
+__all__ = ["QUANTITIES", "Judge", "heights"]
+
+QUANTITIES = {"wrench": "of the weight", "cop": "m", "forces": "of the weight", "tau": "N m"}
+"""What may be asked of a model, and the unit of its error."""
+
+LOADED = 0.05
+"""Share of the weight that the ground must bear for a centre of pressure to count."""
+
+RANK = 1e-9
+"""Two feet on a line cannot exert a moment about it: a singular value that small counts as zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class Judge:
+    """The whole robot in a motion, which the answers of other models are held against."""
+
+    model: Model
+    weight: float
+    """N; without gravity the largest wrench of the motion."""
+    length: float
+    """m: moments are compared with forces over this radius of gyration."""
+    rate: Array
+    tau: Array
+    standing: Array
+    """Which contact points bear something, shape (n, points)."""
+    to_G: Array
+    """From a wrench on the base, in its axes, to one at the centre of mass, in the world's; shape (n, 6, 6)."""
+    share: Array
+    """The least forces of a unit wrench at the centre of mass: at each contact point, shape (n, points, 3, 6)."""
+    J: Array
+    """Of the contact points, shape (n, points, 3, nv)."""
+    first: Array
+    """Where each contact's points begin."""
+    height: Array
+    """Of the centre of mass above the lowest contact that stands, m, shape (n,)."""
+
+    @classmethod
+    def of(cls, model: Model, motion: Motion, contacts: Sequence[Contact], length: float) -> Judge:
+        """Compute what the motion needs; its feet have the soles of the contacts on the same frames."""
+        q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
+        whole = Articulated.of(model, model, lambda q, v: (q, v))
+        rate, tau = whole.law(*whole.read(q, v, a))
+        weight = model.mass * float(np.sqrt(model.gravity @ model.gravity))
+        if weight == 0:
+            weight = float(Residual(rate[..., :3], rate[..., 3:], 1.0, length).relative.max(initial=0)) or 1.0
+        given = {c.frame: c for c in contacts}
+        feet = [given.get(foot, PointContact(foot, 1.0)) for foot in motion.feet] if motion.feet else list(contacts)
+        feet = feet if model.base == "floating" else []
+        stands = motion.contacts if motion.feet else np.ones((len(q), len(feet)), bool)
+        owner = np.repeat(np.arange(len(feet)), [len(c.points) for c in feet])
+        points, J = _points(model, q, feet)
+        on, G = stands[:, : len(feet)][:, owner], center_of_mass(model, q)
+        share = _share((points - G[:, None]) / length, on) / np.array([length] * 3 + [1.0] * 3)
+        height = np.where(on, heights(model, points, G), -np.inf).max(axis=1, initial=-np.inf)
+        first = np.flatnonzero(np.diff(owner, prepend=-1))
+        to_G = np.zeros((len(q), 6, 6))
+        if model.base == "floating":
+            base = base_placement(model, q)
+            to_G = SE3._trusted(base.rotation, base.translation - G).force_transform()
+        return cls(model, weight, length, rate, tau, on, to_G, share, J, first, height)
+
+    @property
+    def _floats(self) -> bool:
+        return self.model.base == "floating"
+
+    @property
+    def tells(self) -> tuple[str, ...]:
+        """What can be asked of a model in this motion."""
+        motors = self.model.nv > (6 if self._floats else 0)
+        feet = ("cop", "forces") if self.standing.any() and self.model.gravity.any() else ()
+        return ("wrench", *feet, *(("tau",) if motors else ()))
+
+    def errors(self, rate: Array, tau: Array | None, kept: Array) -> Mapping[str, Array]:
+        """Return what an answer misses in each state, of all that it tells; `kept` are the entries that its τ has."""
+        off = rate - self.rate
+        found = {"wrench": Residual(off[..., :3], off[..., 3:], self.weight, self.length).relative}
+        if tau is not None and self._floats and 0 in kept:
+            off = np.matvec(self.to_G, tau[:, :6] - self.tau[:, :6])
+        f = np.einsum("npij,nj->npi", self.share, off)
+        if "cop" in self.tells:
+            found["cop"] = self._cop_error(self.rate + off)
+            by_contact = np.add.reduceat(f, self.first, axis=1)
+            found["forces"] = np.sqrt((by_contact**2).sum(axis=-1)).max(axis=1) / self.weight
+        motors = kept >= (6 if self._floats else 0)
+        if tau is not None and motors.any():
+            eased = np.einsum("npik,npi->nk", self.J, f)
+            found["tau"] = np.abs(tau - self.tau[:, kept] - eased[:, kept])[:, motors].max(axis=1)
+        return found
+
+    def _cop_error(self, rate: Array) -> Array:
+        """Return how far the centre of pressure is from where it should be, where the ground is loaded, m."""
+        right, loaded = self._cop(self.rate)
+        there, _ = self._cop(rate)
+        return np.where(loaded, np.sqrt(((there - right) ** 2).sum(axis=-1)), 0.0)
+
+    def _cop(self, rate: Array) -> tuple[Array, Array]:
+        """Return the centre of pressure from below the centre of mass, and whether the ground bears anything.
+
+        The point r of the ground below which the moment N − r × F is along the vertical u.
+        """
+        g = self.model.gravity
+        u = -g / np.sqrt(g @ g)
+        N, F = rate[..., :3], rate[..., 3:] - self.model.mass * g
+        load = F @ u
+        loaded = (load > LOADED * self.weight) & self.standing.any(axis=1)
+        h = np.where(loaded, self.height, 0.0)[:, None]
+        across = np.cross(u, N + np.cross(h * u, F))
+        return across / np.where(load > 1e-3 * self.weight, load, 1e-3 * self.weight)[:, None], loaded
+
+
+def _share(arm: Array, on: Array) -> Array:
+    """Return the least forces at points that exert a unit wrench about the origin, shape (n, points, 3, 6)."""
+    columns = np.concatenate([skew(arm), np.broadcast_to(np.eye(3), (*arm.shape, 3))], axis=-2) * on[..., None, None]
+    n, points = on.shape
+    if not points:
+        return np.zeros((n, 0, 3, 6))
+    return np.asarray(np.linalg.pinv(np.moveaxis(columns, 1, 2).reshape(n, 6, -1), rtol=RANK).reshape(n, points, 3, 6))
+
+
+def heights(model: Model, points: Array, G: Array) -> Array:
+    """Return how far the centre of mass is above points, against gravity, m, shape (..., k)."""
+    up = -model.gravity / max(float(np.sqrt(model.gravity @ model.gravity)), np.finfo(float).tiny)
+    return np.asarray((G[..., None, :] - points) @ up)
+
+
+def _points(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Array, Array]:
+    """Return where the contact points are in the world, (n, points, 3), and their Jacobians, (n, points, 3, nv)."""
+    places, J = [np.zeros((len(q), 0, 3))], [np.zeros((len(q), 0, 3, model.nv))]
+    for c in contacts:
+        T = frame_placement(model, q, c.frame)
+        six = frame_jacobian(model, q, c.frame, "local_world_aligned")[:, None]
+        arm = c.points @ c.axes(T.rotation).mT
+        places.append(T.translation[:, None] + arm)
+        J.append(six[..., 3:, :] - skew(arm) @ six[..., :3, :])
+    return np.concatenate(places, axis=1), np.concatenate(J, axis=1)
