@@ -51,6 +51,8 @@ GOOD = {
     "point": np.zeros(3),
     "points": np.zeros(3),
     "q": GO2.standing(),
+    "q0": GO2.standing(),
+    "q1": GO2.standing(),
     "robot": GO2,
     "source": "go2",
     "tau": REST,

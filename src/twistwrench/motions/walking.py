@@ -162,7 +162,9 @@ def _steps(
     step_length: float | None,
 ) -> Motion:
     standing = stand(model)
-    gait = replace(gaits.get(len(standing.legs), gaits[4]), direction=as_number(direction, "direction"))
+    if not np.isfinite(as_number(direction, "direction")):
+        raise ValueError(f"direction: expected a finite number, got {direction!r}")
+    gait = replace(gaits.get(len(standing.legs), gaits[4]), direction=direction)
     if speed is not None:
         if not 0 <= as_number(speed, "speed") < np.inf:
             raise ValueError(f"speed: expected a number of at least 0, got {speed!r}")
