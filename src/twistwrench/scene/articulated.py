@@ -24,7 +24,7 @@ class Articulated:
     """A model with joints, in place of the whole robot: it predicts ḣ_G, and the torques of the joints it has.
 
     A body that is held to the world has no part in the momentum of the model; so ḣ_G is about the centre of mass of the
-    whole robot, which a model whose base does not float must be told.
+    whole robot, which a model whose base does not float must be given.
     """
 
     full: Model
@@ -39,9 +39,9 @@ class Articulated:
         """Return a model in place of the whole robot; joints of one name and size are the same."""
         there = dict(zip(full.joint_names, full.v_slice))
         both = [(there[name], s) for name, s in zip(model.joint_names[1:], model.v_slice[1:]) if name in there]
-        same = [(s, t) for s, t in both if s.stop - s.start == t.stop - t.start]  # a planar base is no floating one
+        same = [(s, t) for s, t in both if s.stop - s.start == t.stop - t.start]  # not the base, where it is another
         pairs = [pair for s, t in same for pair in zip(range(full.nv)[s], range(model.nv)[t])]
-        return cls(full, model, reduce, np.array(pairs, int).reshape(-1, 2).T)
+        return cls(full, model, reduce, np.array(pairs, int).reshape(-1, 2).mT)
 
     def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
         """Return the model's state, and where it does not float the centre of mass of the whole robot."""
