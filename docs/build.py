@@ -4,7 +4,8 @@ usage:  python docs/build.py             the site, below build/site/html; open i
         python docs/build.py --check     and every link in it, and pages of both languages in a headless Chromium
 
 Needs `pip install -e ".[docs]"`. Every warning is an error. Nothing is fetched: the site, and building it, work without
-a network. The first build runs the notebooks; later ones run only those of which something has changed.
+a network. The first build runs the notebooks; later ones run only those of which something has changed. Where
+docs/runtime.py has gathered Python for the page, notebooks and exercises can be run in it.
 """
 
 import argparse
@@ -18,7 +19,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import beside, browser, chapter, interface, links, notebooks, pages
+from website import beside, browser, chapter, inpage, interface, links, notebooks, pages
 
 OUT = pages.ROOT / "build" / "site"
 MATHJAX = "tex-svg-full.js"
@@ -77,6 +78,8 @@ def main() -> int:
         print("the site was not built: see the warnings above", file=sys.stderr)
         return 1
     write_door(OUT / "html")
+    inpage.write_runtime(OUT / "html")
+    inpage.write_downloads(OUT / "html", notebooks.names())
     done(f"built {OUT / 'html' / 'index.html'}")
     if not check:
         return 0

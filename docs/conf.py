@@ -6,7 +6,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import beside, chinese, interface
+import runtime
+from website import beside, chinese, inpage, interface, notebooks
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -61,6 +62,7 @@ html_context = {
     "other_language": "en" if CHINESE else "zh",
     "other_language_name": "English" if CHINESE else "中文",
     "other_language_code": "en" if CHINESE else "zh-CN",
+    "runs_in_page": runtime.is_complete(),  # where that changes, all pages are written anew
     "other_language_title": "This page in English" if CHINESE else "本页的中文版",
 }
 html_theme_options = {
@@ -83,3 +85,4 @@ def setup(app):
     """Connect what adds the chapter's formulas to the docstrings, and the search of the Chinese pages."""
     app.add_search_language(chinese.PairsOfCharacters)
     interface.connect(app, "zh" if CHINESE else "en")
+    inpage.connect(app, "zh" if CHINESE else "en", notebooks.names())

@@ -3,7 +3,8 @@
 Asked of each: formulas set and figures shown, nothing on the console, nothing wider than a phone, the language switch
 reached with Tab and its focus seen. And of the search: the section that is looked for is found. What axe-core can judge
 of WCAG 2.1 A and AA is asked of the English pages, wide and light, and of the Chinese ones, narrow and dark; in
-the long page of errata not of the code, whose colours are those of the other pages.
+the long page of errata not of the code, whose colours are those of the other pages. Where Python is in the page, an
+exercise is answered there, and the verdict has to name the slip.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ WIDE, NARROW = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 SOUGHT = {"en": "mass matrix", "zh": "质量矩阵"}
 AXE = (("en", "light"), ("zh", "dark"))
 MOST_TABS = 40
+SLIP = {"en": "the cross matrix is transposed", "zh": "反对称矩阵被转置"}
+MOST_TO_START = 180_000
+"""Milliseconds until Python answers in a page, on a machine that does other things too."""
 RULES = {"runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"]}}
 
 FORMULAS = """async () => {
@@ -61,7 +65,12 @@ def check(html: Path) -> list[str]:
         print(reason)
         return []
     with ThreadPoolExecutor(len(LANGUAGES)) as pool:
-        return [line for lines in pool.map(partial(_language, html), LANGUAGES) for line in lines]
+        wrong = [line for lines in pool.map(partial(_language, html), LANGUAGES) for line in lines]
+    if (html / "runtime").exists():
+        wrong += [line for language in LANGUAGES for line in runs(html, language)]
+    else:
+        print("Python in the page was not gathered (docs/runtime.py): no page is run")
+    return wrong
 
 
 def _language(html: Path, language: str) -> list[str]:
@@ -119,6 +128,30 @@ def search(context: Any, html: Path, language: str) -> Iterator[str]:
         if not any("crba" in (link.get_attribute("href") or "") for link in found.all()):
             yield f"{SOUGHT[language]}: the section on it is not among what was found"
     page.close()
+
+
+def runs(html: Path, language: str) -> Iterator[str]:
+    """Answer an exercise wrongly in its page, have it checked, and yield what is wrong with the verdict."""
+    from playwright.sync_api import Error, sync_playwright
+
+    with sync_playwright() as play:
+        browser = play.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
+        page = browser.new_context(viewport=NARROW, offline=True).new_page()
+        page.goto((html / language / "chapter" / "exercises.html").resolve().as_uri())
+        place = page.locator(".exercise").first
+        place.locator("summary").click()
+        place.locator("pre").first.click()
+        page.keyboard.press("Control+a")
+        page.keyboard.insert_text("def skew(w):\n    return -tw.skew(w)\n")
+        place.locator(".run-tools button").nth(1).click()
+        try:
+            place.locator(".tw-wrong").wait_for(timeout=MOST_TO_START)
+        except Error:
+            yield f"{language}: no verdict on an exercise, but {page.locator('.run-bar').inner_text()!r}"
+        else:
+            if SLIP[language] not in place.locator(".tw-wrong").inner_text():
+                yield f"{language}: the slip is not named: {place.locator('.tw-wrong').inner_text()}"
+        browser.close()
 
 
 def reach(page: Any) -> Iterator[str]:

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import nbformat
 
-from twistwrench.exercises import catalogue
+from twistwrench.exercises import catalogue, skeletons
 from twistwrench.exercises.text import Language
 from twistwrench.exercises.wrapping import wrapped
 
-from . import beside, interface, notebooks
+from . import beside, inpage, interface, notebooks
 from .pages import ROOT, SUFFIX, contents, joined, write
 
 INTRO = {
@@ -45,6 +45,16 @@ them into a folder; `python -m pytest` there checks what you write and names the
 }
 
 
+ANSWER = """<details class="exercise" data-number="{}"><summary>{}</summary>
+
+```python
+{}
+```
+
+</details>"""
+"""Where an exercise is answered: its skeleton, which becomes an editor where Python is in the page."""
+
+
 def write_chapter(out: Path, language: str) -> None:
     """Write the page of the chapter's path."""
     at, errata = interface.sections(), _errata(language)
@@ -74,6 +84,9 @@ def _exercises(language: Language) -> str:
         for exercise in catalogue.of_section(section):
             parts.append(f"### {exercise.id} {_markdown(exercise.title.of(language))}")
             parts += map(_markdown, wrapped(exercise.text.of(language), 10**6))
+            parts.append(
+                ANSWER.format(exercise.id, inpage.SAY[language]["answer"], skeletons.place(exercise, language))
+            )
     return "\n\n".join(parts) + "\n"
 
 

@@ -88,11 +88,11 @@ def gimbal(unit=1.0):
     return builder.build()
 
 
-@pytest.mark.parametrize("middle", [0.0, 1e-9, np.pi])
+@pytest.mark.parametrize("middle", [0.0, "near", np.pi])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
 def test_aba_refuses_the_gimbal_lock_of_massless_rings(middle, dtype):
-    if middle == 1e-9 and np.finfo(dtype).eps < 1e-17:
-        middle = 1e-11  # with more digits less is lost
+    if middle == "near":
+        middle = np.sqrt(np.finfo(dtype).eps) / 15  # 1e-9 in double: its square is lost beside 1
     q = np.array([0.3, middle, -0.2], dtype)
     with pytest.raises(tw.SingularError, match="joint 'outer': with its outboard joints free it moves no inertia"):
         tw.aba(gimbal(), q, np.zeros(3, dtype), np.ones(3, dtype))

@@ -119,7 +119,7 @@ def test_the_jacobians_are_good_to_a_few_units_in_the_last_place(mp, angle):
     for V in twists(angle, 2, 4):
         size = max(1, np.abs(V).max())
         assert error(mp, Jexp6(V), truth(mp, V)) <= 3 * EPS * size
-        assert error(mp, Jexp3(V[:3]), truth(mp, V)[:3, :3]) <= 2 * EPS
+        assert error(mp, Jexp3(V[:3]), truth(mp, V)[:3, :3]) <= 3 * EPS  # with musl's sine 2.2
         if angle <= np.pi:
             T = exp6(V)
             exact = truth(mp, log6(T)) ** -1
@@ -135,7 +135,7 @@ def test_a_long_double_keeps_its_digits(mp):
     exact, J = truth(mp, V), Jexp6(V.astype(np.longdouble))
     low = (J - J.astype(float)).astype(float)  # what a double cannot hold
     whole = mp.matrix(J.astype(float).tolist()) + mp.matrix(low.tolist())
-    assert np.abs(np.array((whole - exact).tolist(), dtype=float)).max() < 8 * eps
+    assert np.abs(np.array((whole - exact).tolist(), dtype=float)).max() < 16 * eps  # of 113 bits 14
 
 
 def test_pinocchio_has_the_same_jacobians():

@@ -248,7 +248,7 @@ def test_a_matrix_that_is_no_rotation_is_refused(function):
     with pytest.raises(ShapeError, match=r"\|RᵀR − 1\| = (inf|nan)"):
         function(np.full((3, 3), 1e200))
     # Squares that overflow: some machines make NaN of their difference, which no comparison with a tolerance sees.
-    for big in (1e200, np.finfo(np.longdouble).max ** np.longdouble(0.6)):
+    for big in (1e200, np.finfo(np.longdouble).max / 4):
         with pytest.raises(ShapeError, match=r"\|RᵀR − 1\| = (inf|nan)"):
             function(big * np.array([[1, 1, 0], [1, -1, 0], [0, 0, 1]]))
 

@@ -15,10 +15,10 @@ from .formulas import judge_formula
 from .isolation import TIME_LIMIT, drawn
 from .judge import State, Verdict
 from .text import Language, Text, default_language
-from .workbook import verdict_on_words
+from .workbook import Workbook, verdict_on_words
 from .wrapping import wrapped
 
-__all__ = ["Checked", "check"]
+__all__ = ["Checked", "check", "checked"]
 
 SAY = {
     "done": Text("{id}  {name}: right.", "{id}  {name}：正确。"),
@@ -167,6 +167,14 @@ def check(
     if words is not None:
         verdicts["words"] = verdict_on_words(exercise, words)
     return Checked(exercise, verdicts, words, spoken)
+
+
+def checked(book: Workbook, exercise: Exercise) -> Checked:
+    """Check an exercise as it stands in a student's folder."""
+    verdicts = book.verdicts(exercise)
+    _STATES.setdefault(exercise.id, {}).update({part.name: verdicts[part.name].state for part in exercise.parts})
+    found = {"words" if name == exercise.answer_name else name: verdict for name, verdict in verdicts.items()}
+    return Checked(exercise, found, book.words(exercise), book.language)
 
 
 def _of_caller(exercise: Exercise, names: dict[str, Any]) -> Sequence[Callable[..., Any]]:

@@ -48,8 +48,8 @@ LARGE = 6
 """Rows or columns up to which an array is shown in numbers; larger ones as a map as well."""
 
 
-def checked_html(checked: Checked) -> str:
-    """Return what a notebook shows for a checked exercise."""
+def checked_html(checked: Checked, *, hints: bool = True) -> str:
+    """Return what a notebook shows for a checked exercise, with the hints one click at a time unless left out."""
     language, exercise = checked.language, checked.exercise
     parts = [STYLE, '<div class="tw-check">']
     for name, verdict in checked.verdicts.items():
@@ -59,7 +59,7 @@ def checked_html(checked: Checked) -> str:
     if checked.words and exercise.answer is not None:
         model = exercise.answer.of(language)
         parts.append(f"<p>{SAY['words'].of(language)}</p>{_side_by_side(checked.words, model)}")
-    if not checked.right:
+    if hints and not checked.right:
         parts.append(hints_html(exercise, language))
     return "\n".join([*parts, f"<p>{escape(checked.progress)}</p></div>"])
 

@@ -15,7 +15,7 @@ from .text import Language, Text, default_language
 from .workbook import STATE_FILE, Workbook
 from .wrapping import wrapped
 
-__all__ = ["skeleton", "solved", "start"]
+__all__ = ["opening", "place", "skeleton", "solved", "start"]
 
 PYTEST_INI = """\
 [pytest]
@@ -93,7 +93,8 @@ def solved(section: str, language: Language) -> str:
     return _file(section, language, solve=True)
 
 
-def _file(section: str, language: Language, *, solve: bool) -> str:
+def opening(section: str, language: Language) -> str:
+    """Return how the student's file of a section begins: its title, and what all of its exercises may use."""
     exercises = catalogue.of_section(section)
     title, file = _title(section).of(language), catalogue.file_name(section)
     text = HEAD[language].format(section=section, title=title, file=file, first=exercises[0].id) + IMPORTS
@@ -103,7 +104,12 @@ def _file(section: str, language: Language, *, solve: bool) -> str:
         text += "\n"
         origin = {name: catalogue.find_part(name)[0].id for name in uses}
         text += "".join(f'{name} = mine("{name}")  # {origin[name]}: {YOURS.of(language)}\n' for name in uses)
-    return text + "".join(_exercise(exercise, language, solve=solve) for exercise in exercises)
+    return text
+
+
+def _file(section: str, language: Language, *, solve: bool) -> str:
+    written = (_text(e, language) + "\n\n" + place(e, language, solve=solve) for e in catalogue.of_section(section))
+    return opening(section, language) + "".join(written)
 
 
 def _title(section: str) -> Text:
@@ -113,13 +119,17 @@ def _title(section: str) -> Text:
     return Text(f"Section {section}: {title.en}", f"{section} 节：{title.zh}")
 
 
-def _exercise(exercise: Exercise, language: Language, *, solve: bool) -> str:
-    """Write one exercise: its text as a comment, its functions, the place for the words."""
+def _text(exercise: Exercise, language: Language) -> str:
+    """Return what an exercise asks, as a comment."""
     rule = "# " + "-" * 98
     lines = [f"{exercise.id}  {exercise.title.of(language)}", "", *wrapped(exercise.text.of(language))]
-    text = "\n\n" + rule + "\n" + "".join(f"# {line}".rstrip() + "\n" for line in lines) + rule + "\n"
+    return "\n\n" + rule + "\n" + "".join(f"# {line}".rstrip() + "\n" for line in lines) + rule + "\n"
+
+
+def place(exercise: Exercise, language: Language, *, solve: bool = False) -> str:
+    """Return where the answer to an exercise is written: its functions, and the place for the words."""
     written = solution_sources(exercise, language) if solve else [_stub(part, language) for part in exercise.parts]
-    text += "".join("\n\n" + source for source in written)
+    text = "\n\n".join(written)
     if exercise.answer is not None:
         words = '"""' + inspect.cleandoc(exercise.answer.of(language)) + '"""' if solve else "..."
         text += f"\n\n# {WORDS.of(language)}\n{exercise.answer_name} = {words}\n"

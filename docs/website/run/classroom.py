@@ -1,0 +1,199 @@
+"""What runs in the page's worker: the cells of a notebook, and the checks of the exercises.
+
+`run` answers with a list of outputs, each a kind and a text, in the order in which they came. The answers to the
+exercises are put together to the folder that `twistwrench exercises start` writes, and checked there.
+"""
+
+from __future__ import annotations
+
+import ast
+import base64
+import io
+import linecache
+import re
+import sys
+import traceback
+import zipfile
+from collections.abc import Iterator
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+from typing import Any
+
+ANSWERS = Path("/answers")
+TO_BE_HAD = {"matplotlib", "mpmath", "sympy"}
+"""Packages that are loaded when a cell imports them."""
+IN_THE_SHELL = re.compile(r"[;；][^;；\n]*twistwrench exercises hint [\w.]+|\n+.*twistwrench exercises solution.*")
+"""What a message says of commands, which a page has buttons for."""
+SPACES: dict[str, dict[str, Any]] = {}
+"""What the cells of a page have defined, by the page's name."""
+SHOWN = ("_repr_html_", "html"), ("_repr_latex_", "latex"), ("_repr_svg_", "html")
+
+Output = tuple[str, str]
+
+
+class Lines(io.TextIOBase):
+    """A text stream that keeps what is written, among the other outputs."""
+
+    def __init__(self, kind: str, outputs: list[Output]) -> None:
+        self.kind, self.outputs = kind, outputs
+
+    def write(self, text: str) -> int:
+        """Append to the last output where it is of this stream."""
+        if self.outputs and self.outputs[-1][0] == self.kind:
+            text = self.outputs.pop()[1] + text
+        self.outputs.append((self.kind, text))
+        return len(text)
+
+
+def run(source: str, page: str, name: str) -> list[Output]:
+    """Run a cell of a page, and return what it prints and draws, and its last value; or how it fails.
+
+    A package that is not there, but can be, is asked for: ``[("needs", "matplotlib")]``.
+    """
+    space = SPACES.setdefault(page, {"__name__": "__main__", "__builtins__": __builtins__})
+    outputs: list[Output] = []
+    linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
+    with redirect_stdout(Lines("out", outputs)), redirect_stderr(Lines("err", outputs)):
+        try:
+            outputs += display(execute(source, space, name))
+        except (Exception, SystemExit) as error:
+            if package := missing(error):
+                return [("needs", package)]
+            outputs.append(("error", explained(error)))
+        except BaseException as error:
+            outputs.append(("error", type(error).__name__))
+        outputs += figures()
+    return outputs
+
+
+def execute(source: str, space: dict[str, Any], name: str) -> Any:
+    """Run a source in a name space, and return the value of its last line where that is an expression."""
+    tree = ast.parse(source, name)
+    last = None
+    if tree.body and isinstance(tree.body[-1], ast.Expr) and not source.rstrip().endswith(";"):
+        last = ast.Expression(tree.body.pop().value)  # type: ignore[attr-defined]
+    exec(compile(tree, name, "exec"), space)
+    return None if last is None else eval(compile(last, name, "eval"), space)
+
+
+def display(value: Any) -> Iterator[Output]:
+    """Yield what a notebook would show of a value."""
+    if value is None:
+        return
+    for method, kind in SHOWN:
+        if callable(shown := getattr(value, method, None)) and (text := shown()):
+            yield kind, text
+            return
+    yield "out", f"{value!r}\n"
+
+
+def figures() -> Iterator[Output]:
+    """Yield the open figures as SVG, and close them."""
+    if "matplotlib.pyplot" not in sys.modules:
+        return
+    import matplotlib.pyplot as plt
+
+    for number in plt.get_fignums():
+        text = io.StringIO()
+        plt.figure(number).savefig(text, format="svg", bbox_inches="tight")
+        svg = text.getvalue()
+        yield "figure", svg[svg.index("<svg") :]
+    plt.close("all")
+
+
+def missing(error: BaseException | None) -> str:
+    """Return the package behind whose absence an error is, where it can be had; else nothing."""
+    while error is not None:
+        if isinstance(error, ModuleNotFoundError) and error.name in TO_BE_HAD:
+            return error.name
+        error = error.__cause__ or error.__context__
+    return ""
+
+
+def explained(error: BaseException) -> str:
+    """Return an error as Python prints it, without the lines of this file."""
+    if isinstance(error, SyntaxError):
+        return "".join(traceback.format_exception_only(error))
+    trace = error.__traceback__
+    while trace is not None and trace.tb_frame.f_code.co_filename == __file__:
+        trace = trace.tb_next
+    return "".join(traceback.format_exception(error.with_traceback(trace)))
+
+
+# ---------------------------------------------------------------- exercises
+
+
+def folder(answers: dict[str, str], state: str, language: str) -> Path:
+    """Write the folder of a student: the skeletons with the answers in their places, and what was remembered."""
+    from twistwrench.exercises import catalogue, skeletons, start
+
+    ANSWERS.mkdir(exist_ok=True)
+    for path in ANSWERS.iterdir():
+        path.unlink()
+    if state:
+        (ANSWERS / ".twistwrench.json").write_text(state, encoding="utf-8")
+    start(ANSWERS, language=language)
+    for number, answer in answers.items():
+        exercise = catalogue.exercise(number)
+        path, place = ANSWERS / catalogue.file_name(exercise.section), skeletons.place(exercise, language)
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text.replace(place, answer.rstrip() + "\n"), encoding="utf-8")
+    return ANSWERS
+
+
+def remembered() -> str:
+    """Return the content of the hidden file, to be kept with the answers; nothing before there are any."""
+    path = ANSWERS / ".twistwrench.json"
+    return path.read_text(encoding="utf-8") if path.exists() else ""
+
+
+def try_out(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
+    """Run an answer as a cell, with what stands above it in its file."""
+    from twistwrench.exercises import catalogue, skeletons
+
+    exercise = catalogue.exercise(number)
+    path = folder(answers, state, language) / catalogue.file_name(exercise.section)
+    SPACES[number] = {"__name__": "__main__", "__builtins__": __builtins__, "__file__": str(path)}
+    execute(skeletons.opening(exercise.section, language), SPACES[number], path.name)
+    return run(answers.get(number, ""), number, number)
+
+
+def check(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
+    """Check an exercise, and return the verdict as HTML."""
+    from twistwrench.exercises import catalogue
+    from twistwrench.exercises.cells import checked
+    from twistwrench.exercises.isolation import opened
+    from twistwrench.exercises.markup import checked_html
+
+    outputs: list[Output] = []
+    with redirect_stdout(Lines("out", outputs)), redirect_stderr(Lines("err", outputs)):
+        try:
+            with opened(folder(answers, state, language), time_limit=0) as book:
+                verdict = checked(book, catalogue.exercise(number))
+        except ImportError as error:
+            if package := missing(error):
+                return [("needs", package)]
+            raise
+    text = IN_THE_SHELL.sub("", checked_html(verdict, hints=False))
+    return [*outputs, ("right" if verdict.right else "wrong", text)]
+
+
+def hint(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
+    """Return the next hint; after the last one a solution."""
+    from twistwrench import exercises
+    from twistwrench.exercises.workbook import Workbook
+
+    book = Workbook(folder(answers, state, language))
+    given = book.state["hints"].get(number, 0)
+    last = len(exercises.catalogue.exercise(number).hints)
+    text = exercises.solution(number, book.folder) if given >= last else exercises.hint(number, book.folder)
+    return [("hint", IN_THE_SHELL.sub("", text))]
+
+
+def archive(answers: dict[str, str], state: str, language: str) -> str:
+    """Return the folder of answers as a ZIP file in base64."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as packed:
+        for path in sorted(folder(answers, state, language).iterdir()):
+            packed.write(path, f"answers/{path.name}")
+    return base64.b64encode(content.getvalue()).decode()

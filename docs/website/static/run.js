@@ -1,0 +1,246 @@
+// Run this page: cells and exercises are edited, run and checked where they stand, by Python in a worker.
+// Nothing is loaded before the first click. It comes as scripts, since a page of the file system may not fetch.
+(() => {
+  const RUNTIME = new URL("../../runtime/", document.currentScript.src);
+  const CHINESE = document.documentElement.lang.startsWith("zh");
+  const LANGUAGE = CHINESE ? "zh" : "en";
+  const PAGE = location.pathname.split("/").pop().replace(".html", "");
+  const SAY = CHINESE
+    ? {
+        run: "运行", all: "运行全部", check: "检查", hint: "提示", reset: "还原", stop: "停止", save: "下载我的答案",
+        open: "读入答案", ready: "就绪", running: "正在运行……", loading: "正在载入 Python：", starting: "正在启动 Python……",
+        stopped: "已停止；变量已清空。", failed: "未能载入：", code: "代码，可以编辑；Esc 之后 Tab 离开", output: "运行结果",
+        above: "先运行上面的单元", figure: "运行所得的图", took: (s) => `用时 ${s} 秒`, read: (n) => `读入了 ${n} 题的答案。`,
+      }
+    : {
+        run: "Run", all: "Run all", check: "Check", hint: "Hint", reset: "Reset", stop: "Stop", save: "Download my answers",
+        open: "Open answers", ready: "ready", running: "running …", loading: "loading Python: ", starting: "starting Python …",
+        stopped: "Stopped; what was defined is gone.", failed: "Could not be loaded: ",
+        code: "code, to be edited; Escape and then Tab leaves it", output: "what it gives", above: "with the cells above",
+        figure: "the figure that the cell draws", took: (s) => `${s} s`, read: (n) => `Read the answers to ${n} exercises.`,
+      };
+  const MB = (bytes) => (bytes / 1e6).toFixed(1);
+
+  // ---------------------------------------------------------------- what is kept in this browser
+  const kept = (key) => JSON.parse(localStorage.getItem(`twistwrench/${key}`) ?? "null");
+  const keep = (key, value) =>
+    value === null ? localStorage.removeItem(`twistwrench/${key}`) : localStorage.setItem(`twistwrench/${key}`, JSON.stringify(value));
+  const answers = () => {
+    const found = Object.keys(localStorage).filter((key) => key.startsWith("twistwrench/answer/"));
+    return Object.fromEntries(found.map((key) => [key.split("/").pop(), JSON.parse(localStorage.getItem(key)).now]));
+  };
+
+  // ---------------------------------------------------------------- the runtime, and the worker
+  const received = new Map(), loading = {}; // name: base64, and group: its files
+  let groups, worker, count = 0, pending = new Map(), toLoad = 0, loaded = 0;
+  window.twistwrenchFile = (name, text) => received.set(name, text);
+  window.twistwrenchGroups = (value) => (groups = value);
+
+  const script = (name) =>
+    new Promise((resolve, reject) => {
+      const element = document.createElement("script");
+      element.src = new URL(name, RUNTIME);
+      element.onload = () => { element.remove(); resolve(); };
+      element.onerror = () => reject(new Error(SAY.failed + element.src));
+      document.head.append(element);
+    });
+
+  const load = (group) => (loading[group] ??= loadGroup(group));
+
+  async function loadGroup(group) {
+    groups ?? (await script("groups.js"));
+    toLoad += groups[group].reduce((sum, [, size]) => sum + size, 0);
+    const one = async ([name, size]) => {
+      await script(`${name}.js`);
+      loaded += size;
+      progress();
+      return [name, received.get(name)];
+    };
+    return Promise.all(groups[group].map(one));
+  }
+
+  function progress() {
+    bar.progress.hidden = loaded >= toLoad;
+    [bar.progress.max, bar.progress.value] = [toLoad, loaded];
+    say(loaded < toLoad ? `${SAY.loading}${MB(loaded)} / ${MB(toLoad)} MB` : SAY.starting);
+  }
+
+  async function begin() {
+    const [[, text]] = await load("worker");
+    worker = new Worker(URL.createObjectURL(new Blob([atob(text)], { type: "text/javascript" })));
+    worker.onerror = (event) => say(SAY.failed + event.message);
+    worker.onmessage = async ({ data }) => {
+      if (data.need) {
+        load(data.need).then((files) => worker.postMessage({ group: data.need, files }), (error) => say(error.message));
+      } else {
+        const { resolve, reject } = pending.get(data.id);
+        pending.delete(data.id);
+        if (data.state) keep("state", data.state);
+        data.failed ? reject(new Error(data.failed)) : resolve(data.result);
+      }
+    };
+    for (const group of ["core", "base", ...alsoNeeded()]) load(group).catch((error) => say(error.message)); // all at once
+  }
+  const alsoNeeded = () => ["matplotlib", "sympy"].filter((name) => cells.some((cell) => cell.code().includes(`import ${name}`)));
+  let begun;
+
+  async function ask(call, ...given) {
+    await (begun ??= begin());
+    bar.stop.hidden = false;
+    const start = performance.now(), id = ++count;
+    const result = new Promise((resolve, reject) => pending.set(id, { resolve, reject }));
+    if (bar.progress.hidden) say(SAY.running);
+    worker.postMessage({ id, call, given });
+    try {
+      return await result;
+    } finally {
+      if (!pending.size) {
+        bar.stop.hidden = true;
+        say(SAY.took(((performance.now() - start) / 1000).toFixed(1)));
+      }
+    }
+  }
+
+  function stop() {
+    worker?.terminate();
+    begun = worker = undefined;
+    for (const { reject } of pending.values()) reject(new Error(SAY.stopped));
+    pending.clear();
+    for (const cell of cells) cell.done = false;
+  }
+
+  // ---------------------------------------------------------------- what is shown
+  const element = (tag, properties = {}, ...inside) => {
+    const made = Object.assign(document.createElement(tag), properties);
+    made.append(...inside);
+    return made;
+  };
+  const button = (text, act, title = "") => element("button", { type: "button", className: "run-button", textContent: text, onclick: act, title });
+  const say = (text) => (bar.status.textContent = text);
+
+  const SHOW = {
+    out: (text) => element("pre", { textContent: text }),
+    err: (text) => element("pre", { className: "run-err", textContent: text }),
+    error: (text) => element("pre", { className: "run-error", textContent: text }),
+    hint: (text) => element("pre", { className: "run-hint", textContent: text }),
+    html: (text) => element("div", { innerHTML: text }),
+    latex: (text) => element("div", { className: "math", textContent: text }),
+    right: (text) => element("div", { innerHTML: text }),
+    wrong: (text) => element("div", { innerHTML: text }),
+    figure: (text) => element("img", { src: URL.createObjectURL(new Blob([text], { type: "image/svg+xml" })), alt: SAY.figure }),
+  };
+
+  function show(box, outputs) {
+    box.replaceChildren(...outputs.map(([kind, text]) => SHOW[kind](text)));
+    box.classList.remove("run-waiting");
+    if (outputs.some(([kind]) => kind === "latex")) window.MathJax?.typesetPromise?.([box]);
+  }
+
+  // ---------------------------------------------------------------- a listing that can be edited
+  function editable(pre, key) {
+    const text = () => {
+      const copy = pre.cloneNode(true); // a browser may write a line's end as <br>
+      for (const end of copy.querySelectorAll("br")) end.replaceWith("\n");
+      return copy.textContent;
+    };
+    const original = text(), html = pre.innerHTML, saved = kept(key);
+    pre.contentEditable = "true";
+    try { pre.contentEditable = "plaintext-only"; } catch { /* an older Firefox */ }
+    Object.assign(pre, { spellcheck: false, role: "textbox", ariaMultiLine: "true", ariaLabel: SAY.code });
+    if (saved?.was === original) pre.textContent = saved.now;
+    const code = () => text().replace(/\n+$/, "");
+    pre.addEventListener("input", () => keep(key, text() === original ? null : { was: original, now: code() }));
+    pre.addEventListener("keydown", (event) => {
+      const insert = (text) => { event.preventDefault(); document.execCommand("insertText", false, text); };
+      if (event.key === "Tab" && !event.shiftKey && !event.ctrlKey && !event.altKey) insert("    ");
+      if (event.key === "Enter" && !event.shiftKey && !event.ctrlKey) {
+        const range = getSelection().getRangeAt(0).cloneRange();
+        range.setStart(pre, 0);
+        const line = range.toString().split("\n").pop();
+        insert("\n" + /^ */.exec(line)[0] + (line.trimEnd().endsWith(":") ? "    " : ""));
+      }
+      if (event.key === "Escape") pre.blur();
+    });
+    const reset = () => { pre.innerHTML = html; keep(key, null); };
+    return { code, reset, isChanged: () => kept(key) !== null };
+  }
+
+  // ---------------------------------------------------------------- cells of a notebook
+  const cells = [];
+
+  async function runTo(last) {
+    for (const cell of cells.slice(0, last + 1)) if (!cell.done || cell === cells[last]) await runCell(cell);
+  }
+
+  async function runCell(cell) {
+    cell.box.classList.add("run-waiting");
+    const code = cell.code();
+    try {
+      const outputs = await ask("run", code, PAGE, `cell ${cell.number + 1}`);
+      show(cell.box, outputs);
+      if (outputs.some(([kind]) => kind === "error")) throw new Error(outputs.find(([kind]) => kind === "error")[1].trim().split("\n").pop());
+      cell.done = true;
+    } catch (error) {
+      cell.box.classList.remove("run-waiting");
+      say(error.message);
+      throw error;
+    }
+  }
+
+  function addCell(box, number) {
+    const cell = Object.assign(editable(box.querySelector(".cell_input pre"), `cell/${PAGE}/${number}`), { number, done: false });
+    cell.box = box.querySelector(":scope > .cell_output") ?? box.appendChild(element("div", { className: "cell_output docutils container" }));
+    const before = [...cell.box.childNodes], act = () => runTo(number).catch(() => {});
+    const back = () => { cell.reset(); cell.done = false; cell.box.replaceChildren(...before); };
+    const tools = element("div", { className: "run-tools" }, button(`▶ ${SAY.run}`, act, number ? SAY.above : ""), button(SAY.reset, back));
+    cell.box.ariaLive = "polite";
+    box.querySelector(".cell_input").append(tools);
+    box.addEventListener("input", () => (cell.done = false));
+    box.addEventListener("keydown", (event) => { if (event.key === "Enter" && (event.shiftKey || event.ctrlKey)) { event.preventDefault(); act(); } });
+    cells.push(cell);
+  }
+
+  // ---------------------------------------------------------------- exercises
+  function addExercise(place) {
+    const number = place.dataset.number, key = `answer/${number}`;
+    const answer = editable(place.querySelector("pre"), key);
+    const box = element("div", { className: "run-output", ariaLive: "polite" });
+    const act = (call) => async () => {
+      box.classList.add("run-waiting");
+      const all = { ...answers(), [number]: answer.code() };
+      try {
+        const outputs = await ask(call, number, all, kept("state") ?? "", LANGUAGE);
+        show(box, outputs);
+        if (call === "check") mark(outputs.some(([kind]) => kind === "right"));
+      } catch (error) {
+        say(error.message);
+        box.classList.remove("run-waiting");
+      }
+    };
+    const mark = (right) => { keep(`right/${number}`, right); place.classList.toggle("is-right", right); };
+    const back = () => { answer.reset(); box.replaceChildren(); mark(false); };
+    const tools = [button(`▶ ${SAY.run}`, act("try_out")), button(SAY.check, act("check")), button(SAY.hint, act("hint")), button(SAY.reset, back)];
+    place.append(element("div", { className: "run-tools" }, ...tools), box);
+    place.addEventListener("keydown", (event) => { if (event.key === "Enter" && (event.shiftKey || event.ctrlKey)) { event.preventDefault(); act("check")(); } });
+    place.classList.toggle("is-right", kept(`right/${number}`) === true);
+    if (answer.isChanged()) place.open = true;
+  }
+
+  async function download() {
+    const content = await ask("archive", answers(), kept("state") ?? "", LANGUAGE);
+    element("a", { href: `data:application/zip;base64,${content}`, download: "answers.zip" }).click();
+  }
+
+  // ---------------------------------------------------------------- the bar under the title
+  const bar = { status: element("span", { role: "status" }), progress: element("progress", { hidden: true, ariaLabel: SAY.loading }), stop: button(SAY.stop, stop) };
+  document.addEventListener("DOMContentLoaded", () => {
+    const place = document.querySelector(".run-bar");
+    if (!place) return;
+    bar.stop.hidden = true;
+    document.querySelectorAll("div.cell:has(> .cell_input), div.cell:has(.cell_input)").forEach(addCell);
+    document.querySelectorAll(".exercise[data-number]").forEach(addExercise);
+    const all = cells.length ? button(`▶ ${SAY.all}`, () => runTo(cells.length - 1).catch(() => {})) : button(SAY.save, () => download().catch((error) => say(error.message)));
+    place.prepend(all, bar.stop);
+    place.append(bar.progress, bar.status);
+  });
+})();

@@ -1,0 +1,145 @@
+"""What runs in a page: cells as a notebook runs them, exercises as the shell checks them, and the files it is made of."""
+
+import base64
+import io
+import sys
+import zipfile
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from twistwrench import exercises
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "docs"), str(ROOT / "docs" / "website" / "run")]
+
+import classroom  # noqa: E402
+import runtime  # noqa: E402
+from website import inpage  # noqa: E402
+
+TRANSPOSED = {"49.0.1": "def skew(w):\n    return tw.skew(w).T\n"}
+
+
+@pytest.fixture(autouse=True)
+def _no_traces(tmp_path, monkeypatch):
+    monkeypatch.setattr(classroom, "ANSWERS", tmp_path / "answers")
+    monkeypatch.setattr(classroom, "SPACES", {})
+
+
+def test_a_cell_prints_and_shows_its_last_value():
+    assert classroom.run("print(1)\nx = 2\nx + 1", "page", "cell 1") == [("out", "1\n"), ("out", "3\n")]
+    assert classroom.run("x;", "page", "cell 2") == classroom.run("None", "page", "cell 3") == []
+    assert classroom.run("x", "other", "cell 1")[0][0] == "error"
+
+
+def test_a_value_is_shown_as_a_notebook_shows_it():
+    shown = classroom.run("import twistwrench as tw\ntw.SE3.identity()", "page", "cell 1")
+    assert [kind for kind, _ in shown] == ["latex"]
+    assert [kind for kind, _ in classroom.run("tw.robots()", "page", "cell 2")] == ["html"]
+
+
+@pytest.mark.parametrize(
+    ("source", "said"),
+    [
+        ("def f():\n    return 1 / 0\nf()", 'File "cell 1", line 2, in f\n    return 1 / 0'),
+        ("def f(:", 'File "cell 1", line 1\n    def f(:'),
+        ("raise SystemExit(3)", "SystemExit: 3"),
+    ],
+)
+def test_an_error_names_the_line_of_the_cell_and_none_of_ours(source, said):
+    [(kind, text)] = classroom.run(source, "page", "cell 1")
+    assert kind == "error"
+    assert said in text
+    assert "classroom.py" not in text
+
+
+def test_a_package_that_can_be_had_is_asked_for_and_another_is_missing(monkeypatch):
+    for name in ("sympy", "nowhere"):
+        monkeypatch.setitem(sys.modules, name, None)
+    assert classroom.run("import sympy", "page", "cell 1") == [("needs", "sympy")]
+    assert classroom.run("import nowhere", "page", "cell 1")[0][0] == "error"
+
+
+def test_a_figure_becomes_a_picture():
+    pytest.importorskip("matplotlib").use("svg")
+    outputs = classroom.run("import matplotlib.pyplot as plt\nplt.plot([1, 2]);", "page", "cell 1")
+    assert [kind for kind, _ in outputs] == ["figure"]
+    assert outputs[0][1].startswith("<svg")
+    assert classroom.run("1;", "page", "cell 2") == []
+
+
+@pytest.mark.parametrize(("language", "slip"), [("en", "the cross matrix is transposed"), ("zh", "反对称矩阵")])
+def test_a_check_names_the_slip_and_no_command(language, slip):
+    [(kind, text)] = classroom.check("49.0.1", TRANSPOSED, "", language)
+    assert kind == "wrong"
+    assert slip in text
+    assert "twistwrench exercises" not in text
+    right = {"49.0.1": "def skew(w):\n    return tw.skew(w)\n"}
+    assert classroom.check("49.0.1", right, "", language)[0][0] == "right"
+
+
+def test_hints_come_one_by_one_and_then_the_solution():
+    state, texts = "", []
+    for _ in range(3):
+        texts.append(classroom.hint("49.0.1", {}, state, "en")[0][1])
+        state = classroom.remembered()
+    assert [text.splitlines()[0].partition(": ")[2] for text in texts] == ["hint 1 of 2", "hint 2 of 2", "a solution"]
+    assert not any("twistwrench exercises" in text for text in texts)
+
+
+def test_an_answer_runs_below_what_its_file_begins_with():
+    answer = {"49.0.1": TRANSPOSED["49.0.1"] + "skew([1.0, 2.0, 3.0])[0, 1]"}
+    assert classroom.try_out("49.0.1", answer, "", "en") == [("out", "np.float64(3.0)\n")]
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_folder_is_that_of_the_shell_with_the_answers_in_their_places(tmp_path, language):
+    exercises.start(tmp_path / "shell", language=language)
+    content = io.BytesIO(base64.b64decode(classroom.archive(TRANSPOSED, "", language)))
+    with zipfile.ZipFile(content) as archive:
+        packed = {Path(name).name: archive.read(name).decode() for name in archive.namelist()}
+    shell = {path.name: path.read_text(encoding="utf-8") for path in (tmp_path / "shell").iterdir()}
+    assert set(packed) == set(shell)
+    assert [name for name in shell if shell[name] != packed[name]] == ["ex_49_0.py"]
+    assert TRANSPOSED["49.0.1"] in packed["ex_49_0.py"]
+    assert "return ..." in packed["ex_49_0.py"]  # the other exercises of the section
+
+
+def test_what_is_unpacked_in_the_page_can_be_imported(tmp_path):
+    with zipfile.ZipFile(io.BytesIO(inpage.package())) as archive:
+        names = archive.namelist()
+    assert {"classroom.py", "twistwrench/__init__.py", "twistwrench/models/go2.urdf"} <= set(names)
+    assert not [name for name in names if name.endswith(".pyc")]
+    assert inpage.package() == inpage.package()
+
+
+def test_the_runtime_stands_beside_the_pages_where_it_was_gathered(tmp_path, monkeypatch):
+    monkeypatch.setattr(inpage, "files", lambda: iter([("core", "a.gz", b"abc"), ("base", "b.zip", b"d")]))
+    monkeypatch.setattr(runtime, "is_complete", lambda: True)
+    inpage.write_runtime(tmp_path)
+    written = (tmp_path / "runtime" / "a.gz.js").read_text()
+    assert written == 'twistwrenchFile("a.gz","YWJj");\n'
+    assert (tmp_path / "runtime" / "groups.js").read_text() == (
+        'twistwrenchGroups({"core": [["a.gz", 4]], "base": [["b.zip", 4]]});\n'
+    )
+    monkeypatch.setattr(runtime, "is_complete", lambda: False)
+    inpage.write_runtime(tmp_path)
+    assert not (tmp_path / "runtime").exists()
+
+
+@pytest.mark.parametrize("here", [True, False])
+def test_a_page_says_whether_it_can_be_run(monkeypatch, here):
+    monkeypatch.setattr(runtime, "is_complete", lambda: here)
+    monkeypatch.setattr(inpage, "files", lambda: iter([("core", "a", bytes(3_000_000)), ("sympy", "b", bytes(10**7))]))
+    handlers, scripts = [], []
+    app = SimpleNamespace(connect=lambda event, handler: handlers.append(handler), add_js_file=scripts.append)
+    inpage.connect(app, "en", ["00_first"])
+    for page in ("chapter/00_first", "chapter/exercises", "errata"):
+        context = {"body": "<h1>Title</h1><p>Text</p>"}
+        handlers[0](app, page, "page.html", context, None)
+        assert ("run-bar" in context["body"]) == (page != "errata")
+        assert ("docs/runtime.py" in context["body"]) == (not here and page != "errata")
+        assert ("(3 MB)" in context["body"]) == (here and page != "errata")
+        assert ('href="00_first.ipynb" download' in context["body"]) == (page == "chapter/00_first")
+    assert scripts == ["run.js"] * 2 * here
