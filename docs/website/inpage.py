@@ -25,7 +25,7 @@ RUN = Path(__file__).resolve().parent / "run"
 GROUPS = ("base", "matplotlib", "sympy")
 """Those of `runtime.GROUPS` that pages use."""
 EXERCISES = "chapter/exercises"
-LICENCE = f"""Pyodide {runtime.VERSION}, under the Mozilla Public License 2.0; its source is on npm and at the home of Pyodide.
+LICENCE = f"""Pyodide {runtime.VERSION}, under the Mozilla Public License 2.0; its source is where the npm package says.
 The other packages carry their licences inside.
 """
 
@@ -39,7 +39,8 @@ SAY = {
         "answer": "Answer here",
     },
     "zh": {
-        "runs": "本页可在浏览器中运行：改动单元，然后运行。第一次点击时载入 Python（{size} MB），所作改动保存在此浏览器中。",
+        "runs": "本页可在浏览器中运行：改动单元，然后运行。第一次点击时载入 Python（{size} MB），"
+        "所作改动保存在此浏览器中。",
         "not here": "本站点构建时未带页内 Python：先运行 <code>python docs/runtime.py</code>，再运行"
         " <code>python docs/build.py</code>，页面上就有按钮。",
         "notebook": "下载本笔记本",

@@ -1,4 +1,4 @@
-"""What runs in a page: cells as a notebook runs them, exercises as the shell checks them, and the files it is made of."""
+"""What runs in a page: cells as a notebook runs them, exercises as the shell checks them, and the files for it."""
 
 import base64
 import io
