@@ -212,6 +212,74 @@ def test_a_sole_stands_on_its_corners_and_rolls_over_its_edge():
             assert s.contact_forces["p0"][-1] == pytest.approx([0, -moment, 0, 0, 0, 2.0 * G], abs=1e-6)
 
 
+# ---------------------------------------------------------------- what a motion is worth
+
+
+def test_a_go2_that_hangs_on_its_own_feet_says_so():
+    """Passive on feet that stick: they would slip, then pull; the legs leave their ranges and the trunk sinks."""
+    q, rest = GO2.standing(), np.zeros(18)
+    s = tw.simulate(GO2, q, rest, dt=0.01, steps=36, contacts=feet(0.6), method="semi-implicit")
+    said = {remark.kind: remark for remark in s.remarks[::-1]}
+    assert {"slip", "pull", "range", "sunk"} <= said.keys()
+    assert [remark.t for remark in s.remarks] == sorted(remark.t for remark in s.remarks)
+    pull = said["pull"]
+    k = round(pull.t / 0.01)
+    assert s.contact_forces[pull.name][k, 2] == -pull.value < 0
+    assert all((force[:k, 2] > -1e-6).all() for force in s.contact_forces.values())
+    text = str(s)
+    assert f"from t = {pull.t:.4g} s contact '{pull.name}' pulls, by {pull.value:.4g} N" in text
+    assert "below all contacts" in text
+
+
+def test_a_robot_that_does_what_it_can_has_no_remarks():
+    q = GO2.standing()
+    hold = tw.static_equilibrium(GO2, q).tau
+    for ground in (None, tw.Ground()):
+        tau = np.r_[np.zeros(6), hold]
+        s = tw.simulate(GO2, q, np.zeros(18), dt=0.002, steps=5, tau=tau, contacts=feet(0.6), ground=ground)
+        assert s.remarks == ()
+
+
+def test_a_motor_a_speed_and_a_sole_that_are_asked_too_much_are_named_with_the_limit():
+    model = rotor(effort_limit=1.0, velocity_limit=2.0, lower=-0.1, upper=0.1)
+    s = tw.simulate(model, [0.0], [1.9], dt=0.01, steps=10, tau=[1.5])
+    assert [(r.kind, r.t, r.limit) for r in s.remarks] == [
+        ("effort", 0.0, 1.0),
+        ("speed", pytest.approx(0.01), 2.0),
+        ("range", pytest.approx(0.05), 0.1),
+    ]
+    board = body("board", tw.SpatialInertia.from_box(2.0, 2 * HALF), [[0, 0, -HALF[2]]])
+    for arm, kinds in ((0.9, []), (1.1, ["tip"])):
+        sole, push = [tw.SurfaceContact("p0", (HALF[0], HALF[1]), 0.5)], np.r_[0, arm * HALF[0] * 2.0 * G, 0, 0, 0, 0]
+        tipped = tw.simulate(board, [0, 0, HALF[2], 0, 0, 0, 1], np.zeros(6), dt=0.01, steps=1, tau=push, contacts=sole)
+        assert [r.kind for r in tipped.remarks] == kinds
+
+
+def test_a_foot_that_leaves_the_ground_and_one_that_slides_are_noted():
+    s = slide(0.4, np.r_[0, 0, 0, 1.0, 0, 0], steps=3)
+    assert {(r.kind, r.t) for r in s.remarks} == {("slide", 0.0)}
+    assert s.remarks[0].value == pytest.approx(1.0 - 0.4 * G * 0.005, rel=1e-3)
+    thrown = slide(0.4, np.zeros(6), steps=10, tau=lambda t, q, v: np.r_[0, 0, 0, 0, 0, 40.0 * (t > 0.011)])
+    assert [(r.kind, r.t) for r in thrown.remarks] == [("lift-off", pytest.approx(0.015))] * 4
+
+
+def test_the_work_of_the_joint_forces_is_what_the_energy_gains():
+    model = tw.load("double_pendulum")
+    clock = {"dt": 0.002, "steps": 200, "dt_control": 0.01}
+    s = tw.simulate(model, [0.3, 0.2], [0.0, 0.0], tau=lambda t, q, v: [0.5, -0.2 * np.sin(9 * t)], **clock)
+    assert s.work.shape == s.t.shape
+    assert np.abs(s.energy - s.energy[0] - s.work).max() < 2e-3 * np.abs(s.work).max()
+
+
+@pytest.mark.parametrize(("method", "order"), [("euler", 1), ("rk4", 4)])
+def test_the_error_of_a_step_is_that_of_its_order(method, order):
+    errors = []
+    for steps in (10, 20):
+        s = tw.simulate(tw.load("pendulum"), [2.0], [0.5], dt=1.0 / steps, steps=steps, method=method)
+        errors.append(s.step_error()[1])
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(order + 1, abs=0.6)
+
+
 # ---------------------------------------------------------------- what a URDF says of its joints
 
 

@@ -11,6 +11,7 @@
 - `ground`: the ground and the points that may touch it.
 - `system`: the forces of the policy, the contacts, and the acceleration.
 - `divergence`: when a step has gone wrong.
+- `remarks`: what a motion is worth.
 - `result`: the motion.
 - `scene_like`: what `simulate` needs of a scene.
 """
@@ -18,8 +19,9 @@
 from .divergence import DivergenceError
 from .ground import Ground
 from .methods import METHODS, Method
+from .remarks import Remark
 from .result import Simulation
 from .run import simulate
 from .system import Policy
 
-__all__ = ["METHODS", "DivergenceError", "Ground", "Method", "Policy", "Simulation", "simulate"]
+__all__ = ["METHODS", "DivergenceError", "Ground", "Method", "Policy", "Remark", "Simulation", "simulate"]

@@ -72,6 +72,8 @@ class TimeStepping:
     ----------
     forces : list of ndarray, shape (..., k, 3)
         Of each step, at the k points in the axes of the ground, the normal last, N.
+    slides : list of ndarray, shape (..., k)
+        Of each step, how fast the points that touch slide at its end, m/s.
     missed : list of ndarray, shape (...)
         Of each step, how far Coulomb's law was missed: the normal speed that a point that touches has too much, m/s.
 
@@ -86,6 +88,7 @@ class TimeStepping:
         self.mu = np.array([c.mu for c in self.contacts for _ in c.points])
         self.joints = Joints(model, q)
         self.forces: list[Array] = []
+        self.slides: list[Array] = []
         self.missed: list[Array] = []
         self._slide = np.zeros((*q.shape[:-1], len(self.mu), 2))
         self._refuse_below(q)
@@ -101,6 +104,7 @@ class TimeStepping:
             force[item] = found.impulse / self.dt
             q1[item] = self.settle(integrate(self.model, q[item].copy(), self.dt * found.v))
         self.forces.append(force)
+        self.slides.append(np.hypot(self._slide[..., 0], self._slide[..., 1]))
         self.missed.append(missed)
         return q1, v1
 

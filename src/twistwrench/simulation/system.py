@@ -136,6 +136,18 @@ class System:
         self._policy, self._constant = None, self.tau
         return self.held(0.0, q, v).forces
 
+    def again(
+        self, q: Array, v: Array, tau: Array, step: Callable[[System, float, Array, Array], tuple[Array, Array]]
+    ) -> tuple[Array, Array]:
+        """Return the state after a step from q and v under constant forces, made in two halves."""
+        dt, own = self.dt / 2, self.stepping
+        stepping = own and TimeStepping(self.model, own.contacts, own.ground, dt, q)
+        there = System(self.model, self.contacts, self.push, tau, q, v, dt, stepping=stepping)
+        for _ in range(2):
+            there.begin(0, 0.0, q, v)
+            q, v = there.settle(*step(there, 0.0, q.copy(), v.copy()))
+        return q, v
+
     def settle(self, q: Array, v: Array) -> tuple[Array, Array]:
         """Return the nearby state in which the contacts are where they stick, with zero velocity."""
         return project_state(self.model, q, v, self.contacts, self.anchors) if self.contacts else (q, v)
