@@ -12,6 +12,8 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from .front import trot
+
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = Path(__file__).resolve().parent / "text"
 LANGUAGES = ("en", "zh")
@@ -134,15 +136,12 @@ def _with_note(text: str) -> str:
 
 def write_texts(out: Path, language: str, listings: dict[str, list[str]]) -> None:
     """Write the pages that only the site has; `<!-- pages: x -->` in them becomes a table of contents."""
-    readme = (ROOT / twin("README.md", language)).read_text(encoding="utf-8")
-    lines = re.search(r"^```python\n.*?^```$", readme, re.MULTILINE | re.DOTALL)
-    if lines is None:
-        raise ValueError("README.md has no block of Python")
+    robot = trot(language)
     for path in TEXT.glob("*.md"):
         if path.stem.endswith(SUFFIX["zh"]) != (language == "zh"):
             continue
         name = path.stem.removesuffix(SUFFIX["zh"]).replace("__", "/")
-        text = path.read_text(encoding="utf-8").replace("<!-- fifteen lines -->", lines[0])
+        text = path.read_text(encoding="utf-8").replace("<!-- trot -->", robot)
         text = "".join(part if f else joined(part, language) for f, part in cut(text))
         text = re.sub(r"<!-- (hidden )?pages: (\w+) -->", lambda m: contents(listings[m[2]], bool(m[1])), text)
         write(out / f"{name}.md", text)
