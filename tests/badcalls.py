@@ -30,6 +30,7 @@ MASS = tw.templates.PointMass.of(GO2, STAND)
 
 MADE_BY_HAND = ["SE3", "Baumgarte", "Builder", "Continuous", "Ground", "PointContact", "Prismatic", "Revolute", "Scene"]
 MADE_BY_HAND += ["SpatialInertia", "SurfaceContact", "Twist", "Wrench", "motions.Motion"]
+MADE_BY_HAND += ["Coupling", "LoopClosure", "SlidingContact"]
 """The classes whose constructors take what a user types; functions fill in the others."""
 
 LEFT_OUT = {"axes_2d", "axes_3d", "import_pinocchio", "robots", "Template"}
@@ -118,6 +119,7 @@ GOOD: dict[str, Any] = {
     "mu": 0.5,
     "n": 2,
     "name": "tip",
+    "normals": np.array([0.0, 0, 1]),
     "p": np.zeros(3),
     "parent": "base_link",
     "point": np.zeros(3),
@@ -144,6 +146,8 @@ GOOD: dict[str, Any] = {
     "x": np.ones(6),
     "size": np.ones(3),
     "radius": 0.1,
+    "ratios": {"FL_hip_joint": -2.0},
+    "to": "FL_foot",
     "length": 0.5,
     "P": np.eye(4),
     "faces": np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
@@ -198,6 +202,8 @@ CALLED = {
     "force_transform": {"R": "rotation", "p": "translation"},
     "friction_inverse_dynamics": {"v": "all arguments", "a": "all arguments"},
     "impact": {"v": "all arguments"},
+    "LoopClosure": {"to": "frame"},
+    "SlidingContact": {"to": "frame"},
     "load": {"source": "robot|file"},
     "motion_transform": {"R": "rotation", "p": "translation"},
     "motions.Motion": {"t": "contacts", "v": "a", "feet": "contacts"},
@@ -213,6 +219,7 @@ KINDS = {"contacts": "frame|contact", "feet": "frame", "frames": "frame", "hold"
 KINDS |= {
     "given": "argument",
     "kinds": "kind",
+    "motors": "joint",
     "names": "joint",
     "want": "quantity",
     "anchors": "anchor",

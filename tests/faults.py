@@ -311,9 +311,15 @@ FAULTS = [
     # 49.9: contact
     Fault(
         "contact: spatial acceleration for the classical one",
-        "contact/rows.py",
+        "contact/relative.py",
         "a = A[..., 3:] + np.cross(w, V[..., 3:]) +",
         "a = A[..., 3:] +",
+    ),
+    Fault("loop: what holds the frame does not turn", "contact/relative.py", "bias = bias - turning", "bias = bias"),
+    step(
+        "J_c: the angular rows",
+        "49.9 J_c",
+        'return frame_jacobian(model, q, contact, "local_world_aligned")[..., :3, :]',
     ),
     Fault("contact: a sole's moments without their lever", "contact/forward.py", "np.matvec(W.mT, mu)", "mu"),
     Fault(

@@ -13,7 +13,7 @@ def sources(language: str = "") -> list[str]:
 
 
 def test_every_block_of_the_page_runs():
-    assert len(sources()) == 10
+    assert len(sources()) == 12
     run(page("contacts"), sources())
 
 

@@ -9,9 +9,9 @@ import pytest
 from scipy.optimize import linprog, nnls
 
 import twistwrench as tw
-from twistwrench.contact.inverse import Task
 from twistwrench.contact.limits import contact_limits
 from twistwrench.contact.qp import least_within
+from twistwrench.contact.task import Task
 
 from ..touching import (
     BOX,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.contact.inverse import Task
 from twistwrench.contact.nonnegative import nonnegative_least_squares
 from twistwrench.contact.qp import least_breach
+from twistwrench.contact.task import Task
 
 from ..sampling import sampled
 from ..touching import BOX, FEET, GO2, HUMANOID, SOLES, points, posed

@@ -225,7 +225,7 @@ def test_a_contact_that_moves_at_the_start_is_refused():
     model, _, feet = standing_go2()
     v = np.zeros(model.nv)
     v[3] = 0.25
-    with pytest.raises(ValueError, match=r"v: contact 'FL_foot' sticks, but moves at t = 0 \(up to 0.25 m/s"):
+    with pytest.raises(ValueError, match=r"v: contact 'FL_foot' sticks, but slips at t = 0 \(up to 0.25 m/s"):
         tw.simulate(model, model.standing(), v, dt=0.01, steps=1, contacts=feet)
 
 

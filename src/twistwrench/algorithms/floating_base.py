@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +19,15 @@ from ._mimic import also_of_mimics
 from .kinematics import frame_jacobian
 from .rnea import gravity
 
-__all__ = ["Equilibrium", "base_placement", "contact_jacobian", "selection_matrix", "static_equilibrium"]
+__all__ = [
+    "Equilibrium",
+    "HeldRows",
+    "as_held",
+    "base_placement",
+    "contact_jacobian",
+    "selection_matrix",
+    "static_equilibrium",
+]
 
 
 def selection_matrix(model: Model) -> Array:
@@ -43,25 +53,37 @@ def selection_matrix(model: Model) -> Array:
     return np.eye(model.nv)[_unactuated(model) :]
 
 
+class HeldRows(Protocol):
+    """What is asked of a contact of any kind, which is in a later room."""
+
+    @abstractmethod
+    def check(self, model: Model) -> None:
+        """Raise an error if it is not one of this model."""
+
+    @abstractmethod
+    def jacobian(self, model: Model, q: Array) -> Array:
+        """Return the rows that it holds, shape (..., dim, nv)."""
+
+
 def _unactuated(model: Model) -> int:
     return 6 if model.base == "floating" else 0
 
 
 @also_of_mimics
-def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Array:
+def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str | HeldRows]) -> Array:
     """Return J_c of point contacts: the velocities of the contact points are J_c v.
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (..., nq)
-    contacts : iterable of str
-        The frames at whose origins the robot touches its surroundings.
+    contacts : iterable of str or Contact
+        The frames at whose origins the robot touches its surroundings, or contacts of any kind.
 
     Returns
     -------
     ndarray, shape (..., 3 k, nv)
-        For each of the k contacts the three linear rows, in the axes of the world.
+        For each of k frames the three linear rows, in the axes of the world; of a contact its own.
 
     Raises
     ------
@@ -84,9 +106,25 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str]) -> Arr
     ((12, 18), 12)
     """
     (q,) = check_state(model, q)
-    contacts = as_names(contacts, "contacts", "frame names", ordered=True)
-    rows = [frame_jacobian(model, q, name, "local_world_aligned")[..., 3:, :] for name in contacts]
+    contacts = as_held(model, contacts)
+    rows = [_held_rows(model, q, contact) for contact in contacts]
     return np.concatenate([np.zeros((*q.shape[:-1], 0, model.nv), q.dtype), *rows], axis=-2)
+
+
+def _held_rows(model: Model, q: Array, contact: str | HeldRows) -> Array:
+    if not isinstance(contact, str):
+        return contact.jacobian(model, q)
+    return frame_jacobian(model, q, contact, "local_world_aligned")[..., 3:, :]  # 49.9 J_c: the linear rows
+
+
+def as_held(model: Model, contacts: Iterable[str | HeldRows]) -> tuple[str | HeldRows, ...]:
+    """Return frames and contacts as a tuple; raise an error for those that the model has not."""
+    names: Iterable[Any] = contacts
+    held = as_names(names, "contacts", "frame names", ordered=True)
+    for contact in held:
+        check = getattr(contact, "check", None)
+        check(model) if callable(check) else model.frame(contact)
+    return held
 
 
 def base_placement(model: Model, q: Array) -> SE3:
@@ -167,6 +205,8 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
         )
     if not contacts:
         raise ValueError(f"{model.name!r}: expected at least one contact, got none")
+    for name in contacts:
+        model.frame(name)
     q = one_configuration(model, q)
     g, J_c = gravity(model, q), contact_jacobian(model, q, contacts)
     b = _unactuated(model)

@@ -16,7 +16,7 @@ from ..tables import html_matrix
 from ._mimic import also_of_mimics
 from .centroidal import centroidal_map
 from .crba import crba
-from .floating_base import contact_jacobian
+from .floating_base import HeldRows, as_held, contact_jacobian
 from .rnea import nonlinear_effects
 
 __all__ = ["QUANTITIES", "Dynamics", "dynamics", "wanted"]
@@ -35,7 +35,7 @@ class Dynamics:
     h : ndarray, shape (..., nv)
         Coriolis, centrifugal and gravity forces.
     J_c : ndarray, shape (..., 3 k, nv)
-        Contact Jacobian, linear rows in the axes of the world; k = 0 where a robot has no contacts.
+        Contact Jacobian, of frames the linear rows in the axes of the world; k = 0 where a robot has no contacts.
     A_G : ndarray, shape (..., 6, nv)
         Centroidal momentum matrix, rows (angular, linear).
     """
@@ -61,7 +61,7 @@ def dynamics(
     q: ArrayLike,
     v: ArrayLike,
     *,
-    contacts: Iterable[str] | None = None,
+    contacts: Iterable[str | HeldRows] | None = None,
     want: Iterable[str] = QUANTITIES,
 ) -> Dynamics:
     """Return what a whole-body controller needs: M, h, J_c and A_G (the chapter's getDynamics).
@@ -71,8 +71,8 @@ def dynamics(
     model : Model
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
-    contacts : iterable of str, optional
-        Frames of the point contacts; `model.feet` unless given.
+    contacts : iterable of str or Contact, optional
+        Frames of point contacts, or contacts of any kind; `model.feet` unless given.
     want : iterable of {"M", "h", "J_c", "A_G"}
         Only these are computed.
 
@@ -97,7 +97,7 @@ def dynamics(
     ((18, 18), (12, 18), None)
     """
     check_state(model, q, v=v)  # also where no wanted quantity depends on v
-    contacts = as_names(model.feet if contacts is None else contacts, "contacts", "frame names", ordered=True)
+    contacts = as_held(model, model.feet if contacts is None else contacts)
     want = wanted(want)
     compute = {
         "M": lambda: crba(model, q),

@@ -10,8 +10,9 @@ from typing import Any, Protocol, get_args
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
+from ..algorithms.floating_base import HeldRows, as_held
 from ..algorithms.kinematics import Reference
-from ..arrays import Array, as_count, as_flag, as_names, check_choice, check_kind
+from ..arrays import Array, as_count, as_flag, as_names, as_sequence, check_choice, check_kind
 from ..errors import check_known
 from ..model import Model, check_arrays, check_model
 from .digits import NUMBERS, with_digits
@@ -43,7 +44,7 @@ def compile(
     want: str | Iterable[str],
     *,
     dtype: DTypeLike = np.float64,
-    contacts: Iterable[str] | None = None,
+    contacts: Iterable[str | HeldRows] | None = None,
     frames: Iterable[str] = (),
     reference: Reference = "local",
     given: Mapping[str, ArrayLike] | None = None,
@@ -64,8 +65,8 @@ def compile(
         float32 and float64 have machine code; every floating-point type has NumPy. "double-double" has 32 digits, in
         pairs of doubles: see `digits.DoubleDouble`. "quad" has 34, by numpy-quaddtype, and "mpmath" as many as
         ``mpmath.mp.dps`` is when the program is called.
-    contacts : iterable of str, optional
-        The frames of J_c; `model.feet` unless given. Not for a scene, which has its own.
+    contacts : iterable of str or Contact, optional
+        The frames of J_c, or contacts of any kind; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
         The frames of placements, Jacobians and J̇ v: an axis before their own.
     reference : {"local", "world", "local_world_aligned"}
@@ -126,7 +127,9 @@ def compile(
     own = _number_type(np.float64 if number else dtype)
     options: dict[str, Any] = {
         "dtype": own,
-        "contacts": None if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True),
+        "contacts": None
+        if contacts is None
+        else as_sequence(contacts, "contacts", "frame names", letters=False, ordered=True),
         "frames": as_names(frames, "frames", "frame names", ordered=True),
         "reference": reference,
         "given": _mapping(given),
@@ -155,7 +158,7 @@ def _program(model: Model | SceneLike, asked: str | tuple[str, ...], options: Ma
 def _known(
     model: Any,
     dtype: np.dtype[Any],
-    contacts: tuple[str, ...] | None,
+    contacts: tuple[str | HeldRows, ...] | None,
     frames: tuple[str, ...],
     reference: Reference,
 ) -> tuple[dict[str, Quantity], Model]:
@@ -168,8 +171,8 @@ def _known(
             model.model.frame(frame)
         return of_scene(dtype, frames, reference), model.model
     check_model(model)
-    contacts = model.feet if contacts is None else contacts
-    for frame in (*contacts, *frames):
+    contacts = as_held(model, model.feet if contacts is None else contacts)
+    for frame in frames:
         model.frame(frame)
     return quantities(model, dtype, contacts, frames, reference), model
 

@@ -12,7 +12,7 @@ from ..algorithms.centroidal import center_of_mass, centroidal_map, centroidal_m
 from ..algorithms.coriolis import coriolis_matrix
 from ..algorithms.crba import crba
 from ..algorithms.energy import kinetic_energy, potential_energy
-from ..algorithms.floating_base import contact_jacobian, selection_matrix
+from ..algorithms.floating_base import HeldRows, contact_jacobian, selection_matrix
 from ..algorithms.kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
 from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..arrays import Array
@@ -49,7 +49,7 @@ SYMBOLS = {
 def quantities(
     model: Model,
     dtype: np.dtype[Any],
-    contacts: Sequence[str] = (),
+    contacts: Sequence[str | HeldRows] = (),
     frames: Sequence[str] = (),
     reference: Reference = "local",
     instead: Iterable[Quantity] = (),
@@ -61,8 +61,8 @@ def quantities(
     model : Model
     dtype : dtype
         Decides what counts as singular.
-    contacts : sequence of str
-        The frames whose origins are in J_c.
+    contacts : sequence of str or Contact
+        The frames whose origins are in J_c, or contacts of any kind.
     frames : sequence of str
         The frames whose placements, Jacobians J and J̇ v are meant, along an axis before their own.
     reference : str

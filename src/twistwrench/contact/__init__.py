@@ -1,25 +1,32 @@
 """Contact dynamics: constraints, friction and the stability of a stance (49.9).
 
-In the order in which the files are best read: `types` (points and soles), `rows` (J and J̇ v), `decomposition` (the
-rank), `forward`, `impacts`, `projection`; `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares,
-`reach` (whether forces within the limits are enough, and the proof), `stance` (slipping and tipping).
+In the order in which the files are best read: `types` (what a contact is), `kinds` (points, soles, slides) and
+`closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the rank), `rows`, `forward`, `impacts`,
+`projection`; `task`, `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares, `reach` (whether
+forces within the limits are enough, and the proof), `stance` (slipping and tipping).
 """
 
+from .closures import Coupling, LoopClosure
 from .forward import Baumgarte, ContactDynamics, contact_forward_dynamics
 from .impacts import Impact, impact
-from .inverse import ContactForces, contact_inverse_dynamics, friction_inverse_dynamics
+from .inverse import contact_inverse_dynamics, friction_inverse_dynamics
+from .kinds import PointContact, SlidingContact, SurfaceContact
 from .projection import project_state
 from .rows import constraint_bias, constraint_jacobian, contact_placements
 from .stance import StanceMargins, stance_margins
-from .types import Contact, PointContact, SurfaceContact
+from .task import ContactForces
+from .types import Contact
 
 __all__ = [
     "Baumgarte",
     "Contact",
     "ContactDynamics",
     "ContactForces",
+    "Coupling",
     "Impact",
+    "LoopClosure",
     "PointContact",
+    "SlidingContact",
     "StanceMargins",
     "SurfaceContact",
     "constraint_bias",

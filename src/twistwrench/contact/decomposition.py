@@ -99,12 +99,14 @@ def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
 
     λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G.
     """
-    return block_diagonal([_turn(c, T) @ convert(c.spread_root, T.rotation.dtype) for c, T in zip(contacts, at)]).mT
+    return block_diagonal(
+        [c.turn(T.rotation) @ convert(c.spread_root, T.rotation.dtype) for c, T in zip(contacts, at)]
+    ).mT
 
 
 def point_map(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
     """Return P, shape (..., m, 3 k): λ = P f of the forces f at all points, each in its contact's axes."""
-    return block_diagonal([_turn(c, T) @ c.spread for c, T in zip(contacts, at)])
+    return block_diagonal([c.turn(T.rotation) @ c.spread for c, T in zip(contacts, at)])
 
 
 def block_diagonal(blocks: Sequence[Array]) -> Array:
@@ -118,12 +120,3 @@ def block_diagonal(blocks: Sequence[Array]) -> Array:
         whole[..., row:below, column:right] = B
         row, column = below, right
     return whole
-
-
-def _turn(contact: Contact, at: SE3) -> Array:
-    """Return the matrix that takes a contact's λ from its own axes to the world's, shape (..., dim, dim)."""
-    R = contact.axes(at.rotation)
-    R = R if R.dtype == at.rotation.dtype else convert(R, at.rotation.dtype)
-    turn = np.zeros((*R.shape[:-2], 6, 6), R.dtype)
-    turn[..., :3, :3] = turn[..., 3:, 3:] = R
-    return turn[..., contact.rows, contact.rows]

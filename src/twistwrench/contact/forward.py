@@ -19,7 +19,8 @@ from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose
-from .rows import as_contacts, contact_errors, contact_rows, contact_terms, per_contact, real_state
+from .relative import contact_errors, contact_rows, given_motion
+from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact
 
 __all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
@@ -31,6 +32,8 @@ CONTRADICTION = 1e-8
 @dataclass(frozen=True)
 class Baumgarte:
     """A spring and a damper that bring contacts back to their anchors: J q̈ + J̇ v = −2 ζ ω J v − ω² δ.
+
+    Of contacts that move, J v and J q̈ + J̇ v are without their given velocity and acceleration.
 
     Parameters
     ----------
@@ -79,15 +82,17 @@ class ContactDynamics:
     ----------
     qdd : ndarray, shape (..., nv)
         q̈, rad/s² or m/s².
-    forces : dict of str to ndarray, shape (..., 3) or (..., 6)
-        λ on the robot, by the contact's frame: f, or (τ, f), at the frame's origin in the axes of the world, N m and
-        N. Of all that give this q̈ the ones of least norm, for a sole that of the forces at its corners.
+    forces : dict of str to ndarray, shape (..., dim)
+        λ on the frame, by its name: f, or (τ, f), at the frame's origin, in the axes of the rows of
+        `constraint_jacobian`, N m and N. Of all that give this q̈ the ones of least norm, for a sole that of the forces
+        at its corners.
     rank : ndarray of int, shape (...)
         How many rows of J are independent of each other.
     redundant : ndarray of int, shape (...)
         How many rows are not independent. Where there are any, `forces` are one choice of many.
     slip : ndarray, shape (..., m)
-        J v, zero for a contact that holds, in the order of the rows of `constraint_jacobian`.
+        J v without the given velocity, zero for a contact that holds, in the order of the rows of
+        `constraint_jacobian`.
     residual : ndarray, shape (..., m)
         J q̈ + J̇ v minus the acceleration required of the contacts, rad/s² and m/s².
     """
@@ -165,7 +170,9 @@ def contact_forward_dynamics(
     q, v, others = real_state(model, q, f_ext, v=v, tau=tau)
     terms = contact_terms(model, q, v, contacts, **others)
     at, J, free = terms.placement, terms.J, terms.qdd
-    W, slip, target = terms.W, np.matvec(J, v), -terms.bias
+    W, slip = terms.W, np.matvec(J, v) - given_motion(contacts, "velocity")
+    asked = given_motion(contacts, "acceleration")
+    target = asked - terms.bias
     if stabilise is not None:
         if not isinstance(stabilise, Baumgarte):
             raise TypeError(f"stabilise: expected a Baumgarte or None, got {stabilise!r}")
@@ -180,8 +187,8 @@ def contact_forward_dynamics(
     size = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION * (size + largest(np.matvec(W, target)))).any():
         held = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
-        asked = np.matvec(W, -contact_rows(model, q, held, contacts).bias)
-        refuse_contradiction(contacts, asked - parts.within(asked), CONTRADICTION * (size + largest(asked)))
+        wanted = np.matvec(W, asked - contact_rows(model, q, held, contacts).bias)
+        refuse_contradiction(contacts, wanted - parts.within(wanted), CONTRADICTION * (size + largest(wanted)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)
 

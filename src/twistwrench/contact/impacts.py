@@ -12,6 +12,7 @@ from ..arrays import Array, as_number
 from ..compiler import Results
 from ..model import Model
 from .decomposition import decompose
+from .relative import given_motion
 from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact
 
@@ -26,11 +27,10 @@ class Impact:
     ----------
     v : ndarray, shape (..., nv)
         v⁺, the velocity just after.
-    impulses : dict of str to ndarray, shape (..., 3) or (..., 6)
-        Λ on the robot, by the contact's frame, at the frame's origin in the axes of the world, N m s and N s. Of all
-        that give this v⁺ the ones of least norm, as `ContactDynamics.forces`.
+    impulses : dict of str to ndarray, shape (..., dim)
+        Λ on the frame, by its name, as `ContactDynamics.forces`, N m s and N s.
     energy_lost : ndarray, shape (...)
-        Kinetic energy before, less that after, J. Never below zero.
+        Kinetic energy before, less that after, J. Never below zero where what is touched is at rest.
     rank, redundant : ndarray of int, shape (...)
         As `ContactDynamics`.
     """
@@ -48,7 +48,7 @@ def impact(
     """Return the velocity after contacts have closed all at once, J v⁺ = −e J v⁻.
 
     Of all velocities that the contacts allow, e = 0 leaves the one nearest to v⁻ in the metric of M. So it also removes
-    drift from a velocity, and nothing else.
+    drift from a velocity, and nothing else. Where contacts have a velocity v* of their own, J v⁺ − v* = −e (J v⁻ − v*).
 
     Parameters
     ----------
@@ -78,7 +78,8 @@ def impact(
 
     Notes
     -----
-    Section 49.9. The energy lost is (1 − e²) times the kinetic energy of the velocity across the contacts.
+    Section 49.9. With contacts at rest the energy lost is (1 − e²) times the kinetic energy of the velocity across
+    them.
 
     Examples
     --------
@@ -100,11 +101,13 @@ def jump(model: Model, v: Array, contacts: Sequence[Contact], terms: Results, re
     """Return the impact at a velocity, from the terms of the configuration."""
     J, W = terms.J, terms.W
     parts = decompose(model, terms.M, W @ J)
-    x, mu = parts.respond(np.matvec(W @ J, v))  # the change at e = 0, with its sign turned
+    u = np.matvec(W, given_motion(contacts, "velocity"))
+    x, mu = parts.respond(np.matvec(W @ J, v) - u)  # the change at e = 0, with its sign turned
+    spent = (1 - restitution**2) * (x * x).sum(axis=-1) / 2
     return Impact(
         v=v - (1 + restitution) * parts.unwhiten(x),
         impulses=per_contact(contacts, -(1 + restitution) * np.matvec(W.mT, mu)),
-        energy_lost=(1 - restitution**2) * np.asarray((x * x).sum(axis=-1)) / 2,
+        energy_lost=np.asarray(spent + (1 + restitution) * (mu * u).sum(axis=-1)),
         rank=parts.rank,
         redundant=J.shape[-2] - parts.rank,
     )

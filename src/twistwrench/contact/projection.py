@@ -15,7 +15,8 @@ from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose
 from .impacts import jump
-from .rows import as_contacts, contact_errors, contact_terms, per_contact, real_state
+from .relative import contact_errors
+from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact
 
 __all__ = ["project_state"]

@@ -90,7 +90,7 @@ def _generators(contacts: Sequence[Contact], sides: int, pyramid: Pyramid, size:
     """
     spans, bounds = [], []
     for c in contacts:
-        own = type(c).limits is not Contact.limits
+        own = type(c).limits is not Contact.limits or not c.pushes
         n = 3 * len(c.points)
         spans.append(np.concatenate([np.eye(n), -np.eye(n)], axis=1) if own else c.rays(sides, pyramid).mT)
         bounds.append(size * c.limits(sides, pyramid) if own else np.zeros((0, n)))

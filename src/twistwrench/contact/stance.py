@@ -14,9 +14,9 @@ from ..algorithms.kinematics import frame_placement
 from ..arrays import Array
 from ..errors import ShapeError
 from ..model import Model
-from .inverse import Task, Unbalanced
 from .limits import contact_limits
 from .rows import as_contacts, real_state
+from .task import Task, Unbalanced
 from .types import Contact, Pyramid
 
 __all__ = ["StanceMargins", "inside", "stance_margins"]
@@ -84,7 +84,8 @@ def stance_margins(
     Raises
     ------
     NameNotFound, ShapeError, ValueError
-        As `friction_inverse_dynamics`; a fixed base, no contacts or no gravity.
+        As `friction_inverse_dynamics`; a fixed base, no contacts or no gravity; a contact that also pulls: a rail, a
+        loop, gears.
 
     See Also
     --------
@@ -108,6 +109,9 @@ def stance_margins(
     ''
     """
     contacts = as_contacts(model, contacts)
+    for c in contacts:
+        if not c.pushes:
+            raise ValueError(f"contact {c.frame!r}: expected contacts that push and do not pull, got {c!r}")
     if model.base != "floating" or not contacts or not model.gravity.any():
         raise ValueError(f"{model.name!r}: expected a floating base, gravity and at least one contact")
     q, rest, _ = real_state(model, q, v=np.zeros(model.nv))

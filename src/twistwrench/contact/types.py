@@ -1,8 +1,8 @@
-"""The kinds of contact: which motions each one stops, and which forces it can bear (49.9, 49.4).
+"""What a contact is: which motions it stops, and which forces it can bear (49.9, 49.4).
 
-A contact holds a frame of the robot against something that does not move. Its wrench λ acts on the robot at the
-frame's origin, in two sets of axes: the world's, in which Jacobians and results are written, and the contact's own,
-whose z axis is the normal, out of the ground and into the robot, in which friction is written.
+A contact holds a frame of the robot against the world, or against another frame of the robot, `to`. Its wrench λ acts
+at the frame's origin, in two sets of axes: those of what holds it, in which Jacobians and results are written, and
+the contact's own, whose z axis is the normal, out of the ground and into the robot, in which friction is written.
 
 A new kind of contact defines which rows it constrains, the axes of its friction and its contact points;
 everything in this folder needs no more.
@@ -11,7 +11,6 @@ everything in this folder needs no more.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
@@ -20,28 +19,40 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_exactly
 from ..errors import unknown_name
-from ..model import readonly
-from ..spatial import exp3
+from ..model import Model, readonly
 from ..spatial.rotation import cross_matrix
 
-__all__ = ["Contact", "PointContact", "Pyramid", "SurfaceContact"]
+__all__ = ["Contact", "Motion", "Pyramid", "checked_frame", "checked_motion"]
 
 Pyramid = Literal["inner", "outer"]
 
+Motion = tuple[float, ...]
+"""One number for each row that a contact holds; none where it is at rest."""
+
 
 class Contact(ABC):
-    """A frame that is held at rest by its surroundings. It does not change: programs are made for it.
+    """A frame that is held by its surroundings. It does not change: programs are made for it.
 
     Attributes
     ----------
     frame : str
         The robot's frame.
+    to : str or None
+        The frame of the robot that holds it; None for the world.
     mu : float
         Coefficient of friction, at least 0: each contact point bears forces with √(f_x² + f_y²) ≤ μ f_z.
+    velocity, acceleration : tuple of float
+        Of what holds it: J v and J q̈ + J̇ v are these, m/s and m/s², rad/s and rad/s². Empty at rest.
+    pushes : bool
+        Whether forces have the limits above. If not, the contact bears any, and pulls as well.
     """
 
     frame: str
     mu: float
+    to: str | None = None
+    velocity: Motion = ()
+    acceleration: Motion = ()
+    pushes: bool = True
 
     @property
     @abstractmethod
@@ -50,12 +61,12 @@ class Contact(ABC):
 
     @abstractmethod
     def axes(self, rotation: Array) -> Array:
-        """Return the contact's axes in the world, z the normal, shape (..., 3, 3).
+        """Return the contact's axes in the world, or in `to`, z the normal, shape (..., 3, 3).
 
         Parameters
         ----------
         rotation : ndarray, shape (..., 3, 3)
-            The frame's axes in the world.
+            The frame's axes there.
         """
 
     @property
@@ -68,10 +79,69 @@ class Contact(ABC):
     def point_names(self) -> tuple[str, ...]:
         """The names of the k points in messages."""
 
+    def check(self, model: Model) -> None:
+        """Raise an error if no joint of the model moves the contact.
+
+        Parameters
+        ----------
+        model : Model
+
+        Raises
+        ------
+        NameNotFound
+            If the model has no such frame.
+        ValueError
+            If the frame does not move in what holds it.
+        """
+        body = model.frame(self.frame).body
+        if body == 0:
+            raise ValueError(f"contact {self.frame!r}: the world carries this frame; it cannot touch anything")
+        if self.to is not None and body == model.frame(self.to).body:
+            raise ValueError(f"contact {self.frame!r}: expected frames of two bodies, got {self.to!r} of the same one")
+
+    def jacobian(self, model: Model, q: Array) -> Array:
+        """Return the rows of J that the contact holds: see `twistwrench.constraint_jacobian`.
+
+        Parameters
+        ----------
+        model : Model
+        q : ndarray, shape (..., nq)
+
+        Returns
+        -------
+        ndarray, shape (..., dim, nv)
+        """
+        from .relative import contact_rows
+
+        return contact_rows(model, q, np.zeros(model.nv, q.dtype), [self]).J
+
+    @cached_property
+    def directions(self) -> Array:
+        """N, which picks what is held of the six rows (ω, v), in the axes of the world or of `to`, shape (dim, 6)."""
+        return readonly(np.eye(6)[self.rows])
+
     @property
     def dim(self) -> int:
         """The number of constrained rows: 3 for a point, 6 for a surface."""
-        return len(range(6)[self.rows])
+        return len(self.directions)
+
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """The robot's frames that the contact is about."""
+        return (self.frame,) if self.to is None else (self.frame, self.to)
+
+    def turn(self, rotation: Array) -> Array:
+        """Return the matrix that takes λ from the contact's own axes to those of its rows, shape (..., dim, dim).
+
+        Parameters
+        ----------
+        rotation : ndarray, shape (..., 3, 3)
+            As `axes`.
+        """
+        R = self.axes(rotation).astype(rotation.dtype, copy=False)
+        both = np.zeros((*R.shape[:-2], 6, 6), R.dtype)
+        both[..., :3, :3] = both[..., 3:, 3:] = R
+        return both[..., self.rows, self.rows]
 
     @cached_property
     def spread(self) -> Array:
@@ -105,6 +175,8 @@ class Contact(ABC):
             If `sides` is not a whole number of at least 3, or the pyramid is neither.
         """
         sides = _checked(sides, pyramid)
+        if not self.pushes:
+            return np.zeros((0, 3 * len(self.points)))
         slope = self.mu * (np.cos(np.pi / sides) if pyramid == "inner" else 1.0)
         angle = 2 * np.pi * np.arange(sides) / sides
         one = np.stack([np.cos(angle), np.sin(angle), np.full(sides, -slope)], axis=-1)
@@ -140,138 +212,8 @@ class Contact(ABC):
 
     def limit_names(self, sides: int) -> list[str]:
         """Return the names of the rows of `limits` in messages, one for each."""
-        return [f"{kind} at {point}" for point in self.point_names for kind in (*["friction"] * sides, "lift-off")]
-
-
-@dataclass(frozen=True)
-class PointContact(Contact):
-    """A point that does not move: three forces, no moment.
-
-    Parameters
-    ----------
-    frame : str
-        The frame at whose origin the robot touches.
-    mu : float
-        Coefficient of friction, at least 0.
-    normal : array_like, shape (3,), optional
-        Of the ground, out of it, in the axes of the world; any length but 0.
-
-    Raises
-    ------
-    ValueError
-        If `mu` is not a number of at least 0, or `normal` not a direction.
-
-    Examples
-    --------
-    >>> import twistwrench as tw
-    >>> tw.PointContact("FL_foot", 0.6).dim
-    3
-    """
-
-    frame: str
-    mu: float
-    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
-        n = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
-        if not n.any():
-            raise ValueError(f"contact {self.frame!r}: normal: expected a direction, got zero")
-        n = n / np.abs(n).max()
-        object.__setattr__(self, "normal", tuple((n / np.sqrt(n @ n)).tolist()))
-
-    @property
-    def rows(self) -> slice:
-        """The three linear rows."""
-        return slice(3, 6)
-
-    def axes(self, rotation: Array) -> Array:
-        """Return the axes of the world, turned the shortest way until z is the normal."""
-        return np.broadcast_to(self._axes, rotation.shape)
-
-    @cached_property
-    def _axes(self) -> Array:
-        x, y, z = self.normal
-        sine = np.hypot(x, y)
-        turn = (
-            np.arctan2(sine, z) / sine * np.array([-y, x, 0]) if sine > 0 else np.array([0.0 if z > 0 else np.pi, 0, 0])
-        )
-        return exp3(turn)
-
-    @property
-    def points(self) -> Array:
-        """The frame's origin."""
-        return np.zeros((1, 3))
-
-    @property
-    def point_names(self) -> tuple[str, ...]:
-        """The frame's name."""
-        return (repr(self.frame),)
-
-
-@dataclass(frozen=True)
-class SurfaceContact(Contact):
-    """A flat rectangular sole that neither moves nor turns: three moments and three forces.
-
-    It bears what forces at its four corners add up to, each in its own friction cone. So the centre of pressure stays
-    within the sole, and the moment about the normal is limited as well: to μ √(x² + y²) f_z for the half lengths
-    (x, y) where the sole is loaded evenly and no friction is needed otherwise, to less elsewhere.
-
-    Parameters
-    ----------
-    frame : str
-        At the middle of the sole; x and y along its sides, z the normal, into the robot.
-    half_size : array_like, shape (2,)
-        Half the lengths of the sole along the frame's x and y, m, above 0.
-    mu : float
-        Coefficient of friction, at least 0.
-
-    Raises
-    ------
-    ValueError
-        If `mu` is not a number of at least 0, or `half_size` not two numbers above 0.
-
-    Notes
-    -----
-    Caron, Pham and Nakamura (ICRA 2015) give the same limits for pyramids of four sides without the corners.
-
-    Examples
-    --------
-    >>> import twistwrench as tw
-    >>> tw.SurfaceContact("left_sole", (0.076, 0.0275), 0.6).dim
-    6
-    """
-
-    frame: str
-    half_size: tuple[float, float]
-    mu: float
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
-        half = as_exactly(self.half_size, f"contact {self.frame!r}: half_size", 2)
-        if (half <= 0).any():
-            raise ValueError(f"contact {self.frame!r}: half_size: expected lengths above 0, got {half.tolist()}")
-        object.__setattr__(self, "half_size", tuple(half.tolist()))
-
-    @property
-    def rows(self) -> slice:
-        """All six rows."""
-        return slice(0, 6)
-
-    def axes(self, rotation: Array) -> Array:
-        """Return the frame's own axes."""
-        return rotation
-
-    @property
-    def points(self) -> Array:
-        """The four corners."""
-        signs = np.array([[1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]])
-        return signs * [*self.half_size, 0.0]
-
-    @property
-    def point_names(self) -> tuple[str, ...]:
-        """The corners, by the signs of their x and y."""
-        return tuple(f"corner ({x}, {y}) of {self.frame!r}" for x in "+-" for y in "+-")
+        names = self.point_names if self.pushes else ()
+        return [f"{kind} at {point}" for point in names for kind in (*["friction"] * sides, "lift-off")]
 
 
 def _checked(sides: int, pyramid: Pyramid) -> int:
@@ -283,10 +225,16 @@ def _checked(sides: int, pyramid: Pyramid) -> int:
     return int(sides)
 
 
-def _coefficient(frame: str, mu: ArrayLike) -> float:
+def checked_motion(contact: Contact, name: str) -> None:
+    """Make a contact's given velocity or acceleration a tuple of one number for each row; raise if it is not."""
+    given: ArrayLike = getattr(contact, name)
+    if isinstance(given, tuple) and not given:
+        return
+    checked = as_exactly(given, f"contact {contact.frame!r}: {name}", contact.dim)
+    object.__setattr__(contact, name, tuple(checked.tolist()))
+
+
+def checked_frame(frame: str) -> None:
+    """Raise if the name of a frame is not a text."""
     if not isinstance(frame, str):
         raise unknown_name("frame", frame, ())
-    value = float(as_exactly(mu, f"contact {frame!r}: mu"))
-    if value < 0:
-        raise ValueError(f"contact {frame!r}: mu: expected at least 0, got {value:g}")
-    return value

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 
 from numpy.typing import ArrayLike
 
+from ..algorithms.floating_base import HeldRows, as_held
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
-from ..arrays import Array, as_names
+from ..arrays import Array
 from ..model import Model, check_model
 from .programs import one_state, program, result, states_of
 
@@ -158,7 +159,7 @@ def dynamics(
     q: ArrayLike,
     v: ArrayLike,
     *,
-    contacts: Iterable[str] | None = None,
+    contacts: Iterable[str | HeldRows] | None = None,
     want: Iterable[str] = QUANTITIES,
     out: Dynamics | None = None,
 ) -> Dynamics:
@@ -208,11 +209,9 @@ def dynamics(
             return made
     names = wanted(want)
     want = tuple(name for name in QUANTITIES if name in names)
-    contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)
+    contacts = as_held(model, model.feet if contacts is None else contacts)
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
-    for name in contacts if "J_c" in want else ():
-        model.frame(name)  # raises for a name that it has not
     args, dtype = states_of(model, {"q": q, "v": v})
     given = None if out is None else {name: x for name in want if (x := getattr(out, name)) is not None}
     found = program(model, want, dtype, tuple(contacts) if "J_c" in want else ())(*args, out=given)

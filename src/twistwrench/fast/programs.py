@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.floating_base import HeldRows
 from ..arrays import Array
 from ..compiler import Program, Results
 from ..compiler.llvm import NATIVE, available
@@ -87,7 +88,7 @@ def result(
 
 
 def program(
-    model: Model, want: tuple[str, ...], dtype: np.dtype[Any], contacts: tuple[str, ...] | None = None
+    model: Model, want: tuple[str, ...], dtype: np.dtype[Any], contacts: tuple[str | HeldRows, ...] | None = None
 ) -> Program | Textbook:
     """Return what computes some quantities of a model, by symbol.
 
@@ -97,8 +98,8 @@ def program(
     want : tuple of str
         One symbol: the program returns an array. With `contacts`, any number: `Results`.
     dtype : dtype
-    contacts : tuple of str, optional
-        The frames of J_c, which the model has.
+    contacts : tuple of str or Contact, optional
+        Of J_c, those of the model.
     """
 
     def asked() -> list[Quantity]:

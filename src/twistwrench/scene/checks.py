@@ -38,8 +38,9 @@ def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact
         if not isinstance(contact, Contact):
             got = f"{type(contact).__name__} {contact!r}"
             raise TypeError(f"contacts: expected contacts such as PointContact(frame, mu=0.7), got {got}")
-        model.frame(contact.frame)
-    for one, other in combinations(contacts, 2):
+        for frame in contact.frames:
+            model.frame(frame)
+    for one, other in combinations([c for c in contacts if c.pushes], 2):
         here, there = model.frame(one.frame), model.frame(other.frame)
         apart = np.abs(here.placement.translation - there.placement.translation).max()
         if here.body == there.body and apart < SAME_PLACE:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.floating_base import contact_jacobian
 from ..algorithms.kinematics import Reference, frame_jacobian
 from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..algorithms.whole_body import QUANTITIES, Dynamics
@@ -31,7 +32,7 @@ def scene_dynamics(
     """See `Scene.dynamics`."""
     args, dtype = states_of(model, {"q": q, "v": v})
     want = tuple(name for name in QUANTITIES if name in want)
-    held = tuple((c.frame, c.rows.start, c.rows.stop) for c in contacts) if "J_c" in want else ()
+    held = tuple(contacts) if "J_c" in want else ()
     pushed = tuple((frame, wrench.tobytes()) for frame, wrench in wrenches.items()) if "h" in want else ()
 
     def asked() -> list[Quantity]:
@@ -65,16 +66,9 @@ def scene_quantities(
         Quantity("tau", free["tau"].arguments, lambda q, *rest: (rnea(model, q, *rest) - push(model, wrenches, q), [])),
         Quantity("qdd", free["qdd"].arguments, accelerated),
     ]
-    rows = Quantity("J_c", ("q",), lambda q: (contact_rows(model, contacts, q), []))
+    rows = Quantity("J_c", ("q",), lambda q: (contact_jacobian(model, q, contacts), []))
     known = quantities(model, dtype, (), frames, reference, instead=[rows, *(pushed if wrenches else [])])
     return {name: quantity for name, quantity in known.items() if not (wrenches and name.startswith("dqdd_"))}
-
-
-def contact_rows(model: Model, contacts: Sequence[Contact], q: Array) -> Array:
-    """Return J_c, shape (..., m, nv): of each contact the rows that it holds, in the axes of the world."""
-    none = np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)
-    six = [frame_jacobian(model, q, contact.frame, "local_world_aligned") for contact in contacts]
-    return np.concatenate([none, *(J[..., c.rows, :] for c, J in zip(contacts, six))], axis=-2)
 
 
 def push(model: Model, wrenches: Mapping[str, Array], q: Array) -> Array:

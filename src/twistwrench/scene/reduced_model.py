@@ -49,7 +49,7 @@ class SmallestModel:
         before = self._floor.model if self._floor else full
         at = self._floor.reduce(self.q, np.zeros(full.nv))[0] if self._floor else self.q
         locked = {*self.held, *(full.joint_names[1:2] if (base, full.base) == ("fixed", "floating") else ())}
-        touched = [*(contact.frame for contact in self.contacts), *self.wrenches]
+        touched = [*(frame for contact in self.contacts for frame in contact.frames), *self.wrenches]
         self.idle = idle_joints(lock_joints(before, locked, at).model, touched)
         self._reduction = lock_joints(before, {*locked, *self.idle}, at)
         self.model = self._reduction.model

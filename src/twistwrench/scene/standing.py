@@ -9,7 +9,8 @@ import numpy as np
 
 from ..arrays import Array
 from ..contact import Contact, stance_margins
-from ..contact.inverse import Task, friction_inverse_dynamics
+from ..contact.inverse import friction_inverse_dynamics
+from ..contact.task import Task
 from ..errors import SingularError
 from ..model import Model
 

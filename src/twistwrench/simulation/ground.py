@@ -12,7 +12,7 @@ from ..arrays import Array, as_exactly, as_number, convert
 from ..compiler import Results
 from ..compiler.quantities import Quantity, quantities
 from ..contact import Contact, PointContact
-from ..contact.rows import contact_rows
+from ..contact.relative import contact_rows
 from ..fast.programs import remembered
 from ..model import Model, readonly
 
@@ -75,8 +75,12 @@ class Ground:
 
 
 def check_normals(contacts: Sequence[Contact], ground: Ground) -> None:
-    """Raise for a contact whose normal is neither the default nor the ground's."""
+    """Raise for a contact that is no point or sole, or whose normal is neither the default nor the ground's."""
     for c in contacts:
+        if not c.pushes or c.dim not in (3, 6) or c.velocity or c.acceleration:
+            raise ValueError(
+                f"contact {c.frame!r}: with ground=, expected points and soles on a ground at rest, got {c!r}"
+            )
         if isinstance(c, PointContact) and c.normal != UP and not np.allclose(c.normal, ground.normal, 0, 1e-12):
             raise ValueError(
                 f"contact {c.frame!r}: its normal {c.normal} is not that of the ground, {ground.normal}; "

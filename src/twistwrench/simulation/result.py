@@ -132,7 +132,7 @@ class Simulation:
         count = min(as_count(samples, "samples", 1), len(self.tau))
         worst = np.zeros(2)
         for k in np.unique(np.linspace(0, len(self.tau) - 1, count).astype(int)) if count else ():
-            half = self.system.again(self.q[k], self.v[k], self.tau[k], METHODS[self.method].step)
+            half = self.system.again(float(self.t[k]), self.q[k], self.v[k], self.tau[k], METHODS[self.method].step)
             whole = self.model.difference(self.q[k + 1], half[0]), self.v[k + 1] - half[1]
             worst = np.maximum(worst, [np.abs(x).max(initial=0) for x in whole])
         return float(worst[0]), float(worst[1])

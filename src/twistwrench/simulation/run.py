@@ -52,7 +52,8 @@ def simulate(
 
     With a ground, contacts are the points and soles that may touch it: they land, lift off, stick and slide, and the
     joints keep their ranges. Without one, contacts stick where they are at the start, all the time: none opens, closes
-    or slips, and they pull where they must; and a robot without contacts falls through the floor.
+    or slips, and they pull where they must; and a robot without contacts falls through the floor. What they stick to
+    moves from there with their given velocity at the start and constant acceleration.
 
     Parameters
     ----------
@@ -77,8 +78,8 @@ def simulate(
         The period of the policy, a whole number of dt, s: it is called at the beginning of each period, once, and its
         forces hold until the next.
     contacts : iterable of Contact
-        `PointContact` or `SurfaceContact`, besides those of a scene. Without a ground, the state goes back to where
-        they hold after each step (`project_state`). Computed in double precision.
+        Of any kind, besides those of a scene; with a ground, `PointContact` or `SurfaceContact`. Without one, the state
+        goes back to where they hold after each step (`project_state`). Computed in double precision.
     ground : Ground, optional
         What the contacts may touch, each with its μ.
     method : {"rk4", "euler", "semi-implicit", "midpoint", "variational", "time-stepping"}, optional
@@ -202,7 +203,7 @@ def _loop(made: Made, system: System, step: Step, t0: float, counter: Iterable[i
         t, (q, v) = t0 + k * system.dt, (x.copy() for x in made.states[-1])
         try:
             system.begin(k, t, q, v)
-            q, v = system.settle(*step(system, t, q, v))
+            q, v = system.settle(t + system.dt, *step(system, t, q, v))
             refuse_divergence(system.model, "v", v, dt=system.dt)
         except (DivergenceError, SingularError) as error:
             raise type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}") from error

@@ -16,6 +16,7 @@ from ..contact import (
     contact_placements,
     project_state,
 )
+from ..contact.relative import given_motion, moved, moved_anchors
 from ..errors import ShapeError
 from ..fast import aba, rnea
 from ..fast.steps import integrate
@@ -87,12 +88,13 @@ class System:
         constant = np.zeros_like(v) if tau is None or callable(tau) else self._checked("tau", tau, v)
         self._constant = self.tau = np.broadcast_to(constant, v.shape).copy()
         self.forces: dict[str, Array] = {}
-        self._first = True
+        self._first, self._start = True, 0.0
         self._refuse_slip(q, v)
 
     def begin(self, k: int, t: float, q: Array, v: Array) -> None:
         """Begin step k: what is evaluated next counts. At the beginning of a period, call the policy."""
         self._first = True
+        self._start = t if k == 0 else self._start
         if self.period and k % self.period == 0:
             self._constant = self._asked(t, q, v)
 
@@ -126,7 +128,8 @@ class System:
 
     def held(self, t: float, q: Array, v: Array) -> ContactDynamics:
         """Return acceleration and contact forces in a state (49.9)."""
-        found = contact_forward_dynamics(self.model, q, v, self.force(t, q, v), self.contacts)
+        contacts = moved(self.contacts, t - self._start)
+        found = contact_forward_dynamics(self.model, q, v, self.force(t, q, v), contacts)
         if self._first:
             self.forces, self._first = found.forces, False
         return found
@@ -137,20 +140,31 @@ class System:
         return self.held(0.0, q, v).forces
 
     def again(
-        self, q: Array, v: Array, tau: Array, step: Callable[[System, float, Array, Array], tuple[Array, Array]]
+        self,
+        t: float,
+        q: Array,
+        v: Array,
+        tau: Array,
+        step: Callable[[System, float, Array, Array], tuple[Array, Array]],
     ) -> tuple[Array, Array]:
-        """Return the state after a step from q and v under constant forces, made in two halves."""
+        """Return the state after a step from t, q and v under constant forces, made in two halves."""
         dt, own = self.dt / 2, self.stepping
         stepping = own and TimeStepping(self.model, own.contacts, own.ground, dt, q)
-        there = System(self.model, self.contacts, self.push, tau, q, v, dt, stepping=stepping)
-        for _ in range(2):
-            there.begin(0, 0.0, q, v)
-            q, v = there.settle(*step(there, 0.0, q.copy(), v.copy()))
+        contacts = moved(self.contacts, t - self._start)
+        there = System(self.model, contacts, self.push, tau, q, v, dt, stepping=stepping)
+        for k in range(2):
+            at = t + k * dt
+            there.begin(k, at, q, v)
+            q, v = there.settle(at + dt, *step(there, at, q.copy(), v.copy()))
         return q, v
 
-    def settle(self, q: Array, v: Array) -> tuple[Array, Array]:
-        """Return the nearby state in which the contacts are where they stick, with zero velocity."""
-        return project_state(self.model, q, v, self.contacts, self.anchors) if self.contacts else (q, v)
+    def settle(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+        """Return the nearby state in which the contacts are where they stick, and move as what they stick to."""
+        if not self.contacts:
+            return q, v
+        since = t - self._start
+        anchors = moved_anchors(self.contacts, self.anchors, since)
+        return project_state(self.model, q, v, moved(self.contacts, since), anchors)
 
     def integrate(self, q: Array, u: Array) -> Array:
         """Return q ⊕ u."""
@@ -159,10 +173,11 @@ class System:
 
     def _refuse_slip(self, q: Array, v: Array) -> None:
         for contact in self.contacts:
-            slip = np.abs(np.matvec(constraint_jacobian(self.model, q, [contact]), v)).max(initial=0)
+            rates = np.matvec(constraint_jacobian(self.model, q, [contact]), v) - given_motion([contact], "velocity")
+            slip = np.abs(rates).max(initial=0)
             if slip > STILL * np.abs(v).max(initial=1):
                 raise ValueError(
-                    f"v: contact {contact.frame!r} sticks, but moves at t = 0 (up to {slip:.3g} m/s or rad/s); "
+                    f"v: contact {contact.frame!r} sticks, but slips at t = 0 (up to {slip:.3g} m/s or rad/s); "
                     "twistwrench.impact gives the velocity after it has closed"
                 )
 

@@ -193,4 +193,4 @@ def _contacts(model: Model, contacts: Iterable[str | Contact] | None) -> tuple[C
     made = [c if isinstance(c, Contact) else PointContact(c, 0.0) for c in given]
     for contact in made:
         model.frame(contact.frame)
-    return tuple(made)
+    return tuple(c for c in made if c.pushes and c.dim >= 3)  # what is held otherwise is not drawn

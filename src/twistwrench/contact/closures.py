@@ -1,0 +1,180 @@
+"""Contacts within the robot: loops of bodies, and joints that gears couple (49.9).
+
+The same rows as for the ground, J v = 0, hold two frames of one robot together; their forces act on both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..arrays import Array, as_exactly, as_flag
+from ..model import Model
+from .types import Contact, Motion, checked_frame, checked_motion
+
+__all__ = ["Coupling", "LoopClosure"]
+
+GRIP = 0.1
+"""Of a weld that is held more often than needed, forces at so many metres from it weigh as much as those in it."""
+
+
+class _Internal(Contact):
+    """A contact that bears any force, and has none from outside the robot."""
+
+    mu = 0.0
+    pushes = False
+
+    def axes(self, rotation: Array) -> Array:
+        """Return those of the rows."""
+        return np.broadcast_to(np.eye(3), rotation.shape)
+
+    @property
+    def points(self) -> Array:
+        """The frame's origin."""
+        return np.zeros((1, 3))
+
+    @property
+    def point_names(self) -> tuple[str, ...]:
+        """The frame's name, for each point."""
+        return (repr(self.frame),) * len(self.points)
+
+
+@dataclass(frozen=True)
+class LoopClosure(_Internal):
+    """Two frames of one robot that stay together: as a ball joint does, or welded.
+
+    A frame's origin, or all of it, keeps its place in the frame `to`. A tree of bodies becomes a loop: a four-bar, a
+    box that two hands hold. λ acts on `frame`, in the axes of `to`, and the opposite wrench on `to` at the same point.
+
+    Parameters
+    ----------
+    frame, to : str
+        On two bodies.
+    welded : bool, optional
+        Whether the frame cannot turn either: six rows (ω, v) instead of three.
+    velocity, acceleration : array_like, shape (3,) or (6,), optional
+        Of the frame in `to`, in the axes of `to`. At rest unless given.
+
+    Raises
+    ------
+    ValueError
+        If a motion is not one number for each row.
+    TypeError
+        If `welded` is not a bool.
+
+    Examples
+    --------
+    A parallelogram of two cranks and a bar, in which both cranks turn alike:
+
+    >>> import twistwrench as tw
+    >>> bar = tw.SpatialInertia.from_rod(1.0, 1.0)
+    >>> builder, side = tw.Builder("parallelogram", gravity=[0, 0, 0]), tw.SE3(np.eye(3), [1.0, 0, 0])
+    >>> for name, on, at in (("a", "base_link", None), ("b", "a", side), ("c", "base_link", side)):
+    ...     builder.link(name, parent=on, joint=tw.Revolute("y"), inertia=bar, placement=at)
+    >>> _ = builder.link("end", parent="b", placement=side), builder.link("tip", parent="c", placement=side)
+    >>> model, loop = builder.build(), [tw.LoopClosure("end", "tip")]
+    >>> held = tw.contact_forward_dynamics(model, [-0.3, 0.3, -0.3], np.zeros(3), [1.0, 0, 0], loop)
+    >>> held.qdd.round(9), int(held.rank), int(held.redundant)
+    """
+
+    frame: str
+    to: str
+    welded: bool = False
+    velocity: Motion = field(default=(), kw_only=True)
+    acceleration: Motion = field(default=(), kw_only=True)
+
+    def __post_init__(self) -> None:
+        checked_frame(self.frame)
+        checked_frame(self.to)
+        object.__setattr__(self, "welded", as_flag(self.welded, f"contact {self.frame!r}: welded"))
+        checked_motion(self, "velocity")
+        checked_motion(self, "acceleration")
+
+    @property
+    def rows(self) -> slice:
+        """All six rows if welded, else the three linear ones."""
+        return slice(0 if self.welded else 3, 6)
+
+    @property
+    def points(self) -> Array:
+        """The frame's origin; of a weld six points around it."""
+        return GRIP * np.concatenate([np.eye(3), -np.eye(3)]) if self.welded else np.zeros((1, 3))
+
+
+@dataclass(frozen=True)
+class Coupling(_Internal):
+    """A joint that others drive: its rate is the sum of theirs, each times a ratio. Gears, belts, a differential.
+
+    λ is the force on the joint itself, N m or N; on each of the others it is −ratio times as large.
+
+    Parameters
+    ----------
+    frame : str
+        The joint, of one degree of freedom.
+    ratios : mapping of str to float
+        By the names of the other joints; −0.5 for a pair of gears that halves the rate and turns it around. An empty
+        one leaves the joint alone: it has the given velocity, or is locked.
+    velocity, acceleration : array_like, shape (1,), optional
+        What is added to the sum, rad/s or m/s. Zero unless given.
+
+    Raises
+    ------
+    ValueError
+        If a ratio is not a finite number, if the joint drives itself, or a motion is not one number.
+    TypeError
+        If `ratios` is not a mapping.
+
+    Notes
+    -----
+    A configuration is held where q counts the turns. With a continuous joint only the rates are.
+
+    Examples
+    --------
+    A motor of inertia J₂ that drives an arm of J₁ by gears of 1 : 10 lends it J₁ + 10² J₂:
+
+    >>> import twistwrench as tw
+    >>> pair = tw.Builder("gears", gravity=[0, 0, 0])
+    >>> for name, J in (("arm", 2.0), ("motor", 0.05)):
+    ...     disc = tw.SpatialInertia(1.0, [0, 0, 0], np.diag([J, J, 1.5 * J]) / 1.5)
+    ...     _ = pair.link(name, parent="base_link", joint=tw.Revolute("z"), inertia=disc, joint_name=name)
+    >>> pair, gears = pair.build(), [tw.Coupling("motor", {"arm": -10.0})]
+    >>> tw.contact_forward_dynamics(pair, [0, 0], [0, 0], [14.0, 0], gears).qdd
+    array([  2., -20.])
+    """
+
+    frame: str
+    ratios: tuple[tuple[str, float], ...]
+    velocity: Motion = field(default=(), kw_only=True)
+    acceleration: Motion = field(default=(), kw_only=True)
+
+    def __post_init__(self) -> None:
+        checked_frame(self.frame)
+        given = dict(self.ratios) if isinstance(self.ratios, tuple) else self.ratios
+        if not isinstance(given, Mapping):
+            raise TypeError(f"coupling {self.frame!r}: ratios: expected a mapping of joints to numbers, got {given!r}")
+        if self.frame in given:
+            raise ValueError(f"coupling {self.frame!r}: ratios: expected other joints, got the joint itself")
+        ratios = (
+            (name, float(as_exactly(x, f"coupling {self.frame!r}: ratio of {name!r}"))) for name, x in given.items()
+        )
+        object.__setattr__(self, "ratios", tuple(ratios))
+        checked_motion(self, "velocity")
+        checked_motion(self, "acceleration")
+
+    def check(self, model: Model) -> None:
+        """Raise an error if one of these is not a joint of one degree of freedom."""
+        for name in self.frames:
+            if model.joints[model.joint_id(name)].nv != 1:  # type: ignore[union-attr]
+                raise ValueError(f"coupling {self.frame!r}: expected joints of one degree of freedom, got {name!r}")
+
+    @property
+    def rows(self) -> slice:
+        """One row: it stands for the first linear one."""
+        return slice(3, 4)
+
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """The joints, by which their own frames are called as well."""
+        return (self.frame, *(name for name, _ in self.ratios))
