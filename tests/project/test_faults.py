@@ -53,6 +53,7 @@ PHYSICS_AND_ORACLES = [
     "contact/test_contact_dynamics.py",
     "contact/test_contact_impacts.py",
     "contact/test_contact_friction.py",
+    "contact/test_loops.py",
     "model/test_reduction.py",
     "scene/test_scene.py",
     "templates/test_templates.py",
@@ -70,6 +71,7 @@ TESTED_BY = {
     "_shapes": "shapes",
     "_vector": "screws",
     "wrench": "screws",
+    "relative": "loops",
     "articulated": "inverse_mass",
 }
 """Files and folders of the source whose tests go by another name."""

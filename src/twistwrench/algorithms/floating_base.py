@@ -5,12 +5,12 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_names, tolerance
+from ..arrays import Array, as_names, as_sequence, tolerance
 from ..errors import SingularError
 from ..model import FreeFlyer, Model, check_model, check_state, one_configuration
 from ..spatial import SE3
@@ -22,6 +22,7 @@ from .rnea import gravity
 __all__ = [
     "Equilibrium",
     "HeldRows",
+    "as_frames",
     "as_held",
     "base_placement",
     "contact_jacobian",
@@ -117,10 +118,14 @@ def _held_rows(model: Model, q: Array, contact: str | HeldRows) -> Array:
     return frame_jacobian(model, q, contact, "local_world_aligned")[..., 3:, :]  # 49.9 J_c: the linear rows
 
 
+def as_frames(contacts: Iterable[str | HeldRows]) -> tuple[str | HeldRows, ...]:
+    """Return frames and contacts as a tuple."""
+    return as_sequence(contacts, "contacts", "frame names", letters=False, ordered=True)
+
+
 def as_held(model: Model, contacts: Iterable[str | HeldRows]) -> tuple[str | HeldRows, ...]:
     """Return frames and contacts as a tuple; raise an error for those that the model has not."""
-    names: Iterable[Any] = contacts
-    held = as_names(names, "contacts", "frame names", ordered=True)
+    held = as_frames(contacts)
     for contact in held:
         check = getattr(contact, "check", None)
         check(model) if callable(check) else model.frame(contact)

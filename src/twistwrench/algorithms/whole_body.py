@@ -16,7 +16,7 @@ from ..tables import html_matrix
 from ._mimic import also_of_mimics
 from .centroidal import centroidal_map
 from .crba import crba
-from .floating_base import HeldRows, as_held, contact_jacobian
+from .floating_base import HeldRows, as_frames, contact_jacobian
 from .rnea import nonlinear_effects
 
 __all__ = ["QUANTITIES", "Dynamics", "dynamics", "wanted"]
@@ -97,7 +97,7 @@ def dynamics(
     ((18, 18), (12, 18), None)
     """
     check_state(model, q, v=v)  # also where no wanted quantity depends on v
-    contacts = as_held(model, model.feet if contacts is None else contacts)
+    contacts = as_frames(model.feet if contacts is None else contacts)
     want = wanted(want)
     compute = {
         "M": lambda: crba(model, q),

@@ -10,9 +10,9 @@ from typing import Any, Protocol, get_args
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from ..algorithms.floating_base import HeldRows, as_held
+from ..algorithms.floating_base import HeldRows, as_frames, as_held
 from ..algorithms.kinematics import Reference
-from ..arrays import Array, as_count, as_flag, as_names, as_sequence, check_choice, check_kind
+from ..arrays import Array, as_count, as_flag, as_names, check_choice, check_kind
 from ..errors import check_known
 from ..model import Model, check_arrays, check_model
 from .digits import NUMBERS, with_digits
@@ -127,9 +127,7 @@ def compile(
     own = _number_type(np.float64 if number else dtype)
     options: dict[str, Any] = {
         "dtype": own,
-        "contacts": None
-        if contacts is None
-        else as_sequence(contacts, "contacts", "frame names", letters=False, ordered=True),
+        "contacts": None if contacts is None else as_frames(contacts),
         "frames": as_names(frames, "frames", "frame names", ordered=True),
         "reference": reference,
         "given": _mapping(given),

@@ -5,12 +5,13 @@ The same rows as for the ground, J v = 0, hold two frames of one robot together;
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import DTypeLike
 
-from ..arrays import Array, as_exactly, as_flag
+from ..arrays import Array, as_exactly, as_flag, convert
 from ..model import Model
 from .types import Contact, Motion, checked_frame, checked_motion
 
@@ -80,7 +81,7 @@ class LoopClosure(_Internal):
     """
 
     frame: str
-    to: str
+    to: str = field()
     welded: bool = False
     velocity: Motion = field(default=(), kw_only=True)
     acceleration: Motion = field(default=(), kw_only=True)
@@ -168,6 +169,18 @@ class Coupling(_Internal):
         for name in self.frames:
             if model.joints[model.joint_id(name)].nv != 1:  # type: ignore[union-attr]
                 raise ValueError(f"coupling {self.frame!r}: expected joints of one degree of freedom, got {name!r}")
+
+    def coefficients(self, model: Model, entries: Sequence[slice], n: int, dtype: DTypeLike) -> Array:
+        """Return the coupling as a row, shape (1, n), where joint i of a model has these entries."""
+        row = np.zeros((1, n))
+        for name, x in ((self.frame, -1.0), *self.ratios):
+            row[:, entries[model.joint_id(name)]] = -x
+        return convert(row, dtype)
+
+    def jacobian(self, model: Model, q: Array) -> Array:
+        """Return the row of J, which does not depend on q."""
+        row = self.coefficients(model, model.v_slice, model.nv, q.dtype)
+        return np.broadcast_to(row, (*q.shape[:-1], 1, model.nv))
 
     @property
     def rows(self) -> slice:

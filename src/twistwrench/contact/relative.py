@@ -45,8 +45,7 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
     for c in contacts:
         at.append(place(model, tree.placement, q, c))
         if isinstance(c, Coupling):
-            row = convert(coefficients(model, c, model.v_slice, model.nv), q.dtype)
-            J_c, bias_c = np.broadcast_to(row, (*q.shape[:-1], 1, model.nv)), np.zeros((*q.shape[:-1], 1), q.dtype)
+            J_c, bias_c = c.jacobian(model, q), np.zeros((*q.shape[:-1], 1), q.dtype)
         else:
             loop, N = Loop.of(model, c, q.dtype), convert(c.directions, q.dtype)
             own = [x if i in loop.joints else np.zeros_like(x) for i, x in enumerate(qd)]
@@ -138,16 +137,8 @@ def place(model: Model, placement: Sequence[SE3], q: Array, c: Contact) -> SE3:
         return Loop.of(model, c, q.dtype).place(model, placement)
     off = np.zeros((*q.shape[:-1], 3), q.dtype)
     if all(model.joints[model.joint_id(name)].nq == 1 for name in c.frames):  # type: ignore[union-attr]
-        off[..., :1] = np.matvec(convert(coefficients(model, c, model.q_slice, model.nq), q.dtype), q)
+        off[..., :1] = np.matvec(c.coefficients(model, model.q_slice, model.nq, q.dtype), q)
     return SE3._trusted(np.broadcast_to(np.eye(3, dtype=q.dtype), (*q.shape[:-1], 3, 3)), off)
-
-
-def coefficients(model: Model, c: Coupling, entries: Sequence[slice], n: int) -> Array:
-    """Return the row of a coupling, shape (1, n), where joint i has these entries of q or v."""
-    row = np.zeros((1, n))
-    for name, x in ((c.frame, -1.0), *c.ratios):
-        row[:, entries[model.joint_id(name)]] = -x
-    return row
 
 
 def given_motion(contacts: Sequence[Contact], name: str) -> Array:

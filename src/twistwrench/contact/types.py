@@ -17,7 +17,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_exactly
+from ..algorithms.kinematics import frame_jacobian
+from ..arrays import Array, as_exactly, convert
 from ..errors import unknown_name
 from ..model import Model, readonly
 from ..spatial.rotation import cross_matrix
@@ -111,6 +112,8 @@ class Contact(ABC):
         -------
         ndarray, shape (..., dim, nv)
         """
+        if self.to is None:
+            return convert(self.directions, q.dtype) @ frame_jacobian(model, q, self.frame, "local_world_aligned")
         from .relative import contact_rows
 
         return contact_rows(model, q, np.zeros(model.nv, q.dtype), [self]).J
