@@ -77,7 +77,8 @@ class LoopClosure(_Internal):
     >>> _ = builder.link("end", parent="b", placement=side), builder.link("tip", parent="c", placement=side)
     >>> model, loop = builder.build(), [tw.LoopClosure("end", "tip")]
     >>> held = tw.contact_forward_dynamics(model, [-0.3, 0.3, -0.3], np.zeros(3), [1.0, 0, 0], loop)
-    >>> held.qdd.round(9), int(held.rank), int(held.redundant)
+    >>> held.qdd.round(9), int(held.rank), int(held.redundant)  # 1 / (1/12 + 1 + 1/12)
+    (array([ 0.85714286, -0.85714286,  0.85714286]), 2, 1)
     """
 
     frame: str
