@@ -75,7 +75,7 @@ class Ground:
 
 
 def check_normals(contacts: Sequence[Contact], ground: Ground) -> None:
-    """Raise for a contact that is not a point or sole at rest, or whose normal is neither the default nor the ground's."""
+    """Raise for a contact that is not a point or sole at rest, or whose normal is not the ground's."""
     for c in contacts:
         if not c.pushes or c.dim not in (3, 6) or c.velocity or c.acceleration:
             raise ValueError(
