@@ -299,7 +299,7 @@ def test_without_machine_code_the_results_are_the_same(name, states, monkeypatch
     """But for sin and cos, which have a rounding or two of their own; in chunks of 64 states."""
     compiled = CALLS[name](fast, GO2, states.q, states.v)
     monkeypatch.setattr(programs, "available", lambda: False)
-    monkeypatch.setattr(registers, "CHUNK", 1)
+    monkeypatch.setattr(registers, "CHUNK", 64)
     model = tw.load("go2")
     q, v = (np.concatenate([x] * 3) for x in (states.q, states.v))
     found = CALLS[name](fast, model, q, v)
@@ -363,11 +363,43 @@ def test_a_robot_that_is_too_long_is_refused_in_the_same_words(monkeypatch):
     assert str(ours.value) == str(textbook.value)
 
 
+def bundle(chains: int, links: int) -> tw.Model:
+    """Chains side by side."""
+    rod, built = tw.SpatialInertia(1.0, [0, 0, -0.5], np.eye(3)), tw.Builder("bundle")
+    for chain in range(chains):
+        for k in range(links):
+            parent = f"{chain} {k - 1}" if k else "base_link"
+            built.link(f"{chain} {k}", parent=parent, joint=tw.Revolute("y"), inertia=rod)
+    return built.build()
+
+
 @pytest.mark.parametrize(
-    ("model", "want", "long"), [(80, "h", False), (81, "h", True), (70, "M", False), (71, "M", True)]
+    ("chains", "links", "want", "reason"),
+    [
+        (1, 80, "M", None),
+        (1, 81, "h", "81 degrees of freedom in a chain, more than 80"),
+        (25, 40, "h", None),
+        (27, 38, "h", "1026 degrees of freedom, more than 1000"),
+        (10, 60, "M", None),
+        (12, 60, "M", "21960 entries of M, more than 20000"),
+    ],
 )
-def test_what_is_too_long_is_decided_by_its_degrees_of_freedom_and_by_the_entries_of_m(model, want, long):
-    assert programs.is_too_long(tw.chain(model), [want]) == long
+def test_what_is_too_long_is_decided_by_degrees_of_freedom_and_by_the_entries_of_m(chains, links, want, reason):
+    assert programs.too_long(bundle(chains, links), [want]) == reason
+
+
+def test_what_is_handed_to_the_textbook_is_in_the_log(long_chain, caplog):
+    for _ in range(2):
+        fast.crba(long_chain, long_chain.neutral())
+    assert caplog.messages == ["chain of 6 has 11 degrees of freedom in a chain, more than 5: the textbook computes M"]
+
+
+def test_lines_that_are_too_long_for_machine_code_are_numpys(monkeypatch):
+    monkeypatch.setattr(programs, "COMPILED", 3)
+    model, q = tw.load("double_pendulum"), np.array([[0.3, -1.2]] * 30)
+    assert np.abs(fast.crba(model, q) - tw.crba(model, q)).max() < 1e-14
+    assert np.abs(fast.crba(model, q[0]) - tw.crba(model, q[0])).max() < 1e-14
+    assert [program.backend for program in model._programs.values()] == ["numpy"]
 
 
 # ---------------------------------------------------------------- what is kept

@@ -219,7 +219,7 @@ class Pieces:
         values = self.text.load(self.row(self.arrays[name]), start, len(keys))
         for key, value in zip(keys, values):
             place = self.places.get(("input", (name, *key)))
-            if self.uses.get(place) and place not in self.slot:
+            if place is not None and self.uses.get(place) and place not in self.slot:
                 self.name[place] = value
 
     def store(self, array: int, start: int, nodes: Sequence[int]) -> None:

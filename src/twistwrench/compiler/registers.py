@@ -1,7 +1,6 @@
 """A straight line in NumPy, for many states: each operation is one call, and its result goes into one of a few arrays.
 
-Which works for every number type that NumPy has. The arrays stay in the cache of the processor: there are no more of
-them than results that are still needed, and a chunk of states is as long as fits.
+Which works for every number type that NumPy has. There are no more arrays than results that are still needed.
 """
 
 from __future__ import annotations
@@ -31,8 +30,8 @@ FUNCTIONS = {
     "round": np.rint,
 }
 
-CHUNK = 2**20
-"""Bytes that the arrays of a chunk take together."""
+CHUNK = 2048
+"""States that are computed together: for fewer, a call takes longer than what it computes."""
 
 
 class Registers:
@@ -47,15 +46,17 @@ class Registers:
     """
 
     def __init__(self, line: Line, dtype: np.dtype[Any]) -> None:
-        self.dtype, functions = dtype, functions_of(dtype)
+        self.dtype, self.inputs, functions = dtype, len(line.inputs), functions_of(dtype)
         entry: dict[Any, tuple[int, int]] = {}
         for a, (name, shape) in enumerate(line.inputs.items()):
             entry |= {(name, *k): (a, j) for j, k in enumerate(np.ndindex(shape))}
         last = {j: k for k, node in enumerate(line.nodes) for j in operands(node)}
-        last |= {k: len(line.nodes) for _, entries in line.outputs.values() for k in entries}
-        place: dict[int, int] = {}  # the register of each node; constants are counted backwards from -1
+        results = [k for _, entries in line.outputs.values() for k in entries]
+        last |= dict.fromkeys(results, len(line.nodes))
+        row = {k: place for place, k in reversed([*enumerate(results)])}  # each result has a row of its own
+        place: dict[int, int] = {}  # the row of each node, after the results' the registers; constants from -1 back
         free: list[int] = []
-        self.count, self.constants = 0, list[Any]()
+        self.count, self.constants = len(results), list[Any]()
         self.steps: list[tuple[np.ufunc | None, Sequence[int], int]] = []  # without a function: array and column
         for k, (operation, *rest) in enumerate(line.nodes):
             if operation == "const":
@@ -63,27 +64,33 @@ class Registers:
                 place[k] = -len(self.constants)
                 continue
             needed = operands(line.nodes[k])
-            free += {place[j] for j in needed if last[j] == k and place[j] >= 0}
-            if not free:
-                free.append(self.count)
-                self.count += 1
-            place[k] = free.pop()
+            free += {place[j] for j in needed if last[j] == k and place[j] >= len(results)}
+            if k in row:
+                place[k] = row[k]
+            elif free:
+                place[k] = free.pop()
+            else:
+                place[k], self.count = self.count, self.count + 1
             if operation == "input":
                 self.steps.append((None, entry[rest[0]], place[k]))
             else:
                 self.steps.append((functions[operation], [place[j] for j in needed], place[k]))
-        self.results = [[place[k] for k in entries] for _, entries in line.outputs.values()]
+        self.copies = [
+            (k, place[node]) for k, node in enumerate(results) if place[node] != k
+        ]  # constants, and repeated
 
     def run(self, arrays: Sequence[Array]) -> None:
         """Fill the results: each array has shape (states, entries)."""
-        size = max(64, CHUNK // (max(1, self.count) * self.dtype.itemsize))
+        states = len(arrays[0])
+        chunks = -(-states // CHUNK)
         with np.errstate(all="ignore"):  # what is not finite is seen in the result `alarm`
-            for start in range(0, len(arrays[0]), size):
-                self._run([x[start : start + size] for x in arrays])
+            for k in range(chunks):
+                self._run([x[states * k // chunks : states * (k + 1) // chunks] for x in arrays])
 
     def _run(self, arrays: Sequence[Array]) -> None:
         """Fill the results of a chunk."""
-        values: list[Any] = [*np.empty((self.count, len(arrays[0])), self.dtype), *self.constants]
+        rows = np.empty((self.count, len(arrays[0])), self.dtype)
+        values: list[Any] = [*rows, *self.constants]
         for function, needed, place in self.steps:
             if function is None:
                 values[place][...] = arrays[needed[0]][:, needed[1]]
@@ -91,9 +98,12 @@ class Registers:
                 function(values[needed[0]], values[needed[1]], values[place])
             else:
                 function(values[needed[0]], values[place])
-        for x, places in zip(arrays[-len(self.results) :], self.results):
-            for k, place in enumerate(places):
-                x[:, k] = values[place]
+        for row, place in self.copies:
+            rows[row] = values[place]
+        start = 0
+        for x in arrays[self.inputs :]:
+            x[...] = rows[start : start + x.shape[1]].T
+            start += x.shape[1]
 
 
 def functions_of(dtype: np.dtype[Any]) -> dict[str, np.ufunc]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from functools import partial
 from math import prod
@@ -22,25 +23,36 @@ from ..model import Model, check_model, floats_of
 
 __all__ = [
     "ASKED",
+    "COMPILED",
     "LONGEST",
     "MOST",
+    "WIDEST",
     "Textbook",
-    "is_too_long",
     "one_state",
     "program",
     "remembered",
     "result",
     "states_of",
+    "too_long",
 ]
 
 LONGEST = 80
-"""Degrees of freedom of a robot that is not too long for a straight line."""
+"""Degrees of freedom from the world to a body: beyond, a program, which rounds every product, loses to the textbook's
+matrix products, and the pivots of q̈ are always in doubt."""
 
-MOST = 2500
+WIDEST = 1000
+"""Degrees of freedom of a robot that is not too large for a straight line."""
+
+MOST = 20_000
 """Entries of M on and below its diagonal that are not always zero, where M is asked for."""
+
+COMPILED = 60_000
+"""Operations that are not too many for machine code, which then takes some seconds to make: NumPy does longer lines."""
 
 REMEMBERED = 64
 """Programs that a model remembers: of gaits each set of feet is one."""
+
+LOG = logging.getLogger(__name__)
 
 PLAIN = (np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.longdouble))
 """Number types of which a program sees for itself whether a state is valid."""
@@ -137,20 +149,23 @@ def remembered(
 
 
 def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single: bool) -> Program | Textbook:
-    if not is_too_long(model, [quantity.symbol for quantity in asked]):
-        backend = "llvm" if dtype in NATIVE and available() else "numpy"
+    symbols = [quantity.symbol for quantity in asked]
+    if (reason := too_long(model, symbols)) is not None:
+        LOG.warning("%s has %s: the textbook computes %s", model.name, reason, ", ".join(symbols))
+    else:
         made = Program(
             model,
             asked,
             single=single,
             given={},
             dtype=dtype,
-            backend=backend,
+            backend="llvm" if dtype in NATIVE and available() else "numpy",
             threads=1,
             remake=partial(_made, model, asked, dtype, single),  # type: ignore[arg-type]  # a program, as here
         )
         try:
-            made.operations  # noqa: B018 - records it
+            if made.operations.total() > COMPILED:
+                made.backend = "numpy"
         except (TypeError, ArithmeticError, SingularError):
             pass  # a joint that asks what its q is; no inertia
         else:
@@ -158,13 +173,19 @@ def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single:
     return Textbook(model, asked, single)
 
 
-def is_too_long(model: Model, want: Collection[str]) -> bool:
-    """Return whether a model is too long for a straight line that computes these symbols."""
+def too_long(model: Model, want: Collection[str]) -> str | None:
+    """Return what is too much of a model for a straight line that computes these symbols, if anything is."""
     above = [0]  # degrees of freedom from the world up to a body
     for p, joint in zip(model.parent[1:], model.joints[1:]):
         above.append(above[p] + (joint.nv if joint else 0))
     entries = sum(above[i] * joint.nv for i, joint in enumerate(model.joints) if joint)
-    return model.nv > LONGEST or ("M" in want and entries > MOST)
+    if max(above) > LONGEST:
+        return f"{max(above)} degrees of freedom in a chain, more than {LONGEST}"
+    if model.nv > WIDEST:
+        return f"{model.nv} degrees of freedom, more than {WIDEST}"
+    if "M" in want and entries > MOST:
+        return f"{entries} entries of M, more than {MOST}"
+    return None
 
 
 class Textbook:
