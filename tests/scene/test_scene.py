@@ -301,10 +301,102 @@ def test_what_pushes_the_robot_counts():
     assert not lifted.can_stand()
 
 
-@pytest.mark.parametrize("given", [{"base": "fixed", "contacts": FEET}, {}, {"contacts": FEET, "gravity": [0, 0, 0]}])
-def test_to_stand_takes_a_floating_base_gravity_and_contacts(given):
-    with pytest.raises(ValueError, match="takes a floating base, gravity and at least one contact"):
+@pytest.mark.parametrize("given", [{"base": "planar", "contacts": FEET}, {}, {"contacts": FEET, "gravity": [0, 0, 0]}])
+def test_to_stand_takes_gravity_and_something_to_stand_on(given):
+    with pytest.raises(ValueError, match="takes gravity, and a fixed base or a floating one with contacts"):
         tw.Scene("go2", **given).can_stand()
+
+
+def test_an_arm_holds_what_its_motors_hold():
+    """By the moments of the weights about each joint, and with a hand on a table that takes some of them."""
+    arm = tw.load("planar_arm")
+    q = np.array([0.4, 0.5, 0.6])
+    need = np.abs(tw.gravity(arm, q))
+    for share, holds in ((1.001, True), (0.999, False)):
+        strong = replace(arm, effort_limit=share * need)
+        assert bool(tw.Scene(strong, q=q).can_stand()) == holds
+        assert not tw.Scene(strong, q=q, payload={"tool": 0.01 * arm.mass}).can_stand()
+    weak = replace(arm, effort_limit=need * [0.999, 2, 2])
+    said = f"cannot hold: the motor of 'shoulder' would have to hold {need[0]:.3g}, and its limit is "
+    assert str(tw.Scene(weak, q=q).can_stand()) == said + f"{0.999 * need[0]:.3g}"
+    assert str(tw.Scene(weak, q=q, contacts=[tw.PointContact("tool", 0.6)]).can_stand()) == "it holds"
+
+
+# ---------------------------------------------------------------- what it carries
+
+BOX = tw.SpatialInertia.from_box(1.5, [0.2, 0.1, 0.3])
+AT = tw.SE3(tw.exp3([0.3, -0.2, 0.5]), [0.1, 0.05, -0.2])
+
+
+def crate():
+    """A box with a named corner, as an object of its own."""
+    builder = tw.Builder("crate", base="floating", root_inertia=BOX)
+    builder.link("corner", parent="base_link", placement=tw.SE3(np.eye(3), [0.1, 0.05, -0.15]))
+    return builder.build()
+
+
+def test_a_payload_is_a_body_and_not_a_force():
+    """It falls as the robot does; a force of its weight would make the robot fall faster."""
+    rest = np.zeros(18)
+    falls = tw.Scene("go2", payload={"base": 2.0})
+    model = falls.model
+    assert falls.full_model.mass == pytest.approx(tw.load("go2").mass + 2.0, rel=1e-15)
+    assert tw.aba(model, model.standing(), rest, rest)[3:6] == pytest.approx([0, 0, -9.81], abs=1e-12)
+    pushed = tw.Scene("go2", wrenches={"base": [0, 0, 0, 0, 0, -2 * 9.81]})
+    a = tw.aba(pushed.model, model.standing(), rest, rest, pushed.f_ext(model.standing()))
+    assert tw.centroidal_momentum_rate(model, model.standing(), rest, a)[5] < -9.81 * falls.full_model.mass
+    assert repr(falls) == "<Scene 'go2': floating base, 1 payload, nv = 18 of 18>"
+
+
+@pytest.mark.parametrize("frame", ["base", "FL_foot", "FR_hip_joint"])
+def test_a_payload_moves_as_a_body_that_is_welded_on(frame):
+    """As a replaced inertia, as an attached model, and in Pinocchio."""
+    go2 = tw.load("go2")
+    q, v, a, *_ = random_state(go2, rng=2)
+    body, at = go2.frame(frame).body, go2.frame(frame).placement
+    turned = BOX.transform(AT)
+    mine = tw.Scene(go2, payload={frame: turned}).model
+    in_frame = go2.inertia[body].transform(at.inverse())
+    replaced = tw.replace_inertia(go2, frame, in_frame + turned)
+    attached = tw.attach(go2, crate(), frame, placement=AT)
+    for other in (replaced, attached):
+        close(tw.rnea(mine, q, v, a), tw.rnea(other, q, v, a), 1e-13)
+        close(tw.crba(mine, q), tw.crba(other, q), 1e-13)
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    there = tw.bridge.to_pinocchio_model(go2)
+    inertia = tw.bridge.to_pinocchio_inertia(turned)
+    there.appendBodyToJoint(there.frames[there.getFrameId(frame)].parentJoint, inertia, tw.bridge.to_pinocchio_se3(at))
+    V, A = (tw.bridge.to_pinocchio_tangent(go2, x) for x in (v, a))
+    tau = pin.rnea(there, there.createData(), q, V, A)
+    close(tw.rnea(mine, q, v, a), tw.bridge.from_pinocchio_tangent(go2, tau), 1e-12)
+
+
+def test_an_object_that_is_carried_may_touch():
+    """The humanoid holds a crate in its hand, whose corner it sets on something; what is held is one body more."""
+    scene = tw.Scene(
+        "humanoid", contacts=[*SOLES, tw.PointContact("crate_corner", 0.4)], payload={"left_hand": crate()}
+    )
+    whole = tw.load("humanoid")
+    assert scene.full_model.nv == whole.nv
+    assert scene.full_model.mass == pytest.approx(whole.mass + 1.5)
+    q = scene.model.standing()
+    corner = tw.frame_placement(whole, whole.standing(), "left_hand") @ tw.SE3(np.eye(3), [0.1, 0.05, -0.15])
+    close(tw.frame_placement(scene.model, q, "crate_corner").matrix(), corner.matrix())
+    assert scene.dynamics(q, np.zeros(scene.model.nv), want={"J_c"}).J_c.shape == (15, whole.nv)
+    for base in ("fixed", "planar"):
+        low = tw.Scene("humanoid", base=base, payload={"left_hand": 1.5})
+        assert low.model.mass == pytest.approx(tw.Scene("humanoid", base=base).model.mass + 1.5)
+
+
+def test_what_is_carried_counts_where_the_robot_stands():
+    """2 kg at arm's length move the centre of mass, by their moment over the weight of both."""
+    bare, heavy = (tw.Scene("humanoid", contacts=SOLES, payload=p).model for p in ({}, {"left_hand": 2.0}))
+    q = bare.standing()
+    hand, G = tw.frame_placement(bare, q, "left_hand").translation, tw.center_of_mass(bare, q)
+    close(tw.center_of_mass(heavy, q), (bare.mass * G + 2.0 * hand) / (bare.mass + 2.0))
+    assert tw.Scene("go2", contacts=FEET, payload={"base": 10.0}).can_stand()
+    too_much = tw.Scene("go2", contacts=FEET, payload={"base": 300.0}).can_stand()
+    assert "no forces at the contacts spare the motors" in str(too_much)
 
 
 # ---------------------------------------------------------------- what it refuses
@@ -324,6 +416,12 @@ def test_to_stand_takes_a_floating_base_gravity_and_contacts(given):
             r"'arm_\*' fits no joint of 'go2'; its joints are root_",
         ),
         ({"wrenches": {"hand": np.zeros(6)}}, tw.NameNotFound, "unknown frame 'hand'"),
+        ({"payload": {"hand": 1.0}}, tw.NameNotFound, "unknown frame 'hand'"),
+        ({"payload": {"base": 0}}, tw.ModelError, r"payload\['base'\]: expected a mass above 0, got 0"),
+        ({"payload": {"base": "2 kg"}}, ValueError, r"payload\['base'\]: expected"),
+        ({"payload": [2.0]}, TypeError, "payload: expected what is carried by the names of frames"),
+        ({"payload": {"base": 1.0}, "base": "fixed"}, tw.ModelError, "payload on frame 'base': the scene holds"),
+        ({"payload": {"base": tw.load("planar_arm")}}, tw.ModelError, "other: expected a floating base"),
         ({"wrenches": {"base": np.zeros(3)}}, tw.ShapeError, r"wrenches\['base'\]: expected shape"),
         ({"wrenches": {"base": np.zeros((2, 6))}}, tw.ShapeError, r"wrenches\['base'\]: expected shape \(6,\)"),
         ({"wrenches": {"base": [0, 0, 0, 0, 0, np.nan]}}, ValueError, r"wrenches\['base'\]: expected finite"),
@@ -403,7 +501,7 @@ def test_a_quantity_or_a_state_that_is_none_is_refused():
 def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
     english, chinese = PAGES
     sources, twins = (blocks(path.read_text(encoding="utf-8"), 0, 10**6) for path in (english, chinese))
-    assert len(sources) == 6
+    assert len(sources) == 7
     assert [block.strip("\n") for block in sources] == [block.strip("\n") for block in twins]
     rows = ([line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("| ")] for path in PAGES)
     ours, theirs = ([re.findall(r"\d[\d.e-]*", row) for row in of_page] for of_page in rows)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from os import PathLike
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
@@ -14,6 +15,7 @@ from ..contact import Contact
 from ..errors import ModelError
 from ..model import Model, idle_joints, lock_joints, matching_joints
 from .checks import checked_contacts, checked_wrenches, expect_movable
+from .payload import Payload, loaded
 from .planar_base import OnTheFloor
 from .robot import posture, whole_robot
 
@@ -38,8 +40,10 @@ class SmallestModel:
         q: ArrayLike | None = None,
         gravity: ArrayLike | None = None,
         wrenches: Mapping[str, ArrayLike] | None = None,
+        payload: Mapping[str, Payload] | None = None,
     ) -> None:
-        self.full_model = full = whole_robot(robot, base, gravity)
+        self.full_model = full = loaded(whole_robot(robot, base, gravity), payload)
+        self.payload = MappingProxyType(dict(payload or {}))
         self.q = posture(full, q)
         self.contacts = checked_contacts(full, contacts)
         self.wrenches = checked_wrenches(full, {} if wrenches is None else wrenches)
@@ -57,6 +61,7 @@ class SmallestModel:
             raise ModelError(f"{full.name!r}: nothing is left to move; every joint is held, or carries nothing")
         expect_movable(self.model, (contact.frame for contact in self.contacts), "contact on frame")
         expect_movable(self.model, self.wrenches, "wrench on frame")
+        expect_movable(self.model, self.payload, "payload on frame")
 
     # ---------------------------------------------------------------- between the whole robot and the model
 
@@ -113,6 +118,7 @@ class SmallestModel:
         for names, one, several in (
             (self.contacts, "contact", "contacts"),
             (self.wrenches, "wrench", "wrenches"),
+            (self.payload, "payload", "payloads"),
             (self.held, "joint held", "joints held"),
             (self.idle, "joint that carries nothing dropped", "joints that carry nothing dropped"),
         ):

@@ -50,13 +50,17 @@ class Scene(SmallestModel):
         In the world, m/s²; the model's unless given.
     wrenches : mapping of str to array_like, shape (6,), optional
         Constant (τ, f) from outside on a frame: at its origin, in the axes of the world, N m and N.
+    payload : mapping of str to float, SpatialInertia or Model, optional
+        What it carries, by the frame that carries it: a mass at the frame's origin, kg; a body in the frame's axes; or
+        an object with a floating base, welded on by its root as `attach` does, its names with its own name and ``"_"``
+        in front: contacts may be on its frames.
 
     Attributes
     ----------
     model : Model
         The smallest model.
     full_model : Model
-        The whole robot, with the scene's gravity.
+        The whole robot, with the scene's gravity and its payload.
     contacts : tuple of Contact
     held : tuple of str
         The joints that are held.
@@ -65,19 +69,20 @@ class Scene(SmallestModel):
     q : ndarray, shape (nq of full_model,)
         Where the held and the dropped joints stand.
     wrenches : dict of str to ndarray, shape (6,)
+    payload : mapping of str to float, SpatialInertia or Model
 
     Raises
     ------
     NameNotFound
         If a robot, a joint or pattern, or a frame is not known; the message lists those that are.
     ModelError
-        If the base is not one of the three or not one that the model can have, or if `hold` names it; if a contact or a
-        wrench acts on a frame that the scene holds fixed to the world; if two contacts touch at one place; if nothing
-        is left to move.
+        If the base is not one of the three or not one that the model can have, or if `hold` names it; if a contact, a
+        wrench or a payload is on a frame that the scene holds fixed to the world; if two contacts touch at one place;
+        if nothing is left to move; if a payload is a body that cannot exist.
     ShapeError, ValueError
         If a value is not a finite number or has the wrong shape; if friction is below zero (see `PointContact`).
     TypeError
-        If a contact is not a contact, or wrenches are given without the names of their frames.
+        If a contact is not a contact, or wrenches or payloads are given without the names of their frames.
 
     Examples
     --------
@@ -151,7 +156,7 @@ class Scene(SmallestModel):
 
         It can if no joint is outside its limits, if forces within the friction cones of the contacts (as pyramids of 16
         sides inside them) hold it against its weight and the scene's wrenches, and if some of these forces leave no
-        motor more than its limit.
+        motor more than its limit. With a fixed base, an arm, the motors alone hold it where it has no contacts.
 
         Parameters
         ----------
@@ -166,7 +171,7 @@ class Scene(SmallestModel):
         Raises
         ------
         ValueError
-            If the base does not float, there are no contacts, or there is no gravity.
+            If there is no gravity, if the base is planar, or if it floats and there are no contacts.
         ShapeError
             As `Model.state`.
 
@@ -179,8 +184,8 @@ class Scene(SmallestModel):
         >>> print(tw.Scene("go2", contacts=feet[2:]).can_stand())
         cannot stand: ...
         """
-        if self._base != "floating" or not self.contacts or not self.model.gravity.any():
-            raise ValueError(f"{self!r}: to stand takes a floating base, gravity and at least one contact")
+        if self._base == "planar" or not (self.contacts or self._base == "fixed") or not self.model.gravity.any():
+            raise ValueError(f"{self!r}: to stand takes gravity, and a fixed base or a floating one with contacts")
         q = self.reduce(self.q, np.zeros(self.full_model.nv))[0] if q is None else posture(self.model, q)
         return standing(self.model, q, self.contacts, self.f_ext(q))
 

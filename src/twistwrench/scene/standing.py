@@ -28,21 +28,24 @@ class Standing:
     ----------
     reasons : tuple of str
         Why it cannot; empty where it can.
+    word : {"stand", "hold"}
+        What it does: a robot whose base is fixed holds.
     """
 
     reasons: tuple[str, ...]
+    word: str = "stand"
 
     def __bool__(self) -> bool:
         return not self.reasons
 
     def __str__(self) -> str:
-        return "it stands" if self else "cannot stand: " + "; ".join(self.reasons)
+        return f"it {self.word}s" if self else f"cannot {self.word}: " + "; ".join(self.reasons)
 
 
 def standing(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> Standing:
     """See `Scene.can_stand`."""
     reasons = outside_limits(model, q)
-    if f_ext.any():
+    if f_ext.any() or model.base != "floating":
         rest = np.zeros(model.nv)
         try:
             friction_inverse_dynamics(model, q, rest, rest, contacts, f_ext, sides=16)
@@ -53,7 +56,7 @@ def standing(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) 
         fails = stance_margins(model, q, contacts).reason
     if not fails:
         fails = weak_motors(model, q, contacts, f_ext)
-    return Standing((*reasons, *([fails] if fails else [])))
+    return Standing((*reasons, *([fails] if fails else [])), "stand" if model.base == "floating" else "hold")
 
 
 def outside_limits(model: Model, q: Array) -> list[str]:
@@ -73,12 +76,13 @@ def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Arra
     task = Task.of(model, q, rest, rest, contacts, f_ext)
     if task.reach(16, "inner", task.motors(model)).reached:
         return ""
-    motors = np.arange(6, model.nv)
+    first = 2 if model.base == "floating" else 1
+    motors = np.arange(model.v_slice[first].start, model.nv)
     strong = model.effort_limit[motors]
     tau = friction_inverse_dynamics(model, q, rest, rest, contacts, f_ext, sides=16).tau[motors]
-    names = [name for name, s in zip(model.joint_names[2:], model.v_slice[2:]) for _ in range(s.stop - s.start)]
+    names = [name for name, s in zip(model.joint_names[first:], model.v_slice[first:]) for _ in range(s.stop - s.start)]
     worst = max(np.flatnonzero(np.isfinite(strong)), key=lambda k: abs(tau[k]) - strong[k])
-    return (
-        f"no forces at the contacts spare the motors: with the least ones that of {names[worst]!r} would have to hold "
-        f"{abs(tau[worst]):.3g}, and its limit is {strong[worst]:.3g}"
-    )
+    needs = f"would have to hold {abs(tau[worst]):.3g}, and its limit is {strong[worst]:.3g}"
+    if not contacts:
+        return f"the motor of {names[worst]!r} {needs}"
+    return f"no forces at the contacts spare the motors: with the least ones that of {names[worst]!r} {needs}"
