@@ -13,7 +13,7 @@ from ..compiler.llvm import available
 from ..compiler.quantity import Quantity
 from ..compiler.recording import ALARM, record
 from ..errors import SingularError
-from ..fast.programs import is_too_long
+from ..fast.programs import too_long
 from ..model import Model
 from ..timing import round_robin
 
@@ -42,7 +42,7 @@ def compiled(model: Model, law: Law, known: Sequence[Array], wanted: Sequence[in
     names = tuple(f"x{k}" for k in range(len(known)))
     shapes = {name: x.shape[1:] for name, x in zip(names, known)}
     try:
-        if is_too_long(model, ()):
+        if too_long(model, ()):
             raise TypeError
         wants = [Quantity(f"y{k}", names, partial(one, k)) for k in wanted]
         line = record(model, wants, shapes, {}, DOUBLE).without(ALARM)
