@@ -102,7 +102,7 @@ class Registers:
             rows[row] = values[place]
         start = 0
         for x in arrays[self.inputs :]:
-            x[...] = rows[start : start + x.shape[1]].T
+            x[...] = rows[start : start + x.shape[1]].mT
             start += x.shape[1]
 
 

@@ -38,7 +38,7 @@ __all__ = [
 
 LONGEST = 80
 """Degrees of freedom from the world to a body: beyond, a program, which rounds every product, loses to the textbook's
-matrix products, and the pivots of q̈ are always in doubt."""
+matrix products, and the pivots of q̈ are always below what a program takes."""
 
 WIDEST = 1000
 """Degrees of freedom of a robot that is not too large for a straight line."""
