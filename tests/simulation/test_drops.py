@@ -1,0 +1,64 @@
+"""A thousand random drops of five robots: no solver fails, nothing pulls, slips for nothing, sinks or makes energy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.simulation import cones
+from twistwrench.simulation.ground import ground_terms
+
+from .test_ground import BOX, G, corners
+
+DROPS = 200
+
+
+def points(frames, mu):
+    return [tw.PointContact(frame, mu) for frame in frames]
+
+
+def soles(names, half, trunk):
+    return [*(tw.SurfaceContact(name, half, 0.6) for name in names), tw.PointContact(trunk, 0.6)]
+
+
+def robot(name):
+    """A robot, and what of it may touch the ground."""
+    if name == "box":
+        return BOX, corners(0.5)
+    try:
+        model = tw.load(name)
+    except (tw.NameNotFound, tw.ModelError, ModuleNotFoundError):
+        pytest.skip(f"{name} comes with example-robot-data, which is not installed")
+    contacts = {
+        "go2": lambda: points((*model.feet, "FL_calf", "FR_calf", "RL_calf", "RR_calf", "base"), 0.6),
+        "anymal_c": lambda: points((*model.feet, "base"), 0.7),
+        "humanoid": lambda: soles(("left_sole", "right_sole"), (0.076, 0.0275), "pelvis"),
+        "talos_reduced": lambda: soles(("left_sole_link", "right_sole_link"), (0.1, 0.06), "base_link"),
+    }
+    return model, contacts[name]()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["box", "go2", "humanoid", "anymal_c", "talos_reduced"])
+def test_whatever_is_dropped_lands_by_the_laws(name, monkeypatch):
+    """From postures and velocities at random; the longest of these takes some minutes."""
+    model, contacts = robot(name)
+    ground, rng = tw.Ground(), np.random.default_rng(0)
+    given_up = []
+    last_word = cones.hildreth
+    monkeypatch.setattr(cones, "hildreth", lambda A, b: given_up.append(1) or last_word(A, b))
+    for _ in range(DROPS):
+        q = np.clip(model.standing() if model.feet else model.neutral(), model.lower, model.upper)
+        q = model.integrate(model.normalize(q), np.r_[rng.normal(size=3) * 0.5, np.zeros(model.nv - 3)])
+        lowest = ground_terms(model, q, contacts, ground).place[:, 2].min()
+        q[2] += rng.uniform(0, 0.05) - lowest
+        s = tw.simulate(model, q, rng.normal(size=model.nv), dt=0.002, duration=0.25, contacts=contacts, ground=ground)
+        force, mu = np.array(s.system.stepping.forces), s.system.stepping.mu
+        scale = tw.kinetic_energy(model, s.q[0], s.v[0]) + model.mass * G * 0.1
+        assert s.energy.max() <= s.energy[0] + 1e-9 * scale
+        assert np.diff(s.energy).max() < 0.01 * scale  # what fast legs gain by the order of the step
+        assert ground_terms(model, s.q, contacts, ground).place[..., 2].min() > -1e-9
+        assert force[..., 2].min() >= 0
+        assert (np.hypot(force[..., 0], force[..., 1]) <= mu * force[..., 2] * (1 + 1e-12)).all()
+    assert not given_up
