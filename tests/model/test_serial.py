@@ -1,4 +1,8 @@
-"""Arms by screw axes and by tables of DH: what Modern Robotics, Craig, Spong and Corke print."""
+"""Arms by screw axes, as Modern Robotics prints them, and by tables of DH, in the manner of Craig, Spong and Corke.
+
+The tables of DH and their closed forms are written down here, not copied: no page or edition of a book is claimed. Only
+the Puma's masses, and its g and M in `test_published.py`, were read where they are published: in the Robotics Toolbox.
+"""
 
 import numpy as np
 import pytest
@@ -140,8 +144,8 @@ def test_bad_screw_axes_are_named():
 # --- Denavit and Hartenberg ----------------------------------------------------------------------
 
 
-def test_craigs_puma_560():
-    """Craig, Introduction to Robotics, fig. 3.21 and eq. 3.14: the modified convention."""
+def test_a_puma_560_in_the_modified_convention():
+    """A wrist whose axes meet, in the manner of Craig (Introduction to Robotics): its tool in closed form."""
     a2, a3, d3, d4 = 0.4318, 0.0203, 0.1245, 0.4318
     alpha, a, d = [0, -PI / 2, 0, -PI / 2, PI / 2, -PI / 2], [0, 0, a2, a3, 0, 0], [0, 0, d3, d4, 0, 0]
     puma = tw.from_dh(a=a, alpha=alpha, d=d, convention="modified")
@@ -157,8 +161,8 @@ def test_craigs_puma_560():
     np.testing.assert_allclose(T[:3, 3], p, rtol=0, atol=1e-15)
 
 
-def test_spongs_stanford_manipulator_and_scara():
-    """Spong, Hutchinson and Vidyasagar, Robot Modeling and Control, examples 3.5 and 3.6: the classical convention."""
+def test_a_stanford_arm_and_a_scara_in_the_classical_convention():
+    """In the manner of Spong, Hutchinson and Vidyasagar (Robot Modeling and Control): their tools in closed form."""
     d2, d6, q = 0.154, 0.263, np.array([0.3, -0.7, 0.5, 0.4, -0.9, 2.0])
     alpha = [-PI / 2, PI / 2, 0, -PI / 2, PI / 2, 0]
     arm = tw.from_dh(a=np.zeros(6), alpha=alpha, d=[0, d2, 0, 0, 0, d6], convention="classical", kinds="RRPRRR")
@@ -183,7 +187,11 @@ PUMA |= {"alpha": [PI / 2, 0, -PI / 2, PI / 2, -PI / 2, 0], "convention": "class
 
 
 def corkes_puma():
-    """Corke and Armstrong-Hélouvry, ICRA 1994: masses, centres and moments in the classical frames, rotors, gears."""
+    """Masses, centres, moments, rotors and gears of the Robotics Toolbox for Python, ``models/DH/Puma560.py``.
+
+    It names its source: P. Corke and B. Armstrong-Hélouvry, A search for consensus among model parameters reported for
+    the PUMA 560 robot, ICRA 1994.
+    """
     mass = [0, 17.4, 4.8, 0.82, 0.34, 0.09]
     com = [[0, 0, 0], [-0.3638, 0.006, 0.2275], [-0.0203, -0.0141, 0.070], [0, 0.019, 0], [0, 0, 0], [0, 0, 0.032]]
     moments = [[0, 0.35, 0], [0.13, 0.524, 0.539], [0.066, 0.086, 0.0125], [1.8e-3, 1.3e-3, 1.8e-3]]
@@ -196,11 +204,13 @@ def corkes_puma():
 
 
 def test_corkes_puma_560():
-    """Corke, Robotics, Vision and Control, 2nd edition, sections 7.2 and 9.2: four digits behind the point."""
+    """The tool in closed form; g and M as the Toolbox's tests have them, four digits behind the point."""
     puma, qn = corkes_puma(), [0, PI / 4, PI, 0, PI / 4, 0]
-    T = [[0, 0, 1, 0.5963], [0, 1, 0, -0.1501], [-1, 0, 0, -0.0144], [0, 0, 0, 1]]
-    np.testing.assert_allclose(fk(puma, qn, "link6"), T, rtol=0, atol=6e-5)
-    np.testing.assert_allclose(fk(puma, np.zeros(6), "link6")[:3, 3], [0.4521, -0.15, 0.4318], rtol=0, atol=6e-5)
+    a2, a3, d3, d4 = 0.4318, 0.0203, 0.15005, 0.4318
+    p = [(a2 - a3 + d4) * 0.5**0.5, -d3, (a2 - a3 - d4) * 0.5**0.5]
+    T = [[0, 0, 1, p[0]], [0, 1, 0, p[1]], [-1, 0, 0, p[2]], [0, 0, 0, 1]]
+    np.testing.assert_allclose(fk(puma, qn, "link6"), T, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(fk(puma, np.zeros(6), "link6")[:3, 3], [a2 + a3, -d3, d4], rtol=0, atol=1e-15)
     np.testing.assert_allclose(tw.gravity(puma, qn), [0, 31.6399, 6.0351, 0, 0.0283, 0], rtol=0, atol=6e-5)
     printed = [
         [3.6594, -0.4044, 0.1006, -0.0025, 0, 0],

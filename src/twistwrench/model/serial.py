@@ -217,9 +217,9 @@ def from_dh(
 ) -> Model:
     """Make the model of an arm from its table of Denavit and Hartenberg.
 
-    Classical (Spong, Corke, Siciliano), joint i turns about z of frame i − 1: A_i = Rz(θ) Tz(d) Tx(a) Rx(α).
-    Modified (Craig, Khalil), joint i turns about z of frame i: A_i = Rx(α) Tx(a) Rz(θ) Tz(d), where row i holds what
-    Craig calls α_{i−1} and a_{i−1}.
+    Classical (Spong's and Corke's convention), joint i turns about z of frame i − 1: A_i = Rz(θ) Tz(d) Tx(a) Rx(α).
+    Modified (Craig's), joint i turns about z of frame i: A_i = Rx(α) Tx(a) Rz(θ) Tz(d), where row i holds what Craig
+    calls α_{i−1} and a_{i−1}.
 
     Parameters
     ----------
