@@ -230,6 +230,17 @@ def test_a_differential_shares_its_torque():
     assert np.isclose(parked.forces["right"][0], -0.2 * parked.qdd[1], rtol=1e-14)  # ½ λ, as the wheel on the left
 
 
+def test_given_accelerations_of_some_joints_are_hybrid_dynamics():
+    """Couplings without other joints give q̈ of two of three joints: `rnea` of the result has the τ of the third."""
+    q, v, tau = np.array([0.3, -0.8, 1.2]), np.array([1.0, -2.0, 0.5]), np.array([0.0, 0.7, 0.0])
+    given = [tw.Coupling("crank", {}, acceleration=[2.0]), tw.Coupling("rocker", {}, acceleration=[-1.5])]
+    got = tw.contact_forward_dynamics(FOUR_BAR, q, v, tau, given)
+    assert np.allclose(got.qdd[[0, 2]], [2.0, -1.5], rtol=1e-13, atol=0)
+    needed = tw.rnea(FOUR_BAR, q, v, got.qdd)
+    forces = [got.forces["crank"][0], tau[1], got.forces["rocker"][0]]
+    assert np.allclose(needed, forces, rtol=0, atol=1e-12 * np.abs(needed).max())
+
+
 def test_a_coupling_is_a_mimic_joint():
     """A hand whose finger follows another: the reduced model of a mimic joint has the same accelerations."""
     hand = """<robot name="hand"><link name="palm"/>{}</robot>"""

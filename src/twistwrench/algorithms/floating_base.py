@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -125,7 +125,7 @@ def as_frames(contacts: Iterable[str | HeldRows]) -> tuple[str | HeldRows, ...]:
 
 def as_held(model: Model, contacts: Iterable[str | HeldRows]) -> tuple[str | HeldRows, ...]:
     """Return frames and contacts as a tuple; raise an error for those that the model has not."""
-    held = as_frames(contacts)
+    held: tuple[Any, ...] = as_frames(contacts)
     for contact in held:
         check = getattr(contact, "check", None)
         check(model) if callable(check) else model.frame(contact)

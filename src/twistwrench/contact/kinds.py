@@ -207,7 +207,7 @@ class SlidingContact(Contact):
         if given.shape not in ((3,), (1, 3), (2, 3)):
             raise ShapeError(f"{which}: expected shape (3,) or (2, 3), got {given.shape}")
         units = [_unit(self.frame, "normals", n) for n in given.reshape(-1, 3)]
-        if len(units) == 2 and not np.abs(np.cross(*units)).max() > PARALLEL:
+        if len(units) == 2 and not np.abs(np.cross(units[0], units[1])).max() > PARALLEL:
             raise ValueError(f"{which}: expected two directions that are independent, got {given.tolist()}")
         object.__setattr__(self, "normals", tuple(units))
         checked_motion(self, "velocity")
