@@ -2,6 +2,7 @@
 
 import os
 import sys
+from importlib import metadata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -12,9 +13,16 @@ from website import beside, chinese, inpage, interface, notebooks
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
 project = "twistwrench"
+DESCRIPTION = (
+    "用纯 NumPy 写成、可对照教材阅读的机器人动力学：twist、wrench、RNEA、ABA、CRBA、浮动基座与质心动量。"
+    if CHINESE
+    else "Robot dynamics in plain NumPy, to be read beside the chapter: twists, wrenches, RNEA, ABA, CRBA, "
+    "the floating base and centroidal momentum."
+)
 author = "The twistwrench authors"
 copyright = "The twistwrench authors, BSD-3-Clause"
 language = "zh_CN" if CHINESE else "en"
+version = release = metadata.version("twistwrench")
 
 extensions = [
     "myst_nb",
@@ -33,6 +41,7 @@ suppress_warnings = ["ref.python"]  # a `Motion` in a docstring may be one of se
 # ---- pages
 myst_enable_extensions = ["amsmath", "colon_fence", "dollarmath"]
 myst_heading_anchors = 4
+myst_html_meta = {"description": DESCRIPTION}
 nb_execution_mode = "off"  # docs/build.py has run them: once for both languages
 nb_merge_streams = True
 
@@ -48,7 +57,9 @@ viewcode_line_numbers = True
 
 # ---- how it looks
 html_theme = "pydata_sphinx_theme"
-html_title = "twistwrench"
+html_title = f"twistwrench {version}"
+html_favicon = "website/static/mark.svg"
+MARK = "_static/mark.svg"
 html_static_path = ["website/static", os.environ.get("SITE_STATIC", "website/static")]
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]
@@ -66,7 +77,7 @@ html_context = {
     "other_language_title": "This page in English" if CHINESE else "本页的中文版",
 }
 html_theme_options = {
-    "logo": {"text": "twistwrench"},
+    "logo": {"text": f"twistwrench {version}", "alt_text": "", "image_light": MARK, "image_dark": MARK},
     "navbar_end": ["theme-switcher"],
     "navbar_persistent": ["search-button-field", "language-switch"],
     "header_links_before_dropdown": 7,
