@@ -19,12 +19,13 @@ INTRO = {
 
 A notebook for each section, and one to begin with; beside it the algorithms line by line, the functions, and what the
 chapter gets wrong there. The outputs are those of the run that built this site, and everything that a notebook says in
-numbers is an `assert`. To change a cell and see what still holds, open the notebooks in `notebooks/en/`.""",
+numbers is an `assert`. To change a cell and see what still holds, press *Run* in its page where there is such a button,
+or download the notebook.""",
     "zh": """# 逐节学习
 
 每节一个笔记本，另有一个用来起步；表中同时列出相应的逐行算法、函数，以及本章该节的勘误。
 页面上的输出来自构建本站时的运行；笔记本中凡是用数字说明的结论，都有一条 `assert` 检验。
-想改动代码、看看哪些结论还成立，请打开 `notebooks/zh/` 中的笔记本。""",
+想改动代码、看看哪些结论还成立，页面上有「运行」按钮时就在页面里运行，或者下载笔记本。""",
 }
 HEAD = {
     "en": ("Read and run", "Line by line", "Functions", "Errata"),
@@ -33,15 +34,17 @@ HEAD = {
 EXERCISES = {
     "en": """# Exercises
 
-The chapter's exercises with its pre-test and its project, in our own words. `twistwrench exercises start answers` puts
-them into a folder; `python -m pytest` there checks what you write and names the slip where it is wrong;
-`twistwrench exercises hint 49.3.1` helps one step at a time.""",
+The chapter's exercises with its pre-test and its project, in our own words. Answer them here, where *Check* names the
+slip and *Hint* helps one step at a time; or in a shell: `twistwrench exercises start answers` puts them into a folder,
+`python -m pytest` there checks what you write, and `twistwrench exercises hint 49.3.1` helps. Both have the same files:
+what is written here can be downloaded, and opened again.""",
     "zh": """# 练习
 
 本章的练习，连同前置自测与累积项目，用我们自己的话写成。
+可以就在这里作答：「检查」指出是哪一种错误，「提示」一步一步给出提示；也可以在命令行里：
 `twistwrench exercises start answers --language zh` 把它们放进一个文件夹；
-在那里运行 `python -m pytest` 就会检查你写下的答案，出错时指出是哪一种错误；
-`twistwrench exercises hint 49.3.1` 一步一步给出提示。""",
+在那里运行 `python -m pytest` 就会检查你写下的答案；
+`twistwrench exercises hint 49.3.1` 给出提示。两处的文件相同：这里写下的答案可以下载，也可以再读入。""",
 }
 
 

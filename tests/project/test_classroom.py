@@ -2,6 +2,7 @@
 
 import base64
 import io
+import json
 import sys
 import zipfile
 from pathlib import Path
@@ -104,6 +105,24 @@ def test_the_folder_is_that_of_the_shell_with_the_answers_in_their_places(tmp_pa
     assert [name for name in shell if shell[name] != packed[name]] == ["ex_49_0.py"]
     assert TRANSPOSED["49.0.1"] in packed["ex_49_0.py"]
     assert "return ..." in packed["ex_49_0.py"]  # the other exercises of the section
+
+
+def test_answers_are_read_back_from_the_folder():
+    given = TRANSPOSED | {"49.4.1": "# nothing\nx = 1", "project.1": "def f():\n    return 1"}
+    folder = classroom.folder(given, "", "en")
+    files = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+    assert dict(classroom.answers(files)) == {number: answer.strip() for number, answer in given.items()}
+    assert classroom.answers({"notes.txt": "mine"}) == []
+
+
+@pytest.mark.skipif(sys.platform != "emscripten", reason="in a browser: test_browser.py runs this there")
+@pytest.mark.parametrize("name", [path.stem for path in sorted((ROOT / "notebooks" / "en").glob("*.ipynb"))])
+def test_every_cell_of_a_notebook_runs_in_the_page(name):
+    notebook = json.loads((ROOT / "notebooks" / "en" / f"{name}.ipynb").read_text(encoding="utf-8"))
+    for k, cell in enumerate(cell for cell in notebook["cells"] if cell["cell_type"] == "code"):
+        outputs = classroom.run("".join(cell["source"]), name, f"cell {k + 1}")
+        failed = [text for kind, text in outputs if kind in ("error", "needs")]
+        assert not failed, failed[0]
 
 
 def test_what_is_unpacked_in_the_page_can_be_imported(tmp_path):

@@ -24,6 +24,8 @@ TO_BE_HAD = {"matplotlib", "mpmath", "sympy"}
 """Packages that are loaded when a cell imports them."""
 IN_THE_SHELL = re.compile(r"[;；][^;；\n]*twistwrench exercises hint [\w.]+|\n+.*twistwrench exercises solution.*")
 """What a message says of commands, which a page has buttons for."""
+ANSWER = re.compile(r"^# -{98}\n# (\S+)  .*\n(?:#.*\n)*# -{98}\n([\s\S]*?)(?=^# -{98}\n|\Z)", re.MULTILINE)
+"""In a student's file, the number of an exercise and what stands below its text."""
 SPACES: dict[str, dict[str, Any]] = {}
 """What the cells of a page have defined, by the page's name."""
 SHOWN = ("_repr_html_", "html"), ("_repr_latex_", "latex"), ("_repr_svg_", "html")
@@ -188,6 +190,19 @@ def hint(number: str, answers: dict[str, str], state: str, language: str) -> lis
     last = len(exercises.catalogue.exercise(number).hints)
     text = exercises.solution(number, book.folder) if given >= last else exercises.hint(number, book.folder)
     return [("hint", IN_THE_SHELL.sub("", text))]
+
+
+def answers(files: dict[str, str]) -> list[Output]:
+    """Return the answers in the files of a student's folder, by their numbers, where they differ from the skeleton."""
+    from twistwrench.exercises import catalogue, skeletons
+
+    found = []
+    for section in catalogue.SECTIONS:
+        for number, text in ANSWER.findall(files.get(catalogue.file_name(section), "")):
+            exercise = catalogue.exercise(number)
+            if text.strip() not in (skeletons.place(exercise, language).strip() for language in ("en", "zh")):
+                found.append((number, text.strip()))
+    return found
 
 
 def archive(answers: dict[str, str], state: str, language: str) -> str:

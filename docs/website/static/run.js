@@ -137,17 +137,33 @@
   }
 
   // ---------------------------------------------------------------- a listing that can be edited
+  const WORDS = "and as assert break class continue def del elif else except False finally for from if import in is lambda None not or pass raise return True try while with yield";
+  const STRING = String.raw`[rbfu]?("""|''')[\s\S]*?\3|[rbfu]?(?:"[^"\n]*"|'[^'\n]*')`;
+  const TOKEN = new RegExp(`(?<c1>#.*)|(?<s1>${STRING})|(?<k>\\b(?:${WORDS.replaceAll(" ", "|")})\\b)|(?<mi>\\b\\d[\\w.]*)`, "g");
+
+  // Colour a listing as Pygments does, as far as comments, strings, keywords and numbers.
+  function paint(pre, text) {
+    let at = 0;
+    const pieces = [];
+    for (const match of text.matchAll(TOKEN)) {
+      const [kind] = Object.entries(match.groups).find(([, found]) => found !== undefined);
+      pieces.push(text.slice(at, match.index), element("span", { className: kind, textContent: match[0] }));
+      at = match.index + match[0].length;
+    }
+    pre.replaceChildren(...pieces, text.slice(at));
+  }
+
   function editable(pre, key) {
-    const text = () => {
-      const copy = pre.cloneNode(true); // a browser may write a line's end as <br>
+    const flat = (copy) => { // a browser may write a line's end as <br>
       for (const end of copy.querySelectorAll("br")) end.replaceWith("\n");
       return copy.textContent;
     };
+    const text = () => flat(pre.cloneNode(true));
     const original = text(), html = pre.innerHTML, saved = kept(key);
     pre.contentEditable = "true";
     try { pre.contentEditable = "plaintext-only"; } catch { /* an older Firefox */ }
     Object.assign(pre, { spellcheck: false, role: "textbox", ariaMultiLine: "true", ariaLabel: SAY.code });
-    if (saved?.was === original) pre.textContent = saved.now;
+    if (saved?.was === original) paint(pre, saved.now);
     const code = () => text().replace(/\n+$/, "");
     pre.addEventListener("input", () => keep(key, text() === original ? null : { was: original, now: code() }));
     pre.addEventListener("keydown", (event) => {
@@ -156,17 +172,18 @@
       if (event.key === "Enter" && !event.shiftKey && !event.ctrlKey) {
         const range = getSelection().getRangeAt(0).cloneRange();
         range.setStart(pre, 0);
-        const line = range.toString().split("\n").pop();
+        const line = flat(range.cloneContents()).split("\n").pop();
         insert("\n" + /^ */.exec(line)[0] + (line.trimEnd().endsWith(":") ? "    " : ""));
       }
       if (event.key === "Escape") pre.blur();
     });
+    pre.addEventListener("blur", () => text() === original || paint(pre, text()));
     const reset = () => { pre.innerHTML = html; keep(key, null); };
-    return { code, reset, isChanged: () => kept(key) !== null };
+    return { code, reset, original, isChanged: () => kept(key) !== null };
   }
 
   // ---------------------------------------------------------------- cells of a notebook
-  const cells = [];
+  const cells = [], places = {};
 
   async function runTo(last) {
     for (const cell of cells.slice(0, last + 1)) if (!cell.done || cell === cells[last]) await runCell(cell);
@@ -222,6 +239,7 @@
     const tools = [button(`▶ ${SAY.run}`, act("try_out")), button(SAY.check, act("check")), button(SAY.hint, act("hint")), button(SAY.reset, back)];
     place.append(element("div", { className: "run-tools" }, ...tools), box);
     place.addEventListener("keydown", (event) => { if (event.key === "Enter" && (event.shiftKey || event.ctrlKey)) { event.preventDefault(); act("check")(); } });
+    places[number] = { original: answer.original, pre: place.querySelector("pre"), box: place };
     place.classList.toggle("is-right", kept(`right/${number}`) === true);
     if (answer.isChanged()) place.open = true;
   }
@@ -229,6 +247,21 @@
   async function download() {
     const content = await ask("archive", answers(), kept("state") ?? "", LANGUAGE);
     element("a", { href: `data:application/zip;base64,${content}`, download: "answers.zip" }).click();
+  }
+
+  // The files of a folder of answers, put into the page: each answer that differs from its skeleton.
+  async function open(chosen) {
+    const texts = await Promise.all([...chosen].map(async (file) => [file.name, await file.text()]));
+    const found = await ask("answers", Object.fromEntries(texts));
+    for (const [number, now] of found) {
+      const place = places[number];
+      keep(`answer/${number}`, { was: place.original, now });
+      paint(place.pre, now);
+      place.box.open = true;
+    }
+    const state = texts.find(([name]) => name.endsWith(".json"));
+    if (state) keep("state", state[1]);
+    say(SAY.read(found.length));
   }
 
   // ---------------------------------------------------------------- the bar under the title
@@ -239,8 +272,12 @@
     bar.stop.hidden = true;
     document.querySelectorAll("div.cell:has(> .cell_input), div.cell:has(.cell_input)").forEach(addCell);
     document.querySelectorAll(".exercise[data-number]").forEach(addExercise);
-    const all = cells.length ? button(`▶ ${SAY.all}`, () => runTo(cells.length - 1).catch(() => {})) : button(SAY.save, () => download().catch((error) => say(error.message)));
-    place.prepend(all, bar.stop);
+    const fails = (error) => say(error.message);
+    const files = element("input", { type: "file", multiple: true, hidden: true, onchange: () => open(files.files).catch(fails) });
+    const tools = cells.length
+      ? [button(`▶ ${SAY.all}`, () => runTo(cells.length - 1).catch(() => {}))]
+      : [button(SAY.save, () => download().catch(fails)), button(SAY.open, () => files.click()), files];
+    place.prepend(...tools, bar.stop);
     place.append(bar.progress, bar.status);
   });
 })();
