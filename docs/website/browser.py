@@ -147,7 +147,7 @@ def runs(html: Path, language: str) -> Iterator[str]:
         try:
             place.locator(".tw-wrong").wait_for(timeout=MOST_TO_START)
         except Error:
-            yield f"{language}: no verdict on an exercise, but {page.locator('.run-bar').inner_text()!r}"
+            yield f"{language}: no verdict on an exercise, but {page.locator('.run-dock').inner_text()!r}"
         else:
             if SLIP[language] not in place.locator(".tw-wrong").inner_text():
                 yield f"{language}: the slip is not named: {place.locator('.tw-wrong').inner_text()}"

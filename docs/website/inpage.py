@@ -53,12 +53,11 @@ def package() -> bytes:
     """Return this package and the classroom as a ZIP file, to be unpacked where packages are."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed:
-        for folder, name in ((ROOT / "src" / "twistwrench", "twistwrench"), (ROOT / "models", "twistwrench/models")):
+        for folder, name in ((ROOT / "src", ""), (ROOT / "models", "twistwrench/models/"), (RUN, "")):
             for path in sorted(folder.rglob("*")):
-                if path.is_file() and "__pycache__" not in path.parts:
-                    info = zipfile.ZipInfo(f"{name}/{path.relative_to(folder).as_posix()}")
+                if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".js":
+                    info = zipfile.ZipInfo(name + path.relative_to(folder).as_posix())
                     packed.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
-        packed.writestr(zipfile.ZipInfo("classroom.py"), (RUN / "classroom.py").read_bytes(), zipfile.ZIP_DEFLATED)
     return content.getvalue()
 
 
@@ -102,12 +101,14 @@ def write_downloads(html: Path, names: list[str]) -> None:
 def connect(app: Any, language: str, notebooks: list[str]) -> None:
     """Add the bar, and the script behind it, to the pages that have something to run."""
     here, said = runtime.is_complete(), SAY[language]
-    size = sum(len(content) for group, _, content in files() if group in ("core", "base")) / 1e6 if here else 0
+    sizes = [(group, len(content)) for group, _, content in files()] if here else []
 
     def add(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
         name = page.removeprefix("chapter/")
         if not (page == EXERCISES or name in notebooks):
             return
+        wanted = ("core", "base", "matplotlib")[: 3 if name in notebooks else 2]
+        size = sum(size for group, size in sizes if group in wanted) / 1e6
         text = said["runs"].format(size=f"{size:.0f}") if here else said["not here"]
         link = f'<a href="{name}.ipynb" download>{said["notebook"]}</a>' if name in notebooks else ""
         bar = f'<div class="run-note"><p>{text} {link}</p><div class="run-bar"></div></div>'

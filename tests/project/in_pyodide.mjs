@@ -10,7 +10,7 @@ const bytes = (file) => new Uint8Array(fs.readFileSync(file));
 
 async function main() {
   const { loadPyodide } = await import(pathToFileURL(path.join(folder, "pyodide.mjs")));
-  const python = await loadPyodide({ indexURL: folder, env: { HOME: "/home", PYTHONDONTWRITEBYTECODE: "1", CI: "1" } });
+  const python = await loadPyodide({ indexURL: folder, env: { HOME: "/home", MPLBACKEND: "svg", PYTHONDONTWRITEBYTECODE: "1", CI: "1" } });
   const unpack = (file, extractDir) => python.unpackArchive(bytes(file), "zip", { extractDir });
   for (const wheel of wheels) unpack(wheel, python.runPython("import site; site.getsitepackages()[0]"));
   unpack(checkout, "/checkout");

@@ -13,6 +13,7 @@ import linecache
 import re
 import sys
 import traceback
+import warnings
 import zipfile
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
@@ -28,6 +29,8 @@ ANSWER = re.compile(r"^# -{98}\n# (\S+)  .*\n(?:#.*\n)*# -{98}\n([\s\S]*?)(?=^# 
 """In a student's file, the number of an exercise and what stands below its text."""
 SPACES: dict[str, dict[str, Any]] = {}
 """What the cells of a page have defined, by the page's name."""
+OUTPUTS: list[tuple[str, str]] = []
+"""What the cell that runs has given so far."""
 SHOWN = ("_repr_html_", "html"), ("_repr_latex_", "latex"), ("_repr_svg_", "html")
 
 Output = tuple[str, str]
@@ -53,9 +56,11 @@ def run(source: str, page: str, name: str) -> list[Output]:
     A package that is not there, but can be, is asked for: ``[("needs", "matplotlib")]``.
     """
     space = SPACES.setdefault(page, {"__name__": "__main__", "__builtins__": __builtins__})
-    outputs: list[Output] = []
+    outputs = OUTPUTS
+    outputs.clear()
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
-    with redirect_stdout(Lines("out", outputs)), redirect_stderr(Lines("err", outputs)):
+    with redirect_stdout(Lines("out", outputs)), redirect_stderr(Lines("err", outputs)), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "FigureCanvas")  # cannot be shown: `figures` does it
         try:
             outputs += display(execute(source, space, name))
         except (Exception, SystemExit) as error:
@@ -65,7 +70,7 @@ def run(source: str, page: str, name: str) -> list[Output]:
         except BaseException as error:
             outputs.append(("error", type(error).__name__))
         outputs += figures()
-    return outputs
+    return list(outputs)
 
 
 def execute(source: str, space: dict[str, Any], name: str) -> Any:

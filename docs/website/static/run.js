@@ -8,15 +8,15 @@
   const SAY = CHINESE
     ? {
         run: "运行", all: "运行全部", check: "检查", hint: "提示", reset: "还原", stop: "停止", save: "下载我的答案",
-        open: "读入答案", ready: "就绪", running: "正在运行……", loading: "正在载入 Python：", starting: "正在启动 Python……",
-        stopped: "已停止；变量已清空。", failed: "未能载入：", code: "代码，可以编辑；Esc 之后 Tab 离开", output: "运行结果",
+        open: "读入答案", running: "正在运行……", loading: "正在载入 Python：", starting: "正在启动 Python……",
+        stopped: "已停止；变量已清空。", failed: "未能载入：", code: "代码，可以编辑；Esc 之后 Tab 离开",
         above: "先运行上面的单元", figure: "运行所得的图", took: (s) => `用时 ${s} 秒`, read: (n) => `读入了 ${n} 题的答案。`,
       }
     : {
         run: "Run", all: "Run all", check: "Check", hint: "Hint", reset: "Reset", stop: "Stop", save: "Download my answers",
-        open: "Open answers", ready: "ready", running: "running …", loading: "loading Python: ", starting: "starting Python …",
+        open: "Open answers", running: "running …", loading: "loading Python: ", starting: "starting Python …",
         stopped: "Stopped; what was defined is gone.", failed: "Could not be loaded: ",
-        code: "code, to be edited; Escape and then Tab leaves it", output: "what it gives", above: "with the cells above",
+        code: "code, to be edited; Escape and then Tab leaves it", above: "with the cells above",
         figure: "the figure that the cell draws", took: (s) => `${s} s`, read: (n) => `Read the answers to ${n} exercises.`,
       };
   const MB = (bytes) => (bytes / 1e6).toFixed(1);
@@ -76,7 +76,9 @@
         const { resolve, reject } = pending.get(data.id);
         pending.delete(data.id);
         if (data.state) keep("state", data.state);
-        data.failed ? reject(new Error(data.failed)) : resolve(data.result);
+        if (!data.failed) return resolve(data.result);
+        reject(new Error(`${data.failed} ${SAY.stopped}`)); // Python itself has ended, as after an endless recursion
+        stop();
       }
     };
     for (const group of ["core", "base", ...alsoNeeded()]) load(group).catch((error) => say(error.message)); // all at once
@@ -116,7 +118,7 @@
     return made;
   };
   const button = (text, act, title = "") => element("button", { type: "button", className: "run-button", textContent: text, onclick: act, title });
-  const say = (text) => (bar.status.textContent = text);
+  const say = (text) => { bar.status.textContent = text; bar.dock.hidden = !text; };
 
   const SHOW = {
     out: (text) => element("pre", { textContent: text }),
@@ -264,8 +266,9 @@
     say(SAY.read(found.length));
   }
 
-  // ---------------------------------------------------------------- the bar under the title
+  // ---------------------------------------------------------------- the bar under the title, and what stands at the foot of the window
   const bar = { status: element("span", { role: "status" }), progress: element("progress", { hidden: true, ariaLabel: SAY.loading }), stop: button(SAY.stop, stop) };
+  bar.dock = element("div", { className: "run-dock", hidden: true }, bar.progress, bar.status, bar.stop);
   document.addEventListener("DOMContentLoaded", () => {
     const place = document.querySelector(".run-bar");
     if (!place) return;
@@ -277,7 +280,7 @@
     const tools = cells.length
       ? [button(`▶ ${SAY.all}`, () => runTo(cells.length - 1).catch(() => {}))]
       : [button(SAY.save, () => download().catch(fails)), button(SAY.open, () => files.click()), files];
-    place.prepend(...tools, bar.stop);
-    place.append(bar.progress, bar.status);
+    place.append(...tools);
+    document.body.append(bar.dock);
   });
 })();

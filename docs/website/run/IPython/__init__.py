@@ -1,0 +1,1 @@
+"""What the notebooks use of IPython, in the page."""
