@@ -200,11 +200,11 @@ def test_a_four_bar_is_assembled_and_keeps_its_energy():
 # ---------------------------------------------------------------- gears
 
 
-def discs(**inertias: float) -> tw.Model:
+def discs(joint=tw.Revolute, **inertias: float) -> tw.Model:
     builder = tw.Builder("gears", gravity=[0, 0, 0])
     for name, J in inertias.items():
         disc = tw.SpatialInertia(1.0, [0, 0, 0], np.diag([J, J, J]))
-        builder.link(f"{name}_disc", parent="base_link", joint=tw.Revolute("z"), inertia=disc, joint_name=name)
+        builder.link(f"{name}_disc", parent="base_link", joint=joint("z"), inertia=disc, joint_name=name)
     return builder.build()
 
 
@@ -217,6 +217,15 @@ def test_a_gear_pair_has_the_apparent_inertia_j1_and_n_squared_j2(n):
     run = tw.simulate(model, [0.2, 5.0], [1.0, n], dt=0.1, steps=20, tau=[3.0, 0.1], contacts=gears)
     turned = run.q - run.q[0]
     assert np.allclose(turned[:, 1], n * turned[:, 0], rtol=0, atol=1e-12 * abs(n))
+
+
+def test_of_a_continuous_joint_the_rate_is_held():
+    """Its q does not count the turns: here one and a half of them, on a motor with a given velocity."""
+    model, gears = discs(tw.Continuous, arm=2.0, motor=0.05), [tw.Coupling("motor", {"arm": 3.0}, velocity=[0.5])]
+    run = tw.simulate(model, model.neutral(), [1.0, 3.5], dt=0.25, steps=12, contacts=gears)
+    assert np.allclose(run.v[-1], [1.0, 3.5], rtol=1e-13, atol=0)
+    turned = np.arctan2(run.q[-1][1::2], run.q[-1][::2])
+    assert np.allclose(turned, [3.0, 10.5 - 4 * np.pi], rtol=0, atol=1e-12)
 
 
 def test_a_differential_shares_its_torque():
@@ -263,7 +272,8 @@ def test_a_coupling_is_a_mimic_joint():
 
 def moving(contacts, rng):
     q = TREE.random_configuration(rng=rng)
-    return q, tw.impact(TREE, q, rng.standard_normal(TREE.nv), contacts).v, rng.standard_normal(TREE.nv)
+    J, v = tw.constraint_jacobian(TREE, q, contacts), rng.standard_normal(TREE.nv)
+    return q, v - np.linalg.pinv(J) @ (J @ v), rng.standard_normal(TREE.nv)
 
 
 def test_jacobian_and_bias_are_derivatives_of_the_placements():
@@ -414,6 +424,10 @@ def test_planes_carry_as_points_without_friction_do_and_what_pulls_cannot_stand(
         (
             lambda: tw.simulate(BOX, BOX.neutral(), np.zeros(6), dt=1, steps=1, contacts=RISING),
             "'fl' sticks, but slips",
+        ),
+        (
+            lambda: tw.simulate(BOX, BOX.neutral(), np.zeros(6), dt=1, steps=1, contacts=RISING, ground=tw.Ground()),
+            "'fl': with ground=, expected points and soles on a ground at rest",
         ),
         (
             lambda: tw.contact_inverse_dynamics(FOUR_BAR, *3 * [np.zeros(3)], PIN, motors=["cam"]),

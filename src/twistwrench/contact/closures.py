@@ -171,6 +171,10 @@ class Coupling(_Internal):
             if model.joints[model.joint_id(name)].nv != 1:  # type: ignore[union-attr]
                 raise ValueError(f"coupling {self.frame!r}: expected joints of one degree of freedom, got {name!r}")
 
+    def counts_turns(self, model: Model) -> bool:
+        """Return whether q of all these joints counts the turns, so that a configuration is held and not the rates."""
+        return all(model.joints[model.joint_id(name)].nq == 1 for name in self.frames)  # type: ignore[union-attr]
+
     def coefficients(self, model: Model, entries: Sequence[slice], n: int, dtype: DTypeLike) -> Array:
         """Return the coupling as a row, shape (1, n), where joint i of a model has these entries."""
         row = np.zeros((1, n))

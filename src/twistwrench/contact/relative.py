@@ -136,7 +136,7 @@ def place(model: Model, placement: Sequence[SE3], q: Array, c: Contact) -> SE3:
     if not isinstance(c, Coupling):
         return Loop.of(model, c, q.dtype).place(model, placement)
     off = np.zeros((*q.shape[:-1], 3), q.dtype)
-    if all(model.joints[model.joint_id(name)].nq == 1 for name in c.frames):  # type: ignore[union-attr]
+    if c.counts_turns(model):
         off[..., :1] = np.matvec(c.coefficients(model, model.q_slice, model.nq, q.dtype), q)
     return SE3._trusted(np.broadcast_to(np.eye(3, dtype=q.dtype), (*q.shape[:-1], 3, 3)), off)
 
@@ -156,11 +156,11 @@ def moved(contacts: tuple[Contact, ...], t: float) -> tuple[Contact, ...]:
     )
 
 
-def moved_anchors(contacts: Sequence[Contact], anchors: Mapping[str, SE3], t: float) -> dict[str, SE3]:
+def moved_anchors(model: Model, contacts: Sequence[Contact], anchors: Mapping[str, SE3], t: float) -> dict[str, SE3]:
     """Return where the contacts' frames belong after a time; a given turn goes about an axis that does not turn."""
     later = dict(anchors)
     for c in contacts:
-        if c.velocity or c.acceleration:
+        if (c.velocity or c.acceleration) and not (isinstance(c, Coupling) and not c.counts_turns(model)):
             turns, more = (given_motion([c], name)[:3] for name in ("velocity", "acceleration"))
             if c.dim == 6 and np.cross(turns, more).any():
                 raise ValueError(

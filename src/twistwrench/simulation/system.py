@@ -163,7 +163,7 @@ class System:
         if not self.contacts:
             return q, v
         since = t - self._start
-        anchors = moved_anchors(self.contacts, self.anchors, since)
+        anchors = moved_anchors(self.model, self.contacts, self.anchors, since)
         return project_state(self.model, q, v, moved(self.contacts, since), anchors)
 
     def integrate(self, q: Array, u: Array) -> Array:
