@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from os import PathLike
-from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
@@ -43,7 +42,7 @@ class SmallestModel:
         payload: Mapping[str, Payload] | None = None,
     ) -> None:
         self.full_model = full = loaded(whole_robot(robot, base, gravity), payload)
-        self.payload = MappingProxyType(dict(payload or {}))
+        self.payload = dict(payload or {})
         self.q = posture(full, q)
         self.contacts = checked_contacts(full, contacts)
         self.wrenches = checked_wrenches(full, {} if wrenches is None else wrenches)
