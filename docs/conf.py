@@ -20,9 +20,9 @@ DESCRIPTION = (
     "the floating base and centroidal momentum."
 )
 author = "The twistwrench authors"
-copyright = "The twistwrench authors, BSD-3-Clause"
 language = "zh_CN" if CHINESE else "en"
 version = release = metadata.version("twistwrench")
+copyright = f"The twistwrench authors, BSD-3-Clause, version {version}"
 
 extensions = [
     "myst_nb",
@@ -77,7 +77,7 @@ html_context = {
     "other_language_title": "This page in English" if CHINESE else "本页的中文版",
 }
 html_theme_options = {
-    "logo": {"text": f"twistwrench {version}", "alt_text": "", "image_light": MARK, "image_dark": MARK},
+    "logo": {"text": "twistwrench", "alt_text": "", "image_light": MARK, "image_dark": MARK},
     "navbar_end": ["theme-switcher"],
     "navbar_persistent": ["search-button-field", "language-switch"],
     "header_links_before_dropdown": 7,
