@@ -105,7 +105,7 @@ def connect(app: Any, language: str, notebooks: list[str]) -> None:
 
     def add(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
         name = page.removeprefix("chapter/")
-        if not (page == EXERCISES or name in notebooks):
+        if not (page == EXERCISES or page in [f"chapter/{notebook}" for notebook in notebooks]):
             return
         wanted = ("core", "base", "matplotlib")[: 3 if name in notebooks else 2]
         size = sum(size for group, size in sizes if group in wanted) / 1e6
