@@ -196,7 +196,7 @@ CALLED = {
     "Model.frame": {"name": "frame"},
     "Model.joint_id": {"name": "joint"},
     "Scene": {"robot": "robot|file"},
-    "Scene.cheapest": {"groups": "names? or patterns|joint"},
+    "Scene.cheapest": {"groups": "names? or patterns|joint", "tolerance": "tolerance|quantity"},
     "contact_forward_dynamics": {"v": "all arguments", "tau": "all arguments"},
     "contact_inverse_dynamics": {"v": "all arguments", "a": "all arguments"},
     "force_transform": {"R": "rotation", "p": "translation"},
@@ -224,6 +224,7 @@ KINDS |= {
     "want": "quantity",
     "anchors": "anchor",
     "wrenches": "frame",
+    "payload": "frame",
 }
 """What is unknown where one of several names is."""
 

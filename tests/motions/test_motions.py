@@ -438,9 +438,10 @@ def test_on_the_spot_nothing_gets_any_further():
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"speed": -1.0}, "speed: expected a number of at least 0, got -1.0"),
-        ({"height": 0}, "height: expected a number above 0, got 0"),
-        ({"step_length": 0}, "step_length: expected a number above 0, got 0"),
+        ({"speed": -1.0}, "speed: expected a number from 0 to 15.*, got -1.0"),
+        ({"height": 0}, r"height: expected a number from 0.00247 to 24.7, got 0"),
+        ({"step_length": 0}, r"step_length: expected a number from 0.00247 to 24.7, got 0"),
+        ({"direction": np.inf}, "direction: expected a number from -100 to 100, got inf"),
         ({"step_length": 0.1, "speed": 0}, "step_length: expected None, since the speed is 0, got 0.1"),
     ],
 )

@@ -51,7 +51,8 @@ def reach(model: Model, q0: ArrayLike, q1: ArrayLike, *, duration: float = 1.0, 
     way = model.difference(q0, q1)
     if way.ndim != 1 or way.dtype.kind == "c":
         raise ShapeError(f"q0, q1: expected one real configuration each, got a difference of shape {way.shape}")
-    if not 0 < as_number(duration, "duration") < np.inf:
+    duration = as_number(duration, "duration")
+    if not 0 < duration < np.inf:
         raise ValueError(f"duration: expected a number above 0, got {duration!r}")
     t = np.linspace(0, duration, as_count(samples, "samples", 2))
     s, pace, change = stair(t / duration, 1 / duration)[..., None]

@@ -17,6 +17,9 @@ from .motion import Motion
 
 __all__ = ["MOTIONS", "jump", "trot", "walk"]
 
+FARTHEST = 100.0
+"""In units of the height of the centre of mass, and of the time of falling from it: no leg reaches farther."""
+
 
 def walk(
     model: Model,
@@ -162,24 +165,29 @@ def _steps(
     step_length: float | None,
 ) -> Motion:
     standing = stand(model)
-    if not np.isfinite(as_number(direction, "direction")):
-        raise ValueError(f"direction: expected a finite number, got {direction!r}")
-    gait = replace(gaits.get(len(standing.legs), gaits[4]), direction=direction)
+    H, unit = standing.height, standing.unit
+    ahead = _within(direction, "direction", -FARTHEST, FARTHEST)
+    gait = replace(gaits.get(len(standing.legs), gaits[4]), direction=ahead)
     if speed is not None:
-        if not 0 <= as_number(speed, "speed") < np.inf:
-            raise ValueError(f"speed: expected a number of at least 0, got {speed!r}")
-        gait, name = replace(gait, speed=speed * standing.unit / standing.height), f"{name} at {speed:.3g} m/s"
+        pace = _within(speed, "speed", 0, FARTHEST * H / unit)
+        gait, name = replace(gait, speed=pace * unit / H), f"{name} at {pace:.3g} m/s"
     if height is not None:
-        if not 0 < as_number(height, "height") < np.inf:
-            raise ValueError(f"height: expected a number above 0, got {height!r}")
-        gait = replace(gait, height=height / standing.height)
+        gait = replace(gait, height=_within(height, "height", H / FARTHEST, FARTHEST * H) / H)
     if step_length is not None:
-        if not 0 < as_number(step_length, "step_length") < np.inf or gait.speed == 0:
-            expected = "expected a number above 0" if gait.speed else "expected None, since the speed is 0"
-            raise ValueError(f"step_length: {expected}, got {step_length!r}")
-        gait = replace(gait, period=step_length / standing.height / gait.speed)
+        if gait.speed == 0:
+            raise ValueError(f"step_length: expected None, since the speed is 0, got {step_length!r}")
+        length = _within(step_length, "step_length", H / FARTHEST, FARTHEST * H)
+        gait = replace(gait, period=length / H / gait.speed)
     steps = Steps(standing, gait)
     return _sample(name, standing, steps, steps.period, samples)
+
+
+def _within(value: float, name: str, least: float, most: float) -> float:
+    """Return a number that is not absurd for a robot of this size: whether its legs are long enough is seen later."""
+    number = as_number(value, name)
+    if not least <= number <= most:
+        raise ValueError(f"{name}: expected a number from {least:.3g} to {most:.3g}, got {value!r}")
+    return number
 
 
 def _sample(name: str, standing: Stand, plan: Steps | Leap, duration: float, samples: int) -> Motion:
