@@ -61,6 +61,7 @@ METHODS = {
     "Scene.dynamics": SCENE.dynamics,
     "Scene.expand": SCENE.expand,
     "Scene.f_ext": SCENE.f_ext,
+    "Scene.phases": SCENE.phases,
     "Scene.reduce": SCENE.reduce,
     "SpatialInertia.from_box": tw.SpatialInertia.from_box,
     "SpatialInertia.from_capsule": tw.SpatialInertia.from_capsule,

@@ -3,6 +3,7 @@
 import importlib.util
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -399,6 +400,43 @@ def test_what_is_carried_counts_where_the_robot_stands():
     assert "no forces at the contacts spare the motors" in str(too_much)
 
 
+# ---------------------------------------------------------------- who touches when
+
+
+@pytest.mark.parametrize("robot", ["go2", "humanoid"])
+def test_the_phases_of_a_walk_are_scenes_whose_contacts_stand_still(robot):
+    """J_c v = 0 and J_c a + J̇_c v = 0 in each phase, of point feet and of soles; their forces bear the motion."""
+    model, contacts = tw.load(robot), FEET if robot == "go2" else SOLES
+    walk, scene = motions.walk(model, samples=40), tw.Scene(robot, contacts=contacts)
+    phases = scene.phases(walk)
+    assert [phase.states.start for phase in phases] == [0, *(phase.states.stop for phase in phases[:-1])]
+    assert phases[-1].states.stop == 40
+    assert all(one.scene.contacts != two.scene.contacts for one, two in pairwise(phases))
+    assert {len(phase.scene.contacts) for phase in phases} == ({3, 4} if robot == "go2" else {1, 2})
+    for phase in phases:
+        assert phase.scene.model is scene.model
+        assert [phase.start, phase.end] == walk.t[phase.states][[0, -1]].tolist()
+        q, v, a = (x[phase.states] for x in (walk.q, walk.v, walk.a))
+        J = phase.scene.dynamics(q, v, want={"J_c"}).J_c
+        assert np.abs(np.matvec(J, v)).max() < 1e-11
+        found = tw.contact_inverse_dynamics(model, q, v, a, phase.scene.contacts)
+        assert np.abs(found.residual).max() < 1e-9
+        left = tw.rnea(model, q, v, a) - found.tau - np.matvec(J.mT, np.concatenate([*found.forces.values()], axis=-1))
+        assert np.abs(left).max() < 1e-9
+
+
+def test_a_hand_on_a_rail_stays_and_a_robot_in_the_air_touches_nothing():
+    rail = [*SOLES, tw.PointContact("left_hand", 0.5)]
+    scene = tw.Scene("humanoid", contacts=rail)
+    jump = motions.jump(tw.load("humanoid"), samples=20)
+    names = [[c.frame for c in phase.scene.contacts] for phase in scene.phases(jump)]
+    assert names == [["left_sole", "right_sole", "left_hand"], ["left_hand"], ["left_sole", "right_sole", "left_hand"]]
+    assert scene.contacts == tuple(rail)
+    assert tw.Scene("humanoid").phases(jump)[0].states == slice(0, 20)
+    with pytest.raises(tw.ShapeError):
+        scene.phases(motions.walk(tw.load("go2"), samples=2))
+
+
 # ---------------------------------------------------------------- what it refuses
 
 
@@ -501,7 +539,7 @@ def test_a_quantity_or_a_state_that_is_none_is_refused():
 def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
     english, chinese = PAGES
     sources, twins = (blocks(path.read_text(encoding="utf-8"), 0, 10**6) for path in (english, chinese))
-    assert len(sources) == 7
+    assert len(sources) == 8
     assert [block.strip("\n") for block in sources] == [block.strip("\n") for block in twins]
     rows = ([line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("| ")] for path in PAGES)
     ours, theirs = ([re.findall(r"\d[\d.e-]*", row) for row in of_page] for of_page in rows)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array, as_names, as_real, check_kind
+from ..arrays import Array, as_names, as_real, as_sequence, check_kind
 from ..errors import ShapeError
+from ..model import Model
 
-__all__ = ["Motion", "check_motion"]
+__all__ = ["Motion", "as_motions", "check_motion"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,3 +91,12 @@ class Motion:
 def check_motion(motion: object, name: str = "motion") -> None:
     """Raise TypeError for an argument that is not a motion."""
     check_kind(motion, name, Motion, "a Motion, as motions.walk(model) makes one")
+
+
+def as_motions(model: Model, given: Motion | Iterable[Motion], name: str) -> tuple[Motion, ...]:
+    """Return motions of this robot, of one or of several."""
+    some = (given,) if isinstance(given, Motion) else as_sequence(given, name, "motions", ordered=True)
+    for motion in some:
+        check_motion(motion, name)
+        model.state(motion.q, v=motion.v, a=motion.a)  # raises where it is another robot's
+    return some

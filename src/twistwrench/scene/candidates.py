@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -20,7 +20,9 @@ from ..templates.template import Template
 from .articulated import Articulated
 from .judging import heights
 
-__all__ = ["Candidate", "candidates", "limbs"]
+__all__ = ["Candidate", "candidates", "limbs", "this_scene"]
+
+LEFT_OUT = {"planar": "the height and the tilt of the base", "fixed": "the motion of the base"}
 
 
 class Candidate(NamedTuple):
@@ -72,6 +74,18 @@ def candidates(
                     Articulated.of(model, small.model, small.reduce) if fits else None,
                     "" if fits else "nothing is left to move",
                 )
+
+
+def this_scene(
+    full: Model, small: Model, base: str, gone: Collection[str], reduce: Callable[[Array, Array], tuple[Array, Array]]
+) -> Iterator[Candidate]:
+    """Yield the model of a scene in place of the whole robot, where it leaves anything out."""
+    said = [] if base == full.base else [LEFT_OUT[base]]
+    if gone:
+        said.append(f"the motion of {len(gone)} of {len(full.joint_names) - _first(full)} joints")
+    if said:
+        text = " and ".join(said)
+        yield Candidate("this scene", f"{text[0].upper()}{text[1:]}.", Articulated.of(full, small, reduce))
 
 
 def _template(name: str, kind: type[Template], model: Model, q: Array, feet: Sequence[Contact]) -> Candidate:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,15 +10,14 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.kinematics import Reference, frame_placement
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
-from ..arrays import Array, as_number, as_sequence, check_kind
+from ..arrays import Array, as_number, check_kind
 from ..compiler.quantity import Quantity
-from ..model import Model
 from ..motions import Motion
-from ..motions.motion import check_motion
-from .articulated import Articulated
-from .candidates import Candidate, candidates, limbs
+from ..motions.motion import as_motions
+from .candidates import candidates, limbs, this_scene
 from .costs import Costs, costs, needed
 from .dynamics import scene_dynamics, scene_quantities
+from .phases import Phase, phases
 from .reduced_model import SmallestModel
 from .robot import posture
 from .standing import Standing, standing
@@ -149,6 +148,36 @@ class Scene(SmallestModel):
             f[..., at.body, :] += np.matvec(at.placement.force_transform(), turned)
         return f
 
+    def phases(self, motion: Motion) -> tuple[Phase, ...]:
+        """Return who touches when: the phases of a motion, each with a scene of the contacts that stand in it.
+
+        A contact of this scene stands when the foot on its frame does, or else all feet on its body; one on a body
+        without feet (a hand on a rail) stands all the time.
+
+        Parameters
+        ----------
+        motion : Motion
+            Of the whole robot, `full_model`.
+
+        Returns
+        -------
+        tuple of Phase
+
+        Raises
+        ------
+        NameNotFound, ShapeError, ValueError
+            As `Model.state`, where the motion is another robot's.
+
+        Examples
+        --------
+        >>> import twistwrench as tw
+        >>> go2 = tw.load("go2")
+        >>> scene = tw.Scene(go2, contacts=[tw.PointContact(foot, mu=0.7) for foot in go2.feet])
+        >>> [len(phase.scene.contacts) for phase in scene.phases(tw.motions.walk(go2, samples=60))]
+        [4, 3, 4, 3, 4, 3, 4, 3, 4]
+        """
+        return phases(self, motion)
+
     # ---------------------------------------------------------------- whether it can stand, and what may be left out
 
     def can_stand(self, q: ArrayLike | None = None) -> Standing:
@@ -256,7 +285,7 @@ class Scene(SmallestModel):
         'full'
         """
         need, full = needed(tolerance), self.full_model
-        judged, unseen = (_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))
+        judged, unseen = (as_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))
         if not judged:
             raise ValueError("motion: expected at least one motion, got none")
         if not 1 <= as_number(margin, "margin") < np.inf:
@@ -266,25 +295,6 @@ class Scene(SmallestModel):
             whole = len(full.joint_names) - 1
             groups = {name: joints for name, joints in limbs(full, feet).items() if len(joints) < whole}
         check_kind(groups, "groups", Mapping, "names of joints by the name of a group")
-        tried = [*candidates(full, judged[0].q[0], groups, self.contacts), *self._candidate()]
+        mine = this_scene(full, self.model, self._base, {*self.held, *self.idle}, self.reduce)
+        tried = [*candidates(full, judged[0].q[0], groups, self.contacts), *mine]
         return costs(full, judged, unseen, need, margin, tried, self.contacts)
-
-    def _candidate(self) -> Iterator[Candidate]:
-        """Yield this scene as a model of the whole robot's motion, where it leaves anything out."""
-        full, gone = self.full_model, {*self.held, *self.idle}
-        same, joints = self._base == full.base, len(full.joint_names) - (2 if full.base == "floating" else 1)
-        if same and not gone:
-            return
-        base = {"planar": "the height and the tilt of the base", "fixed": "the motion of the base"}.get(self._base, "")
-        left_out = [*([] if same else [base]), *([f"the motion of {len(gone)} of {joints} joints"] if gone else [])]
-        said = " and ".join(left_out)
-        yield Candidate("this scene", f"{said[0].upper()}{said[1:]}.", Articulated.of(full, self.model, self.reduce))
-
-
-def _motions(model: Model, given: Motion | Iterable[Motion], name: str) -> tuple[Motion, ...]:
-    """Return motions of this robot."""
-    some = (given,) if isinstance(given, Motion) else as_sequence(given, name, "motions", ordered=True)
-    for motion in some:
-        check_motion(motion, name)
-        model.state(motion.q, v=motion.v, a=motion.a)  # raises where it is another robot's
-    return some
