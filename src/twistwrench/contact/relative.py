@@ -47,9 +47,10 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
         if isinstance(c, Coupling):
             J_c, bias_c = c.jacobian(model, q), np.zeros((*q.shape[:-1], 1), q.dtype)
         else:
-            loop, N = Loop.of(model, c, q.dtype), convert(c.directions, q.dtype)
-            own = [x if i in loop.joints else np.zeros_like(x) for i, x in enumerate(qd)]
-            V, A = motion_of_all if c.to is None else motion(tree, own, qdd)
+            loop, N, (V, A) = Loop.of(model, c, q.dtype), convert(c.directions, q.dtype), motion_of_all
+            if c.to is not None:
+                own = [x if i in loop.joints else np.zeros_like(x) for i, x in enumerate(qd)]
+                V, A = motion(tree, own, qdd)
             J_c, bias_c = loop.rows(model, tree, bodies, at[-1].translation, v, V, A)
             J_c, bias_c = N @ J_c, np.matvec(N, bias_c)
         J.append(J_c)
@@ -58,30 +59,34 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
 
 
 class Loop(NamedTuple):
-    """A frame on body i, a frame on body k that holds it, and the joints that move one in the other."""
+    """A frame on body i, what holds it (a frame on body k, or the world), and the joints that move one in the other."""
 
     i: int
     k: int
     frame: SE3
-    to: SE3
+    to: SE3 | None
     joints: frozenset[int]
 
     @classmethod
     def of(cls, model: Model, c: Contact, dtype: DTypeLike) -> Loop:
         """Find the joints that carry one of the two frames but not both."""
         here = model.frame(c.frame)
-        k, to = (0, SE3.identity()) if c.to is None else (model.frame(c.to).body, model.frame(c.to).placement)
+        k, to = 0, None
+        if c.to is not None:
+            k, to = model.frame(c.to).body, cast(model.frame(c.to).placement, dtype)
         joints = frozenset(model.support(here.body)) ^ frozenset(model.support(k))
-        return cls(here.body, k, cast(here.placement, dtype), cast(to, dtype), joints)
+        return cls(here.body, k, cast(here.placement, dtype), to, joints)
 
     def place(self, model: Model, placement: Sequence[SE3]) -> SE3:
         """Return where the frame is in the one that holds it, from the bodies of the loop alone."""
-        ends = []
-        for body, T in ((self.k, self.to), (self.i, self.frame)):
+
+        def carried(body: int, T: SE3) -> SE3:
             while body in self.joints:
                 body, T = model.parent[body], placement[body] @ T
-            ends.append(T)
-        return ends[0].inverse() @ ends[1]
+            return T
+
+        there = carried(self.i, self.frame)
+        return there if self.to is None else carried(self.k, self.to).inverse() @ there
 
     def rows(
         self, model: Model, tree: Tree, bodies: Sequence[SE3], point: Array, v: Array, V: list[Array], A: list[Array]
@@ -90,14 +95,18 @@ class Loop(NamedTuple):
 
         `point` is the frame's origin there; V and A are the motion of the bodies by the joints of the loop alone.
         """
-        i, k, arm, arm_k = self.i, self.k, self.frame.translation, self.to.act(point)
-        J = self._jacobian(model, bodies, tree, i, arm) - self._jacobian(model, bodies, tree, k, arm_k)
-        bias = _bias(bodies[i], V[i][..., 0], A[i][..., 0], arm) - _bias(bodies[k], V[k][..., 0], A[k][..., 0], arm_k)
+        i, k, arm = self.i, self.k, self.frame.translation
+        J, bias = self._jacobian(model, bodies, tree, i, arm), _bias(bodies[i], V[i][..., 0], A[i][..., 0], arm)
+        if self.to is None:
+            return J, bias
+        arm = self.to.act(point)
+        J = J - self._jacobian(model, bodies, tree, k, arm)
+        bias = bias - _bias(bodies[k], V[k][..., 0], A[k][..., 0], arm)
+        # What holds the frame turns with ω, so do its axes; and the point of it that holds the frame is another one.
+        w, slip = np.matvec(bodies[k].rotation, V[k][..., :3, 0]), np.matvec(J, v)
+        turning = np.concatenate([np.cross(w, slip[..., :3]), 2 * np.cross(w, slip[..., 3:])], axis=-1)
+        bias = bias - turning
         R = (bodies[k].rotation @ self.to.rotation).mT
-        if self.k:  # its axes turn with ω, and the point on it that is held changes
-            w, slip = np.matvec(bodies[k].rotation, V[k][..., :3, 0]), np.matvec(J, v)
-            turning = np.concatenate([np.cross(w, slip[..., :3]), 2 * np.cross(w, slip[..., 3:])], axis=-1)
-            bias = bias - turning
         turned = [np.matvec(R, x) for x in (bias[..., :3], bias[..., 3:])]
         return np.concatenate([R @ J[..., :3, :], R @ J[..., 3:, :]], axis=-2), np.concatenate(turned, axis=-1)
 
