@@ -385,6 +385,50 @@ FAULTS = [
         "inertia=number.array(given.inertia_at_com)",
     ),
     # motion in time
+    Fault(
+        "friction along the sliding",
+        "simulation/cones.py",
+        "np.arctan2(-slide[:, 1], -slide[:, 0])",
+        "np.arctan2(slide[:, 1], slide[:, 0])",
+    ),
+    Fault("Anitescu's lift left in", "simulation/cones.py", "bound[at] - shift[at]", "bound[at]"),
+    Fault(
+        "no edge added against the sliding",
+        "simulation/cones.py",
+        "moves[:, 2] - mu * speed + before < bound",
+        "moves[:, 2] - mu * speed + before < -np.inf",
+    ),
+    Fault(
+        "restitution of the speed after the free step",
+        "simulation/stepping.py",
+        "(free - (1 + share) * v)",
+        "(free - share * v)",
+    ),
+    Fault(
+        "gap in the velocity's place", "simulation/stepping.py", "-np.maximum(gap, 0) / self.dt", "-np.maximum(gap, 0)"
+    ),
+    Fault(
+        "damping explicit",
+        "simulation/stepping.py",
+        "free = metric.respond(at.M @ free)",
+        "free = free - self.dt * self.model.damping * v",
+    ),
+    Fault("no way back from below the ground", "simulation/stepping.py", "-gap)[0])", "0 * gap)[0])"),
+    Fault(
+        "dry friction drives", "simulation/passive.py", "braking[at] = -slides * most", "braking[at] = slides * most"
+    ),
+    Fault(
+        "a joint's range ends nowhere",
+        "simulation/passive.py",
+        "at_v.astype(int)] = self.sign",
+        "at_v.astype(int)] = -self.sign",
+    ),
+    Fault(
+        "arm of a sole's corner left out",
+        "simulation/ground.py",
+        "np.cross(J[..., :3, :], arm[..., None], axis=-2)",
+        "0 * J[..., :3, :]",
+    ),
     Fault("Munthe-Kaas: sign of ½ [u, v]", "simulation/tangent.py", "v + first / 2 +", "v - first / 2 +"),
     Fault(
         "Runge-Kutta: second stage counted once, not twice",

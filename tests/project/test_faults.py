@@ -49,6 +49,7 @@ PHYSICS_AND_ORACLES = [
     "spatial/test_shapes.py",
     "robots/test_urdf.py",
     "simulation/test_simulation.py",
+    "simulation/test_ground.py",
     "newton_euler_3d/test_newton_euler_3d.py",
     "contact/test_contact_dynamics.py",
     "contact/test_contact_impacts.py",
@@ -73,6 +74,9 @@ TESTED_BY = {
     "wrench": "screws",
     "relative": "loops",
     "articulated": "inverse_mass",
+    "cones": "ground",
+    "stepping": "ground",
+    "passive": "ground",
 }
 """Files and folders of the source whose tests go by another name."""
 

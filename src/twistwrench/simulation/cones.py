@@ -31,6 +31,9 @@ SIDES = 8
 ROUNDS = 30
 """So many programmes at most in a step; one that sticks or flies takes one, one that slides on takes two or three."""
 
+CALM = 8
+"""From this programme on the shift goes only half the way: some would swing between two answers for ever."""
+
 SETTLED = 1e-7
 """How much the shift may still change, relative to the fastest sliding."""
 
@@ -143,7 +146,7 @@ def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
     shift = mu * np.hypot(*slide.mT)
     rays = edges(mu, np.where(shift[:, None] > 0, slide, free[:, :2])).reshape(k * SIDES, 3)
     at = np.repeat(np.arange(k), SIDES)
-    for _ in range(ROUNDS):
+    for made in range(ROUNDS):
         G, c = np.matvec(J[at].mT, rays), bound[at] - shift[at]
         after, u = metric.nearest(v, np.concatenate([others[0], G]), np.concatenate([others[1], c]))
         impulse = np.zeros((k, 3))
@@ -151,11 +154,11 @@ def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         moves = J @ after
         slide, touches = moves[:, :2], impulse[:, 2] > 0
         speed = np.hypot(*slide.mT)
-        before, shift = shift, mu * speed
+        before, shift = shift, shift + (mu * speed - shift) * (1.0 if made < CALM else 0.5)
         missed = np.where(touches, np.abs(moves[:, 2] - bound), 0).max(initial=0)
         if not touches.any() or missed <= SETTLED * fastest:
             break
-        cut = np.flatnonzero(moves[:, 2] - shift + before < bound - SETTLED * fastest)
+        cut = np.flatnonzero(moves[:, 2] - mu * speed + before < bound - SETTLED * fastest)
         rays = np.concatenate(
             [rays, np.concatenate([-mu[cut, None] * slide[cut] / speed[cut, None], np.ones((len(cut), 1))], axis=1)]
         )

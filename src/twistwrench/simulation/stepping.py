@@ -135,7 +135,9 @@ class TimeStepping:
         hits = gap + self.dt * (J[:, 2] @ free) < 0
         share, bound = self.ground.restitution, -np.maximum(gap, 0) / self.dt
         while True:
-            points = Points(J, self.mu, np.maximum(bound, np.where(hits, J[:, 2] @ (free - (1 + share) * v), -np.inf)))
+            back = J[:, 2] @ (free - (1 + share) * v)  # as if it were hit where the step begins
+            bounces = hits & (share > 0)
+            points = Points(J, self.mu, np.where(bounces, np.maximum(bound, back), bound))
 
             def solved(free: Array, rows: Array, points: Points = points) -> tuple[Answer, Array]:
                 others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
@@ -162,7 +164,7 @@ class TimeStepping:
     def contact_forces(self, q: Array) -> dict[str, Array]:
         """Return λ of all steps, by the contact's frame; q are the states in which they begin, (n, ..., nq)."""
         place = ground_terms(self.model, q, self.contacts, self.ground).place
-        force = np.array(self.forces).reshape(place.shape)
+        force = np.array(self.forces[: len(q)]).reshape(place.shape)
         return point_forces(self.contacts, place, force, self.ground)
 
     def _refuse_below(self, q: Array) -> None:
