@@ -385,12 +385,7 @@ FAULTS = [
         "inertia=number.array(given.inertia_at_com)",
     ),
     # motion in time
-    Fault(
-        "friction along the sliding",
-        "simulation/cones.py",
-        "np.arctan2(-slide[:, 1], -slide[:, 0])",
-        "np.arctan2(slide[:, 1], slide[:, 0])",
-    ),
+    Fault("an edge with the sliding, not against it", "simulation/cones.py", "-mu[cut, None]", "mu[cut, None]"),
     Fault("Anitescu's lift left in", "simulation/cones.py", "bound[at] - shift[at]", "bound[at]"),
     Fault(
         "no edge added against the sliding",

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..algorithms.kinematics import forward_kinematics, frame_placement
 from ..arrays import Array
-from ..contact import Contact, SurfaceContact
+from ..contact import Contact, PointContact, SurfaceContact
 from ..model import Model
 from .stepping import TimeStepping
 
@@ -89,8 +89,9 @@ def of_contacts(
 ) -> Iterator[Remark]:
     """Yield the contacts that stick and pulled, or would have slipped or tipped, and the bodies that sank below all.
 
-    A sole would tip where its centre of pressure leaves it.
+    A sole would tip where its centre of pressure leaves it. Of others, such as loops, nothing is said.
     """
+    contacts = [c for c in contacts if isinstance(c, PointContact | SurfaceContact)]
     for c in contacts:
         axes, wrench = c.axes(frame_placement(model, q, c.frame).rotation), np.zeros((*q.shape[:-1], 6))
         wrench[..., c.rows] = forces[c.frame]
@@ -101,7 +102,7 @@ def of_contacts(
         if isinstance(c, SurfaceContact):
             for axis, half in ((1, c.half_size[0]), (0, c.half_size[1])):
                 yield from first(t, "tip", c.frame, moment[..., axis], half * pressed + loose)
-    if contacts:
+    if contacts and not any(c.velocity or c.acceleration for c in contacts):
         feet = [frame_placement(model, q[0], c.frame).translation[..., 2] for c in contacts]
         floor, bodies = np.min(feet, axis=0) - DEEP, forward_kinematics(model, q).placement[1:]
         if all((T.translation[0, ..., 2] >= floor).all() for T in bodies):

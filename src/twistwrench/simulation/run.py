@@ -173,7 +173,7 @@ def _motion(made: Made, system: System, name: str, t0: float, seconds: float, *,
     qs, vs = (np.stack([state[i] for state in made.states]) for i in (0, 1))
     taus, t = np.array(made.taus, vs.dtype).reshape(len(vs) - 1, *vs.shape[1:]), t0 + np.arange(len(vs)) * system.dt
     stepper = system.stepping
-    forces = stepper.contact_forces(qs[:-1]) if stepper else made.forces(system, failed)
+    forces = stepper.contact_forces(qs[:-1]) if stepper else made.forces(system, float(t[-1]), failed)
     return Simulation(system, name, t, qs, vs, taus, forces, system.evaluations, seconds)
 
 
@@ -185,15 +185,15 @@ class Made:
     taus: list[Array]
     held: list[dict[str, Array]]
 
-    def forces(self, system: System, failed: bool) -> dict[str, Array]:
-        """Return the forces at the contacts over time; in the last state, those under the last τ."""
+    def forces(self, system: System, t: float, failed: bool) -> dict[str, Array]:
+        """Return the forces at the contacts over time; in the last state, at t, those under the last τ."""
         if not system.contacts or (failed and not self.held):
             return {}
         q, v = (x.copy() for x in self.states[-1])
         try:
-            held = [*self.held, self.held[-1] if failed else system.held_last(q, v)]
+            held = [*self.held, self.held[-1] if failed else system.held_last(t, q, v)]
         except SingularError as error:
-            raise SingularError(f"the end: {error}") from error
+            raise SingularError(f"the end, t = {t:.6g} s: {error}") from error
         return {c.frame: np.stack([at[c.frame] for at in held]) for c in system.contacts}
 
 

@@ -134,10 +134,10 @@ class System:
             self.forces, self._first = found.forces, False
         return found
 
-    def held_last(self, q: Array, v: Array) -> dict[str, Array]:
+    def held_last(self, t: float, q: Array, v: Array) -> dict[str, Array]:
         """Return the contact forces in a state under the last forces that were applied."""
         self._policy, self._constant = None, self.tau
-        return self.held(0.0, q, v).forces
+        return self.held(t, q, v).forces
 
     def again(
         self,
