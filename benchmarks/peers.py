@@ -9,9 +9,12 @@ from __future__ import annotations
 
 import contextlib
 import io
+import subprocess
+import tempfile
 import warnings
 from collections.abc import Callable, Iterator
 from importlib.metadata import version
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -47,7 +50,8 @@ class Peer(NamedTuple):
 
 def peers(model: tw.Model, urdf: str) -> Iterator[Peer]:
     """Yield what is installed; what cannot be set up says so and is left out."""
-    for make in (_ours, _pinocchio_batches, _mujoco, _adam_numpy, _adam_casadi, _adam_jax, _frax):
+    makers = (_ours, _pinocchio_batches, _mujoco, _grid, _adam_numpy, _adam_casadi, _adam_c, _adam_jax, _frax)
+    for make in makers:
         try:
             with warnings.catch_warnings(), contextlib.redirect_stderr(io.StringIO()):
                 warnings.simplefilter("ignore")
@@ -105,6 +109,7 @@ def _pinocchio_batches(model: tw.Model, urdf: str) -> Iterator[Peer]:
 
 def _mujoco(model: tw.Model, urdf: str) -> Iterator[Peer]:
     import mujoco
+    from mujoco.rollout import rollout
 
     spec = mujoco.MjSpec.from_file(urdf)
     spec.compiler.fusestatic, spec.compiler.discardvisual = True, True
@@ -153,8 +158,49 @@ def _mujoco(model: tw.Model, urdf: str) -> Iterator[Peer]:
         mujoco.mj_rne(there, data, 0, data.qfrc_bias)
         return data.qfrc_bias[JOINTS][back]
 
-    for quantity, call in (("crba", crba), ("h", bias)):
+    def forward(q, v, tau):
+        data.qpos[:], data.qvel[:], data.qfrc_applied[:] = q, v, tau
+        mujoco.mj_forward(there, data)
+        return data.qacc[JOINTS][back]
+
+    there.opt.disableflags = mujoco.mjtDisableBit.mjDSBL_CONSTRAINT | mujoco.mjtDisableBit.mjDSBL_EULERDAMP
+    there.dof_damping[:] = there.dof_frictionloss[:] = 0
+    for quantity, call in (("crba", crba), ("h", bias), ("aba", forward)):
         yield Peer("MuJoCo", version("mujoco"), quantity, False, "world", one_by_one(call))
+
+    def rolled_out(s: States):
+        states = convert(s)
+        start = np.stack([[0.0, *q, *v] for q, v, _ in states])
+        tau = np.stack([tau for _, _, tau in states])[:, None]
+        applied, step = int(mujoco.mjtState.mjSTATE_QFRC_APPLIED), there.opt.timestep
+
+        def run():
+            after = rollout(there, data, start, tau, control_spec=applied)[0][:, 0]
+            return ((after - start)[:, -there.nv :] / step)[:, JOINTS][:, back]
+
+        return run
+
+    yield Peer("MuJoCo, rollout of a step", version("mujoco"), "aba", True, "world", rolled_out)
+
+
+def _grid(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    from RBDReference import RBDReference
+    from URDFParser import URDFParser
+
+    with contextlib.redirect_stdout(io.StringIO()):  # it prints the order of its joints
+        there = RBDReference(URDFParser().parse(urdf, floating_base=True))
+    calls = {
+        "rnea": lambda q, v, a: there.inverse_dynamics(q, v, a)[0][JOINTS],
+        "crba": lambda q, v, a: there.crba(q)[JOINTS, JOINTS],
+        "aba": lambda q, v, tau: there.aba(q, v, tau)[JOINTS],
+    }
+    for quantity, call in calls.items():
+
+        def prepare(s: States, call=call):
+            states = list(zip(s.q, *(tw.bridge.to_pinocchio_tangent(model, x) for x in (s.v, s.a)), strict=True))
+            return lambda: np.stack([call(*state) for state in states])
+
+        yield Peer("RBDReference", version("grid-rbd"), quantity, False, "body", prepare)
 
 
 def _adam(model: tw.Model, kindyn, name: str, batched_jit) -> Iterator[Peer]:
@@ -202,6 +248,38 @@ def _adam_casadi(model: tw.Model, urdf: str) -> Iterator[Peer]:
             return lambda: np.stack([call(*state) for state in states])
 
         yield Peer("adam (CasADi)", version("adam-robotics"), quantity, False, "body", prepare)
+
+
+def _adam_c(model: tw.Model, urdf: str) -> Iterator[Peer]:
+    """The C that CasADi generates from adam's functions, compiled for this processor, over the batch."""
+    import adam
+    import casadi
+    from adam.casadi import KinDynComputations
+
+    kindyn = KinDynComputations(urdf, list(model.joint_names[2:]))
+    kindyn.set_frame_velocity_representation(adam.Representations.BODY_FIXED_REPRESENTATION)
+    kindyn.g = np.concatenate([model.gravity, np.zeros(3)])
+    folder = Path(tempfile.mkdtemp())
+    for quantity, function, given in (("crba", kindyn.mass_matrix_fun(), 2), ("h", kindyn.bias_force_fun(), 4)):
+        generated = casadi.CodeGenerator(f"{quantity}.c")
+        generated.add(function)
+        source = generated.generate(f"{folder}/")
+        library = folder / f"{quantity}.so"
+        subprocess.run(["cc", "-O3", "-march=native", "-shared", "-fPIC", source, "-o", library], check=True)
+        compiled = casadi.external(function.name(), str(library))
+
+        def prepare(s: States, compiled=compiled, given=given, matrix=quantity == "crba"):
+            V = np.concatenate([s.v[:, 3:6], s.v[:, :3]], -1)
+            T = np.concatenate([*_placement(model, s.q)], axis=1)
+            arguments, mapped = [T, s.q[:, 7:].T, V.T, s.v[:, 6:].T][:given], compiled.map(len(s.q))
+
+            def run():
+                x = np.asarray(mapped(*arguments))
+                return x.reshape(len(x), -1, len(x)).swapaxes(0, 1)[:, JOINTS, JOINTS] if matrix else x.T[:, JOINTS]
+
+            return run
+
+        yield Peer("adam (CasADi's C)", version("adam-robotics"), quantity, True, "body", prepare)
 
 
 def _adam_jax(model: tw.Model, urdf: str) -> Iterator[Peer]:
