@@ -251,7 +251,7 @@ def _adam_casadi(model: tw.Model, urdf: str) -> Iterator[Peer]:
 
 
 def _adam_c(model: tw.Model, urdf: str) -> Iterator[Peer]:
-    """The C that CasADi generates from adam's functions, compiled for this processor, over the batch."""
+    """Yield the C that CasADi generates from adam's functions, compiled for this processor, over the batch."""
     import adam
     import casadi
     from adam.casadi import KinDynComputations

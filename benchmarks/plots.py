@@ -12,7 +12,7 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
-from tables import Row, growth, rows
+from tables import RANGES, Row, growth, rows
 
 from twistwrench.study.cases import QUANTITIES
 
@@ -62,15 +62,15 @@ def over_batches() -> None:
 
 
 def over_links() -> None:
-    """Time per state over the number of links, a panel per quantity, with the slopes from 50 links on."""
+    """Time per state over the number of links, a panel per quantity, with the slopes of `RANGES`."""
     found = rows("links")
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.9), sharey=True, constrained_layout=True)
     for ax, quantity in zip(axes, ("rnea", "aba", "A_G"), strict=True):
         mine = [r for r in found if r["quantity"] == quantity]
         for way, batch, color in (("fast", "1", BLUE), ("fast", "100", ORANGE), ("textbook", "1", GREY)):
             some = [r for r in mine if r["way"] == way and r["batch"] == batch]
-            steep = growth(quantity, batch) if way == "fast" else 0
-            name = f"{way}, batch {batch}" + f": slope {steep:.2f}" * (way == "fast")
+            steep = ", then ".join(f"{growth(quantity, batch, *ends):.2f}" for ends in RANGES.values())
+            name = f"{way}, batch {batch}" + f": slope {steep}" * (way == "fast")
             line(ax, some, "links", "us", color=color, label=name)
         theirs = [dict(r, us=r["reference_us"], us_q1=r["reference_us_q1"], us_q3=r["reference_us_q3"]) for r in mine]
         one_each = {r["links"]: r for r in theirs if r["us"] != "nan"}

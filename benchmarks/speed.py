@@ -31,7 +31,7 @@ from twistwrench.timing import Race, race, round_robin
 
 RESULTS = Path(__file__).parent / "results"
 BATCHES = (1, 10, 100, 1000, 10_000, 100_000)
-LINKS = (10, 20, 50, 100, 200, 500, 1000)
+LINKS = (10, 20, 40, 80, 100, 200, 500, 1000)  # to 80 there are programs
 REFERENCE = 300
 """States in a loop of Pinocchio."""
 

@@ -52,10 +52,14 @@ def slope(found: list[Row]) -> float:
     return float(np.polyfit(x, y, 1)[0])
 
 
-def growth(quantity: str, batch: str) -> float:
-    """Return the slope from 50 links on."""
+def growth(quantity: str, batch: str, first: int, last: int) -> float:
+    """Return the slope between two numbers of links."""
     found = [r for r in rows("links") if (r["way"], r["quantity"], r["batch"]) == ("fast", quantity, batch)]
-    return slope([r for r in found if int(r["links"]) >= 50])
+    return slope([r for r in found if first <= int(r["links"]) <= last])
+
+
+RANGES = {"program, 20 to 80 links": (20, 80), "textbook, 100 to 1000 links": (100, 1000)}
+"""Between which numbers of links the growth is fitted: `tw.fast` is a program there, or the textbook."""
 
 
 def tables() -> dict[str, str]:
@@ -64,7 +68,12 @@ def tables() -> dict[str, str]:
     return {
         "one": table((r["quantity"], f"`{WAYS[r['way']]}`", f"{number(r['us'])} µs, {ratio(r)}") for r in rows("one")),
         "batch": table((r["quantity"], f"{r['dtype']}, {int(r['batch']):,}", ratio(r)) for r in batches),
-        "links": table((q, f"batch {b}", f"{growth(q, b):.2f}") for q in ("rnea", "aba", "A_G") for b in ("1", "100")),
+        "links": table(
+            (q, f"{name}, batch {b}", f"{growth(q, b, *ends):.2f}")
+            for q in ("rnea", "aba", "A_G")
+            for name, ends in RANGES.items()
+            for b in ("1", "100")
+        ),
         "peers": table((peer(r), f"{int(r['batch']):,}", ratio(r)) for r in rows("peers")),
     }
 

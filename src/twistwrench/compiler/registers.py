@@ -33,6 +33,9 @@ FUNCTIONS = {
 CHUNK = 2048
 """States that are computed together: for fewer, a call takes longer than what it computes."""
 
+MEMORY = 2**26
+"""Bytes that the arrays of a chunk take together, at most."""
+
 
 class Registers:
     """A line as a list of NumPy's calls.
@@ -75,14 +78,13 @@ class Registers:
                 self.steps.append((None, entry[rest[0]], place[k]))
             else:
                 self.steps.append((functions[operation], [place[j] for j in needed], place[k]))
-        self.copies = [
-            (k, place[node]) for k, node in enumerate(results) if place[node] != k
-        ]  # constants, and repeated
+        # What is left are constants, and results that occur twice.
+        self.copies = [(k, place[node]) for k, node in enumerate(results) if place[node] != k]
 
     def run(self, arrays: Sequence[Array]) -> None:
         """Fill the results: each array has shape (states, entries)."""
-        states = len(arrays[0])
-        chunks = -(-states // CHUNK)
+        states, most = len(arrays[0]), MEMORY // max(1, self.count * self.dtype.itemsize)
+        chunks = -(-states // max(64, min(CHUNK, most)))
         with np.errstate(all="ignore"):  # what is not finite is seen in the result `alarm`
             for k in range(chunks):
                 self._run([x[states * k // chunks : states * (k + 1) // chunks] for x in arrays])
