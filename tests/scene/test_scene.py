@@ -437,6 +437,23 @@ def test_a_hand_on_a_rail_stays_and_a_robot_in_the_air_touches_nothing():
         scene.phases(motions.walk(tw.load("go2"), samples=2))
 
 
+def test_in_an_elevator_the_feet_bear_the_robot_and_its_acceleration():
+    """Feet that go up at 2 m/s²: m (g + a) on them, and the robot goes with them; on a belt nothing changes."""
+    up, belt = (
+        [replace(foot, **given) for foot in FEET] for given in ({"acceleration": (0, 0, 2)}, {"velocity": (1, 0, 0)})
+    )
+    lift, model = tw.Scene("go2", contacts=up), tw.load("go2")
+    rest, rise, along = np.zeros(18), np.r_[0, 0, 0, 0, 0, 2.0, np.zeros(12)], np.r_[0, 0, 0, 1.0, np.zeros(14)]
+    tau = tw.contact_inverse_dynamics(model, model.standing(), rest, rise, FEET).tau
+    found = tw.contact_forward_dynamics(lift.model, model.standing(), rest, tau, lift.contacts)
+    assert sum(found.forces.values())[2] == pytest.approx(model.mass * 11.81)
+    assert np.abs(found.qdd - rise).max() < 1e-9
+    carried = tw.contact_forward_dynamics(model, model.standing(), along, tau, belt)
+    assert np.abs(carried.slip).max() < 1e-15
+    still = tw.contact_forward_dynamics(model, model.standing(), rest, tau, FEET)
+    assert np.abs(carried.qdd - still.qdd).max() < 1e-9
+
+
 # ---------------------------------------------------------------- what it refuses
 
 
