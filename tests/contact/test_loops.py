@@ -390,8 +390,9 @@ def test_planes_carry_as_points_without_friction_do_and_what_pulls_cannot_stand(
     drop[5] = -2 * G  # faster than free fall: the rails pull
     pull = tw.friction_inverse_dynamics(GO2, q, rest, drop, hung)
     assert np.isclose(sum(f[0] for f in pull.forces.values()), -GO2.mass * G, rtol=1e-9)
-    for bad in (hung, [tw.LoopClosure("FL_foot", "FR_foot")], [tw.Coupling("FL_calf_joint", {})]):
-        with pytest.raises(ValueError, match="expected contacts that push and do not pull"):
+    carried = [tw.SlidingContact("FL_foot", [0, 0, 1], to="base")]
+    for bad in (hung, carried, [tw.LoopClosure("FL_foot", "FR_foot")], [tw.Coupling("FL_calf_joint", {})]):
+        with pytest.raises(ValueError, match="expected contacts with the ground that do not pull"):
             tw.stance_margins(GO2, q, bad)
 
 

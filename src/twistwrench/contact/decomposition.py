@@ -97,7 +97,8 @@ def _without_inertia(model: Model, M: Array) -> str:
 def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
     """Return W, shape (..., m, m), for which W J v is in m/s: a turn counts as it moves the points of its contact.
 
-    λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G.
+    λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G. The
+    row of a coupling stays as it is: there 1 rad/s counts as 1 m/s.
     """
     return block_diagonal(
         [c.turn(T.rotation) @ convert(c.spread_root, T.rotation.dtype) for c, T in zip(contacts, at)]

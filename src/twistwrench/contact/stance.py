@@ -110,8 +110,8 @@ def stance_margins(
     """
     contacts = as_contacts(model, contacts)
     for c in contacts:
-        if not c.pushes:
-            raise ValueError(f"contact {c.frame!r}: expected contacts that push and do not pull, got {c!r}")
+        if not c.pushes or c.to is not None:
+            raise ValueError(f"contact {c.frame!r}: expected contacts with the ground that do not pull, got {c!r}")
     if model.base != "floating" or not contacts or not model.gravity.any():
         raise ValueError(f"{model.name!r}: expected a floating base, gravity and at least one contact")
     q, rest, _ = real_state(model, q, v=np.zeros(model.nv))
