@@ -373,7 +373,7 @@ def test_accelerations_are_pinocchios():
     rates = [bridge.to_pinocchio_tangent(TREE, x) for x in (v, tau)]
     a = pin.constraintDynamics(there, data, q, *rates, models, datas, pin.ProximalSettings(1e-14, 1e-14, 0.0, 1))
     got = tw.contact_forward_dynamics(TREE, q, v, tau, LOOPS)
-    assert error(got.qdd, bridge.from_pinocchio_tangent(TREE, a)) < 1e-11
+    assert error(got.qdd, bridge.from_pinocchio_tangent(TREE, a)) < 1e-12
 
 
 # ---------------------------------------------------------------- what is refused, and who stands
