@@ -432,6 +432,10 @@ def test_a_hand_on_a_rail_stays_and_a_robot_in_the_air_touches_nothing():
     names = [[c.frame for c in phase.scene.contacts] for phase in scene.phases(jump)]
     assert names == [["left_sole", "right_sole", "left_hand"], ["left_hand"], ["left_sole", "right_sole", "left_hand"]]
     assert scene.contacts == tuple(rail)
+    both = tw.Scene("humanoid", contacts=[*SOLES, tw.LoopClosure("left_hand", "right_hand")])
+    assert [len(phase.scene.contacts) for phase in both.phases(jump)] == [3, 1, 3]  # the hands hold each other
+    walk = motions.walk(tw.load("humanoid"), samples=3)
+    assert both.cheapest(1e-9, replace(walk, feet=(), contacts=np.zeros((3, 0), bool))).best.worst() < 1e-9
     assert tw.Scene("humanoid").phases(jump)[0].states == slice(0, 20)
     with pytest.raises(tw.ShapeError):
         scene.phases(motions.walk(tw.load("go2"), samples=2))

@@ -237,7 +237,8 @@ def costs(
                 known.append(one.model.read(*model.state(motion.q, v=motion.v, a=motion.a)))
                 rate, *tau = one.law(*known[-1])
                 errors.append(judge.errors(rate, tau[0] if tau else None, one.kept))
-            found.append({name: np.concatenate([e[name] for e in errors]) for name in errors[0]} if errors else {})
+            common = [name for name in QUANTITIES if errors and all(name in e for e in errors)]
+            found.append({name: np.concatenate([e[name] for e in errors]) for name in common})
         options.append(Option(one.name, one.leaves_out, found[0], found[1], np.nan, "", one))
         states = [np.concatenate(x) for x in zip(*known[: len(motions)])]
         wanted = [0, 1] if "tau" in need else [0]

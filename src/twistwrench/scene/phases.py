@@ -60,15 +60,17 @@ def standing_contacts(model: Model, contacts: Sequence[Contact], motion: Motion)
     """Return which contacts stand at each time, bool of shape (n, k).
 
     A contact stands with the foot on its frame, or else with all feet on its body; one on a body without feet always
-    does.
+    does, and so does what holds two frames of the robot together.
     """
     body = [model.frame(foot).body for foot in motion.feet]
     columns = list[Array]()
     for contact in contacts:
-        if contact.frame in motion.feet:
+        if contact.to is None and contact.frame in motion.feet:
             columns.append(motion.contacts[:, motion.feet.index(contact.frame)])
         else:
-            on = [k for k, carrier in enumerate(body) if carrier == model.frame(contact.frame).body]
+            on = [
+                k for k, carrier in enumerate(body) if (contact.to, carrier) == (None, model.frame(contact.frame).body)
+            ]
             columns.append(np.asarray(motion.contacts[:, on].all(axis=1)))
     return np.stack(columns, axis=1) if columns else np.zeros((len(motion), 0), bool)
 

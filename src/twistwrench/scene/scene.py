@@ -284,17 +284,17 @@ class Scene(SmallestModel):
         >>> scene.cheapest({"tau": 0.5, "cop": 0.01}, motions.walk(go2, samples=50)).best.name
         'full'
         """
-        need, full = needed(tolerance), self.full_model
+        need, full, ground = needed(tolerance), self.full_model, [c for c in self.contacts if c.to is None]
         judged, unseen = (as_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))
         if not judged:
             raise ValueError("motion: expected at least one motion, got none")
         if not 1 <= as_number(margin, "margin") < np.inf:
             raise ValueError(f"margin: expected a number of at least 1, got {margin!r}")
         if groups is None:
-            feet = [contact.frame for contact in self.contacts] or judged[0].feet
+            feet = [contact.frame for contact in ground] or judged[0].feet
             whole = len(full.joint_names) - 1
             groups = {name: joints for name, joints in limbs(full, feet).items() if len(joints) < whole}
         check_kind(groups, "groups", Mapping, "names of joints by the name of a group")
         mine = this_scene(full, self.model, self._base, {*self.held, *self.idle}, self.reduce)
-        tried = [*candidates(full, judged[0].q[0], groups, self.contacts), *mine]
-        return costs(full, judged, unseen, need, margin, tried, self.contacts)
+        tried = [*candidates(full, judged[0].q[0], groups, ground), *mine]
+        return costs(full, judged, unseen, need, margin, tried, ground)
