@@ -134,7 +134,8 @@ class Pieces:
     Attributes
     ----------
     turns : list of tuple
-        What is to be written: a node to compute, or after it a group of results to store, as soon as all are there.
+        What is to be written: each node to compute, and in the end each group of results to store, in the order of
+        memory.
     """
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
