@@ -158,11 +158,10 @@ def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         missed = np.where(touches, np.abs(moves[:, 2] - bound), 0).max(initial=0)
         if not touches.any() or missed <= SETTLED * fastest:
             break
-        cut = np.flatnonzero(moves[:, 2] - mu * speed + before < bound - SETTLED * fastest)
-        rays = np.concatenate(
-            [rays, np.concatenate([-mu[cut, None] * slide[cut] / speed[cut, None], np.ones((len(cut), 1))], axis=1)]
-        )
-        at = np.concatenate([at, cut])
-    return Answer(
-        after, impulse, u[:size], np.where((touches & (speed > SETTLED * fastest))[:, None], slide, 0), float(missed)
-    )
+        slides = speed > SETTLED * fastest
+        cut = np.flatnonzero(slides & (moves[:, 2] - mu * speed + before < bound - SETTLED * fastest))
+        edge = np.ones((len(cut), 3))
+        edge[:, :2] = -mu[cut, None] * slide[cut] / speed[cut, None]
+        rays, at = np.concatenate([rays, edge]), np.concatenate([at, cut])
+    slides = touches & (speed > SETTLED * fastest)
+    return Answer(after, impulse, u[:size], np.where(slides[:, None], slide, 0), float(missed))
