@@ -104,13 +104,14 @@ def connect(app: Any, language: str, notebooks: list[str]) -> None:
     sizes = [(group, len(content)) for group, _, content in files()] if here else []
 
     def add(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
-        name = page.removeprefix("chapter/")
-        if not (page == EXERCISES or page in [f"chapter/{notebook}" for notebook in notebooks]):
+        folder, _, name = page.rpartition("/")
+        is_notebook = folder == "chapter" and name in notebooks
+        if not (page == EXERCISES or is_notebook):
             return
-        wanted = ("core", "base", "matplotlib")[: 3 if name in notebooks else 2]
+        wanted = ("core", "base", "matplotlib")[: 3 if is_notebook else 2]
         size = sum(size for group, size in sizes if group in wanted) / 1e6
         text = said["runs"].format(size=f"{size:.0f}") if here else said["not here"]
-        link = f'<a href="{name}.ipynb" download>{said["notebook"]}</a>' if name in notebooks else ""
+        link = f'<a href="{name}.ipynb" download>{said["notebook"]}</a>' if is_notebook else ""
         bar = f'<div class="run-note"><p>{text} {link}</p><div class="run-bar"></div></div>'
         context["body"] = context["body"].replace("</h1>", f"</h1>\n{bar}", 1)
         if here:

@@ -98,7 +98,9 @@
     } finally {
       if (!pending.size) {
         bar.stop.hidden = true;
-        say(SAY.took(((performance.now() - start) / 1000).toFixed(1)));
+        const took = SAY.took(((performance.now() - start) / 1000).toFixed(1));
+        say(took);
+        setTimeout(() => bar.status.textContent === took && say(""), 4000);
       }
     }
   }
@@ -165,7 +167,7 @@
     pre.contentEditable = "true";
     try { pre.contentEditable = "plaintext-only"; } catch { /* an older Firefox */ }
     Object.assign(pre, { spellcheck: false, role: "textbox", ariaMultiLine: "true", ariaLabel: SAY.code });
-    if (saved?.was === original) paint(pre, saved.now);
+    if (saved && (saved.was === original || key.startsWith("answer/"))) paint(pre, saved.now); // an answer outlives its skeleton
     const code = () => text().replace(/\n+$/, "");
     pre.addEventListener("input", () => keep(key, text() === original ? null : { was: original, now: code() }));
     pre.addEventListener("keydown", (event) => {
