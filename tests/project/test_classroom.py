@@ -184,6 +184,6 @@ def test_a_page_says_whether_it_can_be_run(monkeypatch, here):
         runs = page.startswith("chapter")
         assert ("run-bar" in context["body"]) == runs
         assert ("docs/runtime.py" in context["body"]) == (not here and runs)
-        assert ("(3 MB)" in context["body"]) == (here and runs)
+        assert ("(4 MB)" in context["body"]) == (here and runs)
         assert ('href="00_first.ipynb" download' in context["body"]) == (page == "chapter/00_first")
     assert scripts == ["run.js"] * 2 * here
