@@ -34,6 +34,7 @@ def test_a_cell_prints_and_shows_its_last_value():
     assert classroom.run("print(1)\nx = 2\nx + 1", "page", "cell 1") == [("out", "1\n"), ("out", "3\n")]
     assert classroom.run("x;", "page", "cell 2") == classroom.run("None", "page", "cell 3") == []
     assert classroom.run("x", "other", "cell 1")[0][0] == "error"
+    assert classroom.run(r"print('10 %\r', end=''); print('99 %\rdone')", "page", "cell 4") == [("out", "done\n")]
 
 
 def test_a_value_is_shown_as_a_notebook_shows_it():

@@ -20,6 +20,8 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
+from tqdm import tqdm
+
 ANSWERS = Path("/answers")
 TO_BE_HAD = {"matplotlib", "mpmath", "sympy"}
 """Packages that are loaded when a cell imports them."""
@@ -35,6 +37,9 @@ SHOWN = ("_repr_html_", "html"), ("_repr_latex_", "latex"), ("_repr_svg_", "html
 
 Output = tuple[str, str]
 
+if sys.platform == "emscripten":
+    tqdm.monitor_interval = 0  # what watches over slow bars would be a thread
+
 
 class Lines(io.TextIOBase):
     """A text stream that keeps what is written, among the other outputs."""
@@ -46,7 +51,7 @@ class Lines(io.TextIOBase):
         """Append to the last output where it is of this stream."""
         if self.outputs and self.outputs[-1][0] == self.kind:
             text = self.outputs.pop()[1] + text
-        self.outputs.append((self.kind, text))
+        self.outputs.append((self.kind, re.sub(r"[^\n]*\r(?!\n)", "", text)))  # a progress bar writes over itself
         return len(text)
 
 
