@@ -21,6 +21,9 @@ import classroom  # noqa: E402
 import runtime  # noqa: E402
 from website import inpage  # noqa: E402
 
+if sys.platform != "emscripten":
+    sys.path.remove(str(ROOT / "docs" / "website" / "run"))  # its IPython is for the page alone
+
 TRANSPOSED = {"49.0.1": "def skew(w):\n    return tw.skew(w).T\n"}
 
 

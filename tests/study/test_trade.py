@@ -260,7 +260,7 @@ class Processor:
 
 def test_the_clock_counts_stretches_that_nothing_disturbed(monkeypatch):
     cpu = Processor(monkeypatch)
-    quiet, torn = clock.round_robin([cpu.work(1), cpu.work(2, (0, 0, 5))], rounds=3, least=0, most=100)
+    quiet, torn = clock.round_robin([cpu.work(1), cpu.work(2, (0, 0, 0, 5))], rounds=3, least=0, most=100)
     assert quiet.seconds.tolist() == [1, 1, 1]
     assert torn.seconds.tolist() == [2, 2, 2]
     assert torn.spare == [2]
@@ -288,7 +288,7 @@ def test_the_quickest_call_says_how_many_make_a_stretch(monkeypatch):
 
 def test_a_race_counts_rounds_that_nothing_disturbed_and_gives_seconds_for_one_state(monkeypatch):
     cpu = Processor(monkeypatch)
-    warm, round_, torn = (0, 0), (0,), (5,)  # each call is made twice before the first round
+    warm, round_, torn = (0, 0, 0), (0,), (5,)  # each call is made thrice before the first round
     found = clock.race((cpu.work(2), 4), (cpu.work(3, (*warm, *torn, *round_, *torn, *round_)), 2), rounds=2, least=0)
     assert found.ours.tolist() == [0.5, 0.5]
     assert found.theirs.tolist() == [1.5, 1.5]
@@ -297,7 +297,7 @@ def test_a_race_counts_rounds_that_nothing_disturbed_and_gives_seconds_for_one_s
 
 def test_a_race_of_several_threads_counts_every_round_and_one_that_is_never_quiet_ends(monkeypatch):
     cpu = Processor(monkeypatch)
-    both = (cpu.work(4), 2), (cpu.work(1, (0, 0, 3, 0, 1)), 1)
+    both = (cpu.work(4), 2), (cpu.work(1, (0, 0, 0, 3, 0, 1)), 1)
     found = clock.race(*both, rounds=3, least=0, one_thread=False)
     assert found.theirs.tolist() == [4, 1, 2]
     row = found.row()

@@ -73,6 +73,7 @@ def contact_inverse_dynamics(
 
     Examples
     --------
+    >>> import numpy as np
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
     >>> rest, feet = np.zeros(model.nv), [tw.PointContact(foot, 0.6) for foot in model.feet]
@@ -136,6 +137,7 @@ def friction_inverse_dynamics(
 
     Examples
     --------
+    >>> import numpy as np
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
     >>> a, feet = np.zeros(model.nv), [tw.PointContact(foot, 0.6) for foot in model.feet]

@@ -234,10 +234,10 @@ def _period(dt_control: float | None, dt: float, tau: object) -> int:
     """Return the period of the policy in steps; 0 if it has none."""
     if dt_control is None:
         return 0
-    if not callable(tau):
-        raise ValueError("dt_control: there is no policy that could be called: tau is not a function")
     if not 0 < as_number(dt_control, "dt_control") < LONGEST:
         raise ValueError(f"dt_control: expected a positive number of seconds, got {dt_control}")
+    if not callable(tau):
+        raise ValueError("dt_control: there is no policy that could be called: tau is not a function")
     period = round(dt_control / dt)
     if period < 1 or abs(period * dt - dt_control) > 1e-9 * dt_control:
         raise ValueError(f"dt_control: expected a whole number of steps of {dt} s, got {dt_control} s")
