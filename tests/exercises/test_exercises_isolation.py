@@ -14,6 +14,8 @@ from twistwrench.exercises import catalogue, solution, start, status
 from twistwrench.exercises.isolation import opened
 from twistwrench.exercises.workbook import Workbook
 
+from ..sampling import sampled
+
 LIMIT = 1.5
 """Seconds; a reference takes 0.1 s at most."""
 
@@ -44,12 +46,16 @@ def said(folder, name, language="en", seed=None):
 
 @pytest.mark.parametrize(
     ("name", "body", "line"),
-    [
-        ("count", ENDLESS, "while i < len(kinds): or nq = 1"),
-        ("skew", SWALLOWED, "while True: or try: or x = 1 or pass"),
-        ("act", IN_C, "return sum(itertools.count())"),
-    ],
-    ids=["plain", "swallows every exception", "inside NumPy or C"],
+    sampled(
+        [
+            ("skew", SWALLOWED, "while True: or try: or x = 1 or pass"),
+            ("count", ENDLESS, "while i < len(kinds): or nq = 1"),
+            ("act", IN_C, "return sum(itertools.count())"),
+        ],
+        1,
+        several=True,
+    ),
+    ids=["swallows every exception", "plain", "inside NumPy or C"],
 )
 def test_an_endless_loop_is_told_with_its_line(tmp_path, name, body, line):
     start(tmp_path, language="en")
@@ -61,6 +67,7 @@ def test_an_endless_loop_is_told_with_its_line(tmp_path, name, body, line):
     assert "1.5 秒内没有结束" in said(tmp_path, name, "zh")[1]
 
 
+@pytest.mark.slow
 def test_the_others_are_judged_all_the_same(tmp_path):
     start(tmp_path, language="en")
     right = "return R @ x + p"

@@ -242,6 +242,7 @@ def test_a_complex_step_gives_the_derivative():
     np.testing.assert_allclose(along, quadratic, rtol=0, atol=1e-12 * np.abs(along).max())  # h is quadratic in v
 
 
+@pytest.mark.slow
 def test_thirty_contacts_of_a_long_robot_have_the_rows_of_the_textbook():
     model, (q, v, *_) = BIG_TREE.model, BIG_TREE.state()
     contacts = model.frame_names[-30:]
@@ -249,6 +250,7 @@ def test_thirty_contacts_of_a_long_robot_have_the_rows_of_the_textbook():
     np.testing.assert_allclose(J_c, tw.dynamics(model, q, v, contacts=contacts).J_c, rtol=0, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_the_mass_matrix_is_symmetric_to_the_last_bit():
     for recipe in (BIG_TREE, Recipe(20, seed=7)):
         for batch in ((), (12,)):
