@@ -285,8 +285,8 @@ def calls(taker: Taker) -> Iterator[tuple[str, str, Callable[[], Any]]]:
         if argument in NOT_SWEPT:
             continue
         for words, bad in values(good if good is not None else GOOD.get(argument)):
-            if callable(bad) and argument == "tau":
-                continue  # a policy, whose errors are its own
+            if callable(bad) and argument in ("tau", "stop"):
+                continue  # a function of the caller, whose errors are its own
             yield argument, words, partial(_call, taker, argument, bad)
 
 

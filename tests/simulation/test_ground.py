@@ -178,6 +178,14 @@ def test_no_foot_pulls_leaves_its_cone_or_sinks_and_no_energy_comes_of_it():
     assert max(map(np.max, s.system.stepping.missed)) < 1e-4
 
 
+def test_what_begins_a_little_below_the_ground_is_brought_back_without_being_thrown():
+    q = BOX.neutral()
+    q[2] = HALF[2] - 5e-4
+    s = slide(0.5, np.zeros(6), q=q, steps=2)
+    assert s.q[1:, 2] == pytest.approx(HALF[2], abs=1e-9)
+    assert np.abs(s.v).max() < 1e-9
+
+
 def test_where_no_solver_answers_the_step_is_made_all_the_same(monkeypatch):
     expected = dropped(steps=26)
     monkeypatch.setattr(cones, "least_with_multipliers", lambda A, b, size: None)
