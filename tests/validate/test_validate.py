@@ -500,7 +500,7 @@ def test_every_robot_of_the_catalogue_is_on_both_bases():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("base", ["fixed", "floating"])
-@pytest.mark.parametrize("robot", ["talos_full_v2", "romeo", "icub", "tiago", "human", "iris"])
+@pytest.mark.parametrize("robot", ["romeo", "icub", "iris"])
 def test_robots_of_example_robot_data_pass(robot, base):
     if not any(name == robot for name, _ in sweep.every_robot()):
         pytest.skip("example-robot-data is not installed")
