@@ -9,7 +9,8 @@ import numpy as np
 
 import twistwrench as tw
 from twistwrench.plot.robot import sticks
-from twistwrench.plot.stride import _sides as sides
+from twistwrench.plot.stride import sides
+from twistwrench.study.budget.needs import needs
 
 __all__ = ["trot"]
 
@@ -47,14 +48,14 @@ def stride() -> dict[str, object]:
     """Return one stride: the sticks of each frame, the feet with their forces, in mm, and how far the robot comes."""
     model = tw.load("go2")
     motion = tw.motions.trot(model, samples=FRAMES + 1)
+    forces = needs(model, motion).forces
     frames, arrows = [], []
     for k in range(FRAMES):
         q = motion.q[k]
         at = np.array([q[0], q[1], 0.0])
         frames.append(_millimetres(sticks(model, q) - at))
         feet = [tw.frame_placement(model, q, foot).translation - at for foot in motion.feet]
-        forces = _forces(model, motion, k)
-        arrows.append(_millimetres(np.stack([np.stack([p, p + f / NEWTONS]) for p, f in zip(feet, forces)])))
+        arrows.append(_millimetres(np.stack([np.stack([p, p + f / NEWTONS]) for p, f in zip(feet, forces[k])])))
     length = 1000 * (motion.q[-1, 0] - motion.q[0, 0])
     return {
         "sticks": frames,
@@ -63,13 +64,6 @@ def stride() -> dict[str, object]:
         "length": round(float(length)),
         "seconds": round(float(motion.t[-1]), 3),
     }
-
-
-def _forces(model: tw.Model, motion: tw.motions.Motion, k: int) -> np.ndarray:
-    """Return the least forces at the standing feet that make the base move as it does, in the axes of the world."""
-    J = tw.contact_jacobian(model, motion.q[k], motion.feet) * np.repeat(motion.contacts[k], 3)[:, None]
-    base = tw.rnea(model, motion.q[k], motion.v[k], motion.a[k])[:6]
-    return np.linalg.lstsq(J[:, :6].T, base, rcond=1e-6)[0].reshape(-1, 3)
 
 
 def _millimetres(x: np.ndarray) -> list[int]:

@@ -142,3 +142,12 @@ def test_the_results_are_those_of_today(maker, found):
     for source in kept:  # the trot of the test has a seventh of the states
         if source["kind"] in ("model", "state", "slip"):
             assert source["torque"] == pytest.approx(found[source["name"]].torque, rel=0.2)
+
+
+def test_the_forces_make_the_base_move_as_it_does():
+    """Newton: their sum is m (a_G - g), wherever four, three or two feet stand."""
+    forces = needs(GO2, WALK).forces
+    assert forces.shape == (60, 4, 3)
+    assert np.abs(forces[~WALK.contacts]).max() < 1e-12  # N: the pseudo-inverse rounds
+    acceleration = tw.center_of_mass_acceleration(GO2, WALK.q, WALK.v, WALK.a)
+    np.testing.assert_allclose(forces.sum(axis=1), GO2.mass * (acceleration - GO2.gravity), rtol=0, atol=1e-10)

@@ -13,7 +13,7 @@ from ..model import Model
 from .robot import sticks
 from .style import COLOURS, axes_2d, drawn_number
 
-__all__ = ["side_view"]
+__all__ = ["side_view", "sides"]
 
 MIDDLE = 0.25
 """Nearer to the plane of symmetry than this share of the widest stick, a stick is on neither side."""
@@ -56,7 +56,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     shift = drawn_number(shift, "shift")
     ax = axes_2d(ax, size=(10.0, 2.6))
     lines = sticks(model, q)
-    side = _sides(model)
+    side = sides(model)
     for k in np.argsort(-lines[..., 1].mean(axis=-1)):  # the far ones first
         colour = COLOURS[("grey", "blue", "vermilion")[side[k]]]
         ax.plot(lines[k, :, 0] + shift, lines[k, :, 2], color=colour, linewidth=3, solid_capstyle="round")
@@ -67,7 +67,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     return ax
 
 
-def _sides(model: Model) -> Array:
+def sides(model: Model) -> Array:
     """Return for each stick 1 on the robot's left, −1 on its right, 0 in the middle, as it is in neutral."""
     left = sticks(model, model.neutral())[..., 1].mean(axis=-1)
     return np.asarray(np.sign(left) * (np.abs(left) > 1e-6 + MIDDLE * np.abs(left).max(initial=0)), int)

@@ -27,10 +27,14 @@ class Need(NamedTuple):
         Joint forces beside the least forces at the standing feet, N m or N.
     pressure : ndarray, shape (n, 2)
         Centre of pressure on the level of the feet, m; NaN in flight.
+    forces : ndarray, shape (n, k, 3) or (n, k, 6)
+        Of the ground on each of the k feet, zero to rounding where it does not stand, in the axes of the world: f, or
+        of two feet, which are soles, (τ, f), N m and N.
     """
 
     tau: Array
     pressure: Array
+    forces: Array
 
 
 def needs(model: tw.Model, motion: Motion, *, wrench: Array | None = None, **other: Array) -> Need:
@@ -59,7 +63,8 @@ def needs(model: tw.Model, motion: Motion, *, wrench: Array | None = None, **oth
     feet = [tw.frame_jacobian(model, q, foot, "local_world_aligned")[:, rows].astype(float) for foot in motion.feet]
     J = np.concatenate([J_k * motion.contacts[:, k, None, None] for k, J_k in enumerate(feet)], axis=1)
     least = np.matvec(np.linalg.pinv(J[..., :6].mT, rcond=NEGLIGIBLE), base)
-    return Need(joints - np.matvec(J[..., 6:].mT, least), _pressure(model, motion, q, base))
+    forces = least.reshape(len(q), len(feet), -1)
+    return Need(joints - np.matvec(J[..., 6:].mT, least), _pressure(model, motion, q, base), forces)
 
 
 def _pressure(model: tw.Model, motion: Motion, q: Array, base: Array) -> Array:
