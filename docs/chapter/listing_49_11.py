@@ -26,24 +26,24 @@ def go2_urdf() -> str:
 
 def contact_jacobian(model, data, q):
     """Return the linear rows of all feet, 12 × nv, in the axes of the world."""
-    pin.computeJointJacobians(model, data, q)  # getFrameJacobian reads what this leaves in data [52]
+    pin.computeJointJacobians(model, data, q)  # getFrameJacobian reads what this leaves in data [54]
     pin.updateFramePlacements(model, data)
     ids = [model.getFrameId(foot) for foot in FEET]
-    rows = [pin.getFrameJacobian(model, data, i, pin.LOCAL_WORLD_ALIGNED)[:3] for i in ids]  # 0:3 are linear [51]
+    rows = [pin.getFrameJacobian(model, data, i, pin.LOCAL_WORLD_ALIGNED)[:3] for i in ids]  # 0:3 are linear [53]
     return np.vstack(rows)
 
 
 def errors(model, data, q, v, a, tau):
     """Return the largest error of each of the first six tests."""
-    M = pin.crba(model, data, q).copy()  # symmetric already [34]
-    h = pin.nonLinearEffects(model, data, q, v)  # rnea does not take 0 for a vector [53]
+    M = pin.crba(model, data, q).copy()  # symmetric already [35]
+    h = pin.nonLinearEffects(model, data, q, v)  # rnea does not take 0 for a vector [55]
     found = {"1 rnea = M a + h": pin.rnea(model, data, q, v, a) - (M @ a + h)}
     found["2 aba = M⁻¹ (τ − h)"] = pin.aba(model, data, q, v, tau) - np.linalg.solve(M, tau - h)
 
-    for i in (1, 3, 5):  # joints: 1 is the base with all that is welded to it [22]
+    for i in (1, 3, 5):  # joints: 1 is the base with all that is welded to it [23]
         body = model.inertias[i]
         m, c = body.mass, pin.skew(body.lever)
-        I = np.block([[m * np.eye(3), -m * c], [m * c, body.inertia - m * c @ c]])  # (v, ω) [21]
+        I = np.block([[m * np.eye(3), -m * c], [m * c, body.inertia - m * c @ c]])  # (v, ω) [22]
         found[f"3 inertia of body {i}"] = body.matrix() - I
 
     pin.forwardKinematics(model, data, q, v)
@@ -55,14 +55,14 @@ def errors(model, data, q, v, a, tau):
     h_G = pin.computeCentroidalMomentum(model, data, q, v).vector.copy()
     found["5 h_G = A_G v"] = h_G - pin.computeCentroidalMap(model, data, q) @ v
     pin.centerOfMass(model, data, q, v)
-    found["6 linear momentum"] = h_G[:3] - pin.computeTotalMass(model) * data.vcom[0]  # 0:3 is linear [50]
+    found["6 linear momentum"] = h_G[:3] - pin.computeTotalMass(model) * data.vcom[0]  # 0:3 is linear [52]
     return {name: np.abs(error).max() for name, error in found.items()}
 
 
 def equilibrium(model, data, q):
     """Return the forces of the ground on the feet, 4 × 3, and the torques of the motors."""
     g, J_c = pin.computeGeneralizedGravity(model, data, q), contact_jacobian(model, data, q)
-    forces = np.linalg.lstsq(J_c[:, :6].T, g[:6])[0]  # the rows of the base have no torque of a motor [56]
+    forces = np.linalg.lstsq(J_c[:, :6].T, g[:6])[0]  # the rows of the base have no torque of a motor [58]
     return forces.reshape(4, 3), (g - J_c.T @ forces)[6:]
 
 
@@ -72,7 +72,7 @@ def main() -> None:
     data, rng = model.createData(), np.random.default_rng(49)
     stand = np.r_[pin.neutral(model)[:7], STANDING * 4]
     lower, upper = model.lowerPositionLimit.copy(), model.upperPositionLimit.copy()
-    lower[:3], upper[:3] = -1, 1  # m: the limits of the base are infinite, and so would be q [41]
+    lower[:3], upper[:3] = -1, 1  # m: the limits of the base are infinite, and so would be q [43]
     q = pin.randomConfiguration(model, lower, upper)
     v, a, tau = rng.standard_normal((3, model.nv))
     tau[:6] = 0  # no motor acts on the base

@@ -132,15 +132,15 @@ CHAPTER = DOCS / "chapter"
 LISTING = {
     11: "pin.neutral()",
     13: "SE3.action",
-    21: "Inertia.matrix()",
-    22: "body 0",
-    34: "crba",
-    41: "randomConfiguration",
-    50: "`h_G[3:]`",
-    51: "`J_full[3:, :]`",
-    52: "getFrameJacobian",
-    53: "rnea",
-    56: "Static equilibrium",
+    22: "Inertia.matrix()",
+    23: "body 0",
+    35: "crba",
+    43: "randomConfiguration",
+    52: "`h_G[3:]`",
+    53: "`J_full[3:, :]`",
+    54: "getFrameJacobian",
+    55: "rnea",
+    58: "Static equilibrium",
 }
 """The entries that the comments of the listing name."""
 
