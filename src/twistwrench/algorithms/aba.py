@@ -90,8 +90,7 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
 
     Notes
     -----
-    Section 49.7; Featherstone, RBDA table 7.1. As in `rnea`, wrenches and inertias go inward by
-    X[i]ᵀ, where the chapter's pseudocode writes X*. `articulated_body` has the loops.
+    Section 49.7; Featherstone, RBDA table 7.1. `articulated_body` has the loops.
 
     Examples
     --------

@@ -164,9 +164,8 @@ class Equilibrium:
 def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | None = None) -> Equilibrium:
     """Return the torques and the contact forces that hold a robot with a floating base at rest.
 
-    g(q) = Sᵀ τ + J_cᵀ λ. The six base rows have no τ: they give the contact forces, of all that would
-    do the ones of least norm. The other rows then give the torques. Forces may pull; friction is
-    ignored.
+    g(q) = Sᵀ τ + J_cᵀ λ. The six base rows have no τ and give the contact forces, those of least norm. The other rows
+    then give the torques. Forces may pull; friction is ignored.
 
     Parameters
     ----------
@@ -190,8 +189,7 @@ def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | Non
 
     Notes
     -----
-    Section 49.9, and exercise 49.11.3, where the chapter leaves out Sᵀ τ: least squares over all 18 rows then
-    cannot balance anything.
+    Section 49.9 and exercise 49.11.3, where the chapter leaves out Sᵀ τ.
 
     Examples
     --------

@@ -50,8 +50,7 @@ def subtree(model: Model, q: ArrayLike, frame: str) -> Subtree:
     model : Model
     q : array_like, shape (..., nq)
     frame : str
-        A link or a joint, also one that is welded: then of the body that carries it. That of the root is the whole
-        robot.
+        A link or a joint. A welded link stands for the body that carries it, the root for the whole robot.
 
     Returns
     -------

@@ -132,7 +132,7 @@ class Builder:
         armature : array_like, shape () or (joint.nv,)
             Inertia of the rotor as seen at the joint, kg m² or kg.
         damping, friction : array_like, shape () or (joint.nv,)
-            Kept as `Model.damping` and `Model.friction`; no algorithm applies them.
+            Kept as `Model.damping` and `Model.friction`; only `simulate` by time-stepping applies them.
 
         Raises
         ------

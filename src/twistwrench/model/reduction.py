@@ -101,7 +101,7 @@ class Reduction:
 
 
 def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
-    """Hold some joints of a model where they stand in q, and merge the bodies between which nothing moves any more.
+    """Lock some joints of a model at their values in q, and merge the bodies that no longer move relative to each other.
 
     Parameters
     ----------

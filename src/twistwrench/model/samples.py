@@ -124,8 +124,8 @@ def random_tree(
 ) -> Model:
     """Return a random tree with n joints, to test an algorithm on every case that can occur.
 
-    The axes are oblique and the placements arbitrary; the inertias are those of a few point masses, so that
-    a body could have them. About half of the joints have rotors. Some links are welded on, with and without
+    The axes are oblique and the placements arbitrary; the inertias are those of a few point masses, so they are
+    physical. About half of the joints have rotors. Some links are welded on, with and without
     mass. The names are shuffled: neither links nor joints come in alphabetical order.
 
     Parameters

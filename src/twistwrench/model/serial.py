@@ -1,6 +1,6 @@
 """Arms as textbooks print them: by screw axes (49.2), or by a table of Denavit and Hartenberg (49.3).
 
-Either says all about the placements of a chain, and nothing about its masses: these come beside it.
+Either determines all placements of a chain, but not its masses, which are given separately.
 """
 
 from __future__ import annotations

@@ -33,21 +33,19 @@ def load(
 ) -> Model:
     """Load a robot of the catalogue, or a URDF: a file, or its text.
 
-    Masses, centres of mass, inertias, joints and limits are read; meshes are not, and need not exist. Links
-    welded by fixed joints are merged and stay as frames: every link and every joint of the file is one. A link
-    without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own by default; damping and
-    friction are kept as `Model.damping` and `Model.friction`, and no algorithm applies them.
+    Meshes are not read, and need not exist. Links welded by fixed joints are merged; every link and every joint of
+    the file remains as a frame. A link without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own
+    by default. Of all functions only `simulate` by time-stepping applies damping and friction.
 
-    A violation of the format with a single possible meaning is read, and listed in `Model.report`. Elements without
-    influence on the dynamics (shapes, limits, sensors, elements that are not URDF's) never raise; ambiguity (an
-    incomplete ``<inertial>``, ``xzy`` in an ``<axis>``, a cycle) is an error.
+    If an entry violates the format but has a single possible meaning, it is read, and `Model.report` lists it.
+    Elements that do not affect the dynamics never raise. Ambiguity (an incomplete ``<inertial>``, ``xzy`` in an
+    ``<axis>``, a cycle) is an error.
 
     Parameters
     ----------
     source : str or path
-        A name of `twistwrench.robots`, a path to a ``.urdf``, or the text of one, which begins with ``<``. Where both
-        packages have a robot of one name, the plain name is the one of this package; ``"example-robot-data/go2"`` is
-        the other.
+        A name of `twistwrench.robots`, a path to a ``.urdf``, or the text of one, which begins with ``<``. If both
+        packages have a robot of that name, it is this package's; ``"example-robot-data/go2"`` is the other.
     base : {"fixed", "floating"}, optional
         Whether the root link is welded to the world or flies freely (joint 1, ``"root_joint"``). A robot of the
         catalogue has its own default; a file is loaded with a fixed base.

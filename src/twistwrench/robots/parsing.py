@@ -200,7 +200,7 @@ def _dynamics(joint: Element) -> dict[str, float]:
         if value < 0:
             element.remark(f"{key} {value:g}", "none")
         elif value > 0:
-            element.remark(f"{key} {value:g}", f"model.{key}, which no algorithm applies", warns=False)
+            element.remark(f"{key} {value:g}", f"model.{key}, applied by time-stepping only", warns=False)
     return {key: value for key, value in found.items() if value > 0}
 
 

@@ -118,9 +118,9 @@ def vee(M: ArrayLike) -> Array:
 def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None = None, noise: float = 0.0) -> Screw:
     """Axis, point, pitch and magnitude of a twist or a wrench (sections 49.2 and 49.4).
 
-    Of a twist: axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|², magnitude |ω|. Without rotation the axis is v/|v|, the
-    pitch infinite and the magnitude |v|; every parallel line would do, so the point is the origin.
-    Of a wrench the same, with f for ω and τ for v. The point is only as certain as v divided by |ω|: an error of
+    A twist has the axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|² and magnitude |ω|. Without rotation the axis is v/|v|,
+    the pitch infinite and the magnitude |v|; any parallel line will do, so the point is the origin.
+    For a wrench, read f for ω and τ for v. The error of the point is that of v divided by |ω|: an error of
     1e-16 m/s in v moves the axis of a twist with 1e-8 rad/s by 1e-8 m.
 
     Parameters
@@ -130,9 +130,8 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     of : {"twist", "wrench"}, optional
         What a plain array is; a twist by default. A Twist or a Wrench needs no `of`.
     noise : float
-        By how much ω may be wrong, rad/s, or f, N. Where it is no longer than that, it is taken as zero: a
-        translation or a couple is left, of infinite pitch. ω computed from sums of terms of 1 rad/s is
-        wrong by some 1e-16.
+        By how much ω, rad/s, or f, N, may be wrong. If it is no longer than that, it is taken as zero: a translation
+        or a couple of infinite pitch is left. If ω is a sum of terms of 1 rad/s, it is wrong by about 1e-16.
 
     Returns
     -------

@@ -64,7 +64,7 @@ class Loss(NamedTuple):
 def losses(
     model: tw.Model, motion: Motion, *, rounds: int = 7, after_round: Callable[[], object] = lambda: None
 ) -> Iterator[Loss]:
-    """Hold every template against the full model over a motion, and time them in turns.
+    """Compare every template with the full model over a motion, and time them in turns.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def add_templates(studies: Any) -> None:
     parser = studies.add_parser(
         "templates",
         help="what point mass, pendulum and rigid body leave out of a walk, a trot and a jump",
-        description="Make a walk, a trot and a jump of each robot, hold every template against the full model over "
+        description="Make a walk, a trot and a jump of each robot, compare every template with the full model over "
         "each, and time them in turns.",
     )
     parser.add_argument("robot", nargs="*", default=list(ROBOTS), metavar="ROBOT", help=f"({' '.join(ROBOTS)})")

@@ -66,7 +66,7 @@ def trace(
     Returns
     -------
     Trace
-        A table by `print`, a tree by ``tree()``, line by line in a notebook; ``rows`` and ``steps`` hold the arrays.
+        `print` shows a table, ``tree()`` a tree, a notebook line by line; ``rows`` and ``steps`` hold the arrays.
 
     Raises
     ------

@@ -42,7 +42,7 @@ def validate(
     fast: bool = False,
     progress: bool = False,
 ) -> Report:
-    """Hold every quantity of the chapter against Pinocchio and against the 50-digit truth.
+    """Compare every quantity of the chapter with Pinocchio and with the 50-digit reference.
 
     Parameters
     ----------
@@ -54,15 +54,14 @@ def validate(
     states : int
         Number of random states; ours is computed for all of them in one batch.
     truths : int
-        At how many of them the truth is computed in any case. Where ours and Pinocchio differ by more
-        than the bound, it is computed as well.
+        At how many of them the reference is always computed. It is also computed where ours and Pinocchio differ
+        by more than the bound.
     frames : int
         At most so many frames' Jacobians are compared: of the feet, then of other tips of the tree.
     rng : numpy Generator or int
         Where the states come from. The same seed gives the same report, but for the time.
     fast : bool
-        Hold what `twistwrench.fast` computes instead, the first state alone and the others in a batch: the rows
-        that it has.
+        Compare the functions of `twistwrench.fast` instead: the first state by itself, the others in a batch.
     progress : bool
         Show a bar on stderr.
 

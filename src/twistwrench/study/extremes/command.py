@@ -22,7 +22,7 @@ def add_extremes(studies: Any) -> None:
     parser = studies.add_parser(
         "extremes",
         help="where digits are lost: one thing at its limit at a time, and every two of them",
-        description="Hold every algorithm against the truth in 50 digits where robots and states are extreme, "
+        description="Compare every algorithm with a reference in 50 digits where robots and states are extreme, "
         "and count the digits kept. Exit status 1 where a way of ours gives a NaN, a warning, or a number where "
         "none is right.",
     )
