@@ -101,7 +101,7 @@ class Reduction:
 
 
 def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
-    """Lock some joints of a model at their values in q, and merge the bodies that no longer move relative to each other.
+    """Lock some joints of a model at their values in q, and merge the bodies that no longer move against each other.
 
     Parameters
     ----------
