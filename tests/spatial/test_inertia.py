@@ -193,12 +193,15 @@ def test_inertias_of_a_list_sum():
         1 + parts[0]
 
 
-def test_two_halves_make_the_whole_rod():
+def test_two_halves_make_the_whole_rod_and_the_whole_without_one_is_the_other():
     m, l = 2.0, 1.0
     half = SpatialInertia(m / 2, [0, 0, 0], np.diag([1, 1, 0]) * (m / 2) * (l / 2) ** 2 / 12)
-    whole = half.transform(SE3(np.eye(3), [0, 0, l / 4])) + half.transform(SE3(np.eye(3), [0, 0, 3 * l / 4]))
+    lower, upper = (half.transform(SE3(np.eye(3), [0, 0, z])) for z in (l / 4, 3 * l / 4))
+    whole = lower + upper
     np.testing.assert_allclose(whole.inertia_at_com, np.diag([1, 1, 0]) * m * l**2 / 12, rtol=1e-15)
     np.testing.assert_allclose(whole.com, [0, 0, l / 2], rtol=1e-15)
+    np.testing.assert_allclose((whole - upper).inertia_at_com, half.inertia_at_com, rtol=1e-14, atol=1e-17)
+    np.testing.assert_allclose((whole - upper).com, [0, 0, l / 4], rtol=1e-15)
 
 
 def test_a_sum_far_from_the_origin_keeps_the_inertia_about_its_centre_of_mass():
