@@ -25,7 +25,7 @@ def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(20)
+@examples(8)
 def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(recipe):
     check_against_the_truth(recipe, np.float64)
 
@@ -56,7 +56,7 @@ def test_every_quantity_is_pinocchios(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(400)
+@examples(200)
 def test_every_quantity_is_pinocchios_at_length(recipe):
     check_against_pinocchio(recipe)
 
