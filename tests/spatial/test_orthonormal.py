@@ -7,7 +7,7 @@ import pytest
 import twistwrench as tw
 from twistwrench.arrays import conversion as checks
 from twistwrench.model import state
-from twistwrench.spatial import rotation
+from twistwrench.spatial import rotation, rpy_to_rotation
 from twistwrench.spatial._elementary import series
 
 BITS_113 = 2.0**-112
@@ -53,6 +53,14 @@ def test_it_keeps_the_number_type_and_what_is_right_already(dtype):
     assert abs(repaired.T @ repaired - np.eye(3, dtype=dtype)).max() <= 4 * np.finfo(dtype).eps
     widened = tw.nearest_rotation(tw.exp3([0.3, -0.2, 0.1]).astype(np.longdouble))
     assert abs(widened.T @ widened - np.eye(3)).max() <= 4 * np.finfo(np.longdouble).eps
+
+
+def test_it_ends_where_rounding_gains_an_ulp_with_every_step():
+    """Near the gimbal lock of roll and yaw, entries of 1e-7 next to 1: a billion steps of one ulp each."""
+    for away in 10.0 ** -np.arange(5, 17):
+        R = rpy_to_rotation(np.stack([x := np.linspace(-3, 3, 200), 0 * x + np.pi / 2 - away, 2 - x], axis=-1))
+        repaired = tw.nearest_rotation(R)
+        np.testing.assert_allclose(repaired, R, rtol=0, atol=1e-15)
 
 
 def test_a_complex_step_differentiates_the_nearest_rotation():

@@ -7,7 +7,8 @@ file            section  what it holds
 ==============  =======  ==============================================================================
 _elementary              functions of one number that lose no digits
 orthonormal     49.2     `nearest_rotation`, and the test whether a matrix is a rotation
-rotation        49.2     `skew` [ω]×, `exp3`, `log3`; quaternions, roll, pitch and yaw
+rotation        49.2     `skew` [ω]×, `exp3`, `log3`; quaternions
+roll_pitch_yaw  49.2     URDF's three angles, back from a rotation, and their rates
 _quaternions    49.2     steps by quaternions, and rotations as fractions
 _physical       49.5     which inertias a body can have
 _vector                  what twists and wrenches share
@@ -31,7 +32,8 @@ from .inertia import SpatialInertia
 from .jacobians import Jexp3, Jexp6, Jlog3, Jlog6
 from .orthonormal import check_rotation, nearest_rotation
 from .plucker import SE3, force_transform, motion_transform
-from .rotation import exp3, log3, quaternion_to_rotation, rotation_to_quaternion, rpy_to_rotation, skew, unskew
+from .roll_pitch_yaw import rotation_to_rpy, rpy_jacobian, rpy_to_rotation
+from .rotation import exp3, log3, quaternion_to_rotation, rotation_to_quaternion, skew, unskew
 from .twist import Screw, Twist, hat, screw, vee
 from .wrench import Wrench, power
 
@@ -60,6 +62,8 @@ __all__ = [
     "power",
     "quaternion_to_rotation",
     "rotation_to_quaternion",
+    "rotation_to_rpy",
+    "rpy_jacobian",
     "rpy_to_rotation",
     "screw",
     "skew",

@@ -18,8 +18,8 @@ NEAR = 0.1
 def nearest_rotation(R: ArrayLike) -> Array:
     """Rotation nearest to a matrix that is a rotation but for rounding (section 49.2).
 
-    Newton's step R ← R (3 − RᵀR)/2 doubles the number of digits to which RᵀR is 1; it is repeated until rounding
-    leaves nothing to gain. The limit is the orthogonal factor of the polar decomposition, which of all rotations
+    Newton's step R ← R (3 − RᵀR)/2 doubles the number of digits to which RᵀR is 1; it is repeated as long as it
+    halves what is off. The limit is the orthogonal factor of the polar decomposition, which of all rotations
     has the least sum of squared differences from R.
 
     Parameters
@@ -51,7 +51,7 @@ def nearest_rotation(R: ArrayLike) -> Array:
     while True:
         nearer = R @ (3 * np.eye(3, dtype=R.dtype) - R.mT @ R) / 2
         left = largest(_defect(nearer), 2)
-        better = left < off
+        better = left < off / 2  # rounding can gain an ulp a step for ever
         if not better.any():
             return R.real + 1j * nearer.imag if R.dtype.kind == "c" else R  # the derivative of a complex step, too
         R, off = np.where(better[..., None, None], nearer, R), np.where(better, left, off)

@@ -5,7 +5,7 @@ and only an angle that is exactly zero is a case of its own. Complex arguments p
 analytically, so that a complex step differentiates every function of this file.
 
 The public functions check their arguments and call a formula each, named after the matrix that it
-returns (`cross_matrix`, `quaternion_matrix`, `rpy_matrix`): arithmetic on arrays of any number type, objects
+returns (`cross_matrix`, `quaternion_matrix`): arithmetic on arrays of any number type, objects
 included, without comparisons. The recursions call the formulas only.
 """
 
@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, as_number_array, check_overflow, judged, tolerance
 from ..errors import ShapeError, SingularError
-from ._elementary import at_first_index, atan2, cos, largest, length, sin, sinc
+from ._elementary import at_first_index, atan2, largest, length, sinc
 from .orthonormal import check_rotation
 
 __all__ = [
@@ -24,7 +24,6 @@ __all__ = [
     "log3",
     "quaternion_to_rotation",
     "rotation_to_quaternion",
-    "rpy_to_rotation",
     "skew",
     "unskew",
 ]
@@ -224,44 +223,6 @@ def rotation_to_quaternion(R: ArrayLike) -> Array:
     row = np.take_along_axis(Q, k[..., None], axis=-2)[..., 0, :]
     q = row / (2 * np.sqrt(np.take_along_axis(squares, k, axis=-1)))
     return np.asarray(np.where(q[..., 3:].real < 0, -q, q))
-
-
-def rpy_to_rotation(rpy: ArrayLike) -> Array:
-    """Rotation matrix of URDF's roll, pitch, yaw: Rz(yaw) Ry(pitch) Rx(roll).
-
-    Parameters
-    ----------
-    rpy : array_like, shape (..., 3)
-        Roll, pitch and yaw, rad: turns about the fixed x, y and z axes, in this order.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 3 long.
-
-    Examples
-    --------
-    >>> rpy_to_rotation([np.pi / 2, 0, 0]).round(15) + 0.0
-    array([[ 1.,  0.,  0.],
-           [ 0.,  0., -1.],
-           [ 0.,  1.,  0.]])
-    """
-    return rpy_matrix(as_number_array(rpy, "rpy", 3))
-
-
-def rpy_matrix(rpy: Array) -> Array:
-    """Return Rz(yaw) Ry(pitch) Rx(roll): the formula of `rpy_to_rotation`."""
-    (cr, cp, cy), (sr, sp, sy) = np.moveaxis(cos(rpy), -1, 0), np.moveaxis(sin(rpy), -1, 0)
-    rows = [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
 def turn_matrix(w: Array) -> Array:
