@@ -27,7 +27,7 @@ EQUALITIES = {
 IMPEDANCES = [0.9, 0.99, 0.999, 0.9999]
 
 
-def link(name, mass, pos="0 0 -0.4", type="hinge", axis="0 1 0", inside=""):  # noqa: A002
+def link(name, mass, pos="0 0 -0.4", type="hinge", axis="0 1 0", inside=""):
     return LINK.format(name=name, mass=mass, pos=pos, type=type, axis=axis, inside=inside)
 
 
