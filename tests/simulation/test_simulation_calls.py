@@ -236,7 +236,7 @@ def test_the_summary_of_a_flight_has_momenta_without_that_of_the_weight():
     model = tw.load("go2")
     s = tw.simulate(model, model.standing(), np.zeros(model.nv), dt=0.1, steps=5)
     rows = str(s).splitlines()
-    assert len(rows) == 4
+    assert len(rows) == 5
     assert float(rows[3].split("at most ")[1].split()[0]) < 1e-11
     assert np.abs(s.momentum[-1, 5]) > 70  # which grows by m g t
     assert "a batch of (2,)" in str(tw.simulate(model, [model.standing()] * 2, np.zeros(model.nv), dt=0.1, steps=1))
@@ -415,3 +415,40 @@ def test_the_table_of_the_page_names_the_methods_with_their_orders():
 def test_a_name_is_no_robot_yet():
     with pytest.raises(TypeError, match=r"robot: expected a Model or a Scene, got the str 'pendulum'"):
         tw.simulate("pendulum", [0.0], [0.0], dt=0.01, steps=1)
+
+
+# ---------------------------------------------------------------- what is left out, and what an interrupt leaves
+
+
+def test_a_smooth_method_says_that_it_leaves_out_damping_and_dry_friction_and_time_stepping_applies_them():
+    rough = replace(PENDULUM, damping=np.array([0.2]), friction=np.array([0.05]))
+    s = tw.simulate(rough, [0.3], [1.0], dt=0.01, steps=20)
+    left_out = {r.kind: r for r in s.remarks}
+    assert left_out["damping"].value == 0.2 * np.abs(s.v).max()
+    assert left_out["friction"].value == 0.05
+    assert "'time-stepping'" in str(s)
+    assert (s.q == tw.simulate(PENDULUM, [0.3], [1.0], dt=0.01, steps=20).q).all()
+    braked = tw.simulate(rough, [0.3], [1.0], dt=0.01, steps=20, method="time-stepping")
+    assert not {"damping", "friction"} & {r.kind for r in braked.remarks}
+    assert not tw.simulate(rough, [0.3], [0.0], dt=0.01, steps=0).remarks  # it has not moved
+
+
+@pytest.mark.parametrize("stopped_by", [KeyboardInterrupt, ZeroDivisionError])
+@pytest.mark.parametrize("ground", [None, tw.Ground(-5.0)])
+def test_what_was_made_before_an_interrupt_is_kept(stopped_by, ground):
+    def policy(t, q, v):
+        if t > 0.1:
+            raise stopped_by
+        return [0.5]
+
+    with pytest.raises(stopped_by) as caught:
+        tw.simulate(PENDULUM, [0.3], [1.0], dt=0.01, steps=100, tau=policy, dt_control=0.01, ground=ground)
+    whole = tw.simulate(PENDULUM, [0.3], [1.0], dt=0.01, steps=11, tau=[0.5], ground=ground)
+    assert (caught.value.motion.q == whole.q[: len(caught.value.motion.q)]).all()
+    assert len(caught.value.motion.tau) == len(caught.value.motion.q) - 1 >= 10
+
+
+def test_the_error_of_a_step_is_printed_unless_it_cannot_be_told():
+    s = tw.simulate(PENDULUM, [2.0], [0.0], dt=0.01, steps=10)
+    assert f"a step is off by up to {s.step_error(5)[0]:.1e} in q" in str(s)
+    assert "a step" not in str(tw.simulate(PENDULUM, [2.0], [0.0], dt=0.01, steps=0))

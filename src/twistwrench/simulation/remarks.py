@@ -13,7 +13,7 @@ from ..contact import Contact, PointContact, SurfaceContact
 from ..model import Model
 from .stepping import TimeStepping
 
-__all__ = ["Remark", "of_contacts", "of_ground", "of_joints"]
+__all__ = ["Remark", "of_contacts", "of_ground", "of_joints", "of_left_out"]
 
 LOOSE = 1e-9
 """Relative to what is allowed, or in rad and m: rounding stays below."""
@@ -34,6 +34,8 @@ SENTENCES = {
     "effort": "the motor of joint {name!r} gives {value:.4g} N m or N; it can {limit:.4g}",
     "lift-off": "contact {name!r} leaves the ground",
     "slide": "contact {name!r} slides, at {value:.4g} m/s",
+    "damping": "joint {name!r} has damping, here up to {value:.4g} N m or N, which only 'time-stepping' applies",
+    "friction": "joint {name!r} has dry friction, {value:.4g} N m or N, which only 'time-stepping' applies",
 }
 
 
@@ -46,7 +48,8 @@ class Remark(NamedTuple):
         When, s.
     kind : str
         "pull", "slip", "tip" of a contact that sticks, "sunk" of a body below all of them; "range", "speed", "effort"
-        of a joint; "lift-off", "slide" of a contact on a ground.
+        of a joint; "lift-off", "slide" of a contact on a ground; "damping", "friction" of a joint that moves, which
+        only time stepping applies; the value is the largest that was left out.
     name : str
         Of the frame of the contact, or the joint.
     value, limit : float
@@ -82,6 +85,15 @@ def of_joints(model: Model, t: Array, q: Array, v: Array, tau: Array) -> Iterato
             yield from first(t, "range", name, q[..., at_q], model.lower[at_q], -1.0)
         yield from first(t, "speed", name, np.abs(v[..., at_v]), model.velocity_limit[at_v])
         yield from first(t, "effort", name, np.abs(tau[..., at_v]), model.effort_limit[at_v])
+
+
+def of_left_out(model: Model, t: Array, v: Array) -> Iterator[Remark]:
+    """Yield the joints that moved as if they had no damping or no dry friction, which the file gives them."""
+    for name, joint, at in zip(model.joint_names, model.joints, model.v_slice):
+        if joint is not None:
+            braked = model.damping[at] * np.abs(v[..., at]), model.friction[at] * (v[..., at] != 0)
+            for kind, value in zip(("damping", "friction"), braked):
+                yield from (r._replace(value=float(value.max())) for r in first(t, kind, name, value, 0.0))
 
 
 def of_contacts(

@@ -11,13 +11,17 @@ import numpy as np
 from ..algorithms.centroidal import center_of_mass, centroidal_momentum
 from ..algorithms.energy import kinetic_energy, potential_energy
 from ..arrays import Array, as_count
-from ..errors import check_known
+from ..errors import SingularError, check_known
 from ..model import Model
+from .divergence import DivergenceError
 from .methods import METHODS
-from .remarks import Remark, of_contacts, of_ground, of_joints
+from .remarks import Remark, of_contacts, of_ground, of_joints, of_left_out
 from .system import System
 
 __all__ = ["Simulation"]
+
+ASKED = 5
+"""Steps that are made again where a motion is printed."""
 
 LABELS = {
     "energy": "change of the energy [J]",
@@ -98,14 +102,14 @@ class Simulation:
         """What a real robot would not have done, or not without being noticed, the first time of each, in time order.
 
         A contact that sticks and pulls, would slip or tip; a body below all contacts; a joint beyond its range or its
-        speed, a motor beyond its limit; on a ground, a contact that leaves it or slides.
+        speed, a motor beyond its limit; on a ground, a contact that leaves it or slides; damping and friction of a
+        joint, which only time stepping applies.
         """
         system, stepping = self.system, self.system.stepping
         found = [*of_joints(self.model, self.t, self.q, self.v, self.tau)]
         if self.contact_forces and stepping is None:
             found += of_contacts(self.model, self.t, self.q, system.contacts, self.contact_forces)
-        if stepping is not None:
-            found += of_ground(stepping, self.t)
+        found += of_left_out(self.model, self.t, self.v) if stepping is None else of_ground(stepping, self.t)
         return tuple(sorted(found))
 
     def step_error(self, samples: int = 20) -> tuple[float, float]:
@@ -158,11 +162,20 @@ class Simulation:
         if self.system.stepping is not None and self.contact_forces:
             missed = np.max(self.system.stepping.missed, initial=0)
             lines.append(f"  no contact pulls or leaves its cone; Coulomb's law is missed by at most {missed:.1e} m/s")
+        lines += self._step_error_line()
         kinds: dict[str, list[Remark]] = {}
         for remark in self.remarks:
             kinds.setdefault(remark.kind, []).append(remark)
         lines += [f"  {same[0]}" + f" ({len(same) - 1} more)" * (len(same) > 1) for same in kinds.values()]
         return "\n".join(lines)
+
+    def _step_error_line(self) -> list[str]:
+        """Return what is printed of the error of a step; nothing where a half step has no solution."""
+        try:
+            dq, dv = self.step_error(ASKED)
+        except (DivergenceError, SingularError):
+            return []
+        return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {ASKED}: see step_error)"] * bool(len(self.tau))
 
     def plot(self, ax: Any = None, *, what: str = "energy") -> Any:
         """Draw a quantity over time; of a batch, of every item.

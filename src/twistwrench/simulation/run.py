@@ -96,15 +96,16 @@ def simulate(
     -------
     Simulation
         t, q, v, energy and momentum, τ and the forces at the contacts as they were applied; printed, how far energy and
-        momentum changed.
+        momentum changed, how far a step is off, and what a real robot would not have done. Where the motion ends by an
+        error, whatever it is, or by Ctrl-C, ``error.motion`` is what has been made of it.
 
     Raises
     ------
     DivergenceError
         If the motion leaves all bounds, or the equation of a variational step cannot be solved. The message names the
-        time and the joint; ``error.motion`` is the motion until then.
+        time and the joint.
     SingularError
-        As `aba` and `contact_forward_dynamics`, with the time and the motion.
+        As `aba` and `contact_forward_dynamics`, with the time.
     NameNotFound
         If there is no such method, or no frame of a contact.
     ShapeError, ValueError
@@ -162,8 +163,8 @@ def simulate(
 
     try:
         _loop(made, system, step, t0, _bar(count, progress), stop)
-    except (DivergenceError, SingularError) as error:
-        error.motion = _motion(made, system, name, t0, perf_counter() - start, failed=True)
+    except (Exception, KeyboardInterrupt) as error:
+        error.motion = _motion(made, system, name, t0, perf_counter() - start, failed=True)  # type: ignore[union-attr]
         raise
     return _motion(made, system, name, t0, perf_counter() - start)
 
@@ -171,7 +172,8 @@ def simulate(
 def _motion(made: Made, system: System, name: str, t0: float, seconds: float, *, failed: bool = False) -> Simulation:
     """Return what has been made of a motion."""
     qs, vs = (np.stack([state[i] for state in made.states]) for i in (0, 1))
-    taus, t = np.array(made.taus, vs.dtype).reshape(len(vs) - 1, *vs.shape[1:]), t0 + np.arange(len(vs)) * system.dt
+    taus = np.array(made.taus[: len(vs) - 1], vs.dtype).reshape(len(vs) - 1, *vs.shape[1:])
+    t = t0 + np.arange(len(vs)) * system.dt
     stepper = system.stepping
     forces = stepper.contact_forces(qs[:-1]) if stepper else made.forces(system, float(t[-1]), failed)
     return Simulation(system, name, t, qs, vs, taus, forces, system.evaluations, seconds)
@@ -191,7 +193,7 @@ class Made:
             return {}
         q, v = (x.copy() for x in self.states[-1])
         try:
-            held = [*self.held, self.held[-1] if failed else system.held_last(t, q, v)]
+            held = [*self.held, self.held[-1] if failed else system.held_last(t, q, v)][: len(self.states)]
         except SingularError as error:
             raise SingularError(f"the end, t = {t:.6g} s: {error}") from error
         return {c.frame: np.stack([at[c.frame] for at in held]) for c in system.contacts}
@@ -207,9 +209,9 @@ def _loop(made: Made, system: System, step: Step, t0: float, counter: Iterable[i
             refuse_divergence(system.model, "v", v, dt=system.dt)
         except (DivergenceError, SingularError) as error:
             raise type(error)(f"step {k + 1}, from t = {t:.6g} s: {error}") from error
-        made.states.append((q, v))
         made.taus.append(system.tau)
         made.held.append(system.forces)
+        made.states.append((q, v))  # last: where the motion is interrupted, so many states count
         if stop is not None and stop(t + system.dt, q.copy(), v.copy()):
             break
 
