@@ -18,8 +18,8 @@ from .report import Report
 __all__ = ["attach", "replace_inertia"]
 
 
-def attach(model: Model, other: Model, frame: str, *, placement: SE3 | None = None, prefix: str = "") -> Model:
-    """Weld the base of another model to a frame: a gripper to an arm, an arm to a mobile base.
+def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | None = None, prefix: str = "") -> Model:
+    """Weld the base of another model to a frame: a gripper to an arm, an arm to a mobile base; or let it float beside.
 
     Parameters
     ----------
@@ -27,18 +27,19 @@ def attach(model: Model, other: Model, frame: str, *, placement: SE3 | None = No
     other : Model
         With a floating base, whose root link is welded on. (A model with a fixed base has dropped the mass of its root,
         which never moved: ``tw.load(file, base="floating")`` keeps it.)
-    frame : str
-        Of `model`.
+    frame : str or None
+        Of `model`. None for what is not welded, and floats in the same world: two robots in one model.
     placement : SE3, optional
-        Of the root link of `other` in that frame; the identity unless given.
+        Of the root link of `other` in that frame, or of where its base is at zero in the world; the identity unless
+        given.
     prefix : str
         Put before every name of `other`, so that two hands can hang on one robot.
 
     Returns
     -------
     Model
-        Its q is that of `model`, then that of `other` without its base, and so is its v; the gravity is that of
-        `model`. Named postures go on with the neutral configuration of `other`.
+        Its q is that of `model`, then that of `other`, without its base if that is welded, and so is its v; the gravity
+        is that of `model`. Named postures go on with the neutral configuration of `other`.
 
     Raises
     ------
@@ -70,12 +71,13 @@ def attach(model: Model, other: Model, frame: str, *, placement: SE3 | None = No
     check_kind(placement, "placement", SE3, "an SE3")
     if other.base != "floating":
         raise ModelError("other: expected a floating base: a fixed one has dropped the mass of its root link")
-    carrier, n = model.frame(frame), model.nbodies - 1
+    carrier, n = Frame(0, SE3.identity()) if frame is None else model.frame(frame), model.nbodies - 1
     at, root, taken = carrier.placement @ placement, prefix + other.joint_names[1], {*model.joint_names, *model.frames}
     while root in taken:
         root += "_"
     frames = {prefix + name: Frame(f.body + n, f.placement) for name, f in other.frames.items() if f.body > 0}
-    frames.pop(prefix + other.joint_names[1], None)  # its joint is gone
+    of_root = frames.pop(prefix + other.joint_names[1], None)  # where it is welded, its joint is gone
+    frames |= {root: of_root} if of_root is not None and frame is None else {}
     names = [prefix + name for name in other.joint_names[2:]]
     if clash := sorted(taken & {*names, *frames}):
         raise ModelError(f"the name {clash[0]!r} is taken in model {model.name!r}: prefix= keeps the two apart")
@@ -94,7 +96,7 @@ def attach(model: Model, other: Model, frame: str, *, placement: SE3 | None = No
         report=Report([*model.report, *other.report]),
         **limits,
     )
-    return lock_joints(whole, [root], whole.neutral()).model
+    return lock_joints(whole, [root], whole.neutral()).model if frame is not None else whole
 
 
 def replace_inertia(model: Model, frame: str, inertia: SpatialInertia, *, physical: bool = True) -> Model:

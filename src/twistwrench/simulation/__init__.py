@@ -7,6 +7,7 @@
 - `tangent`: what the exponential map does to rates and momenta.
 - `stepping`: the method with a ground, a convex programme per step; start there for contact in time.
 - `cones`: Coulomb's law for one step.
+- `held`: loops, couplings and rails beside the cones.
 - `passive`: damping, dry friction and ranges of joints.
 - `ground`: the ground and the points that may touch it.
 - `system`: the forces of the policy, the contacts, and the acceleration.

@@ -44,15 +44,20 @@ SWEEPS = 200
 
 
 class Metric:
-    """The metric in which velocities are near each other: kinetic energy, M = L Lᵀ."""
+    """The metric in which velocities are near each other: kinetic energy, M = L Lᵀ.
 
-    def __init__(self, M: Array) -> None:
+    `held`, orthonormal columns in units of Lᵀ v, is what no impulse changes.
+    """
+
+    def __init__(self, M: Array, held: Array | None = None) -> None:
         try:
             self.inverse = np.linalg.inv(np.linalg.cholesky(M))
         except np.linalg.LinAlgError:
             self.inverse = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
         if not np.isfinite(self.inverse).all():
             raise SingularError("the mass matrix is not positive definite")
+        if held is not None:
+            self.inverse = self.inverse - held @ (held.mT @ self.inverse)
 
     def respond(self, impulse: Array) -> Array:
         """Return M⁻¹ times an impulse."""
@@ -127,6 +132,8 @@ class Answer:
     """(k, 2), 0 where nothing touches, m/s."""
     missed: float
     """How far the normal velocity of a point that touches is from its bound: what is left of the artefact, m/s."""
+    total: Array
+    """The generalized impulse of all of them, shape (nv,)."""
 
 
 def edges(mu: Array, slide: Array) -> Array:
@@ -147,8 +154,8 @@ def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
     rays = edges(mu, np.where(shift[:, None] > 0, slide, free[:, :2])).reshape(k * SIDES, 3)
     at = np.repeat(np.arange(k), SIDES)
     for made in range(ROUNDS):
-        G, c = np.matvec(J[at].mT, rays), bound[at] - shift[at]
-        after, u = metric.nearest(v, np.concatenate([others[0], G]), np.concatenate([others[1], c]))
+        G = np.concatenate([others[0], np.matvec(J[at].mT, rays)])
+        after, u = metric.nearest(v, G, np.concatenate([others[1], bound[at] - shift[at]]))
         impulse = np.zeros((k, 3))
         np.add.at(impulse, at, u[size:, None] * rays)
         moves = J @ after
@@ -164,4 +171,4 @@ def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         edge[:, :2] = -mu[cut, None] * slide[cut] / speed[cut, None]
         rays, at = np.concatenate([rays, edge]), np.concatenate([at, cut])
     slides = touches & (speed > SETTLED * fastest)
-    return Answer(after, impulse, u[:size], np.where(slides[:, None], slide, 0), float(missed))
+    return Answer(after, impulse, u[:size], np.where(slides[:, None], slide, 0), float(missed), u @ G)

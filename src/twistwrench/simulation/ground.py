@@ -75,9 +75,9 @@ class Ground:
 
 
 def check_normals(contacts: Sequence[Contact], ground: Ground) -> None:
-    """Raise for a contact that is not a point or sole at rest, or whose normal is not the ground's."""
+    """Raise for what may touch and is not a point or sole at rest, or whose normal is not the ground's."""
     for c in contacts:
-        if c.dim not in (3, 6) or not c.pushes or c.velocity or c.acceleration:
+        if c.pushes and (c.dim not in (3, 6) or c.velocity or c.acceleration):
             raise ValueError(
                 f"contact {c.frame!r}: with ground=, expected points and soles on a ground at rest, got {c!r}"
             )

@@ -22,7 +22,7 @@ def time_stepping(system: System, t: float, q: Array, v: Array) -> tuple[Array, 
     """Make one step with what may touch."""
     if system.stepping is None:
         raise TypeError("a system without what may touch cannot be stepped so")
-    return system.stepping.step(system.force(t, q, v), q, v)
+    return system.stepping.step(system.force(t, q, v), q, v, system.since(t))
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Method:
     keeps : str
         What it keeps of the laws of mechanics, at any dt.
     contacts : bool
-        Whether it can let contacts stick.
+        Whether it can let points and soles stick.
     """
 
     title: str

@@ -8,6 +8,7 @@ end of a range is a row like that of a contact point: it pushes back, and never 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -87,4 +88,4 @@ class Joints:
             slides = np.where(total > most + loose, -1.0, np.where(total < -most - loose, 1.0, slides))
             if (slides == before).all():
                 break
-        return found
+        return replace(found, total=found.total + braking)

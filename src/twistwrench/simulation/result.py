@@ -159,7 +159,7 @@ class Simulation:
             lines.append(f"  {name} changes by at most {largest:.2e} {unit}, in the end by {last:.2e} {unit}")
         if self.tau.any() and not batch:
             lines.append(f"  the joint forces put in {self.work[-1]:.3g} J")
-        if self.system.stepping is not None and self.contact_forces:
+        if self.system.stepping is not None and self.system.stepping.contacts:
             missed = np.max(self.system.stepping.missed, initial=0)
             lines.append(f"  no contact pulls or leaves its cone; Coulomb's law is missed by at most {missed:.1e} m/s")
         lines += self._step_error_line()
@@ -175,7 +175,9 @@ class Simulation:
             dq, dv = self.step_error(ASKED)
         except (DivergenceError, SingularError):
             return []
-        return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {ASKED}: see step_error)"] * bool(len(self.tau))
+        return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {ASKED}: see step_error)"] * bool(
+            len(self.tau)
+        )
 
     def plot(self, ax: Any = None, *, what: str = "energy") -> Any:
         """Draw a quantity over time; of a batch, of every item.

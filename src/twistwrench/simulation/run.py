@@ -51,9 +51,10 @@ def simulate(
     """Let a robot move from a state, and return its motion.
 
     With a ground, contacts are the points and soles that may touch it: they land, lift off, stick and slide, and the
-    joints keep their ranges. Without one, contacts stick where they are at the start, all the time: none opens, closes
-    or slips, and they pull where they must; and a robot without contacts falls through the floor. What they stick to
-    moves from there with their given velocity at the start and constant acceleration.
+    joints keep their ranges; what pulls as well (a loop, gears, a rail) holds all the time. Without one, contacts stick
+    where they are at the start, all the time: none opens, closes or slips, and they pull where they must; and a robot
+    without contacts falls through the floor. What they stick to moves from there with their given velocity at the start
+    and constant acceleration.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ def simulate(
         The period of the policy, a whole number of dt, s: it is called at the beginning of each period, once, and its
         forces hold until the next.
     contacts : iterable of Contact
-        Of any kind, besides those of a scene; with a ground, `PointContact` or `SurfaceContact`. Without one, the state
+        Of any kind, besides those of a scene; with a ground, no planes that slide. Without one, the state
         goes back to where they hold after each step (`project_state`). Computed in double precision.
     ground : Ground, optional
         What the contacts may touch, each with its μ.
@@ -151,10 +152,12 @@ def simulate(
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
     if contacts or name == "time-stepping":
         q, v = model.normalize(q.astype(np.float64)), v.astype(np.float64)
-    stepper = TimeStepping(model, contacts, ground or Ground(), float(dt), q) if name == "time-stepping" else None
-    system = System(
-        model, () if stepper else contacts, push, tau, q, v, float(dt), _period(dt_control, dt, tau), stepper
-    )
+    stepper, touching = None, tuple(c for c in contacts if c.pushes)
+    if name == "time-stepping":
+        contacts = tuple(c for c in contacts if not c.pushes)
+        stepper = TimeStepping(model, touching, ground or Ground(), float(dt), q, contacts)
+    system = System(model, contacts, push, tau, q, v, float(dt), _period(dt_control, dt, tau), stepper)
+    system.refuse_slip(q, v)
     step, start = METHODS[name].step, perf_counter()
     if stop is not None and not callable(stop):
         raise TypeError(f"stop: expected a function (t, q, v) -> bool, got {type(stop).__name__}")
@@ -226,9 +229,10 @@ def _method(method: str | None, ground: Ground | None, contacts: Sequence[Contac
         if name != "time-stepping":
             raise ValueError(f"method: {name!r} takes no ground; leave it out, or expected 'time-stepping'")
         check_normals(contacts, ground)
-    elif contacts and not METHODS[name].contacts:
-        hint = " without a ground" if name == "time-stepping" else ""
-        raise ValueError(f"method: {name!r} takes no contacts{hint}, and there are {len(contacts)}")
+    elif name == "time-stepping" and any(c.pushes for c in contacts):
+        raise ValueError(f"method: {name!r} takes no contacts without a ground but loops, couplings and rails")
+    elif contacts and not METHODS[name].contacts and name != "time-stepping":
+        raise ValueError(f"method: {name!r} takes no contacts, and there are {len(contacts)}")
     return name
 
 

@@ -43,7 +43,7 @@ class System:
     ----------
     model : Model
     contacts : tuple of Contact
-        They stick where they are in q.
+        They stick where they are in q; with `stepping`, what holds besides what may touch.
     push : callable, optional
         From q to wrenches on the bodies from outside, shape (..., nbodies, 6).
     tau : callable, array_like or None
@@ -89,7 +89,6 @@ class System:
         self._constant = self.tau = np.broadcast_to(constant, v.shape).copy()
         self.forces: dict[str, Array] = {}
         self._first, self._start = True, 0.0
-        self._refuse_slip(q, v)
 
     def begin(self, k: int, t: float, q: Array, v: Array) -> None:
         """Begin step k: what is evaluated next counts. At the beginning of a period, call the policy."""
@@ -97,6 +96,10 @@ class System:
         self._start = t if k == 0 else self._start
         if self.period and k % self.period == 0:
             self._constant = self._asked(t, q, v)
+
+    def since(self, t: float) -> float:
+        """Return the time since the start, s."""
+        return t - self._start
 
     def force(self, t: float, q: Array, v: Array) -> Array:
         """Return the generalized forces of policy and external wrenches in a state: τ + Σ Jᵀ f, shape (..., nv)."""
@@ -128,7 +131,7 @@ class System:
 
     def held(self, t: float, q: Array, v: Array) -> ContactDynamics:
         """Return acceleration and contact forces in a state (49.9)."""
-        contacts = moved(self.contacts, t - self._start)
+        contacts = moved(self.contacts, self.since(t))
         found = contact_forward_dynamics(self.model, q, v, self.force(t, q, v), contacts)
         if self._first:
             self.forces, self._first = found.forces, False
@@ -149,8 +152,8 @@ class System:
     ) -> tuple[Array, Array]:
         """Return the state after a step from t, q and v under constant forces, made in two halves."""
         dt, own = self.dt / 2, self.stepping
-        stepping = own and TimeStepping(self.model, own.contacts, own.ground, dt, q)
-        contacts = moved(self.contacts, t - self._start)
+        contacts = moved(self.contacts, self.since(t))
+        stepping = own and TimeStepping(self.model, own.contacts, own.ground, dt, q, contacts)
         there = System(self.model, contacts, self.push, tau, q, v, dt, stepping=stepping)
         for k in range(2):
             at = t + k * dt
@@ -160,9 +163,9 @@ class System:
 
     def settle(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """Return the nearby state in which the contacts are where they stick, and move as what they stick to."""
-        if not self.contacts:
+        if not self.contacts or self.stepping is not None:
             return q, v
-        since = t - self._start
+        since = self.since(t)
         anchors = moved_anchors(self.model, self.contacts, self.anchors, since)
         return project_state(self.model, q, v, moved(self.contacts, since), anchors)
 
@@ -171,7 +174,8 @@ class System:
         refuse_divergence(self.model, "v dt", u)
         return integrate(self.model, q, u)
 
-    def _refuse_slip(self, q: Array, v: Array) -> None:
+    def refuse_slip(self, q: Array, v: Array) -> None:
+        """Raise for a contact that sticks and moves at the start."""
         for contact in self.contacts:
             rates = np.matvec(constraint_jacobian(self.model, q, [contact]), v) - given_motion([contact], "velocity")
             slip = np.abs(rates).max(initial=0)
