@@ -152,10 +152,10 @@ def simulate(
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
     if contacts or name == "time-stepping":
         q, v = model.normalize(q.astype(np.float64)), v.astype(np.float64)
-    stepper, touching = None, tuple(c for c in contacts if c.pushes)
+    stepper, may_touch = None, tuple(c for c in contacts if c.pushes)
     if name == "time-stepping":
         contacts = tuple(c for c in contacts if not c.pushes)
-        stepper = TimeStepping(model, touching, ground or Ground(), float(dt), q, contacts)
+        stepper = TimeStepping(model, may_touch, ground or Ground(), float(dt), q, contacts)
     system = System(model, contacts, push, tau, q, v, float(dt), _period(dt_control, dt, tau), stepper)
     system.refuse_slip(q, v)
     step, start = METHODS[name].step, perf_counter()
