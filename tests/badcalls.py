@@ -30,7 +30,7 @@ MASS = tw.templates.PointMass.of(GO2, STAND)
 
 MADE_BY_HAND = ["SE3", "Baumgarte", "Builder", "Continuous", "Ground", "PointContact", "Prismatic", "Revolute", "Scene"]
 MADE_BY_HAND += ["SpatialInertia", "SurfaceContact", "Twist", "Wrench", "motions.Motion"]
-MADE_BY_HAND += ["Coupling", "LoopClosure", "SlidingContact"]
+MADE_BY_HAND += ["Coupling", "LoopClosure", "SlidingContact", "SphereContact"]
 """The classes whose constructors take what a user types; functions fill in the others."""
 
 LEFT_OUT = {"axes_2d", "axes_3d", "import_pinocchio", "robots", "Template"}

@@ -1,7 +1,7 @@
 """Contact dynamics: constraints, friction and the stability of a stance (49.9).
 
-In the order in which the files are best read: `types` (what a contact is), `kinds` (points, soles, slides) and
-`closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the rank), `rows`, `forward`, `impacts`,
+In the order in which the files are best read: `types` (what a contact is), `kinds` (points, soles, slides), `spheres`
+and `closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the rank), `rows`, `forward`, `impacts`,
 `projection`; `task`, `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares, `reach` (whether
 forces within the limits are enough, and the proof), `stance` (slipping and tipping).
 """
@@ -13,6 +13,7 @@ from .inverse import contact_inverse_dynamics, friction_inverse_dynamics
 from .kinds import PointContact, SlidingContact, SurfaceContact
 from .projection import project_state
 from .rows import constraint_bias, constraint_jacobian, contact_placements
+from .spheres import SphereContact
 from .stance import StanceMargins, stance_margins
 from .task import ContactForces
 from .types import Contact
@@ -27,6 +28,7 @@ __all__ = [
     "LoopClosure",
     "PointContact",
     "SlidingContact",
+    "SphereContact",
     "StanceMargins",
     "SurfaceContact",
     "constraint_bias",

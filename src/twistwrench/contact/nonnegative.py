@@ -17,15 +17,20 @@ TURNS = 1e-14
 """A column enters if the cosine of its angle with the residual is larger."""
 
 
-def nonnegative_least_squares(E: Array, f: Array) -> tuple[Array, Array]:
+def nonnegative_least_squares(E: Array, f: Array, start: Array | None = None) -> tuple[Array, Array]:
     """Return x ≥ 0, shape (n,), for which E x is nearest to f, and f − E x, shape (m,).
 
-    Columns of any length are treated alike, and one of zeros stays out.
+    Columns of any length are treated alike, and one of zeros stays out. It begins with the columns of `start`, bool of
+    shape (n,), if these alone have a positive answer: those of a problem nearly alike.
     """
     length = np.sqrt((E * E).sum(axis=0))
     E = E / np.where(length > 0, length, 1)
     x, enters, barred = np.zeros(E.shape[1]), np.zeros(E.shape[1], bool), length == 0
     r, size = f, float(np.sqrt(f @ f))
+    if start is not None and start.any():
+        guess, _, rank, _ = np.linalg.lstsq(E[:, start], f)
+        if rank == start.sum() and (guess > 0).all():
+            x[start], enters, r = guess, start.copy(), _left(E[:, start], f)
     for _ in range(3 * (E.shape[1] + 1)):
         left = float(np.sqrt(r @ r))
         gain = np.where(enters | barred, -np.inf, E.mT @ r)

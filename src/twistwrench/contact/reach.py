@@ -37,6 +37,8 @@ class Reach(NamedTuple):
     """The direction in which they miss, shape (m,): no force within the limits does work along it, but w does."""
     proved: bool
     """Whether f, or `away`, proves the answer."""
+    used: Array
+    """Which rays and slacks f is a sum of: where a problem nearly alike begins."""
 
 
 def reach(
@@ -46,6 +48,7 @@ def reach(
     sides: int,
     pyramid: Pyramid,
     also: tuple[Array, Array] | None = None,
+    start: Array | None = None,
 ) -> Reach:
     """Return whether forces f within the limits have G f = w, and C f ≤ d where `also` is (C, d).
 
@@ -57,6 +60,8 @@ def reach(
     contacts, sides, pyramid
         As `friction_inverse_dynamics`.
     also : (ndarray, ndarray), shapes (n, 3 k) and (n,), optional
+    start : ndarray, optional
+        `used` of a problem nearly alike.
     """
     T, C, d = _generators(contacts, sides, pyramid, float(np.abs(G).max(initial=0)))
     if also is not None:
@@ -64,7 +69,8 @@ def reach(
     E = np.block([[G @ T, np.zeros((len(w), len(d)))], [C @ T, np.eye(len(d))]])  # C f + slack = d
     asked = np.concatenate([w, d])
     length = np.sqrt((E * E).sum(axis=0))
-    x, r = nonnegative_least_squares(E, asked)
+    x, r = nonnegative_least_squares(E, asked, start)
+    used = x > 0
     if r @ r <= NEAR**2 and length @ x > LARGEST:  # internal forces: Σ forces + slack = the largest, in units of that
         E = np.block([[E, np.zeros((len(E), 1))], [length / LARGEST, np.ones(1)]])
         asked = np.append(asked, 1.0)
@@ -72,8 +78,8 @@ def reach(
     left, f = np.sqrt(r @ r), T @ x[: T.shape[1]]
     if left <= NEAR:
         missed = asked - E @ x
-        return Reach(True, f, r[: len(w)], bool((x >= 0).all() and np.sqrt(missed @ missed) <= 2 * NEAR))
-    return Reach(False, f, r[: len(w)] / left, proves(r / left, E, asked))
+        return Reach(True, f, r[: len(w)], bool((x >= 0).all() and np.sqrt(missed @ missed) <= 2 * NEAR), used)
+    return Reach(False, f, r[: len(w)] / left, proves(r / left, E, asked), used)
 
 
 def proves(away: Array, E: Array, asked: Array) -> bool:

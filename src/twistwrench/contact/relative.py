@@ -194,6 +194,6 @@ def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Map
         check_kind(anchors[c.frame], f"anchors[{c.frame!r}]", SE3, "an SE3")
         anchor = cast(anchors[c.frame], np.float64)
         moved = T.translation - anchor.translation
-        turned = log3(T.rotation @ anchor.rotation.mT) if c.directions[:, :3].any() else np.zeros_like(moved)
-        parts.append(np.matvec(c.directions, np.concatenate([turned, moved], axis=-1)))
+        turned = log3(T.rotation @ anchor.rotation.mT) if c.placed[:, :3].any() else np.zeros_like(moved)
+        parts.append(np.matvec(c.placed, np.concatenate([turned, moved], axis=-1)))
     return np.concatenate(parts, axis=-1)

@@ -38,7 +38,7 @@ def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact])
     model : Model
     q : array_like, shape (..., nq)
     contacts : iterable of Contact
-        Of any kind: `PointContact`, `SurfaceContact`, `SlidingContact`, `LoopClosure`, `Coupling`.
+        Of any kind: `PointContact`, `SurfaceContact`, `SphereContact`, `SlidingContact`, `LoopClosure`, `Coupling`.
 
     Returns
     -------

@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.centroidal import center_of_mass
-from ..algorithms.kinematics import frame_placement
 from ..arrays import Array
 from ..errors import ShapeError
 from ..model import Model
 from .limits import contact_limits
-from .rows import as_contacts, real_state
+from .rows import as_contacts, contact_placements, real_state
 from .task import Task, Unbalanced
 from .types import Contact, Pyramid
 
@@ -23,6 +22,8 @@ __all__ = ["StanceMargins", "inside", "stance_margins"]
 
 PRECISION = 1e-6
 MOST = 2.0**20
+STRIDE = 2.0**9
+"""By so much the multiple of the friction grows until it is enough."""
 
 
 @dataclass(frozen=True)
@@ -94,8 +95,9 @@ def stance_margins(
 
     Notes
     -----
-    Sections 49.9 and 49.4. The least friction is found by halving the interval, to a millionth. A pose that is on the
-    edge counts as one that stands: forces may leave over 1e-8 of the weight, in the metric of the inertia.
+    Sections 49.9 and 49.4. The least friction is found to a millionth, by Newton's method for how far the nearest
+    forces are from holding the robot, and by halving the interval where that is no better. A pose that is on the edge
+    counts as one that stands: forces may leave over 1e-8 of the weight, in the metric of the inertia.
 
     Examples
     --------
@@ -144,21 +146,36 @@ def friction_used(task: Task, sides: int, pyramid: Pyramid, stands: bool) -> flo
 
     At most 1 if it stands with the friction there is, and more if not.
     """
+    start: Array | None = None
 
-    def holds(multiple: float) -> bool:
-        rubbed = [_with_friction(c, multiple * c.mu) for c in task.contacts]
-        return task.reach(sides, pyramid, contacts=rubbed).reached
+    def missing(multiple: float) -> tuple[float, float]:
+        """Return how far the nearest forces are from holding the robot, and how fast that falls with the multiple."""
+        nonlocal start
+        found = task.reach(
+            sides, pyramid, contacts=[_with_friction(c, multiple * c.mu) for c in task.contacts], start=start
+        )
+        start = found.used
+        if found.reached:
+            return 0.0, 0.0
+        along = found.f.reshape(-1, 3) * [1, 1, 0]  # what grows with the multiple
+        B = (task.J.mT @ task.P)[task.passive]
+        left = found.away @ (task.b[task.passive] - B @ found.f)
+        return float(left), float(found.away @ (B @ along.ravel()) / multiple) if multiple else 0.0
 
-    if stands and holds(0.0):
+    if stands and missing(0.0)[0] == 0:
         return 0.0
     low, high = (0.0, 1.0) if stands else (1.0, 2.0)
-    while not (high == 1.0 or holds(high)):
-        low, high = high, 2 * high
+    while not (high == 1.0 or missing(high)[0] == 0):
+        low, high = high, STRIDE * high
         if high > MOST:
             return np.inf
+    guess, newton = (low + high) / 2, True
     while high - low > PRECISION * high:
-        middle = (low + high) / 2
-        low, high = (low, middle) if holds(middle) else (middle, high)
+        width, (left, slope) = high - low, missing(guess)
+        low, high = (low, guess) if left == 0 else (guess, high)
+        guess = guess + 1.0000001 * left / slope if left > 0 and slope > 0 else high * (1 - PRECISION / 2)
+        newton = high - low < width / 2 or not newton  # else halve the interval
+        guess = guess if newton and low < guess < high else (low + high) / 2
     return high
 
 
@@ -176,8 +193,10 @@ def _with_friction(contact: Contact, mu: float) -> Contact:
 def tip_distance(model: Model, q: Array, contacts: Iterable[Contact]) -> float:
     """Return how far inside the support polygon the centre of mass is, seen along gravity, m."""
     G = center_of_mass(model, q)
-    places = [frame_placement(model, q, c.frame) for c in contacts]
-    points = np.concatenate([T.translation + c.points @ c.axes(T.rotation).mT for c, T in zip(contacts, places)])
+    places = contact_placements(model, q, contacts)
+    points = np.concatenate(
+        [T.translation + c.points @ c.axes(T.rotation).mT for c, T in zip(contacts, places.values())]
+    )
     level = np.linalg.svd(model.gravity[None])[2][1:]  # two axes across gravity
     return inside((points - G) @ level.mT)
 

@@ -126,15 +126,22 @@ class Task:
         return cls(contacts, base, b, J, P, parts, least, size or 1.0, asked or 1.0, residual)
 
     def reach(
-        self, sides: int, pyramid: Pyramid, also: Limits | None = None, contacts: Sequence[Contact] = ()
+        self,
+        sides: int,
+        pyramid: Pyramid,
+        also: Limits | None = None,
+        contacts: Sequence[Contact] = (),
+        start: Array | None = None,
     ) -> Reach:
         """Return whether forces within the limits do this, and the proof, whose twist is the base's in b's order.
 
-        Of the task's contacts, or of others at the same points; `also` are more limits.
+        Of the task's contacts, or of others at the same points; `also` are more limits; `start` as `reach` takes it.
         """
         G, w = (np.linalg.solve(self.parts.L, x) for x in ((self.J.mT @ self.P)[self.passive], self.b[self.passive]))
         more = None if also is None else (also.A, also.b / self.size)
-        found = reach(G * self.size / self.asked, w / self.asked, contacts or self.contacts, sides, pyramid, more)
+        found = reach(
+            G * self.size / self.asked, w / self.asked, contacts or self.contacts, sides, pyramid, more, start
+        )
         return found._replace(f=self.size * found.f, away=np.linalg.solve(self.parts.L.mT, found.away))
 
     def motors(self, model: Model) -> Limits:

@@ -124,6 +124,11 @@ class Contact(ABC):
         return readonly(np.eye(6)[self.rows])
 
     @property
+    def placed(self) -> Array:
+        """What is held of the frame's place, its turn and its shift, shape (dim, 6): `directions` unless it rolls."""
+        return self.directions
+
+    @property
     def dim(self) -> int:
         """The number of constrained rows: 3 for a point, 6 for a surface."""
         return len(self.directions)

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Array, as_exactly, as_number, convert
 from ..compiler import Results
 from ..compiler.quantities import Quantity, quantities
-from ..contact import Contact, PointContact
+from ..contact import Contact, PointContact, SphereContact
 from ..contact.relative import contact_rows
 from ..fast.programs import remembered
 from ..model import Model, readonly
@@ -79,8 +79,10 @@ def check_normals(contacts: Sequence[Contact], ground: Ground) -> None:
     for c in contacts:
         if c.pushes and (c.dim not in (3, 6) or c.velocity or c.acceleration):
             raise ValueError(
-                f"contact {c.frame!r}: with ground=, expected points and soles on a ground at rest, got {c!r}"
+                f"contact {c.frame!r}: with ground=, expected points, soles and balls on a ground at rest, got {c!r}"
             )
+        if isinstance(c, SphereContact) and not np.allclose(c.normal, ground.normal, 0, 1e-12):
+            raise ValueError(f"contact {c.frame!r}: expected normal={ground.normal}, the ground's, got {c.normal}")
         if isinstance(c, PointContact) and c.normal != UP and not np.allclose(c.normal, ground.normal, 0, 1e-12):
             raise ValueError(
                 f"contact {c.frame!r}: its normal {c.normal} is not that of the ground, {ground.normal}; "
@@ -114,7 +116,7 @@ def point_terms(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Ar
     for c, T in zip(contacts, found.placement):
         J = found.J[..., end : (end := end + c.dim), :]
         for point in c.points:
-            arm = np.matvec(T.rotation, convert(point, q.dtype))
+            arm = np.matvec(c.axes(T.rotation), convert(point, q.dtype))
             moves = J if c.dim == 3 else J[..., 3:, :] + np.cross(J[..., :3, :], arm[..., None], axis=-2)
             places.append((T.translation + arm)[..., None, :])
             rows.append(moves[..., None, :, :])
