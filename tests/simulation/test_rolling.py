@@ -7,6 +7,8 @@ import pytest
 
 import twistwrench as tw
 
+from twistwrench.simulation.ground import ground_terms
+
 from ..mechanisms import G
 
 R, MU, MASS = 0.1, 0.3, 2.0
@@ -94,3 +96,37 @@ def test_rows_and_bias_of_a_ball_on_a_robot_are_differences():
 def test_what_is_no_ball_is_refused(bad):
     with pytest.raises(ValueError, match=f"contact 'f': {next(iter(bad))}"):
         tw.SphereContact(**({"frame": "f", "radius": 0.1, "mu": 0.5} | bad))
+
+
+def test_the_ground_is_computed_by_a_program_for_points_soles_and_balls():
+    """The textbook would be twenty times slower, and nothing else would tell."""
+    for model, contact in (
+        (tw.load("go2"), tw.PointContact("FL_foot", 0.6)),
+        (tw.load("humanoid"), tw.SurfaceContact("left_sole", (0.07, 0.02), 0.6)),
+        (BALL, touch()[0]),
+    ):
+        ground_terms(model, model.standing() if model.feet else model.neutral(), (contact,), tw.Ground())
+        made = [program for key, program in model._programs.items() if key[0] == "ground"]
+        assert [type(program).__name__ for program in made] == ["Program"]
+
+
+@pytest.mark.parametrize("share", [0.98, 1.02])
+def test_a_stiff_humanoid_that_is_pushed_tips_over_its_toes_beyond_the_energy_that_lifts_its_centre_over_them(share):
+    h = tw.load("humanoid")
+    statue = tw.lock_joints(h, h.joint_names[2:], h.standing()).model
+    q, soles = h.standing()[:7], [tw.SurfaceContact(f"{side}_sole", (0.076, 0.0275), 0.9) for side in ("left", "right")]
+    toes = tw.frame_placement(statue, q, "left_sole").act([0.076, 0, 0])
+    ahead, _, up = tw.center_of_mass(statue, q) - toes
+    R = tw.frame_placement(statue, q, statue.joint_names[1]).rotation
+    turn = np.array([0, 1.0, 0])
+    push = np.concatenate([R.T @ turn, R.T @ np.cross(turn, q[:3] - toes)])  # about the toes, which stay
+    most = np.sqrt(statue.mass * G * (np.hypot(ahead, up) - up) / tw.kinetic_energy(statue, q, push))
+
+    def over(t, q, v):
+        return bool(tw.center_of_mass(statue, q)[0] > toes[0])
+
+    s = tw.simulate(
+        statue, q, share * most * push, dt=0.004, duration=1.6, contacts=soles, ground=tw.Ground(), stop=over
+    )
+    assert (s.t[-1] < 1.5) == (share > 1)
+    assert most * up < -ahead * np.sqrt(G / up)  # a capture point, which has no inertia to turn, allows more

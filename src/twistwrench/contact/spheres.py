@@ -1,4 +1,4 @@
-"""A ball that touches: the point where it does is no fixed point of the body (49.4, 49.9)."""
+"""A ball that touches, at another point of the body as it turns (49.4, 49.9)."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ def stance_margins(
     Notes
     -----
     Sections 49.9 and 49.4. The least friction is found to a millionth, by Newton's method for how far the nearest
-    forces are from holding the robot, and by halving the interval where that is no better. A pose that is on the edge
+    forces are from holding the robot, and by halving the interval where that is worse. A pose that is on the edge
     counts as one that stands: forces may leave over 1e-8 of the weight, in the metric of the inertia.
 
     Examples

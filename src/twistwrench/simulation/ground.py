@@ -116,7 +116,7 @@ def point_terms(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Ar
     for c, T in zip(contacts, found.placement):
         J = found.J[..., end : (end := end + c.dim), :]
         for point in c.points:
-            arm = np.matvec(c.axes(T.rotation), convert(point, q.dtype))
+            arm = np.matvec(convert(c.axes(T.rotation), q.dtype), convert(point, q.dtype))
             moves = J if c.dim == 3 else J[..., 3:, :] + np.cross(J[..., :3, :], arm[..., None], axis=-2)
             places.append((T.translation + arm)[..., None, :])
             rows.append(moves[..., None, :, :])

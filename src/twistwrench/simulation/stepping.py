@@ -52,10 +52,11 @@ DEEPEST = 1e-3
 
 
 class State(NamedTuple):
-    """What a step needs of its beginning: M, M with damping, gaps and J of the points, gaps of the ranges."""
+    """What a step needs of its beginning: M, that with damping, its metric, gaps and J of the points, gaps of ranges."""
 
     M: Array
     damped: Array
+    metric: Metric
     gap: Array
     J: Array
     ends: Array
@@ -155,11 +156,11 @@ class TimeStepping:
         """Return what a step needs of its beginning."""
         terms = ground_terms(self.model, q, self.contacts, self.ground)
         damped = terms.M + self.dt * np.diag(self.model.damping)
-        return State(terms.M, damped, terms.place[:, 2], terms.rows, self.joints.gap(q))
+        return State(terms.M, damped, Metric(damped), terms.place[:, 2], terms.rows, self.joints.gap(q))
 
     def solve(self, at: State, v: Array, free: Array, slide: Array, held: Rows | None) -> tuple[Answer, Array]:
         """Return the velocity at the end of the step, from v and that of the free motion, and the impulses."""
-        gap, J, metric = at.gap, at.J, Metric(at.damped)
+        gap, J, metric = at.gap, at.J, at.metric
         loose = free = metric.respond(at.M @ free)
         if held is not None:
             metric, free = Metric(at.damped, held.span), held.corrected(free)
