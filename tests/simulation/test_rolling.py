@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-
 from twistwrench.simulation.ground import ground_terms
 
 from ..mechanisms import G

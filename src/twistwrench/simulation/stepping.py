@@ -52,7 +52,7 @@ DEEPEST = 1e-3
 
 
 class State(NamedTuple):
-    """What a step needs of its beginning: M, that with damping, its metric, gaps and J of the points, gaps of ranges."""
+    """What a step needs of its beginning: M, that with damping and its metric, J and gaps of points, gaps of ranges."""
 
     M: Array
     damped: Array
