@@ -66,6 +66,11 @@ def point_in_its_axes(q):
     return np.matvec(R.mT, tw.point_velocity(MODEL, q, V, FRAME, POINT))
 
 
+def point_acceleration_in_its_axes(q):
+    R = tw.frame_placement(MODEL, q, FRAME).rotation
+    return np.matvec(R.mT, tw.point_acceleration(MODEL, q, V, A, FRAME, POINT))
+
+
 def frame_derivatives(name, *where):
     """What Pinocchio derives of a frame, or of a point of a joint, in its own axes."""
     m, d, q, v, a = there()
@@ -157,7 +162,52 @@ def loop_jacobian():
     return -np.concatenate([at.rotation @ J[:3], at.rotation @ J[3:]])
 
 
+def supported_inertia():
+    """Pinocchio's counts a body by its frames, which the bridge leaves without mass: the joint's own body is added."""
+    m, d, q, *_ = there()
+    pin.forwardKinematics(m, d, q)
+    found = pin.computeSupportedInertiaByFrame(m, d, m.getFrameId("joint_3"), True)
+    return (bridge.from_pinocchio_inertia(found) + MODEL.inertia[MODEL.joint_id("joint_3")]).matrix()
+
+
+def composite_inertia():
+    i, place = MODEL.joint_id("joint_3"), tw.forward_kinematics(MODEL, Q).placement
+    bodies = [k for k in range(MODEL.nbodies) if i in MODEL.support(k)]
+    return sum(MODEL.inertia[k].transform(place[i].inverse() @ place[k]) for k in bodies).matrix()
+
+
+def supported_force():
+    """With the wrench that the joint's own body needs, which Pinocchio leaves out for the same reason."""
+    m, d, q, v, a = there()
+    pin.rnea(m, d, q, v, a)
+    found = bridge.from_pinocchio_force(pin.computeSupportedForceByFrame(m, d, m.getFrameId("joint_3")))
+    i, moved = MODEL.joint_id("joint_3"), tw.forward_kinematics(MODEL, Q, V, A)
+    a_free = moved.acceleration[i] - np.r_[0, 0, 0, moved.placement[i].rotation.T @ MODEL.gravity]
+    I = MODEL.inertia[i].matrix()
+    return found + I @ a_free + tw.cross_force(moved.twist[i]) @ I @ moved.twist[i]
+
+
+def centroidal_derivatives():
+    m, d, q, v, a = there()
+    pin.computeRNEADerivatives(m, d, q, v, a)
+    return np.stack([twists(x) for x in pin.getCentroidalDynamicsDerivatives(m, d)])
+
+
+def momentum_rates():
+    """Of h_G and its rate by q, of the rate by v and by a."""
+    by_v = [tw.centroidal_momentum_rate(MODEL, Q, x, A).imag.mT / H for x in (V + 1j * H * np.eye(MODEL.nv),)]
+    by_a = tw.centroidal_map(MODEL, Q)
+    return np.stack([rates(lambda q: tw.centroidal_momentum(MODEL, q, V)),
+                     rates(lambda q: tw.centroidal_momentum_rate(MODEL, q, V, A)), *by_v, by_a])  # fmt: skip
+
+
 ASKED = {
+    "computeSupportedInertiaByFrame": (supported_inertia, composite_inertia),
+    "computeSupportedForceByFrame": (
+        supported_force,
+        lambda: tw.joint_wrenches(MODEL, Q, V, A)[MODEL.joint_id("joint_3")],
+    ),
+    "getCentroidalDynamicsDerivatives": (centroidal_derivatives, momentum_rates),
     "computeStaticTorque": (
         static_torque,
         lambda: bridge.to_pinocchio_tangent(MODEL, tw.rnea(MODEL, Q, REST, REST, F_EXT)),
@@ -205,6 +255,14 @@ ASKED = {
             frame_derivatives("getPointVelocityDerivatives", MODEL.joint_id(FRAME), pin.SE3(np.eye(3), POINT))[0]
         ),
         lambda: rates(point_in_its_axes),
+    ),
+    "getPointClassicAccelerationDerivatives": (
+        lambda: columns(
+            frame_derivatives(
+                "getPointClassicAccelerationDerivatives", MODEL.joint_id(FRAME), pin.SE3(np.eye(3), POINT)
+            )[1]
+        ),
+        lambda: rates(point_acceleration_in_its_axes),
     ),
     "getCenterOfMassVelocityDerivatives": (
         center_velocity_derivatives,
