@@ -26,7 +26,7 @@ def register(commands: Any) -> None:
     parser = commands.add_parser("exercises", help="the chapter's exercises, checked by pytest")
     actions = parser.add_subparsers(required=True, metavar="ACTION")
     start = _action(actions, "start", "write the skeletons into DIR; what is there stays as it is", run_start)
-    start.add_argument("dir", metavar="DIR")
+    start.add_argument("dir", metavar="DIR", help="a folder for your answers, made if need be, such as `answers`")
     status = _action(actions, "status", "check all answers and show the progress by section", run_status)
     status.add_argument("dir", nargs="?", default=".", metavar="DIR")
     status.add_argument(
