@@ -19,7 +19,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import beside, browser, chapter, inpage, interface, links, notebooks, pages
+from website import beside, browser, chapter, hands, inpage, interface, links, notebooks, pages
 
 OUT = pages.ROOT / "build" / "site"
 MATHJAX = "tex-svg-full.js"
@@ -39,6 +39,7 @@ def stage() -> None:
         chapter.write_chapter(tree, language)
         interface.write_interface(tree, language)
         beside.write_algorithms(tree, language)
+        hands.write_hands(tree, language)
     mathjax = next(f for f in files("sphinx-mathjax-offline") or [] if f.name == MATHJAX)
     target = OUT / "static" / "mathjax" / MATHJAX
     pages.write(target, mathjax.read_text(encoding="utf-8"))

@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import runtime
-from website import beside, chinese, inpage, interface, notebooks
+from website import beside, chinese, hands, inpage, interface, notebooks
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -68,6 +68,7 @@ html_use_index = html_domain_indices = False  # api/index has every name, with w
 html_copy_source = False
 html_show_search_summary = False  # it would have to fetch the pages, which the file system does not allow
 html_sidebars = {"**": ["sidebar-nav-bs"], "index": []} | {f"algorithms/{name}": [] for name in beside.names()}
+html_sidebars |= {f"hands/{name}": [] for name in hands.names()}
 html_context = {
     "default_mode": "auto",
     "other_language": "en" if CHINESE else "zh",
@@ -97,3 +98,4 @@ def setup(app):
     app.add_search_language(chinese.PairsOfCharacters)
     interface.connect(app, "zh" if CHINESE else "en")
     inpage.connect(app, "zh" if CHINESE else "en", notebooks.names())
+    hands.connect(app, "zh" if CHINESE else "en")

@@ -11,7 +11,7 @@ from twistwrench.exercises import catalogue, skeletons
 from twistwrench.exercises.text import Language
 from twistwrench.exercises.wrapping import wrapped
 
-from . import beside, inpage, interface, notebooks
+from . import beside, hands, inpage, interface, notebooks
 from .pages import ROOT, SUFFIX, contents, joined, write
 
 INTRO = {
@@ -71,8 +71,9 @@ def write_chapter(out: Path, language: str) -> None:
         title = f"[{_title(name, language)}]({name}.ipynb)"
         rows.append(f"| {title} | {', '.join(lines)} | {', '.join(files)} | {wrong} |")
     rows.append(f"| [{EXERCISES[language].splitlines()[0].removeprefix('# ')}](exercises.md) | | | |")
+    rows.append(f"| [{hands.INTRO[language].splitlines()[0].removeprefix('# ')}](../hands/index.md) | | | |")
     path = [":::{container} path", "", *rows, ":::"]
-    inside = contents([*notebooks.names(), "exercises"], hidden=True)
+    inside = contents([*notebooks.names(), "exercises", "../hands/index"], hidden=True)
     parts = [joined(INTRO[language], language), "\n".join(path), inside]
     write(out / "chapter" / "index.md", "\n\n".join(parts) + "\n")
     write(out / "chapter" / "exercises.md", _exercises(language))
