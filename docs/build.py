@@ -19,7 +19,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import beside, browser, chapter, hands, inpage, interface, links, notebooks, pages
+from website import beside, browser, chapter, formulas, hands, inpage, interface, links, notebooks, pages
 
 OUT = pages.ROOT / "build" / "site"
 MATHJAX = "tex-svg-full.js"
@@ -78,6 +78,8 @@ def main() -> int:
     if sum(run.wait() for run in runs):  # wait for both
         print("the site was not built: see the warnings above", file=sys.stderr)
         return 1
+    formulas.write_formulas(OUT / "html")
+    done("formulas set")
     write_door(OUT / "html")
     inpage.write_runtime(OUT / "html")
     inpage.write_downloads(OUT / "html", notebooks.names())

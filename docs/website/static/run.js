@@ -2,6 +2,7 @@
 // Nothing is loaded before the first click. It comes as scripts, since a page of the file system may not fetch.
 (() => {
   const RUNTIME = new URL("../../runtime/", document.currentScript.src);
+  const MATHJAX = new URL("mathjax/tex-svg-full.js", document.currentScript.src);
   const CHINESE = document.documentElement.lang.startsWith("zh");
   const LANGUAGE = CHINESE ? "zh" : "en";
   const PAGE = location.pathname.split("/").pop().replace(".html", "");
@@ -44,6 +45,16 @@
       element.onerror = () => reject(new Error(SAY.failed + element.src));
       document.head.append(element);
     });
+
+  // The formulas of the page were set when the site was built: MathJax is loaded for those of a result.
+  const mathjax = () => (loading.mathjax ??= window.MathJax?.typesetPromise ? Promise.resolve() : startMathJax());
+
+  function startMathJax() {
+    const done = new Promise((ready) => {
+      window.MathJax = { options: { enableMenu: false }, startup: { typeset: false, ready: () => (MathJax.startup.defaultReady(), ready()) } };
+    });
+    return script(MATHJAX).then(() => done);
+  }
 
   const load = (group) => (loading[group] ??= loadGroup(group));
 
@@ -137,7 +148,7 @@
   function show(box, outputs) {
     box.replaceChildren(...outputs.map(([kind, text]) => SHOW[kind](text)));
     box.classList.remove("run-waiting");
-    if (outputs.some(([kind]) => kind === "latex")) window.MathJax?.typesetPromise?.([box]);
+    if (outputs.some(([kind]) => kind === "latex")) mathjax().then(() => MathJax.typesetPromise([box]));
   }
 
   // ---------------------------------------------------------------- a listing that can be edited
