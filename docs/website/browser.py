@@ -1,10 +1,10 @@
 """Open pages of both languages in a headless Chromium, from the file system and without a network, wide and narrow.
 
-Asked of each: formulas set and figures shown, nothing on the console, nothing wider than a phone, the language switch
-reached with Tab and its focus seen. And of the search: the page that is looked for is found first. What axe-core can
-judge of WCAG 2.1 A and AA is asked of the English pages, wide and light, and of the Chinese ones, narrow and dark; in
-the long page of errata not of the code, whose colours are those of the other pages. Where Python is in the page, an
-exercise is answered there, and the verdict has to name the slip.
+Asked of each: formulas set and figures shown, nothing that jumps, nothing on the console, nothing wider than a phone,
+the language switch reached with Tab and its focus seen. And of the search: the page that is looked for is found first.
+What axe-core can judge of WCAG 2.1 A and AA, and its best practice, is asked of the English pages, wide and light, and
+of the Chinese ones, narrow and dark; in the long page of errata not of the code, whose colours are those of the other
+pages. Where Python is in the page, an exercise is answered there, and the verdict has to name the slip.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ MOST_TABS = 40
 SLIP = {"en": "the cross matrix is transposed", "zh": "反对称矩阵被转置"}
 MOST_TO_START = 180_000
 """Milliseconds until Python answers in a page, on a machine that does other things too."""
-RULES = {"runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"]}}
+RULES = {"runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}}
 
 FORMULAS = """async () => {
   if (window.MathJax) await MathJax.startup.promise;
@@ -41,6 +41,14 @@ FORMULAS = """async () => {
   return [left.length, document.querySelectorAll("mjx-merror, [data-mjx-error]").length];
 }"""
 HIDDEN = "() => [...document.images].filter((i) => !(i.complete && i.naturalWidth)).map((i) => i.getAttribute('src'))"
+SHIFT = """() => new Promise((done) => {
+  let sum = 0;
+  new PerformanceObserver((list) => list.getEntries().forEach((entry) => (sum += entry.value)))
+    .observe({ type: "layout-shift", buffered: true });
+  setTimeout(() => done(sum), 100);
+})"""
+MOST_SHIFT = 0.1
+"""Of the layout while a page opens, as browsers measure it: more is felt as a jump."""
 TOO_WIDE = "() => document.scrollingElement.scrollWidth - window.innerWidth"
 FOCUS = """() => {
   const e = document.activeElement, style = getComputedStyle(e);
@@ -111,6 +119,8 @@ def looks(page: Any, file: Path) -> Iterator[str]:
     if unset or broken:
         yield f"{unset} formulas not set, {broken} in error"
     page.wait_for_timeout(700)  # site.js looks at what scrolls half a second after loading
+    if (shift := page.evaluate(SHIFT)) > MOST_SHIFT:
+        yield f"the page jumps while it opens, by {shift:.2f}"
     if hidden := page.evaluate(HIDDEN):
         yield f"figures not shown: {hidden}"
     if (excess := page.evaluate(TOO_WIDE)) > 0:

@@ -15,7 +15,7 @@ import twistwrench as tw
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "docs"))
 
-from website import beside, browser, links, pages, steps  # noqa: E402
+from website import beside, browser, formulas, links, pages, steps  # noqa: E402
 
 TEXTS = sorted(path.name for path in pages.TEXT.glob("*.md") if not path.stem.endswith(".zh-CN"))
 
@@ -204,6 +204,39 @@ def test_outputs_are_shared_by_equal_code_only():
     with pytest.raises(ValueError, match="different code"):
         notebooks.with_outputs(notebook("1 + 1"), notebook("1 + 2", [printed]))
     assert len({notebooks.key(notebook(c), k) for c in ("1 + 1", "1 + 2") for k in "ab"}) == 4
+
+
+# ---------------------------------------------------------------- formulas, and what is looked for
+
+
+RAW = (
+    "<head><script>window.MathJax = {}</script><script defer src='../x/tex-svg-full.js?v=1'></script></head><body>"
+    '<p><span class="math notranslate nohighlight">\\(a &lt; b\\)</span></p>'
+    '<div class="math notranslate nohighlight" id="e">\n\\[x\\]</div><code>\\(a\\)</code></body>'
+)
+
+
+def test_formulas_are_set_in_the_page_and_the_script_goes():
+    assert formulas.unset(RAW) == [r"\(a < b\)", r"\[x\]"]
+    done = {r"\(a < b\)": '<use xlink:href="#MJX-1"></use>', r"\[x\]": "<b>x</b>"}
+    page = formulas.with_formulas(RAW, done, {"MJX-1": '<path id="MJX-1"/>', "MJX-2": "unused"}, "p {}")
+    assert formulas.unset(page) == []
+    assert '<span class="math notranslate nohighlight"><use xlink:href="#MJX-1"></use></span>' in page
+    assert '<div class="math notranslate nohighlight" id="e"><b>x</b></div>' in page
+    assert page.index("<style>p {}</style>") < page.index("</head>") < page.index('<path id="MJX-1"/>')
+    assert not any(gone in page for gone in ("tex-svg", "window.MathJax", "unused"))
+    assert r"<code>\(a\)</code>" in page  # code that looks like a formula is code
+
+
+def test_what_is_looked_for_leads_to_pages_that_are_there():
+    pytest.importorskip("sphinx", reason="Sphinx is not installed: the site's search is not checked")
+    from website import hands, keywords, notebooks
+
+    there = {*pages.pages().values(), "chapter/exercises", *(f"chapter/{name}" for name in notebooks.names())}
+    assert set(keywords.KEYWORDS) <= there | {f"hands/{name}" for name in hands.names()}
+    words = [word for own in keywords.KEYWORDS.values() for word in own]
+    assert len(words) == len(set(words))
+    assert all(word == word.lower() for word in words)
 
 
 # ---------------------------------------------------------------- the checks see what is wrong
