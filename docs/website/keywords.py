@@ -40,9 +40,9 @@ class Keywords(SphinxTransform):
     default_priority = 800  # before the index is collected
 
     def apply(self, **given: Any) -> None:
-        """Put them before the text; they lead to its first heading."""
+        """Put them behind the first heading, to which they lead."""
         words = KEYWORDS.get(self.env.docname, ())
         first = next(self.document.findall(nodes.section), None)
         if words and first is not None:
             entries = [("single", word, first["ids"][0], "main", None) for word in words]
-            first.insert(0, addnodes.index(entries=entries))
+            first.insert(1, addnodes.index(entries=entries))

@@ -15,7 +15,7 @@ import twistwrench as tw
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "docs"))
 
-from website import beside, browser, formulas, links, pages, steps  # noqa: E402
+from website import beside, browser, formulas, links, pages, steps, tables  # noqa: E402
 
 TEXTS = sorted(path.name for path in pages.TEXT.glob("*.md") if not path.stem.endswith(".zh-CN"))
 
@@ -226,6 +226,12 @@ def test_formulas_are_set_in_the_page_and_the_script_goes():
     assert page.index("<style>p {}</style>") < page.index("</head>") < page.index('<path id="MJX-1"/>')
     assert not any(gone in page for gone in ("tex-svg", "window.MathJax", "unused"))
     assert r"<code>\(a\)</code>" in page  # code that looks like a formula is code
+
+
+def test_a_head_that_is_empty_is_a_cell():
+    html = '<tr><th class="head"></th><th class="head x"><p>A</p></th><th class="head"><p></p></th></tr>'
+    cells = tables.without_empty_heads(html)
+    assert cells == '<tr><td class="head"></td><th class="head x"><p>A</p></th><td class="head"></td></tr>'
 
 
 def test_what_is_looked_for_leads_to_pages_that_are_there():
