@@ -11,10 +11,13 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import mpmath
 import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench import newton_euler_3d as slow
+from twistwrench.newton_euler_3d.bodies import cross
 
 from ..strategies import Recipe
 from .published import moved
@@ -258,6 +261,41 @@ def test_placements_and_jacobians_of_symbols():
                           [x, y, *expected[0], *expected[1], 3 + 2 * c, 1 + c, 1 + c, 1],
                           strict=True):  # fmt: skip
         assert sympy.simplify(sympy.nsimplify(got) - right) == 0
+
+
+# ---------------------------------------------------------------- fifty digits
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_mobility_points_and_articulated_inertia_are_right_to_fifty_digits(base):
+    """J M⁻¹ Jᵀ, its inverse, the motion of a point and of a body with all outboard joints free, from 3-D vectors."""
+    recipe = Recipe(7, seed=11, base=base, branching=0.4)
+    model, (q, v, a, *_) = recipe.model, recipe.state()
+    frame, point = model.joint_names[-1], np.array([0.3, -0.2, 0.5])
+    with mpmath.workdps(50):
+        exact = [slow.as_mpmath(x) for x in (q, v, a)]
+        M = mpmath.matrix(slow.mass_matrix(model, exact[0]).tolist())
+        J = slow.frame_jacobian(model, exact[0], frame, "local_world_aligned")
+        row = mpmath.matrix(J.tolist())
+        mobility = row * M**-1 * row.T
+        theirs = np.array(mobility.tolist(), float).reshape(6, 6)
+        R = slow.frame_placement(model, exact[0], frame)[0]
+        r = R @ slow.as_mpmath(point)
+        bias = slow.frame_bias_acceleration(model, *exact[:2], frame, "local_world_aligned")
+        motion, change = J @ exact[1], J @ exact[2] + bias
+        velocity = motion[3:] + cross(motion[:3], r)
+        acceleration = change[3:] + cross(change[:3], r) + cross(motion[:3], cross(motion[:3], r))
+    near = {"tolerance": 1e-12}
+    ours = tw.frame_jacobian(model, q, frame, "local_world_aligned")
+    close(tw.delassus_matrix(model, q, ours), theirs, **near)
+    close(tw.point_velocity(model, q, v, frame, point), velocity.astype(float), **near)
+    close(tw.point_acceleration(model, q, v, a, frame, point), acceleration.astype(float), **near)
+    if base == "floating":  # of the base: the inertia with all joints free
+        J = tw.frame_jacobian(model, q, "root_joint")
+        with mpmath.workdps(50):
+            row = mpmath.matrix(J.tolist())
+            free = (row * M**-1 * row.T) ** -1
+        close(tw.articulated_inertia(model, q, "root_joint"), np.array(free.tolist(), float).reshape(6, 6), **near)
 
 
 # ---------------------------------------------------------------- the list, and the page
