@@ -13,6 +13,7 @@ llvm           machine code, by LLVM
 source         a line as text: Python, annotated with the chapter's steps, and C
 plain          Python's floats, for a few states
 pairs          arithmetic with pairs of doubles
+packs          the same operation in several limbs
 registers      NumPy, for every number type
 tangent        the derivatives of what is on a tape, and steps along v from q
 backend        which of them runs a line

@@ -70,7 +70,7 @@ class Line:
         for k, node in enumerate(self.nodes):
             for needed in operands(node):
                 users.setdefault(needed, []).append(k)
-        results = {k for _, entries in self.outputs.values() for k in entries}
+        results = {*self.results}
         depth: dict[int, int] = {}
         for k, node in enumerate(self.nodes):
             depth[k] = 1 + max((depth.get(j, 0) for j in operands(node)), default=0)
@@ -85,7 +85,7 @@ class Line:
         So that fewer numbers are waiting at any time.
         """
         new: dict[int, int] = {}
-        left = [(k, False) for k in [*wanted, *(k for _, entries in self.outputs.values() for k in entries)][::-1]]
+        left = [(k, False) for k in [*wanted, *self.results][::-1]]
         while left:
             k, ready = left.pop()
             if k in new:
@@ -97,6 +97,11 @@ class Line:
         nodes = tuple(_renumbered(self.nodes[k], new) for k in new)
         outputs = {name: (shape, tuple(new[k] for k in entries)) for name, (shape, entries) in self.outputs.items()}
         return Line(nodes, self.inputs, outputs)
+
+    @property
+    def results(self) -> list[int]:
+        """The nodes of all results, entry by entry."""
+        return [k for _, entries in self.outputs.values() for k in entries]
 
     @property
     def operations(self) -> Counter[str]:

@@ -7,7 +7,8 @@ gone: what is left is one line after the other. Nothing of it need be read twice
 - what is multiplied by 0 is dropped, and so is a factor of 1 or an addition of 0: most entries of S, of X and of the
   inertias are such;
 - what occurs a second time is the first one again;
-- signs go outward, −a · b = −(a · b), where a sum absorbs them.
+- signs go outward, −a · b = −(a · b), where a sum absorbs them; but a constant keeps its own, and a difference is taken
+  as it is written, so that a left limb and a right one come to the same operations.
 
 None of these rules changes a rounding: a program computes what the textbook computes, to the last bit but for signs
 of zero, the order of a sum of two, and doublings.
@@ -82,8 +83,6 @@ class Tape:
     def signed(self, index: int) -> tuple[bool, int]:
         """Return whether a node is the negative of another one, and that one."""
         operation, *rest = self.nodes[index]
-        if operation == "const" and rest[0] < 0:
-            return True, self.enter("const", -rest[0])
         return (True, rest[0]) if operation == "neg" else (False, index)
 
     def _negated(self, index: int, negative: bool = True) -> Number:
@@ -106,7 +105,8 @@ class Tape:
     def _minus(self, a: int, b: int) -> Number | Fraction:
         if a == b:
             return ZERO
-        return self._negated(self.enter("sub", min(a, b), max(a, b)), a > b)
+        known = self._index.get(("sub", b, a))
+        return self._negated(self.enter("sub", a, b), False) if known is None else self._negated(known)
 
     def multiply(self, a: int, b: int) -> Number:
         """Return a b."""
@@ -125,10 +125,12 @@ class Tape:
         if c == 0:
             return ZERO
         minus, a = self.signed(a)
-        return self._negated(self._scaled(abs(c), a), minus != (c < 0))
+        if is_power_of_two(-c):
+            minus, c = not minus, -c
+        return self._negated(self._scaled(c, a), minus)
 
     def _scaled(self, c: Fraction, a: int) -> int:
-        """Return the index of c a with c > 0; powers of two, which round nothing, are put together."""
+        """Return the index of c a; powers of two, which round nothing, are put together."""
         node = self.nodes[a]
         if node[0] == "mul" and is_power_of_two(c):
             for factor, rest in ((node[1], node[2]), (node[2], node[1])):

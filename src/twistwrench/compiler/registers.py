@@ -1,18 +1,21 @@
-"""A straight line in NumPy, for many states: each operation is one call, and its result goes into one of a few arrays.
+"""A straight line in NumPy, for many states: a call for each operation, or for the same one in several limbs (`packs`).
 
-Which works for every number type that NumPy has. There are no more arrays than results that are still needed.
+Which works for every number type that NumPy has. The numbers of all states are rows of one array, those of a pack one
+after the other; there are not many more rows than numbers that are still needed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
-from .line import Line, operands
+from .line import Line
+from .packs import Packs, View
 from .pairs import split
 
 __all__ = ["Registers"]
@@ -33,8 +36,11 @@ FUNCTIONS = {
 CHUNK = 2048
 """States that are computed together: for fewer, a call takes longer than what it computes."""
 
-MEMORY = 2**26
-"""Bytes that the arrays of a chunk take together, at most."""
+MEMORY = 2**24
+"""Bytes that the rows of a chunk take together, at most."""
+
+BUFFER = 16
+"""NumPy's smallest buffer: with a larger one, rows that do not lie next to each other take up to twice as long."""
 
 
 class Registers:
@@ -49,63 +55,116 @@ class Registers:
     """
 
     def __init__(self, line: Line, dtype: np.dtype[Any]) -> None:
-        self.dtype, self.inputs, functions = dtype, len(line.inputs), functions_of(dtype)
-        entry: dict[Any, tuple[int, int]] = {}
-        for a, (name, shape) in enumerate(line.inputs.items()):
-            entry |= {(name, *k): (a, j) for j, k in enumerate(np.ndindex(shape))}
-        last = {j: k for k, node in enumerate(line.nodes) for j in operands(node)}
-        results = [k for _, entries in line.outputs.values() for k in entries]
-        last |= dict.fromkeys(results, len(line.nodes))
-        row = {k: place for place, k in reversed([*enumerate(results)])}  # each result has a row of its own
-        place: dict[int, int] = {}  # the row of each node, after the results' the registers; constants from -1 back
-        free: list[int] = []
-        self.count, self.constants = len(results), list[Any]()
-        self.steps: list[tuple[np.ufunc | None, Sequence[int], int]] = []  # without a function: array and column
-        for k, (operation, *rest) in enumerate(line.nodes):
-            if operation == "const":
-                self.constants.insert(0, as_number_of(dtype, rest[0]))
-                place[k] = -len(self.constants)
-                continue
-            needed = operands(line.nodes[k])
-            free += {place[j] for j in needed if last[j] == k and place[j] >= len(results)}
-            if k in row:
-                place[k] = row[k]
-            elif free:
-                place[k] = free.pop()
-            else:
-                place[k], self.count = self.count, self.count + 1
-            if operation == "input":
-                self.steps.append((None, entry[rest[0]], place[k]))
-            else:
-                self.steps.append((functions[operation], [place[j] for j in needed], place[k]))
-        # What is left are constants, and results that occur twice.
-        self.copies = [(k, place[node]) for k, node in enumerate(results) if place[node] != k]
+        self.dtype, self.nodes, self.functions = dtype, line.nodes, functions_of(dtype)
+        self.packs = Packs(line)
+        self.order = [*self._order(line.results)]
+        self.first, self.count = self._placed(line.results)
+        column = {(name, *k): j for name, shape in line.inputs.items() for j, k in enumerate(np.ndindex(shape))}
+        number = {name: k for k, name in enumerate(line.inputs)}
+        self.inputs: list[tuple[int, slice | list[int], slice]] = []  # arrays, their columns, and rows
+        for pack in self.order:
+            if self._operation(pack) == "input":
+                keys = [self.nodes[k][1] for k in self.packs.packs[pack]]
+                rows = slice(self.first[pack], self.first[pack] + len(keys))
+                self.inputs.append((number[keys[0][0]], _slice_of([column[key] for key in keys]), rows))
+        self.constants: dict[int, int] = {}  # the rows of results that are constants
+        self.results = [np.array([self._row(k) for k in entries], np.intp) for _, entries in line.outputs.values()]
+        self.unused: list[tuple[Array, Array, list[Any]]] = []  # rows that no thread fills, and the calls between them
+
+    def _operation(self, pack: int) -> str:
+        operation: str = self.nodes[self.packs.packs[pack][0]][0]
+        return operation
+
+    def _found(self, lanes: Iterable[tuple[int, ...]]) -> list[int]:
+        """Return the packs in which some nodes lie; constants lie in none."""
+        return [view[0] for one in lanes if (view := self.packs.view(one))]
+
+    def _order(self, results: Sequence[int]) -> Iterator[int]:
+        """Yield the packs, each just before it is first needed, so that few rows are waiting at any time."""
+        done: set[int] = set()
+        left = [(pack, False) for pack in reversed(self._found((k,) for k in results))]
+        while left:
+            pack, ready = left.pop()
+            if ready and pack not in done:
+                yield pack
+                done.add(pack)
+            elif pack not in done:
+                left += [(pack, True), *((other, False) for other in reversed(self._found(self.packs.operands[pack])))]
+
+    def _placed(self, results: Sequence[int]) -> tuple[dict[int, int], int]:
+        """Return the first row of each pack, and how many rows there are: what is not needed any more makes room."""
+        needed = {pack: {*self._found(self.packs.operands[pack])} for pack in self.order}
+        last = {other: pack for pack in self.order for other in needed[pack]}
+        last |= dict.fromkeys(self._found((k,) for k in results), -1)
+        free: dict[int, list[int]] = defaultdict(list)  # by the number of lanes
+        first: dict[int, int] = {}
+        count = 0
+        for pack in sorted(self.order, key=lambda pack: self._operation(pack) != "input"):  # arguments come first
+            for other in needed[pack]:
+                if last[other] == pack:
+                    free[len(self.packs.packs[other])].append(first[other])
+            lanes = len(self.packs.packs[pack])
+            first[pack] = free[lanes].pop() if free[lanes] else count
+            count = max(count, first[pack] + lanes)
+        return first, count
+
+    def _row(self, k: int) -> int:
+        """Return the row of a result; constants have theirs after all others."""
+        if view := self.packs.view((k,)):
+            return self.first[view[0]] + view[1]
+        return self.count + self.constants.setdefault(k, len(self.constants))
 
     def run(self, arrays: Sequence[Array]) -> None:
         """Fill the results: each array has shape (states, entries)."""
-        states, most = len(arrays[0]), MEMORY // max(1, self.count * self.dtype.itemsize)
-        chunks = -(-states // max(64, min(CHUNK, most)))
+        states, count = len(arrays[0]), self.count + len(self.constants)
+        chunks = -(-states // max(64, min(CHUNK, MEMORY // max(1, count * self.dtype.itemsize))))
+        width = -(-states // chunks)
+        rows, taken, calls = self.unused.pop() if self.unused else (np.empty((0, 0)), np.empty((0, 0)), [])
         with np.errstate(all="ignore"):  # what is not finite is seen in the result `alarm`
-            for k in range(chunks):
-                self._run([x[states * k // chunks : states * (k + 1) // chunks] for x in arrays])
+            np.setbufsize(BUFFER)
+            if rows.shape[1] != width:
+                rows = np.empty((count, width), self.dtype)
+                taken = np.empty((max(map(len, self.results)), width), self.dtype)
+                calls = [*self._calls(rows)]
+            for start in range(0, states, width):
+                start = min(start, states - width)
+                self._run(rows, taken, calls, [x[start : start + width] for x in arrays])
+        self.unused.append((rows, taken, calls))
 
-    def _run(self, arrays: Sequence[Array]) -> None:
+    def _calls(self, rows: Array) -> Iterator[tuple[np.ufunc, list[Any]]]:
+        """Yield NumPy's calls between these rows: functions, operands and results."""
+        for k, row in self.constants.items():
+            rows[self.count + row] = as_number_of(self.dtype, self.nodes[k][1])
+        for pack in self.order:
+            if (operation := self._operation(pack)) != "input":
+                x = [self._values(rows, lanes) for lanes in self.packs.operands[pack]]
+                yield self.functions[operation], [*x, self._values(rows, self.packs.packs[pack], (pack, 0, 1))]
+
+    def _values(self, rows: Array, lanes: tuple[int, ...], view: View | None = None) -> Any:
+        """Return the rows of some nodes, lane by lane, or the constants."""
+        if view := view or self.packs.view(lanes):
+            pack, start, step = view
+            start += self.first[pack]
+            return rows[start] if len(lanes) == 1 else rows[start : start + step * len(lanes) : step]
+        constants = [as_number_of(self.dtype, self.nodes[k][1]) for k in lanes]
+        return np.array(constants, self.dtype)[:, None] if len(lanes) > 1 else constants[0]
+
+    def _run(
+        self, rows: Array, taken: Array, calls: Sequence[tuple[np.ufunc, list[Any]]], arrays: Sequence[Array]
+    ) -> None:
         """Fill the results of a chunk."""
-        rows = np.empty((self.count, len(arrays[0])), self.dtype)
-        values: list[Any] = [*rows, *self.constants]
-        for function, needed, place in self.steps:
-            if function is None:
-                values[place][...] = arrays[needed[0]][:, needed[1]]
-            elif len(needed) == 2:
-                function(values[needed[0]], values[needed[1]], values[place])
-            else:
-                function(values[needed[0]], values[place])
-        for row, place in self.copies:
-            rows[row] = values[place]
-        start = 0
-        for x in arrays[self.inputs :]:
-            x[...] = rows[start : start + x.shape[1]].mT
-            start += x.shape[1]
+        for array, columns, place in self.inputs:
+            rows[place] = arrays[array][:, columns].mT
+        for function, operands in calls:
+            function(*operands)
+        for index, x in zip(self.results, arrays[-len(self.results) :]):
+            x[...] = rows.take(index, 0, taken[: len(index)], "clip").mT
+
+
+def _slice_of(columns: list[int]) -> slice | list[int]:
+    """Return columns as a slice if they lie next to each other: that is a view, and nothing is copied."""
+    first = columns[0]
+    return slice(first, first + len(columns)) if columns == [*range(first, first + len(columns))] else columns
 
 
 def functions_of(dtype: np.dtype[Any]) -> dict[str, np.ufunc]:
