@@ -26,7 +26,7 @@ __all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
 
-PIECE = 1000
+PIECE = 400
 """Instructions that are compiled at once."""
 
 Group = tuple[int, int, Sequence[int]]
