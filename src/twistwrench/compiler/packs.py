@@ -9,11 +9,13 @@ another. (Compilers call this superword-level parallelism: S. Larsen and S. Amar
 Which operations are alike is a matter of their kind: the function, and the kinds of its operands. Which belong to
 different limbs is seen from the arguments that they depend on.
 
+>>> import numpy as np
 >>> from twistwrench.compiler.number import Tape, numbers
 >>> tape = Tape()
 >>> q = numbers(tape, "q", 5)
 >>> line = Line.of(tape, {"q": (5,)}, {"result": q[1:].copy() * np.array([3, 5, 7, 9]) + q[0]})
->>> [[line.nodes[k][0] for k in pack] for pack in Packs(line).packs]
+>>> [(line.nodes[pack[0]][0], len(pack)) for pack in Packs(line).packs]
+[('add', 4), ('mul', 4), ('input', 5)]
 """
 
 from __future__ import annotations
