@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Any
 
-__all__ = ["FACTORS", "KINDS", "alternatives", "context", "exchanges", "parsed", "target", "term"]
+__all__ = ["FACTORS", "KINDS", "alternatives", "enclosing", "exchanges", "parsed", "target", "term", "text_of"]
 
 Change = tuple[str, Any]
 """Kind of an edit, and what is put in place of a node."""
@@ -215,40 +215,41 @@ def _numbers(node: Any) -> Iterator[Change]:
 def term(node: ast.expr, other: ast.expr) -> str:
     """Return what a node has more than the other, or the term whose sign differs."""
     if isinstance(other, ast.UnaryOp) and other.operand is node:
-        return _text(node)
+        return text_of(node)
     if isinstance(node, ast.BinOp):
         kept = getattr(other, "operand", getattr(other, "right", other))
         gone = other is not node.left and (kept is node.right and getattr(other, "left", None) is not node.left)
-        return _text(node.left if gone else node.right)
+        return text_of(node.left if gone else node.right)
     if isinstance(node, ast.List | ast.Tuple | ast.BoolOp):
         mine = node.values if isinstance(node, ast.BoolOp) else node.elts
         theirs = other.values if isinstance(other, ast.BoolOp) else getattr(other, "elts", [])
-        return _text(next((x for x in mine if x not in theirs), node))
+        return text_of(next((x for x in mine if x not in theirs), node))
     if isinstance(node, ast.Call) and isinstance(other, ast.expr):
-        return _text(node.func) if node.args else f".{getattr(node.func, 'attr', '')}()"
+        return text_of(node.func) if node.args else f".{getattr(node.func, 'attr', '')}()"
     if isinstance(node, ast.Attribute):
         return f".{node.attr}"
-    return _text(node.operand if isinstance(node, ast.UnaryOp) else node)
+    return text_of(node.operand if isinstance(node, ast.UnaryOp) else node)
 
 
 def target(parents: list[Any]) -> str:
     """Return what the statement around a node computes; nothing for a result."""
     for parent in reversed(parents):
         if isinstance(parent, ast.Assign | ast.AugAssign):
-            return _text(parent.targets[0] if isinstance(parent, ast.Assign) else parent.target)
+            return text_of(parent.targets[0] if isinstance(parent, ast.Assign) else parent.target)
     return ""
 
 
-def context(parents: list[Any], node: Any) -> str:
-    """Return the text of a node, with what is around it where it is only a name, a number or a slice."""
+def enclosing(parents: list[Any], node: Any) -> Any:
+    """Return what to show of a program around a node: more than it where it is only a name, a number or a slice."""
     for parent in reversed(parents):
         small = isinstance(node, ast.Constant | ast.Slice | ast.Name | ast.UnaryOp)
         small |= isinstance(parent, ast.Subscript) and node is parent.slice
         if not small or not isinstance(parent, ast.expr):
             break
         node = parent
-    return _text(node)
+    return node
 
 
-def _text(node: ast.AST) -> str:
+def text_of(node: ast.AST) -> str:
+    """Return a piece of a program as text, on one line, with `.T` where it has `.mT`."""
     return ast.unparse(node).split("\n")[0].replace(".mT", ".T")

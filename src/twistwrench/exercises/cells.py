@@ -14,7 +14,7 @@ from .forking import judged
 from .formulas import judge_formula
 from .isolation import TIME_LIMIT, drawn
 from .judge import State, Verdict
-from .text import Language, Text, default_language
+from .text import Language, Text
 from .workbook import Workbook, verdict_on_words
 from .wrapping import wrapped
 
@@ -29,6 +29,9 @@ SAY = {
 
 _STATES: dict[str, dict[str, State]] = {}
 """What has been checked in this process: by exercise, the state of each of its functions. For the progress only."""
+
+_ASKED: dict[str, Language] = {}
+"""The language that was asked for last in this process."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -119,7 +122,7 @@ def check(
     words : str, optional
         The answer in words, where the exercise asks for one; the model answer is then shown beside it.
     language : {"en", "zh"}, optional
-        That of the environment unless given.
+        The one asked for last unless given; at first that of the folder or of the environment.
     seed : int, optional
         Of the random cases; drawn anew unless given.
     time_limit : float
@@ -155,7 +158,7 @@ def check(
     if not given and not formulas and words is None:
         names = ", ".join(part.name for part in exercise.parts)
         raise ModelError(f"check: expected a function of {number} ({names}), got none, and none is defined here")
-    spoken, seed = language or default_language(), drawn(seed)
+    spoken, seed = _spoken(language), drawn(seed)
     verdicts = {}
     for function in given:
         part = _part(exercise, function, alone=len(functions) == 1)
@@ -167,6 +170,13 @@ def check(
     if words is not None:
         verdicts["words"] = verdict_on_words(exercise, words)
     return Checked(exercise, verdicts, words, spoken)
+
+
+def _spoken(asked: Language | None) -> Language:
+    """Return the language asked for, and remember it; else the one asked for before."""
+    if asked is not None:
+        _ASKED["language"] = asked
+    return _ASKED.get("language") or Workbook(".").language
 
 
 def checked(book: Workbook, exercise: Exercise) -> Checked:

@@ -62,7 +62,7 @@ def _add_grade(grade: Any) -> None:
 
 def _action(actions: Any, name: str, help: str, run: Any) -> Any:
     parser = actions.add_parser(name, help=help)
-    parser.add_argument("--language", choices=["en", "zh"], help="English or 简体中文")
+    parser.add_argument("--language", choices=["en", "zh"], help="English or 简体中文; remembered in the folder")
     parser.set_defaults(run=run)
     return parser
 
@@ -78,16 +78,25 @@ def _seconds(text: str) -> float:
     return seconds
 
 
+def _language(args: argparse.Namespace, folder: str = ".") -> Language:
+    """Return the language that is asked for, and remember it where the exercises are; else the one asked for before."""
+    from .workbook import Workbook, has_started
+
+    book = Workbook(folder, language=args.language)
+    if args.language and has_started(book.folder):
+        book.remember(language=args.language)
+    return book.language
+
+
 def run_start(args: argparse.Namespace) -> int:
     """Write the skeletons."""
     import shlex
     from importlib.util import find_spec
 
     from .skeletons import start
-    from .workbook import Workbook
 
     new, kept = start(args.dir, language=args.language)
-    language = Workbook(args.dir).language
+    language = _language(args, args.dir)
     for label, paths in ((Text("new", "新增"), new), (Text("kept as it is", "保持不变"), kept)):
         for path in paths:
             print(f"{path}: {label.of(language)}")
@@ -103,7 +112,7 @@ def run_status(args: argparse.Namespace) -> int:
     from .progress import status
 
     limit = TIME_LIMIT if args.time_limit is None else args.time_limit
-    found = status(args.dir, language=args.language, seed=args.seed, time_limit=limit)
+    found = status(args.dir, language=_language(args, args.dir), seed=args.seed, time_limit=limit)
     print(found)
     return REFUSED if any(row.count("wrong") for row in found.rows) else 0
 
@@ -112,10 +121,9 @@ def run_case(args: argparse.Namespace) -> int:
     """Print a case in full: what goes in, and what must come out."""
     from . import catalogue
     from .failing import case, whole
-    from .text import default_language
 
     _, part = catalogue.find_part(args.name)
-    print(whole(part, case(args.name, args.number, seed=args.seed), args.language or default_language()))
+    print(whole(part, case(args.name, args.number, seed=args.seed), _language(args)))
     return 0
 
 
@@ -123,7 +131,7 @@ def run_hint(args: argparse.Namespace) -> int:
     """Print a hint."""
     from .helping import hint
 
-    print(hint(args.id, args.dir, again=args.again, every=args.all, language=args.language))
+    print(hint(args.id, args.dir, again=args.again, every=args.all, language=_language(args, args.dir)))
     return 0
 
 
@@ -131,12 +139,12 @@ def run_solution(args: argparse.Namespace) -> int:
     """Print a solution, once the student is sure."""
     from . import catalogue
     from .helping import solution
-    from .workbook import Workbook
 
     catalogue.exercise(args.id)
-    if not args.yes and not _sure(args.id, Workbook(args.dir, language=args.language).language):
+    language = _language(args, args.dir)
+    if not args.yes and not _sure(args.id, language):
         return REFUSED
-    print(solution(args.id, args.dir, language=args.language))
+    print(solution(args.id, args.dir, language=language))
     return 0
 
 
@@ -169,9 +177,8 @@ def run_list(args: argparse.Namespace) -> int:
     """Print number, kind and title of every exercise."""
     from . import catalogue
     from .phrases import say
-    from .text import default_language
 
-    language = args.language or default_language()
+    language = _language(args)
     for exercise in map(catalogue.exercise, catalogue.available()):
         print(f"{exercise.id:10} {say(exercise.kind).of(language):8} {exercise.title.of(language)}")
     return 0

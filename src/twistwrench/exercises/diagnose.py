@@ -12,6 +12,7 @@ from .compare import Value, agree, close, pieces, values
 from .exercise import Exercise, Part
 from .phrases import say
 from .relations import describe
+from .repairs import Repair, repairs
 from .search import Found, exchanged_results, found_edits, right_where
 from .slips import SLIPS, Slip
 from .steps import first_wrong
@@ -98,9 +99,14 @@ def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | N
 
 
 def explain(
-    exercise: Exercise, part: Part, answers: Answers, cases: Cases, again: Callable[[tuple[Any, ...]], Any]
+    exercise: Exercise,
+    part: Part,
+    function: Callable[..., Any],
+    answers: Answers,
+    cases: Cases,
+    again: Callable[[tuple[Any, ...]], Any],
 ) -> tuple[list[str], list[Text]]:
-    """Explain a wrong answer; `again` calls the student's function once more, with other arguments.
+    """Explain the wrong answers of a function; `again` calls it once more, with other arguments.
 
     Returns
     -------
@@ -122,9 +128,16 @@ def explain(
     structure = _structure(part, answers)
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
+    right = [part.value(part.solution, arguments) for arguments in cases]
+    mended = repairs(part, function, right, answers, cases)
+    if mended:
+        return [], _mended(exercise, part, mended, answers, cases)
     edited = found_edits(part, answers, cases)
     if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, edited, answers, cases)
+    mended = repairs(part, function, right, answers, cases, pairs=True)
+    if mended:
+        return [], _mended(exercise, part, mended, answers, cases)
     pair = None if _few_entries(part, answers, cases) else two_slips(part, answers, cases)
     if pair is not None:
         first, second = (_slip(exercise, part, name) for name in pair)
@@ -151,11 +164,29 @@ def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers
         else:
             lines.append(say("slip in", name=part.returns[edit.piece].title, title=edit.title()))
     lines.append(say("edited", all=len(cases)) if len(cases) > 1 else say("edited once"))
-    shown = _comparison(part, answers, cases)
-    if len(shown) <= FEW and not all(line.en.endswith(say("other").en) for line in shown):
-        lines += [say("it shows"), *map(_indented, shown)]
+    lines += _shortly(part, answers, cases)
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
     return [*lines, *([step] if step else []), _where(exercise, exercise.section)]
+
+
+def _mended(exercise: Exercise, part: Part, found: list[Repair], answers: Answers, cases: Cases) -> list[Text]:
+    """Report which change makes the student's own function right, or each wrong thing that it returns."""
+    lines = []
+    for repair in found:
+        if repair.piece is None:
+            lines.append(say("slip", title=repair.title()))
+        else:
+            lines.append(say("slip in", name=part.returns[repair.piece].title, title=repair.title()))
+    lines.append(say("mended", all=len(cases)) if len(cases) > 1 else say("mended once"))
+    return [*lines, *_shortly(part, answers, cases), _where(exercise, exercise.section)]
+
+
+def _shortly(part: Part, answers: Answers, cases: Cases) -> list[Text]:
+    """Report what the comparison shows, where that is short and telling."""
+    shown = _comparison(part, answers, cases)
+    if len(shown) > FEW or all(line.en.endswith(say("other").en) for line in shown):
+        return []
+    return [say("it shows"), *map(_indented, shown)]
 
 
 def _slip(exercise: Exercise, part: Part, name: str) -> Slip:

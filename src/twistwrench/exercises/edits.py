@@ -11,17 +11,18 @@ import inspect
 import sys
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import wraps
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
-from .alternatives import FACTORS, KINDS, alternatives, context, exchanges, parsed, target, term
+from .alternatives import FACTORS, KINDS, alternatives, enclosing, parsed, target, term, text_of
 from .calls import CHANGED, count
+from .whole import Edit, of_arguments
 
-__all__ = ["Edit", "edits"]
+__all__ = ["Source", "edits"]
 
 Function = Callable[..., Any]
 Place = tuple[list[Any], Any, Any, Any]
@@ -29,53 +30,6 @@ Place = tuple[list[Any], Any, Any, Any]
 
 LIKELY = KINDS[:3]
 """Those of which two are tried together."""
-
-ARGUMENTS: dict[str, Function] = {
-    "-{}": lambda x: -x,
-    "0 * {}": lambda x: [0 * y for y in x] if isinstance(x, list) else 0 * x,
-    "{}.T": lambda x: x.mT,
-    "np.linalg.inv({})": np.linalg.inv,
-    "{}[::-1]": lambda x: x[::-1],
-    "np.abs({})": np.abs,
-    "np.roll({}, len({}) // 2, 0)": lambda x: np.roll(x, len(x) // 2, 0),
-    "{} + {}.T": lambda x: x + x.mT,
-    "{}.T.reshape({}.shape)": lambda x: x.mT.reshape(x.shape),
-}
-"""What can be done to an argument on the way in."""
-
-RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * {}", "{}.T.reshape({}.shape)")}
-
-
-@dataclass(frozen=True)
-class Edit:
-    """A right function with one small change.
-
-    Attributes
-    ----------
-    kind : str
-        One of `KINDS`.
-    right, wrong : str
-        What stands in the right function, and what in this one; of what is left out or has the other sign, the term.
-    within : callable
-        The function whose text is changed, the reference or a listing that it calls.
-    function : callable
-        With the arguments of the reference.
-    everywhere : bool
-        Whether it is made in all places where this stands.
-    target : str
-        What is computed there, if it has a name.
-    first : tuple of str, optional
-        Kind, right and wrong of another edit that is made as well.
-    """
-
-    kind: str
-    right: str
-    wrong: str
-    within: Function
-    function: Function
-    everywhere: bool = False
-    target: str = ""
-    first: tuple[str, str, str] | None = None
 
 
 def edits(
@@ -105,47 +59,21 @@ def edits(
     >>> [edit.right for edit in edits(newton_euler) if edit.kind == "sign"][:1]
     ['np.cross(omega, I_c @ omega)']
     """
-    sources = [_Source(f, solution, shown.get(f.__name__, {}), names) for f in (solution, *listings)]
+    sources = [Source(f, solution, shown.get(f.__name__, {}), names) for f in (solution, *listings)]
     for kind in KINDS:
         for source in sources:
             yield from source.edits(kind)
         if kind == "sign" and not inspect.isclass(solution):
-            yield from _of_arguments(_guarded(sources))
+            yield from of_arguments(_guarded(sources))
     for source in sources[:1]:
         yield from source.pairs()
 
 
-def _guarded(sources: list[_Source]) -> Function:
+def _guarded(sources: list[Source]) -> Function:
     """Return the solution as it is, with loops that cannot be endless, whatever its arguments are."""
     solution, *listings = (source.compiled() for source in sources)
     names = {**solution.__globals__, **{f.__name__: f for f in listings}}
     return wraps(sources[0].function)(FunctionType(solution.__code__, names, closure=solution.__closure__))
-
-
-def _of_arguments(solution: Function) -> Iterator[Edit]:
-    """Yield the function with a change to one of its arguments, or two of them exchanged."""
-    names = [*inspect.signature(solution).parameters]
-    for k, name in enumerate(names):
-        for wrong, change in ARGUMENTS.items():
-
-            def function(*given: Any, k: int = k, change: Function = change) -> Any:
-                return solution(*(change(x) if j == k else x for j, x in enumerate(given)))
-
-            yield Edit("argument", name, wrong.format(name, name), solution, function, True)
-    for wrong, change in RESULTS.items():
-
-        def result(*given: Any, change: Function = change) -> Any:
-            answer = solution(*given)
-            return tuple(map(change, answer)) if isinstance(answer, tuple) else change(np.asarray(answer))
-
-        yield Edit("result", "x", wrong.format("x", "x"), solution, result)
-    for order in exchanges([*range(len(names))]):
-
-        def exchanged(*given: Any, order: list[int] = order) -> Any:
-            return solution(*(given[k] for k in order))
-
-        right, wrong = ", ".join(names), ", ".join(names[k] for k in order)
-        yield Edit("argument", right, wrong, solution, exchanged, True)
 
 
 def _kind(value: Any) -> Any:
@@ -157,16 +85,33 @@ def _kind(value: Any) -> Any:
     return type(value)
 
 
-class _Source:
-    """The syntax tree of a function, in which one place at a time is changed."""
+class Source:
+    """The syntax tree of a function, in which one place at a time is changed.
+
+    Parameters
+    ----------
+    function, solution : callable
+        What is changed, and what is called: the same, or one that calls it.
+    values : mapping
+        Of the names in it.
+    names : mapping
+        Put in place of what it calls by these names.
+    text : str, optional
+        Its source, where Python does not find that.
+    """
 
     def __init__(
-        self, function: Function, solution: Function, values: Mapping[str, Any], names: Mapping[str, Any]
+        self,
+        function: Function,
+        solution: Function,
+        values: Mapping[str, Any],
+        names: Mapping[str, Any],
+        text: str | None = None,
     ) -> None:
         self.function, self.solution = function, solution
-        module = vars(sys.modules[function.__module__])
+        module = getattr(function, "__globals__", None) or vars(sys.modules[function.__module__])
         self.names = {**module, "count": count, **{k: x for k, x in names.items() if k in module}}
-        self.tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
+        self.tree = ast.parse(textwrap.dedent(inspect.getsource(function) if text is None else text))
         for node in ast.walk(self.tree):
             if isinstance(node, ast.While):
                 node.body.insert(0, ast.parse("count()").body[0])
@@ -196,14 +141,14 @@ class _Source:
         for k, (parents, field, node) in enumerate(self.places):
             for kind, other in self._alternatives(node, parents):
                 if kind in LIKELY:
-                    first = kind, *self._texts(kind, (parents, field, node, other))
+                    first = kind, *self._texts(kind, (parents, field, node, other)), node.lineno
                     _put(parents[-1], field, other)
                     for place in self.places[k + 1 :]:
                         if not any(parent is node for parent in place[0]):
                             yield from self._second(first, place)
                     _put(parents[-1], field, node)
 
-    def _second(self, first: tuple[str, str, str], where: Any) -> Iterator[Edit]:
+    def _second(self, first: tuple[str, str, str, int], where: Any) -> Iterator[Edit]:
         parents, field, node = where
         for kind, other in self._alternatives(node, parents):
             if kind in LIKELY:
@@ -216,9 +161,10 @@ class _Source:
         parents, field, node, other = place
         if kind in ("sign", "left out"):
             return term(node, other), ""
-        right = context(parents, node)
+        around = enclosing(parents, node)
+        right = text_of(around)
         _put(parents[-1], field, other)
-        wrong = context(parents, other)
+        wrong = text_of(other if around is node else around)
         _put(parents[-1], field, node)
         return right, wrong
 
@@ -240,7 +186,7 @@ class _Source:
             names = {**self.solution.__globals__, self.function.__name__: changed}
             function = FunctionType(self.solution.__code__, names, closure=self.solution.__closure__)
         computed = "" if everywhere else target(places[0][0])
-        yield Edit(kind, *texts, self.function, function, everywhere, computed)
+        yield Edit(kind, *texts, self.function, function, everywhere, computed, None, places[0][2].lineno)
 
     def compiled(self) -> Function:
         """Return the function as the tree is now."""

@@ -62,9 +62,10 @@ def judged(exercise: Exercise, part: Part, function: Function, *, seed: int, tim
         return found
     late = trace.startswith("Timeout")
     lines = [say("endless", seconds=f"{time_limit:g}") if late else say("ended"), *_where(trace)]
-    k = max(calls - 1, 0)
+    tried = cases(part, seed)
+    k = min(max(calls - 1, 0), len(tried) - 1)  # further calls look for what is wrong
     head = say("head", id=exercise.id, name=part.name)
-    return Verdict("wrong", (head, *lines), (), failing_case(part, k, seed, cases(part, seed)[k]))
+    return Verdict("wrong", (head, *lines), (), failing_case(part, k, seed, tried[k]))
 
 
 Outcome = tuple[int, Verdict | None, str, str]

@@ -16,6 +16,7 @@ from .diagnose import explain
 from .exercise import Exercise, Part
 from .failing import Case, cases, failing_case
 from .phrases import say
+from .repairs import guarded
 from .rules import Calls, file_or_cell, is_ours, watching
 from .text import Language, Text
 from .wrapping import hanging
@@ -101,7 +102,8 @@ def judge(
     right = [agree(part, *each) for each in zip(answers, expected, tried)]
     if all(right):
         return Verdict("wrong", (_head(exercise, part), *calls.lines)) if calls.lines else Verdict("done")
-    slips, lines = explain(exercise, part, answers, tried, lambda given: _again(part, function, given, watch))
+    safe = guarded(function)
+    slips, lines = explain(exercise, part, function, answers, tried, lambda given: _again(part, safe, given, watch))
     k = right.index(False)
     case = failing_case(part, k, seed, tried[k], (expected[k], answers[k]))
     context = _context(part, tried, right)

@@ -24,6 +24,25 @@ PHRASES = {
     "edit result": Text(
         "`{wrong}` is returned in place of `{right}`, the right result", "返回了 `{wrong}`，而不是正确的结果 `{right}`"
     ),
+    # what would make the student's own line right
+    "repair sign": Text("the sign of `{wrong}` is wrong", "`{wrong}` 的符号错了"),
+    "repair left out": Text("`{wrong}` does not belong there", "不应有 `{wrong}`"),
+    "repair last": Text("`{wrong}` must not be a sum", "`{wrong}` 不应求和"),
+    "repair exchanged": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair instead": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair inserted": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair argument": Text(
+        "the function is right with `{right}` where it has `{wrong}`", "把参数 `{wrong}` 换成 `{right}`，函数就正确了"
+    ),
+    "repair result": Text(
+        "where `{wrong}` is returned, `{right}` would be right", "返回的是 `{wrong}`，而正确的是 `{right}`"
+    ),
+    "in own line": Text("line {line}, {title}", "第 {line} 行，{title}"),
+    "mended": Text(
+        "With this change, and no other, it is right in all {all} cases.", "只作这一改动，全部 {all} 组数据就都正确。"
+    ),
+    "mended once": Text("With this change, and no other, it is right.", "只作这一改动，就正确了。"),
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
     "everywhere": Text("{title}, wherever it stands", "{title}（每一处都是）"),
     "edited": Text(

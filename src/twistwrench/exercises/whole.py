@@ -1,0 +1,92 @@
+"""An edit of a function, and those that leave its text alone: another argument goes in, or another result comes out."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .alternatives import exchanges
+
+__all__ = ["Edit", "of_arguments"]
+
+Function = Callable[..., Any]
+
+ARGUMENTS: dict[str, Function] = {
+    "-{}": lambda x: -x,
+    "0 * {}": lambda x: [0 * y for y in x] if isinstance(x, list) else 0 * x,
+    "{}.T": lambda x: x.mT,
+    "np.linalg.inv({})": np.linalg.inv,
+    "{}[::-1]": lambda x: x[::-1],
+    "np.abs({})": np.abs,
+    "np.roll({}, len({}) // 2, 0)": lambda x: np.roll(x, len(x) // 2, 0),
+    "{} + {}.T": lambda x: x + x.mT,
+    "{}.T.reshape({}.shape)": lambda x: x.mT.reshape(x.shape),
+}
+"""What can be done to an argument on the way in."""
+
+RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * {}", "{}.T.reshape({}.shape)")}
+
+
+@dataclass(frozen=True)
+class Edit:
+    """A right function with one small change.
+
+    Attributes
+    ----------
+    kind : str
+        One of `KINDS`.
+    right, wrong : str
+        What stands in the right function, and what in this one; of what is left out or has the other sign, the term.
+    within : callable
+        The function whose text is changed, the reference or a listing that it calls.
+    function : callable
+        With the arguments of the reference.
+    everywhere : bool
+        Whether it is made in all places where this stands.
+    target : str
+        What is computed there, if it has a name.
+    first : tuple of str, optional
+        Kind, right, wrong and line of another edit that is made as well.
+    line : int
+        Of the text in which it is made; 0 for an argument or a result.
+    """
+
+    kind: str
+    right: str
+    wrong: str
+    within: Function
+    function: Function
+    everywhere: bool = False
+    target: str = ""
+    first: tuple[str, str, str, int] | None = None
+    line: int = 0
+
+
+def of_arguments(solution: Function) -> Iterator[Edit]:
+    """Yield the function with a change to one of its arguments, or two of them exchanged."""
+    names = [*inspect.signature(solution).parameters]
+    for k, name in enumerate(names):
+        for wrong, change in ARGUMENTS.items():
+
+            def function(*given: Any, k: int = k, change: Function = change) -> Any:
+                return solution(*(change(x) if j == k else x for j, x in enumerate(given)))
+
+            yield Edit("argument", name, wrong.format(name, name), solution, function, True)
+    for wrong, change in RESULTS.items():
+
+        def result(*given: Any, change: Function = change) -> Any:
+            answer = solution(*given)
+            return tuple(map(change, answer)) if isinstance(answer, tuple) else change(np.asarray(answer))
+
+        yield Edit("result", "x", wrong.format("x", "x"), solution, result)
+    for order in exchanges([*range(len(names))]):
+
+        def exchanged(*given: Any, order: list[int] = order) -> Any:
+            return solution(*(given[k] for k in order))
+
+        right, wrong = ", ".join(names), ", ".join(names[k] for k in order)
+        yield Edit("argument", right, wrong, solution, exchanged, True)
