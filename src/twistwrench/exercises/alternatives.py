@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 import ast
+import copy
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Any
 
-__all__ = ["FACTORS", "KINDS", "alternatives", "enclosing", "exchanges", "parsed", "target", "term", "text_of"]
+__all__ = [
+    "FACTORS",
+    "KINDS",
+    "alternatives",
+    "crossed",
+    "enclosing",
+    "exchanges",
+    "parsed",
+    "target",
+    "term",
+    "text_of",
+]
 
 Change = tuple[str, Any]
 """Kind of an edit, and what is put in place of a node."""
 
-KINDS = ("sign", "exchanged", "left out", "last", "instead", "inserted", "number")
+KINDS = ("sign", "exchanged", "left out", "last", "name", "instead", "inserted", "number")
 """The kinds of edits, the likeliest first."""
 
 TWINS = (
@@ -48,7 +60,7 @@ def alternatives(
     if isinstance(getattr(parent, "ctx", None), ast.Store):
         return  # the name of what is written to
     if isinstance(node, ast.Name):
-        yield from (("instead", parsed(name)) for name in names)
+        yield from (("name", parsed(name)) for name in names)
     if _is_term(node, parent):
         yield "sign", ast.UnaryOp(ast.USub(), node)
         yield "instead", _transposed(node)
@@ -78,13 +90,13 @@ def _is_term(node: Any, parent: Any) -> bool:
         return False
     if isinstance(getattr(node, "ctx", ast.Load()), ast.Store):
         return False
-    return isinstance(parent, ast.BinOp | ast.Call | ast.List | ast.Tuple | ast.Return | ast.Assign) and not (
-        isinstance(parent, ast.Call) and node is parent.func
-    )
+    return isinstance(
+        parent, ast.BinOp | ast.UnaryOp | ast.Call | ast.List | ast.Tuple | ast.Return | ast.Assign
+    ) and not (isinstance(parent, ast.Call) and node is parent.func)
 
 
 def _statements(node: Any) -> Iterator[Any]:
-    """Yield an assignment with another sign, with = in place of +=, or with its targets exchanged."""
+    """Yield an assignment with another sign, with = in place of += or the other way, or with things exchanged."""
     if isinstance(node, ast.AugAssign):
         if type(node.op) in OPPOSITE:
             yield "instead", ast.AugAssign(node.target, OPPOSITE[type(node.op)](), node.value)
@@ -94,6 +106,8 @@ def _statements(node: Any) -> Iterator[Any]:
     if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
         for targets in exchanges(node.targets[0].elts):
             yield "exchanged", ast.Assign([ast.Tuple(targets, ast.Store())], node.value, lineno=node.lineno)
+    elif isinstance(node, ast.Assign):
+        yield "instead", ast.AugAssign(node.targets[0], ast.Add(), node.value, lineno=node.lineno)
 
 
 def _operations(node: Any) -> Iterator[Change]:
@@ -117,6 +131,7 @@ def _operations(node: Any) -> Iterator[Change]:
             yield "instead", ast.BinOp(left, ast.Mult(), right)
         if isinstance(op, ast.Mult):
             yield "instead", ast.BinOp(right, ast.Div(), left)
+            yield "instead", ast.BinOp(left, ast.MatMult(), right)
         yield from _brackets(left, op, right)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         yield "sign", node.operand
@@ -126,6 +141,15 @@ def _operations(node: Any) -> Iterator[Change]:
         yield "instead", ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
         for k, _ in enumerate(node.values):
             yield "left out", ast.BoolOp(node.op, node.values[:k] + node.values[k + 1 :])
+
+
+def crossed(node: ast.expr, one: str, other: str) -> ast.expr:
+    """Return a copy of an expression in which two names are exchanged."""
+    found = copy.deepcopy(node)
+    for part in ast.walk(found):
+        if isinstance(part, ast.Name) and part.id in (one, other):
+            part.id = other if part.id == one else one
+    return found
 
 
 def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:

@@ -78,8 +78,9 @@ class Checked:
 
     def line(self, name: str) -> str:
         """Return the state of one function as a line."""
-        state = self.verdicts[name].state
-        return SAY[state if state != "wrong" else "done"].fill(id=self.exercise.id, name=name).of(self.language)
+        verdict = self.verdicts[name]
+        said = SAY[verdict.state if verdict.state != "wrong" else "done"].fill(id=self.exercise.id, name=name)
+        return "  ".join(line.of(self.language) for line in (said, *verdict.lines))
 
     def __repr__(self) -> str:
         lines: list[str] = []

@@ -150,7 +150,8 @@ class Answer(pytest.Item):
         book, exercise = self.parent.book, self.exercise
         verdict = self._verdict()
         if verdict.state == "to do":
-            pytest.skip(TO_DO.fill(id=exercise.id, name=self.asked).of(book.language))
+            todo = TO_DO.fill(id=exercise.id, name=self.asked).of(book.language)
+            pytest.skip("  ".join([todo, *(line.of(book.language) for line in verdict.lines)]))
         if verdict.state == "wrong":
             raise Wrong(verdict.report(book.language))
 

@@ -10,15 +10,16 @@ import ast
 import inspect
 import sys
 import textwrap
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import wraps
+from itertools import combinations
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
-from .alternatives import FACTORS, KINDS, alternatives, enclosing, parsed, target, term, text_of
+from .alternatives import FACTORS, KINDS, alternatives, crossed, enclosing, parsed, target, term, text_of
 from .calls import CHANGED, count
 from .whole import Edit, of_arguments
 
@@ -136,22 +137,22 @@ class Source:
             if len(places) > 1:
                 yield from self._made(kind, (right, wrong), places, everywhere=True)
 
-    def pairs(self) -> Iterator[Edit]:
+    def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
         """Yield two edits at once, of the kinds that are likeliest."""
         for k, (parents, field, node) in enumerate(self.places):
             for kind, other in self._alternatives(node, parents):
-                if kind in LIKELY:
+                if kind in kinds:
                     first = kind, *self._texts(kind, (parents, field, node, other)), node.lineno
                     _put(parents[-1], field, other)
                     for place in self.places[k + 1 :]:
                         if not any(parent is node for parent in place[0]):
-                            yield from self._second(first, place)
+                            yield from self._second(first, place, kinds)
                     _put(parents[-1], field, node)
 
-    def _second(self, first: tuple[str, str, str, int], where: Any) -> Iterator[Edit]:
+    def _second(self, first: tuple[str, str, str, int], where: Any, kinds: Sequence[str]) -> Iterator[Edit]:
         parents, field, node = where
         for kind, other in self._alternatives(node, parents):
-            if kind in LIKELY:
+            if kind in kinds:
                 place = parents, field, node, other
                 for edit in self._made(kind, self._texts(kind, place), [place]):
                     yield replace(edit, first=first)
@@ -196,11 +197,18 @@ class Source:
         return found
 
     def _alternatives(self, node: Any, parents: list[Any]) -> Iterator[tuple[str, Any]]:
-        kind = self.kinds.get(getattr(node, "id", ""))
-        names = [name for name, other in self.kinds.items() if kind and other == kind and name not in (node.id, "_")]
+        name = getattr(node, "id", "")
+        kind = self.kinds.get(name)
+        names = [other for other, found in self.kinds.items() if kind and found == kind and other not in (name, "_")]
         if kind is int and "parent" in self.kinds and isinstance(parents[-1], ast.Subscript):
-            names.append(f"parent[{node.id}]")
-        return alternatives(node, parents[-1], names, self.matrices, self.scalars)
+            names.append(f"parent[{name}]")
+        if kind == ("array", (6,)) and not isinstance(parents[-1], ast.Subscript):
+            names += [f"{name}[:3]", f"{name}[3:]"]
+        yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
+        if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
+            used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.kinds})
+            pairs = ((x, y) for x, y in combinations(used, 2) if self.kinds[x] == self.kinds[y])
+            yield from (("exchanged", crossed(node, *pair)) for pair in pairs)
 
 
 def _alike(kind: str, texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
@@ -210,10 +218,12 @@ def _alike(kind: str, texts: tuple[str, str], node: Any, other: Any) -> tuple[st
         and isinstance(other, ast.BinOp)
         and (node.left, node.right) == (other.left, other.right)
     ):
-        signs = (ast.unparse(ast.BinOp(ast.Name("x"), op, node.right)) for op in (node.op, other.op))
+        if isinstance(node.op, ast.Mult) and isinstance(other.op, ast.MatMult):
+            return "*", "@"
+        signs = (text_of(ast.BinOp(ast.Name("x"), op, node.right)) for op in (node.op, other.op))
         right, wrong = signs
         return right, wrong
-    return texts if kind in ("instead", "inserted") else (texts[0], "")
+    return (text_of(node), text_of(other)) if kind in ("name", "instead", "inserted") else (texts[0], "")
 
 
 def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:

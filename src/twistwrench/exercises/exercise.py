@@ -190,12 +190,15 @@ class Exercise:
     parts : tuple of Part
     uses : tuple of str
         Functions of earlier exercises that the skeleton offers through `mine`.
+    needs : str
+        A package without which it cannot be done, and stays to do; empty for none.
     """
 
     id: str
     kind: Kind
     parts: tuple[Part, ...]
     uses: tuple[str, ...] = field(default=())
+    needs: str = ""
 
     @cached_property
     def _prose(self) -> Mapping[str, Any]:

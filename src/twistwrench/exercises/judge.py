@@ -7,6 +7,7 @@ import traceback
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any, Literal
 
 import numpy as np
@@ -85,6 +86,8 @@ def judge(
     -------
     Verdict
     """
+    if exercise.needs and find_spec(exercise.needs) is None:
+        return Verdict("to do", (say("needs", name=exercise.needs),))
     tried, calls = cases(part, seed), Calls(part.name)
     answers: list[Any] = []
     for k, arguments in enumerate(tried):

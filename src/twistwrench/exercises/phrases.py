@@ -16,6 +16,7 @@ PHRASES = {
     "edit sign": Text("the sign of `{right}` is wrong", "`{right}` 的符号错了"),
     "edit left out": Text("`{right}` is left out", "漏掉了 `{right}`"),
     "edit exchanged": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit name": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit instead": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit inserted": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit number": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
@@ -29,6 +30,7 @@ PHRASES = {
     "repair left out": Text("`{wrong}` does not belong there", "不应有 `{wrong}`"),
     "repair last": Text("`{wrong}` must not be a sum", "`{wrong}` 不应求和"),
     "repair exchanged": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair name": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair instead": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair inserted": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
@@ -103,6 +105,10 @@ PHRASES = {
     "no file": Text(
         "{file} is not there: `twistwrench exercises start` brings it back.",
         "缺少 {file}：用 `twistwrench exercises start` 可重新生成。",
+    ),
+    "needs": Text(
+        "It needs the package {name}, which is not installed here; `pip install pin` brings Pinocchio.",
+        "需要 {name}，此处没有安装；`pip install pin` 可安装 Pinocchio。",
     ),
     "words missing": Text(
         "The function is right. Now explain it in words: fill in {name}.", "函数已正确。请再用文字作答：填写 {name}。"

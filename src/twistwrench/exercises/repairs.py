@@ -30,6 +30,9 @@ __all__ = ["Repair", "guarded", "repairs"]
 BUDGET = 6.0
 """Seconds of a search, of the processor: a busy machine finds the same."""
 
+PAIRED = ("sign", "exchanged", "left out", "name")
+"""The kinds of changes of which two are tried at once."""
+
 Function = Callable[..., Any]
 Cases = Sequence[tuple[Any, ...]]
 
@@ -124,7 +127,7 @@ def _changes(part: Part, function: Function, arguments: tuple[Any, ...], pairs: 
         source = Source(function, function, shown, {"tw": Remembering(twistwrench)}, text)
     except Exception:  # it does not run again as it did
         return
-    for edit in source.pairs() if pairs else _single(source, bool(arguments) and not inspect.isclass(function)):
+    for edit in source.pairs(PAIRED) if pairs else _single(source, bool(arguments) and not inspect.isclass(function)):
         if time.process_time() > end:
             return
         if arguments or edit.kind not in ("number", "inserted"):  # one number is met by chance

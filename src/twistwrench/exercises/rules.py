@@ -23,6 +23,9 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "on_all_rows": ("selection_matrix",),
     "momentum_of_links": ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics"),
     "own_centroidal_map": ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics"),
+    "map_from_pinocchio": ("centroidal_map", "centroidal_terms", "dynamics"),
+    "jacobian_from_pinocchio": ("frame_jacobian", "dynamics"),
+    "acceleration_from_pinocchio": ("aba", "aba_terms", "crba", "rnea", "dynamics"),
 }
 """What the text of an exercise forbids, by the function that the student writes: names of the package."""
 

@@ -28,7 +28,14 @@ ARGUMENTS: dict[str, Function] = {
 }
 """What can be done to an argument on the way in."""
 
-RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * {}", "{}.T.reshape({}.shape)")}
+RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * {}", "{}.T.reshape({}.shape)")} | {
+    "{}[:3]": lambda x: x[:3],
+    "{}[3:]": lambda x: x[3:],
+    "{}[0]": lambda x: x[0],
+    "{}.sum(0)": lambda x: x.sum(0),
+    "{}.ravel()": lambda x: x.ravel(),
+}
+"""What can be done to a result."""
 
 
 @dataclass(frozen=True)

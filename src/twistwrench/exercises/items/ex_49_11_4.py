@@ -1,0 +1,121 @@
+"""Exercise 49.11.4: what Pinocchio returns, in the chapter's order."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import twistwrench as tw
+
+from ..exercise import Exercise, Part, Quantity
+from ..layouts import CENTROIDAL_MAP, JACOBIAN, JOINT_SPACE
+from ..robots import small_robot
+from ..wrong import faulty, swapped
+
+__all__ = ["EXERCISE", "acceleration_from_pinocchio", "jacobian_from_pinocchio", "map_from_pinocchio"]
+
+
+def map_from_pinocchio(model: Any, q: Any) -> Any:
+    """A_G."""
+    import pinocchio as pin
+
+    order = [3, 4, 5, 0, 1, 2, *range(6, model.nv)]
+    A_G = pin.computeCentroidalMap(model, model.createData(), q)
+    return A_G[np.ix_(order[:6], order)]
+
+
+def jacobian_from_pinocchio(model: Any, q: Any, frame: Any) -> Any:
+    """J of a frame, in the world's axes."""
+    import pinocchio as pin
+
+    order, number = [3, 4, 5, 0, 1, 2, *range(6, model.nv)], model.getFrameId(frame)
+    J = pin.computeFrameJacobian(model, model.createData(), q, number, pin.LOCAL_WORLD_ALIGNED)
+    return J[np.ix_(order[:6], order)]
+
+
+def acceleration_from_pinocchio(model: Any, q: Any, v: Any, tau: Any) -> Any:
+    """Accelerations by ABA."""
+    import pinocchio as pin
+
+    order = [3, 4, 5, 0, 1, 2, *range(6, model.nv)]
+    return pin.aba(model, model.createData(), q, v[order], tau[order])[order]
+
+
+def _robots(rng: Any, *, vectors: int = 0) -> Any:
+    """Return random robots as Pinocchio's models, each with a configuration and so many vectors."""
+    robots = [small_robot(rng) for _ in range(3)]
+    return [
+        (tw.bridge.to_pinocchio_model(model), model.random_configuration(rng=rng), *rng.standard_normal((vectors, 9)))
+        for model in robots
+    ]
+
+
+def _frames(rng: Any) -> Any:
+    """Return robots, configurations and the name of a frame that moves with the joints."""
+    return [(model, q, model.names[int(rng.integers(2, model.njoints))]) for model, q in _robots(rng)]
+
+
+def _here(model: Any) -> Any:
+    return tw.bridge.from_pinocchio_model(model)
+
+
+def _about_origin(model: Any, q: Any, A_G: Any) -> Any:
+    """Move the momentum from the centre of mass to the world's origin."""
+    c = tw.center_of_mass(_here(model), q)
+    return np.concatenate([A_G[:3] + tw.skew(c) @ A_G[3:], A_G[3:]])
+
+
+_map, _jacobian, _acceleration = (
+    partial(faulty, f) for f in (map_from_pinocchio, jacobian_from_pinocchio, acceleration_from_pinocchio)
+)
+ROWS = ("np.ix_(order[:6], order)", "order[:6]")
+COLUMNS = ("[np.ix_(order[:6], order)]", "[:, order]")
+
+MAP = Part(
+    solution=map_from_pinocchio,
+    returns=(Quantity("A_G", CENTROIDAL_MAP),),
+    cases=_robots,
+    slips={
+        "swapped-halves": swapped(map_from_pinocchio),
+        "rows-only": _map(ROWS),
+        "columns-only": _map(COLUMNS),
+        "momentum-at-origin": lambda model, q: _about_origin(model, q, map_from_pinocchio(model, q)),
+    },
+    residuals=(lambda answer, model, q: answer - tw.centroidal_map(_here(model), q),),
+)
+
+
+JACOBIAN_PART = Part(
+    solution=jacobian_from_pinocchio,
+    returns=(Quantity("J", JACOBIAN),),
+    cases=_frames,
+    slips={
+        "swapped-halves": swapped(jacobian_from_pinocchio),
+        "rows-only": _jacobian(ROWS),
+        "columns-only": _jacobian(COLUMNS),
+        "local-for-aligned": _jacobian(("pin.LOCAL_WORLD_ALIGNED", "pin.LOCAL")),
+        "world-for-aligned": _jacobian(("pin.LOCAL_WORLD_ALIGNED", "pin.WORLD")),
+    },
+    residuals=(
+        lambda answer, model, q, frame: (
+            answer - tw.frame_jacobian(_here(model), q, frame, reference="local_world_aligned")
+        ),
+    ),
+)
+
+ACCELERATION = Part(
+    solution=acceleration_from_pinocchio,
+    returns=(Quantity("q̈", JOINT_SPACE),),
+    cases=partial(_robots, vectors=2),
+    rtol=1e-8,
+    slips={
+        "swapped-halves": _acceleration(("v[order], tau[order])[order]", "v, tau)")),
+        "input-unconverted": _acceleration(("v[order], tau[order]", "v, tau")),
+        "output-unconverted": swapped(acceleration_from_pinocchio),
+        "velocity-terms-missing": _acceleration(("v[order]", "0 * v")),
+        "torques-missing": _acceleration(("tau[order]", "0 * tau")),
+    },
+    residuals=(lambda answer, model, q, v, tau: tw.rnea(_here(model), q, v, answer) - tau,),
+)
+
+EXERCISE = Exercise(id="49.11.4", kind="code", parts=(MAP, JACOBIAN_PART, ACCELERATION), needs="pinocchio")
