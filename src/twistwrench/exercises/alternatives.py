@@ -24,21 +24,21 @@ __all__ = [
 Change = tuple[str, Any]
 """Kind of an edit, and what is put in place of a node."""
 
-KINDS = ("sign", "exchanged", "left out", "last", "name", "instead", "inserted", "number")
+KINDS = ("sign", "transposed", "exchanged", "left out", "last", "name", "instead", "inserted", "number")
 """The kinds of edits, the likeliest first."""
 
 TWINS = (
     *(("motion_transform", "force_transform"), ("cross_motion", "cross_force"), ("inward", "outward")),
     *(("nonlinear_effects", "gravity"), ("cos", "sin"), ("rotation", "translation"), ("cross", "multiply", "outer")),
     *(("max", "min", "mean", "sum"), ("mean", "median"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
-    *(("FR_foot", "FL_foot", "RR_foot"), ("hypot", "add")),
+    *(("FR_foot", "FL_foot", "RR_foot"), ("hypot", "add"), ("vstack", "hstack"), ("zeros", "eye")),
     *(("local", "world", "local_world_aligned"), ("com", "translation"), ("neutral", "standing"), ("triu", "tril")),
 )
 """Names that are taken for each other."""
 
 FACTORS = ("2", "9.81")
 SLICES = (":3", "3:6", "3:", ":6", "6:", "-6:")
-OPPOSITE = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
+OPPOSITE = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Div}
 COMPARED = {ast.LtE: ast.Lt, ast.Lt: ast.LtE, ast.GtE: ast.Gt, ast.Gt: ast.GtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
 
 
@@ -63,7 +63,7 @@ def alternatives(
         yield from (("name", parsed(name)) for name in names)
     if _is_term(node, parent):
         yield "sign", ast.UnaryOp(ast.USub(), node)
-        yield "instead", _transposed(node)
+        yield "transposed", _transposed(node)
         yield "instead", parsed("np.linalg.inv(_)", node)
         for R in matrices:
             yield "inserted", ast.BinOp(R, ast.MatMult(), node)
@@ -101,6 +101,8 @@ def _statements(node: Any) -> Iterator[Any]:
         if type(node.op) in OPPOSITE:
             yield "instead", ast.AugAssign(node.target, OPPOSITE[type(node.op)](), node.value)
         yield "instead", ast.Assign([node.target], node.value, lineno=node.lineno)
+    if isinstance(node, ast.AugAssign):
+        yield "left out", ast.Pass()
     if isinstance(node, ast.While):
         yield "instead", ast.If(node.test, node.body, [])
     if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
@@ -183,8 +185,20 @@ def _containers(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Slice) and ast.unparse(node) in SLICES:
         for other in SLICES:
             if other != ast.unparse(node):
-                subscript = ast.parse(f"x[{other}]", mode="eval").body
-                yield "instead", subscript.slice  # type: ignore[attr-defined]
+                yield "instead", parsed(f"x[{other}]").slice  # type: ignore[attr-defined]
+    if isinstance(node, ast.Slice) and isinstance(node.lower, ast.Constant) and isinstance(node.upper, ast.Constant):
+        for k in (-1, 1):
+            yield "instead", ast.Slice(*(ast.Constant(x.value + k) for x in (node.lower, node.upper)))
+    if isinstance(node, ast.Subscript):
+        if isinstance(node.slice, ast.Slice):
+            every = ast.Tuple([ast.Slice(), node.slice], ast.Load())
+            yield "instead", ast.Subscript(node.value, every, node.ctx)
+        elif isinstance(node.slice, ast.Tuple) and len(node.slice.elts) == 2 and _is_all(node.slice.elts[0]):
+            yield "instead", ast.Subscript(node.value, node.slice.elts[1], node.ctx)
+
+
+def _is_all(node: Any) -> bool:
+    return isinstance(node, ast.Slice) and node.lower is node.upper is None
 
 
 def _calls(node: Any) -> Iterator[Change]:
@@ -209,7 +223,7 @@ def _calls(node: Any) -> Iterator[Change]:
             yield "instead", parsed("reversed(_)", node)
     if isinstance(node, ast.Attribute):
         if node.attr in ("mT", "T"):
-            yield "left out", node.value
+            yield "transposed", node.value
             yield "instead", parsed("np.linalg.inv(_)", node.value)
         for other in _twins(node.attr):
             yield "instead", ast.Attribute(node.value, other, node.ctx)
@@ -231,13 +245,15 @@ def _numbers(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
         x = node.value
         others = (
-            [x + 1, x - 1, 0, -x, 2 * x, x / 2, 3, 6, -1] if isinstance(x, int) else [10, 9.8, 1.0, -x, 2 * x, x / 2]
+            [x + 1, x - 1, 0, -1, -x, 2 * x, x / 2, 3, 6] if isinstance(x, int) else [10, 9.8, 1.0, -x, 2 * x, x / 2]
         )
         yield from (("number", ast.Constant(other)) for other in dict.fromkeys(others) if other != x)
 
 
 def term(node: ast.expr, other: ast.expr) -> str:
     """Return what a node has more than the other, or the term whose sign differs."""
+    if isinstance(other, ast.Pass):
+        return text_of(node)
     if isinstance(other, ast.UnaryOp) and other.operand is node:
         return text_of(node)
     if isinstance(node, ast.BinOp):

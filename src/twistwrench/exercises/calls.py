@@ -61,6 +61,8 @@ def local_values(function: Function, within: Function, arguments: tuple[Any, ...
     sys.setprofile(note)
     try:
         function(*arguments)
+    except Exception:  # what it computed until then is known
+        pass
     finally:
         sys.setprofile(before)
     return found

@@ -19,7 +19,7 @@ from .steps import first_wrong
 from .text import Text
 from .wrong import swap
 
-__all__ = ["explain", "matching_slips"]
+__all__ = ["after_error", "explain", "matching_slips"]
 
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
@@ -171,14 +171,25 @@ def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers
 
 def _mended(exercise: Exercise, part: Part, found: list[Repair], answers: Answers, cases: Cases) -> list[Text]:
     """Report which change makes the student's own function right, or each wrong thing that it returns."""
+    return [*_changed(part, found, cases), *_shortly(part, answers, cases), _where(exercise, exercise.section)]
+
+
+def _changed(part: Part, found: list[Repair], cases: Cases) -> list[Text]:
     lines = []
     for repair in found:
         if repair.piece is None:
             lines.append(say("slip", title=repair.title()))
         else:
             lines.append(say("slip in", name=part.returns[repair.piece].title, title=repair.title()))
-    lines.append(say("mended", all=len(cases)) if len(cases) > 1 else say("mended once"))
-    return [*lines, *_shortly(part, answers, cases), _where(exercise, exercise.section)]
+    return [*lines, say("mended", all=len(cases)) if len(cases) > 1 else say("mended once")]
+
+
+def after_error(part: Part, function: Callable[..., Any], cases: Cases) -> list[Text]:
+    """Report which change makes a function right that raises an error; nothing where none is found."""
+    right = [part.value(part.solution, arguments) for arguments in cases]
+    given = part, function, right, [None] * len(cases), cases
+    found = repairs(*given) or repairs(*given, pairs=True)
+    return _changed(part, found, cases) if found else []
 
 
 def _shortly(part: Part, answers: Answers, cases: Cases) -> list[Text]:

@@ -29,7 +29,7 @@ Function = Callable[..., Any]
 Place = tuple[list[Any], Any, Any, Any]
 """The nodes around a node, its place in the innermost, itself, and what is put there."""
 
-LIKELY = KINDS[:3]
+LIKELY = ("sign", "exchanged", "left out")
 """Those of which two are tried together."""
 
 
@@ -77,6 +77,13 @@ def _guarded(sources: list[Source]) -> Function:
     return wraps(sources[0].function)(FunctionType(solution.__code__, names, closure=solution.__closure__))
 
 
+def _globals(function: Function) -> Mapping[str, Any]:
+    """Return the names of the module of a function; a class has them from its methods."""
+    methods = [x for x in vars(function).values() if isinstance(x, FunctionType)] if inspect.isclass(function) else []
+    first = methods[0] if methods else function
+    return getattr(first, "__globals__", None) or vars(sys.modules[function.__module__])
+
+
 def _kind(value: Any) -> Any:
     """Return what two values must have in common to be taken for each other."""
     if isinstance(value, np.ndarray):
@@ -110,12 +117,12 @@ class Source:
         text: str | None = None,
     ) -> None:
         self.function, self.solution = function, solution
-        module = getattr(function, "__globals__", None) or vars(sys.modules[function.__module__])
-        self.names = {**module, "count": count, **{k: x for k, x in names.items() if k in module}}
+        module = _globals(function)
+        self.names = {**module, "_one_more_round": count, **{k: x for k, x in names.items() if k in module}}
         self.tree = ast.parse(textwrap.dedent(inspect.getsource(function) if text is None else text))
         for node in ast.walk(self.tree):
             if isinstance(node, ast.While):
-                node.body.insert(0, ast.parse("count()").body[0])
+                node.body.insert(0, ast.parse("_one_more_round()").body[0])
         self.kinds = {name: _kind(x) for name, x in values.items()}
         square = [n for n, x in values.items() if isinstance(x, np.ndarray) and x.ndim == 2 and len({*x.shape}) == 1]
         placed = [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
@@ -204,6 +211,8 @@ class Source:
             names.append(f"parent[{name}]")
         if kind == ("array", (6,)) and not isinstance(parents[-1], ast.Subscript):
             names += [f"{name}[:3]", f"{name}[3:]"]
+        if isinstance(kind, tuple) and kind[0] == "array" and len(kind[1]) == 2:
+            names.append(f"{name}.ravel()")
         yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
         if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
             used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.kinds})

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from .compare import agree, to_do
-from .diagnose import explain
+from .diagnose import after_error, explain
 from .exercise import Exercise, Part
 from .failing import Case, cases, failing_case
 from .phrases import say
@@ -65,6 +65,10 @@ class _Stop(Exception):
     """The student's function did not give an answer."""
 
 
+class _Raised(_Stop):
+    """It raised an error."""
+
+
 def judge(
     exercise: Exercise, part: Part, function: Callable[..., Any], *, seed: int = 0, watch: Watch = nullcontext
 ) -> Verdict:
@@ -97,7 +101,9 @@ def judge(
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:
-            return Verdict("wrong", (_head(exercise, part), *stop.args), (), failing_case(part, k, seed, arguments))
+            more = after_error(part, function, tried) if isinstance(stop, _Raised) else []
+            lines = _head(exercise, part), *stop.args, *more
+            return Verdict("wrong", lines, (), failing_case(part, k, seed, arguments))
         if to_do(answer):
             return Verdict("to do")
         answers.append(answer)
@@ -130,7 +136,7 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
     except NotImplementedError:
         raise
     except (Exception, SystemExit) as error:  # whatever the student's code raises becomes a message
-        raise _Stop(*_stopped(error)) from None
+        raise _Raised(*_stopped(error)) from None
     for name, before, after in zip(part.arguments.split(", "), arguments, given):
         if not _unchanged(before, after):
             raise _Stop(say("changed", name=name.partition("=")[0]))

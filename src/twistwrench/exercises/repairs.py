@@ -30,7 +30,7 @@ __all__ = ["Repair", "guarded", "repairs"]
 BUDGET = 6.0
 """Seconds of a search, of the processor: a busy machine finds the same."""
 
-PAIRED = ("sign", "exchanged", "left out", "name")
+PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
 
 Function = Callable[..., Any]
@@ -72,7 +72,9 @@ class Repair:
 def guarded(function: Function) -> Function:
     """Return a student's function with loops that cannot be endless; itself where its source is not at hand."""
     found = _written(function)
-    return function if found is None else Source(function, function, {}, {}, found[0]).compiled()
+    if found is None or inspect.isclass(function):
+        return function
+    return Source(function, function, {}, {}, found[0]).compiled()
 
 
 def repairs(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import time
 from collections.abc import Callable, Iterator, Sequence
 from types import ModuleType
@@ -172,11 +171,19 @@ class Remembering:
             key = (name, *named, *((x.shape, x.tobytes()) if isinstance(x, np.ndarray) else _key(x) for x in given))
             if key not in self._known:
                 self._known[key] = function(*arguments, **named), given
-            return (
-                copy.copy(self._known[key][0]) if isinstance(self._known[key][0], np.ndarray) else self._known[key][0]
-            )
+            return _fresh(self._known[key][0])
 
         return remembered
+
+
+def _fresh(x: Any) -> Any:
+    """Return a copy of the arrays of a result, as a wrong function may write into them."""
+    if isinstance(x, np.ndarray):
+        return x.copy()
+    if isinstance(x, list | tuple):
+        entries = [_fresh(y) for y in x]
+        return entries if isinstance(x, list) else type(x)(*entries) if hasattr(x, "_fields") else tuple(entries)
+    return x
 
 
 def _key(x: Any) -> Any:

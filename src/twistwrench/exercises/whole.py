@@ -23,6 +23,9 @@ ARGUMENTS: dict[str, Function] = {
     "{}[::-1]": lambda x: x[::-1],
     "np.abs({})": np.abs,
     "np.roll({}, len({}) // 2, 0)": lambda x: np.roll(x, len(x) // 2, 0),
+    "np.triu({})": np.triu,
+    "np.triu({}) + np.triu({}).T": lambda x: np.triu(x) + np.triu(x).mT,
+    "np.r_[{}[4:7], {}[:4], {}[7:]]": lambda x: np.r_[x[4:7], x[:4], x[7:]],
     "{} + {}.T": lambda x: x + x.mT,
     "{}.T.reshape({}.shape)": lambda x: x.mT.reshape(x.shape),
 }
@@ -31,6 +34,7 @@ ARGUMENTS: dict[str, Function] = {
 RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * {}", "{}.T.reshape({}.shape)")} | {
     "{}[:3]": lambda x: x[:3],
     "{}[3:]": lambda x: x[3:],
+    "{}[6:]": lambda x: x[6:],
     "{}[0]": lambda x: x[0],
     "{}.sum(0)": lambda x: x.sum(0),
     "{}.ravel()": lambda x: x.ravel(),
@@ -82,14 +86,14 @@ def of_arguments(solution: Function) -> Iterator[Edit]:
             def function(*given: Any, k: int = k, change: Function = change) -> Any:
                 return solution(*(change(x) if j == k else x for j, x in enumerate(given)))
 
-            yield Edit("argument", name, wrong.format(name, name), solution, function, True)
+            yield Edit("argument", name, wrong.replace("{}", name), solution, function, True)
     for wrong, change in RESULTS.items():
 
         def result(*given: Any, change: Function = change) -> Any:
             answer = solution(*given)
             return tuple(map(change, answer)) if isinstance(answer, tuple) else change(np.asarray(answer))
 
-        yield Edit("result", "x", wrong.format("x", "x"), solution, result)
+        yield Edit("result", "x", wrong.replace("{}", "x"), solution, result)
     for order in exchanges([*range(len(names))]):
 
         def exchanged(*given: Any, order: list[int] = order) -> Any:

@@ -106,8 +106,22 @@ MAP = Part(
 )
 
 
+def _by_vectors(model: Any, q: Any, v: Any, a: Any) -> Any:
+    """Turn ω × l, ω × k and v × l into the rate one by one."""
+    p_G = tw.center_of_mass(model, q)
+    placement, twists, accelerations = tw.forward_kinematics(model, q, v, a)
+    rate = np.zeros(6)
+    for body, T, V, A in zip(model.inertia, placement, np.array(twists), np.array(accelerations)):
+        h, F = body.matrix() @ V, body.matrix() @ A
+        tau = F[:3] + np.cross(V[:3], h[:3]) + np.cross(V[3:], h[3:])
+        f = F[3:] + np.cross(V[:3], h[3:])
+        rate = rate + tw.force_transform(T.rotation, T.translation - p_G) @ np.concatenate([tau, f])
+    return rate
+
+
 RATE = Part(
     solution=momentum_rate,
+    ways=(_by_vectors,),
     returns=(Quantity("ḣ_G", MOMENTUM),),
     cases=_motions,
     slips={

@@ -67,9 +67,15 @@ def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
     power, reverse = _tried(lambda: wrench.power(twist)), _tried(lambda: twist.power(wrench))
     if total is ... or difference is ... or power is ...:
         return ...
-    mixed, paired = _tried(lambda: twist + wrench), _tried(lambda: twist.power(other_twist))
-    errors = (x if isinstance(x, str) else "no error" for x in (mixed, paired))
-    return total.kind, total.vector, difference.vector, power, reverse, *errors
+    mixed = _error(lambda: twist + wrench, lambda: wrench - twist)
+    paired = _error(lambda: twist.power(other_twist), lambda: wrench.power(other_wrench))
+    return total.kind, total.vector, difference.vector, power, reverse, mixed, paired
+
+
+def _error(*actions: Any) -> str:
+    """Return the name of the error that each of these must raise; of the first that raises another, or none."""
+    found = [x if isinstance(x, str) else "no error" for x in map(_tried, actions)]
+    return next((x for x in found if x != "TypeError"), "TypeError")
 
 
 def _tried(action: Any) -> Any:
@@ -156,6 +162,7 @@ POSE_OF_URDF = Part(
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [tuple(rng.uniform(-1.2, 1.2, (2, 3))) for _ in range(4)],
     slips={
+        "angles-as-vector": lambda xyz, rpy: np.block([[tw.exp3(rpy), xyz[:, None]], [np.eye(4)[3:]]]),
         "euler-order": faulty(
             urdf_pose,
             (

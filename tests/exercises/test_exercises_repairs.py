@@ -1,0 +1,157 @@
+"""The change that makes the student's own function right: it is found, it is true, and it stops."""
+
+import importlib.util
+import linecache
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.cli import main
+from twistwrench.exercises import catalogue, start
+from twistwrench.exercises import judge as judging
+from twistwrench.exercises.cells import check
+from twistwrench.exercises.judge import judge
+from twistwrench.exercises.repairs import guarded, repairs
+from twistwrench.exercises.workbook import Workbook
+
+RNEA = """\
+def tree_rnea(parent, S, I, X, qd, qdd, a0):
+    V, A, F, tau = [np.zeros(6)], [a0], [np.zeros(6)], {}
+    for i in range(1, len(parent)):
+        vJ = S[i] @ qd[i]
+        V.append(X[i] @ V[parent[i]] + vJ)
+        A.append(X[i] @ A[parent[i]] + S[i] @ qdd[i] + tw.cross_motion(V[i]) @ vJ)
+        F.append(I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i])
+    for i in range(len(parent) - 1, 0, -1):
+        tau[i] = S[i].T @ F[i]
+        F[parent[i]] = F[parent[i]] + X[i].T @ F[i]
+    return np.concatenate([tau[i] for i in sorted(tau)])
+"""
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Return a function from a text as if it stood in a student's file, below ten other lines."""
+
+    def function(text):
+        path = tmp_path / f"answer_{len(list(tmp_path.iterdir()))}.py"
+        path.write_text("\n" * 10 + text, encoding="utf-8")
+        names = {"np": np, "tw": tw}
+        exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
+        return next(x for name, x in names.items() if callable(x) and name not in ("np", "tw", "__builtins__"))
+
+    yield function
+    linecache.clearcache()
+
+
+def message(function, name, language="en"):
+    return " ".join(judge(*catalogue.find_part(name), function).message(language).split())
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "says"),
+    [
+        ("X[i] @ A[parent[i]]", "X[i] @ V[parent[i]]", "line 16, `V[parent[i]]` must be `A[parent[i]]`"),
+        ("vJ = S[i] @ qd[i]", "vJ = 2 * S[i] @ qd[i]", "line 14, `2` does not belong there"),
+        ("I[i] @ A[i] +", "I[i].T @ V[i] +", "line 17, `V[i]` must be `A[i]`"),
+    ],
+)
+def test_a_slip_in_a_way_of_ones_own_is_found_at_its_line(written, right, wrong, says):
+    assert RNEA.count(right) == 1
+    assert judge(*catalogue.find_part("tree_rnea"), written(RNEA)).state == "done"
+    assert says in message(written(RNEA.replace(right, wrong)), "tree_rnea")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("def act(R, p, x):\n    return (R @ x + p)[:2]\n", "x_A has the shape (2,); it must be (3,)"),
+        ("def act(R, p, x):\n    y = R * x\n    return y + p\n", "`R * x` must be `R @ x`"),
+        ("def act(R, p, x):\n    return np.r_[R @ x + p, 1.0]\n", "where `x` is returned, `x[:3]` would be right"),
+        ("def skew(w):\n    W = -tw.skew(w).T\n    W += tw.skew(w)\n    return W\n", "does not belong there"),
+    ],
+)
+def test_what_must_stand_there_is_reported(written, text, says):
+    name = text.partition("(")[0].removeprefix("def ")
+    assert says in message(written(text), name)
+
+
+def test_an_error_is_explained_too(written):
+    text = "def accelerated(M, h, S, J_c, tau, forces):\n    return np.linalg.solve(M, S.T @ tau + J_c @ forces - h)\n"
+    said = message(written(text), "accelerated")
+    assert "It stopped with ValueError" in said
+    assert "`J_c @ forces` must be `J_c.T @ forces`" in said
+    assert "`J_c @ forces` 应为 `J_c.T @ forces`" in message(written(text), "accelerated", "zh")
+
+
+def test_a_change_that_is_reported_makes_the_function_right(written):
+    """Put the change into the text: the function then passes on other cases than those of the search."""
+    wrong = RNEA.replace("X[i].T @ F[i]", "X[i] @ F[i]")
+    exercise, part = catalogue.find_part("tree_rnea")
+    function, cases = written(wrong), part.cases(np.random.default_rng(5))
+    right = [part.solution(*case) for case in cases]
+    (found,) = repairs(part, function, right, [function(*case) for case in cases], cases)
+    assert found.edit.line + found.before == 20
+    lines = wrong.split("\n")
+    lines[9] = lines[9].replace(found.edit.right, found.edit.wrong)
+    assert lines[9].endswith("X[i].T @ F[i]")
+    assert judge(exercise, part, written("\n".join(lines)), seed=77).state == "done"
+
+
+def test_a_loop_that_a_change_makes_endless_is_given_up(written):
+    text = "def count(kinds):\n    k = 0\n    while k < len(kinds):\n        k += 1\n    return k, k\n"
+    safe = guarded(written(text.replace("k += 1", "k += 0")))
+    with pytest.raises(RuntimeError):
+        safe(["revolute"])
+    assert "not yet right" in message(written(text), "count")
+
+
+def test_what_a_function_writes_into_a_result_does_not_reach_the_next_try(written):
+    text = """\
+def momentum_rate(model, q, v, a):
+    fk, p_G, rate = tw.forward_kinematics(model, q, v, a), tw.center_of_mass(model, q), np.zeros(6)
+    for body, T, V, A in zip(model.inertia, fk.placement, fk.twist, fk.acceleration):
+        A[:] = body.matrix() @ A + tw.cross_force(V) @ body.matrix() @ V
+        rate += tw.force_transform(T.rotation, T.translation - p_G) @ A
+    rate[3:] += 2 * model.mass * model.gravity
+    return rate
+"""
+    assert "`rate[3:] += 2 * model.mass * model.gravity` does not belong there" in message(
+        written(text), "momentum_rate"
+    )
+
+
+# ---------------------------------------------------------------- a language, a package
+
+
+def test_the_language_that_was_asked_for_once_is_remembered(tmp_path, capsys, monkeypatch):
+    start(tmp_path, language="en")
+    monkeypatch.chdir(tmp_path)
+    assert main(["exercises", "hint", "49.3.1", "--language", "zh"]) == 0
+    assert Workbook(tmp_path).language == "zh"
+    capsys.readouterr()
+    main(["exercises", "hint", "49.3.1"])
+    assert "提示" in capsys.readouterr().out
+    main(["exercises", "list"])
+    assert "编程" in capsys.readouterr().out
+
+
+def test_check_remembers_the_language(monkeypatch):
+    monkeypatch.setattr("twistwrench.exercises.cells._ASKED", {})
+
+    def act(R, p, x):
+        return R @ x + p
+
+    assert "正确" in repr(check("49.0.2", act, language="zh"))
+    assert "正确" in repr(check("49.0.2", act))
+    assert "right" in repr(check("49.0.2", act, language="en"))
+
+
+def test_an_exercise_whose_package_is_missing_is_to_do(monkeypatch):
+    monkeypatch.setattr(judging, "find_spec", lambda name: None)
+    exercise, part = catalogue.find_part("map_from_pinocchio")
+    verdict = judge(exercise, part, part.solution)
+    assert verdict.state == "to do"
+    assert "pip install pin" in verdict.message("en")
+    assert importlib.util.find_spec("numpy")
