@@ -29,6 +29,9 @@ Function = Callable[..., Any]
 Place = tuple[list[Any], Any, Any, Any]
 """The nodes around a node, its place in the innermost, itself, and what is put there."""
 
+MOST_PLACES = 5
+"""Of the same text, for which an edit is tried in each two of them."""
+
 LIKELY = ("sign", "exchanged", "left out")
 """Those of which two are tried together."""
 
@@ -143,6 +146,9 @@ class Source:
         for (right, wrong), places in alike.items():
             if len(places) > 1:
                 yield from self._made(kind, (right, wrong), places, everywhere=True)
+            if 2 < len(places) <= MOST_PLACES:
+                for two in combinations(places, 2):
+                    yield from self._made(kind, (right, wrong), [*two], everywhere=True)
 
     def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
         """Yield two edits at once, of the kinds that are likeliest."""
@@ -194,7 +200,7 @@ class Source:
             names = {**self.solution.__globals__, self.function.__name__: changed}
             function = FunctionType(self.solution.__code__, names, closure=self.solution.__closure__)
         computed = "" if everywhere else target(places[0][0])
-        yield Edit(kind, *texts, self.function, function, everywhere, computed, None, places[0][2].lineno)
+        yield Edit(kind, *texts, self.function, function, len(places) * everywhere, computed, None, places[0][2].lineno)
 
     def compiled(self) -> Function:
         """Return the function as the tree is now."""

@@ -48,6 +48,7 @@ PHRASES = {
     ),
     "mended once": Text("With this change, and no other, it is right.", "只作这一改动，就正确了。"),
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
+    "twice": Text("{title}, in two places", "{title}（两处都是）"),
     "everywhere": Text("{title}, wherever it stands", "{title}（每一处都是）"),
     "edited": Text(
         "A right solution with this change, and no other, gives your numbers, in all {all} cases.",

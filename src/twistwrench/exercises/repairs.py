@@ -21,13 +21,13 @@ from .compare import agree, close, values
 from .edits import Source
 from .exercise import Part
 from .phrases import say
-from .search import Remembering
+from .search import Remembering, said_where
 from .text import Text
 from .whole import Edit, of_arguments
 
 __all__ = ["Repair", "guarded", "repairs"]
 
-BUDGET = 6.0
+BUDGET = 4.0
 """Seconds of a search, of the processor: a busy machine finds the same."""
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
@@ -58,9 +58,8 @@ class Repair:
         """Report what must stand where."""
         edit = self.edit
         title = say(f"repair {edit.kind}", right=edit.wrong, wrong=edit.right)
-        if edit.everywhere and edit.line:
-            title = say("everywhere", title=title)
         if edit.line:
+            title = said_where(edit, title)
             title = say("in own line", line=edit.line + self.before, title=title)
         if edit.first is not None:
             kind, wrong, right, line = edit.first
@@ -108,7 +107,7 @@ def repairs(
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
                 return [Repair(edit, before)]
-            if all(_same(part, others, answers, k) for k in fine):
+            if edit.kind == "result" or all(_same(part, others, answers, k) for k in fine):
                 found.update((k, Repair(edit, before, k)) for k in here if _same(part, others, right, k))
     return [found[k] for k in sorted(found)] if found.keys() == bad else []
 

@@ -19,7 +19,7 @@ from .phrases import say
 from .text import Text
 from .whole import Edit
 
-__all__ = ["Found", "Remembering", "exchanged_results", "found_edits", "right_where"]
+__all__ = ["Found", "Remembering", "exchanged_results", "found_edits", "right_where", "said_where"]
 
 BUDGET = 8.0
 """Seconds of a search, of the processor: a busy machine finds the same."""
@@ -45,7 +45,14 @@ class Found(NamedTuple):
         if self.edit.first is not None:
             kind, right, wrong, _ = self.edit.first
             return say("both edits", first=say(f"edit {kind}", right=right, wrong=wrong), second=title)
-        return say("everywhere", title=title) if self.edit.everywhere else title
+        return said_where(self.edit, title)
+
+
+def said_where(edit: Edit, title: Text) -> Text:
+    """Add to a title in how many places an edit is made."""
+    if not edit.everywhere:
+        return title
+    return say("twice" if edit.everywhere == 2 else "everywhere", title=title)
 
 
 def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:

@@ -56,8 +56,8 @@ class Edit:
         The function whose text is changed, the reference or a listing that it calls.
     function : callable
         With the arguments of the reference.
-    everywhere : bool
-        Whether it is made in all places where this stands.
+    everywhere : int
+        In how many places it is made at once; 0 for one by itself.
     target : str
         What is computed there, if it has a name.
     first : tuple of str, optional
@@ -71,7 +71,7 @@ class Edit:
     wrong: str
     within: Function
     function: Function
-    everywhere: bool = False
+    everywhere: int = 0
     target: str = ""
     first: tuple[str, str, str, int] | None = None
     line: int = 0
@@ -86,7 +86,7 @@ def of_arguments(solution: Function) -> Iterator[Edit]:
             def function(*given: Any, k: int = k, change: Function = change) -> Any:
                 return solution(*(change(x) if j == k else x for j, x in enumerate(given)))
 
-            yield Edit("argument", name, wrong.replace("{}", name), solution, function, True)
+            yield Edit("argument", name, wrong.replace("{}", name), solution, function, 1)
     for wrong, change in RESULTS.items():
 
         def result(*given: Any, change: Function = change) -> Any:
@@ -100,4 +100,4 @@ def of_arguments(solution: Function) -> Iterator[Edit]:
             return solution(*(given[k] for k in order))
 
         right, wrong = ", ".join(names), ", ".join(names[k] for k in order)
-        yield Edit("argument", right, wrong, solution, exchanged, True)
+        yield Edit("argument", right, wrong, solution, exchanged, 1)
