@@ -108,7 +108,7 @@ def _statements(node: Any) -> Iterator[Any]:
     if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
         for targets in exchanges(node.targets[0].elts):
             yield "exchanged", ast.Assign([ast.Tuple(targets, ast.Store())], node.value, lineno=node.lineno)
-    elif isinstance(node, ast.Assign):
+    elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name | ast.Subscript):
         yield "instead", ast.AugAssign(node.targets[0], ast.Add(), node.value, lineno=node.lineno)
 
 
@@ -186,9 +186,10 @@ def _containers(node: Any) -> Iterator[Change]:
         for other in SLICES:
             if other != ast.unparse(node):
                 yield "instead", parsed(f"x[{other}]").slice  # type: ignore[attr-defined]
-    if isinstance(node, ast.Slice) and isinstance(node.lower, ast.Constant) and isinstance(node.upper, ast.Constant):
-        for k in (-1, 1):
-            yield "instead", ast.Slice(*(ast.Constant(x.value + k) for x in (node.lower, node.upper)))
+    if isinstance(node, ast.Slice):
+        ends = [x.value for x in (node.lower, node.upper) if isinstance(x, ast.Constant) and isinstance(x.value, int)]
+        for k in (-1, 1) if len(ends) == 2 else ():
+            yield "instead", ast.Slice(*(ast.Constant(end + k) for end in ends))
     if isinstance(node, ast.Subscript):
         if isinstance(node.slice, ast.Slice):
             every = ast.Tuple([ast.Slice(), node.slice], ast.Load())

@@ -128,7 +128,8 @@ def _changes(part: Part, function: Function, arguments: tuple[Any, ...], pairs: 
         source = Source(function, function, shown, {"tw": Remembering(twistwrench)}, text)
     except Exception:  # it does not run again as it did
         return
-    for edit in source.pairs(PAIRED) if pairs else _single(source, bool(arguments) and not inspect.isclass(function)):
+    whole = bool(arguments) and not inspect.isclass(function)
+    for edit in source.pairs(PAIRED) if pairs else _single(source, whole):
         if time.process_time() > end:
             return
         if arguments or edit.kind not in ("number", "inserted"):  # one number is met by chance
