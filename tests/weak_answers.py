@@ -63,7 +63,7 @@ ANSWERS = [
         "X = np.eye(6)\nX[3:, :3] = skew(p)\nreturn X, np.linalg.inv(X), X.T",
         "The slip: Xᵀ taken for X*",
     ),
-    Weak("rotation_transform", "return np.kron(R, np.eye(2))", "X, the block of rows ω, columns v: must be zero"),
+    Weak("rotation_transform", "return np.kron(R, np.eye(2))", "must be `np.kron(np.eye(2), R)`"),
     Weak(
         "plucker",
         "X = np.block([[R, np.zeros((3, 3))], [R @ skew(p), R]])\nreturn X, np.linalg.inv(X).T",

@@ -38,7 +38,7 @@ def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) 
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             return part.value(function, copied(arguments))
-    except Exception:  # whatever an edit leads to
+    except (Exception, SystemExit):  # whatever an edit leads to
         return None
 
 
@@ -61,7 +61,7 @@ def local_values(function: Function, within: Function, arguments: tuple[Any, ...
     sys.setprofile(note)
     try:
         function(*arguments)
-    except Exception:  # what it computed until then is known
+    except (Exception, SystemExit):  # what it computed until then is known
         pass
     finally:
         sys.setprofile(before)

@@ -190,7 +190,7 @@ class Source:
             _put(parents[-1], field, other)
         try:
             changed = self.compiled()
-        except (RecursionError, SyntaxError, TypeError, ValueError):
+        except Exception:  # no program; and the body of a class is run
             return
         finally:
             for parents, field, node, _ in places:

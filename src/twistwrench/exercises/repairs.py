@@ -149,8 +149,11 @@ def _written(function: Function) -> tuple[str, int] | None:
     code = getattr(function, "__code__", None)
     if code is None and inspect.isclass(function):
         code = next((x.__code__ for x in vars(function).values() if isinstance(x, FunctionType)), None)
-    if code is None or (not inspect.isclass(function) and code.co_name != function.__name__):  # it is wrapped
-        return None
+    if code is None or (not inspect.isclass(function) and code.co_name != function.__name__):
+        return None  # it is wrapped
+    if getattr(function, "__closure__", None):
+        return None  # it cannot be compiled by itself
+    linecache.checkcache(code.co_filename)
     lines = linecache.getlines(code.co_filename)
     try:
         nodes = ast.walk(ast.parse("".join(lines)))
