@@ -62,7 +62,7 @@ def _add_grade(grade: Any) -> None:
 
 def _action(actions: Any, name: str, help: str, run: Any) -> Any:
     parser = actions.add_parser(name, help=help)
-    parser.add_argument("--language", choices=["en", "zh"], help="English or 简体中文; remembered in the folder")
+    parser.add_argument("--language", choices=["en", "zh"], help="remembered in the folder: English or 简体中文")
     parser.set_defaults(run=run)
     return parser
 

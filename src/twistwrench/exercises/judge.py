@@ -102,8 +102,8 @@ def judge(
             return Verdict("to do")
         except _Stop as stop:
             more = after_error(part, function, tried) if isinstance(stop, _Raised) else []
-            told = _head(exercise, part), *stop.args, *more
-            return Verdict("wrong", told, (), failing_case(part, k, seed, arguments))
+            message = _head(exercise, part), *stop.args, *more
+            return Verdict("wrong", message, (), failing_case(part, k, seed, arguments))
         if to_do(answer):
             return Verdict("to do")
         answers.append(answer)
