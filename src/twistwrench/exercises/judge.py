@@ -136,7 +136,8 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
     except NotImplementedError:
         raise
     except (Exception, SystemExit) as error:  # whatever the student's code raises becomes a message
-        raise _Raised(*_stopped(error)) from None
+        outside = isinstance(error, MemoryError | SystemExit)  # no slip of the mathematics
+        raise (_Stop if outside else _Raised)(*_stopped(error)) from None
     for name, before, after in zip(part.arguments.split(", "), arguments, given):
         if not _unchanged(before, after):
             raise _Stop(say("changed", name=name.partition("=")[0]))
