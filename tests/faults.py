@@ -32,7 +32,10 @@ FAULTS = [
     ),
     Fault("quaternion: conjugate", "spatial/rotation.py", "2 * (w * U + U @ U)", "2 * (-w * U + U @ U)"),
     Fault(
-        "roll and yaw swapped", "spatial/rotation.py", "(cr, cp, cy), (sr, sp, sy) =", "(cy, cp, cr), (sy, sp, sr) ="
+        "roll and yaw swapped",
+        "spatial/roll_pitch_yaw.py",
+        "[cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr]",
+        "[cr * cp, cr * sp * sy - sr * cy, cr * sp * cy + sr * sy]",
     ),
     Fault("log: whole angle for half of it", "spatial/rotation.py", "2 * atan2(n, w)", "atan2(n, w)"),
     Fault("exp: no ω × v", "spatial/exponential.py", "v + 2 * H * np.matvec(cross_matrix(H * w), v) +", "v +"),

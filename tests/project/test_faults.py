@@ -40,6 +40,7 @@ PHYSICS_AND_ORACLES = [
     "model/test_manifold.py",
     "algorithms/test_random_trees.py",
     "spatial/test_rotation.py",
+    "spatial/test_roll_pitch_yaw.py",
     "spatial/test_exponential.py",
     "spatial/test_jacobians.py",
     "spatial/test_plucker.py",
