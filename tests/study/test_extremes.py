@@ -1,5 +1,6 @@
 """The extremes: closed forms, no silent bad cell, a study that goes on where it stopped."""
 
+import importlib
 import json
 import re
 import sys
@@ -436,6 +437,30 @@ def test_both_languages_have_the_same_sections_and_the_same_code():
     assert [part.heading[1] for part in parts] == [part.heading[1] for part in twins]
     for part in parts:
         assert any("assert " in block for block in part.blocks), part.heading[0]
+
+
+@pytest.fixture
+def maker(monkeypatch):
+    """benchmarks/extremes.py, which makes the page's tables and measures its single numbers."""
+    monkeypatch.syspath_prepend(str(DOCS.parent / "benchmarks"))
+    return importlib.import_module("extremes")
+
+
+@pytest.mark.parametrize("language", ["", ".zh-CN"])
+def test_the_tables_and_the_numbers_of_the_page_are_those_of_the_results(maker, language):
+    text = page("extremes", language).read_text(encoding="utf-8")
+    assert maker.fill(text, maker.tables()) == text
+    assert re.findall(r"<!-- table: (\w+) -->", text) == ["base", "turns"]
+    words = re.sub(r"```.*?```|<!--[^\n]*\n(\|[^\n]*\n)+", "", text, flags=re.DOTALL)
+    assert [number for number in maker.quoted() if number not in words] == []
+
+
+def test_the_results_of_a_heavy_tip_are_those_of_today(maker):
+    recipe = maker.CELLS["heavy tip"]
+    kept = json.loads(maker.RESULTS.read_text(encoding="utf-8"))["cells"]["heavy tip"]
+    for outcome in measure(recipe, pinocchio=False):
+        if outcome.error is not None and outcome.who == "textbook":
+            assert outcome.error == pytest.approx(kept[outcome.algorithm]["textbook"], rel=10, abs=1e-15)
 
 
 def test_the_maps_are_there_and_small():

@@ -140,6 +140,6 @@ def aba_terms(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: A
             terms = articulated_body(tree, columns(model, v), columns(model, tau), wrenches(f_ext))
     except ZeroDivisionError:  # fractions raise where floats are infinite
         refuse_weightless(model, tree)
-        raise SingularError("a joint accelerates nothing but its outboard joints: q̈ is not determined there") from None
+        raise SingularError("a joint moves no inertia with its outboard joints free: q̈ is not determined") from None
     refuse_singular(model, tree, terms)
     return terms

@@ -37,7 +37,7 @@ def checked_inertias(model: Model, tree: Tree) -> ArticulatedTerms:
             terms = articulated_inertias(tree)
     except ZeroDivisionError:  # fractions raise where floats are infinite
         refuse_weightless(model, tree)
-        raise SingularError("a joint moves nothing but its outboard joints: M is singular there") from None
+        raise SingularError("a joint moves no inertia with its outboard joints free: M is singular") from None
     refuse_singular(model, tree, terms)
     return terms
 

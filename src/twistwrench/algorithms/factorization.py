@@ -88,7 +88,7 @@ def checked_factors(model: Model, tree: Tree) -> tuple[Array, Array, list[list[i
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             L, D = factorize(M, inboard)
     except ZeroDivisionError:  # fractions raise where floats are infinite
-        raise SingularError("M is singular: a joint moves nothing but its outboard joints") from None
+        raise SingularError("M is singular: a joint moves no inertia with its outboard joints free") from None
     size = judged(np.diagonal(M, axis1=-2, axis2=-1))
     least = size * (0 if D.dtype == object else ROUNDINGS * resolution(D.dtype))
     lost = ~(judged(D) > least)

@@ -167,7 +167,7 @@ def random_tree(
     if not 0 <= as_number(branching, "branching") <= 1:
         raise ModelError(f"branching: expected a number from 0 to 1, got {branching}")
     if isinstance(kinds, str | Set) or not len(kinds := as_names(kinds, "kinds", "kinds")):
-        raise ModelError(f"kinds: expected a list of kinds, in an order that the seed can choose by, got {kinds!r}")
+        raise ModelError(f"kinds: expected a list or tuple of kinds, since the seed needs an order, got {kinds!r}")
     for kind in kinds:
         check_known("kind of joint", kind, Joint.kinds)
     links, joints = ([f"{what}_{k}" for k in rng.permutation(n)] for what in ("link", "joint"))

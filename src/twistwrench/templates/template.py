@@ -51,7 +51,7 @@ class Residual:
         if self.weight == 0:
             raise SingularError("relative residual: without gravity there is no weight to compare with")
         if self.length == 0:
-            raise SingularError("relative residual: of a point there is no radius of gyration to weigh moments by")
+            raise SingularError("relative residual: a point has no radius of gyration, by which moments are divided")
         squares = (self.force * self.force).sum(-1) + (self.moment * self.moment).sum(-1) / self.length**2
         return np.asarray(np.sqrt(squares) / self.weight)
 

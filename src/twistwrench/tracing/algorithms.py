@@ -98,7 +98,7 @@ def trace(
         expected = ", ".join(("q", *NEEDED[algorithm]))
         raise ValueError(f"{algorithm} takes {expected}; got {', '.join(('q', *given))}")
     if f_ext is not None and not NEEDED[algorithm]:
-        raise ValueError("f_ext: the mass matrix does not depend on it, nor does the centroidal map")
+        raise ValueError("f_ext: expected none, since neither M nor A_G depends on it")
     wrenches = {} if f_ext is None else {"f_ext": f_ext}
     checked, *_ = model.state(q, **given, **wrenches)  # of one batch shape
     if checked.ndim != 1:

@@ -1,0 +1,182 @@
+"""The single numbers of docs/extremes.md, and its tables of a fast base and of exp and log.
+
+python benchmarks/extremes.py            # some minutes; results/extremes.json, the two tables
+python benchmarks/extremes.py --tables   # only make the tables anew from results/
+
+The counts over the whole grid are those of `twistwrench study extremes --full --json FILE`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import mpmath
+import numpy as np
+from tables import fill, table
+
+import twistwrench as tw
+from twistwrench import bridge
+from twistwrench import newton_euler_3d as ne
+from twistwrench.study.extremes.cell import measure
+from twistwrench.study.extremes.robots import Recipe
+from twistwrench.study.extremes.rotations import rotations
+from twistwrench.study.extremes.truth import truth
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results" / "extremes.json"
+PAGES = tuple(HERE.parent / "docs" / f"extremes{language}.md" for language in ("", ".zh-CN"))
+CELLS = {
+    "heavy tip, 20 bodies": Recipe(bodies=20, mass_ratio=1e9),
+    "heavy tip": Recipe(mass_ratio=1e9),
+    "heavy tip, heavy rotors": Recipe(mass_ratio=1e9, rotor=1e9),
+    "base at 1e6 m": Recipe(distance=1e6),
+    "base at 1e9 m": Recipe(distance=1e9),
+    "base at 1e4 m/s": Recipe(base_speed=1e4),
+    "base at 1e8 m/s": Recipe(base_speed=1e8),
+    "down to 1e-18 kg": Recipe(bodies=20, mass_ratio=1e-18),
+    "quaternion off by 1e-9": Recipe(off=1e-9),
+    "quaternion off by 0.1": Recipe(off=0.1),
+}
+TORQUES = ("pushed", "steered")
+PLAIN = {  # a line of the source -> what it would be without the care that it takes
+    ("aba", "symmetric"): lambda M: M,
+    ("rnea", "bias_wrench"): lambda I, V: tw.cross_force(V[..., 0]) @ (I @ V),
+    ("aba", "bias_wrench"): lambda I, V: tw.cross_force(V[..., 0]) @ (I @ V),
+}
+
+
+def without_care(recipe: Recipe, algorithm: str, line: str) -> float:
+    """Return the error of an algorithm of ours, one of whose lines is written as in a book."""
+    module = importlib.import_module(f"twistwrench.algorithms.{algorithm}")
+    careful, (model, s) = getattr(module, line), (recipe.model, recipe.state)
+    right = truth(model, s)
+    setattr(module, line, PLAIN[algorithm, line])
+    try:
+        if algorithm == "rnea":
+            return float(right.error("tau", tw.rnea(model, *s)))
+        name = "pushed" if line == "symmetric" else "steered"
+        return float(right.error(name, tw.aba(model, s.q, s.v, right.torques[name])))
+    finally:
+        setattr(module, line, careful)
+
+
+def of_a_fast_base(recipe: Recipe) -> dict[str, dict[str, float]]:
+    """Return the errors of C v and of the moment of ḣ_G, relative to the largest entry."""
+    model, s = recipe.model, recipe.state
+    pin, there = bridge.import_pinocchio(), bridge.to_pinocchio_model(model)
+    data, (v, a) = there.createData(), (bridge.to_pinocchio_tangent(model, x) for x in (s.v, s.a))
+    exact = [ne.as_mpmath(x) for x in s]
+    right = ne.inverse_dynamics(model, exact[0], exact[1], 0 * exact[2])
+    right = right - ne.inverse_dynamics(model, exact[0], 0 * exact[1], 0 * exact[2])
+    C = bridge.from_pinocchio_matrix(model, pin.computeCoriolisMatrix(there, data, s.q, v))
+    rate = pin.computeCentroidalMomentumTimeVariation(there, data, s.q, v, a)
+    moment = ne.centroidal_momentum_rate(model, *exact)[:3]
+
+    def off(got: Any, expected: Any) -> float:
+        return float(abs(got - expected).max() / abs(expected).max())
+
+    return {
+        "C v": {"textbook": off(tw.coriolis_matrix(model, s.q, s.v) @ s.v, right), "pinocchio": off(C @ s.v, right)},
+        "moment of ḣ_G": {
+            "textbook": off(tw.centroidal_momentum_rate(model, *s)[:3], moment),
+            "pinocchio": off(np.asarray(rate.angular), moment),
+        },
+    }
+
+
+def cost(model: tw.Model, q: np.ndarray, rounds: int) -> float:
+    """Return the processor time of `accuracy` over that of `aba`, called in turns: the median."""
+    rest, ratios = np.zeros(model.nv), []
+    for _ in range(rounds + 1):
+        start = time.process_time()
+        tw.accuracy(model, q)
+        between = time.process_time()
+        tw.aba(model, q, rest, rest)
+        ratios.append((between - start) / (time.process_time() - between))
+    return float(np.median(ratios[1:]))  # the first round makes what is made once
+
+
+def measured() -> dict[str, Any]:
+    """Measure everything."""
+    found: dict[str, Any] = {"cells": {}}
+    for name, recipe in CELLS.items():
+        errors: dict[str, dict[str, float]] = {}
+        for outcome in measure(recipe, pinocchio=True):
+            if outcome.error is not None:
+                errors.setdefault(outcome.algorithm, {})[outcome.who] = outcome.error
+        found["cells"][name] = errors
+    found["plain"] = {
+        "aba, not symmetric": without_care(CELLS["heavy tip, 20 bodies"], "aba", "symmetric"),
+        "rnea, v × m v": without_care(CELLS["base at 1e8 m/s"], "rnea", "bias_wrench"),
+        "aba, v × m v": without_care(CELLS["base at 1e8 m/s"], "aba", "bias_wrench"),
+    }
+    for name in ("base at 1e4 m/s", "base at 1e8 m/s"):
+        found["cells"][name] |= of_a_fast_base(CELLS[name])
+    long = replace(Recipe(), bodies=300)
+    single = tw.rnea(long.model, *(x.astype(np.float32) for x in long.state))
+    tau = tw.rnea(long.model, *long.state)
+    found["float32, 300 links"] = float(np.abs(single - tau).max() / np.abs(tau).max())
+    go2, chain = tw.load("go2"), tw.chain(1000)
+    found["accuracy / aba"] = {
+        "go2": cost(go2, go2.standing(), 40),
+        "chain of 1000": cost(chain, np.full(1000, 0.3), 3),
+    }
+    found["exp and log"] = [turn._asdict() for turn in rotations()]
+    return found
+
+
+def tables() -> dict[str, str]:
+    """Return both tables."""
+    found = json.loads(RESULTS.read_text(encoding="utf-8"))
+    return {"base": table(_base(found["cells"])), "turns": table(_turns(found["exp and log"]))}
+
+
+def quoted() -> list[str]:
+    """Return the numbers that the page has in its sentences, as it writes them."""
+    found = json.loads(RESULTS.read_text(encoding="utf-8"))
+    cells, plain = found["cells"], found["plain"]
+    heavy, tip, far = cells["heavy tip, 20 bodies"], cells["down to 1e-18 kg"]["crba"], "base at 1e9 m"
+    numbers = [heavy[f"{way}, {torques}"]["textbook"] for way in ("aba", "crba + solve") for torques in TORQUES]
+    numbers += [heavy["aba, pushed"]["pinocchio"], *plain.values(), found["float32, 300 links"], tip["textbook"]]
+    numbers += [cells[name]["centroidal map"]["pinocchio"] for name in ("base at 1e6 m", far)]
+    numbers += [cells[far]["centroidal map"]["textbook"], cells["quaternion off by 1e-9"]["rnea"]["pinocchio"]]
+    numbers += [cells[name]["aba, steered"]["textbook"] for name in ("heavy tip", "heavy tip, heavy rotors")]
+    return [f"{number:.1e}".replace("e-0", "e-") for number in numbers]
+
+
+def _base(cells: dict[str, Any]) -> Iterator[tuple[str, str, str]]:
+    rows = {"`rnea`": "rnea", "`aba`": "aba, steered", "M, h → q̈": "crba + solve, steered"}
+    for line, algorithm in (rows | {name: name for name in ("C v", "moment of ḣ_G")}).items():
+        for speed in ("1e4", "1e8"):
+            for who in ("textbook", "fast", "pinocchio"):
+                error = cells[f"base at {speed} m/s"][algorithm].get(who)
+                yield line, f"{who}, {speed} m/s", "" if error is None else f"{error:.1e}"
+
+
+def _turns(turns: list[dict[str, Any]]) -> Iterator[tuple[str, str, str]]:
+    for turn in turns:
+        for name, at in (("0", "near_zero"), ("π", "near_pi")):
+            yield f"`{turn['function']}`", f"{turn['library']}, {name}", f"{turn[at]:.1e}"
+
+
+def main() -> None:
+    """Run what is asked for."""
+    parser = argparse.ArgumentParser(description="Make the numbers and the tables of docs/extremes.md.")
+    parser.add_argument("--tables", action="store_true", help="only the tables, from results/")
+    if not parser.parse_args().tables:
+        with mpmath.workdps(50):
+            text = json.dumps(measured(), indent=1, ensure_ascii=False, allow_nan=False)
+        RESULTS.write_text(text + "\n", encoding="utf-8")
+    for page in PAGES:
+        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
