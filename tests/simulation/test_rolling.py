@@ -106,7 +106,7 @@ def test_the_ground_is_computed_by_a_program_for_points_soles_and_balls():
     ):
         ground_terms(model, model.standing() if model.feet else model.neutral(), (contact,), tw.Ground())
         made = [program for key, program in model._programs.items() if key[0] == "ground"]
-        assert [type(program).__name__ for program in made] == ["Program"]
+        assert {type(program).__name__ for program in made} == {"Program"}
 
 
 @pytest.mark.parametrize("share", [0.98, 1.02])

@@ -78,7 +78,7 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
     except np.linalg.LinAlgError:
         L = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
     if not np.isfinite(L).all():
-        raise SingularError(f"the mass matrix is not positive definite: {_without_inertia(model, M)}")
+        raise SingularError(f"the mass matrix is not positive definite: {without_inertia(model, M)}")
     Y = np.linalg.solve(L, J.mT)
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
     bound = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
@@ -87,7 +87,7 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
     return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
 
 
-def _without_inertia(model: Model, M: Array) -> str:
+def without_inertia(model: Model, M: Array) -> str:
     """Return the message with the joints that move nothing that has inertia."""
     own = np.diagonal(M, axis1=-2, axis2=-1)
     names = [repr(name) for name, s in zip(model.joint_names, model.v_slice) if (own[..., s] <= 0).any()]

@@ -152,7 +152,7 @@ def check(
     >>> check("49.0.1", skew, language="en")
     49.0.1  skew: right.
     <BLANKLINE>
-    Section 49.0: ●○○○○  1 of 5 exercises
+    Section 49.0: ●... of 5 exercises
     """
     exercise = catalogue.exercise(number)
     given = functions or (() if formulas or words else _of_caller(exercise, sys._getframe(1).f_globals))

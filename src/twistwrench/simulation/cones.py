@@ -20,8 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Array
+from ..contact.decomposition import without_inertia
 from ..contact.qp import FEASIBLE, least_with_multipliers
 from ..errors import SingularError
+from ..model import Model
 
 __all__ = ["Answer", "Metric", "Points", "coulomb"]
 
@@ -49,13 +51,13 @@ class Metric:
     `held`, orthonormal columns in units of Lᵀ v, is what no impulse changes.
     """
 
-    def __init__(self, M: Array, held: Array | None = None) -> None:
+    def __init__(self, model: Model, M: Array, held: Array | None = None) -> None:
         try:
             self.inverse = np.linalg.inv(np.linalg.cholesky(M))
         except np.linalg.LinAlgError:
             self.inverse = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
         if not np.isfinite(self.inverse).all():
-            raise SingularError("the mass matrix is not positive definite")
+            raise SingularError(f"the mass matrix is not positive definite: {without_inertia(model, M)}")
         if held is not None:
             self.inverse = self.inverse - held @ (held.mT @ self.inverse)
 

@@ -131,6 +131,7 @@ def simulate(
     >>> print(tw.simulate(pendulum, [2.0], [0.0], dt=0.01, duration=10.0))
     pendulum by Runge-Kutta: 1000 steps to 10 s, 4000 evaluations
       energy changes by at most 1.51e-07 J, in the end by 4.78e-08 J
+      a step is off by up to 5.8e-10 in q, 9.0e-10 in v (of 5: see step_error)
     >>> damped = tw.simulate(pendulum, [2.0], [0.0], dt=0.01, steps=100, tau=lambda t, q, v: -0.5 * v)
     >>> bool((np.diff(damped.energy) <= 0).all())
     True

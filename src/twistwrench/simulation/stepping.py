@@ -156,14 +156,14 @@ class TimeStepping:
         """Return what a step needs of its beginning."""
         terms = ground_terms(self.model, q, self.contacts, self.ground)
         damped = terms.M + self.dt * np.diag(self.model.damping)
-        return State(terms.M, damped, Metric(damped), terms.place[:, 2], terms.rows, self.joints.gap(q))
+        return State(terms.M, damped, Metric(self.model, damped), terms.place[:, 2], terms.rows, self.joints.gap(q))
 
     def solve(self, at: State, v: Array, free: Array, slide: Array, held: Rows | None) -> tuple[Answer, Array]:
         """Return the velocity at the end of the step, from v and that of the free motion, and the impulses."""
         gap, J, metric = at.gap, at.J, at.metric
         loose = free = metric.respond(at.M @ free)
         if held is not None:
-            metric, free = Metric(at.damped, held.span), held.corrected(free)
+            metric, free = Metric(self.model, at.damped, held.span), held.corrected(free)
         ends = -np.maximum(at.ends, 0) / self.dt
         hits = gap + self.dt * (J[:, 2] @ free) < 0
         share, bound = self.ground.restitution, -np.maximum(gap, 0) / self.dt
@@ -197,7 +197,7 @@ class TimeStepping:
             if gap.min(initial=0) >= -BELOW and (rows is None or np.abs(rows.u).max() <= APART):
                 break
             G = np.concatenate([terms.rows[:, 2], self.joints.rows])
-            q = integrate(self.model, q, Metric(terms.M, span).nearest(way, G, -gap)[0])
+            q = integrate(self.model, q, Metric(self.model, terms.M, span).nearest(way, G, -gap)[0])
         if rows is not None:
             held.refuse_apart(rows)
         return q
