@@ -59,6 +59,7 @@ def is_stopped(process):
     return process.returncode, error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "group", "status"),
     [(signal.SIGINT, True, 130), (signal.SIGTERM, True, 143), (signal.SIGTERM, False, 143)],
@@ -81,6 +82,7 @@ def test_a_sweep_is_stopped_and_keeps_what_was_finished(tmp_path, number, group,
     assert part["reports"]
 
 
+@pytest.mark.slow
 def test_a_sweep_that_is_killed_leaves_no_processes_behind():
     process = started(*SWEEP)
     for _ in range(2):

@@ -81,6 +81,7 @@ def single(model):
             return q
 
 
+@pytest.mark.slow
 def test_a_single_configuration_goes_with_double_velocities():
     """Its quaternion has norm 1 to seven digits, and is made one to sixteen on the way."""
     model = tw.load("go2")
@@ -98,6 +99,7 @@ def test_a_single_configuration_goes_with_double_velocities():
         assert np.allclose(answer(q), answer(exact), rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_what_is_done_in_double_precision_takes_singles():
     model = tw.load("go2")
     q, v = single(model), np.zeros(model.nv, np.float32)

@@ -18,7 +18,7 @@ BIG_TREE = Recipe(40, seed=3, base="fixed")
 @given(recipes(8))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@examples(4)
+@examples(2)
 def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
     check_against_the_truth(recipe, np.float64)
 

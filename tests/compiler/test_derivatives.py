@@ -129,6 +129,7 @@ def test_the_derivatives_of_forward_dynamics_are_those_of_inverse_dynamics(model
     close(M @ forward.dqdd_dv, -inverse.dtau_dv, 1e-14 * loss)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["go2", "spherical", "fixed"])
 def test_the_aba_differentiated_itself_says_the_same_with_more_operations(name):
     model = MODELS[name]
@@ -193,6 +194,7 @@ def complex_step(model, function, q, *rest, of):
     return np.stack(columns, axis=-1)
 
 
+@pytest.mark.slow
 @some_models
 def test_a_complex_step_through_the_textbook_and_through_integrate(model):
     q, v, a, tau, f_ext = random_state(model, rng=11)
@@ -293,6 +295,7 @@ def test_pinocchio(name):
 # ---------------------------------------------------------------- as programs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("batch", sampled([(3, 1, 2), (1,), (), (13,), (0,)], 2))
 def test_batches(backend, batch):

@@ -248,6 +248,7 @@ def test_errors_are_the_textbooks():
 # ---------------------------------------------------------------- bounds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize(("name", "backend"), sampled(WAYS, 1, several=True))
 def test_bounds_hold_and_are_close(name, backend, dtype):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from ..pages import blocks, names_author_and_licence, page, run
 
 
@@ -12,6 +14,7 @@ def sources(language: str = "") -> list[str]:
     return blocks(text, 0, len(text))
 
 
+@pytest.mark.slow
 def test_every_block_of_the_page_runs():
     assert len(sources()) == 12
     run(page("contacts"), sources())

@@ -101,6 +101,7 @@ def test_a_spring_keeps_its_anchors_when_the_callers_change():
     assert spring.anchors.keys() == {"fl", "fr", "rl", "rr"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dt", sampled([0.02, 0.01, 0.005], 1))
 def test_a_humanoid_sinks_on_its_eight_corners_as_on_its_soles(dt):
     q, v = HUMANOID.standing(), 0.5 * np.random.default_rng(1).standard_normal(HUMANOID.nv)

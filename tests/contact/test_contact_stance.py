@@ -185,6 +185,7 @@ def test_verdicts_of_a_hundred_poses(name, count):
     assert otherwise == []
 
 
+@pytest.mark.slow
 def test_poses_that_ended_in_a_flag_of_the_solver():
     rng = np.random.default_rng(50)
     for _ in range(40):

@@ -84,6 +84,7 @@ def test_the_others_are_judged_all_the_same(tmp_path):
     assert "The model answer is shown once" in solution("49.1.1", tmp_path)
 
 
+@pytest.mark.slow
 def test_an_earlier_answer_that_never_ends_is_not_held_against_a_later_one(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"skew": SWALLOWED})
@@ -152,6 +153,7 @@ def test_without_a_limit_the_answers_run_in_this_process(tmp_path):
         assert f"ValueError: {os.getpid()}" in book.verdict(*catalogue.find_part("skew")).message("en")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals are those of POSIX")
 def test_one_interrupt_ends_the_check(tmp_path):
     start(tmp_path, language="en")

@@ -109,6 +109,7 @@ def test_errors_are_within_twice_those_of_the_textbook_at_length(recipe, dtype):
     assert_as_good(recipe.model, recipe.state(dtype=dtype), [recipe.frame(), recipe.model.frame_names[-1]])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", [np.float32, np.longdouble])
 def test_so_they_are_in_other_number_types(dtype):
     recipe = Recipe(5, seed=3, base="floating")
@@ -117,6 +118,7 @@ def test_so_they_are_in_other_number_types(dtype):
     assert_as_good(recipe.model, recipe.state(dtype=dtype), [recipe.frame()], few=few)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", sampled([np.float64, np.float32], 1))
 def test_so_they_are_a_thousand_kilometres_from_the_origin(dtype):
     """There float64 has nine decimals of a metre left, and float32 none: nothing may depend on where the robot is."""

@@ -401,6 +401,7 @@ def test_both_pages_have_the_same_code_and_the_same_numbers():
     assert numbers(english) == numbers(chinese)
 
 
+@pytest.mark.slow
 def test_the_code_of_the_page_runs():
     text = page("simulation").read_text(encoding="utf-8")
     run_page(page("simulation"), blocks(text, 0, len(text)))

@@ -27,6 +27,7 @@ def test_a_bound_below_an_error_is_found():
     assert bounds([noisy])[0].held == 1
 
 
+@pytest.mark.slow
 def test_bounds_hold_in_a_few_cells(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(grid, "cells", lambda full: FEW)
     path = tmp_path / "bounds.json"

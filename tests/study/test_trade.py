@@ -117,6 +117,7 @@ def approximate(p: Point) -> bool:
     return p.way.endswith("difference") and not p.number.endswith("digits")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", sampled(["fixed", "floating"], 1))
 def test_all_exact_ways_keep_what_their_number_type_holds(robot, request):
     trade = request.getfixturevalue(robot)
@@ -213,6 +214,7 @@ def test_what_has_no_acceleration_is_left_out_and_the_rest_is_there():
     assert "no inertia resists the joints 'ghost'" in str(trade)
 
 
+@pytest.mark.slow
 def test_a_way_that_fails_in_one_number_type_is_left_out_there_alone():
     """In single precision Cholesky finds the mass matrix of links of 1 kg to a million tonnes not positive."""
     robot = tw.Builder("whip", base="floating", root_inertia=tw.SpatialInertia(1, [0, 0, -1], np.eye(3)))
