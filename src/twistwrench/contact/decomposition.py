@@ -73,21 +73,34 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
     Rounding in Y comes from J and from the elimination with L, and goes through L⁻¹: a bound for both, entry by entry,
     is ε |L⁻¹| (|L| |Y| + |Jᵀ|). It scales as Y does, whatever the units of v.
     """
-    try:
-        L = np.linalg.cholesky(M)
-    except np.linalg.LinAlgError:
-        L = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
-    if not np.isfinite(L).all():
-        raise SingularError(f"the mass matrix is not positive definite: {without_inertia(model, M)}")
+    L, L_inv = cholesky_factors(model, M)
     Y = np.linalg.solve(L, J.mT)
     U, s, Vt = np.linalg.svd(Y, full_matrices=False)
-    bound = np.abs(np.linalg.inv(L)) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
+    bound = np.abs(L_inv) @ (np.abs(L) @ np.abs(Y) + np.abs(J.mT))
     noise = resolution(np.float64) * np.sqrt((bound**2).sum(axis=(-2, -1)))[..., None]
     kept = s > ROUNDINGS * noise
     return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
 
 
-def without_inertia(model: Model, M: Array) -> str:
+def cholesky_factors(model: Model, M: Array) -> tuple[Array, Array]:
+    """Return L, M = L Lᵀ, and L⁻¹; M is the mass matrix of all joints of a model, or of the first.
+
+    Raises
+    ------
+    SingularError
+        If M is not positive definite; the message names the joints that move nothing.
+    """
+    try:
+        L: Array = np.linalg.cholesky(M)
+        L_inv: Array = np.linalg.inv(L)
+    except np.linalg.LinAlgError:
+        L = L_inv = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
+    if not (np.isfinite(L).all() and np.isfinite(L_inv).all()):
+        raise SingularError(f"the mass matrix is not positive definite: {_without_inertia(model, M)}")
+    return L, L_inv
+
+
+def _without_inertia(model: Model, M: Array) -> str:
     """Return the message with the joints that move nothing that has inertia."""
     own = np.diagonal(M, axis1=-2, axis2=-1)
     names = [repr(name) for name, s in zip(model.joint_names, model.v_slice) if (own[..., s] <= 0).any()]

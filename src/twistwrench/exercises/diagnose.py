@@ -157,31 +157,26 @@ def explain(
 
 def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers, cases: Cases) -> list[Text]:
     """Report which change of a right solution gives the answer, or each wrong thing of it."""
-    lines = []
-    for edit in found:
-        if edit.piece is None:
-            lines.append(say("slip", title=edit.title()))
-        else:
-            lines.append(say("slip in", name=part.returns[edit.piece].title, title=edit.title()))
-    lines.append(say("edited", all=len(cases)) if len(cases) > 1 else say("edited once"))
-    lines += _shortly(part, answers, cases)
+    lines = [*_changes(part, found, cases, "edited"), *_shortly(part, answers, cases)]
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
     return [*lines, *([step] if step else []), _where(exercise, exercise.section)]
 
 
 def _mended(exercise: Exercise, part: Part, found: list[Repair], answers: Answers, cases: Cases) -> list[Text]:
     """Report which change makes the student's own function right, or each wrong thing that it returns."""
-    return [*_changed(part, found, cases), *_shortly(part, answers, cases), _where(exercise, exercise.section)]
+    lines = [*_changes(part, found, cases, "mended"), *_shortly(part, answers, cases)]
+    return [*lines, _where(exercise, exercise.section)]
 
 
-def _changed(part: Part, found: list[Repair], cases: Cases) -> list[Text]:
+def _changes(part: Part, found: Sequence[Found | Repair], cases: Cases, how: str) -> list[Text]:
+    """Report each change, of all that is returned or of one piece, and in how many cases it was tried."""
     lines = []
-    for repair in found:
-        if repair.piece is None:
-            lines.append(say("slip", title=repair.title()))
+    for change in found:
+        if change.piece is None:
+            lines.append(say("slip", title=change.title()))
         else:
-            lines.append(say("slip in", name=part.returns[repair.piece].title, title=repair.title()))
-    return [*lines, say("mended", all=len(cases)) if len(cases) > 1 else say("mended once")]
+            lines.append(say("slip in", name=part.returns[change.piece].title, title=change.title()))
+    return [*lines, say(how, all=len(cases)) if len(cases) > 1 else say(f"{how} once")]
 
 
 def after_error(part: Part, function: Callable[..., Any], cases: Cases) -> list[Text]:
@@ -189,7 +184,7 @@ def after_error(part: Part, function: Callable[..., Any], cases: Cases) -> list[
     right = [part.value(part.solution, arguments) for arguments in cases]
     given = part, function, right, [None] * len(cases), cases
     found = repairs(*given) or repairs(*given, pairs=True)
-    return _changed(part, found, cases) if found else []
+    return _changes(part, found, cases, "mended") if found else []
 
 
 def _shortly(part: Part, answers: Answers, cases: Cases) -> list[Text]:

@@ -20,9 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Array
-from ..contact.decomposition import without_inertia
+from ..contact.decomposition import cholesky_factors
 from ..contact.qp import FEASIBLE, least_with_multipliers
-from ..errors import SingularError
 from ..model import Model
 
 __all__ = ["Answer", "Metric", "Points", "coulomb"]
@@ -52,12 +51,7 @@ class Metric:
     """
 
     def __init__(self, model: Model, M: Array, held: Array | None = None) -> None:
-        try:
-            self.inverse = np.linalg.inv(np.linalg.cholesky(M))
-        except np.linalg.LinAlgError:
-            self.inverse = np.full_like(M, np.nan)  # which is what a browser's NumPy gives instead of raising
-        if not np.isfinite(self.inverse).all():
-            raise SingularError(f"the mass matrix is not positive definite: {without_inertia(model, M)}")
+        _, self.inverse = cholesky_factors(model, M)
         if held is not None:
             self.inverse = self.inverse - held @ (held.mT @ self.inverse)
 

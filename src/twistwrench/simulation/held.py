@@ -57,19 +57,22 @@ class Rows(NamedTuple):
         return least
 
 
-class Held:
-    """The contacts of a motion that hold, from where they are in q, shape (..., nq)."""
+class Held(NamedTuple):
+    """The contacts of a motion that hold, and where: the anchors have the batch axes of the motion."""
 
-    def __init__(self, model: Model, contacts: Sequence[Contact], q: Array) -> None:
-        self.model, self.contacts = model, tuple(contacts)
-        self.anchors = contact_placements(model, q, contacts)
+    model: Model
+    contacts: tuple[Contact, ...]
+    anchors: dict[str, SE3]
+
+    @classmethod
+    def beginning(cls, model: Model, contacts: Sequence[Contact], q: Array) -> Held:
+        """Return contacts that hold from where they are in q, shape (..., nq)."""
+        return cls(model, tuple(contacts), contact_placements(model, q, contacts))
 
     def at(self, item: tuple[int, ...]) -> Held:
         """Return those of one item of a batch."""
-        one = Held.__new__(Held)
-        one.model, one.contacts = self.model, self.contacts
-        one.anchors = {name: SE3(T.rotation[item], T.translation[item]) for name, T in self.anchors.items()}
-        return one
+        one = {name: SE3(T.rotation[item], T.translation[item]) for name, T in self.anchors.items()}
+        return self._replace(anchors=one)
 
     def moving(self, q: Array, v: Array, M: Array, dt: float, since: float) -> Rows:
         """Return the rows in the middle of a step of dt that ends at the time `since`, in the metric of M."""

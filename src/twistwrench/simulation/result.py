@@ -170,14 +170,14 @@ class Simulation:
         return "\n".join(lines)
 
     def _step_error_line(self) -> list[str]:
-        """Return what is printed of the error of a step; nothing where a half step has no solution."""
+        """Return what is printed of the error of a step; nothing without a step, or where half a step fails."""
+        if not len(self.tau):
+            return []
         try:
             dq, dv = self.step_error(ASKED)
         except (DivergenceError, SingularError):
             return []
-        return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {ASKED}: see step_error)"] * bool(
-            len(self.tau)
-        )
+        return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {ASKED}: see step_error)"]
 
     def plot(self, ax: Any = None, *, what: str = "energy") -> Any:
         """Draw a quantity over time; of a batch, of every item.

@@ -105,7 +105,7 @@ class TimeStepping:
     ) -> None:
         self.model, self.contacts, self.ground, self.dt = model, tuple(contacts), ground, dt
         self.mu = np.array([c.mu for c in self.contacts for _ in c.points])
-        self.joints, self.held = Joints(model, q), Held(model, held, q)
+        self.joints, self.held = Joints(model, q), Held.beginning(model, held, q)
         self.forces: list[Array] = []
         self.slides: list[Array] = []
         self.pulls: list[Array] = []
