@@ -34,7 +34,7 @@ class Limits(NamedTuple):
     def breached(self, by: Array) -> str:
         """Return which limits would have to be broken, and by how much, the worst four first."""
         worst = {self.names[k]: k for k in np.argsort(by) if by[k] > 0.01 * by.max()}  # of equal names the larger
-        ranked = sorted(worst.values(), key=lambda k: -by[k])
+        ranked = sorted(worst.values(), key=lambda k: (-round(by[k] / by.max(), 6), k))  # alike: in their own order
         more = f" and {len(ranked) - 4} more" if len(ranked) > 4 else ""
         said = (f"{self.names[k]} by {by[k] * self.size[k]:.3g} {self.unit[k]}" for k in ranked[:4])
         return ", ".join(said) + more
