@@ -192,12 +192,12 @@ assert "did you mean 'FL_foot'" in said["no such frame"]
 #
 # Holding the arms is one way to leave something out; the templates of 49.10 leave out more. Over a walk with swinging
 # arms `cheapest` asks of each what it misses of the wrench $\dot h_G$ that ground and weight must exert, as a share of
-# the weight, and of those inside the tolerance how long a compiled program takes. The quickest is the choice.
+# the weight, and of those inside the tolerance how many operations a compiled program has. The fewest are the choice.
 # %% [markdown] lang="zh"
 # ## 够用的模型里最便宜的
 #
 # 锁住手臂是一种省法,49.10 的模板省得更多。在一段摆臂行走上,`cheapest` 问每个模型两件事:地面与重力要施加的 $\dot h_G$ 它漏掉多少(占体重的比例),
-# 误差在容许范围之内的，再看编译后的程序算一次要多久，用时最短的就是选择。
+# 误差在容许范围之内的，再看编译后的程序算一次要做多少次运算，次数最少的就是选择。
 # %%
 walk = motions.walk(full, samples=60)
 found = scene.cheapest(0.02, walk)
@@ -209,7 +209,7 @@ assert worst["full"] == 0
 assert worst["centroidal"] < 1e-13
 assert worst["this scene"] < worst["srbm_frozen"]
 assert found.best.worst() <= 0.02
-assert all(option.seconds >= found.best.seconds for option in found.options if option.worst() <= 0.02)
+assert all(option.operations >= found.best.operations for option in found.options if option.worst() <= 0.02)
 # %% [markdown] lang="en"
 # In the table, the templates miss the momentum of the legs, and no shape of one rigid body brings it back. A robot that
 # holds its arms still misses only the swing of the arms, and gives the torques of the legs as well.

@@ -23,8 +23,12 @@ Law = Callable[..., tuple[Array, ...]]
 DOUBLE = np.dtype(np.float64)
 
 
-def compiled(model: Model, law: Law, known: Sequence[Array], wanted: Sequence[int]) -> Callable[[], Sequence[Array]]:
-    """Return what computes some of a law's results for all states: a program, or by NumPy what cannot be one.
+def compiled(
+    model: Model, law: Law, known: Sequence[Array], wanted: Sequence[int]
+) -> tuple[Callable[[], Sequence[Array]], float]:
+    """Return what computes some of a law's results for all states, and its operations for one state.
+
+    It is a program, or else, where the law cannot be one, NumPy's: then the number of operations is infinite.
 
     Parameters
     ----------
@@ -47,7 +51,7 @@ def compiled(model: Model, law: Law, known: Sequence[Array], wanted: Sequence[in
         wants = [Quantity(f"y{k}", names, partial(one, k)) for k in wanted]
         line = record(model, wants, shapes, {}, DOUBLE).without(ALARM)
     except (TypeError, ArithmeticError, SingularError):  # a law that asks what its numbers are
-        return lambda: [y for k, y in enumerate(law(*known)) if k in wanted]
+        return lambda: [y for k, y in enumerate(law(*known)) if k in wanted], np.inf
     code, n = BackEnd(line, DOUBLE, "llvm" if available() else "numpy"), len(known[0])
     flat = [np.ascontiguousarray(x.reshape(n, -1), DOUBLE) for x in known]
     results = [np.empty((n, *shape)) for shape, _ in line.outputs.values()]
@@ -57,7 +61,7 @@ def compiled(model: Model, law: Law, known: Sequence[Array], wanted: Sequence[in
         code.run(arrays, 1)
         return results
 
-    return run
+    return run, line.operations.total()
 
 
 def seconds(calls: Sequence[Callable[[], object]], states: int) -> list[float]:

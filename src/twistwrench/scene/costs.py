@@ -1,8 +1,8 @@
-"""The cost of a reduced model: error and time of each over some motions, and the quickest that is exact enough."""
+"""The cost of a reduced model: error and work of each over some motions, and the least work that is exact enough."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -51,9 +51,11 @@ class Option:
         At each state of the motions, and of those that were held out: the ``"wrench"`` that it misses and that of the
         worst contact, ``"forces"``, as shares of the weight; how far off its centre of pressure is, ``"cop"``, m; and
         the torque of its worst motor, ``"tau"``, N m. Of all that it tells.
+    operations : float
+        Of its compiled program, for one state; infinite where NumPy computes it because it cannot be a program. Not a
+        number where none was made, because it is not exact enough or does not apply.
     seconds : float
-        For one state, when all states are done at once by a compiled program; not a number where it was not timed,
-        because it is not exact enough or does not apply.
+        For one state, when all states are done at once; not a number where there are no operations.
     unfit : str
         Why it does not apply to this robot; empty where it does.
     """
@@ -62,6 +64,7 @@ class Option:
     leaves_out: str
     errors: Mapping[str, Array]
     held_out: Mapping[str, Array]
+    operations: float
     seconds: float
     unfit: str = ""
     _runs: Candidate | None = field(default=None, repr=False)
@@ -103,7 +106,7 @@ class Option:
 
 @dataclass(frozen=True, eq=False)
 class Costs:
-    """What `Scene.cheapest` returns: every option, the quickest first, and the choice. Printed, it is a table.
+    """What `Scene.cheapest` returns: every option, the least work first, and the choice. Printed, it is a table.
 
     Attributes
     ----------
@@ -116,7 +119,8 @@ class Costs:
     margin : float
         The largest errors times this must be within the tolerance.
     options : tuple of Option
-        The quickest of those that are exact enough come first, then the rest; those that do not apply come last.
+        Those that are exact enough come first, the fewest operations first: a time is another one in the next run.
+        Then the rest; those that do not apply come last.
     share_of : str
         What errors of wrenches and forces are shares of: the weight, or without gravity the largest ḣ_G of the motion.
     timed_by : str
@@ -133,7 +137,7 @@ class Costs:
 
     @property
     def best(self) -> Option:
-        """The quickest option that stays within the tolerance, with the margin, over the motions."""
+        """The option of the fewest operations that stays within the tolerance, with the margin, over the motions."""
         return next(option for option in self.options if option.within(self.tolerance, self.margin))
 
     @property
@@ -148,7 +152,7 @@ class Costs:
         rows = [
             f"{'→' if option is self.best else ' '} {option.name:{width}} "
             + "".join(self._cell(option, *column) for column in columns)
-            + (f"{'-':>9}" if np.isnan(option.seconds) else f"{option.seconds * 1e6:9.3f}")
+            + (f"{'-':>10} {'-':>9}" if np.isnan(option.seconds) else _work(option))
             + f"  {'ḣ_G, τ' if option.tells_torques else 'ḣ_G':6}  {option.leaves_out}"
             for option in self.options
             if not option.unfit
@@ -158,7 +162,8 @@ class Costs:
         title = f"{self.motion}: the largest errors; shares are of {self.share_of}; at most {most}"
         title += f", with a margin of {self.margin:g}" if self.margin != 1 else ""
         title += f"; held out: {self.held_out}" if self.held_out else ""
-        return "\n".join([title, f"  {'model':{width}} {head} µs/state  tells   leaves out", *map(str.rstrip, rows)])
+        head = f"  {'model':{width}} {head}operations  µs/state  tells   leaves out"
+        return "\n".join([title, head, *map(str.rstrip, rows)])
 
     def _cell(self, option: Option, name: str, held_out: bool) -> str:
         worst, most = option.worst(name, held_out=held_out), self.tolerance[name]
@@ -186,6 +191,18 @@ class Costs:
         from .picture import draw
 
         return draw(self, ax)
+
+
+def _rank(option: Option) -> tuple[bool, bool, float, float]:
+    """Return by what options are in order: operations; the time, of those that are no program, which have no number."""
+    count = np.nan_to_num(option.operations, posinf=np.inf)
+    return bool(option.unfit), bool(np.isnan(option.operations)), count, 0.0 if count < np.inf else option.seconds
+
+
+def _work(option: Option) -> str:
+    """Return the cells of a model's operations, not counted where NumPy runs it, and of its time."""
+    count = f"{option.operations:.0f}" if option.operations < np.inf else "-"
+    return f"{count:>10} {option.seconds * 1e6:9.3f}"
 
 
 def _unit(name: str) -> str:
@@ -225,10 +242,10 @@ def costs(
             if name not in judge.tells:
                 why = "it has no motors" if name == "tau" else "nothing stands on the ground, or nothing has weight"
                 raise ValueError(f"tolerance: {name!r} is nothing of {model.name!r} in {motion.name!r}: {why}")
-    options, calls = list[Option](), []
+    options, calls = list[Option](), dict[int, Callable[[], object]]()
     for one in tried:
         if one.model is None:
-            options.append(Option(one.name, one.leaves_out, {}, {}, np.nan, one.unfit, one))
+            options.append(Option(one.name, one.leaves_out, {}, {}, np.nan, np.nan, one.unfit, one))
             continue
         known, found = list[tuple[Array, ...]](), list[dict[str, Array]]()
         for judging, some in zip(judges, (motions, held_out)):
@@ -239,15 +256,16 @@ def costs(
                 errors.append(judge.errors(rate, tau[0] if tau else None, one.kept))
             common = [name for name in QUANTITIES if errors and all(name in e for e in errors)]
             found.append({name: np.concatenate([e[name] for e in errors]) for name in common})
-        options.append(Option(one.name, one.leaves_out, found[0], found[1], np.nan, "", one))
+        options.append(Option(one.name, one.leaves_out, found[0], found[1], np.nan, np.nan, "", one))
         states = [np.concatenate(x) for x in zip(*known[: len(motions)])]
         wanted = [0, 1] if "tau" in need else [0]
         if options[-1].within(need, margin):
-            calls.append((options[-1], compiled(model, one.law, states, wanted[: 1 + one.tells_torques])))
-    times = seconds([call for _, call in calls], sum(map(len, motions)))
-    timed = {id(option): t for (option, _), t in zip(calls, times)}
-    options = [replace(option, seconds=timed.get(id(option), np.nan)) for option in options]
-    options.sort(key=lambda o: (bool(o.unfit), np.isnan(o.seconds), o.seconds if o.seconds >= 0 else 0))
+            call, operations = compiled(model, one.law, states, wanted[: 1 + one.tells_torques])
+            options[-1] = replace(options[-1], operations=operations)
+            calls[len(options) - 1] = call
+    for k, time in zip(calls, seconds([*calls.values()], sum(map(len, motions)))):
+        options[k] = replace(options[k], seconds=time)
+    options.sort(key=_rank)
     share = "the weight" if model.gravity.any() else "the largest ḣ_G of the motion"
     names, names_out = (", ".join(motion.name for motion in some) for some in (motions, held_out))
     by = "llvm" if available() else "numpy"

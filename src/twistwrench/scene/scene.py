@@ -227,7 +227,7 @@ class Scene(SmallestModel):
         margin: float = 1.0,
         groups: Mapping[str, Iterable[str]] | None = None,
     ) -> Costs:
-        """Return what each smaller model of the robot costs over some motions, and the quickest that is exact enough.
+        """Return what each smaller model of the robot costs over some motions, and the least work that is exact enough.
 
         Compared are the templates of 49.10, the full model, and the full model with groups of joints held where the
         first motion begins: each group, any two, and all. A model that does not apply (no pendulum without gravity, no
@@ -268,10 +268,10 @@ class Scene(SmallestModel):
 
         Notes
         -----
-        The time is that of the model's law for one state of the motions, with all states done at once by a compiled
-        program, and its own few variables (p̈_G, ω, …) known; options that are not exact enough are not timed. The
-        ground wrench, ḣ_G less the weight, is shared out among the contacts that stand, the least forces that do,
-        those of a sole at its corners where the scene has one; torques are then those that are left, τ − Jᵀ f.
+        The work is the operations of the model's law as a compiled program for one state, its own few variables (p̈_G,
+        ω, …) known. Its time decides nothing: it is another one in the next run. Options that are not exact enough have
+        neither. The ground wrench, ḣ_G less the weight, is shared out among the contacts that stand, the least forces
+        that do, at the corners of a sole where the scene has one; torques are then those that are left, τ − Jᵀ f.
 
         Examples
         --------
