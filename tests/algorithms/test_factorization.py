@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -13,6 +14,7 @@ from twistwrench.plot import same_branch
 
 from ..invariants import close, several, trees
 from ..mechanisms import agrees, double_pendulum, states
+from ..sampling import sampled
 from ..strategies import BATCHES, Recipe
 from ..truth import SKEEL, slow
 
@@ -111,6 +113,35 @@ def residual(M, x, b):
     left = M @ slow.as_mpmath(x) - slow.as_mpmath(b)
     size = np.abs(M.astype(x.dtype)) @ np.abs(x) + np.abs(b)
     return float(np.max(np.abs(left.astype(x.dtype)) / size.max()))
+
+
+@pytest.mark.parametrize("n", sampled([10, 20], 1))
+def test_of_a_heavy_tip_the_condition_of_M_is_lost_and_no_more(n):
+    """Tip to base 1e9: errors of 1e-6 in solves and in accelerations of contacts are conditioning, by 50 digits.
+
+    Skeel's condition bounds what rounding of the entries alone may change: |A⁻¹| (|A| |x| + |b|) times 2⁻⁵³, where A is
+    M, and with a contact [M, −Jᵀ; J, 0]. M⁻¹ from the ABA loses nothing of it.
+    """
+    chain, q = tw.chain(n, mass_ratio=1e9), np.linspace(0.1, 1, n)
+    rest, tau = np.zeros(n), np.array([1.0, -1.0] * (n // 2))
+    tip = [tw.SlidingContact(chain.frame_names[-1], [[1, 0, 0], [0, 0, 1]])]
+    exact, none = slow.as_mpmath(q), np.zeros((2, 2), int)
+    M, h = slow.mass_matrix(chain, exact), slow.nonlinear_effects(chain, exact, slow.as_mpmath(rest))
+    J = slow.frame_jacobian(chain, exact, tip[0].frame, "local_world_aligned")[[3, 5]]
+    held = tw.contact_forward_dynamics(chain, q, rest, tau, tip)
+    for A, b, got in (
+        (M, slow.as_mpmath(tau), tw.solve_mass_matrix(chain, q, tau)),
+        (np.block([[M, -J.T], [J, none]]), np.r_[slow.as_mpmath(tau) - h, 0, 0], np.r_[held.qdd, 0, 0]),
+    ):
+        inverse = np.array((mpmath.matrix(A.tolist()) ** -1).tolist(), object).reshape(A.shape)
+        x = (inverse @ b).astype(float)
+        size = np.abs(A.astype(float)) @ np.abs(x) + np.r_[np.abs(tau) + (len(b) > n) * np.abs(h.astype(float)), b[n:]]
+        lost = (np.abs(inverse.astype(float)) @ size.astype(float))[:n].max() / np.abs(x[:n]).max()
+        off = np.abs(got - x)[:n].max() / np.abs(x[:n]).max()
+        assert 1e-9 < off < lost * 2.0**-53
+        if len(b) == n:
+            by_aba = tw.inverse_mass_matrix(chain, q)
+            assert np.abs(by_aba - inverse.astype(float)).max() < 1e-12 * np.abs(by_aba).max()
 
 
 # ---------------------------------------------------------------- number types, batches, errors

@@ -1,5 +1,7 @@
 """Velocity, acceleration and Jacobian of points given at run time: complex steps, Pinocchio, a frame at the point."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,8 @@ from twistwrench import bridge
 from twistwrench.algorithms.mimic import follow
 from twistwrench.spatial import SE3
 
-from ..strategies import random_state
+from ..strategies import BATCHES, random_state
+from .test_factorization import wheels
 
 POINT = np.array([0.3, -0.2, 0.5])
 
@@ -82,6 +85,40 @@ def test_batches_of_states_and_a_mimic_model():
     np.testing.assert_allclose(
         tw.point_velocity(mimic, [0.1, 0.2], [1, 2], "tool", POINT), expected, rtol=0, atol=1e-15
     )
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.longdouble, np.complex128])
+@pytest.mark.parametrize("batch", BATCHES, ids=str)
+def test_every_number_type_and_batch_is_kept(dtype, batch):
+    model, frame, _ = case(1)
+    s, point = random_state(model, rng=0, batch=batch, dtype=dtype), POINT.astype(dtype)
+    found = (
+        tw.point_velocity(model, s.q, s.v, frame, point),
+        tw.point_acceleration(model, s.q, s.v, s.a, frame, point),
+        tw.point_jacobian(model, s.q, frame, point),
+    )
+    for x, tail in zip(found, ((3,), (3,), (3, model.nv))):
+        assert (x.dtype, x.shape) == (dtype, (*batch, *tail))
+    if not batch and dtype != np.complex128:
+        q, v, a, there = (x.astype(float) for x in (*s[:3], point))
+        double = tw.point_acceleration(model, model.normalize(q), v, a, frame, there)
+        np.testing.assert_allclose(found[1], double, rtol=0, atol=300 * max(np.finfo(dtype).eps, 2.0**-52))
+
+
+def test_fractions_and_symbols_stay_exact():
+    model, third = wheels(), Fraction(1, 3)
+    q = np.array([Fraction(3, 5), Fraction(4, 5), Fraction(5, 13), Fraction(-12, 13), third])
+    v, a = np.array([third, Fraction(2), Fraction(-1, 7)]), np.array([Fraction(1), -third, Fraction(0)])
+    point = [third, 0, Fraction(2, 7)]
+    J = tw.point_jacobian(model, q, "b", point)
+    assert (tw.point_velocity(model, q, v, "b", point) == J @ v).all()
+    of_v = tw.point_acceleration(model, q, v, 0 * a, "b", point)
+    assert (tw.point_acceleration(model, q, v, a, "b", point) == J @ a + of_v).all()
+    assert all(isinstance(x, Fraction) for x in of_v)
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: no symbols")
+    angle, rate = sympy.symbols("q w", real=True)
+    x, _, z = tw.point_velocity(tw.load("pendulum"), [angle], [rate], "bob", [0, 0, -1])
+    assert sympy.simplify(x + 2 * rate * sympy.cos(angle)) == sympy.simplify(z - 2 * rate * sympy.sin(angle)) == 0
 
 
 def test_errors_name_the_argument():

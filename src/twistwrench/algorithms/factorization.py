@@ -89,9 +89,9 @@ def checked_factors(model: Model, tree: Tree) -> tuple[Array, Array, list[list[i
             L, D = factorize(M, inboard)
     except ZeroDivisionError:  # fractions raise where floats are infinite
         raise SingularError("M is singular: a joint moves no inertia with its outboard joints free") from None
-    size = judged(np.diagonal(M, axis1=-2, axis2=-1))
-    least = size * (0 if D.dtype == object else ROUNDINGS * resolution(D.dtype))
-    lost = ~(judged(D) > least)
+    size, exact = judged(np.diagonal(M, axis1=-2, axis2=-1)), D.dtype == object
+    least = size * (0 if exact else ROUNDINGS * resolution(D.dtype))
+    lost = judged(D) <= least if exact else ~(D.real > least)  # a symbol has no value to check
     if lost.any():
         k = int(np.argwhere(lost)[:, -1].max())  # the first that was eliminated; those inboard of it are lost with it
         name = next(name for name, s in zip(model.joint_names, model.v_slice) if s.start <= k < s.stop)

@@ -34,11 +34,13 @@ FORCES, MATRICES, COLUMNS, UNCHANGED = "forces", "matrices", "columns", "unchang
 RESULTS = {
     **dict.fromkeys(("rnea", "nonlinear_effects", "gravity"), FORCES),
     **dict.fromkeys(("crba", "coriolis_matrix"), MATRICES),
-    **dict.fromkeys(("frame_jacobian", "contact_jacobian", "centroidal_map", "centroidal_map_rate"), COLUMNS),
+    **dict.fromkeys(("frame_jacobian", "contact_jacobian", "point_jacobian"), COLUMNS),
+    **dict.fromkeys(("centroidal_map", "centroidal_map_rate"), COLUMNS),
     **dict.fromkeys(("forward_kinematics", "frame_placement", "frame_bias_acceleration", "joint_wrenches"), UNCHANGED),
     **dict.fromkeys(("kinetic_energy", "potential_energy", "center_of_mass"), UNCHANGED),
     **dict.fromkeys(("centroidal_momentum", "centroidal_momentum_rate", "centroidal_inertia"), UNCHANGED),
     **dict.fromkeys(("center_of_mass_velocity", "center_of_mass_acceleration"), UNCHANGED),
+    **dict.fromkeys(("point_velocity", "point_acceleration"), UNCHANGED),
 }
 """How each function's result is projected. J̇ v and ȧ need no extra term: G is constant."""
 

@@ -7,9 +7,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, check_size
-from ..model import Model
+from ..arrays import Array, as_number_array, check_size, convert
+from ..model import Model, check_state
 from ..spatial.rotation import cross_matrix
+from ._mimic import also_of_mimics
 from .kinematics import frame_bias_acceleration, frame_jacobian, frame_placement
 
 __all__ = ["point_acceleration", "point_jacobian", "point_velocity"]
@@ -17,6 +18,7 @@ __all__ = ["point_acceleration", "point_jacobian", "point_velocity"]
 ALIGNED: Final = "local_world_aligned"
 
 
+@also_of_mimics
 def point_jacobian(model: Model, q: ArrayLike, frame: str, point: ArrayLike) -> Array:
     """Return the Jacobian of a point that moves with a frame: its velocity is J(q) v.
 
@@ -48,6 +50,7 @@ def point_jacobian(model: Model, q: ArrayLike, frame: str, point: ArrayLike) -> 
     return np.asarray(J[..., 3:, :] - cross_matrix(r) @ J[..., :3, :])  # 49.1 v_P: v + ω × r
 
 
+@also_of_mimics
 def point_velocity(model: Model, q: ArrayLike, v: ArrayLike, frame: str, point: ArrayLike) -> Array:
     """Return the velocity of a point that moves with a frame, in the axes of the world.
 
@@ -76,10 +79,11 @@ def point_velocity(model: Model, q: ArrayLike, v: ArrayLike, frame: str, point: 
     >>> tw.point_velocity(tw.load("pendulum"), [0.0], [3.0], "bob", [0, 0, -1])
     array([-6.,  0.,  0.])
     """
-    J = point_jacobian(model, q, frame, point)
-    return np.asarray(np.matvec(J, model.state(q, v=v)[1]))
+    q, v = check_state(model, q, v=v)
+    return np.asarray(np.matvec(point_jacobian(model, q, frame, point), v))
 
 
+@also_of_mimics
 def point_acceleration(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, frame: str, point: ArrayLike) -> Array:
     """Return the acceleration of a point that moves with a frame, in the axes of the world, without gravity.
 
@@ -110,8 +114,8 @@ def point_acceleration(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f
     >>> tw.point_acceleration(tw.load("pendulum"), [0.0], [3.0], [0.0], "bob", [0, 0, -1])  # ω² r to the pivot
     array([ 0.,  0., 18.])
     """
+    q, v, a = check_state(model, q, v=v, a=a)
     J, r = frame_jacobian(model, q, frame, ALIGNED), _lever(model, q, frame, point)
-    q, v, a = model.state(q, v=v, a=a)
     w = np.matvec(J[..., :3, :], v)
     frame_acceleration = np.matvec(J, a) + frame_bias_acceleration(model, q, v, frame, ALIGNED)
     turning = np.cross(frame_acceleration[..., :3], r) + np.cross(w, np.cross(w, r))  # 49.1 a_P: ω̇ × r + ω × (ω × r)
@@ -120,6 +124,7 @@ def point_acceleration(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f
 
 def _lever(model: Model, q: ArrayLike, frame: str, point: ArrayLike) -> Array:
     """Return the way from the origin of the frame to the point, in the axes of the world."""
-    there = as_array(point, "point", 3)
-    check_size(there, "point")
-    return np.asarray(np.matvec(frame_placement(model, q, frame).rotation, there))
+    there, R = as_number_array(point, "point", 3), frame_placement(model, q, frame).rotation
+    if there.dtype != object:
+        check_size(there, "point")
+    return np.asarray(np.matvec(R, convert(there, object) if R.dtype == object else there))

@@ -23,6 +23,7 @@ double_double  a line rewritten into pairs, with bounds
 watch          what a program watches, so that the textbook can take the states that raise the alarm
 quantity       `Quantity`: what a quantity depends on, and how it is computed
 derivatives    derivatives of all quantities, and the regressor
+inverses       M⁻¹, the factors of M, Λ: what is divided by inertias
 quantities     what can be compiled: the textbook's functions
 recording      from quantities to a line
 outputs        arrays of the caller that are to be filled

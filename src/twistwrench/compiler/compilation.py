@@ -60,7 +60,7 @@ def compile(
         Of a scene its smallest model, with the scene's wrenches in τ, h, g and q̈, and the rows of its contacts in J_c.
     want : str or iterable of str
         Functions or symbols of `quantities.SYMBOLS`: of one name the program returns an array, of several `Results`,
-        which share their work.
+        which share their work. Λ⁻¹ and Λ are of J_c; also L and D of `ltdl`, and p_S, A_S and I_S of `subtree`.
     dtype : dtype_like
         float32 and float64 have machine code; every floating-point type has NumPy. "double-double" has 32 digits, in
         pairs of doubles: see `digits.DoubleDouble`. "quad" has 34, by numpy-quaddtype, and "mpmath" as many as
@@ -68,7 +68,7 @@ def compile(
     contacts : iterable of str or Contact, optional
         The frames of J_c, or contacts of any kind; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
-        The frames of placements, Jacobians and J̇ v: an axis before their own.
+        The frames of placements, Jacobians, J̇ v, IA and subtrees: an axis before their own.
     reference : {"local", "world", "local_world_aligned"}
         Of Jacobians and J̇ v: see `twistwrench.frame_jacobian`.
     given : mapping of str to array_like

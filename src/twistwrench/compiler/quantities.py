@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,11 +15,19 @@ from ..algorithms.crba import crba
 from ..algorithms.energy import kinetic_energy, potential_energy
 from ..algorithms.floating_base import HeldRows, contact_jacobian, selection_matrix
 from ..algorithms.kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
+from ..algorithms.momentum_rate import (
+    center_of_mass_acceleration,
+    center_of_mass_velocity,
+    centroidal_inertia,
+    centroidal_map_rate,
+)
 from ..algorithms.rnea import gravity, nonlinear_effects, rnea
+from ..algorithms.subtree import subtree
 from ..arrays import Array
 from ..errors import check_known
 from ..model import Model, tree_terms
 from .derivatives import derivatives, regressor
+from .inverses import inverses
 from .quantity import ARGUMENTS, Quantity, shapes
 from .watch import pivots
 
@@ -39,11 +48,23 @@ SYMBOLS = {
     "centroidal_map": "A_G",
     "centroidal_momentum": "h_G",
     "centroidal_momentum_rate": "dh_G",
+    "centroidal_map_rate": "dA_G",
+    "centroidal_inertia": "I_G",
+    "center_of_mass_velocity": "v_G",
+    "center_of_mass_acceleration": "a_G",
+    "inverse_mass_matrix": "M_inv",
+    "solve_mass_matrix": "M_inv_tau",
+    "delassus_matrix": "Lambda_inv",
+    "operational_space_inertia": "Lambda",
+    "articulated_inertia": "IA",
     "frame_placement": "placement",
     "frame_jacobian": "J",
     "frame_bias_acceleration": "dJ_v",
 }
-"""The symbol of each function of the package that can be compiled."""
+"""The symbol of each function of the package that can be compiled.
+
+Besides: L and D of `ltdl`; of `subtree` the centre p_S, the map A_S and the inertia I_S; the regressor Y; derivatives.
+"""
 
 
 def quantities(
@@ -75,17 +96,13 @@ def quantities(
         return Quantity(symbol, tuple(arguments.split()), lambda *x: (function(model, *x), []))
 
     def of_frames(symbol: str, arguments: str, one: Callable[..., Array], *tail: int) -> Quantity:
-        def stacked(model: Model, *x: Array) -> Array:
-            each = [one(model, *x, name) for name in frames]
-            return np.stack(each, axis=-1 - len(tail)) if each else np.zeros((0, *tail))
-
-        return of(symbol, arguments, stacked)
+        return of(symbol, arguments, partial(_of_each, frames, one, tail))
 
     def forward_dynamics(q: Array, v: Array, tau: Array, f_ext: Array | None = None) -> tuple[Array, list[Any]]:
         terms = aba_terms(model, q, v, tau, f_ext)
         if terms.qdd.dtype != object:
             return terms.qdd, []
-        return terms.qdd, [*pivots(model, tree_terms(model, q), terms, dtype)]
+        return terms.qdd, [*pivots(model, tree_terms(model, q), terms.D_inv, dtype)]
 
     nv = model.nv
     every = [
@@ -103,13 +120,27 @@ def quantities(
         of("A_G", "q", centroidal_map),
         of("h_G", "q v", centroidal_momentum),
         of("dh_G", "q v a", centroidal_momentum_rate),
+        of("dA_G", "q v", centroidal_map_rate),
+        of("I_G", "q", centroidal_inertia),
+        of("v_G", "q v", center_of_mass_velocity),
+        of("a_G", "q v a", center_of_mass_acceleration),
         of_frames("placement", "q", lambda m, q, name: frame_placement(m, q, name).matrix(), 4, 4),
         of_frames("J", "q", lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv),
         of_frames("dJ_v", "q v", lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6),
+        of_frames("p_S", "q", lambda m, q, name: subtree(m, q, name).center_of_mass, 3),
+        of_frames("A_S", "q", lambda m, q, name: subtree(m, q, name).momentum_map, 6, nv),
+        of_frames("I_S", "q", lambda m, q, name: subtree(m, q, name).inertia, 6, 6),
     ]
-    every = [*({quantity.symbol: quantity for quantity in every} | {x.symbol: x for x in instead}).values()]
+    known = {quantity.symbol: quantity for quantity in every} | {x.symbol: x for x in instead}
+    every = [*known.values(), *inverses(model, dtype, frames, known["J_c"])]
     every += [of("Y", "q v a", regressor), *(d for quantity in every for d in derivatives(model, quantity))]
     return {quantity.symbol: quantity for quantity in every}
+
+
+def _of_each(frames: Sequence[str], one: Callable[..., Array], tail: tuple[int, ...], model: Model, *x: Array) -> Array:
+    """Return a quantity of each frame, along an axis before its own."""
+    each = [one(model, *x, name) for name in frames]
+    return np.stack(each, axis=-1 - len(tail)) if each else np.zeros((0, *tail))
 
 
 def chosen(known: Mapping[str, Quantity], want: Sequence[str]) -> tuple[Quantity, ...]:

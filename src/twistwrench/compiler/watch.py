@@ -9,13 +9,12 @@ one by one, and names what is wrong, or finds that nothing is.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from ..algorithms.terms import AbaTerms
 from ..arrays import Array, convert, resolution
 from ..model import Model, Tree
 from .number import Number, Tape
@@ -53,8 +52,8 @@ def state_questions(model: Model, arguments: Mapping[str, Array], dtype: np.dtyp
             yield ((part * part).sum() - 1) / (2 * tolerance)
 
 
-def pivots(model: Model, tree: Tree, terms: AbaTerms, dtype: np.dtype[Any]) -> Iterator[Any]:
-    """Yield for each degree of freedom the least inertia that counts times its entry of D⁻¹ (49.7).
+def pivots(model: Model, tree: Tree, D_inv: Sequence[Array], dtype: np.dtype[Any]) -> Iterator[Any]:
+    """Yield for each degree of freedom the least inertia that counts times its entry of D⁻¹ (49.7, 49.8).
 
     The least one is a share of the inertia that the joint moves with all joints outboard of it locked, which is bounded
     by masses and distances alone: with `reach` between the origins of two bodies, moments of mass about one origin are
@@ -70,7 +69,7 @@ def pivots(model: Model, tree: Tree, terms: AbaTerms, dtype: np.dtype[Any]) -> I
         for k in range(S.shape[-1]):
             turn, slide = _length(S[:3, k]), _length(S[3:, k])
             locked = turn * turn * second[i] + 2 * turn * slide * first[i] + slide * slide * mass[i]
-            yield share * (locked + tree.rotor[i][k, k]) * terms.D_inv[i][k, k]
+            yield share * (locked + tree.rotor[i][k, k]) * D_inv[i][k, k]
         if p:
             reach = _length(tree.placement[i].translation)
             second[p] = second[p] + second[i] + 2 * reach * first[i] + reach * reach * mass[i]
