@@ -102,7 +102,7 @@ def test_json_goes_to_stdout_alone(capsys):
     assert found["reports"][0]["rows"][0]["ours_vs_truth"] < 1e-12
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
+@pytest.mark.parametrize("encoding", ["ascii", pytest.param("cp1252", marks=pytest.mark.slow)])
 def test_letters_that_the_output_lacks_are_shown_by_their_numbers(encoding):
     def said(*arguments):
         environment = os.environ | {"PYTHONIOENCODING": encoding}

@@ -103,6 +103,7 @@ def test_a_sweep_that_nobody_reads_stops():
     process.stderr.close()
 
 
+@pytest.mark.slow
 def test_a_sweep_that_meets_the_closed_pipe_while_it_prints_is_quiet():
     process = started(*SWEEP)
     for _ in range(3):
@@ -167,6 +168,7 @@ def test_processes_that_are_started_without_interrupts_do_not_get_them():
     assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_that_a_library_swallows_comes_again(number):
     """As where C code asks Python for a number: mpmath's went on with a NaN, and the viewer with its page."""

@@ -16,16 +16,16 @@ BIG_TREE = Recipe(40, seed=3, base="fixed")
 
 
 @given(recipes(8))
-@example(LONG_CHAIN)
-@example(BIG_TREE)
-@examples(2)
+@examples(4)
 def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
     check_against_the_truth(recipe, np.float64)
 
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(8)
+@example(LONG_CHAIN)
+@example(BIG_TREE)
+@examples(6)
 def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(recipe):
     check_against_the_truth(recipe, np.float64)
 

@@ -182,6 +182,7 @@ def test_trees_of_every_joint_have_thirty_digits_and_bounds_that_hold(recipe, na
         assert (abs(ne.as_mpmath(value) - right) <= bound + noise).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_pairs_go_in_and_batches_and_wrenches(backend):
     model = aligned(tw.random_tree(4, rng=2, base="floating"))
@@ -202,6 +203,7 @@ def test_pairs_go_in_and_batches_and_wrenches(backend):
     assert relative(whole(moved), right) < 1e-15
 
 
+@pytest.mark.slow
 def test_several_results_are_pairs_by_name():
     model = tw.load("panda")
     q = model.neutral() + 0.3

@@ -75,6 +75,7 @@ def test_threads_give_the_same_numbers():
     assert np.array_equal(one, two)
 
 
+@pytest.mark.slow
 def test_a_program_is_called_by_several_threads_at_once():
     """That change after every few instructions, from before the program has its first code."""
     model = tw.load("cart_pole")

@@ -93,6 +93,7 @@ def test_an_earlier_answer_that_never_ends_is_not_held_against_a_later_one(tmp_p
     assert said(tmp_path, "translation_transforms")[0] == "done"
 
 
+@pytest.mark.slow
 def test_pytest_goes_on_after_an_endless_loop(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"count": ENDLESS, "act": "print('here')\nreturn x"})
@@ -136,6 +137,7 @@ def test_what_an_answer_starts_ends_with_the_check(tmp_path):
         assert not state.strip() or "Z" in state
 
 
+@pytest.mark.slow
 def test_a_loop_that_prints_does_not_flood_the_screen(tmp_path, capfd):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"act": "while True:\n    print('x' * 1000)"})

@@ -210,6 +210,7 @@ def test_any_joint_works_anywhere(kind, base):
         assert_same(recipe.model, recipe.state(batch), list(recipe.model.frame_names))
 
 
+@pytest.mark.slow
 def test_a_joint_on_its_own_works():
     for kind in KINDS:
         recipe = Recipe(1, kinds=(kind,))
@@ -217,6 +218,7 @@ def test_a_joint_on_its_own_works():
             assert_same(recipe.model, recipe.state(batch), list(recipe.model.frame_names))
 
 
+@pytest.mark.slow
 def test_two_robots_in_one_model_work():
     """Two free-flyers on the world: neither is the base."""
     builder = tw.Builder("two", base="fixed")
@@ -229,6 +231,7 @@ def test_two_robots_in_one_model_work():
         assert_same(model, random_state(model, rng=0, batch=batch), ["left arm", "right", "base_link"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", sampled([np.complex128, np.complex64, np.clongdouble], 1))
 def test_complex_numbers_pass_through(dtype):
     """To the resolution of the type, times what forward dynamics of this tree loses."""

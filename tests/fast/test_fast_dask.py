@@ -26,6 +26,7 @@ def client():
         yield client
 
 
+@pytest.mark.slow
 def test_the_program_of_the_manual_gives_what_a_single_call_gives(client):
     names = {"__name__": "program"}
     exec(compile(PROGRAM, "docs/dask.md", "exec"), names)

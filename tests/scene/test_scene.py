@@ -189,6 +189,7 @@ def operations(scene, want):
     return program.operations.total()
 
 
+@pytest.mark.slow
 def test_only_what_is_wanted_is_computed_and_what_is_shared_once():
     scene = tw.Scene("go2", contacts=FEET, hold=["RR_*"])
     alone = {name: operations(scene, {name}) for name in EVERYTHING}
@@ -425,6 +426,7 @@ def test_the_phases_of_a_walk_are_scenes_whose_contacts_stand_still(robot):
         assert np.abs(left).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_hand_on_a_rail_stays_and_a_robot_in_the_air_touches_nothing():
     rail = [*SOLES, tw.PointContact("left_hand", 0.5)]
     scene = tw.Scene("humanoid", contacts=rail)

@@ -49,6 +49,7 @@ def test_a_four_bar_that_falls_on_the_ground_stops_there():
     assert (s.energy <= s.energy[0] + 1e-9).all()
 
 
+@pytest.mark.slow
 def test_a_joint_that_is_locked_in_one_step_is_a_joint_that_the_model_has_not():
     """From rest, where both models have the same M: one step on four feet that press, to rounding."""
     lock, q, rng = "FL_calf_joint", GO2.standing(), np.random.default_rng(3)

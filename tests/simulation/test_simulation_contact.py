@@ -11,6 +11,7 @@ from twistwrench.spatial import rotation_to_quaternion
 from ..sampling import sampled
 from .test_simulation import ORDERS, pendulum
 
+GO2 = tw.load("go2")  # one for all, so that each program is made once
 WITH_CONTACTS = [method for method in ORDERS if method != "variational"]
 
 
@@ -26,7 +27,7 @@ def pinned_ball(*, spherical: bool):
 
 def standing_go2(stiffness=60.0, damping=1.0):
     """A Go2 on its feet, whose motors hold its posture by springs and dampers about the torques of its equilibrium."""
-    model = tw.load("go2")
+    model = GO2
     posture, hold = model.standing(), tw.static_equilibrium(model, model.standing()).tau
 
     def policy(t, q, v):
@@ -85,6 +86,7 @@ def test_a_go2_that_stands_keeps_standing():
     assert weight == pytest.approx(np.broadcast_to([0, 0, model.mass * 9.81], (11, 3)), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", sampled(WITH_CONTACTS, 1))
 def test_a_go2_that_is_pushed_sways_on_feet_that_stay(method):
     model, policy, feet = standing_go2()

@@ -56,6 +56,7 @@ def test_the_torques_are_those_of_the_least_contact_forces():
         np.testing.assert_allclose(found[k], right, rtol=0, atol=1e-11)
 
 
+@pytest.mark.slow
 def test_in_flight_there_is_no_pressure_and_no_force():
     jump = tw.motions.jump(GO2, samples=20)
     flies = ~jump.contacts.any(axis=1)

@@ -260,6 +260,7 @@ def test_what_must_not_be_is_noticed(monkeypatch):
 FEW = [Recipe(), Recipe(off=0.1), Recipe(bodies=2, tip=0.0)]
 
 
+@pytest.mark.slow
 def test_a_study_that_was_stopped_goes_on_where_it_stopped(tmp_path, monkeypatch):
     path, asked = tmp_path / "cells.jsonl", []
 
@@ -316,6 +317,7 @@ def test_the_report_is_json_where_an_estimate_has_no_end():
     json.dumps(found, allow_nan=False)
 
 
+@pytest.mark.slow
 def test_the_command_prints_writes_and_draws(tmp_path, monkeypatch, capsys):
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: the maps are not drawn")
     monkeypatch.setattr(grid, "cells", lambda *, full: FEW)
@@ -455,6 +457,7 @@ def test_the_tables_and_the_numbers_of_the_page_are_those_of_the_results(maker, 
     assert [number for number in maker.quoted() if number not in words] == []
 
 
+@pytest.mark.slow
 def test_the_results_of_a_heavy_tip_are_those_of_today(maker):
     recipe = maker.CELLS["heavy tip"]
     kept = json.loads(maker.RESULTS.read_text(encoding="utf-8"))["cells"]["heavy tip"]

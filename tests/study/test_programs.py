@@ -37,6 +37,7 @@ def test_the_tables_of_the_page_are_those_of_the_results(maker, language):
     assert set(re.findall(r"<!-- table: (\w+) -->", text)) == set(maker.tables())
 
 
+@pytest.mark.slow
 def test_each_rule_saves_what_the_page_says(maker):
     counts = {(rule, want): n for rule, want, n in maker.rules()}
     found = maker.json.loads(maker.RESULTS.read_text(encoding="utf-8"))

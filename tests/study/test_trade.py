@@ -135,6 +135,7 @@ def test_no_type_is_more_exact_than_it_can_be(floating):
             assert p.error > 1e-3 * epsilon(p.number), p
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", sampled(["fixed", "floating"], 1))
 def test_finite_differences_lose_what_theory_says(robot, request):
     """A forward difference keeps half the digits, a central one two thirds, a complex step all: within 1.5 decades."""
@@ -342,6 +343,7 @@ def test_the_versions_are_of_what_is_installed(monkeypatch):
     assert set(_versions()) == {"python", "twistwrench", "numpy", "mpmath", "gmpy2", "pin"}
 
 
+@pytest.mark.slow
 def test_the_command_prints_writes_and_draws(tmp_path, capsys):
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: nothing is drawn")
     files = tmp_path / "found.json", tmp_path / "found.png"

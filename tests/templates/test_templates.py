@@ -443,6 +443,7 @@ def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
     assert picture.stat().st_size > 20_000
 
 
+@pytest.mark.slow
 def test_the_picture_of_the_study_draws_the_values_that_it_has():
     figure = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed: the picture is not made")
     from twistwrench.study.templates_picture import residuals

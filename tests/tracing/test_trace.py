@@ -20,7 +20,9 @@ MODELS = {
 }
 
 
-@pytest.fixture(params=MODELS, scope="module")
+@pytest.fixture(
+    params=[pytest.param(name, marks=[pytest.mark.slow] * (name == "humanoid")) for name in MODELS], scope="module"
+)
 def case(request):
     model, rng = MODELS[request.param], np.random.default_rng(5)
     f_ext = rng.normal(size=(model.nbodies, 6))

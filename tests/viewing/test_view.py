@@ -228,6 +228,7 @@ def test_two_feet_on_the_ground_are_joined_by_a_line():
     np.testing.assert_allclose(np.sort(lengths), [0, 0, apart, apart], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_in_flight_nothing_supports_and_no_polygon_is_shown():
     pytest.importorskip("trimesh")
     stage, jump = Stage(), motions.jump(GO2, samples=8)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterable, Iterator, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -88,6 +88,7 @@ class MachineCode:
         self._call(table.ctypes.data, len(arrays[0]))
 
 
+@lru_cache(maxsize=32)  # the same robot, loaded again, has the same text
 def engine_of(text: str) -> Any:
     """Return what holds the machine code of a text in LLVM's language, for this processor."""
     import llvmlite.binding as llvm
