@@ -16,7 +16,7 @@ def sources(language: str = "") -> list[str]:
 
 @pytest.mark.slow
 def test_every_block_of_the_page_runs():
-    assert len(sources()) == 12
+    assert len(sources()) == 13
     run(page("contacts"), sources())
 
 

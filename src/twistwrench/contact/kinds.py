@@ -111,6 +111,9 @@ class SurfaceContact(Contact):
 
     Notes
     -----
+    An edge, a rectangle of no width, is not a sole: it may turn about itself. Two `PointContact` at its ends hold all
+    that an edge holds, five of six rows: one of them is redundant, which every function here allows.
+
     Caron, Pham and Nakamura (ICRA 2015) give the same limits for pyramids of four sides without the corners.
 
     Examples
@@ -130,7 +133,8 @@ class SurfaceContact(Contact):
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
         half = as_exactly(self.half_size, f"contact {self.frame!r}: half_size", 2)
         if (half <= 0).any():
-            raise ValueError(f"contact {self.frame!r}: half_size: expected lengths above 0, got {half.tolist()}")
+            flat = "" if (half < 0).any() else "; a line is two PointContacts at its ends, and a point is one"
+            raise ValueError(f"contact {self.frame!r}: half_size: expected lengths above 0, got {half.tolist()}{flat}")
         object.__setattr__(self, "half_size", tuple(half.tolist()))
         checked_motion(self, "velocity")
         checked_motion(self, "acceleration")
