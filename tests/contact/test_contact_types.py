@@ -167,7 +167,7 @@ def test_a_grasp_bears_what_no_foot_can():
         (lambda: tw.PointContact("foot", 0.5, (0, 0, 0)), "'foot': normal: expected a direction"),
         (lambda: tw.PointContact("foot", 0.5, (0, 1)), "'foot': normal: expected shape"),
         (lambda: tw.SurfaceContact("sole", (0.1, 0.0), 0.5), "above 0, got .*; a line is two PointContacts at its"),
-        (lambda: tw.SurfaceContact("sole", (0.1, -0.1), 0.5), r"'sole': half_size: expected lengths above 0, got .*\]$"),
+        (lambda: tw.SurfaceContact("sole", (0.1, -0.1), 0.5), r"half_size: expected lengths above 0, got .*\]$"),
         (lambda: tw.SurfaceContact("sole", 0.1, 0.5), "'sole': half_size: expected shape"),
         (lambda: SURFACE.limits(2, "inner"), "sides: expected a whole number, at least 3, got 2"),
         (lambda: SURFACE.limits(4.5, "inner"), "sides: expected a whole number, at least 3, got 4.5"),
