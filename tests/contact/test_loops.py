@@ -8,6 +8,9 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import bridge
+from twistwrench import newton_euler_3d as slow
+from twistwrench.model import KINDS
+from twistwrench.newton_euler_3d.bodies import cross
 
 from ..strategies import Recipe
 from ..touching import BOX, BOX_CORNERS, FEET, GO2, error, points, posed
@@ -352,6 +355,82 @@ def test_a_loop_far_from_the_origin_keeps_its_digits_and_its_rank():
     far[:3] += [1e6, -3e5, 2e4]
     here, there = (tw.constraint_jacobian(GO2, q, loop) for q in (GO2.standing(), far))
     assert np.abs(here - there).max() < 1e-15
+
+
+# ---------------------------------------------------------------- 50 digits, every kind of joint
+
+EVERY_KIND = Recipe(7, 129, "floating").model
+HELD = [
+    tw.PointContact("joint_0", 0.5),
+    tw.SlidingContact("joint_5", [0.3, 0.2, 1]),
+    tw.LoopClosure("joint_2", "joint_1"),
+    tw.SlidingContact("welded_2", [[1, 0.5, 1], [0, 1, 0.3]], to="joint_5"),
+    tw.Coupling("joint_1", {"joint_6": -2.5}),
+]
+
+
+def rows_in_vectors(model, q, v, held):
+    """J and J̇ v of contacts, by 3-D vectors: how a frame moves, as seen from a frame that turns."""
+    rows, bias = [], []
+    for c in held:
+        if isinstance(c, tw.Coupling):
+            ratios = {c.frame: 1} | {name: -ratio for name, ratio in c.ratios}
+            rows.append(sum(n * np.eye(model.nv)[model.v_slice[model.joint_id(name)]] for name, n in ratios.items()))
+            bias.append([0])
+            continue
+        (_, p), J = slow.frame_placement(model, q, c.frame), jacobian(model, q, c.frame)
+        acceleration, axes = drift(model, q, v, c.frame), np.eye(3, dtype=int)
+        if getattr(c, "to", None) is not None:
+            (axes, there), other = slow.frame_placement(model, q, c.to), jacobian(model, q, c.to)
+            (turn, slide), r = other, p - there
+            w, relative = turn @ v, (J[1] - slide) @ v
+            rate, free = drift(model, q, v, c.to)
+            left = acceleration[1] - free - cross(rate, r) - cross(w, relative) - cross(w, relative - cross(w, r))
+            J, acceleration = (None, J[1] - slide - cross(turn, r)), (None, left)
+        which = c.directions[:, 3:] @ axes.T
+        rows.append(which @ J[1])
+        bias.append(which @ acceleration[1])
+    return np.concatenate(rows), np.concatenate(bias)
+
+
+def jacobian(model, q, frame):
+    return np.split(slow.frame_jacobian(model, q, frame, "local_world_aligned"), 2)
+
+
+def drift(model, q, v, frame):
+    return np.split(slow.frame_bias_acceleration(model, q, v, frame, "local_world_aligned"), 2)
+
+
+@pytest.mark.slow
+def test_motion_forces_and_impulses_are_right_to_fifty_digits():
+    """The dense equations [M, −Jᵀ; J, 0] for points, rails, loops and gears on a tree with every kind of joint."""
+    model, rng = EVERY_KIND, np.random.default_rng(8)
+    assert {joint.kind for joint in model.joints[1:]} == {*KINDS}
+    q, (v, tau) = model.random_configuration(rng=rng), rng.standard_normal((2, model.nv))
+    tau[:6] = 0  # no motor at the base
+    J = tw.constraint_jacobian(model, q, HELD)
+    v, n, m = v - np.linalg.pinv(J) @ (J @ v), model.nv, len(J)
+    with mpmath.workdps(50):
+        q_, v_, tau_ = (slow.as_mpmath(x) for x in (q, v, tau))
+        rows, bias = rows_in_vectors(model, q_, v_, HELD)
+        M, h = slow.mass_matrix(model, q_), slow.nonlinear_effects(model, q_, v_)
+        equations = np.block([[M, -rows.T], [rows, np.zeros((m, m), int)]])
+        sides = (np.r_[tau_ - h, -bias], np.r_[M @ tau_, np.zeros(m, int)])  # stopped from a velocity of tau
+        matrix = mpmath.matrix(equations.tolist())
+        motion, after = (np.array([*mpmath.lu_solve(matrix, b.tolist())], float) for b in sides)
+        rows, bias, equations = (x.astype(float) for x in (rows, bias, equations))
+    assert error(J, rows) < 1e-14
+    assert error(tw.constraint_bias(model, q, v, HELD), bias) < 1e-13
+    lost = np.linalg.cond(equations) * np.finfo(float).eps
+    got, hit = tw.contact_forward_dynamics(model, q, v, tau, HELD), tw.impact(model, q, tau, HELD)
+    assert (got.rank, got.redundant) == (m, 0)
+    for ours, exact in (
+        (np.r_[got.qdd, *got.forces.values()], motion),
+        (np.r_[hit.v, *hit.impulses.values()], after),
+    ):
+        assert error(ours, exact) < lost < 1e-10
+    back = tw.contact_inverse_dynamics(model, q, v, got.qdd, HELD)
+    assert error(tw.rnea(model, q, v, motion[:n]), back.tau + rows.T @ np.concatenate([*back.forces.values()])) < lost
 
 
 # ---------------------------------------------------------------- Pinocchio

@@ -102,6 +102,18 @@ def test_a_body_gets_the_inertia_that_is_given_in_a_frame():
     assert not np.array_equal(tw.crba(changed, q), tw.crba(dog, q))  # no constant of the old one is kept
 
 
+def test_pinocchio_with_that_inertia_and_a_program_of_it_have_the_same_mass_matrix():
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    model = tw.random_tree(7, rng=129, base="floating")  # every kind of joint
+    name, body = model.joint_names[4], SpatialInertia(1.5, [0.1, 0.2, -0.1], np.diag([0.1, 0.2, 0.15]))
+    changed, q = tw.replace_inertia(model, name, body), model.random_configuration(rng=0)
+    there = bridge.to_pinocchio_model(model)
+    there.inertias[4] = bridge.to_pinocchio_inertia(body)
+    M = bridge.from_pinocchio_matrix(model, pin.crba(there, there.createData(), q))
+    np.testing.assert_allclose(tw.crba(changed, q), M, rtol=0, atol=1e-12 * np.abs(M).max())
+    np.testing.assert_allclose(tw.compile(changed, "M")(q), M, rtol=0, atol=1e-12 * np.abs(M).max())
+
+
 def test_a_payload_weighs_what_it_weighs():
     arm, q = tw.load("planar_arm"), [0.3, -0.7, 0.4]
     i, g = arm.frame("tool").body, 9.81

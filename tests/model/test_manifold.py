@@ -1,11 +1,16 @@
 """Derivatives of ⊕ and ⊖, interpolation and distance, for every kind of joint: steps, Pinocchio, and each other."""
 
+import mpmath
 import numpy as np
 import pytest
 
 import twistwrench as tw
 from twistwrench import bridge
+from twistwrench import newton_euler_3d as slow
 from twistwrench.model import KINDS, Joint
+
+from ..sampling import sampled
+from ..spatial.test_jacobians import truth
 
 SHAPES = [(), (1,), (3, 1, 2), (0,)]
 
@@ -22,6 +27,7 @@ def states(model, seed, shape=()):
 
 
 KIND = pytest.mark.parametrize("kind", KINDS)
+THREE_KINDS = pytest.mark.parametrize("kind", sampled(KINDS, 3))
 
 
 def test_every_kind_of_joint_is_looked_at():
@@ -44,6 +50,45 @@ def test_a_complex_step_gives_the_derivatives(kind):
         for J, changed in zip((J_0, J_1), ways):
             np.testing.assert_allclose(J[:, k], changed.imag / h, rtol=0, atol=5e-14)
             np.testing.assert_allclose(changed.real, way, rtol=0, atol=1e-14)
+
+
+@THREE_KINDS
+def test_the_derivatives_are_those_of_exp_to_fifty_digits(kind):
+    """∂⊕ is S⁺ J_r(S v) S by v and S⁺ Ad(exp(−S v)) S by q, J_r by its series; ∂⊖ is S⁺ J_r⁻¹ S and −S⁺ J_l⁻¹ S."""
+    model = tw.random_tree(1, rng=2, kinds=(kind,), base="floating" if kind == "free_flyer" else "fixed")
+    q0, q1, v = states(model, 6)
+    with mpmath.workdps(60):
+        S = mpmath.matrix(model.joints[1].subspace().tolist())
+        back = (S.T * S) ** -1 * S.T
+
+        def restricted(J):
+            return np.array((back * J * S).tolist(), float)
+
+        V, way = (model.joints[1].subspace() @ x for x in (v, model.difference(q0, q1)))
+        turned = mpmath.expm(mpmath.matrix((-tw.cross_motion(V)).tolist()))
+        by_v, by_1, by_0 = truth(mpmath, V), truth(mpmath, way) ** -1, -(truth(mpmath, -way) ** -1)
+        exact = [restricted(J) for J in (turned, by_v, by_0, by_1)]
+    for J, right in zip((*model.d_integrate(q0, v), *model.d_difference(q0, q1)), exact):
+        np.testing.assert_allclose(J, right, rtol=0, atol=4e-15 * np.abs(right).max())
+
+
+@THREE_KINDS
+def test_a_third_of_the_way_three_times_is_the_way_to_fifty_digits(kind):
+    """(T₀⁻¹ T)³ = T₀⁻¹ T₁ for the placements of each joint; of a ball joint the distance is the angle."""
+    model = tw.random_tree(1, rng=2, kinds=(kind,), base="floating" if kind == "free_flyer" else "fixed")
+    q0, q1, _ = states(model, 7)
+
+    def placement(q):
+        R, p = (x[1] for x in slow.placements(model, slow.as_mpmath(q)))
+        return mpmath.matrix(np.block([[R, p[:, None]], [np.zeros((1, 3), int), np.ones((1, 1), int)]]).tolist())
+
+    with mpmath.workdps(50):
+        start, there, end = (placement(q) for q in (q0, model.interpolate(q0, q1, 1 / 3), q1))
+        step, whole = start**-1 * there, start**-1 * end
+        assert mpmath.mnorm(step * step * step - whole) < 4e-15 * mpmath.mnorm(whole)
+        if kind == "spherical":
+            angle = mpmath.acos((whole[0, 0] + whole[1, 1] + whole[2, 2] - 1) / 2)
+            assert abs(float(angle - float(model.distance(q0, q1)))) < 4e-15
 
 
 @KIND
@@ -78,11 +123,11 @@ def test_the_derivatives_undo_each_other(kind):
 def test_batch_axes_and_number_types_are_kept(kind, shape):
     model = tree(kind)
     q0, q1, v = states(model, 4, shape)
-    for dtype in (np.float32, np.float64, np.longdouble):
+    for dtype in (np.float32, np.float64, np.longdouble, np.complex128):
         a, b, c = (x.astype(dtype) for x in (q0, q1, v))
         for J in (*model.d_integrate(a, c), *model.d_difference(a, b)):
             assert (J.shape, J.dtype) == ((*shape, model.nv, model.nv), dtype)
-        assert model.interpolate(a, b, dtype(0.5)).dtype == model.distance(a, b).dtype == dtype
+        assert model.interpolate(a, b, dtype(0.5).real).dtype == model.distance(a, b).dtype == dtype
     J_0, _ = model.d_difference(q0, q1)
     for k in np.ndindex(shape):
         np.testing.assert_allclose(J_0[k], model.d_difference(q0[k], q1[k])[0], rtol=0, atol=1e-15)

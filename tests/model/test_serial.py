@@ -4,6 +4,7 @@ The tables of DH and their closed forms are written down here, not copied: no pa
 the Puma's masses, and its g and M in `test_published.py`, were read where they are published: in the Robotics Toolbox.
 """
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -105,6 +106,30 @@ def test_random_screws_multiply_as_exponentials():
         found = tw.screw_axes(arm, "tool")
         np.testing.assert_allclose(found.Slist, S, rtol=0, atol=1e-14)
         np.testing.assert_allclose(fk(tw.from_screw_axes(M, Blist=found.Blist), q, "tool"), T.matrix() @ M, atol=1e-13)
+
+
+def test_the_product_of_exponentials_in_fifty_digits_pinocchio_and_programs():
+    rng = np.random.default_rng(7)
+    M, pitch = exp6(rng.normal(size=6)).matrix(), [0, np.inf, 0.2, -0.1]
+    S = Twist.from_screw(rng.normal(size=(4, 3)), rng.normal(size=(4, 3)), pitch).vector.T
+    arm, q = tw.from_screw_axes(M, S), rng.normal(size=(3, 4))
+    with mpmath.workdps(50):
+        T = mpmath.eye(4)
+        for s, x in zip(S.T, q[0]):
+            way = np.zeros((4, 4))
+            way[:3, :3], way[:3, 3] = tw.skew(s[:3]), s[3:]
+            T = T * mpmath.expm(mpmath.matrix(way.tolist()) * mpmath.mpf(x))
+        exact = np.array((T * mpmath.matrix(M.tolist())).tolist(), float)
+    np.testing.assert_allclose(fk(arm, q[0], "tool"), exact, rtol=0, atol=5e-15)
+    for dtype in (np.float32, np.float64):
+        program = tw.compile(arm, "frame_placement", frames=["tool"], dtype=dtype)
+        got = program(q.astype(dtype))[:, 0]
+        np.testing.assert_allclose(got, fk(arm, q, "tool"), rtol=0, atol=50 * np.finfo(dtype).eps)
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    there = tw.bridge.to_pinocchio_model(arm)
+    data = there.createData()
+    pin.framesForwardKinematics(there, data, q[0])
+    np.testing.assert_allclose(data.oMf[there.getFrameId("tool")].homogeneous, exact, rtol=0, atol=5e-15)
 
 
 def test_a_model_and_its_screw_axes_make_the_same_motion():
@@ -246,6 +271,28 @@ def test_each_dh_matrix_is_the_product_of_its_four_motions():
         for convention, expected in (("classical", z @ x), ("modified", x @ z)):
             arm = tw.from_dh(a=a, alpha=alpha, d=d, theta=theta, convention=convention, kinds=kind)
             np.testing.assert_allclose(fk(arm, q, "link1"), expected, rtol=0, atol=2e-15)
+
+
+@pytest.mark.parametrize("convention", ["classical", "modified"])
+def test_a_table_is_right_to_fifty_digits(convention):
+    rng = np.random.default_rng(8)
+    a, alpha, d, theta, q = rng.normal(size=(5, 6))
+    arm = tw.from_dh(a=a, alpha=alpha, d=d, theta=theta, convention=convention, kinds="RRPRPR")
+    with mpmath.workdps(50):
+
+        def motion(turn, slide, axis):
+            c, s = mpmath.cos(turn), mpmath.sin(turn)
+            R = [[1, 0, 0], [0, c, -s], [0, s, c]] if axis == 0 else [[c, -s, 0], [s, c, 0], [0, 0, 1]]
+            return mpmath.matrix([[*row, slide * (k == axis)] for k, row in enumerate(R)] + [[0, 0, 0, 1]])
+
+        T = mpmath.eye(4)
+        for k, kind in enumerate("RRPRPR"):
+            turn, slide = mpmath.mpf(theta[k]), mpmath.mpf(d[k])
+            z = motion(turn + q[k], slide, 2) if kind == "R" else motion(turn, slide + q[k], 2)
+            x = motion(mpmath.mpf(alpha[k]), mpmath.mpf(a[k]), 0)
+            T = T * (z * x if convention == "classical" else x * z)
+        exact = np.array(T.tolist(), float)
+    np.testing.assert_allclose(fk(arm, q, "link6"), exact, rtol=0, atol=5e-15)
 
 
 def test_masses_are_given_in_the_frames_of_the_table():

@@ -44,6 +44,24 @@ def test_the_nearest_rotation_is_the_polar_factor_as_far_as_it_is_offered():
         np.testing.assert_allclose(tw.nearest_rotation(R), polar(R), rtol=0, atol=1e-14)
 
 
+@pytest.mark.parametrize("size", [1e-7, 1e-3, 0.03])
+def test_the_nearest_rotation_is_right_to_fifty_digits(size):
+    """The orthogonal factor by Newton's iteration, X ← ½ (X + X⁻ᵀ), in mpmath's numbers."""
+    R = turns(3) @ (np.eye(3) + size * np.random.default_rng(5).uniform(-1, 1, (3, 3, 3)) / 3)
+    for ours, given in zip(tw.nearest_rotation(R), R):
+        with mpmath.workdps(50):
+            X = mpmath.matrix(given.tolist())
+            for _ in range(8):
+                X = (X + (X**-1).T) / 2
+        np.testing.assert_allclose(ours, np.array(X.tolist(), float), rtol=0, atol=1e-15)
+
+
+def test_batch_axes_are_kept():
+    for shape in ((1,), (3, 1, 2), (0,)):
+        R = tw.exp3(np.random.default_rng(6).normal(size=(*shape, 3)))
+        assert tw.nearest_rotation(R).shape == (*shape, 3, 3)
+
+
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
 def test_it_keeps_the_number_type_and_what_is_right_already(dtype):
     R = tw.exp3(np.array([0.3, -0.2, 0.1], dtype))

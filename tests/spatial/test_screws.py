@@ -1,5 +1,8 @@
 """Twists and wrenches made of their screws, and wrenches of forces at points: the way back from `screw`."""
 
+from fractions import Fraction
+
+import mpmath
 import numpy as np
 import pytest
 
@@ -38,6 +41,36 @@ def test_the_points_of_the_axis_move_along_it():
     axis, point, pitch = np.array([2.0, -1, 2]) / 3, np.array([0.3, 1, -0.5]), 0.25
     V = Twist.from_screw(axis, point, pitch, 2.5)
     np.testing.assert_allclose(exp6(V).act(point), point + pitch * 2.5 * axis, rtol=0, atol=4e-15)
+
+
+@BOTH
+def test_both_ways_are_right_to_fifty_digits(kind):
+    """s and q × s + h s, times the magnitude; back, the pitch ω·v / ω² and the point ω × v / ω² next to the origin."""
+    rng = np.random.default_rng(4)
+    for axis, point, (pitch, size) in zip(*rng.normal(size=(2, 5, 3)), rng.uniform(0.2, 2, (5, 2))):
+        x = kind.from_screw(axis, point, pitch, size)
+        with mpmath.workdps(50):
+            n = np.array([mpmath.mpf(k) for k in axis])
+            n = size * n / mpmath.sqrt(n @ n)
+            turning, along = n, np.cross(point, n) + pitch * n
+            exact = np.r_[turning, along] if kind is Twist else np.r_[along, turning]
+            np.testing.assert_allclose(x.vector, exact.astype(float), rtol=0, atol=1e-15 * np.abs(x.vector).max())
+            w, v = (
+                np.array([mpmath.mpf(k) for k in part]) for part in np.split(x.vector, 2)[:: 1 - 2 * (kind is Wrench)]
+            )
+            back = Screw(w / mpmath.sqrt(w @ w), np.cross(w, v) / (w @ w), w @ v / (w @ w), mpmath.sqrt(w @ w))
+        for ours, right in zip(screw(x), back):
+            np.testing.assert_allclose(ours, np.array(right, float), rtol=0, atol=4e-15 * max(1, np.abs(ours).max()))
+
+
+def test_a_force_at_a_point_stays_exact_and_is_pinocchios():
+    third = Fraction(1, 3)
+    F = Wrench.from_force([third, 0, 1], [0, third, 2]).vector
+    assert F.tolist() == [third, 2 * third, -(third**2), third, 0, 1]
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    f, p = np.random.default_rng(5).normal(size=(2, 3))
+    there = pin.SE3(np.eye(3), p).act(pin.Force(f, np.zeros(3)))
+    np.testing.assert_allclose(Wrench.from_force(f, p).vector, [*there.angular, *there.linear], rtol=0, atol=1e-15)
 
 
 @BOTH

@@ -153,6 +153,16 @@ def test_a_part_can_be_taken_away_again():
     assert_same(nothing, SpatialInertia(np.zeros(8), np.zeros(3), np.zeros((3, 3))), atol=0)
 
 
+def test_pinocchio_subtracts_to_the_same_body():
+    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    a, b = bodies(9), bodies(10)
+    for k in range(8):
+        one, two = (SpatialInertia(x.mass[k], x.com[k], x.inertia_at_com[k]) for x in (a, b))
+        whole = tw.bridge.to_pinocchio_inertia(one + two)
+        rest = tw.bridge.from_pinocchio_inertia(whole - tw.bridge.to_pinocchio_inertia(two))
+        assert_same((one + two) - two, rest, atol=1e-13)
+
+
 def test_a_hole_in_a_plate():
     plate, hole = SpatialInertia.from_box(9.0, [3, 3, 0]), SpatialInertia.from_box(1.0, [1, 1, 0])
     at = SE3(np.eye(3), [1, 0, 0])
