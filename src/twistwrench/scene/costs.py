@@ -19,7 +19,7 @@ from ..templates.template import Template
 from .articulated import Articulated, radius_of_gyration
 from .candidates import Candidate
 from .compiled import compiled, seconds
-from .judging import QUANTITIES, Judge
+from .judging import QUANTITIES, Judge, scale, unit
 
 __all__ = ["Answer", "Costs", "Option", "costs", "needed"]
 
@@ -148,7 +148,7 @@ class Costs:
     def __str__(self) -> str:
         width = max(len(option.name) for option in self.options)
         columns = [(name, out) for name in self.tolerance for out in ((False, True) if self.held_out else (False,))]
-        head = "".join(f"{'held out' if out else name + _unit(name):>15} " for name, out in columns)
+        head = "".join(f"{'held out' if out else name + unit(name):>15} " for name, out in columns)
         rows = [
             f"{'→' if option is self.best else ' '} {option.name:{width}} "
             + "".join(self._cell(option, *column) for column in columns)
@@ -158,7 +158,7 @@ class Costs:
             if not option.unfit
         ]
         rows += [f"  {option.name:{width}}  does not apply: {option.unfit}" for option in self.options if option.unfit]
-        most = ", ".join(f"{name} {most * _scale(name):.3g}{_unit(name)}" for name, most in self.tolerance.items())
+        most = ", ".join(f"{name} {most * scale(name):.3g}{unit(name)}" for name, most in self.tolerance.items())
         title = f"{self.motion}: the largest errors; shares are of {self.share_of}; at most {most}"
         title += f", with a margin of {self.margin:g}" if self.margin != 1 else ""
         title += f"; held out: {self.held_out}" if self.held_out else ""
@@ -170,7 +170,7 @@ class Costs:
         if not np.isfinite(worst):
             return f"{'-':>15} "
         over = worst * (1.0 if held_out else self.margin) > most
-        return f"{worst * _scale(name):15.2g}" + (">" if over else " ")
+        return f"{worst * scale(name):15.2g}" + (">" if over else " ")
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the time of each option that is exact enough, the choice marked, and the error of every option.
@@ -203,14 +203,6 @@ def _work(option: Option) -> str:
     """Return the cells of a model's operations, not counted where NumPy runs it, and of its time."""
     count = f"{option.operations:.0f}" if option.operations < np.inf else "-"
     return f"{count:>10} {option.seconds * 1e6:9.3f}"
-
-
-def _unit(name: str) -> str:
-    return {"m": " mm", "N m": " N m"}.get(QUANTITIES[name], "")
-
-
-def _scale(name: str) -> float:
-    return 1e3 if QUANTITIES[name] == "m" else 1.0
 
 
 def needed(tolerance: float | Mapping[str, float]) -> dict[str, float]:

@@ -23,7 +23,7 @@ from ..spatial import SE3, skew
 from ..templates import Residual
 from .articulated import Articulated
 
-__all__ = ["QUANTITIES", "Judge", "heights"]
+__all__ = ["QUANTITIES", "Judge", "heights", "scale", "unit"]
 
 QUANTITIES = {"wrench": "of the weight", "cop": "m", "forces": "of the weight", "tau": "N m"}
 """What may be asked of a model, and the unit of its error."""
@@ -158,3 +158,13 @@ def _points(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Array,
         places.append(T.translation[:, None] + arm)
         J.append(six[..., 3:, :] - skew(arm) @ six[..., :3, :])
     return np.concatenate(places, axis=1), np.concatenate(J, axis=1)
+
+
+def unit(name: str) -> str:
+    """Return the unit in which the error of a quantity is shown, after a blank; nothing for a share of the weight."""
+    return {"m": " mm", "N m": " N m"}.get(QUANTITIES[name], "")
+
+
+def scale(name: str) -> float:
+    """Return by what an error is multiplied to be shown in that unit."""
+    return 1e3 if QUANTITIES[name] == "m" else 1.0

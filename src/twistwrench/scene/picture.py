@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..plot.style import COLOURS, axes_2d
+from .judging import scale, unit
 
 if TYPE_CHECKING:
-    from .costs import Costs
+    from .costs import Costs, Option
 
 __all__ = ["draw"]
 
@@ -18,17 +19,19 @@ def draw(costs: Costs, ax: Any = None) -> Any:
     ax = axes_2d(ax, size=(7.0, 1.2 + 0.32 * len(options)))
     best, timed = costs.best, [option for option in options if option.seconds > 0]
     times = [1e6 * option.seconds for option in timed]
-    start = min(times) / 3  # where the bars begin: a logarithm has no zero
     for kind, colour in (("the choice", "vermilion"), ("exact enough", "blue")):
         rows = [k for k, option in enumerate(timed) if (option is best) == (kind == "the choice")]
-        ax.barh(rows, [times[k] - start for k in rows], color=COLOURS[colour], label=kind, left=start)
+        ax.barh(rows, [times[k] for k in rows], color=COLOURS[colour], label=kind)
     for k, option in enumerate(options):
-        said = ", ".join(f"{option.worst(name):.2g}" if name in option.errors else "-" for name in costs.tolerance)
-        end = 1.15 * times[k] if k < len(times) else 1.15 * start
-        ax.text(end, k, said + ("  + torques" if option.tells_torques else ""), va="center")
+        said = ", ".join(_error(option, name) for name in costs.tolerance)
+        end = times[k] if k < len(times) else 0.0
+        ax.text(end + 0.01 * max(times), k, said + ("  + torques" if option.tells_torques else ""), va="center")
     ax.set_yticks(range(len(options)), [option.name for option in options])
-    ax.invert_yaxis()
-    ax.set(xscale="log", xlim=(start, 40 * max(times)), xlabel="time [µs per state]")
+    ax.set(xlim=(0, 2.4 * max(times)), ylim=(len(options) - 0.5, -0.5), xlabel="time [µs per state]")
     ax.set_title(f"{costs.motion}: largest errors of {', '.join(costs.tolerance)}")
     ax.legend(loc="lower right", fontsize="small")
     return ax
+
+
+def _error(option: Option, name: str) -> str:
+    return f"{option.worst(name) * scale(name):.2g}{unit(name)}" if name in option.errors else "-"
