@@ -1,4 +1,4 @@
-"""A number and its unit stay on one line: 1.26 ms is not broken after 1.26, nor 40 N m after N."""
+"""A number and its unit stay on one line: 1.26 ms is not broken after 1.26, nor 40 N m after N, nor 6 × 6."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from sphinx.transforms.post_transforms import SphinxPostTransform
 UNITS = "kg|mm|cm|km|ms|[µμ]s|ns|min|rad|Hz|kB|MB|GB|[NmsJW%°]"
 NUMBER_AND_UNIT = re.compile(rf"(?<=\d) (?=(?:{UNITS})(?![\w'’]))")
 FACTORS = re.compile(r"(?<=\bN) (?=m\b)|(?<=\bN m) (?=s\b)|(?<=\bkg) (?=m²)")
+TIMES = re.compile(r"(?<=\d) (?=× \d)|(?<=\d\u00a0×) (?=\d)|(?<=\d ×) (?=\d)")
 
 
 def kept_together(text: str) -> str:
     """Return a text whose units cannot come loose from their numbers."""
-    for blank in (NUMBER_AND_UNIT, FACTORS):
+    for blank in (NUMBER_AND_UNIT, FACTORS, TIMES):
         text = blank.sub("\u00a0", text)
     return text
 

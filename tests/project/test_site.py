@@ -239,6 +239,7 @@ def test_a_number_and_its_unit_are_not_parted():
     from website.units import kept_together
 
     assert kept_together("6e-14 N m, 1.26 ms, 40 °") == "6e-14\u00a0N\u00a0m, 1.26\u00a0ms, 40\u00a0°"
+    assert kept_together("6 × 6") == "6\u00a0×\u00a06"
     assert kept_together("8 states, 3 m's, the N most") == "8 states, 3 m's, the N most"
 
 
