@@ -3,8 +3,9 @@
 usage:  python notebooks/build.py             write en/ and zh/
         python notebooks/build.py --check     change nothing; exit 1 where a notebook is not what its source says
 
-A source is a Python file in percent form. Its code cells go into both notebooks, each Markdown cell into the one
-whose language it names; an English cell is followed by the Chinese one that says the same:
+A source is a Python file in percent form. Its code cells go into both notebooks; in the Chinese one, their comments and
+the words of figures are in Chinese (source/zh.toml; one without its Chinese is an error). Each Markdown cell goes
+into the one whose language it names; an English cell is followed by the Chinese one that says the same:
 
     # %% [markdown] lang="en"
     # Turn the base.
@@ -22,8 +23,13 @@ end anywhere.
 
 import argparse
 import ast
+import io
+import itertools
 import re
 import sys
+import tokenize
+import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 
 import jupytext
@@ -155,12 +161,68 @@ def _defines(node: ast.stmt) -> bool:
     return isinstance(node, ast.Import | ast.ImportFrom | ast.FunctionDef | ast.ClassDef)
 
 
+WORDS = HERE / "source" / "zh.toml"
+"""The Chinese of the comments and words of code cells."""
+PLACES = {"loc", "ha", "va", "layout", "textcoords"}
+"""Keywords whose words are matplotlib's."""
+PROSE = re.compile(r"(?<![\w.(])[A-Za-z]{2,}[,:;]? \(?[a-z]{2,}(?![\w(.=\[])")
+CHINESE_FIGURES = "tw.plot.chinese()  # 图中可以写汉字"
+
+
+def said(code: str) -> list[tuple[int, int, str]]:
+    """Return where each comment and each string of a code cell begins and ends, and its text as it is typed."""
+    lines = code.splitlines(keepends=True)
+    starts = [0, *itertools.accumulate(map(len, lines))]
+    found = []
+    for token in tokenize.generate_tokens(io.StringIO(code).readline):
+        if token.type == tokenize.COMMENT:
+            start = starts[token.start[0] - 1] + token.start[1]
+            found.append((start, start + len(token.string), token.string))
+    for node in _strings(ast.parse(code)):
+        ends = (node.lineno, node.col_offset), (node.end_lineno or 0, node.end_col_offset or 0)
+        start, end = (starts[k - 1] + len(lines[k - 1].encode()[:column].decode()) for k, column in ends)
+        found.append((start, end, re.sub(r'^f?("""|")|("""|")$', "", code[start:end])))
+    return sorted(found)
+
+
+def _strings(node: ast.AST) -> Iterator[ast.Constant | ast.JoinedStr]:
+    """Yield the strings below a node, an f-string as one, but those that say where a thing is drawn."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.JoinedStr) or (isinstance(child, ast.Constant) and isinstance(child.value, str)):
+            yield child
+        elif not (isinstance(child, ast.keyword) and child.arg in PLACES):
+            yield from _strings(child)
+
+
+def needs_chinese(text: str) -> bool:
+    """Whether a comment or a string says something in English: a name, a unit or a formula needs no Chinese."""
+    if text.startswith("#"):
+        return bool(re.search("[A-Za-z]{3}", text))
+    return bool(PROSE.search(re.sub(r"\{[^}]*\}", "{}", text)))
+
+
+def in_chinese(code: str, words: dict[str, str]) -> str:
+    """Return a code cell with its comments and its words in Chinese; raises ValueError where one has no Chinese."""
+    for start, end, text in reversed(said(code)):
+        if text not in words and needs_chinese(text):
+            raise ValueError(f"{WORDS.name}: expected the Chinese of {text!r}")
+        code = code[:start] + code[start:end].replace(text, words.get(text) or text) + code[end:]
+    lines = code.split("\n")
+    if "import matplotlib.pyplot as plt" in lines:
+        last = max(k for k, line in enumerate(lines) if line.startswith(("import ", "from ")))
+        lines[last + 1 : last + 1] = ["", CHINESE_FIGURES]
+    return "\n".join(lines)
+
+
 def build(source: Path, language: str) -> str:
     """Return the notebook of a source in one language, as the text of an .ipynb."""
     notebook = nbformat.v4.new_notebook(metadata=METADATA)
+    words = tomllib.loads(WORDS.read_text(encoding="utf-8")) if WORDS.exists() else {}
+    own = words.get("all", {}) | words.get(source.stem, {})
     for cell in cells(source):
         if cell.cell_type == "code":
             for code, folded in unfolded(cell.source):
+                code = in_chinese(code, own) if language == "zh" else code
                 notebook.cells.append(nbformat.v4.new_code_cell(code, metadata=FOLDED if folded else {}))
         elif cell.metadata["lang"] == language:
             text = chinese(cell.source) if language == "zh" else cell.source

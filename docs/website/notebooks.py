@@ -1,15 +1,15 @@
-"""The notebooks with their outputs: each run once, for both languages, and again when its code or ours has changed.
+"""The notebooks with their outputs: each is run once, and again when its code or ours has changed.
 
-The English one is run; the Chinese one has the same code cells (tests/project/test_notebooks.py asks for it) and is
-given the outputs. A result is kept under the hash of what it depends on: the code cells, the package's source, its
-robots, and the versions of what draws and computes. (jupyter-cache looks at the code cells alone, and would show old
-numbers.)
+Both languages are run: the words of figures and of what is printed are in the language of the page. A result is kept
+under the hash of what it depends on: the code cells, the package's source, its robots, and the versions of what draws
+and computes. (jupyter-cache looks at the code cells alone, and would show old numbers.)
 """
 
 from __future__ import annotations
 
 import hashlib
 import importlib.util
+import itertools
 import os
 import sys
 from concurrent.futures import ProcessPoolExecutor
@@ -75,25 +75,23 @@ def write_notebooks(out: dict[str, Path], cache: Path) -> None:
     cache.mkdir(parents=True, exist_ok=True)
     common = common_key()
     waiting, results = {}, {}
-    for name in names():
-        path = ROOT / "notebooks" / "en" / f"{name}.ipynb"
-        results[name] = cache / f"{name}-{key(nbformat.read(path, as_version=4), common)}.ipynb"
-        if not results[name].exists():
-            waiting[path] = results[name]
+    for language, name in itertools.product(LANGUAGES, names()):
+        path = ROOT / "notebooks" / language / f"{name}.ipynb"
+        results[path] = cache / f"{name}-{key(nbformat.read(path, as_version=4), common)}.ipynb"
+        if not results[path].exists():
+            waiting[path] = results[path]
     with ProcessPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
         list(pool.map(execute, waiting, waiting.values()))
-    for name, kept in results.items():
-        done = nbformat.read(kept, as_version=4)
-        for language in LANGUAGES:
-            own = nbformat.read(ROOT / "notebooks" / language / f"{name}.ipynb", as_version=4)
-            write(out[language] / "chapter" / f"{name}.ipynb", nbformat.writes(with_outputs(own, done)))
+    for path, kept in results.items():
+        done = with_outputs(nbformat.read(path, as_version=4), nbformat.read(kept, as_version=4))
+        write(out[path.parent.name] / "chapter" / path.name, nbformat.writes(done))
 
 
 def with_outputs(notebook: nbformat.NotebookNode, done: nbformat.NotebookNode) -> nbformat.NotebookNode:
-    """Give a notebook the outputs of another with the same code cells."""
+    """Give a notebook the outputs of another with the same code cells, whose text may have changed since."""
     ours, theirs = ([c for c in n.cells if c.cell_type == "code"] for n in (notebook, done))
     if [c.source for c in ours] != [c.source for c in theirs]:
-        raise ValueError("the notebooks of the two languages have different code: run notebooks/build.py")
+        raise ValueError("the outputs belong to a notebook with different code")
     for cell, other in zip(ours, theirs, strict=True):
         cell.outputs, cell.execution_count = other.outputs, other.execution_count
     return notebook

@@ -12,7 +12,8 @@ HAN = "\u4e00-\u9fff"
 NOT_WORDS = re.compile(r"`[^`\n]+`|\$\$[^$]+\$\$|\$[^$\n]+\$|\]\([^)\s]*\)")
 NARROW = re.compile(rf"[{HAN}][,;:!?()]|[,;:!?()](?=[{HAN}])")
 PATTERNS = ("*.md", "benchmarks/*.md", "docs/**/*.md", "docs/website/*/*.toml", "models/*.md")
-PATTERNS += ("notebooks/*.md", "notebooks/zh/*.ipynb", "src/**/*.md", "src/**/*.py", "src/**/*.toml")
+PATTERNS += ("notebooks/*.md", "notebooks/source/*.toml", "notebooks/zh/*.ipynb")
+PATTERNS += ("src/**/*.md", "src/**/*.py", "src/**/*.toml")
 FILES = sorted(path for pattern in PATTERNS for path in ROOT.glob(pattern))
 
 

@@ -13,6 +13,7 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `sparsity`: the mass matrix and its factors beside the tree.
 - `stance`: a robot on its feet, with its support polygon.
 - `stride`: a robot from the side.
+- `words`: figures with Chinese words.
 """
 
 from .contacts import center_of_pressure, friction_cone, sole
@@ -26,6 +27,7 @@ from .sparsity import fill_in, filled_in, mass_matrix, same_branch
 from .stance import foot_forces, hull, support_polygon
 from .stride import side_view
 from .style import COLOURS, XYZ, axes_2d, axes_3d, fit
+from .words import chinese
 
 __all__ = [
     "ANGULAR_LINEAR",
@@ -35,6 +37,7 @@ __all__ = [
     "axes_2d",
     "axes_3d",
     "center_of_pressure",
+    "chinese",
     "ellipsoid",
     "ellipsoids",
     "felt_mass",

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..arrays import as_count, as_sequence
 from ..errors import ShapeError
 from .style import COLOURS, axes_2d, drawn, drawn_number
+from .words import word
 
 __all__ = ["ANGULAR_LINEAR", "matrix"]
 
@@ -91,7 +92,7 @@ def matrix(
     ax.tick_params(length=0, top=False, labeltop=True, bottom=False, labelbottom=False)
     ax.set_title(title, fontsize=11)
     if numbers is None:
-        ax.set_xlabel(f"full colour: ±{limit:.2g}, half: ±{limit / 8:.2g}", fontsize=8)
+        ax.set_xlabel(word("full colour: ±{:.2g}, half: ±{:.2g}").format(limit, limit / 8), fontsize=8)
     else:
         for i, k in np.argwhere(A != 0):
             dark = abs(shade[i, k]) > 0.7

@@ -13,6 +13,7 @@ from ..algorithms.kinematics import forward_kinematics, frame_placement
 from ..arrays import Array, as_names
 from ..model import Model, one_configuration
 from .style import COLOURS, axes_3d, fit
+from .words import word
 
 __all__ = ["robot", "sticks"]
 
@@ -107,7 +108,9 @@ def robot(
     ax.plot(*joints.mT, ".", color=COLOURS["black"], markersize=7)
     if com and model.mass > 0:
         c = center_of_mass(model, q).astype(float)
-        ax.plot(*c[:, None], "x", color=COLOURS["purple"], markersize=9, markeredgewidth=2.5, label="centre of mass")
+        ax.plot(
+            *c[:, None], "x", color=COLOURS["purple"], markersize=9, markeredgewidth=2.5, label=word("centre of mass")
+        )
     for name in frames:
         p = frame_placement(model, q, name).translation
         ax.text(*p.astype(float), f" {name}", fontsize=9, verticalalignment="top")

@@ -16,6 +16,7 @@ from ..model import Model, one_configuration
 from .frames import arrows
 from .robot import robot
 from .style import COLOURS, axes_3d, drawn, drawn_number, fit, newtons
+from .words import word
 
 __all__ = ["foot_forces", "hull", "support_polygon"]
 
@@ -115,7 +116,7 @@ def support_polygon(
         raise ShapeError(f"points: expected shape (n, 3) with n of at least 1, got {p.shape}")
     corners = hull(p)
     ax = axes_3d(ax)
-    ax.plot(*np.concatenate([corners, corners[:1]]).mT, color=colour, linewidth=1.5, label=label)
+    ax.plot(*np.concatenate([corners, corners[:1]]).mT, color=colour, linewidth=1.5, label=label and word(label))
     if len(corners) > 2:
         fan = [(0, k, k + 1) for k in range(1, len(corners) - 1)]
         ax.plot_trisurf(*corners.mT, triangles=fan, color=colour, alpha=0.35, linewidth=0, shade=False)
@@ -181,4 +182,4 @@ def foot_forces(
     ax = robot(model, q, ax=ax)
     support_polygon(places, center_of_mass(model, q), ax=ax)
     texts = [newtons(vertical) for vertical in f[:, 2]]
-    return arrows(places, f, scale=scale, texts=texts, label=label, ax=ax)
+    return arrows(places, f, scale=scale, texts=texts, label=label and word(label), ax=ax)
