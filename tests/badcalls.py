@@ -30,7 +30,7 @@ MASS = tw.templates.PointMass.of(GO2, STAND)
 
 MADE_BY_HAND = ["SE3", "Baumgarte", "Builder", "Continuous", "Ground", "PointContact", "Prismatic", "Revolute", "Scene"]
 MADE_BY_HAND += ["SpatialInertia", "SurfaceContact", "Twist", "Wrench", "motions.Motion"]
-MADE_BY_HAND += ["Coupling", "LoopClosure", "SlidingContact", "SphereContact"]
+MADE_BY_HAND += ["Coupling", "DistanceConstraint", "LoopClosure", "SlidingContact", "SphereContact"]
 """The classes whose constructors take what a user types; functions fill in the others."""
 
 LEFT_OUT = {"axes_2d", "axes_3d", "import_pinocchio", "robots", "Template"}
@@ -203,6 +203,7 @@ CALLED = {
     "force_transform": {"R": "rotation", "p": "translation"},
     "friction_inverse_dynamics": {"v": "all arguments", "a": "all arguments"},
     "impact": {"v": "all arguments"},
+    "DistanceConstraint": {"to": "frame"},
     "LoopClosure": {"to": "frame"},
     "SlidingContact": {"to": "frame"},
     "load": {"source": "robot|file"},

@@ -366,6 +366,7 @@ HELD = [
     tw.LoopClosure("joint_2", "joint_1"),
     tw.SlidingContact("welded_2", [[1, 0.5, 1], [0, 1, 0.3]], to="joint_5"),
     tw.Coupling("joint_1", {"joint_6": -2.5}),
+    tw.DistanceConstraint("welded_6", "link_1"),
 ]
 
 
@@ -386,6 +387,12 @@ def rows_in_vectors(model, q, v, held):
             w, relative = turn @ v, (J[1] - slide) @ v
             rate, free = drift(model, q, v, c.to)
             left = acceleration[1] - free - cross(rate, r) - cross(w, relative) - cross(w, relative - cross(w, r))
+            if isinstance(c, tw.DistanceConstraint):  # of the way in the world
+                n, rate = r / (d := mpmath.sqrt(r @ r)), (J[1] - slide) @ v
+                across = rate - n * (n @ rate)
+                rows.append((n @ (J[1] - slide))[None])
+                bias.append([n @ (acceleration[1] - free) + across @ across / d])
+                continue
             J, acceleration = (None, J[1] - slide - cross(turn, r)), (None, left)
         which = c.directions[:, 3:] @ axes.T
         rows.append(which @ J[1])

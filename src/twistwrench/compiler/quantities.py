@@ -29,7 +29,7 @@ from ..model import Model, tree_terms
 from .derivatives import derivatives, regressor
 from .inverses import inverses
 from .quantity import ARGUMENTS, Quantity, shapes
-from .watch import pivots
+from .watch import pivots, with_watch
 
 __all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
 
@@ -115,7 +115,7 @@ def quantities(
         of("T", "q v", kinetic_energy),
         of("U", "q", potential_energy),
         of("S", "", selection_matrix),
-        of("J_c", "q", lambda m, q: contact_jacobian(m, q, contacts)),
+        Quantity("J_c", ("q",), lambda q: with_watch(contact_jacobian(model, q, contacts), contacts)),
         of("p_G", "q", center_of_mass),
         of("A_G", "q", centroidal_map),
         of("h_G", "q v", centroidal_momentum),

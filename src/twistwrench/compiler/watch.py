@@ -9,7 +9,7 @@ one by one, and names what is wrong, or finds that nothing is.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -19,7 +19,7 @@ from ..arrays import Array, convert, resolution
 from ..model import Model, Tree
 from .number import Number, Tape
 
-__all__ = ["alarm", "pivots", "state_questions"]
+__all__ = ["alarm", "pivots", "state_questions", "with_watch"]
 
 LARGEST_ANGLE = 2.0**17
 """rad. The sine of a program for vectors is good below; the textbook takes larger angles."""
@@ -74,6 +74,15 @@ def pivots(model: Model, tree: Tree, D_inv: Sequence[Array], dtype: np.dtype[Any
             reach = _length(tree.placement[i].translation)
             second[p] = second[p] + second[i] + 2 * reach * first[i] + reach * reach * mass[i]
             first[p], mass[p] = first[p] + first[i] + reach * mass[i], mass[p] + mass[i]
+
+
+def with_watch(J: Array, contacts: Iterable[object]) -> tuple[Array, list[Any]]:
+    """Return the rows of contacts, and their entries to watch where they divide by a length.
+
+    An entry is so small there that only what is not a number raises the alarm, or is too large for a robot.
+    """
+    divides = J.dtype == object and any(getattr(c, "divides", False) for c in contacts)
+    return J, [x * Fraction(1, 2**40) for x in J.flat] if divides else []
 
 
 def _length(x: Array) -> Any:

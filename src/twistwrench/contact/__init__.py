@@ -6,7 +6,7 @@ and `closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the
 forces within the limits are enough, and the proof), `stance` (slipping and tipping).
 """
 
-from .closures import Coupling, LoopClosure
+from .closures import Coupling, DistanceConstraint, LoopClosure
 from .forward import Baumgarte, ContactDynamics, contact_forward_dynamics
 from .impacts import Impact, impact
 from .inverse import contact_inverse_dynamics, friction_inverse_dynamics
@@ -24,6 +24,7 @@ __all__ = [
     "ContactDynamics",
     "ContactForces",
     "Coupling",
+    "DistanceConstraint",
     "Impact",
     "LoopClosure",
     "PointContact",

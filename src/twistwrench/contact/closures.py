@@ -12,10 +12,13 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from ..arrays import Array, as_exactly, as_flag, convert
+from ..errors import SingularError
 from ..model import Model
+from ..spatial import SE3
+from ..spatial._elementary import at_first_index, sqrt
 from .types import Contact, Motion, checked_frame, checked_motion
 
-__all__ = ["Coupling", "LoopClosure"]
+__all__ = ["Coupling", "DistanceConstraint", "LoopClosure"]
 
 GRIP = 0.1
 """Of a weld that is held more often than needed, forces at so many metres from it weigh as much as those in it."""
@@ -103,6 +106,87 @@ class LoopClosure(_Internal):
     def points(self) -> Array:
         """The frame's origin; of a weld six points around it."""
         return GRIP * np.concatenate([np.eye(3), -np.eye(3)]) if self.welded else np.zeros((1, 3))
+
+
+@dataclass(frozen=True)
+class DistanceConstraint(_Internal):
+    """Two points of one robot that stay at their distance: a rod without mass, with a ball joint at each end.
+
+    The origin of a frame keeps its distance from that of the frame `to`: a leg of a parallel robot, a coupler, a
+    rope that stays taut. λ is the force along the line, N, positive where it pushes the two apart.
+
+    Parameters
+    ----------
+    frame, to : str
+        On two bodies; `to` may be on the world.
+    velocity, acceleration : array_like, shape (1,), optional
+        Of the distance, m/s and m/s²: a leg that a motor extends. It does not change unless given.
+
+    Raises
+    ------
+    ValueError
+        If a motion is not one number.
+
+    Notes
+    -----
+    d² = |p|², so that d̈ = n·p̈ + |ṗ − n (n·ṗ)|²/d with n = p/d. Where the points meet, the line has no direction:
+    SingularError.
+
+    Examples
+    --------
+    A body of 2 kg on a line of 1 m, at 3 m/s below the hook: the line carries m g + m v²/d.
+
+    >>> import twistwrench as tw
+    >>> solid = tw.SpatialInertia(2.0, [0, 0, 0], 0.01 * np.eye(3))
+    >>> builder = tw.Builder("bob")
+    >>> _ = builder.link("bob", parent="base_link", joint=tw.FreeFlyer(), inertia=solid)
+    >>> model, line = builder.build(), [tw.DistanceConstraint("bob", "base_link")]
+    >>> q, v = [0, 0, -1, 0, 0, 0, 1], np.array([0, 0, 0, 3.0, 0, 0])
+    >>> tw.contact_forward_dynamics(model, q, v, 0 * v, line).forces["bob"]  # pulls
+    array([-37.62])
+    """
+
+    frame: str
+    to: str = field()
+    velocity: Motion = field(default=(), kw_only=True)
+    acceleration: Motion = field(default=(), kw_only=True)
+    divides = True
+
+    def __post_init__(self) -> None:
+        checked_frame(self.frame)
+        checked_frame(self.to)
+        checked_motion(self, "velocity")
+        checked_motion(self, "acceleration")
+
+    @property
+    def rows(self) -> slice:
+        """One row: it stands for the first linear one."""
+        return slice(3, 4)
+
+    def distance(self, T: SE3) -> SE3:
+        """Return the distance as the translation (d, 0, 0)."""
+        d = self._distance(T.translation)
+        turn = np.broadcast_to(np.eye(3, dtype=d.dtype), T.rotation.shape)
+        return SE3._trusted(turn, np.concatenate([d, 0 * d, 0 * d], axis=-1))
+
+    def along(self, point: Array, J: Array, bias: Array, v: Array) -> tuple[Array, Array]:
+        """Return the row along the line, and d̈ without q̈."""
+        d, rate = self._distance(point), np.matvec(J[..., 3:, :], v)
+        n = point / d
+        across = rate - n * _dot(n, rate)
+        return n[..., None, :] @ J[..., 3:, :], _dot(n, bias[..., 3:]) + _dot(across, across) / d
+
+    def _distance(self, point: Array) -> Array:
+        d = sqrt(_dot(point, point))
+        if d.dtype != object and not d.all():
+            where = at_first_index(d[..., 0] == 0)
+            raise SingularError(f"contact {self.frame!r}: its points meet, so the line has no direction{where}")
+        return d
+
+
+def _dot(a: Array, b: Array) -> Array:
+    """Return a·b, shape (..., 1), of numbers of any kind."""
+    return np.asarray((a * b).sum(axis=-1, keepdims=True))
 
 
 @dataclass(frozen=True)

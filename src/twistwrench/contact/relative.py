@@ -19,7 +19,7 @@ from ..arrays import Array, check_kind, convert
 from ..errors import unknown_name
 from ..model import Model, Tree, cast, columns, tree_terms
 from ..spatial import SE3, exp3, log3
-from .closures import Coupling
+from .closures import Coupling, DistanceConstraint
 from .types import Contact
 
 __all__ = ["ContactRows", "contact_errors", "contact_rows", "given_motion", "moved", "moved_anchors", "place"]
@@ -47,12 +47,17 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
         if isinstance(c, Coupling):
             J_c, bias_c = c.jacobian(model, q), np.zeros((*q.shape[:-1], 1), q.dtype)
         else:
-            loop, N, (V, A) = Loop.of(model, c, q.dtype), convert(c.directions, q.dtype), motion_of_all
+            loop, (V, A) = Loop.of(model, c, q.dtype), motion_of_all
             if c.to is not None:
                 own = [x if i in loop.joints else np.zeros_like(x) for i, x in enumerate(qd)]
                 V, A = motion(tree, own, qdd)
-            J_c, bias_c = loop.rows(model, tree, bodies, at[-1].translation, v, V, A)
-            J_c, bias_c = N @ J_c, np.matvec(N, bias_c)
+            point = loop.place(model, tree.placement).translation
+            J_c, bias_c = loop.rows(model, tree, bodies, point, v, V, A)
+            if isinstance(c, DistanceConstraint):
+                J_c, bias_c = c.along(point, J_c, bias_c, v)
+            else:
+                N = convert(c.directions, q.dtype)
+                J_c, bias_c = N @ J_c, np.matvec(N, bias_c)
         J.append(J_c)
         bias.append(bias_c)
     return ContactRows(at, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
@@ -140,10 +145,11 @@ def _bias(at: SE3, V: Array, A: Array, arm: Array) -> Array:
 def place(model: Model, placement: Sequence[SE3], q: Array, c: Contact) -> SE3:
     """Return where a contact's frame is in what holds it, from the placements of the bodies in their parents.
 
-    Of a coupling the translation (q − Σ ratio q, 0, 0), which stays as it is.
+    Of a coupling the translation (q − Σ ratio q, 0, 0), which stays as it is; of points at a distance (d, 0, 0).
     """
     if not isinstance(c, Coupling):
-        return Loop.of(model, c, q.dtype).place(model, placement)
+        T = Loop.of(model, c, q.dtype).place(model, placement)
+        return c.distance(T) if isinstance(c, DistanceConstraint) else T
     off = np.zeros((*q.shape[:-1], 3), q.dtype)
     if c.counts_turns(model):
         off[..., :1] = np.matvec(c.coefficients(model, model.q_slice, model.nq, q.dtype), q)

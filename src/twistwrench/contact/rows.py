@@ -13,6 +13,7 @@ from ..algorithms.rnea import rnea
 from ..arrays import Array, as_sequence
 from ..compiler import Results
 from ..compiler.quantities import Quantity, quantities
+from ..compiler.watch import with_watch
 from ..fast.programs import remembered
 from ..model import Model, check_model, check_state, in_double, joint_placements
 from ..spatial import SE3
@@ -38,7 +39,8 @@ def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact])
     model : Model
     q : array_like, shape (..., nq)
     contacts : iterable of Contact
-        Of any kind: `PointContact`, `SurfaceContact`, `SphereContact`, `SlidingContact`, `LoopClosure`, `Coupling`.
+        Of any kind: `PointContact`, `SurfaceContact`, `SphereContact`, `SlidingContact`, `LoopClosure`,
+        `DistanceConstraint`, `Coupling`.
 
     Returns
     -------
@@ -119,7 +121,7 @@ def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) 
     -------
     dict of str to SE3
         By the name of the frame: in the world, or in the frame `to`. Of a `Coupling` the translation
-        (q − Σ ratio q, 0, 0).
+        (q − Σ ratio q, 0, 0), of a `DistanceConstraint` (d, 0, 0).
 
     Raises
     ------
@@ -162,7 +164,7 @@ def contact_terms(
         at = of("at", "q v", lambda q, v: np.stack([T.matrix() for T in rows(q, v).placement], axis=-3))
         return [
             *([at, of("W", "q v", lambda q, v: lever(at_rest, rows(q, v).placement))] if contacts else []),
-            of("J", "q v", lambda q, v: rows(q, v).J),
+            Quantity("J", ("q", "v"), lambda q, v: with_watch(rows(q, v).J, contacts)),
             of("bias", "q v", lambda q, v: rows(q, v).bias),
             known["M"],
             *([known["qdd"]] if "tau" in others else []),

@@ -46,6 +46,8 @@ class Contact(ABC):
         Of what holds it: J v and J q̈ + J̇ v are these, m/s and m/s², rad/s and rad/s². Empty at rest.
     pushes : bool
         Whether forces have the limits above. If not, the contact bears any, and pulls as well.
+    divides : bool
+        Whether its rows divide by a length, which may be zero.
     """
 
     frame: str
@@ -54,6 +56,7 @@ class Contact(ABC):
     velocity: Motion = ()
     acceleration: Motion = ()
     pushes: bool = True
+    divides: bool = False
 
     @property
     @abstractmethod

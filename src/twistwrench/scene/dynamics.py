@@ -14,6 +14,7 @@ from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..algorithms.whole_body import QUANTITIES, Dynamics
 from ..arrays import Array, convert
 from ..compiler.quantities import Quantity, quantities
+from ..compiler.watch import with_watch
 from ..contact import Contact
 from ..fast.programs import ASKED, remembered, states_of
 from ..model import Model
@@ -66,7 +67,7 @@ def scene_quantities(
         Quantity("tau", free["tau"].arguments, lambda q, *rest: (rnea(model, q, *rest) - push(model, wrenches, q), [])),
         Quantity("qdd", free["qdd"].arguments, accelerated),
     ]
-    rows = Quantity("J_c", ("q",), lambda q: (contact_jacobian(model, q, contacts), []))
+    rows = Quantity("J_c", ("q",), lambda q: with_watch(contact_jacobian(model, q, contacts), contacts))
     known = quantities(model, dtype, (), frames, reference, instead=[rows, *(pushed if wrenches else [])])
     return {name: quantity for name, quantity in known.items() if not (wrenches and name.startswith("dqdd_"))}
 
