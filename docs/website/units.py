@@ -11,6 +11,7 @@ from sphinx.transforms.post_transforms import SphinxPostTransform
 UNITS = "kg|mm|cm|km|ms|[µμ]s|ns|min|rad|Hz|kB|MB|GB|[NmsJW%°]"
 NUMBER_AND_UNIT = re.compile(rf"(?<=\d) (?=(?:{UNITS})(?![\w'’]))")
 FACTORS = re.compile(r"(?<=\bN) (?=m\b)|(?<=\bN m) (?=s\b)|(?<=\bkg) (?=m²)")
+POWER = re.compile(r"(\b\d[\d.]*e-\d+)")
 TIMES = re.compile(r"(?<=\d) (?=× \d)|(?<=\d\u00a0×) (?=\d)|(?<=\d ×) (?=\d)")
 
 
@@ -30,9 +31,14 @@ class NumbersKeepTheirUnits(SphinxPostTransform):
         """Go through the words of a page."""
         for text in [*self.document.findall(nodes.Text)]:
             if not isinstance(text.parent, nodes.FixedTextElement | nodes.literal | nodes.raw | nodes.math):
-                together = kept_together(text)
-                if together != text:
-                    text.parent.replace(text, nodes.Text(together))
+                pieces = POWER.split(kept_together(text))
+                if pieces != [text]:
+                    text.parent.replace(text, [_piece(piece) for piece in pieces if piece])
+
+
+def _piece(text: str) -> nodes.Node:
+    """Return a node for a text; a number that has a hyphen, where a line may end, as one that is not broken."""
+    return nodes.inline(text, text, classes=["unbroken"]) if POWER.fullmatch(text) else nodes.Text(text)
 
 
 def connect(app: Any) -> None:

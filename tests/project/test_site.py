@@ -236,11 +236,12 @@ def test_a_head_that_is_empty_is_a_cell():
 
 def test_a_number_and_its_unit_are_not_parted():
     pytest.importorskip("sphinx", reason="Sphinx is not installed: the site's units are not checked")
-    from website.units import kept_together
+    from website.units import POWER, kept_together
 
     assert kept_together("6e-14 N m, 1.26 ms, 40 °") == "6e-14\u00a0N\u00a0m, 1.26\u00a0ms, 40\u00a0°"
     assert kept_together("6 × 6") == "6\u00a0×\u00a06"
     assert kept_together("8 states, 3 m's, the N most") == "8 states, 3 m's, the N most"
+    assert POWER.split("up to 2e-14, e-mail") == ["up to ", "2e-14", ", e-mail"]
 
 
 def test_what_is_looked_for_leads_to_pages_that_are_there():
