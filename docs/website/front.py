@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import numpy as np
 
 import twistwrench as tw
@@ -12,25 +9,19 @@ from twistwrench.plot.robot import sticks
 from twistwrench.plot.stride import sides
 from twistwrench.study.budget.needs import needs
 
+from .film import NEWTONS, film, millimetres
+
 __all__ = ["trot"]
 
 FRAMES = 48
-NEWTONS = 600
-"""So many newtons are drawn as a metre."""
 
 WORDS = {
     "en": {
         "seen": "A Go2 that trots, with the forces that the ground exerts on its feet",
-        "turn": "Drag, or use the arrow keys, to look from elsewhere.",
-        "play": "Play",
-        "pause": "Pause",
         "says": "The package computed all of it: the gait, and the forces on the feet.",
     },
     "zh": {
         "seen": "一台小跑的 Go2，以及地面对各足的力",
-        "turn": "拖动或用方向键换个角度看。",
-        "play": "播放",
-        "pause": "暂停",
         "says": "图中每个数都由本包算出：步态和足底的力。",
     },
 }
@@ -38,10 +29,7 @@ WORDS = {
 
 def trot(language: str) -> str:
     """Return the picture as a block of HTML."""
-    text = (Path(__file__).parent / "front.html").read_text(encoding="utf-8")
-    for name, word in WORDS[language].items():
-        text = text.replace(f"${name}$", word)
-    return f"```{{raw}} html\n{text.replace('$data$', json.dumps(stride(), separators=(',', ':')))}```"
+    return film(language, stride(), **WORDS[language])
 
 
 def stride() -> dict[str, object]:
@@ -49,22 +37,21 @@ def stride() -> dict[str, object]:
     model = tw.load("go2")
     motion = tw.motions.trot(model, samples=FRAMES + 1)
     forces = needs(model, motion).forces
-    frames, arrows = [], []
+    frames, arrows, gone = [], [], []
     for k in range(FRAMES):
         q = motion.q[k]
         at = np.array([q[0], q[1], 0.0])
-        frames.append(_millimetres(sticks(model, q) - at))
+        frames.append(millimetres(sticks(model, q) - at))
         feet = [tw.frame_placement(model, q, foot).translation - at for foot in motion.feet]
-        arrows.append(_millimetres(np.stack([np.stack([p, p + f / NEWTONS]) for p, f in zip(feet, forces[k])])))
-    length = 1000 * (motion.q[-1, 0] - motion.q[0, 0])
+        arrows.append(millimetres(np.stack([np.stack([p, p + f / NEWTONS]) for p, f in zip(feet, forces[k])])))
+        gone.append(round(1000 * float(q[0] - motion.q[0, 0])))
     return {
         "sticks": frames,
         "forces": arrows,
         "sides": sides(model).tolist(),
-        "length": round(float(length)),
+        "gone": gone,
+        "length": round(1000 * float(motion.q[-1, 0] - motion.q[0, 0])),
         "seconds": round(float(motion.t[-1]), 3),
+        "pace": 0.6,
+        "wide": 950,
     }
-
-
-def _millimetres(x: np.ndarray) -> list[int]:
-    return np.rint(1000 * x).astype(int).ravel().tolist()

@@ -12,6 +12,7 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from .film import with_films
 from .front import trot
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -65,7 +66,8 @@ def write_pages(out: Path, language: str) -> None:
         own = twin(path, language)
         there = (ROOT / own).exists()
         text = (ROOT / (own if there else path)).read_text(encoding="utf-8")
-        write(out / f"{name}.md", moved(text if there else _with_note(text), own if there else path, name, out))
+        text = moved(text if there else _with_note(text), own if there else path, name, out)
+        write(out / f"{name}.md", with_films(text, ROOT / path, language))
 
 
 def moved(text: str, path: str, name: str, out: Path) -> str:
