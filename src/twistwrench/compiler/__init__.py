@@ -15,6 +15,7 @@ plain          Python's floats, for a few states
 pairs          arithmetic with pairs of doubles
 packs          the same operation in several limbs
 registers      NumPy, for every number type
+fingerprints   what is the same number in every state, computed once
 tangent        the derivatives of what is on a tape, and steps along v from q
 backend        which of them runs a line
 pair_sine      sin and cos of a pair

@@ -7,7 +7,6 @@ wanted: with numbers that remember, which drop what is zero there and share what
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
@@ -23,21 +22,12 @@ from ..arrays.exact import elementary
 from ..model import Model, columns, tree_terms
 from ..spatial.rotation import cross_matrix
 from .line import Line
-from .number import Tape, numbers
+from .number import ARITHMETIC, Tape, numbers
 from .quantity import Quantity, shapes
 from .registers import as_number_of
 from .tangent import directions, jacobian, steps
 
 __all__ = ["derivatives", "of_line", "regressor", "replay"]
-
-ARITHMETIC: dict[str, Callable[..., Any]] = {
-    "add": operator.add,
-    "sub": operator.sub,
-    "mul": operator.mul,
-    "div": operator.truediv,
-    "neg": operator.neg,
-}
-
 
 Compute = Callable[..., tuple[Array, list[Any]]]
 

@@ -22,6 +22,7 @@ Fraction(0, 1)
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, NoReturn
@@ -30,10 +31,18 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["Node", "Number", "Tape", "is_power_of_two", "numbers"]
+__all__ = ["ARITHMETIC", "Node", "Number", "Tape", "is_power_of_two", "numbers"]
 
 Node = tuple[Any, ...]
 """An operation and its operands: (op, index, …) of earlier nodes; ("input", name) and ("const", Fraction)."""
+
+ARITHMETIC: dict[str, Callable[..., Any]] = {
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "div": operator.truediv,
+    "neg": operator.neg,
+}
 
 ZERO, ONE = Fraction(0), Fraction(1)
 

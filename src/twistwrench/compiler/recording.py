@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import Array, convert
 from ..model import Model
+from .fingerprints import each_once
 from .line import Line
 from .number import Tape, numbers
 from .quantities import Quantity
@@ -61,7 +62,7 @@ def record(
     if "f_ext" in arguments:
         large = 2 ** (min(int(np.finfo(dtype).maxexp), 1024) - 1)
         questions += [x * large / tape.number(Fraction(1, large)) for x in world]  # anything but zero is too much
-    return Line.of(tape, shapes, {**results, ALARM: np.asarray(alarm(tape, questions), object)})
+    return each_once(Line.of(tape, shapes, {**results, ALARM: np.asarray(alarm(tape, questions), object)}))
 
 
 def _constants(tape: Tape, name: str, x: Array) -> Array:

@@ -36,6 +36,9 @@ FUNCTIONS = {
 CHUNK = 2048
 """States that are computed together: for fewer, a call takes longer than what it computes."""
 
+TOGETHER = 64
+"""Entries of a result that are brought together before they are written: more of them would not stay in the cache."""
+
 MEMORY = 2**24
 """Bytes that the rows of a chunk take together, at most."""
 
@@ -62,13 +65,22 @@ class Registers:
         column = {(name, *k): j for name, shape in line.inputs.items() for j, k in enumerate(np.ndindex(shape))}
         number = {name: k for k, name in enumerate(line.inputs)}
         self.inputs: list[tuple[int, slice | list[int], slice]] = []  # arrays, their columns, and rows
+        self.copies: list[tuple[list[int], slice]] = []  # rows, and where they are needed again, in another order
         for pack in self.order:
             if self._operation(pack) == "input":
-                keys = [self.nodes[k][1] for k in self.packs.packs[pack]]
-                rows = slice(self.first[pack], self.first[pack] + len(keys))
-                self.inputs.append((number[keys[0][0]], _slice_of([column[key] for key in keys]), rows))
+                lanes = self.packs.packs[pack]
+                place = slice(self.first[pack], self.first[pack] + len(lanes))
+                if self._found([lanes[:1]]) == [pack]:
+                    keys = [self.nodes[k][1] for k in lanes]
+                    self.inputs.append((number[keys[0][0]], _slice_of([column[key] for key in keys]), place))
+                else:
+                    self.copies.append(([self._row(k) for k in lanes], place))
         self.constants: dict[int, int] = {}  # the rows of results that are constants
-        self.results = [np.array([self._row(k) for k in entries], np.intp) for _, entries in line.outputs.values()]
+        self.results = [
+            (array, slice(k, k + TOGETHER), np.array([self._row(j) for j in entries[k : k + TOGETHER]], np.intp))
+            for array, (_, entries) in enumerate(line.outputs.values(), len(line.inputs))
+            for k in range(0, len(entries), TOGETHER)
+        ]
         self.unused: list[tuple[Array, Array, list[Any]]] = []  # rows that no thread fills, and the calls between them
 
     def _operation(self, pack: int) -> str:
@@ -124,7 +136,7 @@ class Registers:
             np.setbufsize(BUFFER)
             if rows.shape[1] != width:
                 rows = np.empty((count, width), self.dtype)
-                taken = np.empty((max(map(len, self.results)), width), self.dtype)
+                taken = np.empty((TOGETHER, width), self.dtype)
                 calls = [*self._calls(rows)]
             for start in range(0, states, width):
                 start = min(start, states - width)
@@ -155,10 +167,12 @@ class Registers:
         """Fill the results of a chunk."""
         for array, columns, place in self.inputs:
             rows[place] = arrays[array][:, columns].mT
+        for index, place in self.copies:
+            rows[place] = rows[index]
         for function, operands in calls:
             function(*operands)
-        for index, x in zip(self.results, arrays[-len(self.results) :]):
-            x[...] = rows.take(index, 0, taken[: len(index)], "clip").mT
+        for array, columns, index in self.results:
+            arrays[array][:, columns] = rows.take(index, 0, taken[: len(index)], "clip").mT
 
 
 def _slice_of(columns: list[int]) -> slice | list[int]:
