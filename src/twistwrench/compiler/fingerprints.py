@@ -11,17 +11,18 @@ Of all rules this is the only one that changes roundings: it takes some away.
 
 >>> from twistwrench.compiler.number import numbers
 >>> tape = Tape()
->>> q, m = numbers(tape, "q", 2)
+>>> (q,) = numbers(tape, "q", 1)
 >>> c, s = q.cos(), q.sin()
->>> line = Line.of(tape, {"q": (2,)}, {"result": np.array([c * (m * c) + s * (m * s), 3 * c * c + 3 * s * s])})
+>>> line = Line.of(tape, {"q": (1,)}, {"result": np.array([c * c - s * s, (s - c) * (s + c), 3 * c * c + 3 * s * s])})
 >>> [each_once(line).nodes[k] for k in each_once(line).results]
-[('input', ('q', 1)), ('const', Fraction(3, 1))]
+[('sub', 3, 4), ('neg', 5), ('const', Fraction(3, 1))]
 """
 
 from __future__ import annotations
 
 import random
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -41,20 +42,27 @@ Mark = tuple[int, ...]
 
 
 def each_once(line: Line) -> Line:
-    """Return a line with the same results, in which no two numbers are equal, or opposite, in every state."""
+    """Return a line with the same results, in which no numbers that depend on a sine are equal, or opposite.
+
+    Of the others only constants are found: if limbs shared them, they would not be alike any longer (see `packs`).
+    """
     tape, fingerprint = Tape(lambda: note), Fingerprint()
     marks: list[Mark] = []
     values: list[Any] = []
-    turned: list[bool] = []
     known: dict[Mark, Any] = {}
     for (operation, *rest), note in zip(line.nodes, line.notes or [None] * len(line.nodes)):
         mark = fingerprint.of(operation, rest, marks)
-        value = rest[0] if operation == "const" else known.get(mark, _constant(mark))
-        if value is None:
-            value = tape.input(*rest) if operation == "input" else _again(tape, operation, [values[k] for k in rest])
-            if operation in ("sin", "cos") or operation in ARITHMETIC and any(turned[k] for k in rest):
-                known[mark], known[_negative(mark)] = value, -value
-        turned.append(mark in known)
+        if operation == "const":
+            value = rest[0]
+        elif operation == "input":
+            value = tape.input(rest[0])
+        elif (value := known.get(mark, _constant(mark))) is None:
+            if (opposite := known.get((-mark[0] % PRIME, -mark[1] % PRIME))) is not None:
+                value = -opposite
+            else:
+                value = _again(tape, operation, [values[k] for k in rest])
+            if operation in ("sin", "cos") or any(marks[k] in known for k in rest):
+                known[mark] = value
         marks.append(mark)
         values.append(value)
     results = {name: np.empty(shape, object) for name, (shape, _) in line.outputs.items()}
@@ -80,7 +88,7 @@ class Fingerprint:
     def of(self, operation: str, rest: list[Any], marks: list[Mark]) -> Mark:
         """Return that of an operation on numbers whose fingerprints are known."""
         if operation == "const":
-            value = rest[0].numerator * _inverse(rest[0].denominator) % PRIME
+            value = rest[0].numerator * _known_inverse(rest[0].denominator) % PRIME
             return value, value
         if operation == "input":
             return self.free(rest[0])
@@ -114,8 +122,8 @@ def _inverse(x: int) -> int:
     return pow(x, -1, PRIME)
 
 
-def _negative(mark: Mark) -> Mark:
-    return tuple(-x % PRIME for x in mark)
+_known_inverse = lru_cache(_inverse)
+"""For denominators of constants, which are a few powers of two."""
 
 
 def _constant(mark: Mark) -> Fraction | None:
