@@ -109,13 +109,13 @@ def compile(
 
     >>> held = tw.compile(model, "rnea", given={"v": np.zeros(18), "a": np.zeros(18)})
     >>> program.operations.total(), held.operations.total(), held.arguments
-    (2668, 703, ('q', 'f_ext'))
+    (2533, 590, ('q', 'f_ext'))
 
     A scene's program has what the scene requires:
 
     >>> scene = tw.Scene(model, base="fixed", hold=["F*", "RL*"])
     >>> tw.compile(scene, "rnea").operations.total()
-    342
+    330
 
     Several at once share their work:
 

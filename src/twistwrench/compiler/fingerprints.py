@@ -35,7 +35,7 @@ __all__ = ["each_once"]
 PRIME = 2**607 - 1
 
 LARGEST = 2**240
-"""Numerators and denominators of constants are smaller: of the numbers below the prime, hardly any is such a quotient."""
+"""Numerators and denominators of constants are smaller: hardly any number below the prime is such a quotient."""
 
 Mark = tuple[int, ...]
 """A fingerprint: the value of a number at two points."""
@@ -46,11 +46,11 @@ def each_once(line: Line) -> Line:
 
     Of the others only constants are found: if limbs shared them, they would not be alike any longer (see `packs`).
     """
-    tape, fingerprint = Tape(lambda: note), Fingerprint()
     marks: list[Mark] = []
+    tape, fingerprint = Tape((lambda: line.notes[len(marks)]) if line.notes else None), Fingerprint()
     values: list[Any] = []
     known: dict[Mark, Any] = {}
-    for (operation, *rest), note in zip(line.nodes, line.notes or [None] * len(line.nodes)):
+    for operation, *rest in line.nodes:
         mark = fingerprint.of(operation, rest, marks)
         if operation == "const":
             value = rest[0]
@@ -65,9 +65,10 @@ def each_once(line: Line) -> Line:
                 known[mark] = value
         marks.append(mark)
         values.append(value)
+    tape.note = None  # constants of the results belong to no step
     results = {name: np.empty(shape, object) for name, (shape, _) in line.outputs.items()}
     for name, (_, entries) in line.outputs.items():
-        results[name].flat = [values[k] for k in entries]
+        results[name].reshape(-1)[:] = [values[k] for k in entries]
     return Line.of(tape, line.inputs, results)
 
 
@@ -82,7 +83,7 @@ class Fingerprint:
     """The values of numbers at two points, modulo a prime."""
 
     def __init__(self) -> None:
-        self.random = random.Random(0)
+        self.numbers = random.Random(0)  # the same in each run, as programs are
         self.others: dict[Any, Mark] = {}  # of arguments and functions
 
     def of(self, operation: str, rest: list[Any], marks: list[Mark]) -> Mark:
@@ -114,7 +115,7 @@ class Fingerprint:
     def free(self, key: Any) -> Mark:
         """Return a random fingerprint, the same for the same key."""
         if key not in self.others:
-            self.others[key] = self.random.randrange(PRIME), self.random.randrange(PRIME)
+            self.others[key] = self.numbers.getrandbits(606), self.numbers.getrandbits(606)
         return self.others[key]
 
 

@@ -98,7 +98,9 @@ class Packs:
         for (k,) in sorted(lanes for lanes in wanted if len(lanes) == 1):
             if k not in self._places:
                 limbs.setdefault(self._limb[k], []).append(k)
-        alone = [limbs[limb] for limb in sorted(limbs)] if len(limbs) > 1 else [[k] for ks in limbs.values() for k in ks]
+        alone = (
+            [limbs[limb] for limb in sorted(limbs)] if len(limbs) > 1 else [[k] for ks in limbs.values() for k in ks]
+        )
         for one_each in zip_longest(*alone):
             lanes = tuple(k for k in one_each if k is not None)
             for part in [lanes] if len(lanes) >= LEAST else [(k,) for k in lanes]:

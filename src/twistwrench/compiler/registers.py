@@ -167,8 +167,8 @@ class Registers:
         """Fill the results of a chunk."""
         for array, columns, place in self.inputs:
             rows[place] = arrays[array][:, columns].mT
-        for index, place in self.copies:
-            rows[place] = rows[index]
+        for again, place in self.copies:
+            rows[place] = rows[again]
         for function, operands in calls:
             function(*operands)
         for array, columns, index in self.results:
