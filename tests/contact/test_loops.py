@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import mpmath
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from twistwrench import newton_euler_3d as slow
 from twistwrench.model import KINDS
 from twistwrench.newton_euler_3d.bodies import cross
 
-from ..strategies import Recipe
+from ..algorithms.test_factorization import wheels
+from ..strategies import BATCHES, Recipe, random_state
 from ..touching import BOX, BOX_CORNERS, FEET, GO2, error, points, posed
 
 G = 9.81
@@ -348,6 +351,27 @@ def test_batches_are_single_states_and_programs_compute_the_same():
     for dynamics in (tw.dynamics, tw.fast.dynamics):
         found = dynamics(TREE, q, rates, contacts=tuple(OF_ALL_KINDS), want=("J_c",))
         assert np.allclose(found.J_c, J, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.longdouble, np.complex128])
+@pytest.mark.parametrize("batch", BATCHES, ids=str)
+def test_the_rows_keep_number_type_and_batch(dtype, batch):
+    held = [*OF_ALL_KINDS, tw.DistanceConstraint("link_1", "link_4")]
+    s = random_state(TREE, rng=6, batch=batch, dtype=dtype)
+    J, bias = tw.constraint_jacobian(TREE, s.q, held), tw.constraint_bias(TREE, s.q, s.v, held)
+    assert J.dtype == bias.dtype == dtype
+    assert (J.shape, bias.shape) == ((*batch, 13, TREE.nv), (*batch, 13))
+    if not batch and dtype != np.complex128:
+        double = tw.constraint_bias(TREE, TREE.normalize(s.q.astype(float)), s.v.astype(float), held)
+        assert error(bias, double) < 1e3 * max(np.finfo(dtype).eps, 2.0**-52)
+
+
+def test_fractions_stay_exact():
+    q = np.array([Fraction(3, 5), Fraction(4, 5), Fraction(5, 13), Fraction(-12, 13), Fraction(1, 3)])
+    held = [tw.LoopClosure("b", "c", welded=True), tw.SlidingContact("a", [0, 0, 1])]
+    J = tw.contact_jacobian(wheels(), q, held)
+    assert all(isinstance(x, Fraction | int) for x in J.flat)
+    assert error(J.astype(float), tw.contact_jacobian(wheels(), q.astype(float), held)) < 1e-15
 
 
 def test_a_loop_far_from_the_origin_keeps_its_digits_and_its_rank():
