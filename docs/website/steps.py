@@ -59,12 +59,12 @@ COMMENTS = {
 TITLE = {"en": "The values, on a Go2", "zh": "Go2 上的数值"}
 TREE = {
     "en": "A standing Go2 that is about to walk. As a tree, with what each body passes on to its parent:",
-    "zh": "一台站立着、正要迈步的 Go2。画成树，写明每个刚体传给父刚体的量：",
+    "zh": "一台站立着、正要迈步的 Go2。画成树，写明每个刚体传给父连杆的量：",
 }
 TABLE = {
     "en": "And as a table, body by body: what it had of its own, what its children passed on to it, the sum, and what "
     "it passed on to its parent (→), in the parent's frame.",
-    "zh": "再列成表，逐个刚体：自身的部分，各子刚体传来的部分，两者之和，以及传给父刚体的量（→，用父坐标系表示）。",
+    "zh": "再列成表，逐个刚体：自身的部分，各子连杆传来的部分，两者之和，以及传给父连杆的量（→，用父坐标系表示）。",
 }
 OPEN = {"en": "All the numbers", "zh": "全部数值"}
 CAPTION = {"en": "{} of Go2, (angular, linear)", "zh": "Go2 的 {}，（角，线）"}
@@ -74,7 +74,7 @@ CHINESE = {
     "→ to ": "→ 传给 ",
     ", diag.": "，对角元素",
     "F in ": "F，坐标系 ",
-    ", on ": "，父刚体 ",
+    ", on ": "，父连杆 ",
 }
 
 

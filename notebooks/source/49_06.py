@@ -40,7 +40,7 @@ for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs
 # %% [markdown] lang="zh"
 # ## 运动树
 #
-# 刚体 0 是世界,刚体 1 是基座;每个刚体 $i$ 由关节 $i$ 挂在父刚体 $\lambda(i)$ 上。对递推来说,一个关节就是两样东西:
+# 刚体 0 是世界,刚体 1 是基座;每个刚体 $i$ 由关节 $i$ 挂在父连杆 $\lambda(i)$ 上。对递推来说,一个关节就是两样东西:
 # 把 twist 从父坐标系换到坐标系 $i$ 的矩阵 $X_i$,以及关节所允许的运动的子空间 $S_i$,旋转关节是 6 × 1,自由的基座是
 # 6 × 6。`tree_terms` 负责算出它们。因为 $\lambda(i) < i$,编号从小到大就是由内向外。
 # %%
@@ -70,7 +70,7 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 # %% [markdown] lang="zh"
 # ## 向外:twist 与加速度
 #
-# 刚体随父刚体一起运动(换到自己的坐标系里看),关节再添上自己的一份:
+# 刚体随父连杆一起运动(换到自己的坐标系里看),关节再添上自己的一份:
 #
 # $$\boldsymbol V_i = X_i \boldsymbol V_{\lambda(i)} + S_i \dot q_i.$$
 #
@@ -113,8 +113,8 @@ assert np.allclose(moving.imag / h, kin.acceleration, atol=1e-12)
 # %% [markdown] lang="zh"
 # ## 向内:wrench
 #
-# 牛顿-欧拉方程说出每个刚体为了自己的运动需要多大的 wrench。它全部来自关节:从自己的关节进来,再往子刚体那里传。
-# 所以经过关节 $i$ 的 wrench,是刚体自己的需要,加上子刚体拿走的:
+# 牛顿-欧拉方程说出每个刚体为了自己的运动需要多大的 wrench。它全部来自关节:从自己的关节进来,再往子连杆那里传。
+# 所以经过关节 $i$ 的 wrench,是刚体自己的需要,加上子连杆拿走的:
 #
 # $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
 # \sum_{\lambda(j) = i} X_j^T \boldsymbol F_j, \qquad \boldsymbol\tau_i = S_i^T \boldsymbol F_i.$$
@@ -318,11 +318,11 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 #
 # 照本章印的样子敲进去,有三处错误:
 #
-# 1. 反向循环里是*赋值* `F[i] = I a + V ×* I V`。这时子刚体已经把自己的加到 `F[i]` 上了,一赋值就全丢了。
+# 1. 反向循环里是*赋值* `F[i] = I a + V ×* I V`。这时子连杆已经把自己的加到 `F[i]` 上了,一赋值就全丢了。
 # 2. 它用 `X[i]^* * F[i]` 往回传,而 `X[i]` 是从父到子。可是 $X^* = X^{-T}$ 与 $X$ 同向:向外。向内的是 $X^T$。
 # 3. 循环从基座之后的连杆 1 开始:没有一行加上基座自己的 wrench。
 #
-# 有颜色的地方就是错的。小腿没有子刚体,每次都对:如果只测一个关节,或只测末端,就发现不了。
+# 有颜色的地方就是错的。小腿没有子连杆,每次都对:如果只测一个关节,或只测末端,就发现不了。
 # %%
 as_printed = {  # in the listing, what stands there and what is printed
     "1. overwritten": ("tau[i] = S", "F[i] = B[i]; tau[i] = S"),

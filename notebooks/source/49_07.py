@@ -120,7 +120,7 @@ plt.show()
 #
 # 1. **向外**：twist $\boldsymbol V_i$,偏置加速度 $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;起初
 #    $\hat I_i^A = \hat I_i$，$\boldsymbol p_i^A = \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$。
-# 2. **向内**:令 $U_i = \hat I_i^A S_i$、$D_i = S_i^T U_i$、$u_i = \tau_i - S_i^T \boldsymbol p_i^A$,父刚体一侧的表观惯量和偏置力是
+# 2. **向内**:令 $U_i = \hat I_i^A S_i$、$D_i = S_i^T U_i$、$u_i = \tau_i - S_i^T \boldsymbol p_i^A$,父连杆一侧的表观惯量和偏置力是
 # $$\hat I_i^a = \hat I_i^A - U_i D_i^{-1} U_i^T, \qquad \boldsymbol p_i^a = \boldsymbol p_i^A + \hat I_i^a \boldsymbol c_i
 # + U_i D_i^{-1} u_i,$$
 #    再换到它的坐标系:$\hat I_{\lambda}^A$ 加上 $X_i^T \hat I_i^a X_i$，$\boldsymbol p_{\lambda}^A$ 加上
@@ -140,7 +140,7 @@ plt.show()
 # = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
 # + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
 #
-# 所以父刚体看到的又是一个惯量和一个偏置力。偏置力有三部分:原有的、速度引起的、电机反推的。
+# 所以父连杆看到的又是一个惯量和一个偏置力。偏置力有三部分:原有的、速度引起的、电机反推的。
 #
 # 本章这里写的是 $X_i^* \hat I X_i^{-1}$ 和 $X_i^* \boldsymbol p$,而 $X_i$ 是从父到子。这和 49.6 一样是向外的:
 # 小腿会跑到大腿上方去。
@@ -183,8 +183,8 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 #
 # - **复合刚体惯量** $\hat I^C$:关节*锁死*,成为一个刚体(49.5)。CRBA 用它构造 $M$，$S_i^T \hat I_i^C S_i$ 就是元素
 #   $M_{ii}$。
-# - **铰接体惯量** $\hat I^A$:关节*自由*。父刚体固定时,$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。(电机以同样大小的
-#   力矩反推父刚体;父刚体如果退让,关节就加速得更快。下面会看到快多少。)
+# - **铰接体惯量** $\hat I^A$:关节*自由*。父连杆固定时,$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。(电机以同样大小的
+#   力矩反推父连杆;父连杆如果退让,关节就加速得更快。下面会看到快多少。)
 #
 # 放开关节只会变轻。下面是六根相同的杆:每个铰链处画的是对前一根杆的表观质量,画法同上。铰链全锁死,圆随杆数变大;
 # 铰链全自由,后面那五根杆横着第一根杆的方向几乎没有增加什么,沿着它的方向也远远不到它们的质量。
