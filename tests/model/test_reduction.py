@@ -104,6 +104,13 @@ def test_limits_and_armature_of_the_joints_that_are_left_are_kept():
 # ---------------------------------------------------------------- invariants
 
 
+def test_each_state_of_a_batch_is_in_one_piece_for_the_programs_take_no_other_at_full_speed():
+    model = tw.load("go2")
+    q = np.tile(model.standing(), (7, 1))
+    for x in tw.lock_joints(model, ["FL_*"], q[0]).reduce(q, q[:, :18]):
+        assert x.flags.c_contiguous
+
+
 def test_all_joints_locked_leave_one_rigid_body_of_the_composite_inertia():
     full = robot("talos_reduced")
     q = full.random_configuration(rng=3)

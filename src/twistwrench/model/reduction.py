@@ -74,7 +74,7 @@ class Reduction:
             As `Model.state`.
         """
         q, v = self.full.state(q, v=v)
-        return q[..., self.kept_q], v[..., self.kept_v]
+        return np.take(q, self.kept_q, axis=-1), np.take(v, self.kept_v, axis=-1)  # each state in one piece
 
     def expand(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
         """Return the full state in which the held joints are at rest where they are held.
