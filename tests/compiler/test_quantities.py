@@ -150,6 +150,7 @@ def test_states_without_an_answer_are_the_textbooks():
             program(np.zeros(3), *[np.ones(3)] * (len(program.arguments) - 1))
 
 
+@pytest.mark.slow
 def test_derivatives_and_symbols_come_with_them():
     """∂M⁻¹ = −M⁻¹ ∂M M⁻¹ of a program; and M⁻¹ τ of symbols, which no check can look at."""
     model, q = tw.load("planar_arm"), np.array([0.3, -0.7, 0.4])

@@ -46,13 +46,13 @@ def test_a_simulated_rod_keeps_its_length_and_the_energy():
     model, rod = trammel()
     q, v = tw.project_state(model, [0.5, 0.6], [1.0, 0.0], rod, {"across": tw.SE3(np.eye(3), [0.9, 0, 0])})
     assert np.hypot(*q) == pytest.approx(0.9, abs=1e-12)
-    run = tw.simulate(model, q, v, dt=2e-3, duration=0.3, contacts=rod)
+    run = tw.simulate(model, q, v, dt=2e-3, duration=0.1, contacts=rod)
     np.testing.assert_allclose(np.hypot(*run.q.T), 0.9, rtol=0, atol=1e-11)
     assert np.ptp(run.energy) < 1e-7 * np.abs(run.energy).max()
     leg = [tw.DistanceConstraint("across", "along", velocity=[0.2], acceleration=[0.5])]  # a motor extends it
     start = tw.impact(model, q, v, leg).v
-    run = tw.simulate(model, q, start, dt=2e-3, duration=0.3, contacts=leg)
-    assert np.hypot(*run.q[-1]) == pytest.approx(0.9 + 0.06 + 0.25 * 0.09, abs=1e-11)
+    run = tw.simulate(model, q, start, dt=2e-3, duration=0.1, contacts=leg)
+    assert np.hypot(*run.q[-1]) == pytest.approx(0.9 + 0.2 * 0.1 + 0.25 * 0.1**2, abs=1e-11)
 
 
 def test_the_row_and_its_rate_are_derivatives_of_the_distance():
