@@ -194,7 +194,7 @@ def test_an_unsound_measurement_is_told_why_however_it_is_written(measure, slip)
 
 
 def test_a_machine_slows_down_pauses_and_starts_slowly():
-    machine = Machine(Text("", ""), start=1.0, pause=10.0, paused_at=2, slow_from=3)
+    machine = Machine(Text("", ""), start=1.0, pause=10.0, paused_at=[2], slow_from=3)
     work, took = Task(machine, 0.5), []
     for _ in range(4):
         start = machine()

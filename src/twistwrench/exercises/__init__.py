@@ -16,8 +16,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .cases import case
     from .cells import Checked, check
-    from .failing import case
     from .helping import hint, solution
     from .progress import Status, status
     from .skeletons import start
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
 
 _HOME = {"hint": "helping", "solution": "helping", "Status": "progress", "status": "progress"}
-_HOME |= {"start": "skeletons", "mine": "workbook", "case": "failing", "check": "cells", "Checked": "cells"}
+_HOME |= {"start": "skeletons", "mine": "workbook", "case": "cases", "check": "cells", "Checked": "cells"}
 
 
 def __getattr__(name: str) -> Any:

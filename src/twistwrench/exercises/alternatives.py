@@ -1,4 +1,4 @@
-"""What could stand in place of a piece of a program by a small mistake, and how that is written."""
+"""What could stand in place of a piece of a program by a small mistake."""
 
 from __future__ import annotations
 
@@ -13,33 +13,35 @@ __all__ = [
     "KINDS",
     "alternatives",
     "crossed",
-    "enclosing",
     "exchanges",
     "parsed",
-    "target",
-    "term",
-    "text_of",
 ]
 
 Change = tuple[str, Any]
 """Kind of an edit, and what is put in place of a node."""
 
-KINDS = ("sign", "transposed", "exchanged", "left out", "last", "name", "instead", "inserted", "number")
+KINDS = (
+    *("exchanged", "sign", "transposed", "left out", "after loop", "in loop"),
+    *("last", "name", "instead", "number", "inserted"),
+)
 """The kinds of edits, the likeliest first."""
 
 TWINS = (
     *(("motion_transform", "force_transform"), ("cross_motion", "cross_force"), ("inward", "outward")),
     *(("nonlinear_effects", "gravity"), ("cos", "sin"), ("rotation", "translation"), ("cross", "multiply", "outer")),
     *(("max", "min", "mean", "sum"), ("mean", "median"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
-    *(("FR_foot", "FL_foot", "RR_foot"), ("hypot", "add"), ("vstack", "hstack"), ("zeros", "eye")),
+    *(("FR_foot", "FL_foot", "RR_foot"), ("hypot", "add"), ("log", "log10"), ("vstack", "hstack"), ("zeros", "eye")),
     *(("local", "world", "local_world_aligned"), ("com", "translation"), ("neutral", "standing"), ("triu", "tril")),
 )
 """Names that are taken for each other."""
 
 FACTORS = ("2", "9.81")
-SLICES = (":3", "3:6", "3:", ":6", "6:", "-6:")
+SLICES = (":", ":3", "3:6", "3:", ":6", "6:", "-6:")
 OPPOSITE = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Div}
 COMPARED = {ast.LtE: ast.Lt, ast.Lt: ast.LtE, ast.GtE: ast.Gt, ast.Gt: ast.GtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
+
+CONSTANT = ("zeros", "ones", "eye")
+"""What these make is no term that lacks a factor."""
 
 
 def alternatives(
@@ -57,14 +59,19 @@ def alternatives(
     """
     for changes in (_statements, _operations, _containers, _calls, _numbers):
         yield from changes(node)
+    if isinstance(node, ast.For | ast.While):
+        yield from _loops(node, parent)
     if isinstance(getattr(parent, "ctx", None), ast.Store):
         return  # the name of what is written to
     if isinstance(node, ast.Name):
-        yield from (("name", parsed(name)) for name in names)
+        yield from (("name", parsed(name)) for name in names if not _beside(name, parent))
     if _is_term(node, parent):
         yield "sign", ast.UnaryOp(ast.USub(), node)
         yield "transposed", _transposed(node)
         yield "instead", parsed("np.linalg.inv(_)", node)
+        if isinstance(node, ast.Call) and getattr(node.func, "attr", "") in CONSTANT:
+            return
+        yield "inserted", parsed("abs(_)", node)
         for R in matrices:
             yield "inserted", ast.BinOp(R, ast.MatMult(), node)
             yield "inserted", ast.BinOp(_transposed(R), ast.MatMult(), node)
@@ -76,11 +83,11 @@ def _transposed(node: ast.expr) -> ast.expr:
     return ast.Attribute(node, "mT", ast.Load())
 
 
-def parsed(text: str, node: ast.expr | None = None) -> ast.expr:
-    """Parse an expression; an underscore in it stands for a node."""
-    tree = ast.parse(text, mode="eval").body
-    if node is not None and isinstance(tree, ast.Call):
-        tree.args = [node if isinstance(x, ast.Name) and x.id == "_" else x for x in tree.args]
+def parsed(text: str, *nodes: ast.expr) -> ast.expr:
+    """Parse an expression; where it is a call, the underscores among its arguments stand for nodes."""
+    tree, given = ast.parse(text, mode="eval").body, iter(nodes)
+    if nodes and isinstance(tree, ast.Call):
+        tree.args = [next(given) if isinstance(x, ast.Name) and x.id == "_" else x for x in tree.args]
     return tree
 
 
@@ -90,24 +97,49 @@ def _is_term(node: Any, parent: Any) -> bool:
         return False
     if isinstance(getattr(node, "ctx", ast.Load()), ast.Store):
         return False
+    if isinstance(parent, ast.Call) and getattr(parent.func, "id", "") == "range":
+        return False
     return isinstance(
         parent, ast.BinOp | ast.UnaryOp | ast.Call | ast.List | ast.Tuple | ast.Return | ast.Assign
     ) and not (isinstance(parent, ast.Call) and node is parent.func)
 
 
+def _beside(name: str, parent: Any) -> bool:
+    """Whether a name is already among the things that are returned: none of them is the other."""
+    return isinstance(parent, ast.Tuple) and any(getattr(x, "id", "") == name for x in parent.elts)
+
+
+def _loops(node: Any, parent: Any) -> Iterator[Change]:
+    """Yield a loop without its last statement, which comes after it, or with the one before it at its beginning."""
+    if len(node.body) > 1:
+        fewer = copy.copy(node)
+        fewer.body = node.body[:-1]
+        yield "after loop", ast.If(ast.Constant(True), [fewer, node.body[-1]], [])
+    around = getattr(parent, "body", [])
+    k = next((k for k, other in enumerate(around) if other is node), 0)
+    if k and isinstance(around[k - 1], ast.Assign):
+        more = copy.copy(node)
+        more.body = [around[k - 1], *node.body]
+        yield "in loop", more
+
+
 def _statements(node: Any) -> Iterator[Any]:
     """Yield an assignment with another sign, with = in place of += or the other way, or with things exchanged."""
+    if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript):
+        yield "left out", ast.Pass()
     if isinstance(node, ast.AugAssign):
         if type(node.op) in OPPOSITE:
             yield "instead", ast.AugAssign(node.target, OPPOSITE[type(node.op)](), node.value)
         yield "instead", ast.Assign([node.target], node.value, lineno=node.lineno)
-    if isinstance(node, ast.AugAssign):
         yield "left out", ast.Pass()
     if isinstance(node, ast.While):
         yield "instead", ast.If(node.test, node.body, [])
     if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
         for targets in exchanges(node.targets[0].elts):
             yield "exchanged", ast.Assign([ast.Tuple(targets, ast.Store())], node.value, lineno=node.lineno)
+        if isinstance(node.value, ast.Tuple) and isinstance(node.value.elts[0], ast.Subscript):
+            copies = ast.Tuple([parsed("np.copy(_)", x) for x in node.value.elts], ast.Load())
+            yield "instead", ast.Assign(node.targets, copies, lineno=node.lineno)
     elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name | ast.Subscript):
         yield "instead", ast.AugAssign(node.targets[0], ast.Add(), node.value, lineno=node.lineno)
 
@@ -126,7 +158,7 @@ def _operations(node: Any) -> Iterator[Change]:
             kind = "sign" if isinstance(op, ast.Add | ast.Sub) else "instead"
             yield kind, ast.BinOp(left, OPPOSITE[type(op)](), right)
         if isinstance(op, ast.MatMult | ast.Sub | ast.Div):
-            yield "exchanged", ast.BinOp(right, op, left)
+            yield "instead" if isinstance(op, ast.MatMult) else "exchanged", ast.BinOp(right, op, left)
         if isinstance(op, ast.MatMult) and isinstance(left, ast.BinOp) and isinstance(left.op, ast.MatMult):
             yield "exchanged", ast.BinOp(ast.BinOp(right, op, left.right), op, left.left)
         if isinstance(op, ast.MatMult):
@@ -134,6 +166,7 @@ def _operations(node: Any) -> Iterator[Change]:
         if isinstance(op, ast.Mult):
             yield "instead", ast.BinOp(right, ast.Div(), left)
             yield "instead", ast.BinOp(left, ast.MatMult(), right)
+            yield "instead", parsed("np.cross(_, _)", left, right)
         yield from _brackets(left, op, right)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         yield "sign", node.operand
@@ -165,6 +198,7 @@ def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:
             yield "instead", ast.BinOp(left.left, left.op, ast.BinOp(left.right, sign, right))
     if isinstance(op, ast.MatMult | ast.Mult) and isinstance(right, ast.BinOp) and type(right.op) in (ast.Add, ast.Sub):
         yield "instead", ast.BinOp(ast.BinOp(left, op, right.left), right.op, right.right)
+        yield "instead", ast.BinOp(right.left, right.op, ast.BinOp(left, op, right.right))
 
 
 def exchanges(entries: list[Any]) -> Iterator[list[Any]]:
@@ -179,7 +213,9 @@ def _containers(node: Any) -> Iterator[Change]:
         for entries in exchanges(node.elts):
             yield "exchanged", type(node)(entries, node.ctx)
         for k, entry in enumerate(node.elts):
-            if not isinstance(entry, ast.Constant | ast.Slice | ast.List):
+            if isinstance(entry, ast.Starred):
+                yield "left out", type(node)([*node.elts[:k], *node.elts[k + 1 :]], node.ctx)
+            elif not isinstance(entry, ast.Constant | ast.Slice | ast.List):
                 zero = ast.BinOp(ast.Constant(0), ast.Mult(), entry)
                 yield "left out", type(node)([*node.elts[:k], zero, *node.elts[k + 1 :]], node.ctx)
     if isinstance(node, ast.Slice) and ast.unparse(node) in SLICES:
@@ -190,8 +226,14 @@ def _containers(node: Any) -> Iterator[Change]:
         ends = [x.value for x in (node.lower, node.upper) if isinstance(x, ast.Constant) and isinstance(x.value, int)]
         for k in (-1, 1) if len(ends) == 2 else ():
             yield "instead", ast.Slice(*(ast.Constant(end + k) for end in ends))
+    if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Load):
+        pair = [getattr(x, "value", None) for x in getattr(node.slice, "elts", ())]
+        if len(pair) == 2 and pair[0] == pair[1] and isinstance(pair[0], int):
+            for k in range(6):
+                yield "number", ast.Subscript(node.value, ast.Tuple([ast.Constant(k)] * 2, ast.Load()), node.ctx)
     if isinstance(node, ast.Subscript):
         if isinstance(node.slice, ast.Slice):
+            yield "left out", node.value
             every = ast.Tuple([ast.Slice(), node.slice], ast.Load())
             yield "instead", ast.Subscript(node.value, every, node.ctx)
         elif isinstance(node.slice, ast.Tuple) and len(node.slice.elts) == 2 and _is_all(node.slice.elts[0]):
@@ -205,13 +247,13 @@ def _is_all(node: Any) -> bool:
 def _calls(node: Any) -> Iterator[Change]:
     """Yield a call with two arguments exchanged, its argument alone, or what is called or named by a twin."""
     if isinstance(node, ast.Call):
-        for arguments in exchanges(node.args):
+        for arguments in exchanges(node.args) if getattr(node.func, "id", "") != "range" else ():
             yield "exchanged", ast.Call(node.func, arguments, node.keywords)
         if len(node.args) <= 2:
             kind = "left out" if len(node.args) == 1 else "instead"
             yield from ((kind, argument) for argument in node.args)
         for k, argument in enumerate(node.args):
-            if isinstance(argument, ast.Name):
+            if isinstance(argument, ast.Name) or any(isinstance(x, ast.Call) for x in ast.walk(argument)):
                 zero = ast.BinOp(ast.Constant(0), ast.Mult(), argument)
                 yield "instead", ast.Call(node.func, [*node.args[:k], zero, *node.args[k + 1 :]], node.keywords)
         if isinstance(node.func, ast.Name) and node.func.id == "sum":
@@ -220,8 +262,12 @@ def _calls(node: Any) -> Iterator[Change]:
             yield "last", ast.Subscript(node.func.value, LAST)
         if not node.args and isinstance(node.func, ast.Attribute):
             yield "left out", node.func.value
+        if any(keyword.arg == "dtype" for keyword in node.keywords):
+            yield "instead", ast.Call(node.func, node.args, [x for x in node.keywords if x.arg != "dtype"])
         if isinstance(node.func, ast.Name) and node.func.id == "range":
             yield "instead", parsed("reversed(_)", node)
+            if isinstance(first := node.args[0], ast.Constant) and len(node.args) == 2:
+                yield "instead", ast.Call(node.func, [first, ast.Constant(first.value + 1)], [])
     if isinstance(node, ast.Attribute):
         if node.attr in ("mT", "T"):
             yield "transposed", node.value
@@ -246,51 +292,8 @@ def _numbers(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
         x = node.value
         others = (
-            [x + 1, x - 1, 0, -1, -x, 2 * x, x / 2, 3, 6] if isinstance(x, int) else [10, 9.8, 1.0, -x, 2 * x, x / 2]
+            [x + 1, x - 1, 0, x + 2, x - 2, -1, -x, 2 * x, x / 2, 3, 6]
+            if isinstance(x, int)
+            else [10, 9.8, 9.81, 1.0, -x, 2 * x, x / 2, 10 * x, x / 10]
         )
         yield from (("number", ast.Constant(other)) for other in dict.fromkeys(others) if other != x)
-
-
-def term(node: ast.expr, other: ast.expr) -> str:
-    """Return what a node has more than the other, or the term whose sign differs."""
-    if isinstance(other, ast.Pass):
-        return text_of(node)
-    if isinstance(other, ast.UnaryOp) and other.operand is node:
-        return text_of(node)
-    if isinstance(node, ast.BinOp):
-        kept = getattr(other, "operand", getattr(other, "right", other))
-        gone = other is not node.left and (kept is node.right and getattr(other, "left", None) is not node.left)
-        return text_of(node.left if gone else node.right)
-    if isinstance(node, ast.List | ast.Tuple | ast.BoolOp):
-        mine = node.values if isinstance(node, ast.BoolOp) else node.elts
-        theirs = other.values if isinstance(other, ast.BoolOp) else getattr(other, "elts", [])
-        return text_of(next((x for x in mine if x not in theirs), node))
-    if isinstance(node, ast.Call) and isinstance(other, ast.expr):
-        return text_of(node.func) if node.args else f".{getattr(node.func, 'attr', '')}()"
-    if isinstance(node, ast.Attribute):
-        return f".{node.attr}"
-    return text_of(node.operand if isinstance(node, ast.UnaryOp) else node)
-
-
-def target(parents: list[Any]) -> str:
-    """Return what the statement around a node computes; nothing for a result."""
-    for parent in reversed(parents):
-        if isinstance(parent, ast.Assign | ast.AugAssign):
-            return text_of(parent.targets[0] if isinstance(parent, ast.Assign) else parent.target)
-    return ""
-
-
-def enclosing(parents: list[Any], node: Any) -> Any:
-    """Return what to show of a program around a node: more than it where it is only a name, a number or a slice."""
-    for parent in reversed(parents):
-        small = isinstance(node, ast.Constant | ast.Slice | ast.Name | ast.UnaryOp)
-        small |= isinstance(parent, ast.Subscript) and node is parent.slice
-        if not small or not isinstance(parent, ast.expr):
-            break
-        node = parent
-    return node
-
-
-def text_of(node: ast.AST) -> str:
-    """Return a piece of a program as text, on one line, with `.T` where it has `.mT`."""
-    return ast.unparse(node).split("\n")[0].replace(".mT", ".T")

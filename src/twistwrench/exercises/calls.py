@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import copy
+import os
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
 from .exercise import Part
 
-__all__ = ["CHANGED", "copied", "count", "local_values", "tried"]
+__all__ = ["CHANGED", "copied", "count", "local_values", "silent", "tried"]
 
 Function = Callable[..., Any]
 
@@ -40,6 +42,27 @@ def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) 
             return part.value(function, copied(arguments))
     except (Exception, SystemExit):  # whatever an edit leads to
         return None
+
+
+@contextmanager
+def silent() -> Iterator[None]:
+    """Drop what libraries print past Python: a small change may give them numbers that they complain about."""
+    if os.name != "posix":
+        yield
+        return
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept, nothing = [os.dup(1), os.dup(2)], os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nothing, 1)
+    os.dup2(nothing, 2)
+    try:
+        yield
+    finally:
+        sys.stdout.flush()
+        for stream, number in zip(kept, (1, 2)):
+            os.dup2(stream, number)
+        for number in (*kept, nothing):
+            os.close(number)
 
 
 def copied(arguments: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -120,7 +120,8 @@ def run_status(args: argparse.Namespace) -> int:
 def run_case(args: argparse.Namespace) -> int:
     """Print a case in full: what goes in, and what must come out."""
     from . import catalogue
-    from .failing import case, whole
+    from .cases import case
+    from .failing import whole
 
     _, part = catalogue.find_part(args.name)
     print(whole(part, case(args.name, args.number, seed=args.seed), _language(args)))

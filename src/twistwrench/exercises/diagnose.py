@@ -47,8 +47,11 @@ def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
 
 
 def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
-    slipped = _slipped(part, wrong, cases)
-    return slipped is not None and all(agree(part, a, b, args) for a, b, args in zip(answers, slipped, cases))
+    for answer, arguments in zip(answers, cases):
+        slipped = _slipped(part, wrong, [arguments])
+        if slipped is None or not agree(part, answer, slipped[0], arguments):
+            return False
+    return True
 
 
 def _slipped(part: Part, wrong: Callable[..., Any], cases: Cases) -> list[Any] | None:
@@ -104,9 +107,9 @@ def explain(
     function: Callable[..., Any],
     answers: Answers,
     cases: Cases,
-    again: Callable[[tuple[Any, ...]], Any],
+    again: Callable[[tuple[Any, ...]], Any] | None,
 ) -> tuple[list[str], list[Text]]:
-    """Explain the wrong answers of a function; `again` calls it once more, with other arguments.
+    """Explain the wrong answers of a function; `again` calls it with other arguments, None: nothing more is called.
 
     Returns
     -------
@@ -129,13 +132,13 @@ def explain(
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
     right = [part.value(part.solution, arguments) for arguments in cases]
-    mended = repairs(part, function, right, answers, cases)
+    mended = repairs(part, function, right, answers, cases) if again else []
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
-    edited = found_edits(part, answers, cases)
+    edited = found_edits(part, answers, cases) if again else []
     if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, edited, answers, cases)
-    mended = repairs(part, function, right, answers, cases, pairs=True)
+    mended = repairs(part, function, right, answers, cases, pairs=True) if again else []
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
     pair = None if _few_entries(part, answers, cases) else two_slips(part, answers, cases)
@@ -146,7 +149,7 @@ def explain(
     if edited:
         return [], _edited(exercise, part, edited, answers, cases)
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
-    where = right_where(part, again, cases)
+    where = right_where(part, again, cases) if again else None
     if where is not None:
         lines.append(where)
     broken = _broken_property(part, answers, cases)

@@ -19,8 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from .alternatives import FACTORS, KINDS, alternatives, crossed, enclosing, parsed, target, term, text_of
+from .alternatives import FACTORS, KINDS, alternatives, crossed, parsed
 from .calls import CHANGED, count
+from .excerpts import enclosing, target, term, text_of
 from .whole import Edit, of_arguments
 
 __all__ = ["Source", "edits"]
@@ -173,7 +174,7 @@ class Source:
     def _texts(self, kind: str, place: Place) -> tuple[str, str]:
         """Return the texts of an edit, right and wrong."""
         parents, field, node, other = place
-        if kind in ("sign", "left out"):
+        if kind in ("sign", "left out", "after loop", "in loop"):
             return term(node, other), ""
         around = enclosing(parents, node)
         right = text_of(around)
@@ -200,7 +201,9 @@ class Source:
             names = {**self.solution.__globals__, self.function.__name__: changed}
             function = FunctionType(self.solution.__code__, names, closure=self.solution.__closure__)
         computed = "" if everywhere else target(places[0][0])
-        yield Edit(kind, *texts, self.function, function, len(places) * everywhere, computed, None, places[0][2].lineno)
+        node = places[0][2]
+        line = (node.body[-1] if kind == "after loop" else node).lineno
+        yield Edit(kind, *texts, self.function, function, len(places) * everywhere, computed, None, line)
 
     def compiled(self) -> Function:
         """Return the function as the tree is now."""
@@ -220,10 +223,24 @@ class Source:
         if isinstance(kind, tuple) and kind[0] == "array" and len(kind[1]) == 2:
             names.append(f"{name}.ravel()")
         yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
+        yield from (("name", parsed(text)) for text in self._other_names(node, parents))
         if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
             used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.kinds})
             pairs = ((x, y) for x, y in combinations(used, 2) if self.kinds[x] == self.kinds[y])
             yield from (("exchanged", crossed(node, *pair)) for pair in pairs)
+
+    def _other_names(self, node: Any, parents: list[Any]) -> Iterator[str]:
+        """Yield what else a name may stand for: an index for a number, the parent for the body before, x·x for y·y."""
+        if isinstance(node, ast.Constant) and type(node.value) is int and isinstance(parents[-1], ast.Subscript):
+            yield from (name for name, kind in self.kinds.items() if kind is int)
+        if not isinstance(node, ast.BinOp):
+            return
+        left, right = node.left, node.right
+        if "parent" in self.kinds and isinstance(node.op, ast.Sub) and getattr(right, "value", 0) == 1:
+            yield f"parent[{text_of(left)}]"
+        if isinstance(node.op, ast.Mult) and getattr(left, "id", 0) == getattr(right, "id", 1):
+            alike = [name for name, kind in self.kinds.items() if kind == self.kinds.get(text_of(left))]
+            yield from (f"{name} * {name}" for name in alike)
 
 
 def _alike(kind: str, texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
@@ -238,7 +255,7 @@ def _alike(kind: str, texts: tuple[str, str], node: Any, other: Any) -> tuple[st
         signs = (text_of(ast.BinOp(ast.Name("x"), op, node.right)) for op in (node.op, other.op))
         right, wrong = signs
         return right, wrong
-    return (text_of(node), text_of(other)) if kind in ("name", "instead", "inserted") else (texts[0], "")
+    return (text_of(node), text_of(other)) if kind in ("name", "instead", "inserted", "number") else (texts[0], "")
 
 
 def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:
@@ -250,7 +267,7 @@ def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list
             [((name, k), x) for k, x in enumerate(value)] if isinstance(value, list) else [(name, value)]
         ):
             if isinstance(child, ast.AST) and not isinstance(child, ast.expr_context | ast.operator | ast.cmpop):
-                if isinstance(child, ast.expr | ast.Assign | ast.AugAssign | ast.While):
+                if isinstance(child, ast.expr | ast.Assign | ast.AugAssign | ast.For | ast.While):
                     yield [*parents, node], field, child
                 yield from _places(child, (*parents, node))
 

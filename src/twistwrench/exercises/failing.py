@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,13 +9,11 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..errors import ModelError
-from . import catalogue
 from .compare import FLOOR, Value, values
 from .exercise import Part, Quantity
 from .text import Language, Text
 
-__all__ = ["Block", "Case", "Compared", "case", "cases", "failing_case", "whole"]
+__all__ = ["Block", "Case", "Compared", "failing_case", "whole"]
 
 SAY = {
     "inputs": Text("The case:", "这组数据："),
@@ -128,47 +125,6 @@ class Case:
                 lines += _beside(compared, language)
         again = {"shell": self.shell, "cell": self.cell}
         return "\n".join(lines + [SAY[where].fill(line=line).of(language) for where, line in again.items()])
-
-
-def cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
-    """Return the cases of a function for a seed: the arguments of each."""
-    return list(part.cases(np.random.default_rng([seed, zlib.crc32(part.name.encode())])))
-
-
-def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:
-    """Return the arguments of one of the cases that an answer is tried on.
-
-    Parameters
-    ----------
-    name : str
-        Of the function, as in the skeletons.
-    number : int
-        Which case, counted from 0.
-    seed : int
-        Of the random numbers; the message about a wrong answer names it.
-
-    Returns
-    -------
-    tuple
-        The arguments.
-
-    Raises
-    ------
-    NameNotFound
-        If no exercise has a function of that name.
-    ModelError
-        If there are fewer cases.
-
-    Examples
-    --------
-    >>> R, p, x = case("act", 3)
-    >>> (R @ x + p).shape
-    (3,)
-    """
-    found = cases(catalogue.find_part(name)[1], seed)
-    if not 0 <= number < len(found):
-        raise ModelError(f"number: {name} has the cases 0 to {len(found) - 1}, got {number}")
-    return found[number]
 
 
 def whole(part: Part, arguments: tuple[Any, ...], language: Language) -> str:

@@ -18,8 +18,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from typing import Any, BinaryIO
 
+from .cases import cases
 from .exercise import Exercise, Part
-from .failing import cases, failing_case
+from .failing import failing_case
 from .judge import Verdict, judge
 from .limits import contained
 from .phrases import say
@@ -56,7 +57,9 @@ def judged(exercise: Exercise, part: Part, function: Function, *, seed: int, tim
     if not time_limit or sys.platform == "emscripten":  # a browser has no other process, nor a thread to interrupt
         return judge(exercise, part, function, seed=seed)
     how = _in_a_copy if sys.platform == "linux" else _interrupted
-    calls, found, trace, printed = how(exercise, part, function, seed, time_limit)
+    calls, found, trace, printed = how(exercise, part, function, seed, time_limit, True)
+    if found is None and not trace.startswith("Timeout"):  # a library may have ended it at a change that was tried
+        calls, found, trace, printed = how(exercise, part, function, seed, time_limit, False)
     sys.stdout.write(printed)
     if found is not None:
         return found
@@ -72,7 +75,7 @@ Outcome = tuple[int, Verdict | None, str, str]
 """How many calls were begun, the verdict, where it stopped without one, and what was printed."""
 
 
-def _in_a_copy(exercise: Exercise, part: Part, function: Function, seed: int, limit: float) -> Outcome:
+def _in_a_copy(exercise: Exercise, part: Part, function: Function, seed: int, limit: float, search: bool) -> Outcome:
     reading, writing = os.pipe()
     sys.stdout.flush()
     with tempfile.TemporaryFile() as trace:
@@ -82,7 +85,7 @@ def _in_a_copy(exercise: Exercise, part: Part, function: Function, seed: int, li
         if pid == 0:
             try:
                 os.close(reading)
-                _copy(exercise, part, function, seed, limit, trace, writing)
+                _copy(exercise, part, function, seed, limit, search, trace, writing)
             finally:
                 os._exit(0)
         os.close(writing)
@@ -106,7 +109,14 @@ def _in_a_copy(exercise: Exercise, part: Part, function: Function, seed: int, li
 
 
 def _copy(
-    exercise: Exercise, part: Part, function: Function, seed: int, limit: float, trace: Any, writing: int
+    exercise: Exercise,
+    part: Part,
+    function: Function,
+    seed: int,
+    limit: float,
+    search: bool,
+    trace: Any,
+    writing: int,
 ) -> None:
     """Judge in the copy, and report each call and the verdict."""
     os.setpgid(0, 0)
@@ -128,11 +138,11 @@ def _copy(
 
     replies: BinaryIO
     with open(writing, "wb") as replies, redirect_stdout(printed), redirect_stderr(printed), contained():
-        verdict = judge(exercise, part, function, seed=seed, watch=watch)
+        verdict = judge(exercise, part, function, seed=seed, watch=watch, search=search)
         tell((verdict, printed.getvalue()))
 
 
-def _interrupted(exercise: Exercise, part: Part, function: Function, seed: int, limit: float) -> Outcome:
+def _interrupted(exercise: Exercise, part: Part, function: Function, seed: int, limit: float, search: bool) -> Outcome:
     """Judge here, and interrupt a call that takes too long."""
     calls, stopped = 0, ""
 
@@ -159,7 +169,7 @@ def _interrupted(exercise: Exercise, part: Part, function: Function, seed: int, 
 
     heard = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may ignore it for a background job
     try:
-        return calls, judge(exercise, part, function, seed=seed, watch=watch), "", ""
+        return calls, judge(exercise, part, function, seed=seed, watch=watch, search=search), "", ""
     except KeyboardInterrupt:
         if not stopped:
             raise

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import ModelError, NameNotFound
+from .cases import cases
 from .exercise import Exercise, Part
-from .failing import cases
 from .judge import Verdict, judge
 from .phrases import say
 from .text import Text

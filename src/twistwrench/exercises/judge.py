@@ -12,10 +12,12 @@ from typing import Any, Literal
 
 import numpy as np
 
+from .calls import silent
+from .cases import cases, further_cases
 from .compare import agree, to_do
 from .diagnose import after_error, explain
 from .exercise import Exercise, Part
-from .failing import Case, cases, failing_case
+from .failing import Case, failing_case
 from .phrases import say
 from .repairs import guarded
 from .rules import Calls, file_or_cell, is_ours, watching
@@ -70,7 +72,13 @@ class _Raised(_Stop):
 
 
 def judge(
-    exercise: Exercise, part: Part, function: Callable[..., Any], *, seed: int = 0, watch: Watch = nullcontext
+    exercise: Exercise,
+    part: Part,
+    function: Callable[..., Any],
+    *,
+    seed: int = 0,
+    watch: Watch = nullcontext,
+    search: bool = True,
 ) -> Verdict:
     """Compare a function with the reference on random cases.
 
@@ -85,6 +93,8 @@ def judge(
         Of the random cases. The same seed gives the same verdict.
     watch : callable
         Gives a context for each call of the function, as to stop it after some time.
+    search : bool
+        Look for the small change that explains a wrong answer. A library may end the process at such a change.
 
     Returns
     -------
@@ -92,31 +102,75 @@ def judge(
     """
     if exercise.needs and find_spec(exercise.needs) is None:
         return Verdict("to do", (say("needs", name=exercise.needs),))
-    tried, calls = cases(part, seed), Calls(part.name)
+    calls = Calls(part.name)
+    tried: list[tuple[Any, ...]] = []
     answers: list[Any] = []
-    for k, arguments in enumerate(tried):
+    expected: list[Any] = []
+    right: list[bool] = []
+    everything = [*cases(part, seed), *further_cases(part, seed)]
+    for arguments in everything:
         try:
             with watch(), watching(part, function, calls):
                 answer = _run(part, function, arguments)
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:
-            more = after_error(part, function, tried) if isinstance(stop, _Raised) else []
+            if not all(right):
+                break  # what is wrong without an error comes first
+            with silent():
+                more = after_error(part, function, everything) if search and isinstance(stop, _Raised) else []
             message = _head(exercise, part), *stop.args, *more
-            return Verdict("wrong", message, (), failing_case(part, k, seed, arguments))
+            return Verdict("wrong", message, (), failing_case(part, len(tried), seed, arguments))
         if to_do(answer):
             return Verdict("to do")
+        tried.append(arguments)
         answers.append(answer)
-    expected = [part.value(part.solution, arguments) for arguments in tried]
-    right = [agree(part, *each) for each in zip(answers, expected, tried)]
-    if all(right):
+        expected.append(part.value(part.solution, arguments))
+        right.append(agree(part, answer, expected[-1], arguments))
+    kept = _keeps(part, function, answers, tried, expected, right, watch)
+    if all(right) and kept is None:
         return Verdict("wrong", (_head(exercise, part), *calls.lines)) if calls.lines else Verdict("done")
+    k = 0 if all(right) else right.index(False)
+    if kept is not None:
+        return Verdict("wrong", (_head(exercise, part), kept), (), failing_case(part, k, seed, tried[k]))
     safe = guarded(function)
-    slips, lines = explain(exercise, part, function, answers, tried, lambda given: _again(part, safe, given, watch))
-    k = right.index(False)
+    again = (lambda given: _again(part, safe, given, watch)) if search else None
+    with silent():
+        slips, lines = explain(exercise, part, function, answers, tried, again)
     case = failing_case(part, k, seed, tried[k], (expected[k], answers[k]))
     context = _context(part, tried, right)
     return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips), case)
+
+
+def _keeps(
+    part: Part,
+    function: Callable[..., Any],
+    answers: Sequence[Any],
+    tried: Sequence[tuple[Any, ...]],
+    expected: Sequence[Any],
+    right: Sequence[bool],
+    watch: Watch,
+) -> Text | None:
+    """Report that a function keeps something from one call to the next, if it does."""
+    k = 0 if all(right) else right.index(False)
+    again = _again(part, function, tried[k], watch)
+    if not agree(part, again, answers[k], tried[k]) and not _repeated(again, answers[k]):
+        return say("kept")
+    objects = [answer for answer, good in zip(answers, right) if good and isinstance(answer, np.ndarray | list)]
+    if not right[k] and any(answers[k] is answer for answer in objects):
+        return say("returned before")
+    changed = all(right) and not all(map(agree, [part] * len(tried), answers, expected, tried))
+    return say("returned before") if changed else None
+
+
+def _repeated(first: Any, second: Any) -> bool:
+    """Whether two answers are the same, as far as they are numbers."""
+    if isinstance(first, tuple | list) and isinstance(second, tuple | list):
+        return len(first) == len(second) and all(map(_repeated, first, second))
+    try:
+        return np.shape(first) == np.shape(second) and np.allclose(first, second, equal_nan=True)
+    except (TypeError, ValueError):
+        return True
 
 
 def _again(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...], watch: Watch) -> Any:

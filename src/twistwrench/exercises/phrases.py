@@ -15,6 +15,8 @@ PHRASES = {
     "two slips": Text("Two slips at once: {first}; and {second}.", "两处错误：{first}；并且 {second}。"),
     "edit sign": Text("the sign of `{right}` is wrong", "`{right}` 的符号错了"),
     "edit left out": Text("`{right}` is left out", "漏掉了 `{right}`"),
+    "edit after loop": Text("`{right}` stands after the loop, not in it", "`{right}`放在了循环之后，而不在循环内"),
+    "edit in loop": Text("`{right}` stands in the loop, not before it", "`{right}` 放在了循环内，而不在循环之前"),
     "edit transposed": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit exchanged": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit name": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
@@ -29,6 +31,10 @@ PHRASES = {
     # what would make the student's own line right
     "repair sign": Text("the sign of `{wrong}` is wrong", "`{wrong}` 的符号错了"),
     "repair left out": Text("`{wrong}` does not belong there", "不应有 `{wrong}`"),
+    "repair after loop": Text(
+        "`{wrong}` must stand after the loop, not in it", "`{wrong}` 应放在循环之后，而不是循环内"
+    ),
+    "repair in loop": Text("`{wrong}` must stand in the loop, at its beginning", "`{wrong}` 应放在循环内的开头"),
     "repair last": Text("`{wrong}` must not be a sum", "`{wrong}` 不应求和"),
     "repair transposed": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair exchanged": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
@@ -92,6 +98,17 @@ PHRASES = {
     "changed": Text(
         "It changes its argument `{name}`. Work on a copy: the caller still needs it.",
         "它修改了参数 `{name}`。请在副本上运算，调用者还要用它。",
+    ),
+    "kept": Text(
+        "Called again with the same arguments, it returns something else: it keeps something from one call to the next."
+        " What a call changes must be made in it; a default like `out=[]` is made only once, for all calls.",
+        "用相同的参数再调用一次，返回的却不一样：它把某些内容从一次调用留到了下一次。"
+        "会被修改的量要在函数内新建；`out=[]` 这样的默认值只生成一次，所有调用共用。",
+    ),
+    "returned before": Text(
+        "It returns the same array as in an earlier call, with other arguments: it keeps something from one call to"
+        " the next. Make what it returns anew in each call.",
+        "参数不同，它返回的却是以前某次调用的同一个数组：它把某些内容从一次调用留到了下一次。返回的量每次都要新建。",
     ),
     "missing": Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。"),
     "not a function": Text("{name} in {file} is not a function any more.", "{file} 中的 {name} 已不是函数。"),

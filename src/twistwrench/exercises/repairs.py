@@ -21,7 +21,7 @@ from .compare import agree, close, values
 from .edits import Source
 from .exercise import Part
 from .phrases import say
-from .search import Remembering, said_where
+from .search import Remembering, by_chance, said_where
 from .text import Text
 from .whole import Edit, of_arguments
 
@@ -128,11 +128,12 @@ def _changes(part: Part, function: Function, arguments: tuple[Any, ...], pairs: 
         source = Source(function, function, shown, {"tw": Remembering(twistwrench)}, text)
     except Exception:  # it does not run again as it did
         return
+    chance = by_chance(part, arguments)
     whole = bool(arguments) and not inspect.isclass(function)
     for edit in source.pairs(PAIRED) if pairs else _single(source, whole):
         if time.process_time() > end:
             return
-        if arguments or edit.kind not in ("number", "inserted"):  # one number is met by chance
+        if edit.kind not in chance:
             yield edit, before
 
 

@@ -19,7 +19,7 @@ from .phrases import say
 from .text import Text
 from .whole import Edit
 
-__all__ = ["Found", "Remembering", "exchanged_results", "found_edits", "right_where", "said_where"]
+__all__ = ["Found", "Remembering", "by_chance", "exchanged_results", "found_edits", "right_where", "said_where"]
 
 BUDGET = 8.0
 """Seconds of a search, of the processor: a busy machine finds the same."""
@@ -65,7 +65,8 @@ def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:
     found: dict[int, Edit] = {}
     for edit in candidates(part, cases[first]):
         answer = tried(part, edit.function, cases[first])
-        here = [k for k in bad if k not in found and _same(part, [answers[first]], [answer], k)]
+        alone = [] if edit.kind == "number" and not cases[first] else bad  # one of few numbers is met by chance
+        here = [k for k in alone if k not in found and _same(part, [answers[first]], [answer], k)]
         if not here and not agree(part, answers[first], answer, cases[first]):
             continue
         others = [tried(part, edit.function, arguments) for arguments in cases]
@@ -78,7 +79,7 @@ def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:
 def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
     """Yield the edits of all right ways, for as long as a search may take."""
     end = time.process_time() + BUDGET
-    many = sum(np.size(x.raw) for x in values(part.value(part.solution, arguments), part.returns) or ()) > MANY
+    chance = by_chance(part, arguments)
     names = {"tw": Remembering(twistwrench)}
     for way in (part.solution, *part.ways):
         listings = part.beside if way is part.solution else ()
@@ -87,8 +88,16 @@ def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
         for edit in edits(way, listings, shown=shown, names=names):
             if time.process_time() > end:
                 return
-            if arguments or edit.kind != "number" or many:  # one number is met by chance
+            if edit.kind not in chance:
                 yield edit
+
+
+def by_chance(part: Part, arguments: tuple[Any, ...]) -> tuple[str, ...]:
+    """Return the kinds of edits that say nothing here: a single number, or yes and no, is met by chance."""
+    right = values(part.value(part.solution, copied(arguments)), part.returns) or []
+    truths = any(x.array is not None and x.array.dtype.kind == "b" for x in right)
+    few = not arguments and sum(np.size(x.raw) for x in right) <= MANY
+    return ("number", "inserted") if truths or few else ()
 
 
 def _seconds(part: Part, arguments: tuple[Any, ...]) -> float:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
 
 from .text import Text
 
-__all__ = ["Machine", "Task", "seconds", "timed"]
+__all__ = ["Machine", "Task", "often", "seconds", "timed"]
 
 
 class Machine:
@@ -24,9 +24,9 @@ class Machine:
     start : float
         What the first call of each task takes on top, s.
     pause : float
-        For how long the machine does something else in the middle of one call, s.
-    paused_at : int
-        At which call, counted from 0 over all tasks.
+        For how long the machine does something else in the middle of some calls, s.
+    paused_at : collection of int
+        At which calls, counted from 0 over all tasks.
     slow_from : int, optional
         From which call on everything takes three times as long.
 
@@ -41,7 +41,13 @@ class Machine:
     """
 
     def __init__(
-        self, name: Text, *, start: float = 0, pause: float = 0, paused_at: int = -1, slow_from: int | None = None
+        self,
+        name: Text,
+        *,
+        start: float = 0,
+        pause: float = 0,
+        paused_at: Collection[int] = (),
+        slow_from: int | None = None,
     ) -> None:
         self.name = name
         self._start, self._pause, self._paused_at, self._slow_from = start, pause, paused_at, slow_from
@@ -49,7 +55,7 @@ class Machine:
 
     def reset(self) -> None:
         """Start again."""
-        self._now, self.readings, self._calls = 0.0, 0, 0
+        self._now, self.readings, self.calls = 0.0, 0, 0
         self._met: set[Task] = set()
 
     def __call__(self) -> float:
@@ -59,12 +65,12 @@ class Machine:
 
     def work(self, task: Task) -> None:
         """Let the time of a task pass."""
-        late = self._slow_from is not None and self._calls >= self._slow_from
+        late = self._slow_from is not None and self.calls >= self._slow_from
         self._now += (3 if late else 1) * task.seconds
         self._now += 0 if task in self._met else self._start
-        self._now += self._pause if self._calls == self._paused_at else 0
+        self._now += self._pause if self.calls in self._paused_at else 0
         self._met.add(task)
-        self._calls += 1
+        self.calls += 1
 
 
 class Task:
@@ -85,12 +91,29 @@ class Task:
         self._machine.work(self)
 
 
+def often(rng: np.random.Generator, calls: int) -> set[int]:
+    """Return the calls at which a machine is interrupted that is so at two of five, warmed up or not.
+
+    Examples
+    --------
+    >>> sorted(often(np.random.default_rng(1), 10))
+    [0, 4, 5, 8, 12, 13]
+    """
+    return {5 * k + int(j) for k in range(calls // 5 + 1) for j in rng.permutation(5)[:2]}
+
+
 def timed(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Reset the machine, the last argument, and return nan for a measurement that has not read its clock."""
+    """Reset the machine, the last argument, and return nan for a measurement that has not read its clock.
+
+    One that has called the tasks less often than was asked for, the last argument but one, is infinite.
+    """
     clock = arguments[-1]
     clock.reset()
     answer = function(*arguments)
-    return answer if answer is ... or clock.readings else np.nan
+    if not isinstance(answer, int | float | np.number):
+        return answer
+    enough = clock.calls >= len(arguments[:-2]) * arguments[-2]
+    return np.nan if not clock.readings else answer if enough else np.inf
 
 
 def seconds(task: Callable[[], object], calls: int, clock: Machine) -> list[float]:

@@ -38,6 +38,7 @@ RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * 
     "{}[0]": lambda x: x[0],
     "{}.sum(0)": lambda x: x.sum(0),
     "{}.ravel()": lambda x: x.ravel(),
+    "np.concatenate({})": np.concatenate,
 }
 """What can be done to a result."""
 
@@ -91,7 +92,9 @@ def of_arguments(solution: Function) -> Iterator[Edit]:
 
         def result(*given: Any, change: Function = change) -> Any:
             answer = solution(*given)
-            return tuple(map(change, answer)) if isinstance(answer, tuple) else change(np.asarray(answer))
+            if isinstance(answer, tuple):
+                return tuple(map(change, answer))
+            return change(answer if isinstance(answer, list) and change is np.concatenate else np.asarray(answer))
 
         yield Edit("result", "x", wrong.replace("{}", "x"), solution, result)
     for order in exchanges([*range(len(names))]):

@@ -56,6 +56,8 @@ class Workbook:
         self._judging: list[str] = []
         self.watch: Callable[[str], AbstractContextManager[object]] = nullcontext
         """Surrounds each call of the student's function of a name, and the reading of a file of a name."""
+        self.search = True
+        """Whether small changes are looked for that explain a wrong answer."""
         self.borrowed: set[str] = set()
         """Functions that `mine` took from the reference."""
 
@@ -155,7 +157,8 @@ class Workbook:
         if not callable(function):
             phrase = "missing" if function is None else "not a function"
             return Verdict("wrong", (head, say(phrase, name=part.name, file=file)))
-        return judge(exercise, part, function, seed=self.seed, watch=partial(self.watch, part.name))
+        watch = partial(self.watch, part.name)
+        return judge(exercise, part, function, seed=self.seed, watch=watch, search=self.search)
 
     def verdict_in_words(self, exercise: Exercise) -> Verdict | None:
         """Judge whether the answer in words is written; None where the exercise needs no words."""

@@ -80,4 +80,5 @@ def main() -> None:
 def _answer(book: Workbook, what: str, name: str) -> Any:
     if what == "words":
         return book.words(catalogue.exercise(name))
+    book.search = what != "plain verdict"
     return book.verdict(*catalogue.find_part(name))

@@ -42,13 +42,16 @@ def contact_rows(J: Any) -> Any:
 
 
 def _limits(rng: Any) -> Any:
-    """Return limits as Pinocchio has them: of a free-flyer, of joints, and of another free-flyer further back."""
+    """Return limits as Pinocchio has them: of a free-flyer, of joints, of another free-flyer; and one-sided ones."""
     free = np.array([np.inf] * 3 + [1.01] * 4)
     joints = rng.uniform(0.5, 3, (3, 12))
     tails = [joints[0], np.concatenate([joints[1, :4], free]), joints[2]]
-    return [
+    limits = [
         (-np.concatenate([free, tail]), np.concatenate([free, tail * rng.uniform(0.2, 1, len(tail))])) for tail in tails
     ]
+    limits[2][0][-2], limits[2][1][-1] = -np.inf, np.inf
+    limits[0][1][-1] = 0.3 * limits[0][0][-1]  # a knee: both limits are negative
+    return limits
 
 
 def _dynamics(rng: Any) -> Any:

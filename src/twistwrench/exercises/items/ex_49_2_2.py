@@ -26,7 +26,9 @@ def arc(omega_z: Any, v_x: Any) -> Any:
 
 
 def _cases(rng: Any) -> Any:
-    return [(float(rng.uniform(0.5, 2.5)), float(rng.uniform(0.5, 2.0))) for _ in range(4)]
+    """Return turns to the left and to the right, forward and backward."""
+    signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
+    return [(a * float(rng.uniform(0.5, 2.5)), b * float(rng.uniform(0.5, 2.0))) for a, b in signs]
 
 
 MATRIX = Part(

@@ -45,10 +45,10 @@ def _at(p_x: float, p_y: float, f_z: float, rng: Any) -> Any:
 
 
 def _wrenches(rng: Any) -> Any:
-    """Return wrenches in the middle, outside each edge, near it and on it, one that pulls, one that hardly pushes."""
+    """Return wrenches in the middle, outside each edge, near it and on it, one that pulls, two that hardly push."""
     near, far = rng.uniform(0.6, 0.9), rng.uniform(1.2, 2.0)
     places = [(0.3, 0.3), (near, 0.2), (0.2, -near), (far, 0.3), (-far, 0.2), (0.3, far), (0.2, -far), (-0.2, 0.3)]
-    places += [(0.75, 0.1), (0.1, 0.75)]
+    places += [(0.75, 0.1), (0.1, 0.75), (0.9, 1.9), (1.9, 0.9), (0.9, 0.9)]
     edges = [_at(*place, 256.0, rng)[0] for place in ((0.125, 0.01), (-0.125, 0.01), (0.05, 0.0625), (0.05, -0.0625))]
     twist = np.array([0, -0.2 * 100, 3.0, 0.01, 0.01, 100]), 0.1, 0.04
     pushes = [_at(0.1 * x, 0.04 * y, rng.uniform(100, 400), rng) for x, y in places]
@@ -58,6 +58,7 @@ def _wrenches(rng: Any) -> Any:
         _at(0.01, 0.01, -rng.uniform(100, 400), rng),
         _at(0.07, 0.03, 300.0, rng),
         _at(0.15, 0.06, 0.3, rng),
+        _at(0.05, 0.02, rng.uniform(0.01, 0.3), rng),
         twist,
     ]
 
@@ -79,7 +80,7 @@ SUM = Part(
 PRESSURE = Part(
     solution=center_of_pressure,
     returns=(Quantity("p", unit="m"),),
-    cases=lambda rng: [(sole_wrench(*_forces_of(rng)),) for _ in range(4)],
+    cases=lambda rng: [(sign * sole_wrench(*_forces_of(rng)),) for sign in (1, 1, 1, -1)],  # also where f_z < 0
     slips={
         "cop-sign": faulty(center_of_pressure, ("-tau_y", "tau_y")),
         "cop-axes": lambda F: F[:2] / F[5],

@@ -56,13 +56,11 @@ def _mean_in_turn(first: Any, second: Any, calls: Any, clock: Any) -> Any:
 
 
 def _verdict(answer: Any, right: float) -> float:
-    """Return 0 for about the right ratio, and other numbers for its inverse, too large, too small and no clock."""
-    ratio = float(answer)
-    if np.isnan(ratio):
-        return 4.0
-    if abs(ratio / right - 1) < 0.15:
-        return 0.0
-    return 1.0 if abs(ratio * right - 1) < 0.15 else 2.0 if ratio > right else 3.0
+    """Return 0 for about the right ratio, and other numbers for others that are far from it and from each other."""
+    ratio = float(answer) / right
+    if not np.isfinite(ratio) or ratio <= 0:
+        return 1e3 if ratio > 0 else -1e3 if ratio <= 0 else 2e3
+    return 0.0 if abs(ratio - 1) < 0.15 else float(np.sign(ratio - 1) + round(np.log10(ratio)))
 
 
 def _machines(rng: Any) -> Any:
@@ -71,8 +69,8 @@ def _machines(rng: Any) -> Any:
     machines = [
         Machine(Text("steady", "稳定")),
         Machine(Text("slow at the first call", "首次调用较慢"), start=0.01),
-        Machine(Text("slows down half-way", "中途变慢"), slow_from=calls),
-        Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=2 * int(rng.integers(10, 40)) + 1),
+        Machine(Text("slows down half-way", "中途变慢"), slow_from=int(rng.choice([60, 140]))),
+        Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=[2 * int(rng.integers(10, 40)) + 1]),
     ]
     short = rng.uniform(0.001, 0.002, 4)
     long = short * rng.uniform(2.5, 4, 4)
@@ -120,7 +118,7 @@ RATIO = Part(
         "blocks-in-turn": _in_blocks(np.median),
         "mean-of-times": _mean_in_turn,
         "mean-of-blocks": _in_blocks(np.mean),
-        "time-for-ratio": lambda first, second, calls, clock: np.median(seconds(second, calls, clock)),
+        "time-for-ratio": lambda first, second, calls, clock: np.median(seconds(second, 2 * calls, clock)),
         "other-clock": lambda first, second, calls, clock: 1.0,
     },
 )

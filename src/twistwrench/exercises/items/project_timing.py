@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Part, Quantity
-from ..stopwatch import Machine, Task, seconds, timed
+from ..stopwatch import Machine, Task, often, seconds, timed
 from ..text import Text
 
 __all__ = ["TIME", "time_per_call"]
@@ -28,7 +28,8 @@ def _machines(rng: Any) -> Any:
     machines = [
         Machine(Text("steady", "稳定")),
         Machine(Text("slow at the first call", "首次调用较慢"), start=0.1),
-        Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=int(rng.integers(20, 80))),
+        Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=[int(rng.integers(20, 80))]),
+        *(Machine(Text("interrupted often", "常被打断"), pause=0.01, paused_at=often(rng, calls)) for _ in range(3)),
     ]
     return [(Task(machine, float(rng.uniform(1e-5, 1e-3))), calls, machine) for machine in machines]
 
