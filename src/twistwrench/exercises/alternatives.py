@@ -266,8 +266,8 @@ def _calls(node: Any) -> Iterator[Change]:
             yield "instead", ast.Call(node.func, node.args, [x for x in node.keywords if x.arg != "dtype"])
         if isinstance(node.func, ast.Name) and node.func.id == "range":
             yield "instead", parsed("reversed(_)", node)
-            if isinstance(first := node.args[0], ast.Constant) and len(node.args) == 2:
-                yield "instead", ast.Call(node.func, [first, ast.Constant(first.value + 1)], [])
+            if len(node.args) == 2 and isinstance(start := getattr(node.args[0], "value", None), int):
+                yield "instead", ast.Call(node.func, [node.args[0], ast.Constant(start + 1)], [])
     if isinstance(node, ast.Attribute):
         if node.attr in ("mT", "T"):
             yield "transposed", node.value
