@@ -41,7 +41,7 @@ OPPOSITE = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.
 COMPARED = {ast.LtE: ast.Lt, ast.Lt: ast.LtE, ast.GtE: ast.Gt, ast.Gt: ast.GtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
 
 CONSTANT = ("zeros", "ones", "eye")
-"""What these make is no term that lacks a factor."""
+"""What these make does not lack a factor."""
 
 
 def alternatives(
