@@ -23,6 +23,10 @@ SAY = {
     "hints": Text("hints", "提示"),
     "solutions": Text("solutions", "看过解答"),
     "words": Text("words", "文字作答"),
+    "legend": Text(
+        "A dot: to do. A question mark for each hint, an exclamation mark where the solution was shown.",
+        "圆点：未做。每要一条提示记一个问号，看过解答记一个感叹号。",
+    ),
     "seed": Text(
         "Random cases: --seed {seed}. A point for each exercise; answers in words are for you to read.",
         "随机数据：--seed {seed}。每题一分；文字作答请自行批阅。",
@@ -48,8 +52,10 @@ PAGE = """<!doctype html>
 body {{font-family: sans-serif; margin: 1.5em; color: #222}}
 table.tw-class {{border-collapse: collapse; font-size: 0.9em}}
 table.tw-class td, table.tw-class th {{border: 1px solid #ccc; padding: 2px 6px; text-align: center}}
-table.tw-class th:first-child {{text-align: left; position: sticky; left: 0; background: white}}
+table.tw-class th:first-child {{text-align: left; position: sticky; left: 0; background: white;
+  white-space: nowrap}}
 .tw-full {{background: #d5f0e6}} .tw-part {{background: #fdf3cf}} .tw-zero {{background: #fbd5be}}
+table.tw-class pre {{text-align: left; margin: 4px 0; font-family: inherit}}
 .tw-scroll {{overflow-x: auto}}
 </style></head><body><h1>{title}</h1>
 {body}
@@ -136,7 +142,8 @@ def _printable(text: str) -> str:
 
 def as_html(found: Sequence[Graded], seed: int, language: Language) -> str:
     """Return a page: the points of all, their answers in words beside the model answer, and every message."""
-    body = [f"<p>{SAY['seed'].fill(seed=seed).of(language)}</p>", _points(found, language)]
+    said = f"{SAY['seed'].fill(seed=seed).of(language)}<br>{SAY['legend'].of(language)}"
+    body = [f"<p>{said}</p>", _points(found, language)]
     numbers = list(dict.fromkeys(number for one in found for number in one.marks))
     asked = [n for n in numbers if catalogue.exercise(n).answer is not None]
     body += [f"<h2>{SAY['read'].of(language)}</h2>", *(_answers(number, found, language) for number in asked)]
@@ -147,7 +154,9 @@ def as_html(found: Sequence[Graded], seed: int, language: Language) -> str:
 
 def _points(found: Sequence[Graded], language: Language) -> str:
     numbers = list(dict.fromkeys(number for one in found for number in one.marks))
-    head = "".join(f"<th>{escape(text)}</th>" for text in ("", SAY["total"].of(language), *numbers))
+    titles = (escape(catalogue.exercise(number).title.of(language), quote=True) for number in numbers)
+    head = f"<th></th><th>{escape(SAY['total'].of(language))}</th>"
+    head += "".join(f'<th title="{title}">{number}</th>' for number, title in zip(numbers, titles))
     rows = []
     for one in found:
         cells = "".join(_cell(one.marks.get(number)) for number in numbers)
@@ -184,4 +193,5 @@ def _messages(one: Graded, language: Language) -> str:
     verdicts = (verdict for mark in one.marks.values() for verdict in mark.verdicts.values())
     wrong = [verdict_html(verdict, language) for verdict in verdicts if verdict.state == "wrong"]
     inside = "\n".join(f'<div class="tw-wrong">{text}</div>' for text in wrong)
-    return f'<details class="tw-check"><summary>{escape(one.student)}: {len(wrong)}</summary>{inside}</details>'
+    said = SAY["wrong"].of(language)
+    return f'<details class="tw-check"><summary>{escape(one.student)}: {len(wrong)} {said}</summary>{inside}</details>'
