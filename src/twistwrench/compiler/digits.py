@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from ..errors import ShapeError
 from .backend import divided
+from .bounds import OWN
 from .double_double import BOUND, LO, double_double
 from .line import Line
 from .llvm import NATIVE, MachineCode, lanes
@@ -33,9 +34,6 @@ NUMBERS = (PAIRS, *WIDE)
 """Number types that are not NumPy's, by name."""
 
 DOUBLE = np.dtype(np.float64)
-
-OWN = 1 + 2.0**-20
-"""More than the roundings of a few sums of bounds."""
 
 
 class DoubleDouble(NamedTuple):
@@ -259,4 +257,4 @@ def _as_pair(name: str, x: DoubleDouble) -> DoubleDouble:
 
 def _certain(bound: Array) -> Array:
     """Return a bound with its own roundings; infinite where it is not a number."""
-    return np.where(np.isnan(bound), np.inf, bound * OWN)
+    return np.where(np.isnan(bound), np.inf, bound * float(OWN))

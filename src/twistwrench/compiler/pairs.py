@@ -14,7 +14,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from .number import Number, Tape
+from .number import Number, Tape, is_power_of_two
 
 __all__ = ["EACH", "Pair", "Pairs", "split"]
 
@@ -81,7 +81,7 @@ class Pairs:
     def multiply(self, a: Pair, b: Pair) -> Pair:
         """Return a b."""
         for x, y in ((a, b), (b, a)):
-            if isinstance(x.hi, Fraction) and _is_zero(x.lo) and _is_power_of_two(abs(x.hi)):
+            if isinstance(x.hi, Fraction) and _is_zero(x.lo) and is_power_of_two(abs(x.hi)):
                 return Pair(x.hi * y.hi, x.hi * y.lo)
         p, e = self.two_product(a.hi, b.hi)
         if _is_zero(a.lo) and _is_zero(b.lo):
@@ -143,8 +143,3 @@ def quick_two_sum(a: Any, b: Any) -> tuple[Any, Any]:
 
 def _is_zero(x: Any) -> bool:
     return not isinstance(x, Number) and x == 0
-
-
-def _is_power_of_two(c: Fraction) -> bool:
-    n, d = c.as_integer_ratio()
-    return n > 0 and n & (n - 1) == 0 and d & (d - 1) == 0
