@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -48,12 +49,24 @@ class BackEnd:
         """Fill the results: each array has shape (states, entries). The states are divided among threads."""
         divided(self._chosen(len(arrays[-1])).run, arrays, threads)
 
+    def results(self, states: Mapping[str, Array], batch: tuple[int, ...], threads: int) -> dict[str, Array]:
+        """Return the results by name, from arguments with these batch axes."""
+        count, line = prod(batch), self.line
+        given = [np.ascontiguousarray(states[name].reshape(count, prod(shape))) for name, shape in line.inputs.items()]
+        results = {name: np.empty((count, len(entries)), self.dtype) for name, (_, entries) in line.outputs.items()}
+        if count:
+            self.run([*given, *results.values()], threads)
+        return {name: results[name].reshape(batch + shape) for name, (shape, _) in line.outputs.items()}
+
     def _chosen(self, count: int) -> MachineCode | Plain | Registers:
         """Return what is quickest for so many states."""
         if self.name == "llvm":
             width = lanes(self.dtype)
             return self.machine_code(width if count >= width else 1)
-        kind = Plain if self.dtype == np.float64 and count <= FEW else Registers
+        few = (
+            count <= FEW and self.dtype == np.float64 and "round" not in self.line.operations
+        )  # as sines of pairs have
+        kind = Plain if few else Registers
         if kind not in self._made:
             self._made[kind] = Plain(self.line) if kind is Plain else Registers(self.line, self.dtype)
         code: Plain | Registers = self._made[kind]

@@ -6,9 +6,7 @@ They hold a program in doubles, which knows the arguments and raises the errors,
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
 from functools import partial
-from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,15 +14,13 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import ShapeError
-from .backend import divided
+from .backend import BackEnd
 from .bounds import OWN
 from .double_double import BOUND, LO, double_double
-from .line import Line
-from .llvm import NATIVE, MachineCode, lanes
+from .llvm import NATIVE
 from .pairs import two_sum
 from .program import Program
 from .recording import ALARM
-from .registers import Registers
 from .wide import WIDE, DigitsProgram, WideProgram
 
 __all__ = ["NUMBERS", "BoundedProgram", "DoubleDouble", "DoubleDoubleProgram", "with_digits"]
@@ -53,46 +49,6 @@ class DoubleDouble(NamedTuple):
     lo: Array
 
 
-class Pairwise:
-    """A line with pairs of doubles, in LLVM or in NumPy.
-
-    Parameters
-    ----------
-    line : Line
-    low : sequence of str
-        The arguments that are pairs.
-    backend : {"llvm", "numpy"}
-    threads : int
-    bound : bool
-        Whether there is a bound of each result.
-    """
-
-    def __init__(self, line: Line, low: Sequence[str], *, backend: str, threads: int, bound: bool) -> None:
-        self.native, self.threads = backend == "llvm", threads
-        self.line = double_double(line, low=low, plain=(ALARM,), fma=self.native, bound=bound)
-        self._codes: dict[int, Any] = {}
-
-    def run(self, states: Mapping[str, Array], batch: tuple[int, ...]) -> dict[str, Array]:
-        """Return the results, the parts of pairs by the names of `double_double`."""
-        count = prod(batch)
-        shapes = self.line.inputs.items()
-        given = [np.ascontiguousarray(states[name].reshape(count, prod(shape))) for name, shape in shapes]
-        results = {name: np.empty((count, len(entries))) for name, (_, entries) in self.line.outputs.items()}
-        if count:
-            self._run([*given, *results.values()], count)
-        return {name: results[name].reshape(batch + shape) for name, (shape, _) in self.line.outputs.items()}
-
-    def _run(self, arrays: Sequence[Array], count: int) -> None:
-        width = lanes(DOUBLE) if self.native else 1
-        divided(self._code(width if count >= width else 1).run, arrays, self.threads)
-
-    def _code(self, width: int) -> Any:
-        if width not in self._codes:
-            native = MachineCode(self.line, DOUBLE, width) if self.native else Registers(self.line, DOUBLE)
-            self._codes[width] = native
-        return self._codes[width]
-
-
 class DoubleDoubleProgram(DigitsProgram):
     """A program with 32 digits: what `twistwrench.compile` returns with ``dtype="double-double"``.
 
@@ -107,22 +63,20 @@ class DoubleDoubleProgram(DigitsProgram):
     def __init__(self, program: Program, *, bound: bool = False) -> None:
         super().__init__(program)
         self.bound = bound
-        self._pairwise: dict[Any, Pairwise] = {}
+        self._codes: dict[Any, BackEnd] = {}
 
     @property
     def operations(self) -> Counter[str]:
         """How many operations on doubles one state takes, by kind."""
         return self.of(self.program._plain, ()).line.operations
 
-    def of(self, names: tuple[str, ...], low: tuple[str, ...]) -> Pairwise:
-        """Return the line for states with these arguments, rewritten once."""
-        key = names, low
-        if key not in self._pairwise:
-            line, program = self.program._line(names), self.program
-            self._pairwise[key] = Pairwise(
-                line, low, backend=program.backend, threads=program.threads, bound=self.bound
-            )
-        return self._pairwise[key]
+    def of(self, names: tuple[str, ...], low: tuple[str, ...]) -> BackEnd:
+        """Return what runs the line for states with these arguments, of which some are pairs; rewritten once."""
+        if (names, low) not in self._codes:
+            line, backend = self.program._line(names), self.program.backend
+            pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=self.bound)
+            self._codes[names, low] = BackEnd(pairs, DOUBLE, backend)
+        return self._codes[names, low]
 
     def __call__(self, *args: ArrayLike | DoubleDouble | None, **named: ArrayLike | DoubleDouble | None) -> Any:
         """Return the quantities in a state, or in many.
@@ -148,7 +102,7 @@ class DoubleDoubleProgram(DigitsProgram):
         high = dict(zip(given, states))
         batch = self.program.batch(high)
         low = {name + LO: np.broadcast_to(pair.lo, high[name].shape) for name, pair in pairs.items()}
-        found = self.of(tuple(given), tuple(pairs)).run(high | low, batch)
+        found = self.of(tuple(given), tuple(pairs)).results(high | low, batch, self.program.threads)
         self._check(high, found, "angles up to 2**45 rad, and sizes ")
         value = {symbol: DoubleDouble(found[symbol], found[symbol + LO]) for symbol in self._symbols}
         if not self.bound:
@@ -209,7 +163,7 @@ class BoundedProgram(DigitsProgram):
         value = self.program(**states)
         batch = self.program.batch(states)
         wide = {name: x.astype(DOUBLE) for name, x in states.items()}
-        found = self._reference.of(tuple(given), ()).run(wide, batch)
+        found = self._reference.of(tuple(given), ()).results(wide, batch, self.program.threads)
         bound = {}
         for symbol in self._symbols:
             own = (value if self.program.single else getattr(value, symbol)).astype(DOUBLE)

@@ -9,7 +9,6 @@ from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Mapping
 from importlib import import_module
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -154,15 +153,8 @@ class WideProgram(DigitsProgram):
 
     def _run(self, states: Mapping[str, Array]) -> dict[str, Array]:
         """Return the results of the line."""
-        batch, names = self.program.batch(states), tuple(states)
-        count, code = prod(batch), self._code(names)
-        given = [self._filled(states[name]).reshape(count, prod(shape)) for name, shape in code.line.inputs.items()]
-        results = {
-            name: np.empty((count, len(entries)), self.dtype) for name, (_, entries) in code.line.outputs.items()
-        }
-        if count:
-            code.run([*given, *results.values()], self.program.threads)
-        return {name: results[name].reshape(batch + shape) for name, (shape, _) in code.line.outputs.items()}
+        filled = {name: self._filled(x) for name, x in states.items()}
+        return self._code(tuple(states)).results(filled, self.program.batch(states), self.program.threads)
 
     def _filled(self, x: Array) -> Array:
         """Return doubles as numbers of the program's type; those are as they are."""
