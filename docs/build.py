@@ -19,7 +19,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import beside, browser, chapter, formulas, hands, inpage, interface, links, notebooks, pages
+from website import beside, browser, cards, chapter, formulas, hands, inpage, interface, links, notebooks, pages
 
 OUT = pages.ROOT / "build" / "site"
 MATHJAX = "tex-svg-full.js"
@@ -35,6 +35,7 @@ def stage() -> None:
     listings["project"] = [name for name in ("readme", *pages.PROJECT) if name in pages.pages().values()]
     for language, tree in trees.items():
         pages.write_pages(tree, language)
+        cards.write_map(tree, language)
         pages.write_texts(tree, language, listings)
         chapter.write_chapter(tree, language)
         interface.write_interface(tree, language)

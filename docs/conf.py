@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import runtime
-from website import beside, chinese, hands, inpage, interface, keywords, notebooks, tables, units
+from website import beside, cards, chinese, hands, inpage, interface, keywords, notebooks, tables, units
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -98,6 +98,7 @@ def setup(app):
     app.add_transform(keywords.Keywords)
     tables.connect(app)
     units.connect(app)
+    cards.connect(app)
     app.add_search_language(chinese.PairsOfCharacters)
     interface.connect(app, "zh" if CHINESE else "en")
     inpage.connect(app, "zh" if CHINESE else "en", notebooks.names())

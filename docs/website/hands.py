@@ -1,8 +1,8 @@
 """Take it in your hand: a page for each small object that the reader moves, and the gallery of them.
 
-The words of an object are in hands/NAME.toml, in both languages; what it does is in static/hands/NAME.js, and what all
-share in se3.js (the algebra) and hand.js (stage, sliders, tables). Numbers of robots come from the package, when the
-site is built.
+The words of an object are in hands/NAME.toml, in both languages, its drawing for the gallery in hands/NAME.svg; what it
+does is in static/hands/NAME.js, and what all share in se3.js (the algebra) and hand.js (stage, sliders, tables).
+Numbers of robots come from the package, when the site is built.
 """
 
 from __future__ import annotations
@@ -66,13 +66,19 @@ def page(name: str, language: str) -> str:
     return "\n\n".join([*parts, TRY[language], joined(said["try"][language].strip(), language)]) + "\n"
 
 
+def thumbnail(name: str) -> str:
+    """Return a small drawing of an object, hands/NAME.svg, for the page itself: its lines have the page's colours."""
+    return (FOLDER / f"{name}.svg").read_text(encoding="utf-8")
+
+
 def gallery(language: str) -> str:
     """Return the page that leads to all of them."""
     cards = []
     for name in names():
         said = read(name)
         cards.append(
-            f":::{{container}} door\n**[{said['title'][language]}]({name}.md)**\n\n{said['card'][language]}\n:::"
+            f":::{{container}} door\n```{{raw}} html\n{thumbnail(name)}```\n\n"
+            f"**[{said['title'][language]}]({name}.md)**\n\n{said['card'][language]}\n:::"
         )
     doors = "\n".join(["::::{container} doors", *cards, "::::"])
     return "\n\n".join([joined(INTRO[language], language), doors, contents(names(), hidden=True)]) + "\n"

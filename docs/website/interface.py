@@ -20,6 +20,7 @@ from sphinx.pycode import ModuleAnalyzer
 
 import twistwrench as tw
 
+from . import typeset
 from .pages import ROOT, SUFFIX, contents, write
 
 CHAPTER = ("spatial", "model", "algorithms")
@@ -243,7 +244,7 @@ def connect(app: Any, language: str) -> None:
         lines[:] = _bars("\n".join(lines)).split("\n")
         if rows := known.get(name):
             end = lines.index("") if "" in lines else len(lines)
-            said = [ROW[language].format(row.section, _rst(row.what), _rst(row.formula), row.file) for row in rows]
+            said = [ROW[language].format(row.section, _rst(row.what), _set(row.formula), row.file) for row in rows]
             lines[end:end] = ["", f"*{IN_THE_CHAPTER[language]}*", "", *said, ""]
         if phrase := own.get(name.removeprefix("twistwrench.") + ("/" if what == "module" else "")):
             lines[:0] = [f"{_rst(phrase)}。", ""]
@@ -265,6 +266,12 @@ def _bars(text: str) -> str:
     """Escape the bars of |ω|, which would be substitutions, but not in examples and literals."""
     parts = re.split(r"(^ *>>> .*?(?:\n\n|\Z)|``.*?``|::\n\n(?:(?: +.*)?\n)+)", text, flags=re.MULTILINE | re.DOTALL)
     return "".join(part if k % 2 else part.replace("|", r"\|") for k, part in enumerate(parts))
+
+
+def _set(formula: str) -> str:
+    """Return a formula for a docstring; what follows it may be a bracket of Chinese, which would not end it."""
+    read = typeset.tex(formula)
+    return f":math:`{read}`\\ " if read else _rst(formula)
 
 
 def _rst(text: str) -> str:

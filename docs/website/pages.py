@@ -12,6 +12,7 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from . import typeset
 from .film import with_films
 from .front import trot
 
@@ -22,6 +23,8 @@ SUFFIX = {"en": "", "zh": ".zh-CN"}
 
 LOOK_UP = ("companion", "mirror", "errata", "conventions", "map", "traps", "glossary")
 PROJECT = ("contributing", "changelog", "models", "exercises")
+TYPESET = ("errata", "conventions", "traps", "exercises")
+"""The pages of whose tables some cells are formulas."""
 ONE_BY_ONE = {
     "README.md": "readme",
     "CHANGELOG.md": "changelog",
@@ -67,6 +70,7 @@ def write_pages(out: Path, language: str) -> None:
         there = (ROOT / own).exists()
         text = (ROOT / (own if there else path)).read_text(encoding="utf-8")
         text = moved(text if there else _with_note(text), own if there else path, name, out)
+        text = typeset.in_tables(text) if name in TYPESET else text
         write(out / f"{name}.md", with_films(text, ROOT / path, language))
 
 
