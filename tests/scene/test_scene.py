@@ -597,7 +597,9 @@ def test_the_tables_of_the_page_are_what_its_command_finds(capsys):
     found = scene.cheapest({"tau": 2.0, "cop": 0.005}, motions.walk(talos), held_out=motions.trot(talos))
     for option in found.options:
         row = re.search(rf"^[ →] {re.escape(option.name)}  +(.*)$", text, re.MULTILINE)[1].split()[:5]
-        assert row.pop() == (f"{option.operations:.0f}" if option.operations > 0 else "-")
+        assert (row[4] == "-") == np.isnan(option.operations)
+        if (count := row.pop()) != "-":  # a better compiler has fewer
+            assert float(count) == pytest.approx(option.operations, rel=0.06)
         for cell, (name, out) in zip(row, [(n, o) for n in ("tau", "cop") for o in (False, True)], strict=True):
             worst = option.worst(name, held_out=out) * (1e3 if name == "cop" else 1)
             if np.isfinite(worst):
