@@ -169,7 +169,7 @@ def _interrupted(exercise: Exercise, part: Part, function: Function, seed: int, 
 
     heard = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may ignore it for a background job
     try:
-        return calls, judge(exercise, part, function, seed=seed, watch=watch, search=search), "", ""
+        return calls, judge(exercise, part, function, seed=seed, watch=watch, search=None if search else False), "", ""
     except KeyboardInterrupt:
         if not stopped:
             raise

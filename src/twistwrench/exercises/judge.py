@@ -78,7 +78,7 @@ def judge(
     *,
     seed: int = 0,
     watch: Watch = nullcontext,
-    search: bool = True,
+    search: bool | None = None,
 ) -> Verdict:
     """Compare a function with the reference on random cases.
 
@@ -93,8 +93,9 @@ def judge(
         Of the random cases. The same seed gives the same verdict.
     watch : callable
         Gives a context for each call of the function, as to stop it after some time.
-    search : bool
-        Look for the small change that explains a wrong answer. A library may end the process at such a change.
+    search : bool, optional
+        Look for the small change that explains a wrong answer. Another package may end the process at such a change:
+        unless given, none is looked for where the exercise needs one.
 
     Returns
     -------
@@ -103,6 +104,7 @@ def judge(
     if exercise.needs and find_spec(exercise.needs) is None:
         return Verdict("to do", (say("needs", name=exercise.needs),))
     calls = Calls(part.name)
+    search = not exercise.needs if search is None else search
     tried: list[tuple[Any, ...]] = []
     answers: list[Any] = []
     expected: list[Any] = []
@@ -128,6 +130,9 @@ def judge(
         answers.append(answer)
         expected.append(known)
         right.append(agree(part, answer, known, arguments))
+        if not right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
+            lines = _head(exercise, part), say("changed", name=part.arguments.partition(",")[0])  # a model comes first
+            return Verdict("wrong", lines, (), failing_case(part, len(tried) - 1, seed, arguments))
     kept = _keeps(part, function, answers, tried, expected, right, watch)
     if all(right) and kept is None:
         return Verdict("wrong", (_head(exercise, part), *calls.lines)) if calls.lines else Verdict("done")

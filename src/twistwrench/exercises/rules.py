@@ -23,16 +23,16 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "on_all_rows": ("selection_matrix",),
     "momentum_of_links": ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics"),
     "own_centroidal_map": ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics"),
-    "map_from_pinocchio": ("centroidal_map", "centroidal_terms", "dynamics"),
-    "jacobian_from_pinocchio": ("frame_jacobian", "dynamics"),
-    "acceleration_from_pinocchio": ("aba", "aba_terms", "crba", "rnea", "dynamics"),
+    "map_from_pinocchio": ("from_pinocchio_model", "centroidal_map", "centroidal_terms", "dynamics"),
+    "jacobian_from_pinocchio": ("from_pinocchio_model", "frame_jacobian", "dynamics"),
+    "acceleration_from_pinocchio": ("from_pinocchio_model", "aba", "aba_terms", "crba", "rnea", "dynamics"),
 }
 """What the text of an exercise forbids, by the function that the student writes: names of the package."""
 
 SAY = {
     "forbidden": Text(
-        "The numbers are right, but line {line} calls tw.{name}, and the exercise asks to do without it.",
-        "数值正确，但第 {line} 行调用了 tw.{name}，而题目要求不用它。",
+        "The numbers are right, but line {line} calls {name}, and the exercise asks to do without it.",
+        "数值正确，但第 {line} 行调用了 {name}，而题目要求不用它。",
     ),
     "reference": Text(
         "The numbers are right, but they are those of the reference, which it calls: write {name} yourself.",
@@ -98,8 +98,10 @@ def _forbidden(part: Part) -> tuple[dict[int, str], set[int]]:
     the text forbids.
     """
     functions = [(part.name, function) for function in (part.solution, *part.beside[-1:])]
-    for room in map(import_module, ("twistwrench", "twistwrench.fast")):
-        functions += [(name, getattr(room, name)) for name in FORBIDDEN.get(part.name, ()) if hasattr(room, name)]
+    for room in map(import_module, ("twistwrench", "twistwrench.fast", "twistwrench.bridge")):
+        shown = room.__name__.replace("twistwrench", "tw")
+        names = [name for name in FORBIDDEN.get(part.name, ()) if hasattr(room, name)]
+        functions += [(f"{shown}.{name}", getattr(room, name)) for name in names]
     found: dict[int, str] = {}
     wrappers: set[int] = set()
     for name, function in functions:

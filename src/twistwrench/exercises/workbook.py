@@ -56,8 +56,8 @@ class Workbook:
         self._judging: list[str] = []
         self.watch: Callable[[str], AbstractContextManager[object]] = nullcontext
         """Surrounds each call of the student's function of a name, and the reading of a file of a name."""
-        self.search = True
-        """Whether small changes are looked for that explain a wrong answer."""
+        self.search: bool | None = None
+        """Whether small changes are looked for that explain a wrong answer, as in `judge`."""
         self.borrowed: set[str] = set()
         """Functions that `mine` took from the reference."""
 
