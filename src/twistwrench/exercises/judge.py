@@ -131,8 +131,9 @@ def judge(
         expected.append(known)
         right.append(agree(part, answer, known, arguments))
         if not right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
-            lines = _head(exercise, part), say("changed", name=part.arguments.partition(",")[0])  # a model comes first
-            return Verdict("wrong", lines, (), failing_case(part, len(tried) - 1, seed, arguments))
+            changed = say("changed", name=part.arguments.partition(",")[0])  # a model comes first
+            case = failing_case(part, len(tried) - 1, seed, arguments)
+            return Verdict("wrong", (_head(exercise, part), changed), (), case)
     kept = _keeps(part, function, answers, tried, expected, right, watch)
     if all(right) and kept is None:
         return Verdict("wrong", (_head(exercise, part), *calls.lines)) if calls.lines else Verdict("done")
