@@ -17,6 +17,7 @@ packs          the same operation in several limbs
 registers      NumPy, for every number type
 fingerprints   what is the same number in every state, computed once
 tangent        the derivatives of what is on a tape, and steps along v from q
+memory         what a program returns; rows of a caller's arrays; memory that is used again
 backend        which of them runs a line
 pair_sine      sin and cos of a pair
 bounds         how far a computed number can be off
@@ -29,7 +30,6 @@ quantities     what can be compiled: the textbook's functions
 recording      from quantities to a line
 outputs        arrays of the caller that are to be filled
 extension      a program for one state as a function of the interpreter
-memory         what a program returns; rows of a caller's arrays
 textbook       the textbook, for the states of a batch that raise the alarm
 program        `Program`, which is called as the textbook's functions are
 wide           programs in quadruple precision, and in mpmath's numbers

@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import Array
 from .line import Line
 from .llvm import MachineCode, lanes
+from .memory import keep_memory
 from .plain import Plain
 from .registers import Registers
 
@@ -37,6 +38,7 @@ class BackEnd:
     def __init__(self, line: Line, dtype: np.dtype[Any], name: str) -> None:
         self.line, self.dtype, self.name = line, dtype, name
         self._made: dict[Any, Any] = {}
+        keep_memory()
 
     def machine_code(self, width: int) -> MachineCode:
         """Return machine code for so many states at once."""

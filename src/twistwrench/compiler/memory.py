@@ -1,14 +1,18 @@
-"""What a program returns, and the rows of a caller's arrays."""
+"""What a program returns, the rows of a caller's arrays, and memory that is used again."""
 
 from __future__ import annotations
 
+from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["Results", "rows"]
+__all__ = ["Results", "keep_memory", "rows"]
+
+KEPT = 2**25 - 2**16
+"""Bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`."""
 
 
 class Results(SimpleNamespace):
@@ -26,3 +30,14 @@ def rows(x: Array, count: int, size: int) -> Array:
         return np.empty((count, size), x.dtype)
     contiguous = rows.strides[1] == rows.itemsize and rows.flags.aligned
     return rows if contiguous else np.empty((count, size), x.dtype)
+
+
+@cache
+def keep_memory() -> None:
+    """Let the C library keep the memory of freed arrays instead of returning it to the kernel.
+
+    glibc returns blocks above a limit, at first 128 KiB, and every page of it that is used again then costs a page
+    fault: most of the time of 1000 states. The limit follows the largest block that was ever freed. So a large block is
+    allocated and freed, untouched; once, as the limit never falls. Elsewhere this does nothing.
+    """
+    np.empty(KEPT, np.uint8)
