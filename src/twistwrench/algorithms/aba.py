@@ -79,7 +79,8 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     Raises
     ------
     SingularError
-        If a joint moves no inertia, to rounding: q̈ is not determined. Names the joints.
+        If a joint moves no inertia (or none above rounding), so that q̈ is not determined. The message names the
+        joints.
     ShapeError, ValueError
         As `rnea`.
 

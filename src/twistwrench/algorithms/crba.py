@@ -64,9 +64,10 @@ def crba(model: Model, q: ArrayLike) -> Array:
 
     Notes
     -----
-    Section 49.8; Featherstone, RBDA table 6.2. A unit acceleration of joint i alone moves its subtree
-    as one rigid body, hence the composite inertia; the wrench for it goes through joint i and the
-    joints on the way to the base, and through no other. O(N d) for a tree of depth d: O(N²) for a chain.
+    Section 49.8; Featherstone, RBDA table 6.2. If joint i alone has a unit acceleration, its subtree moves
+    as one rigid body; so its composite inertia is needed. The wrench for this motion acts through joint i and
+    the joints between it and the base, and through no other joint. The time is O(N d) for a tree of depth d,
+    and O(N²) for a chain.
     `composite_rigid_body` has the loops.
 
     Examples

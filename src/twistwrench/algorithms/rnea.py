@@ -58,8 +58,8 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     Returns
     -------
     ndarray, shape (..., nv)
-        N m or N. The first six of a floating base are the wrench, in its frame, that would have to
-        act on it from outside.
+        N m or N. The first six entries of a floating base are the wrench, in its frame, that must act
+        on it from outside.
 
     Raises
     ------
@@ -74,8 +74,8 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     Notes
     -----
     Section 49.6; Featherstone, RBDA table 5.1. Gravity enters as an upward acceleration of the world.
-    The chapter's backward pass sets F[i] after the children have added to it, and uses X* where Xᵀ
-    is meant: here F[i] is set in the forward pass and goes inward by X[i]ᵀ. `newton_euler` has the loops.
+    The chapter's backward pass overwrites F[i] after the children have added to it, and uses X* instead
+    of Xᵀ. Here F[i] is set in the forward pass, and X[i]ᵀ takes it inward. `newton_euler` has the loops.
 
     Examples
     --------

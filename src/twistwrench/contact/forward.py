@@ -117,9 +117,9 @@ def contact_forward_dynamics(
 ) -> ContactDynamics:
     """Return the acceleration of a robot whose contacts hold, and the forces that hold them.
 
-    The contacts stick, and pull where they must: friction is ignored. They may be redundant (four corners of a
-    box) or singular (straight knees): the rank is decided by the rounding in J M⁻¹ Jᵀ, whatever the units, and of the
-    forces that do the same the least are returned.
+    The contacts neither slip nor open: they may pull, and friction is ignored. They may be redundant (four corners of a
+    box) or singular (straight knees). The rounding of J M⁻¹ Jᵀ decides about the rank, so the units do not matter. If
+    different forces have the same effect, the smallest ones are returned.
 
     Parameters
     ----------
@@ -151,9 +151,10 @@ def contact_forward_dynamics(
     Notes
     -----
     Section 49.9. A velocity with J v ≠ 0 is not an error: without `stabilise` it stays as it is, and `slip` reports it.
-    Where contacts are redundant, drift makes them require slightly different accelerations: of second order in J v,
-    of first order in the correction of `stabilise`. Then q̈ is the least-squares one and `residual` the rest. They
-    contradict each other only if they did so without any drift, at the nearest velocity with J v = 0.
+    If contacts are redundant, drift makes them require slightly different accelerations. The differences are of second
+    order in J v, and of first order in the correction of `stabilise`. Then q̈ is the least-squares solution, and
+    `residual` is what it misses. An error is raised only if the contacts contradict each other even without drift, at
+    the nearest velocity with J v = 0.
 
     Examples
     --------

@@ -88,9 +88,9 @@ class PointContact(Contact):
 class SurfaceContact(Contact):
     """A flat rectangular sole that neither moves nor turns: three moments and three forces.
 
-    It bears what forces at its four corners add up to, each in its own friction cone. So the centre of pressure stays
-    within the sole, and the moment about the normal is limited as well: to μ √(x² + y²) f_z for the half lengths
-    (x, y) where the sole is loaded evenly and no friction is needed otherwise, to less elsewhere.
+    The sole can pass every wrench that is a sum of forces at its four corners, each in its own friction cone. So the
+    centre of pressure stays within the sole. The moment about the normal is limited too: to μ √(x² + y²) f_z, with the
+    half lengths (x, y), if the load is even and there is no other friction; to less otherwise.
 
     Parameters
     ----------

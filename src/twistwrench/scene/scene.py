@@ -26,33 +26,33 @@ __all__ = ["Scene"]
 
 
 class Scene(SmallestModel):
-    """A robot with what holds it and what pushes it, and the smallest model that moves as it does.
+    """A robot, its contacts and loads, and the smallest model that moves in the same way.
 
-    Joints that are held are locked where they stand and their bodies merged; joints that carry nothing are dropped;
-    all frames stay. `model` is what is left, for any function of the package.
+    The smallest model, `model`, works with every function of the package. Held joints are locked in it, and the
+    bodies that they connect are merged. Joints that carry nothing are removed. All frames remain.
 
     Parameters
     ----------
     robot : str, path or Model
         As `twistwrench.load` takes it, or a model.
     base : {"fixed", "floating", "planar"}, optional
-        Held where it stands in q; free; or free to slide and turn on the floor, as high and as tilted as in q. As the
-        model has it unless given.
+        "fixed" holds the base where it is in q. "planar" lets it slide and turn on the floor, at the height and tilt that
+        it has in q. By default, the base is that of the model.
     contacts : iterable of Contact
         `PointContact` or `SurfaceContact`.
     hold : iterable of str
-        Joints that stand still, by name or pattern: ``"arm_*"`` is every joint whose name begins so. A floating base
-        is not among them.
+        Joints that stand still, by name or pattern: ``"arm_*"`` means every joint whose name begins with ``arm_``. A
+        floating base cannot be held in this way.
     q : array_like, shape (nq of the whole robot,), optional
-        Where they stand; unless given the standing posture, or the neutral one of a robot without it.
+        Posture of the held joints. By default, the standing posture, or the neutral one if the robot has none.
     gravity : array_like, shape (3,), optional
         In the world, m/s²; the model's unless given.
     wrenches : mapping of str to array_like, shape (6,), optional
         Constant (τ, f) from outside on a frame: at its origin, in the axes of the world, N m and N.
     payload : mapping of str to float, SpatialInertia or Model, optional
-        What it carries, by the frame that carries it: a mass at the frame's origin, kg; a body in the frame's axes; or
-        an object with a floating base, welded on by its root as `attach` does, its names with its own name and ``"_"``
-        in front: contacts may be on its frames.
+        What the robot carries, for each frame that carries something: a mass at the origin of the frame, kg; a body, in
+        the axes of the frame; or an object with a floating base. `attach` welds its root to the frame, and puts its
+        name and ``"_"`` in front of the names of its frames. Contacts may be on these frames.
 
     Attributes
     ----------

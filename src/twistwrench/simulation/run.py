@@ -48,30 +48,31 @@ def simulate(
     stop: Stop | None = None,
     progress: bool = False,
 ) -> Simulation:
-    """Let a robot move from a state, and return its motion.
+    """Compute the motion of a robot from a given state.
 
-    With a ground, contacts are the points and soles that may touch it: they land, lift off, stick and slide, and the
-    joints keep their ranges; what pulls as well (a loop, gears, a rail) holds all the time. Without one, contacts stick
-    where they are at the start, all the time: none opens, closes or slips, and they pull where they must; and a robot
-    without contacts falls through the floor. What they stick to moves from there with their given velocity at the start
-    and constant acceleration.
+    With a ground, the contacts are points and soles that may touch it: they land, lift off, stick and slide, and the
+    joints stay in their ranges. Constraints that can also pull (a loop, gears, a rail) hold all the time.
+
+    Without a ground, each contact is fixed where it is at the start: it never opens or slips, and it may pull. A robot
+    without contacts falls through the floor. If a contact has a velocity or an acceleration, the surface that it is
+    fixed to begins with this velocity and keeps this acceleration.
 
     Parameters
     ----------
     robot : Model or Scene
-        Of a scene the smallest model, its contacts and its wrenches.
+        For a scene, its smallest model is used, with its contacts and its wrenches.
     q : array_like, shape (..., nq)
-        Configuration at t = 0. Leading axes are as many motions, side by side.
+        Configuration at t = 0. With leading axes, that many motions are computed side by side.
     v : array_like, shape (..., nv)
         Velocity at t = 0.
     dt : float
         Duration of a step, s.
     steps : int, optional
-        How many of them; or else
+        The number of steps. Give either `steps` or `duration`.
     duration : float, optional
-        the time at the end, s, from the start: a whole number of steps.
+        Length of the motion, s: a whole number of steps.
     t0 : float, optional
-        The time at the start, s: that at the end of a motion that goes on here.
+        Time at the start, s. To continue another motion, give the time at its end.
     tau : callable or array_like, shape (..., nv), optional
         Joint forces as `aba` takes them: a policy ``(t, q, v) -> tau``, which is called wherever the method needs
         the forces, or constant ones. Zero unless given.
@@ -84,10 +85,10 @@ def simulate(
     ground : Ground, optional
         What the contacts may touch, each with its μ.
     method : {"rk4", "euler", "semi-implicit", "midpoint", "variational", "time-stepping"}, optional
-        Of order 4, 1, 1, 2, 2 and 1 in dt. "variational" holds the energy over long times and keeps the momenta that
-        have a conservation law; it solves an equation in each step, and takes no contacts. "time-stepping" is that of
-        a ground, and the only one that applies damping and friction of the joints, and keeps their ranges. It is the
-        default with a ground, and "rk4" without.
+        Their orders in dt are 4, 1, 1, 2, 2 and 1. "variational" keeps the energy bounded over long times, and
+        conserves the momenta that have a conservation law; it solves an equation in each step, and takes no
+        contacts. "time-stepping" is the method for a ground. Only this method applies damping and friction of the
+        joints, and keeps their ranges. It is the default with a ground; without one, the default is "rk4".
     stop : callable, optional
         ``(t, q, v) -> bool``, called after each step: the motion ends where it is true.
     progress : bool
@@ -96,9 +97,9 @@ def simulate(
     Returns
     -------
     Simulation
-        t, q, v, energy and momentum, τ and the forces at the contacts as they were applied; printed, how far energy and
-        momentum changed, how far a step is off, and what a real robot would not have done. Where the motion ends by an
-        error, whatever it is, or by Ctrl-C, ``error.motion`` is what has been made of it.
+        t, q, v, energy and momentum, and the τ and contact forces that were applied. ``print`` shows how much energy
+        and momentum changed, the estimated error of a step, and what a real robot could not have done. If an error or
+        Ctrl-C ends the motion, ``error.motion`` has the part that was computed.
 
     Raises
     ------
@@ -136,7 +137,7 @@ def simulate(
     >>> bool((np.diff(damped.energy) <= 0).all())
     True
 
-    A Go2 that is dropped lands, and folds up on its feet where its legs end:
+    A Go2 is dropped, and lands on its feet:
 
     >>> go2 = tw.load("go2")
     >>> q, feet = go2.standing(), [tw.PointContact(foot, 0.6) for foot in go2.feet]
