@@ -36,8 +36,8 @@ class Scene(SmallestModel):
     robot : str, path or Model
         As `twistwrench.load` takes it, or a model.
     base : {"fixed", "floating", "planar"}, optional
-        "fixed" holds the base where it is in q. "planar" lets it slide and turn on the floor, at the height and tilt that
-        it has in q. By default, the base is that of the model.
+        "fixed" holds the base where it is in q. "planar" lets it slide and turn on the floor, at the height and tilt
+        that it has in q. By default, the base is that of the model.
     contacts : iterable of Contact
         `PointContact` or `SurfaceContact`.
     hold : iterable of str
