@@ -228,6 +228,23 @@ def test_two_feet_on_the_ground_are_joined_by_a_line():
     np.testing.assert_allclose(np.sort(lengths), [0, 0, apart, apart], rtol=1e-5)
 
 
+@pytest.mark.parametrize("ground", [None, tw.Ground()])
+def test_a_simulation_shows_its_own_contacts_and_forces(ground):
+    """On a ground those of a step are shown where it ends: in the air there are none, and no polygon."""
+    feet, q = [tw.PointContact(foot, 0.6) for foot in GO2.feet[:3]], GO2.standing()
+    q[2] += 0.001 if ground else 0.0
+    motion = tw.simulate(GO2, q, np.zeros(GO2.nv), dt=0.01, steps=3, contacts=feet, ground=ground)
+    shown = subject(motion)
+    assert shown.contacts == tuple(feet)
+    for k, foot in enumerate(feet):
+        forces = motion.contact_forces[foot.frame]
+        np.testing.assert_array_equal(shown.given[:, k], np.concatenate([forces[: 4 - len(forces)], forces]))
+    assert [len(shown.at(k).support()) for k in range(4)] == [3 * touches for touches in (shown.given != 0).any((1, 2))]
+    assert shown.at(0).given.any() == (ground is None)
+    assert subject(motion, contacts=GO2.feet).given is None
+    assert subject(tw.simulate(GO2, q, np.zeros(GO2.nv), dt=0.01, steps=0, contacts=feet, ground=ground)).t is not None
+
+
 @pytest.mark.slow
 def test_in_flight_nothing_supports_and_no_polygon_is_shown():
     pytest.importorskip("trimesh")

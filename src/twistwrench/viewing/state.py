@@ -148,9 +148,14 @@ def subject(
     model = load(robot) if isinstance(robot, str | PathLike) else getattr(robot, "model", robot)
     if not isinstance(model, Model):
         raise no_model(robot, "robot", "a name, a path, a Model, a Scene or a Simulation")
-    ground = _contacts(model, robot.contacts if contacts is None and isinstance(robot, Scene) else contacts)
     motion = robot if isinstance(robot, Simulation) and q is None else q
-    standing = motion.contacts if isinstance(motion, Motion) and contacts is None else None
+    asked = contacts
+    if contacts is None:
+        contacts = _own_contacts(robot, motion)
+        if forces is None and isinstance(motion, Simulation):
+            forces = _own_forces(motion, _contacts(model, contacts))
+    ground = _contacts(model, contacts)
+    standing = motion.contacts if isinstance(motion, Motion) and asked is None else None
     if isinstance(motion, Motion | Simulation):
         t = motion.t if t is None else t
         motion = motion.q
@@ -159,6 +164,25 @@ def subject(
     stands = np.ones((*q.shape[:-1], len(ground)), bool) if standing is None else standing
     stands = stands if given is None else (given != 0).any(axis=-1)
     return Subject(model, q, _times(q, t), ground, stands, given)
+
+
+def _own_contacts(robot: object, motion: object) -> tuple[Contact, ...] | None:
+    """Return the contacts of a simulation or of a scene; None for those of another robot, which are its feet."""
+    if isinstance(motion, Simulation) and motion.contact_forces:
+        stepping = motion.system.stepping
+        return stepping.contacts if stepping else motion.system.contacts
+    return robot.contacts if isinstance(robot, Scene) else None
+
+
+def _own_forces(motion: Simulation, contacts: tuple[Contact, ...]) -> Array | None:
+    """Return the forces of a simulation in its n states, shape (n, k, 3), N; None where nothing touches.
+
+    Those of a step with a ground, of which there are n - 1, are shown in the state where it ends.
+    """
+    if not contacts or not motion.contact_forces or motion.q.ndim != 2:
+        return None
+    found = np.stack([motion.contact_forces[c.frame][..., -3:] for c in contacts], axis=1)
+    return np.concatenate([found[: len(motion.q) - len(found)], found]) if len(found) else None
 
 
 def _configuration(model: Model, q: ArrayLike | None) -> Array:

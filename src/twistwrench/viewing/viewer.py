@@ -47,11 +47,11 @@ def view(
         Configuration; unless given the standing posture, or the neutral one of a robot without it. Of a motion, n of
         them, which the browser plays.
     contacts : iterable of str or Contact, optional
-        What touches the ground: the contacts of the scene, or `model.feet`, unless given.
+        What touches the ground: the contacts of the simulation or the scene, or `model.feet`, unless given.
     forces : array_like, shape (k, 3) or (n, k, 3), optional
-        Of the ground on the frames of the k contacts, in the axes of the world, N. Unless given, those that hold
-        a floating robot at rest, where its contacts can (`twistwrench.contact_inverse_dynamics`), and none of a
-        motion.
+        Of the ground on the frames of the k contacts, in the axes of the world, N. Unless given, those of the
+        simulation; or else those that hold a floating robot at rest, where its contacts can
+        (`twistwrench.contact_inverse_dynamics`), and none of another motion.
     frames : collection of str, optional
         Frames to draw, with their names; small ones on every body, without names, unless given.
     t : array_like, shape (n,), optional
