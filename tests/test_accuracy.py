@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench import error_bounds
 from twistwrench.study.extremes.candidates import ALGORITHMS, candidates
 from twistwrench.study.extremes.robots import Recipe, State
 from twistwrench.study.extremes.truth import truth
@@ -189,3 +190,12 @@ def test_it_costs_less_than_five_times_aba():
 def test_the_older_name_of_the_apparent_inertia_is_kept():
     known = tw.accuracy(tw.load("go2"), tw.load("go2").standing())
     assert known.felt is known.apparent_inertia
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_its_mass_matrix_is_that_of_crba(seed):
+    rng = np.random.default_rng(seed)
+    model = tw.random_tree(10, rng=rng)
+    q = np.stack([model.random_configuration(rng=rng) for _ in range(2)])
+    M = tw.crba(model, q)
+    assert np.allclose(error_bounds._mass_matrix(model, q), M, rtol=0, atol=1e-14 * np.abs(M).max())

@@ -8,9 +8,9 @@ from html import escape
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .algorithms.crba import crba
+from .algorithms._mimic import also_of_mimics
 from .arrays import Array, resolution
-from .model import Model, floats_of
+from .model import Model, composite_inertias, floats_of, tree_terms
 
 __all__ = ["Accuracy", "accuracy"]
 
@@ -132,9 +132,24 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
     return Accuracy(sums, forward, forward.copy(), least, _most_moved(model, least, motion), eps)
 
 
+@also_of_mimics
+def _mass_matrix(model: Model, q: Array) -> Array:
+    """Return M as `crba` does, but take the wrenches of all outboard joints inward in one product: a chain has many."""
+    tree = tree_terms(model, q)
+    IC, M = composite_inertias(tree), np.zeros((*tree.batch, model.nv, model.nv))
+    F = [np.zeros((*tree.batch, 6, model.nv))] * model.nbodies  # a column for each joint, in frame i
+    for i in tree.inward:
+        p, own, Fi = tree.parent[i], model.v_slice[i], F[i].copy()
+        Fi[..., own] = IC[i] @ tree.S[i]
+        M[..., own, :] = tree.S[i].mT @ Fi  # of joint i and of those outboard, whose numbers are higher
+        M[..., own, own] += tree.rotor[i]
+        F[p] = F[p] + tree.X[i].mT @ Fi
+    return np.triu(M) + np.triu(M, 1).mT
+
+
 def _least_inertia(model: Model, q: Array) -> tuple[Array, Array]:
     """Return the least eigenvalue of M scaled to a diagonal of ones, and its eigenvector, the motion that has it."""
-    M = crba(model, q)
+    M = _mass_matrix(model, q)
     own = np.diagonal(M, axis1=-2, axis2=-1)
     unit = np.sqrt(np.where(own > 0, own, 1))  # a motion without inertia keeps its zero
     values, vectors = np.linalg.eigh(M / unit[..., :, None] / unit[..., None, :])
