@@ -119,3 +119,11 @@ def test_a_change_that_ends_the_process_is_not_taken_for_the_answer():
 
     found = judged(*catalogue.find_part("act"), act, seed=0, time_limit=10)
     assert "ended the whole process" not in found.message("en")
+
+
+def test_one_array_does_not_count_twice():
+    def chain_two_ways(R_AB, p_AB, R_BC, p_BC):
+        X = tw.motion_transform(R_AB @ R_BC, p_AB + R_AB @ p_BC)
+        return X, X
+
+    assert "one and the same array" in message("chain_two_ways", chain_two_ways)

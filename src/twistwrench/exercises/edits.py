@@ -255,7 +255,7 @@ def _alike(kind: str, texts: tuple[str, str], node: Any, other: Any) -> tuple[st
         signs = (text_of(ast.BinOp(ast.Name("x"), op, node.right)) for op in (node.op, other.op))
         right, wrong = signs
         return right, wrong
-    return (text_of(node), text_of(other)) if kind in ("name", "instead", "inserted", "number") else (texts[0], "")
+    return texts if not texts[1] else (text_of(node), text_of(other))
 
 
 def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:

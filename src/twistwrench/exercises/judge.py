@@ -136,7 +136,8 @@ def judge(
             return Verdict("wrong", (_head(exercise, part), changed), (), case)
     kept = _keeps(part, function, answers, tried, expected, right, watch)
     if all(right) and kept is None:
-        return Verdict("wrong", (_head(exercise, part), *calls.lines)) if calls.lines else Verdict("done")
+        lines = calls.lines or ([say("one array")] if _same_array(answers[0]) else [])
+        return Verdict("wrong", (_head(exercise, part), *lines)) if lines else Verdict("done")
     k = 0 if all(right) else right.index(False)
     if kept is not None:
         return Verdict("wrong", (_head(exercise, part), kept), (), failing_case(part, k, seed, tried[k]))
@@ -168,6 +169,12 @@ def _keeps(
         return say("returned before")
     changed = all(right) and not all(map(agree, [part] * len(tried), answers, expected, tried))
     return say("returned before") if changed else None
+
+
+def _same_array(answer: Any) -> bool:
+    """Whether one array is returned as two of several things."""
+    arrays = [id(x) for x in answer if isinstance(x, np.ndarray)] if isinstance(answer, tuple | list) else []
+    return len({*arrays}) < len(arrays)
 
 
 def _repeated(first: Any, second: Any) -> bool:

@@ -105,6 +105,10 @@ PHRASES = {
         "用相同的参数再调用一次，返回的却不一样：它把某些内容从一次调用留到了下一次。"
         "会被修改的量要在函数内新建；`out=[]` 这样的默认值只生成一次，所有调用共用。",
     ),
+    "one array": Text(
+        "The numbers are right, but two of the things that it returns are one and the same array: compute each.",
+        "数值正确，但它返回的量中有两个是同一个数组：请分别计算。",
+    ),
     "returned before": Text(
         "It returns the same array as in an earlier call, with other arguments: it keeps something from one call to"
         " the next. Make what it returns anew in each call.",

@@ -13,7 +13,7 @@ from ..arrays import Array
 from ..model import Model, random_tree
 from ..robots import load
 
-__all__ = ["held_acceleration", "robot", "small_robot", "states", "weightless"]
+__all__ = ["held_acceleration", "larger", "robot", "small_robot", "states", "weightless"]
 
 
 @cache
@@ -49,6 +49,18 @@ def states(rng: np.random.Generator, *, vectors: int = 0, small: int = 2) -> Ite
     """
     for model in (robot("go2"), *(small_robot(rng) for _ in range(small))):
         yield model, model.random_configuration(rng=rng), *rng.standard_normal((vectors, model.nv))
+
+
+def larger(rng: np.random.Generator) -> list[tuple[Model, Array]]:
+    """Return a random robot with more joints than Go2, and a configuration: sizes of Go2 do not fit it.
+
+    Examples
+    --------
+    >>> larger(np.random.default_rng(1))[0][0].nv
+    21
+    """
+    model = random_tree(16, rng=rng, base="floating", kinds=("revolute", "prismatic"))
+    return [(model, model.random_configuration(rng=rng))]
 
 
 def weightless(model: Model) -> Model:

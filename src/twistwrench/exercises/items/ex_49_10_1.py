@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, INERTIA
-from ..robots import states
+from ..robots import larger, states
 from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "base_columns", "split_map"]
@@ -37,7 +37,7 @@ def _bodies(rng: Any) -> Any:
 SPLIT = Part(
     solution=split_map,
     returns=(Quantity("A_Gb", INERTIA), Quantity("A_Gj", CENTROIDAL_MAP)),
-    cases=lambda rng: [*states(rng)],
+    cases=lambda rng: [*states(rng), *larger(rng)],
     slips={
         "swapped-halves": faulty(split_map, ("tw.centroidal_map(model, q)", "swap(tw.centroidal_map(model, q))")),
         "rows-only": faulty(

@@ -85,18 +85,19 @@ FLOATING = Variant(
 STILL = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, tau: tw.aba(model, q, 0 * v, tau))
 
 
+RESTING = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, a: tw.rnea(model, q, 0 * v, a))
 HELD = Variant(Text("base held", "基座固定"), held_acceleration)
 
 
 def _states(rng: Any) -> Any:
-    """Return states, with a forward dynamics that is right or has one of three faults."""
+    """Return states, with a forward dynamics that is right or has one of three faults, and a faulty inverse one."""
     cases = []
     for forward, model in zip(
         (RIGHT, FLOATING, STILL, HELD), (robot("go2"), robot("go2"), small_robot(rng), small_robot(rng))
     ):
         tau = np.concatenate([np.zeros(6), 10 * rng.standard_normal(model.nv - 6)])
         cases.append((forward, INVERSE, model, model.random_configuration(rng=rng), rng.standard_normal(model.nv), tau))
-    return cases
+    return [*cases, (RIGHT, RESTING, *cases[0][2:])]
 
 
 CONSISTENCY = Part(
