@@ -141,7 +141,7 @@ def _with_note(text: str) -> str:
 
 
 def write_texts(out: Path, language: str, listings: dict[str, list[str]]) -> None:
-    """Write the pages that only the site has; `<!-- pages: x -->` in them becomes a table of contents."""
+    """Write the pages that only the site has; `<!-- pages: x -->` becomes a list of pages, `gallery: x` doors."""
     robot = trot(language)
     for path in TEXT.glob("*.md"):
         if path.stem.endswith(SUFFIX["zh"]) != (language == "zh"):
@@ -149,6 +149,7 @@ def write_texts(out: Path, language: str, listings: dict[str, list[str]]) -> Non
         name = path.stem.removesuffix(SUFFIX["zh"]).replace("__", "/")
         text = path.read_text(encoding="utf-8").replace("<!-- trot -->", robot)
         text = "".join(part if f else joined(part, language) for f, part in cut(text))
+        text = re.sub(r"<!-- gallery: (\w+) -->", lambda m: gallery(listings[m[1]], out), text)
         text = re.sub(r"<!-- (hidden )?pages: (\w+) -->", lambda m: contents(listings[m[2]], bool(m[1])), text)
         write(out / f"{name}.md", text)
 
@@ -156,6 +157,20 @@ def write_texts(out: Path, language: str, listings: dict[str, list[str]]) -> Non
 def contents(names: list[str], hidden: bool = False) -> str:
     """Return a table of contents of some pages."""
     return "\n".join(["```{toctree}", ":maxdepth: 1", *([":hidden:"] if hidden else []), "", *names, "```"])
+
+
+def gallery(names: list[str], out: Path) -> str:
+    """Return a door to each of some pages that are written: its first picture, its title and its first sentence."""
+    doors = []
+    for name in names:
+        text = (out / f"{name}.md").read_text(encoding="utf-8")
+        title, *blocks = re.sub(r"^# ", "", text.strip()).split("\n\n")
+        words = next(block for block in blocks if re.match(r"[\w`]", block))
+        says = re.match(r".*?(?:[.?](?=\s|$)|[。？]|$)", words, re.DOTALL)[0]
+        says = re.sub(r"\[([^\]]+)\]\([^)]+\)", r"\1", says)
+        seen = [f"![]({path})\n" for path in re.findall(r"(files/docs/pictures/[\w.]+png)", text)[:1]]
+        doors.append("\n".join([":::{container} door", *seen, f"**[{title}]({name}.md)**\n", says, ":::"]))
+    return "\n".join(["::::{container} doors", *doors, "::::"])
 
 
 def write(path: Path, text: str) -> None:

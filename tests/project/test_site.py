@@ -120,6 +120,16 @@ def test_headings_follow_each_other(tmp_path):
     assert pages.moved("# A\n## B\n### C\n", "docs/x.md", "x", tmp_path) == "# A\n## B\n### C\n"
 
 
+def test_a_gallery_has_a_door_for_each_page_with_its_first_picture_and_sentence(tmp_path):
+    pictures = [f"![seen](files/docs/pictures/{name}.png)\n" for name in "ab"]
+    text = "\n".join(["# A page\n", pictures[0], "One `x.y` and [two](b.md). Three.\n", pictures[1]])
+    pages.write(tmp_path / "a.md", text)
+    pages.write(tmp_path / "b.md", "# 一页\n\n第一句。第二句。\n")
+    first, second = pages.gallery(["a", "b"], tmp_path).split(":::{container} door\n")[1:]
+    assert first == "![](files/docs/pictures/a.png)\n\n**[A page](a.md)**\n\nOne `x.y` and two.\n:::\n"
+    assert second == "**[一页](b.md)**\n\n第一句。\n:::\n::::"
+
+
 def test_a_page_without_a_chinese_file_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(pages, "pages", lambda: {"CHANGELOG.md": "changelog"})
     pages.write_pages(tmp_path, "zh")

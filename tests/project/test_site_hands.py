@@ -281,3 +281,11 @@ def test_both_languages_have_every_word_that_the_page_uses(name):
     assert used <= set(said["words"])
     computed = set(re.findall(r'"(\w+)"', script)) | set(re.findall(r"\b(\w+)_\$\{", script))
     assert not {w for w in said["words"] if w not in used | computed and w.split("_")[0] not in ("q", "v", "says")}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_object_has_a_drawing_that_says_nothing_to_a_reader_of_screens(name):
+    drawing = (FOLDER / f"{name}.svg").read_text(encoding="utf-8")
+    assert 'aria-hidden="true"' in drawing
+    assert not re.search(r"<title|<text|<script|href", drawing)
+    assert not re.search('"(black|white|#000|#fff)', drawing)  # it is seen in the dark, too

@@ -54,6 +54,21 @@ hand.begin("feet", (root, words, robot) => {
   const change = () => (view.redraw(), tell());
   const colour = (f) => (f[2] < 0 ? COLOUR.angular : slips(f) ? COLOUR.warm : COLOUR.linear);
 
+  // Where the label of the centre of pressure stands clear of the feet's names: below, above, or on either side, higher or lower.
+  function clear(view, pressure) {
+    view.text(pressure, "", view.ink()); // sets the letters that are measured
+    const unit = view.unit(), wide = view.pen.measureText(words.pressure).width, [x, y] = view.at(pressure);
+    const covers = ([right, down]) => {
+      const left = Math.max(2, Math.min(view.canvas.width - wide - 2, x + right * unit)), base = y + down * unit;
+      return robot.feet.some((p) => {
+        const [u, v] = view.at(p);
+        return u + 16 * unit > left && u - 14 * unit < left + wide && Math.abs(v + 18 * unit - base) < 18 * unit;
+      });
+    };
+    const places = [16, -12, 36, -32].flatMap((down) => [[10, down], [-10 - wide / unit, down]]);
+    return places.find((by) => !covers(by)) ?? places[0];
+  }
+
   function draw(view) {
     const { forces, pressure } = now(), wide = 0.12;
     view.floor(0.5, 0.1);
@@ -72,7 +87,7 @@ hand.begin("feet", (root, words, robot) => {
     view.dot(at(), view.ink(), 4);
     const out = hand.feet.inside(corners, pressure) < 0;
     view.dot(pressure, out ? COLOUR.angular : COLOUR.y, 7, view.ink());
-    view.text(pressure, words.pressure, out ? COLOUR.angular : view.ink(), [10, 16]);
+    view.text(pressure, words.pressure, out ? COLOUR.angular : view.ink(), clear(view, pressure));
   }
 
   function tell() {

@@ -127,7 +127,7 @@ globalThis.hand = (() => {
     const depth = (p) => dot(cross(right(), up()), p); // larger is nearer
     const style = (name) => getComputedStyle(canvas).getPropertyValue(name).trim();
     const view = {
-      canvas, pen, at, depth,
+      canvas, pen, at, depth, unit: () => unit(),
       ink: () => style("--pst-color-text-base") || "#222",
       pale: () => style("--pst-color-border") || "#c9c9c9",
       path(points, colour, width = 2, { fill = "", dash = [], alpha = 1 } = {}) {
