@@ -142,7 +142,7 @@ class Source:
                 if found == kind:
                     place = parents, field, node, other
                     texts = self._texts(kind, place)
-                    alike.setdefault(_alike(kind, texts, node, other), []).append(place)
+                    alike.setdefault(_alike(texts, node, other), []).append(place)
                     yield from self._made(kind, texts, [place])
         for (right, wrong), places in alike.items():
             if len(places) > 1:
@@ -243,7 +243,7 @@ class Source:
             yield from (f"{name} * {name}" for name in alike)
 
 
-def _alike(kind: str, texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
+def _alike(texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
     """Return by what an edit is recognised in another place."""
     if (
         isinstance(node, ast.BinOp)

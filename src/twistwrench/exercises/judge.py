@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -103,12 +103,8 @@ def judge(
     """
     if exercise.needs and find_spec(exercise.needs) is None:
         return Verdict("to do", (say("needs", name=exercise.needs),))
-    calls = Calls(part.name)
+    calls, so_far = Calls(part.name), _Compared([], [], [], [])
     search = not exercise.needs if search is None else search
-    tried: list[tuple[Any, ...]] = []
-    answers: list[Any] = []
-    expected: list[Any] = []
-    right: list[bool] = []
     everything = [*cases(part, seed), *further_cases(part, seed)]
     for arguments in everything:
         known = part.value(part.solution, arguments)  # first: an answer may change a model that it is given
@@ -118,49 +114,72 @@ def judge(
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:
-            if not all(right):
+            if not all(so_far.right):
                 break  # what is wrong without an error comes first
             with silent():
                 more = after_error(part, function, everything) if search and isinstance(stop, _Raised) else []
             message = _head(exercise, part), *stop.args, *more
-            return Verdict("wrong", message, (), failing_case(part, len(tried), seed, arguments))
+            return Verdict("wrong", message, (), failing_case(part, len(so_far.tried), seed, arguments))
         if to_do(answer):
             return Verdict("to do")
-        tried.append(arguments)
-        answers.append(answer)
-        expected.append(known)
-        right.append(agree(part, answer, known, arguments))
-        if not right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
+        so_far.add(arguments, answer, known, agree(part, answer, known, arguments))
+        if not so_far.right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
             changed = say("changed", name=part.arguments.partition(",")[0])  # a model comes first
-            case = failing_case(part, len(tried) - 1, seed, arguments)
+            case = failing_case(part, len(so_far.tried) - 1, seed, arguments)
             return Verdict("wrong", (_head(exercise, part), changed), (), case)
-    kept = _keeps(part, function, answers, tried, expected, right, watch)
-    if all(right) and kept is None:
-        lines = calls.lines or ([say("one array")] if _same_array(answers[0]) else [])
-        return Verdict("wrong", (_head(exercise, part), *lines)) if lines else Verdict("done")
-    k = 0 if all(right) else right.index(False)
-    if kept is not None:
-        return Verdict("wrong", (_head(exercise, part), kept), (), failing_case(part, k, seed, tried[k]))
     safe = guarded(function)
     again = (lambda given: _again(part, safe, given, watch)) if search else None
+    kept = _keeps(part, function, so_far, watch)
+    if all(so_far.right) and kept is None:
+        lines = calls.lines or ([say("one array")] if _same_array(so_far.answers[0]) else [])
+        return Verdict("wrong", (_head(exercise, part), *lines)) if lines else Verdict("done")
+    return _wrong(exercise, part, function, so_far, seed, kept, again)
+
+
+class _Compared(NamedTuple):
+    """The cases that were tried, and of each the student's answer, the right one, and whether they agree."""
+
+    tried: list[tuple[Any, ...]]
+    answers: list[Any]
+    expected: list[Any]
+    right: list[bool]
+
+    def add(self, arguments: tuple[Any, ...], answer: Any, known: Any, agrees: bool) -> None:
+        """Add a case."""
+        self.tried.append(arguments)
+        self.answers.append(answer)
+        self.expected.append(known)
+        self.right.append(agrees)
+
+    @property
+    def first_wrong(self) -> int:
+        """The first case that is wrong, or the first of all."""
+        return 0 if all(self.right) else self.right.index(False)
+
+
+def _wrong(
+    exercise: Exercise,
+    part: Part,
+    function: Callable[..., Any],
+    found: _Compared,
+    seed: int,
+    kept: Text | None,
+    again: Callable[[tuple[Any, ...]], Any] | None,
+) -> Verdict:
+    """Say what is wrong, with the first case that shows it."""
+    k = found.first_wrong
+    if kept is not None:
+        return Verdict("wrong", (_head(exercise, part), kept), (), failing_case(part, k, seed, found.tried[k]))
     with silent():
-        slips, lines = explain(exercise, part, function, answers, tried, again)
-    case = failing_case(part, k, seed, tried[k], (expected[k], answers[k]))
-    context = _context(part, tried, right)
+        slips, lines = explain(exercise, part, function, found.answers, found.tried, again)
+    case = failing_case(part, k, seed, found.tried[k], (found.expected[k], found.answers[k]))
+    context = _context(part, found.tried, found.right)
     return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips), case)
 
 
-def _keeps(
-    part: Part,
-    function: Callable[..., Any],
-    answers: Sequence[Any],
-    tried: Sequence[tuple[Any, ...]],
-    expected: Sequence[Any],
-    right: Sequence[bool],
-    watch: Watch,
-) -> Text | None:
+def _keeps(part: Part, function: Callable[..., Any], found: _Compared, watch: Watch) -> Text | None:
     """Report that a function keeps something from one call to the next, if it does."""
-    k = 0 if all(right) else right.index(False)
+    k, (tried, answers, expected, right) = found.first_wrong, found
     again = _again(part, function, tried[k], watch)
     if not agree(part, again, answers[k], tried[k]) and not _repeated(again, answers[k]):
         return say("kept")
