@@ -86,13 +86,13 @@ class Accuracy:
 
 
 def accuracy(model: Model, q: ArrayLike) -> Accuracy:
-    """Estimate the rounding errors of `rnea`, of `aba` and of solving with `crba`, whatever v and τ are.
+    """Estimate the rounding errors of `rnea`, of `aba` and of solving with M from `crba`, for any v and τ.
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (..., nq)
-        In the number type of the computation.
+        The configuration, in the number type of the computation.
 
     Returns
     -------
@@ -106,11 +106,11 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
 
     Notes
     -----
-    Inverse dynamics only adds: its error grows with the root of the number of joints on the longest way to a tip.
-    Forward dynamics divides by M, and what counts is the least eigenvalue λ of D^-½ M D^-½, where D is M's diagonal:
-    about the resolution over λ is lost, besides the error of the bias forces. The condition number of M itself
-    misleads: it is large already where units or masses differ, which costs nothing. For the worst torques `aba` loses
-    as much as a solver does.
+    Inverse dynamics only adds. Its error grows with the square root of the number of joints from the base to the
+    farthest tip. Forward dynamics divides by M. Its error is about the resolution of the number type divided by λ, the
+    least eigenvalue of D^-½ M D^-½ with the diagonal D of M, plus the error of the bias forces. The condition number of
+    M itself is misleading: different units or masses make it large, but they do not cause errors. For the worst
+    torques, `aba` loses as many digits as a solver.
 
     Examples
     --------

@@ -120,8 +120,8 @@ def centroidal_map(model: Model, q: ArrayLike) -> Array:
     Notes
     -----
     Section 49.10; D. E. Orin, A. Goswami and S.-H. Lee, Centroidal dynamics of a humanoid robot,
-    2013. A unit velocity of joint i moves its subtree as one rigid body, whose momentum I^C S is
-    then seen from the centre of mass. No loop to the base as in `crba`: O(N).
+    2013. A unit velocity of joint i moves its subtree as one rigid body. Column i is the momentum I^C S of this
+    body, transformed to the centre of mass. Unlike `crba`, this has no loop from each joint to the base: O(N).
 
     Examples
     --------

@@ -164,14 +164,15 @@ class Equilibrium:
 def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | None = None) -> Equilibrium:
     """Return the torques and the contact forces that hold a robot with a floating base at rest.
 
-    g(q) = Sᵀ τ + J_cᵀ λ. The six base rows have no τ and give the contact forces, those of least norm. The other rows
-    then give the torques. Forces may pull; friction is ignored.
+    The equation is g(q) = Sᵀ τ + J_cᵀ λ. Its six rows of the base do not contain τ, so they determine the contact
+    forces: of all solutions, the one with the least norm. The other rows then give the torques. Forces may pull, and
+    friction is ignored.
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (nq,)
-        One configuration, real. The least squares are done in float64 whatever its number type.
+        One real configuration. The least-squares problem is solved in float64, whatever the number type of q is.
     contacts : iterable of str, optional
         Frames at which the robot touches the ground; `model.feet` unless given.
 

@@ -58,7 +58,7 @@ class Kinematics(NamedTuple):
 def forward_kinematics(
     model: Model, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
 ) -> Kinematics:
-    """Return placements, and where v and a are given, twists and spatial accelerations of all bodies.
+    """Return the placements of all bodies; their twists if v is given, and spatial accelerations if a is given, too.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     model : Model
     q : array_like, shape (..., nq)
     frame : str
-        A link or a joint, also one that is welded.
+        The name of a link or a joint; it may be a welded one.
 
     Returns
     -------
@@ -170,11 +170,11 @@ def frame_jacobian(model: Model, q: ArrayLike, frame: str, reference: Reference 
     model : Model
     q : array_like, shape (..., nq)
     frame : str
-        A link or a joint, also one that is welded.
+        The name of a link or a joint; it may be a welded one.
     reference : {"local", "world", "local_world_aligned"}
-        Where the twist J v is taken and in which axes: at the frame's origin in the frame's axes
-        (body twist); at the world's origin in its axes (spatial twist); at the frame's origin in
-        the world's axes.
+        The point of reference of the twist J v, and its axes. "local": the frame's origin and the frame's axes (body
+        twist). "world": the world's origin and the world's axes (spatial twist). "local_world_aligned": the frame's
+        origin and the world's axes.
 
     Returns
     -------

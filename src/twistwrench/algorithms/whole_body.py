@@ -72,9 +72,9 @@ def dynamics(
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
     contacts : iterable of str or Contact, optional
-        Frames of point contacts, or contacts of any kind; `model.feet` unless given.
+        The frames of point contacts, or contacts of any kind; `model.feet` unless given.
     want : iterable of {"M", "h", "J_c", "A_G"}
-        Only these are computed.
+        The quantities to compute; all others are None.
 
     Returns
     -------

@@ -52,47 +52,50 @@ def compile(
     threads: int = 1,
     bound: bool = False,
 ) -> Program | DigitsProgram:
-    """Return a program for this model and this question, and nothing else in it.
+    """Return a program that computes the wanted quantities of this model, and nothing else.
 
     Parameters
     ----------
     model : Model or Scene
-        Of a scene its smallest model, with the scene's wrenches in τ, h, g and q̈, and the rows of its contacts in J_c.
+        For a scene, its smallest model is compiled. τ, h, g and q̈ then contain the scene's wrenches, and J_c has the
+        rows of its contacts.
     want : str or iterable of str
-        Functions or symbols of `quantities.SYMBOLS`: of one name the program returns an array, of several `Results`,
-        which share their work. Λ⁻¹ and Λ are of J_c; also L and D of `ltdl`, and p_S, A_S and I_S of `subtree`.
+        Names of functions, or symbols of `quantities.SYMBOLS`. For one name the program returns an array; for several
+        it returns `Results`, and what they have in common is computed once. Λ⁻¹ and Λ belong to J_c, L and D to
+        `ltdl`, and p_S, A_S and I_S to `subtree`.
     dtype : dtype_like
-        float32 and float64 have machine code; every floating-point type has NumPy. "double-double" has 32 digits, in
-        pairs of doubles: see `digits.DoubleDouble`. "quad" has 34, by numpy-quaddtype, and "mpmath" as many as
-        ``mpmath.mp.dps`` is when the program is called.
+        float32 and float64 can be machine code; NumPy runs every floating-point type. "double-double" has 32 digits,
+        in pairs of doubles: see `digits.DoubleDouble`. "quad" has 34 digits, by numpy-quaddtype. "mpmath" has as many
+        digits as ``mpmath.mp.dps`` says when the program is called.
     contacts : iterable of str or Contact, optional
         The frames of J_c, or contacts of any kind; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
-        The frames of placements, Jacobians, J̇ v, IA and subtrees: an axis before their own.
+        The frames of placements, Jacobians, J̇ v, IA and subtrees. These results have one more axis, in front of the
+        usual ones, with an entry for each frame.
     reference : {"local", "world", "local_world_aligned"}
-        Of Jacobians and J̇ v: see `twistwrench.frame_jacobian`.
+        For Jacobians and J̇ v: see `twistwrench.frame_jacobian`.
     given : mapping of str to array_like
-        Arguments with the same value for every state, which need not be computed with: ``{"v": np.zeros(nv)}``.
+        Arguments that have the same value in every state, such as ``{"v": np.zeros(nv)}``. They become constants of the
+        program, which gets shorter.
     backend : {"llvm", "numpy"}, optional
-        LLVM where it is installed and has the number type, unless given.
+        Unless given, LLVM if it is installed and has the number type, and NumPy otherwise.
     threads : int
-        Into how many parts a batch is divided.
+        The number of parts into which a batch is divided.
     bound : bool
-        Whether the program returns with each entry how far it can be off, proved: ``value, bound = program(…)``. For
+        Whether the program also returns a proved bound of the error of each entry: ``value, bound = program(…)``. For
         float32, float64 and "double-double".
 
     Returns
     -------
     Program
-        Of other digits or with a bound, one of its kin: `digits.DoubleDoubleProgram`, `digits.BoundedProgram`,
-        `wide.WideProgram`.
+        For more digits or with a bound: `digits.DoubleDoubleProgram`, `wide.WideProgram` or `digits.BoundedProgram`.
 
     Raises
     ------
     NameNotFound
-        If there is no such quantity, frame, reference or argument; the message lists those that are.
+        If there is no such quantity, frame, reference or argument; the message lists those that exist.
     ImportError
-        If `backend` is "llvm" and llvmlite is not installed, or the package of the number type.
+        If llvmlite is not installed but `backend` is "llvm", or if the package of the number type is not installed.
     ShapeError, TypeError, ValueError
         If an option is not one of those above.
 
@@ -105,19 +108,19 @@ def compile(
     >>> program(model.standing(), np.zeros(18), np.zeros(18))[5].round(3)
     np.float64(157.794)
 
-    What a question does not need is not in its program:
+    Operations that the result does not need are not in the program:
 
     >>> held = tw.compile(model, "rnea", given={"v": np.zeros(18), "a": np.zeros(18)})
     >>> program.operations.total(), held.operations.total(), held.arguments
     (2533, 590, ('q', 'f_ext'))
 
-    A scene's program has what the scene requires:
+    The program of a scene has only what the scene requires:
 
     >>> scene = tw.Scene(model, base="fixed", hold=["F*", "RL*"])
     >>> tw.compile(scene, "rnea").operations.total()
     330
 
-    Several at once share their work:
+    Several quantities at once share common work:
 
     >>> both = tw.compile(model, ["M", "h"])
     >>> both(np.tile(model.standing(), (1000, 1)), np.zeros((1000, 18)))

@@ -45,22 +45,22 @@ class Impact:
 def impact(
     model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact], *, restitution: float = 0.0
 ) -> Impact:
-    """Return the velocity after contacts have closed all at once, J v⁺ = −e J v⁻.
+    """Return the velocity after an impact in which all contacts close at once, J v⁺ = −e J v⁻.
 
-    Of all velocities that the contacts allow, e = 0 leaves the one nearest to v⁻ in the metric of M. So it also removes
-    drift from a velocity, and nothing else. Where contacts have a velocity v* of their own, J v⁺ − v* = −e (J v⁻ − v*).
+    With e = 0, v⁺ is the velocity nearest to v⁻, in the metric of M, of all that the contacts allow. So this function
+    can also remove drift from a velocity. If the contacts move with a velocity v*, J v⁺ − v* = −e (J v⁻ − v*).
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
-        v⁻, just before.
+        v⁻, the velocity just before the impact.
     contacts : iterable of Contact
-        All that hold in that instant. They stick, and pull where they must.
+        All contacts that hold during the impact. They stick, and they pull if this is necessary.
     restitution : float, optional
-        e, from 0 to 1. It reverses the whole velocity of a contact, along the ground as well: reversing the normal
-        part alone can add energy where several contacts, or a slanting one, couple.
+        e, from 0 to 1. It reverses the whole velocity of a contact, also the part along the ground. Reversing the
+        normal part alone could add energy, because M couples the directions.
 
     Returns
     -------
@@ -70,16 +70,15 @@ def impact(
     Raises
     ------
     ValueError
-        If `restitution` is not from 0 to 1; complex numbers.
+        If `restitution` is not from 0 to 1, or numbers are complex.
     SingularError
-        If a joint moves nothing that has inertia.
+        If a joint moves no inertia.
     NameNotFound, ShapeError
         As `constraint_jacobian`.
 
     Notes
     -----
-    Section 49.9. With contacts at rest the energy lost is (1 − e²) times the kinetic energy of the velocity across
-    them.
+    Section 49.9. If the contacts do not move by themselves, the energy lost is (1 − e²) times what is lost with e = 0.
 
     Examples
     --------

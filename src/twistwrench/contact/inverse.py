@@ -34,8 +34,8 @@ def contact_inverse_dynamics(
 ) -> ContactForces:
     """Return the joint forces and the least contact forces of a motion: M a + h = Sᵀ τ + Jᵀ λ.
 
-    Forces may pull, and friction is ignored. With a fixed base and a motor in each joint these do all, and λ = 0 is the
-    least.
+    The contact forces may pull, and friction is ignored. If the base is fixed and each joint has a motor, the motors
+    alone can make the motion, and the least contact forces are λ = 0.
 
     Parameters
     ----------
@@ -46,19 +46,19 @@ def contact_inverse_dynamics(
     f_ext : array_like, shape (..., nbodies, 6), optional
         Wrench (τ, f) on each body from outside, as `rnea`.
     motors : iterable of str, optional
-        The joints that have one; in the others τ is zero, as at the hinges of a four-bar whose crank is driven. All but
-        a floating base unless given.
+        The joints that have a motor; in the others τ is zero, as at the hinges of a four-bar whose crank is driven.
+        Unless given, all joints but a floating base have one.
 
     Returns
     -------
     ContactForces
-        In double precision. The forces are the least at the contact points: of a sole, at its corners.
+        In double precision. Of all forces at the contact points (the corners of a sole), those with the least norm.
 
     Raises
     ------
     SingularError
-        If no forces at these contacts make the base, or the joints without a motor, move so; the message gives the
-        unbalanced part.
+        If no forces at these contacts give the base, or a joint without a motor, this acceleration; the message gives
+        the part that is not balanced.
     NameNotFound, ShapeError, ValueError
         As `constraint_jacobian`; complex numbers.
 
@@ -68,8 +68,8 @@ def contact_inverse_dynamics(
 
     Notes
     -----
-    Section 49.9. Moments and forces are weighed against each other by the inertia of the robot as one rigid body, so
-    that no unit decides the rank.
+    Section 49.9. Moments and forces are compared in the metric of the robot's inertia as one rigid body, so that the
+    rank does not depend on the units.
 
     Examples
     --------
@@ -99,8 +99,8 @@ def friction_inverse_dynamics(
 ) -> ContactForces:
     """Return the joint forces and the least contact forces within the friction cones: a quadratic programme.
 
-    No contact pulls, none slips, and the pressure on a sole stays within it. Quicker with the extra
-    ``pip install "twistwrench[qp]"``, where the least forces alone are not within the limits.
+    No contact pulls or slips, and the centre of pressure of a sole stays within the sole. If the least forces alone
+    violate a limit, a solver is needed, and ``pip install "twistwrench[qp]"`` makes it faster.
 
     Parameters
     ----------
@@ -111,12 +111,12 @@ def friction_inverse_dynamics(
     contacts : iterable of Contact
     f_ext : array_like, shape (nbodies, 6), optional
     sides : int, optional
-        Of the pyramids that stand for the cones, at least 3. An inner pyramid has its sides at cos(π/sides) of μ: at
-        71 % with 4, at 92 % with 8, at 98 % with 16.
+        The number of sides of the pyramids that approximate the cones, at least 3. At the middle of a side, an inner
+        pyramid allows cos(π/sides) of the friction μ: 71 % with 4 sides, 92 % with 8, 98 % with 16.
     pyramid : {"inner", "outer"}, optional
-        Inner: forces that are found are within the cones. Outer: if none are found, none exist in the cones.
+        Inner: if forces are found, they are within the cones. Outer: if no forces are found, the cones contain none.
     effort_limits : bool, optional
-        Keep each joint force within `Model.effort_limit`, too: contacts take what a motor cannot hold.
+        Keep each joint force within `Model.effort_limit` as well: the contacts bear what a motor cannot.
 
     Returns
     -------
@@ -126,14 +126,14 @@ def friction_inverse_dynamics(
     Raises
     ------
     SingularError
-        If no forces within the limits make the robot move so; the message names the limits that are violated.
+        If no forces within the limits produce the motion; the message names the limits that are violated.
     NameNotFound, ShapeError, ValueError
-        As `contact_inverse_dynamics`; a batch; less than 3 sides; a pyramid that is neither.
+        As `contact_inverse_dynamics`; for a batch, for less than 3 sides, or for another name of a pyramid.
 
     Notes
     -----
-    Sections 49.9 and 49.4. A motion is possible if forces within the limits miss the base's wrench by at most 1e-8 of
-    it. Where they only just reach it, they are feasible forces, not the least.
+    Sections 49.9 and 49.4. A motion counts as possible if forces within the limits reproduce the base's wrench to 1e-8
+    of it. If it is only just possible, the forces that are returned satisfy the limits, but need not be the least.
 
     Examples
     --------

@@ -165,14 +165,14 @@ def dynamics(
 ) -> Dynamics:
     """Return what `twistwrench.dynamics` does: M, h, J_c and A_G (49.11).
 
-    All at once is cheaper than one after the other: they share the placements of the links.
+    Computing all at once is faster than one after the other, because they share the placements of the links.
 
     Parameters
     ----------
     model, q, v, contacts, want
         As there.
     out : Dynamics, optional
-        Arrays to be filled; new ones where an entry is None.
+        Arrays that the results are written to. Where an entry is None, a new array is made.
 
     Returns
     -------

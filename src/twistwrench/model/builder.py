@@ -34,31 +34,31 @@ Base = Literal["fixed", "floating"]
 
 
 class Builder:
-    """Collects links; `build` makes the model.
+    """Builds a model: `link` adds one link after the other, and `build` returns the model.
 
     Parameters
     ----------
     name : str
-        Of the model.
+        Name of the model.
     base : {"fixed", "floating"}
         Whether the root link is welded to the world or flies freely.
     root : str
         Name of the root link.
     root_inertia : SpatialInertia, optional
-        Of the root link, in its frame. Of no effect on a fixed base: it never moves.
+        Inertia of the root link, in its frame. It has no effect with a fixed base, since the root link never moves.
     root_joint : str
         Name of the joint of a floating base.
     gravity : array_like, shape (3,)
-        In the world, m/s².
+        In the axes of the world, m/s².
 
     Raises
     ------
     ModelError
-        If `base` is neither, or `root` is the world's name.
+        If `base` is not one of the two, or `root` is the name of the world.
     ShapeError, ValueError
         If `gravity` is not three real numbers.
     TypeError
-        If `name` or `root` is not a name, or `root_inertia` not a SpatialInertia.
+        If `name` or `root` is not a string, or `root_inertia` is not a SpatialInertia.
 
     Examples
     --------
@@ -119,7 +119,7 @@ class Builder:
         parent : str
             The link that carries this one; it must have been added before.
         joint : Joint, optional
-            What moves the link; without one it is welded to its parent.
+            The joint that moves the link; without a joint the link is welded to its parent.
         joint_name : str, optional
             The link's own name unless given.
         placement : SE3, optional
@@ -137,10 +137,10 @@ class Builder:
         Raises
         ------
         ModelError
-            A name that is taken or the world's; limits that cross; a limit of speed or effort, an armature, damping
-            or friction below zero; any of them on a weld; complex numbers.
+            If the name is already used, or is the world's; if a lower limit is above the upper one; if a limit of speed
+            or effort, an armature, damping or friction is below zero or given for a weld; if numbers are complex.
         ShapeError
-            A batch of placements or inertias, or limits of a wrong shape.
+            If placements or inertias come as a batch, or limits have a wrong shape.
         TypeError
             If `name` is not a string, or `joint`, `placement` or `inertia` is of another type.
         NameNotFound

@@ -35,7 +35,7 @@ def load(
 
     Meshes are not read, and need not exist. Links welded by fixed joints are merged; every link and every joint of
     the file remains as a frame. A link without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own
-    by default. Of all functions only `simulate` by time-stepping applies damping and friction.
+    by default. Damping and friction are applied only by `simulate` with time-stepping.
 
     If an entry violates the format but has a single possible meaning, it is read, and `Model.report` lists it.
     Elements that do not affect the dynamics never raise. Ambiguity (an incomplete ``<inertial>``, ``xzy`` in an
@@ -75,15 +75,15 @@ def load(
     ModelError
         If the file is missing or broken: the message names file, line, link or joint, and what was expected.
     ValueError
-        If `mimic` is neither.
+        If `mimic` is not one of the two.
     TypeError
         If `source` is neither a name nor a path.
 
     Warns
     -----
     UserWarning
-        Once for a file with a report, with all of it. The robots of the catalogue have reports, but do not
-        warn.
+        One warning for a file with a report; it contains the whole report. The robots of the catalogue have reports,
+        but do not warn.
 
     Examples
     --------

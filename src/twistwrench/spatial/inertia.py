@@ -25,12 +25,12 @@ __all__ = ["SpatialInertia", "cross_force", "cross_motion"]
 
 
 class SpatialInertia(Shapes):
-    """Mass, centre of mass and inertia about it: ten numbers, kept apart (section 49.5).
+    """Spatial inertia of a rigid body, kept as its mass, centre of mass and inertia about that: ten numbers (49.5).
 
     Parameters
     ----------
     mass : array_like, shape (...)
-        kg, not below zero.
+        In kg; zero or more.
     com : array_like, shape (..., 3)
         Centre of mass in the body's frame, m.
     inertia_at_com : array_like, shape (..., 3, 3)
@@ -41,7 +41,7 @@ class SpatialInertia(Shapes):
     ShapeError
         If a shape is wrong or the batch axes do not broadcast.
     ModelError
-        If the mass is negative, or the inertia asymmetric by more than the root of the resolution, relatively.
+        If the mass is negative, or if the inertia is not symmetric to the square root of the resolution of the dtype.
 
     Examples
     --------

@@ -94,15 +94,15 @@ class SE3:
     Parameters
     ----------
     rotation : array_like, shape (..., 3, 3)
-        R, takes coordinates in B to A.
+        R, which takes coordinates in B to coordinates in A.
     translation : array_like, shape (..., 3)
         p, the origin of B in A, m.
 
     Raises
     ------
     ShapeError
-        If a shape is wrong, the batch axes do not broadcast, or `rotation` is not a rotation: RᵀR = 1 and
-        det R = 1 to the square root of the resolution of the dtype.
+        If a shape is wrong, if the batch axes do not broadcast, or if `rotation` is not a rotation: RᵀR = 1 and
+        det R = 1 must hold to the square root of the resolution of the dtype.
 
     Examples
     --------

@@ -195,14 +195,14 @@ def _screw(line: Array, free: Array, kind: str, noise: float) -> Screw:
 
 
 class Twist(SpatialVector):
-    """Velocity of a rigid body, (ω, v): how fast it turns, and the velocity of its point at the origin (49.2).
+    """Velocity of a rigid body, (ω, v): its angular velocity, and the velocity of its point at the origin (49.2).
 
     Parameters
     ----------
     vector : array_like, shape (..., 6)
         (ω, v), rad/s and m/s.
     frame : str, optional
-        The frame that the numbers are expressed in. A sum checks it where both sides have one.
+        The frame in which the numbers are expressed. If both terms of a sum name one, the two names must be the same.
 
     Raises
     ------

@@ -54,14 +54,15 @@ def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
 
 
 class Wrench(SpatialVector):
-    """Force on a rigid body, (τ, f): its moment about the origin and the force (section 49.4).
+    """Wrench on a rigid body, (τ, f): the moment about the origin of the frame, and the force (section 49.4).
 
     Parameters
     ----------
     vector : array_like, shape (..., 6)
         (τ, f), N m and N.
     frame : str, optional
-        The frame that the numbers are expressed in. A sum or a power checks it where both sides have one.
+        The frame in which the numbers are expressed. If both wrenches of a sum, or both factors of a power, name one,
+        the two names must be the same.
 
     Raises
     ------

@@ -43,15 +43,15 @@ def trace(
 ) -> Trace:
     """Run an algorithm, and return what each body received and passed on.
 
-    The algorithm is the textbook's, and every value is a term of its record (`rnea_terms`, `aba_terms`,
-    `crba_terms`, `centroidal_terms`), under the name that it has in the source. What a body passes on is expressed in
-    its parent's frame, where it is added.
+    The algorithm is the textbook function itself. Each value is a term of its record (`rnea_terms`, `aba_terms`,
+    `crba_terms`, `centroidal_terms`) and has the same name as in the source. What a body passes on is expressed in
+    the frame of its parent, where it is added.
 
     Parameters
     ----------
     model : Model
     algorithm : {"rnea", "aba", "crba", "ccrba"}
-        The last is that of `centroidal_map`.
+        "ccrba" is the algorithm of `centroidal_map`.
     q : array_like, shape (nq,)
         One configuration.
     v : array_like, shape (nv,), optional
@@ -73,7 +73,7 @@ def trace(
     NameNotFound
         If there is no such algorithm.
     ShapeError, SingularError, ValueError
-        As the algorithm; if `q` is a batch, or an argument is missing or not used by the algorithm.
+        As the algorithm; also if `q` is a batch, or if an argument is missing or is not used by the algorithm.
 
     Notes
     -----

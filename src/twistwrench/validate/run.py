@@ -50,16 +50,16 @@ def validate(
         A name or a path is loaded as by `twistwrench.load`, accepting bodies that are not physical, and
         Pinocchio reads the same file by itself. A `Model` is converted by the bridge.
     base : {"fixed", "floating"}, optional
-        For a name or a path: the base to load it with.
+        The base with which a name or a path is loaded.
     states : int
         Number of random states; ours is computed for all of them in one batch.
     truths : int
-        At how many of them the reference is always computed. It is also computed where ours and Pinocchio differ
-        by more than the bound.
+        The number of states at which the reference is always computed. At the other states it is computed if our result
+        differs from Pinocchio's by more than the bound.
     frames : int
-        At most so many frames' Jacobians are compared: of the feet, then of other tips of the tree.
+        The largest number of frames whose Jacobians are compared: first the feet, then other tips of the tree.
     rng : numpy Generator or int
-        Where the states come from. The same seed gives the same report, but for the time.
+        The source of the states. The same seed gives the same report, except for the times.
     fast : bool
         Compare the functions of `twistwrench.fast` instead: the first state by itself, the others in a batch.
     progress : bool
