@@ -261,7 +261,8 @@ def takers() -> Iterator[Taker]:
             if callable(thing) and name not in LEFT_OUT:
                 found[path] = thing
     for name, function in found.items():
-        yield Taker(name, function, _good(name, SIGNATURES.get(name, function)))
+        if good := _good(name, SIGNATURES.get(name, function)):
+            yield Taker(name, function, good)
 
 
 def _good(name: str, function: Callable[..., Any]) -> dict[str, Any]:

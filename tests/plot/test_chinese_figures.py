@@ -11,8 +11,7 @@ matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not install
 
 
 @pytest.fixture
-def in_chinese(monkeypatch):
-    monkeypatch.setattr("twistwrench.plot.words._IN_CHINESE", [])
+def in_chinese():
     with matplotlib.rc_context():
         tw.plot.chinese()
         yield
@@ -45,7 +44,8 @@ def test_what_a_picture_writes_by_itself_is_chinese_too(in_chinese):
     assert ax.collections[-1].get_label() == "地面的力"
 
 
-def test_without_it_the_words_are_english(monkeypatch):
-    monkeypatch.setattr("twistwrench.plot.words._IN_CHINESE", [])
+def test_without_it_and_afterwards_the_words_are_english():
     model = tw.load("go2")
+    with matplotlib.rc_context():
+        tw.plot.chinese()
     assert "centre of mass" in {line.get_label() for line in tw.plot.robot(model, model.standing()).lines}

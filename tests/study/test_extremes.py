@@ -141,12 +141,17 @@ def usual_errors():
 @pytest.mark.parametrize("unit", sampled(["length", "mass", "time"], 1))
 @pytest.mark.parametrize("scale", sampled([2.0**-30, 2.0**30], 1), ids=["1e-9", "1e9"])
 def test_the_same_robot_in_other_units_loses_nothing(unit, scale):
-    """Not a bit: by powers of two, of which 2**30 is about 1e9, rounding is the same."""
+    """Not a bit: by powers of two, of which 2**30 is about 1e9, rounding is the same.
+
+    Only a program may round otherwise, by a small factor: a length of 1 m is no operation in it, and one of 1e-9 is.
+    """
     usual = usual_errors()
     for o in measure(Recipe(**{unit: scale}), pinocchio=False):
         assert not o.bad
         if o.who == "float32" and o.raised:  # products would overflow
             assert "overflow in float32" in o.raised
+        elif o.who == "fast":
+            assert o.error <= 4 * usual[o.algorithm, o.who] + EPS, o
         else:
             assert o.error == usual[o.algorithm, o.who], o
 

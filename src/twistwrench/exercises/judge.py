@@ -166,7 +166,7 @@ def _wrong(
     kept: Text | None,
     again: Callable[[tuple[Any, ...]], Any] | None,
 ) -> Verdict:
-    """Say what is wrong, with the first case that shows it."""
+    """Return what is wrong, with the first case that shows it."""
     k = found.first_wrong
     if kept is not None:
         return Verdict("wrong", (_head(exercise, part), kept), (), failing_case(part, k, seed, found.tried[k]))

@@ -14,6 +14,7 @@ FONTS = (
 )
 """Fonts that have Chinese characters, on Linux, Windows and macOS."""
 BLANK = "twistwrench blank"
+LATIN = "DejaVu Sans"
 WIDE = (*range(0x2E80, 0x3100), *range(0x4E00, 0xA000), *range(0xFF00, 0xFF61))
 """The characters as wide as they are high: radicals, punctuation, Han, full-width forms."""
 WORDS = {
@@ -28,14 +29,14 @@ WORDS = {
     "{}: largest errors of {}": "{}：{} 的最大误差",
 }
 """What the functions of this folder, and `Costs.plot`, write by themselves."""
-_IN_CHINESE: list[bool] = []
 
 
 def chinese() -> None:
     """Let figures have Chinese words: in a notebook as SVG, whose text the reader's browser draws.
 
     The layout needs the width of each character. Without a Chinese font it comes from a font of blanks, so a figure
-    that is saved as PNG on such a machine has gaps where its Chinese words should be.
+    that is saved as PNG on such a machine has gaps where its Chinese words should be. The fonts are matplotlib's
+    settings: `matplotlib.rcdefaults` makes figures English again.
     """
     import matplotlib
     from matplotlib import font_manager
@@ -44,18 +45,20 @@ def chinese() -> None:
     own = next((name for name in FONTS if name in installed), BLANK)
     if own == BLANK and BLANK not in installed:
         font_manager.fontManager.addfont(_blank_font(Path(matplotlib.get_cachedir()) / "blank.ttf"))
-    matplotlib.rcParams.update({"font.family": ["DejaVu Sans", own], "svg.fonttype": "none"})
+    matplotlib.rcParams.update({"font.family": [LATIN, own], "svg.fonttype": "none"})
     if "ipykernel" in sys.modules:
         from matplotlib_inline import backend_inline
 
         show: Any = backend_inline
         show.set_matplotlib_formats("svg")
-    _IN_CHINESE[:] = [True]
 
 
 def word(english: str) -> str:
     """Return a word in the language of the figures: those of `WORDS` have a Chinese one."""
-    return WORDS.get(english, english) if _IN_CHINESE else english
+    from matplotlib import rcParams
+
+    family = rcParams["font.family"]
+    return WORDS.get(english, english) if family[0] == LATIN and {*family[1:]} & {*FONTS, BLANK} else english
 
 
 def _blank_font(path: Path) -> Path:
