@@ -32,15 +32,15 @@ def consistency_error(forward: Any, inverse: Any, model: Any, q: Any, v: Any, ta
 
 
 def _standings(rng: Any) -> Any:
-    """Return centres of mass over three to five feet."""
+    """Return centres of mass over three to five feet, and one beside them: a foot must pull."""
 
-    def stand(n: int) -> Any:
+    def stand(n: int, shares: Any = None) -> Any:
         angles = np.sort(rng.uniform(0, 2 * np.pi, n))
         feet = np.column_stack([0.3 * np.cos(angles), 0.2 * np.sin(angles), np.zeros(n)]) + rng.uniform(-1, 1, 3)
-        p_G = rng.dirichlet(np.ones(n)) @ feet + [0, 0, 0.3]
+        p_G = (rng.dirichlet(np.ones(n)) if shares is None else shares) @ feet + [0, 0, 0.3]
         return p_G, feet, float(rng.uniform(100, 300))
 
-    return [stand(n) for n in (4, 4, 3, 5)]
+    return [*map(stand, (4, 4, 3, 5)), stand(3, np.array([0.7, -0.3, 0.6]))]
 
 
 LOADS = Part(
