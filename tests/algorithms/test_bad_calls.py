@@ -13,7 +13,7 @@ pytest.importorskip("matplotlib", reason="matplotlib is not installed: the sweep
 pytest.importorskip("daqp", reason="daqp is not installed: the sweep goes over friction, too")
 
 TAKERS = {taker.name: taker for taker in badcalls.takers()}
-DRAWN, FEW = 12, 2
+DRAWN, FEW = 8, 2
 """How many bad calls of a function the short form draws; of a picture, which takes a tenth of a second, a few."""
 
 SEED = random.randrange(10**6)

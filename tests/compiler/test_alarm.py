@@ -9,6 +9,7 @@ import twistwrench as tw
 from twistwrench.compiler import textbook
 from twistwrench.compiler.llvm import available
 
+from ..sampling import sampled
 from ..strategies import random_state
 
 BACKENDS = [
@@ -86,7 +87,7 @@ def turned(s):
     s.q[..., 9] = 1e6
 
 
-@pytest.mark.parametrize("batch", [(), (3, 9)], ids=str)
+@pytest.mark.parametrize("batch", sampled([(3, 9), ()], 1), ids=str)
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_other_states_stay_what_they_are(backend, batch):
     """To the last bit; and the large angle's are the textbook's."""

@@ -33,7 +33,7 @@ MODELS = {
     "floating": tw.random_tree(4, rng=2, base="floating"),
 }
 every_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
-some_models = pytest.mark.parametrize("model", sampled(MODELS.values(), 3), ids=MODELS)
+some_models = pytest.mark.parametrize("model", sampled(MODELS.values(), 2), ids=MODELS)
 
 
 @cache

@@ -44,6 +44,7 @@ def test_the_program_of_the_manual_gives_what_a_single_call_gives(client):
     np.testing.assert_allclose(energy, tw.kinetic_energy(model, q, v).max(), rtol=1e-13)
 
 
+@pytest.mark.slow
 def test_the_work_is_done_in_two_processes(client):
     """Blocks of it in both, none of it here."""
     import os

@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,12 @@ def texts(path: Path) -> list[str]:
     if path.suffix == ".ipynb":
         return ["".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == "markdown"]
     return [text]
+
+
+@cache
+def spoken(path: Path) -> str:
+    """The texts of a file without its code and formulas."""
+    return NOT_WORDS.sub("x", "".join(texts(path)))
 
 
 def narrow(text: str) -> list[str]:
@@ -76,6 +83,8 @@ def test_one_thing_has_one_term(word):
     assert re.search(word, "构型，转动关节，棱柱关节，复合惯量，脚的 Jacobian 矩阵，带不动，父物体")
     own = [path for path in FILES if not path.relative_to(ROOT).as_posix().startswith(ELSEWHERE)]
     found = {
-        path.name: re.findall(rf".{{0,9}}(?:{word}).{{0,9}}", NOT_WORDS.sub("x", "".join(texts(path)))) for path in own
+        path.name: [one[max(0, hit.start() - 9) : hit.end() + 9] for hit in re.finditer(word, one)]
+        for path in own
+        for one in [spoken(path)]
     }
     assert {name: places for name, places in found.items() if places} == {}, ONE_TERM[word]

@@ -53,7 +53,13 @@ PARTS = {
 SHOWN = [entry for entry in ENTRIES if entry.blocks]
 
 
-@pytest.mark.parametrize("entry", SHOWN, ids=[f"{e.number}: {e.section} {e.title}" for e in SHOWN])
+@pytest.mark.parametrize(
+    "entry",
+    [
+        pytest.param(e, id=f"{e.number}: {e.section} {e.title}", marks=[pytest.mark.slow] * ("seconds(" in e.blocks[0]))
+        for e in SHOWN
+    ],
+)
 def test_what_the_entry_calls_true_is_true(entry: Entry) -> None:
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the chapter is judged by it")
     run(ENGLISH, [PREAMBLE, *entry.blocks])
