@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from ..algorithms.factorization import ltdl, solve_mass_matrix
 from ..algorithms.inverse_mass import inverse_mass_matrix
 from ..arrays import Array
 from ..model import Model, tree_terms
-from .quantity import Quantity
+from .quantity import Quantity, of_each
 from .watch import LEAST, pivots
 
 __all__ = ["inverses"]
@@ -53,10 +54,6 @@ def inverses(model: Model, dtype: np.dtype[Any], frames: Sequence[str], rows: Qu
 
         return Quantity(symbol, tuple(arguments.split()), compute)
 
-    def inertias(q: Array) -> Array:
-        each = [articulated_inertia(model, q, name) for name in frames]
-        return np.stack(each, axis=-3) if each else np.zeros((0, 6, 6))
-
     def mobility(q: Array) -> Array:
         return delassus_matrix(model, q, rows.compute(q)[0])
 
@@ -72,7 +69,7 @@ def inverses(model: Model, dtype: np.dtype[Any], frames: Sequence[str], rows: Qu
     yield watched("M_inv_tau", "q tau", lambda q, tau: solve_mass_matrix(model, q, tau), by_factors)
     yield watched("Lambda_inv", "q", mobility, by_factors)
     yield watched("Lambda", "q", apparent, by_rows)
-    yield watched("IA", "q", inertias, by_aba)
+    yield watched("IA", "q", partial(of_each, frames, articulated_inertia, (6, 6), model), by_aba)
 
 
 def _dependence(A: Array, A_inv: Array) -> Iterator[Any]:

@@ -28,7 +28,7 @@ from ..errors import check_known
 from ..model import Model, tree_terms
 from .derivatives import derivatives, regressor
 from .inverses import inverses
-from .quantity import ARGUMENTS, Quantity, shapes
+from .quantity import ARGUMENTS, Quantity, of_each, shapes
 from .watch import pivots, with_watch
 
 __all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
@@ -96,7 +96,7 @@ def quantities(
         return Quantity(symbol, tuple(arguments.split()), lambda *x: (function(model, *x), []))
 
     def of_frames(symbol: str, arguments: str, one: Callable[..., Array], *tail: int) -> Quantity:
-        return of(symbol, arguments, partial(_of_each, frames, one, tail))
+        return of(symbol, arguments, partial(of_each, frames, one, tail))
 
     def forward_dynamics(q: Array, v: Array, tau: Array, f_ext: Array | None = None) -> tuple[Array, list[Any]]:
         terms = aba_terms(model, q, v, tau, f_ext)
@@ -135,12 +135,6 @@ def quantities(
     every = [*known.values(), *inverses(model, dtype, frames, known["J_c"])]
     every += [of("Y", "q v a", regressor), *(d for quantity in every for d in derivatives(model, quantity))]
     return {quantity.symbol: quantity for quantity in every}
-
-
-def _of_each(frames: Sequence[str], one: Callable[..., Array], tail: tuple[int, ...], model: Model, *x: Array) -> Array:
-    """Return a quantity of each frame, along an axis before its own."""
-    each = [one(model, *x, name) for name in frames]
-    return np.stack(each, axis=-1 - len(tail)) if each else np.zeros((0, *tail))
 
 
 def chosen(known: Mapping[str, Quantity], want: Sequence[str]) -> tuple[Quantity, ...]:

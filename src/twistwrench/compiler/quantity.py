@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from ..arrays import Array
 from ..model import Model
 
-__all__ = ["ARGUMENTS", "Quantity", "shapes"]
+__all__ = ["ARGUMENTS", "Quantity", "of_each", "shapes"]
 
 ARGUMENTS = ("q", "v", "a", "tau", "f_ext")
 """The arguments of a program, in this order."""
@@ -36,3 +38,9 @@ def shapes(model: Model) -> dict[str, tuple[int, ...]]:
     """Return the shape of each argument of one state."""
     nv = (model.nv,)
     return {"q": (model.nq,), "v": nv, "a": nv, "tau": nv, "f_ext": (model.nbodies, 6)}
+
+
+def of_each(frames: Sequence[str], one: Callable[..., Array], tail: tuple[int, ...], model: Model, *x: Array) -> Array:
+    """Return a quantity of each frame, along an axis before its own, which have the shape `tail`."""
+    each = [one(model, *x, name) for name in frames]
+    return np.stack(each, axis=-1 - len(tail)) if each else np.zeros((0, *tail))

@@ -1,4 +1,4 @@
-"""The cases that an answer is tried on: those that are drawn first, and further ones for an answer that passes them."""
+"""The cases that an answer is tried on: those that are drawn first, and further ones."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
 
 
 def further_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
-    """Return the cases for an answer that is right in the first ones: without a turn, half a turn, and a second draw.
+    """Return the cases after those that are drawn first: without a turn, with half a turn, and a second draw.
 
     Where an angle is zero or π, a formula may divide by zero; and what a function keeps from one call to the next shows
     when the same sizes come again.

@@ -149,13 +149,11 @@ def subject(
     if not isinstance(model, Model):
         raise no_model(robot, "robot", "a name, a path, a Model, a Scene or a Simulation")
     motion = robot if isinstance(robot, Simulation) and q is None else q
-    asked = contacts
-    if contacts is None:
-        contacts = _own_contacts(robot, motion)
-        if forces is None and isinstance(motion, Simulation):
-            forces = _own_forces(motion, _contacts(model, contacts))
-    ground = _contacts(model, contacts)
-    standing = motion.contacts if isinstance(motion, Motion) and asked is None else None
+    own = contacts is None
+    ground = _contacts(model, _own_contacts(robot, motion) if own else contacts)
+    if own and forces is None and isinstance(motion, Simulation):
+        forces = _own_forces(motion, ground)
+    standing = motion.contacts if own and isinstance(motion, Motion) else None
     if isinstance(motion, Motion | Simulation):
         t = motion.t if t is None else t
         motion = motion.q
