@@ -1,4 +1,4 @@
-"""Scenes that a practitioner would try first: which can be said, and how far off they are beside another engine.
+"""Scenes that a practitioner would try first: which of them can be written, and their errors against another engine.
 
 usage:  python benchmarks/scene_trials.py              all of them, half a minute; and the tables of docs/scenes*.md
         python benchmarks/scene_trials.py --tables     only the tables, from results/scene_trials.json
@@ -31,7 +31,7 @@ ENGINES = {
 
 
 class Trial(NamedTuple):
-    """A scene, in both languages; how it is said; beside what; the function that returns how far off it is."""
+    """A scene, in both languages; how it is written; what it is compared with; the function that returns its error."""
 
     english: str
     chinese: str
@@ -63,7 +63,7 @@ TRIALS = [
     ),
     Trial("a drone with a load below it: q̈", "下挂重物的无人机：q̈", "attach", "pinocchio", "iris_with_a_load"),
     Trial("Tiago on a planar base: M", "平面基座上的 Tiago：M", 'base="planar"', "pinocchio", "tiago_on_the_floor"),
-    Trial("a box slides until it stops: how far", "箱子滑行到停：多远", "ground=", "closed", "box_slides"),
+    Trial("a box slides until it stops: distance", "箱子滑行直到停下：距离", "ground=", "closed", "box_slides"),
     Trial("a satellite with an arm, 2 s: q", "带机械臂的卫星，2 s：q", "gravity=[0, 0, 0]", "dop853", "satellite"),
     Trial("a double pendulum, 2 s: q", "双摆，2 s：q", "simulate", "dop853", "double_pendulum"),
     Trial("an elevator: forces of the feet", "电梯：足端力", "acceleration=", "closed", "elevator"),
@@ -82,11 +82,11 @@ TRIALS = [
         "mm",
     ),
     Trial(
-        "Go2 drops and stands: its feet's load", "Go2 落下并站住：足端载荷", "ground=", "closed", "go2_drops_and_stands"
+        "Go2 drops and stands: force on the feet", "Go2 落下并站住：足端受力", "ground=", "closed", "go2_drops_and_stands"
     ),
     Trial(
-        "a bead on a rail comes to the floor: when",
-        "导轨上的珠子到达地面：何时",
+        "a bead on a rail reaches the floor: time",
+        "导轨上的珠子到达地面：时刻",
         "SlidingContact, ground=",
         "closed",
         "rail_and_ground",
@@ -97,11 +97,11 @@ TRIALS = [
     Trial("a finger that mimics another: q̈", "跟随另一手指的手指：q̈", "Coupling", "pinocchio", "mimic"),
     Trial("a ball rolls down a slope: v", "球滚下斜坡：v", "SphereContact", "closed", "ball_rolls"),
     Trial("a ball bounces: its height", "球弹起：高度", "Ground(restitution=)", "closed", "ball_bounces"),
-    Trial("a box on a slope topples: the slope", "斜坡上的箱子翻倒：坡度", "ground=", "closed", "box_on_a_slope"),
-    Trial("a box is thrown: where it rests", "抛出的箱子：停在何处", "ground=", "mujoco", "box_is_thrown"),
+    Trial("a box on a slope topples: angle of the slope", "斜坡上的箱子翻倒：坡度", "ground=", "closed", "box_on_a_slope"),
+    Trial("a box is thrown: place of rest", "抛出的箱子：停下的位置", "ground=", "mujoco", "box_is_thrown"),
     Trial(
-        "a stiff humanoid is pushed: how hard it tips",
-        "被推的刚性人形机器人：多大的推力使它翻倒",
+        "a stiff humanoid is pushed: speed at which it tips",
+        "被推的刚性人形机器人：使它翻倒的速度",
         "lock_joints, ground=",
         "closed",
         "humanoid_is_pushed",
@@ -147,11 +147,11 @@ def tables(language: str) -> dict[str, str]:
 def _cells(language: str) -> Iterator[tuple[str, str, str]]:
     chinese = language != ""
     found = results()
-    said, beside, error = ("怎么表达", "与什么比", "误差") if chinese else ("said by", "beside", "off by")
+    said, beside, error = ("写法", "对照", "误差") if chinese else ("in code", "compared with", "error")
     for trial in TRIALS:
         scene = trial.chinese if chinese else trial.english
         if not trial.function:
-            yield scene, said, "不能：不读 SDF" if chinese else "no: SDF is not read"
+            yield scene, said, "不能：不读 SDF" if chinese else "not possible: SDF is not read"
             continue
         x = found[trial.function]
         yield scene, said, f"`{trial.said}`"
