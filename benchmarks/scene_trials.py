@@ -82,7 +82,11 @@ TRIALS = [
         "mm",
     ),
     Trial(
-        "Go2 drops and stands: force on the feet", "Go2 落下并站住：足端受力", "ground=", "closed", "go2_drops_and_stands"
+        "Go2 drops and stands: force on the feet",
+        "Go2 落下并站住：足端受力",
+        "ground=",
+        "closed",
+        "go2_drops_and_stands",
     ),
     Trial(
         "a bead on a rail reaches the floor: time",
@@ -97,7 +101,9 @@ TRIALS = [
     Trial("a finger that mimics another: q̈", "跟随另一手指的手指：q̈", "Coupling", "pinocchio", "mimic"),
     Trial("a ball rolls down a slope: v", "球滚下斜坡：v", "SphereContact", "closed", "ball_rolls"),
     Trial("a ball bounces: its height", "球弹起：高度", "Ground(restitution=)", "closed", "ball_bounces"),
-    Trial("a box on a slope topples: angle of the slope", "斜坡上的箱子翻倒：坡度", "ground=", "closed", "box_on_a_slope"),
+    Trial(
+        "a box on a slope topples: angle of the slope", "斜坡上的箱子翻倒：坡度", "ground=", "closed", "box_on_a_slope"
+    ),
     Trial("a box is thrown: place of rest", "抛出的箱子：停下的位置", "ground=", "mujoco", "box_is_thrown"),
     Trial(
         "a stiff humanoid is pushed: speed at which it tips",

@@ -87,9 +87,70 @@ def peer(r: Row) -> str:
 WAYS = {"fast": "tw.fast", "textbook": "tw"}
 
 
+CHINESE = {
+    "function": "函数",
+    "number type": "数值类型",
+    "in a call": "一次调用",
+    "error": "误差",
+    "time": "时间",
+    "state": "个状态",
+    "states": "个状态",
+    "digits": "位",
+    "after 1 s": "（1 s 后）",
+    "links": "个连杆",
+    "power": "幂次",
+    "batch": "批量",
+    "program": "程序",
+    "textbook": "教科书写法",
+    "fast": "`tw.fast`",
+    "pinocchio": "Pinocchio",
+    "moment of ḣ_G": "ḣ_G 的力矩",
+    "20 to 80": "20 到 80",
+    "100 to 1000": "100 到 1000",
+    "all rules": "全部规则",
+    "no fingerprints": "不用指纹",
+    "0 and 1 kept": "保留 0 和 1",
+    "nothing shared": "不共用",
+    "signs kept": "保留符号",
+    "no zero in S": "S 中没有零",
+    "no zero in X": "X 中没有零",
+    "no zero in I": "I 中没有零",
+    "whole robot": "整个机器人",
+    "some joints held": "锁住部分关节",
+    "no gravity": "没有重力",
+    "fixed base": "固定基座",
+    "trot": "小跑",
+    "walk": "步行",
+    "differences of 1 ms": "差分，1 ms",
+    "differences of 10 ms": "差分，10 ms",
+    "Euler, 1 ms": "显式欧拉法，1 ms",
+    "semi-implicit Euler, 1 ms": "半隐式欧拉法，1 ms",
+    "g = 9.8 for 9.81": "g 取 9.8 而不是 9.81",
+    "trunk 5 % heavier": "躯干重 5 %",
+    "joints that move least, held": "锁住动得最少的关节",
+    "rigid body, massless legs": "单刚体，腿无质量",
+    "pendulum, massless legs": "倒立摆，腿无质量",
+    "base pitched by 1°": "基座俯仰 1°",
+    "base (v, ω) for (ω, v)": "基座的 (ω, v) 写成 (v, ω)",
+    "base velocity in the world's axes": "基座速度取在世界坐标轴中",
+}
+"""Heads and names of lines, for the pages in Chinese. What is quoted as code stays."""
+_PHRASES = "|".join(map(re.escape, sorted(CHINESE, key=len, reverse=True)))
+_SPOKEN = re.compile(rf"`[^`]*`|(?<![A-Za-z])({_PHRASES})(?![A-Za-z])")
+_HAN = r"[\u4e00-\u9fff]"
+
+
+def in_chinese(made: str) -> str:
+    """Return a table with Chinese heads and names of lines."""
+    said = _SPOKEN.sub(lambda found: CHINESE[found[1]] if found[1] else found[0], made)
+    said = re.sub(rf"(?<={_HAN}), |, (?={_HAN})", "，", said)
+    return re.sub(rf"(?<={_HAN}): ", "：", said).replace(" （", "（")
+
+
 def fill(page: str, made: Mapping[str, str]) -> str:
-    """Return a page with its tables made anew, each after a line ``<!-- table: NAME -->``."""
-    return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{made[found[2]]}\n", page)
+    """Return a page with its tables made anew, each after a line ``<!-- table: NAME -->``; in the page's language."""
+    speak = in_chinese if re.match(rf"# .*{_HAN}", page) else str
+    return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{speak(made[found[2]])}\n", page)
 
 
 if __name__ == "__main__":
