@@ -7,6 +7,7 @@ file           what it holds
 =============  ===============================================================================================
 number         `Number`, which only remembers what is done to it, and the `Tape` it writes on
 line           `Line`: the operations that a question needs, one after the other
+memory         what a program returns; rows of a caller's arrays; memory that is used again; no search for garbage
 instructions   LLVM's language: arithmetic, and the way in and out of memory
 sine           sin and cos of many angles at once
 llvm           machine code, by LLVM
@@ -17,7 +18,6 @@ packs          the same operation in several limbs
 registers      NumPy, for every number type
 fingerprints   what is the same number in every state, computed once
 tangent        the derivatives of what is on a tape, and steps along v from q
-memory         what a program returns; rows of a caller's arrays; memory that is used again
 backend        which of them runs a line
 pair_sine      sin and cos of a pair
 bounds         how far a computed number can be off

@@ -64,13 +64,14 @@ def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
 def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
     """Return what computes ∂q̈: M⁻¹ for τ, and −M⁻¹ ∂τ at this q̈ for q and v, since M q̈ + h = τ stays as it is.
 
-    Fewer operations than the ABA's own line, differentiated: 24 600 for a Go2 in place of 33 200.
+    Fewer operations than the ABA's own line, differentiated: 24 600 for a Go2 in place of 33 200. Of the states of one
+    q, M⁻¹ and ∂τ/∂v do not ask for q̈.
     """
     inverse = Quantity("tau", ("q", "v", "a", "f_ext"), lambda *x: (rnea(model, *x), []))
     d_tau = of_line(model, inverse, of) if of != "tau" else None
 
     def compute(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
-        qdd, watched = forward.compute(q, v, tau, *f_ext)
+        qdd, watched = forward.compute(q, v, tau, *f_ext) if of == "q" else forward.compute(q, 0 * v, 0 * tau)
         tree = tree_terms(model, q)
         M_inv = unit_force_responses(tree, articulated_inertias(tree))
         return -M_inv @ d_tau(q, v, qdd, *f_ext)[0] if d_tau else M_inv, watched

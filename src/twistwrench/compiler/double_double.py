@@ -15,6 +15,7 @@ import numpy as np
 from ..errors import check_known
 from .bounds import Bounded, Bounds
 from .line import Line, operands
+from .memory import without_garbage
 from .number import Number, Tape
 from .pair_sine import SINE_ERROR, sine_and_cosine_of_pair
 from .pairs import EACH, NOTHING, Pair, Pairs
@@ -25,6 +26,7 @@ LO, BOUND = ".lo", ".bound"
 """After the name of an argument or of a result: what the double nearest to it leaves, and how far it can be off."""
 
 
+@without_garbage()
 def double_double(
     line: Line, *, low: Collection[str] = (), plain: Collection[str] = (), fma: bool, bound: bool = False
 ) -> Line:

@@ -21,14 +21,15 @@ Of all rules this is the only one that changes roundings: it takes some away.
 from __future__ import annotations
 
 import random
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from .line import Line
-from .number import ARITHMETIC, Tape
+from .line import Line, operands
+from .number import ARITHMETIC, Node, Number, Tape
 
 __all__ = ["each_once"]
 
@@ -49,34 +50,45 @@ def each_once(line: Line) -> Line:
     marks: list[Mark] = []
     tape, fingerprint = Tape((lambda: line.notes[len(marks)]) if line.notes else None), Fingerprint()
     values: list[Any] = []
-    known: dict[Mark, Any] = {}
-    for operation, *rest in line.nodes:
-        mark = fingerprint.of(operation, rest, marks)
+    known: dict[int, Any] = {}
+    turns: list[bool] = []  # whether a number depends on a sine
+    for node in line.nodes:
+        operation, needed = node[0], operands(node)
+        mark = fingerprint.of(node, marks)
         if operation == "const":
-            value = rest[0]
+            value = node[1]
         elif operation == "input":
-            value = tape.input(rest[0])
-        elif (value := known.get(mark, _constant(mark))) is None:
-            if (opposite := known.get((-mark[0] % PRIME, -mark[1] % PRIME))) is not None:
-                value = -opposite
-            else:
-                value = _again(tape, operation, [values[k] for k in rest])
-            if operation in ("sin", "cos") or any(marks[k] in known for k in rest):
-                known[mark] = value
+            value = tape.input(node[1])
+        elif (value := _known(mark, known)) is None:
+            value = _again(tape, operation, [values[k] for k in needed])
+        if type(value) is Number and (operation in ("sin", "cos") or any(turns[k] for k in needed)):
+            known.setdefault(mark[0], value)
+        turns.append(mark[0] in known)
         marks.append(mark)
         values.append(value)
-    tape.note = None  # constants of the results belong to no step
+    if line.notes:
+        tape.note = lambda: None  # constants of the results belong to no step
     results = {name: np.empty(shape, object) for name, (shape, _) in line.outputs.items()}
     for name, (_, entries) in line.outputs.items():
         results[name].reshape(-1)[:] = [values[k] for k in entries]
     return Line.of(tape, line.inputs, results)
 
 
-def _again(tape: Tape, operation: str, operands: list[Any]) -> Any:
+def _known(mark: Mark, known: Mapping[int, Any]) -> Any:
+    """Return the number, or the constant, that is the one with this fingerprint; None if there is none."""
+    value = known.get(mark[0])
+    if value is None and mark[0] == mark[1]:
+        return _constant(mark[0])
+    if value is None and (opposite := known.get(PRIME - mark[0])) is not None:
+        return -opposite
+    return value
+
+
+def _again(tape: Tape, operation: str, values: list[Any]) -> Any:
     """Write an operation to another tape."""
-    if operation in ARITHMETIC and not (operation == "div" and isinstance(operands[1], Fraction)):
-        return ARITHMETIC[operation](*operands)
-    return tape.apply(operation, *operands)  # functions of constants, too; and a quotient by 0 is the alarm's
+    if operation in ARITHMETIC and not (operation == "div" and isinstance(values[1], Fraction)):
+        return ARITHMETIC[operation](*values)
+    return tape.apply(operation, *values)  # functions of constants, too; and a quotient by 0 is the alarm's
 
 
 class Fingerprint:
@@ -86,22 +98,23 @@ class Fingerprint:
         self.numbers = random.Random(0)  # the same in each run, as programs are
         self.others: dict[Any, Mark] = {}  # of arguments and functions
 
-    def of(self, operation: str, rest: list[Any], marks: list[Mark]) -> Mark:
+    def of(self, node: Node, marks: list[Mark]) -> Mark:
         """Return that of an operation on numbers whose fingerprints are known."""
+        operation = node[0]
         if operation == "const":
-            value = rest[0].numerator * _known_inverse(rest[0].denominator) % PRIME
+            value = node[1].numerator * _known_inverse(node[1].denominator) % PRIME
             return value, value
         if operation == "input":
-            return self.free(rest[0])
-        (x0, x1), *others = [marks[k] for k in rest]
-        y0, y1 = others[0] if others else (0, 0)
+            return self.free(node[1])
+        x0, x1 = marks[node[1]]
+        y0, y1 = marks[node[-1]]
         match operation:
+            case "mul":
+                return x0 * y0 % PRIME, x1 * y1 % PRIME
             case "add":
                 return (x0 + y0) % PRIME, (x1 + y1) % PRIME
             case "sub":
                 return (x0 - y0) % PRIME, (x1 - y1) % PRIME
-            case "mul":
-                return x0 * y0 % PRIME, x1 * y1 % PRIME
             case "neg":
                 return -x0 % PRIME, -x1 % PRIME
             case "div" if y0 and y1:
@@ -127,11 +140,9 @@ _known_inverse = lru_cache(_inverse)
 """For denominators of constants, which are a few powers of two."""
 
 
-def _constant(mark: Mark) -> Fraction | None:
-    """Return the constant with a fingerprint, if it is that of one: the quotient of two numbers that are not large."""
-    if mark[0] != mark[1]:
-        return None
-    a, b, u, v = PRIME, mark[0], 0, 1
+def _constant(value: int) -> Fraction | None:
+    """Return the constant that has this value at every point, if it is a quotient of numbers that are not large."""
+    a, b, u, v = PRIME, value, 0, 1
     while b >= LARGEST:  # Euclid: b is v times the fingerprint at any time
         a, b, u, v = b, a % b, v, u - a // b * v
     return Fraction(b, v) if abs(v) < LARGEST else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +15,8 @@ __all__ = ["Line", "Output", "operands"]
 
 DEEPEST = 8
 """How deep operations stand within each other in a text, at most."""
+
+LEAVES = ("input", "const")
 
 Output = tuple[tuple[int, ...], tuple[int, ...]]
 """The shape of a result, and the node of each of its entries."""
@@ -51,11 +53,15 @@ class Line:
     def without(self, name: str) -> Line:
         """Return what is left where a result is not asked for."""
         outputs = {other: output for other, output in self.outputs.items() if other != name}
-        return self._reduced(list(self.nodes), list(self.notes), self.inputs, outputs)
+        return self._reduced(self.nodes, self.notes, self.inputs, outputs)
 
     @classmethod
     def _reduced(
-        cls, nodes: list[Node], notes: list[Any], inputs: Mapping[str, tuple[int, ...]], outputs: Mapping[str, Output]
+        cls,
+        nodes: Sequence[Node],
+        notes: Sequence[Any],
+        inputs: Mapping[str, tuple[int, ...]],
+        outputs: Mapping[str, Output],
     ) -> Line:
         needed = _needed(nodes, [k for _, entries in outputs.values() for k in entries])
         new = {old: k for k, old in enumerate(needed)}
@@ -74,7 +80,7 @@ class Line:
         depth: dict[int, int] = {}
         for k, node in enumerate(self.nodes):
             depth[k] = 1 + max((depth.get(j, 0) for j in operands(node)), default=0)
-            alone = len(users.get(k, ())) == 1 and k not in results and node[0] not in ("input", "const")
+            alone = len(users.get(k, ())) == 1 and k not in results and node[0] not in LEAVES
             if not (alone and depth[k] <= DEEPEST and (not self.notes or self.notes[k] == self.notes[users[k][0]])):
                 depth[k] = 0
         return frozenset(k for k, size in depth.items() if size)
@@ -106,24 +112,25 @@ class Line:
     @property
     def operations(self) -> Counter[str]:
         """How many operations there are, by kind."""
-        return Counter(node[0] for node in self.nodes if node[0] not in ("input", "const"))
+        return Counter(node[0] for node in self.nodes if node[0] not in LEAVES)
 
 
-def _needed(nodes: list[Node], wanted: list[int]) -> list[int]:
+def _needed(nodes: Sequence[Node], wanted: Iterable[int]) -> list[int]:
     """Return the nodes on which some depend, in their order."""
-    needed, left = set(), list(wanted)
-    while left:
-        k = left.pop()
-        if k not in needed:
-            needed.add(k)
-            left += operands(nodes[k])
-    return sorted(needed)
+    needed = bytearray(len(nodes))
+    for k in wanted:
+        needed[k] = 1
+    for k in range(len(nodes) - 1, -1, -1):
+        if needed[k]:
+            for j in operands(nodes[k]):
+                needed[j] = 1
+    return [k for k, one in enumerate(needed) if one]
 
 
 def operands(node: Node) -> tuple[int, ...]:
     """Return the nodes that an operation needs."""
-    return () if node[0] in ("input", "const") else node[1:]
+    return () if node[0] in LEAVES else node[1:]
 
 
 def _renumbered(node: Node, new: Mapping[int, int]) -> Node:
-    return node if node[0] in ("input", "const") else (node[0], *(new[k] for k in node[1:]))
+    return node if node[0] in LEAVES else (node[0], *[new[k] for k in node[1:]])

@@ -12,6 +12,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ import numpy as np
 from ..arrays import Array
 from .instructions import Text
 from .line import Line, operands
+from .memory import without_garbage
 from .sine import sine_and_cosine
 
 __all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
@@ -107,6 +109,7 @@ def engine_of(text: str) -> Any:
     return engine
 
 
+@without_garbage()
 def written(line: Line, scalar: str, width: int) -> str:
     """Return a line as a module of LLVM's language: pieces, and a loop over the states.
 
@@ -164,8 +167,15 @@ class Pieces:
             if operation not in ("input", "const"):
                 yield k, None
         for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
-            for start in range(0, len(entries), self.width):
-                yield 0, (array, start, entries[start : start + self.width])
+            starts = range(0, len(entries), self.width)
+            for zero, some in groupby(starts, key=lambda k: self.nothing(entries[k : k + self.width])):
+                run = [*some]
+                for start, end in [(run[0], run[-1])] if zero else zip(run, run):  # zeros are stored together
+                    yield 0, (array, start, entries[start : end + self.width])
+
+    def nothing(self, nodes: Sequence[int]) -> bool:
+        """Return whether all these are zero."""
+        return all(self.line.nodes[k] == ("const", 0) for k in nodes)
 
     def compute(self, k: int) -> None:
         """Write the operation of a node."""
@@ -229,7 +239,10 @@ class Pieces:
 
     def store(self, array: int, start: int, nodes: Sequence[int]) -> None:
         """Store entries of a result."""
-        self.text.store(self.row(array), start, [self.value(k) for k in nodes])
+        if self.nothing(nodes):
+            self.text.clear(self.row(array), start, len(nodes))
+        else:
+            self.text.store(self.row(array), start, [self.value(k) for k in nodes])
 
     def row(self, array: int) -> list[str]:
         """Return where the states of this turn have their entries of an array."""

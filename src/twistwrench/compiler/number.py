@@ -46,6 +46,9 @@ ARITHMETIC: dict[str, Callable[..., Any]] = {
 
 ZERO, ONE = Fraction(0), Fraction(1)
 
+EXACT = (Fraction, int)
+"""Types of constants."""
+
 
 class Tape:
     """The operations so far, each once.
@@ -57,12 +60,14 @@ class Tape:
     note : callable, optional
         Called for each new operation; what it returns is in `notes`: see `source.step`.
     notes : list
+        Empty without `note`.
     """
 
     def __init__(self, note: Callable[[], Any] | None = None) -> None:
         self.nodes: list[Node] = []
         self.note, self.notes = note, list[Any]()
         self._index: dict[Node, int] = {}
+        self._constants: dict[tuple[int, int], int] = {}  # fractions take long to hash
 
     def input(self, name: Any) -> Number:
         """Return a number that is given when the program runs."""
@@ -70,7 +75,7 @@ class Tape:
 
     def number(self, x: Number | Fraction | float) -> Number:
         """Return a constant as a number of this tape."""
-        return x if isinstance(x, Number) else Number(self, self.enter("const", Fraction(x)))
+        return x if isinstance(x, Number) else Number(self, self.constant(Fraction(x)))
 
     def at(self, index: int) -> Number:
         """Return the number of a node."""
@@ -86,13 +91,22 @@ class Tape:
         if index is None:
             index = self._index[node] = len(self.nodes)
             self.nodes.append(node)
-            self.notes.append(self.note() if self.note is not None else None)
+            if self.note is not None:
+                self.notes.append(self.note())
+        return index
+
+    def constant(self, c: Fraction) -> int:
+        """Return the index of a constant."""
+        ratio = c.as_integer_ratio()
+        index = self._constants.get(ratio)
+        if index is None:
+            index = self._constants[ratio] = self.enter("const", c)
         return index
 
     def signed(self, index: int) -> tuple[bool, int]:
         """Return whether a node is the negative of another one, and that one."""
-        operation, *rest = self.nodes[index]
-        return (True, rest[0]) if operation == "neg" else (False, index)
+        node = self.nodes[index]
+        return (True, node[1]) if node[0] == "neg" else (False, index)
 
     def _negated(self, index: int, negative: bool = True) -> Number:
         return Number(self, self.enter("neg", index) if negative else index)
@@ -102,9 +116,10 @@ class Tape:
         minus, a = self.signed(a)
         return self._negated(a, not minus)
 
-    def add(self, a: int, b: int) -> Number | Fraction:
-        """Return a + b."""
+    def add(self, a: int, b: int, minus: bool = False) -> Number | Fraction:
+        """Return a + b, or a - b."""
         (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
+        minus_b ^= minus
         if minus_a != minus_b:
             return self._minus(b, a) if minus_a else self._minus(a, b)
         if a == b:
@@ -129,10 +144,8 @@ class Tape:
             return -ONE if minus_a != minus_b else ONE
         return self._negated(self.enter("div", a, b), minus_a != minus_b)
 
-    def scale(self, c: Fraction, a: int) -> Number | Fraction:
-        """Return c a."""
-        if c == 0:
-            return ZERO
+    def scale(self, c: Fraction, a: int) -> Number:
+        """Return c a, where c is not 0."""
         minus, a = self.signed(a)
         if is_power_of_two(-c):
             minus, c = not minus, -c
@@ -147,7 +160,7 @@ class Tape:
                     return self._scaled(c * self.nodes[factor][1], rest)
         if c == 1:
             return a
-        k = self.enter("const", c)
+        k = self.constant(c)
         return self.enter("mul", min(a, k), max(a, k))
 
 
@@ -165,16 +178,16 @@ class Number:
     def __add__(self, other: Any) -> Any:
         if type(other) is Number:
             return self.tape.add(self.index, other.index)
-        if not isinstance(other, Fraction | int):
+        if not isinstance(other, EXACT):
             return NotImplemented  # NumPy takes an array entry by entry
-        return self if other == 0 else self.tape.add(self.index, self.tape.number(other).index)
+        return self.tape.add(self.index, self.tape.constant(Fraction(other))) if other else self
 
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> Any:
-        if type(other) is Number or isinstance(other, Fraction | int):
-            return self + -other
-        return NotImplemented
+        if type(other) is Number:
+            return self.tape.add(self.index, other.index, minus=True)
+        return self + -other if isinstance(other, EXACT) else NotImplemented
 
     def __rsub__(self, other: Any) -> Any:
         return -self + other
@@ -182,23 +195,23 @@ class Number:
     def __mul__(self, other: Any) -> Any:
         if type(other) is Number:
             return self.tape.multiply(self.index, other.index)
-        if not isinstance(other, Fraction | int):
+        if not isinstance(other, EXACT):
             return NotImplemented
-        return self.tape.scale(Fraction(other), self.index)
+        return self.tape.scale(Fraction(other), self.index) if other else ZERO
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Any:
         if type(other) is Number:
             return self.tape.divide(self.index, other.index)
-        if not isinstance(other, Fraction | int):
+        if not isinstance(other, EXACT):
             return NotImplemented
         if is_power_of_two(abs(Fraction(other))):
             return self * (1 / Fraction(other))
         return self.tape.divide(self.index, self.tape.number(other).index)
 
     def __rtruediv__(self, other: Any) -> Any:
-        if not isinstance(other, Fraction | int):
+        if not isinstance(other, EXACT):
             return NotImplemented
         return ZERO if other == 0 else self.tape.divide(self.tape.number(other).index, self.index)
 

@@ -12,6 +12,7 @@ from ..arrays import Array, convert
 from ..model import Model
 from .fingerprints import each_once
 from .line import Line
+from .memory import without_garbage
 from .number import Tape, numbers
 from .quantities import Quantity
 from .watch import LARGEST_ANGLE, alarm, state_questions
@@ -22,6 +23,7 @@ ALARM = "alarm"
 """The name of the result that says whether a state is the textbook's: see `watch`."""
 
 
+@without_garbage()
 def record(
     model: Model,
     quantities: Sequence[Quantity],
