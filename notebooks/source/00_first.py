@@ -20,7 +20,7 @@ model = tw.load("go2")
 model
 # %% [markdown] lang="en"
 # `tw.robots()` lists what else there is; a path to a URDF file works as well. Go2 has 12 motors. Its trunk is not
-# bolted to anything, which gives it six more degrees of freedom: `nv` = 6 + 12 = 18. To say where the trunk is takes
+# bolted to anything, which gives it six more degrees of freedom: `nv` = 6 + 12 = 18. The placement of the trunk takes
 # seven numbers, a position and a quaternion: `nq` = 7 + 12 = 19.
 # %% [markdown] lang="zh"
 # `tw.robots()` 列出目录里的其他机器人;给一个 URDF 文件的路径也行。Go2 有 12 个电机,躯干没有固定在任何东西上,
@@ -37,7 +37,7 @@ print("front left leg: hip, thigh, calf", q[7:10], "rad")
 # Four feet carry the weight. The cross in the picture is the centre of mass; it lies 2 mm behind the middle of the
 # four feet, so the rear feet carry a little more.
 # %% [markdown] lang="zh"
-# ## 是什么把它撑住的?
+# ## 什么力托住它?
 #
 # 四只脚承担全部重量。图中的叉是质心,它在四脚中心之后 2 mm 处,所以后脚承担得略多一点。
 # %%
@@ -58,16 +58,15 @@ print(f"weight {weight:.2f} N; centre of mass {1000 * (com - middle)[0]:.1f} mm 
 # %% [markdown] lang="en"
 # ## What must the motors do?
 #
-# Say how the robot is to move, `q`, `v` and `a`, and `rnea` returns the forces that this takes: **inverse dynamics**.
-# The first six numbers are the trunk's, moment first and force second: this order, angular before linear, holds
-# everywhere in the package. Standing still in the air, without a floor, somebody would have to hold the trunk with
-# the whole weight, 157.79 N upwards.
+# You give a motion as `q`, `v` and `a`, and `rnea` returns the forces that this motion needs: **inverse dynamics**. The
+# first six numbers belong to the trunk: first a moment, then a force. This order, angular before linear, is used
+# everywhere in the package. If the robot stood still in the air, without a floor, somebody would have to hold the trunk
+# with the whole weight, 157.79 N upwards.
 # %% [markdown] lang="zh"
 # ## 电机要做什么?
 #
-# 说出机器人该怎么运动(`q`、`v`、`a`),`rnea` 就告诉你这需要多大的力:这叫**逆动力学**。前六个数属于躯干,
-# 先力矩后力;先角后线,整个包都是这个顺序。如果没有地面而要静止在空中,就得有人用全部重量那么大的力
-# 向上托住躯干:157.79 N。
+# 给出机器人的运动(`q`、`v`、`a`),`rnea` 就返回这个运动所需的力:这叫**逆动力学**。前六个数属于躯干,先力矩后力;先角后线,整个包都用这个顺序。
+# 如果没有地面而要静止在空中,就得有人托住躯干,向上的力等于全部重量:157.79 N。
 # %%
 rest = np.zeros(model.nv)
 tau = tw.rnea(model, q, rest, rest)
@@ -81,7 +80,7 @@ assert np.isclose(tau[5], weight)
 # %% [markdown] lang="zh"
 # ## 答案对吗?
 #
-# 只有一个程序的答案,先别相信。**第一**,在同一个包里换条路走:运动方程是 $M\,\dot v + h = \tau$,
+# 不要只相信一个程序的答案。**第一**,在同一个包里换一种算法:运动方程是 $M\,\dot v + h = \tau$,
 # 而 $M$ 和 $h$ 来自 `rnea` 以外的函数。
 # %%
 rng = np.random.default_rng(0)
@@ -92,11 +91,11 @@ error = np.abs(M @ a + h - tau).max()
 assert error < 1e-12 * np.abs(tau).max()
 print(f"largest difference {error:.1e} N m, of forces up to {np.abs(tau).max():.0f}")
 # %% [markdown] lang="en"
-# **Second**, other people's program: Pinocchio, the library that most legged robots are controlled with. Its
-# `q` is ours; in its vectors the linear part stands first. `tw.bridge` changes the order, and nothing else does.
+# **Second**, other people's program: Pinocchio, the library that most legged robots are controlled with. Its `q` is the
+# same as ours, but in its vectors the linear part comes first. Only `tw.bridge` changes the order.
 # %% [markdown] lang="zh"
 # **第二**,换别人的程序:Pinocchio,腿足机器人控制中用得最多的动力学库。它的 `q` 与我们的一样,
-# 但它的向量线性部分在前。换序只由 `tw.bridge` 来做,别处都不换。
+# 但它的向量线性部分在前。只有 `tw.bridge` 改变顺序。
 # %%
 try:
     import pinocchio as pin
@@ -112,8 +111,8 @@ else:
 # %% [markdown] lang="en"
 # ## One more picture
 #
-# The mass matrix couples the accelerations of the degrees of freedom. A front leg is not coupled with a rear leg:
-# white squares. The trunk is coupled with all of them: the first six rows and columns.
+# The mass matrix couples the accelerations of the degrees of freedom. A front leg is not coupled with a rear leg; these
+# squares are white. The trunk is coupled with all legs; see the first six rows and columns.
 # %% [markdown] lang="zh"
 # ## 再看一张图
 #

@@ -8,7 +8,7 @@
 # # 49.1 为什么需要空间向量
 #
 # 刚体既转动又移动。用 3D 向量来描述要两个量,而换一个参考点或坐标系时,它们遵守的规则并不一样。
-# 这个笔记本先把规则摆出来,再看忘掉一条会怎样,最后看 6D 向量如何应对。
+# 这个笔记本先说明这些规则,再看漏掉一条会怎样,最后看 6D 向量怎样解决这个问题。
 # %%
 import ast
 import inspect
@@ -88,7 +88,7 @@ for name, point in points.items():
 # %% [markdown] lang="en"
 # ## Forces have the same trouble, the other way round
 #
-# A force $\boldsymbol f$ is the same wherever you stand, its moment is not: moving from $O$ to $O'$ adds
+# A force $\boldsymbol f$ is the same for every reference point, but its moment is not: changing from $O$ to $O'$ adds
 # $\boldsymbol r_{O'O} \times \boldsymbol f$. With velocities it was the *linear* part that changed; here it is the
 # *angular* one.
 # %% [markdown] lang="zh"
@@ -107,8 +107,8 @@ for name, point in points.items():
 # %% [markdown] lang="en"
 # ## A change of frame, in four lines
 #
-# Let frame $B$ (the base) sit in frame $A$ (the world) at $\boldsymbol p$, turned by $R$. What is known in $B$ goes to
-# $A$ by four rules: two that only turn, and two with a coupling term.
+# Let frame $B$ (the base) sit in frame $A$ (the world) at $\boldsymbol p$, turned by $R$. Four rules take quantities
+# from $B$ to $A$: two rules only rotate, and two have a coupling term.
 #
 # $$\boldsymbol\omega_A = R\,\boldsymbol\omega_B, \quad
 # \boldsymbol v_A = R\,\boldsymbol v_B + \boldsymbol p \times R\,\boldsymbol\omega_B, \quad
@@ -141,7 +141,7 @@ assert np.allclose(base.motion_transform() @ twist_B, twist_A, rtol=1e-14)
 assert np.allclose(base.force_transform() @ wrench_B, wrench_A, rtol=1e-14)
 assert np.isclose(wrench_A @ twist_A, wrench_B @ twist_B)  # power: the same in both frames
 # %% [markdown] lang="en"
-# ## Four common mistakes, seen
+# ## Four common mistakes, shown
 #
 # The chapter lists four mistakes. Here each is made on purpose, on Go2:
 #
@@ -187,11 +187,11 @@ print(f"yaw acceleration {pushed[2]:.1f} rad/s², with the wrong sign {flipped[2
 assert pushed[2] > 10
 assert flipped[2] < -10
 # %% [markdown] lang="en"
-# The fourth is the most treacherous. Near the origin of the world both twists are almost equal, and the test in the
-# lab passes; the further the robot walks, the more is wrong. This is its foot again, from a robot that has walked a
-# distance $d$ and has not even turned:
+# The fourth is the most treacherous. Near the origin of the world both twists are almost equal, so a test in the lab
+# passes. The error grows with the distance that the robot walks. The picture shows the same foot, after the robot has
+# walked a distance $d$ without turning:
 # %% [markdown] lang="zh"
-# 第四个最阴险。在世界原点附近,两种 twist 几乎相等,实验室里的测试能通过;机器人走得越远,错得越多。
+# 第四个最难发现。在世界原点附近,两种 twist 几乎相等,实验室里的测试能通过;机器人走得越远,错得越多。
 # 还是那只脚,机器人向前走了距离 $d$,而且朝向都没变:
 # %%
 distance = np.geomspace(0.01, 100, 41)
@@ -224,8 +224,7 @@ plt.show()
 # ## The way without six dimensions
 #
 # `tw.newton_euler_3d` computes everything in this chapter with 3-D vectors only: bodies in the world, Newton for each
-# centre of mass, Euler for its turning. It is right (the package is measured against it), and it needs six coupling
-# terms:
+# centre of mass, Euler for its turning. It is right (the package is compared with it), but it needs six coupling terms:
 #
 # | | what | term |
 # |---|---|---|
@@ -306,11 +305,11 @@ assert spread > 5 * gathered
 # %% [markdown] lang="en"
 # ## Is it faster?
 #
-# Do not take it from the word "recursive"; measure. On your machine, now:
+# The word "recursive" does not prove it. Measure it on your own machine:
 # %% [markdown] lang="zh"
 # ## 会更快吗?
 #
-# 别看见"递推"两个字就信,量一下。在你的机器上,现在:
+# "递推"两个字并不能证明更快。请在你自己的机器上测一下:
 # %%
 ways = {
     "3-D": lambda: newton_euler_3d.inverse_dynamics(model, q, v, a),
@@ -319,11 +318,12 @@ ways = {
 for name, way in ways.items():
     print(f"{name}: {1e3 * min(timeit.repeat(way, number=5, repeat=5)) / 5:.2f} ms for the inverse dynamics of Go2")
 # %% [markdown] lang="en"
-# In Python the two are not far apart, whichever wins: most of the time goes into small NumPy calls. What makes a recursion fast is that
-# its work grows with the number of links $N$ and not with $N^2$. The chapter's table says that RNEA, ABA and CRBA are
-# all linear. The mass matrix that CRBA returns shows that it cannot be: on a chain, $N^2$ numbers are not zero.
+# In Python, the two take similar times, because most of the time is spent in small calls of NumPy. What makes a
+# recursion fast is that its work grows with the number of links $N$ and not with $N^2$. The chapter's table says that
+# RNEA, ABA and CRBA are all linear. The mass matrix that CRBA returns shows that it cannot be: on a chain, $N^2$
+# numbers are not zero.
 # %% [markdown] lang="zh"
-# 在 Python 里二者相差不大,谁快都不奇怪:时间主要花在一次次小的 NumPy 调用上。递推之所以快,在于工作量随连杆数 $N$ 增长,而不是随 $N^2$ 增长。
+# 在 Python 里二者相差不大,因为时间主要花在一次次小的 NumPy 调用上。递推之所以快,在于工作量随连杆数 $N$ 增长,而不是随 $N^2$ 增长。
 # 本章的表格说 RNEA、ABA、CRBA 都是线性时间;只要看看 CRBA 返回的质量矩阵,就知道它不可能是线性的:对一条链,有 $N^2$ 个非零元素。
 # %%
 for n in (5, 10, 20, 40):

@@ -213,7 +213,7 @@ tw.exercises.check("49.2.2", twist_matrix)
 # $\boldsymbol\omega \ne 0$ 的 twist 给出这条直线
 # (方向 $\boldsymbol\omega/|\boldsymbol\omega|$,经过点 $\boldsymbol\omega \times \boldsymbol v / |\boldsymbol\omega|^2$)
 # 和**螺距** $\boldsymbol\omega\cdot\boldsymbol v / |\boldsymbol\omega|^2$,即每转一弧度沿轴前进多少米。
-# 左旋时螺距为负,铰链的螺距为零,平移的螺距是无穷大。
+# 左旋时螺距为负,旋转关节的螺距为零,平移的螺距是无穷大。
 # %%
 V = np.array([0.3, 0.0, 1.0, 0.1, -0.5, 0.3])
 axis, point, pitch, magnitude = tw.screw(V)
@@ -238,7 +238,7 @@ plt.show()
 # %% [markdown] lang="zh"
 # ## 一条腿的螺旋
 #
-# 每个关节都是一个螺旋,在关节自己的坐标系里不变:铰链的螺距是 0。在世界坐标系里,各关节的螺旋就是雅可比矩阵的列。
+# 每个关节都是一个螺旋,在关节自己的坐标系里不变:旋转关节的螺距是 0。在世界坐标系里,各关节的螺旋就是雅可比矩阵的列。
 # 腿的所有关节一起动时,小腿(相对基座)绕另一条轴运动,而这条轴有螺距。
 # %%
 q = model.standing()
@@ -277,7 +277,7 @@ plt.show()
 #
 # 没有转动就没有唯一的轴,`tw.screw` 返回滑动的方向和无穷大的螺距。接近这种情形时,轴上的点
 # $\boldsymbol\omega\times\boldsymbol v/|\boldsymbol\omega|^2$ 会把 $\boldsymbol v$ 的舍入误差(约 $10^{-16}$)放大 $1/|\boldsymbol\omega|$ 倍。
-# 而各点的速度不受影响。所以螺旋用来看,计算就用 twist。
+# 而各点的速度不受影响。所以螺旋只用来作图,计算要用 twist。
 # %%
 assert tw.screw([0, 0, 0, 0, 2, 0]).pitch == np.inf
 
@@ -345,7 +345,7 @@ else:
 # %% [markdown] lang="zh"
 # 本章的代码打印的是 `data.v[0]`。那是世界的 twist,永远是零;基座是 1 号刚体。
 #
-# 最后,轻量类型 `tw.Twist` 可以带上坐标系的名字,没有意义的加法它会拒绝:
+# 最后,轻量类型 `tw.Twist` 可以带上坐标系的名字,没有意义的加法会报错:
 # %%
 nonsense = {
     "two frames": lambda: tw.Twist(V, frame="base") + tw.Twist(V, frame="world"),

@@ -81,7 +81,7 @@ assert np.allclose(carried[:3, 3], -W @ p + R @ v, atol=1e-15)
 #
 # $$R\,[\boldsymbol\omega]_\times R^T = [R\boldsymbol\omega]_\times.$$
 #
-# **5.** Turn the cross product round, and the lever comes to the front:
+# **5.** Exchange the factors of the cross product, so that the lever arm comes first:
 #
 # $$-[R\boldsymbol\omega]_\times\,\boldsymbol p = \boldsymbol p \times R\boldsymbol\omega = [\boldsymbol p]_\times R\,\boldsymbol\omega.$$
 #
@@ -320,8 +320,8 @@ ax.set(xticks=range(6), xticklabels=frames, ylabel="power [W]", title="one foot,
 ax.legend()
 plt.show()
 # %% [markdown] lang="en"
-# The two agree in the foot's own frame only, where $X = 1$. A test that never leaves that frame cannot tell them apart;
-# nor can one without rotation and lever.
+# The two agree only in the foot's own frame, where $X = 1$. A test that stays in this frame cannot distinguish them,
+# and neither can a test without rotation and lever arm.
 #
 # ## What the recursions do with it
 #

@@ -65,10 +65,9 @@ else:
 # %% [markdown] lang="en"
 # ## The same watts in every frame
 #
-# Who looks does not matter: the power has to be the same in the frame $B$ of the base, in the world $A$, in the frame of
-# a foot. The twist changes by $\boldsymbol V_A = X \boldsymbol V_B$ (49.3). Then
-# $\boldsymbol F_A^T X \boldsymbol V_B = \boldsymbol F_B^T \boldsymbol V_B$ for every twist, and that fixes how a
-# wrench must change:
+# The power does not depend on the frame: it is the same in the frame $B$ of the base, in the world $A$, and in the
+# frame of a foot. The twist changes by $\boldsymbol V_A = X \boldsymbol V_B$ (49.3). Then $\boldsymbol F_A^T X
+# \boldsymbol V_B = \boldsymbol F_B^T \boldsymbol V_B$ for every twist, and that fixes how a wrench must change:
 #
 # $$\boldsymbol F_B = X^T \boldsymbol F_A, \qquad \boldsymbol F_A = X^{-T} \boldsymbol F_B = X^* \boldsymbol F_B,
 # \qquad X^* = \begin{pmatrix} R & [\boldsymbol p]_\times R \\ 0 & R \end{pmatrix}.$$
@@ -105,8 +104,9 @@ plot.matrix(X_star, "X*, for wrenches: foot to world", rows=wrench_names, column
 plt.show()
 # %% [markdown] lang="en"
 # Now the push in five frames. Each bar is the power, split into the part of the force and the part of the moment. The
-# sum is the same, to rounding. The two parts are not: move the origin aside, and they grow, one against the other. The
-# chapter reads them as "translational" and "rotational" power; they only say where the origin is.
+# sum is the same in all frames, up to rounding. The two parts are not: if the origin is moved aside, they grow and
+# cancel each other. The chapter calls them "translational" and "rotational" power, but they only depend on where the
+# origin is.
 # %% [markdown] lang="zh"
 # 现在把这一推放到五个坐标系里看。每根柱子是功率,分成力的部分和力矩的部分。总和都相同(只差舍入误差)。这两部分却不同:
 # 把原点向旁边移远,两者就越来越大,彼此抵消。本章把它们读作"平动功率"和"转动功率",其实它们只说明原点放在哪里。
@@ -206,8 +206,8 @@ plt.show()
 #
 # ## 从 wrench 到关节
 #
-# 脚上的力也会带动关节。脚的雅可比矩阵说的是脚有多快,$\boldsymbol v_i = J_i v$;由功率相等,
-# $\boldsymbol f_i^T J_i v = (J_i^T \boldsymbol f_i)^T v$,就知道力怎样进入运动方程:乘 $J_i^T$。所有脚合起来就是
+# 脚上的力也会带动关节。脚的雅可比矩阵给出脚的速度,$\boldsymbol v_i = J_i v$;由功率相等,
+# $\boldsymbol f_i^T J_i v = (J_i^T \boldsymbol f_i)^T v$,可知力以 $J_i^T$ 进入运动方程。所有脚合起来就是
 # $J_c^T \boldsymbol\lambda$。也可以换条路:把 wrench 作为 `f_ext` 交给 `rnea`,放在带着这只脚的刚体上,用它自己的坐标系。
 # %%
 J_c = tw.contact_jacobian(model, q, model.feet)  # 12 × 18
@@ -301,8 +301,8 @@ plt.show()
 # $$P = \boldsymbol F^T \boldsymbol V = (h_F + h_V)\,\boldsymbol f \cdot \boldsymbol\omega
 # + (\boldsymbol q_F - \boldsymbol q_V) \cdot (\boldsymbol f \times \boldsymbol\omega).$$
 #
-# 这才是功率的螺旋解释:两个螺距、两轴的夹角、两轴的距离。$P = 0$ 时称两个螺旋**互易**。纯力与铰链($h_F = h_V = 0$)互易,
-# 当且仅当两条直线相交或平行。看一条腿时随时用得上:地面反力的作用线如果与某个关节轴相交,这个关节的电机就不必出力。
+# 这才是功率的螺旋解释:两个螺距、两轴的夹角、两轴的距离。$P = 0$ 时称两个螺旋**互易**。纯力与旋转关节($h_F = h_V = 0$)互易,
+# 当且仅当两条直线相交或平行。观察一条腿时经常用到这一点:地面反力的作用线如果与某个关节轴相交,这个关节的电机就不必出力。
 # 下面,右前脚上的力正好指向髋关节轴上的一点。
 # %%
 V, F = np.random.default_rng(4).standard_normal((2, 6))

@@ -7,8 +7,7 @@
 # %% [markdown] lang="zh"
 # # 49.5 空间惯量
 #
-# 输入 twist,输出动量:$\boldsymbol h = \hat I\,\boldsymbol V$。这个笔记本构造出做这件事的 6 × 6 矩阵,画出它对刚体
-# 知道些什么,给它换坐标系,把它们相加,再把牛顿方程和欧拉方程写成一个。最后,把一只关节锁死的 Go2 抛向空中。
+# 输入 twist,输出动量:$\boldsymbol h = \hat I\,\boldsymbol V$。这个笔记本构造出做这件事的 6 × 6 矩阵,画出它包含的刚体信息,给它换坐标系,把它们相加,再把牛顿方程和欧拉方程写成一个。最后,把一只关节锁死的 Go2 抛向空中。
 # %%
 import matplotlib.pyplot as plt
 import numpy as np
@@ -77,9 +76,9 @@ assert np.isclose(heap.kinetic_energy(V), masses @ (velocities**2).sum(axis=1) /
 assert np.isclose(heap.kinetic_energy(V), V @ heap.matrix() @ V / 2, rtol=1e-12)
 # %% [markdown] lang="en"
 # The matrix is symmetric, and $\boldsymbol V^T \hat I \boldsymbol V$ is twice the kinetic energy. The chapter calls it
-# positive definite. That holds if the mass is positive and $I_c$ is positive definite. A point mass may turn about itself
-# for nothing, and so may a thin rod about its length: their matrices have rank 3 and 5. All ten numbers can be read
-# back from the 36.
+# positive definite. That holds if the mass is positive and $I_c$ is positive definite. A point mass needs no energy to
+# turn about itself, and neither does a thin rod to turn about its length: their matrices have rank 3 and 5. All ten
+# numbers can be read back from the 36.
 # %% [markdown] lang="zh"
 # 这个矩阵对称,$\boldsymbol V^T \hat I \boldsymbol V$ 是动能的两倍。本章说它正定:这要求质量为正,而且 $I_c$ 正定。
 # 质点绕自己转不费任何能量,细杆绕自己的长轴转也是:它们的矩阵秩是 3 和 5。十个数都能从 36 个数里读回来。
@@ -115,8 +114,9 @@ tw.exercises.check("49.5.1", spatial_inertia)
 # $a_i = \sqrt{5\,(\mathrm{tr}\,I_c - 2 I_i) / 2m}$ behaves just the same. Here is Go2, each link drawn as that ellipsoid.
 # On the right all joints are locked, and the whole robot is one.
 #
-# To make one body of thirteen takes two steps. First bring each inertia into the frame of the base. Equal energy,
-# $\boldsymbol V_B^T \hat I_B \boldsymbol V_B = \boldsymbol V_A^T \hat I_A \boldsymbol V_A$, leaves no choice:
+# To make one body of thirteen takes two steps. First bring each inertia into the frame of the base. The energy must be
+# the same, $\boldsymbol V_B^T \hat I_B \boldsymbol V_B = \boldsymbol V_A^T \hat I_A \boldsymbol V_A$, and this
+# determines the transform:
 #
 # $$\hat I_A = X^{-T} \hat I_B X^{-1} = X^* \hat I_B X^{-1}.$$
 #
@@ -129,7 +129,7 @@ tw.exercises.check("49.5.1", spatial_inertia)
 # 动起来完全一样。下图是 Go2,每个连杆画成这样的椭球。右边是关节全部锁死之后,整个机器人成了一个椭球。
 #
 # 把十三个刚体合成一个要两步。先把每个惯量换到基座坐标系。能量相等,
-# $\boldsymbol V_B^T \hat I_B \boldsymbol V_B = \boldsymbol V_A^T \hat I_A \boldsymbol V_A$,就没有别的选择:
+# $\boldsymbol V_B^T \hat I_B \boldsymbol V_B = \boldsymbol V_A^T \hat I_A \boldsymbol V_A$,由此得到变换规则:
 #
 # $$\hat I_A = X^{-T} \hat I_B X^{-1} = X^* \hat I_B X^{-1}.$$
 #
@@ -206,11 +206,11 @@ for T in tw.exp6(5 * rng.standard_normal((100, 6))).matrix():
 # %% [markdown] lang="en"
 # ## Which bodies can exist
 #
-# Not every positive definite matrix is a body. The moments are sums over the same points,
-# $I_1 = \sum m(y^2 + z^2)$ and so on, so $I_1 + I_2 - I_3 = 2\sum m z^2$ cannot be negative: the **triangle inequality**.
-# (It also stands under the root of the semi-axes.) In the picture each point is a body, by the ratios of its principal
-# moments: bodies exist in the shaded triangle only. `diag(1, 1, 10)` passes the chapter's check for eigenvalues and lies
-# far outside.
+# Not every positive definite matrix is a body. The moments are sums over the same points, $I_1 = \sum m(y^2 + z^2)$ and
+# so on, so $I_1 + I_2 - I_3 = 2\sum m z^2$ cannot be negative: the **triangle inequality**. (The same expression is
+# under the root in the formula of the semi-axes.) In the picture each point is a body, by the ratios of its principal
+# moments: bodies exist in the shaded triangle only. `diag(1, 1, 10)` passes the chapter's check for eigenvalues and
+# lies far outside.
 # %% [markdown] lang="zh"
 # ## 什么样的刚体可以存在
 #
@@ -250,8 +250,9 @@ else:
 # [\boldsymbol\omega]_\times \end{pmatrix}, \qquad \boldsymbol V\times^* = -(\boldsymbol V\times)^T =
 # \begin{pmatrix} [\boldsymbol\omega]_\times & [\boldsymbol v]_\times \\ 0 & [\boldsymbol\omega]_\times \end{pmatrix}.$$
 #
-# That they are dual is once more equal power. Note what the chapter's "check of antisymmetry" does not say: neither matrix
-# is antisymmetric. The product is: $\boldsymbol V \times \boldsymbol W = -\boldsymbol W \times \boldsymbol V$.
+# They are dual because the power is the same in every frame. The chapter calls a check of this "antisymmetry", but
+# neither matrix is antisymmetric. Only the product is: $\boldsymbol V \times \boldsymbol W = -\boldsymbol W \times
+# \boldsymbol V$.
 # %% [markdown] lang="zh"
 # ## 两种空间叉积
 #
@@ -290,8 +291,8 @@ assert np.allclose(tw.cross_motion(cross @ W), bracket)  # the Lie bracket
 #
 # $$\boldsymbol F = \hat I \dot{\boldsymbol V} + \boldsymbol V \times^* \hat I \boldsymbol V.$$
 #
-# For comparison the old way, three coupling terms and a change of the point of reference. Below, `stone` is a model with
-# one free body, and gravity switched off.
+# For comparison, we also compute it the old way, with three coupling terms and a change of the point of reference.
+# Below, `stone` is a model with one free body, and gravity switched off.
 # %% [markdown] lang="zh"
 # ## 一行写下牛顿和欧拉
 #
@@ -328,15 +329,15 @@ assert np.allclose(L.imag / h, np.cross(w, heap.inertia_at_com @ w))
 # %% [markdown] lang="en"
 # ## A Go2 in the air
 #
-# Lock the joints and throw the robot, spinning about one of its principal axes with 4 rad/s, and 0.02 rad/s amiss. No
-# wrench acts about the centre of mass (gravity has none there), so the momentum in the world stays what it is. We step
-# it exactly that way: find the twist at half time, move the body along it with `exp6`, and see the same momentum from
-# the new place, $\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$. All three spins are one batch.
+# Lock the joints and throw the robot, so that it spins about one of its principal axes at 4 rad/s, with an error of
+# 0.02 rad/s. No moment acts about the centre of mass (gravity has none there), so the momentum in the world is
+# constant. Each step uses exactly this: find the twist at half time, move the body along it with `exp6`, and see the
+# same momentum from the new place, $\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$. All three spins are one batch.
 # %% [markdown] lang="zh"
 # ## 空中的 Go2
 #
 # 锁死关节,把机器人抛出去,让它绕某一条主轴以 4 rad/s 旋转,外加 0.02 rad/s 的偏差。关于质心没有 wrench 作用
-# (重力对质心没有力矩),所以世界坐标系里的动量保持不变。我们就照这个意思走每一步:先求半步处的 twist,用 `exp6`
+# (重力对质心没有力矩),所以世界坐标系里的动量保持不变。每一步都利用这一点:先求半步处的 twist,用 `exp6`
 # 沿它移动刚体,再从新的位置看同一个动量,$\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$。三种旋转放在一个 batch 里。
 # %%
 moments, axes = np.linalg.eigh(locked.inertia_at_com)
@@ -381,8 +382,8 @@ plt.show()
 assert twists[:, [0, 2], [0, 2]].min() > 3.99  # about the smallest and the largest moment it spins on
 assert twists[:, 1, 1].min() < -3.9  # about the middle one it turns over
 # %% [markdown] lang="en"
-# No one touched it: $\boldsymbol V\times^* \hat I \boldsymbol V$ alone turns the robot over, and back. Spinning about the
-# middle axis is possible, but unstable (the intermediate-axis theorem). Try it with your phone.
+# Nothing touches the robot: the term $\boldsymbol V\times^* \hat I \boldsymbol V$ alone turns it over, and back.
+# Spinning about the middle axis is possible, but unstable (the intermediate-axis theorem). Try it with your phone.
 #
 # ## Pinocchio agrees
 #

@@ -58,8 +58,8 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 #
 # $$\boldsymbol V_i = X_i \boldsymbol V_{\lambda(i)} + S_i \dot q_i.$$
 #
-# Differentiate, and use how $X$ changes (49.5). What the motion of the frames leaves over is one cross product, the
-# Coriolis term:
+# Differentiate this, and use the rate of $X$ (49.5). The motion of the frames adds one cross product, the Coriolis
+# term:
 #
 # $$\boldsymbol a_i = X_i \boldsymbol a_{\lambda(i)} + S_i \ddot q_i + \boldsymbol V_i \times S_i \dot q_i.$$
 #
@@ -70,7 +70,7 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 # %% [markdown] lang="zh"
 # ## 向外:twist 与加速度
 #
-# 刚体随父连杆一起运动(换到自己的坐标系里看),关节再添上自己的一份:
+# 刚体随父连杆一起运动(换到自己的坐标系里看),再加上关节自身的运动:
 #
 # $$\boldsymbol V_i = X_i \boldsymbol V_{\lambda(i)} + S_i \dot q_i.$$
 #
@@ -102,25 +102,26 @@ assert np.allclose(moving.imag / h, kin.acceleration, atol=1e-12)
 # %% [markdown] lang="en"
 # ## Inward: wrenches
 #
-# Newton–Euler gives the wrench that each body needs for its motion. It all comes through joints: through its own, and from
-# there on to its children. So the wrench through joint $i$ is the body's own need plus what the children take:
+# The Newton–Euler equation gives the wrench that each body needs for its motion. This wrench is transmitted by joints:
+# joint $i$ supplies body $i$ and all its children. So the wrench through joint $i$ is what the body itself needs plus
+# what its children need:
 #
 # $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
 # \sum_{\lambda(j) = i} X_j^T \boldsymbol F_j, \qquad \boldsymbol\tau_i = S_i^T \boldsymbol F_i.$$
 #
-# $X_j^T$, because $X_j$ leads outward and equal power turns its transpose inward (49.4). Of the six numbers of
-# $\boldsymbol F_i$ a hinge bears five by itself: only the one along $S_i$ is the motor's.
+# $X_j^T$, because $X_j$ leads outward and equal power turns its transpose inward (49.4). A hinge transmits five of the
+# six components of $\boldsymbol F_i$ by itself; only the component along $S_i$ is supplied by the motor.
 # %% [markdown] lang="zh"
 # ## 向内:wrench
 #
-# 牛顿-欧拉方程说出每个刚体为了自己的运动需要多大的 wrench。它全部来自关节:从自己的关节进来,再往子连杆那里传。
-# 所以经过关节 $i$ 的 wrench,是刚体自己的需要,加上子连杆拿走的:
+# 牛顿-欧拉方程给出每个刚体的运动所需的 wrench。它由关节传递:关节 $i$ 供给刚体 $i$ 和它的所有子连杆。
+# 所以经过关节 $i$ 的 wrench,等于刚体自身所需的,加上子连杆所需的:
 #
 # $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
 # \sum_{\lambda(j) = i} X_j^T \boldsymbol F_j, \qquad \boldsymbol\tau_i = S_i^T \boldsymbol F_i.$$
 #
 # 用 $X_j^T$,是因为 $X_j$ 向外,而功率相等使它的转置向内(49.4)。$\boldsymbol F_i$ 的六个数里,旋转关节自己就承受了五个,
-# 只有沿 $S_i$ 的那一个归电机。
+# 只有沿 $S_i$ 的那一个由电机提供。
 # %%
 own, F, tau = np.array(terms.B), np.array(terms.F), terms.tau
 i = 3
@@ -136,15 +137,16 @@ assert np.array_equal(tau, tw.rnea(model, q, v, a))
 # this, and returns $\boldsymbol\tau$. Vectors are columns, so that batches and any number type go through the same lines.
 # %% [markdown] lang="zh"
 # 这就是 RNEA:两遍。下面是它在程序包里的全文。`tw.rnea` 检查参数,运行它,再返回 $\boldsymbol\tau$。向量写成列,
-# 所以 batch 和任何数值类型都走同样的几行。
+# 所以批量的状态和任何数值类型都用同样的几行代码。
 # %%
 print(inspect.getsource(newton_euler))
 
 
 # %% [markdown] lang="en"
-# This is what has travelled: each label is what goes through that joint, and the width of the arrow how much of it.
+# The picture shows what is passed along the tree: each label is the quantity that passes through that joint, and the
+# width of the arrow is its size.
 # %% [markdown] lang="zh"
-# 下图是一路传递的东西:标注是经过该关节的量,箭头的粗细表示多少。
+# 下图是沿树传递的量:标注是经过该关节的量,箭头的粗细表示大小。
 # %%
 def sizes(vectors, angular, linear):
     """Lengths of both halves, for the labels; nothing for the world."""
@@ -204,9 +206,9 @@ assert np.allclose(tw.rnea(weightless, q, v, a, f_ext=weights), tau, rtol=1e-12,
 # %% [markdown] lang="en"
 # ## At rest
 #
-# With $v = a = 0$ what is left is what holds the robot up. The first six numbers are the wrench on the base: in the air,
-# somebody must hold the whole weight *upwards*, and since the centre of mass is not in the base's origin, with a moment
-# $\boldsymbol c \times m\boldsymbol g$ as well. (The chapter has $-mg$ and no moment.)
+# With $v = a = 0$, only the forces that hold the robot up remain. The first six numbers are the wrench on the base. In
+# the air, somebody must hold the whole weight *upwards* and, since the centre of mass is not at the origin of the base,
+# apply a moment $\boldsymbol c \times m\boldsymbol g$ as well. (The chapter has $-mg$ and no moment.)
 #
 # If the robot stands, the floor does that, and every wrench in the legs turns round. Left: held by the base, each joint
 # carries what hangs below it. Right: standing, each joint carries what is above it.
@@ -278,14 +280,13 @@ print(f"you: {guess}, computed: {answer:.4g} times")
 # ## h, g, C and M from one function
 #
 # The equation of motion is $M(q)\,\dot v + h(q, v) = \tau$ with $h = C(q, v)\,v + g(q)$, and RNEA *is* its left side.
-# Feed it zeros, and its parts come out one by one: $g$ at rest, $h$ without acceleration, column $k$ of $M$ with a unit
-# acceleration, no velocity and no gravity. It never builds $M$; that is why it is O(N): three products with $X$ for each
-# body, whatever the number of bodies.
+# If some arguments are zero, it returns the parts one by one: $g$ at rest, $h$ without acceleration, column $k$ of $M$
+# with a unit acceleration, no velocity and no gravity. It never builds $M$; that is why it is O(N): three products with
+# $X$ for each body, whatever the number of bodies.
 # %% [markdown] lang="zh"
 # ## 从一个函数得到 h、g、C、M
 #
-# 运动方程是 $M(q)\,\dot v + h(q, v) = \tau$,其中 $h = C(q, v)\,v + g(q)$,而 RNEA *就是*它的左边。往里面填零,各部分就
-# 一个一个出来:静止时是 $g$,没有加速度时是 $h$;单位加速度、零速度、零重力时,是 $M$ 的第 $k$ 列。它从不构造 $M$,
+# 运动方程是 $M(q)\,\dot v + h(q, v) = \tau$,其中 $h = C(q, v)\,v + g(q)$,而 RNEA *就是*它的左边。把某些参数取为零,就能逐个得到各部分:静止时是 $g$,没有加速度时是 $h$;单位加速度、零速度、零重力时,是 $M$ 的第 $k$ 列。它从不构造 $M$,
 # 所以是 O(N):每个刚体三次与 $X$ 相乘,刚体再多也是如此。
 # %%
 g, h_qv = tw.rnea(model, q, rest, rest), tw.rnea(model, q, v, rest)
@@ -303,7 +304,7 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 # %% [markdown] lang="en"
 # ## The pseudocode, run
 #
-# Typed in as the chapter prints it, three things go wrong:
+# If you run it exactly as the chapter prints it, three things go wrong:
 #
 # 1. The backward loop *sets* `F[i] = I a + V ×* I V`. By then the children have added theirs to `F[i]`; the assignment
 #    throws that away.
@@ -314,9 +315,9 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 # Colour marks what is wrong. The calves, with no children, come out right every time: a test on one joint, or at the
 # tips, would have passed.
 # %% [markdown] lang="zh"
-# ## 把伪代码跑一遍
+# ## 把伪代码运行一遍
 #
-# 照本章印的样子敲进去,有三处错误:
+# 完全照本章的伪代码运行,有三处错误:
 #
 # 1. 反向循环里是*赋值* `F[i] = I a + V ×* I V`。这时子连杆已经把自己的加到 `F[i]` 上了,一赋值就全丢了。
 # 2. 它用 `X[i]^* * F[i]` 往回传,而 `X[i]` 是从父到子。可是 $X^* = X^{-T}$ 与 $X$ 同向:向外。向内的是 $X^T$。

@@ -34,19 +34,20 @@ rest = np.zeros(model.nv)
 #
 # $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
 #
-# The bracket is an **articulated inertia**: the rod's, less the part along the free joint. It is no longer ten numbers.
-# Along the rod the apparent mass is all of its mass; across, the rod just swings, and (if it is thin) it is a quarter.
+# The bracket is an **articulated inertia**: the inertia of the rod minus the part along the free joint. Ten numbers no
+# longer describe it. If you push along the rod, the apparent mass is the whole mass. If you push across it, the rod
+# swings, and the apparent mass of a thin rod is a quarter of its mass.
 # %% [markdown] lang="zh"
 # ## 手里的单摆
 #
-# 用铰链捏住一根杆的上端,移动铰链。杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要
-# $\boldsymbol F = \hat I \boldsymbol a$。铰链是自由的:沿 $S$ 不传递任何东西,所以 $S^T \boldsymbol F = 0$。由此得到
+# 用手通过一个旋转关节握住杆的上端,移动这个关节。杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要
+# $\boldsymbol F = \hat I \boldsymbol a$。关节是自由的:沿 $S$ 不传递力矩,所以 $S^T \boldsymbol F = 0$。由此得到
 # $\ddot q$,也就知道手要用多大的力:
 #
 # $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
 #
-# 括号里就是**铰接体惯量**:杆的惯量,减去自由关节放走的那部分。它不再是十个数。沿着杆的方向,表观质量就是全部质量;
-# 横着推,杆只是摆开,(细杆时)只有四分之一。
+# 括号里就是**铰接体惯量**:杆的惯量,减去沿自由关节的那部分。它不再能用十个数表示。沿着杆的方向推,表观质量就是全部质量;
+# 垂直于杆推,杆会摆开,细杆的表观质量只有四分之一。
 # %%
 rod = tw.chain(1, mass=2.0).inertia[1]  # 1 m long, hangs along −z
 S = tw.Revolute("y").subspace()
@@ -69,8 +70,9 @@ for ax, angle in zip(axes, np.deg2rad([0, 40, 90])):
 figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
 plt.show()
 # %% [markdown] lang="en"
-# Each point of a curve is the force that gives the hand 1 m/s² in some direction. Locked, the rod is one number, its
-# mass: a circle. Free, it is an ellipse, thin across the rod.
+# Each point of a curve is the force that gives the hand 1 m/s² in some direction. If the hinge is locked, only the mass
+# of the rod counts, and the curve is a circle. If the hinge is free, the curve is an ellipse that is thin across the
+# rod.
 #
 # ## Three passes
 #
@@ -103,19 +105,19 @@ plt.show()
 # = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
 # + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
 #
-# So the parent sees an inertia and a bias wrench again. The bias has three parts: the one from before, what the
-# velocities cost, and what the motor pushes back with.
+# So, for the parent, the subtree is again an inertia and a bias wrench. The bias wrench has three parts: the previous
+# one, the effect of the velocities, and the reaction of the motor.
 #
 # The chapter writes $X_i^* \hat I X_i^{-1}$ and $X_i^* \boldsymbol p$ here, with $X_i$ from parent to child. That leads
 # outward, as in 49.6: the calf ends up above the thigh.
 # %% [markdown] lang="zh"
-# 曲线上每个点,是让手在某个方向得到 1 m/s² 所需的力。铰链锁死时,杆只是一个数,即质量:一个圆。铰链自由时是椭圆,
-# 横着杆的方向很窄。
+# 曲线上每个点,是让手在某个方向得到 1 m/s² 所需的力。关节锁死时,只有杆的质量起作用,曲线是一个圆。关节自由时,
+# 曲线是椭圆,垂直于杆的方向很窄。
 #
 # ## 三遍递推
 #
 # 现在让杆后面带上一棵树,让它运动,再给关节加上力矩。对每个刚体,关节外侧的整棵树表现为
-# $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$:不管挂着什么,对加速度总是线性的。(这就是 RNEA 的
+# $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$:无论子树是什么样,它对加速度总是线性的。(这就是 RNEA 的
 # $\boldsymbol F_i$;偏置力 $\boldsymbol p_i^A$ 是没有加速度时所需的。)做法与上面的消元一样,从末端开始,一个关节一个关节地做:
 #
 # 1. **向外**：twist $\boldsymbol V_i$,偏置加速度 $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;起初
@@ -140,17 +142,17 @@ plt.show()
 # = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
 # + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
 #
-# 所以父连杆看到的又是一个惯量和一个偏置力。偏置力有三部分:原有的、速度引起的、电机反推的。
+# 所以对父连杆来说,子树仍是一个惯量和一个偏置力。偏置力有三部分:原有的、速度引起的、电机的反作用。
 #
 # 本章这里写的是 $X_i^* \hat I X_i^{-1}$ 和 $X_i^* \boldsymbol p$,而 $X_i$ 是从父到子。这和 49.6 一样是向外的:
-# 小腿会跑到大腿上方去。
+# 小腿会出现在大腿上方。
 # %%
 print(inspect.getsource(articulated_body))
 # %% [markdown] lang="en"
 # That is the file itself: `tw.aba` checks its arguments, runs this, and raises an error for a singular $D_i$. Its intermediate
 # results are in the record that `tw.aba_terms` returns, an entry for each body.
 # %% [markdown] lang="zh"
-# 这就是源文件本身:`tw.aba` 检查参数,运行它,遇到奇异的 $D_i$ 就拒绝。途中算出的量都在 `tw.aba_terms` 返回的记录里,
+# 这就是源文件本身:`tw.aba` 检查参数,运行它,遇到奇异的 $D_i$ 就报错。中间结果都在 `tw.aba_terms` 返回的记录里,
 # 每个刚体一项。
 # %%
 terms = tw.aba_terms(model, q, v, tau)
@@ -173,9 +175,10 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 #   that the parent body is held. (The motor pushes the parent back with the same torque. If the parent gives way, the
 #   joint accelerates more; you will see by how much below.)
 #
-# Freeing joints can only make it smaller. Below, six equal rods: at each hinge the apparent mass seen by the rod before it,
-# drawn as above. All hinges locked, the circles grow with the number of rods. All hinges free, the other five add
-# little across the first rod, and nothing like their mass along it.
+# Freeing joints can only make the inertia smaller. The picture below has six equal rods. At each hinge, it shows the
+# apparent mass that the previous rod has to move, drawn as above. If all hinges are locked, the circles grow with the
+# number of rods. If all hinges are free, the other five rods add little across the first rod, and much less than their
+# mass along it.
 # %% [markdown] lang="zh"
 # ## 锁死还是自由
 #
@@ -186,8 +189,8 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 # - **铰接体惯量** $\hat I^A$:关节*自由*。父连杆固定时,$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。(电机以同样大小的
 #   力矩反推父连杆;父连杆如果退让,关节就加速得更快。下面会看到快多少。)
 #
-# 放开关节只会变轻。下面是六根相同的杆:每个铰链处画的是对前一根杆的表观质量,画法同上。铰链全锁死,圆随杆数变大;
-# 铰链全自由,后面那五根杆横着第一根杆的方向几乎没有增加什么,沿着它的方向也远远不到它们的质量。
+# 放开关节只会使惯量变小。下面是六根相同的杆:每个关节处画的是前一根杆所要带动的表观质量,画法同上。关节全部锁死时,
+# 圆随杆数变大;关节全部自由时,后面五根杆在垂直于第一根杆的方向上几乎不增加惯量,在沿杆的方向上也远小于它们的质量。
 # %%
 def through_joints(model, q):
     """Composite inertia of each subtree, and its apparent inertia at the parent's side of the free joint."""
@@ -219,12 +222,12 @@ ax.set(xlabel="x [m]", ylabel="z [m]", title="apparent mass through each hinge (
 ax.legend(loc="lower right")
 plt.show()
 # %% [markdown] lang="en"
-# And Go2? Roll its trunk, and the legs lag: the apparent inertia is a quarter of the locked one. Lift it, and you
-# lift 13.4 kg of 16.1. The articulated inertia of the base is what a controller that knows $M$ would call a Schur complement;
-# pushing at the base gives the same:
+# And Go2? If you roll its trunk, the legs lag behind, and the apparent inertia is a quarter of that with locked joints.
+# If you lift the trunk, you lift 13.4 kg of 16.1 kg. In terms of $M$, the articulated inertia of the base is a Schur
+# complement. Pushing at the base gives the same:
 # %% [markdown] lang="zh"
 # 那么 Go2 呢?让躯干绕前后轴翻滚,腿就跟在后面摆:表观惯量只有锁死时的四分之一。把它往上提,提起的是 16.1 kg 中的
-# 13.4 kg。基座的铰接体惯量,在知道 $M$ 的控制器那里叫作 Schur 补;在基座上推一把,得到的也是它:
+# 13.4 kg。用 $M$ 来表示,基座的铰接体惯量就是一个 Schur 补;在基座上施加推力,得到的也是它:
 # %%
 M = tw.crba(model, q)
 schur = M[:6, :6] - M[:6, 6:] @ np.linalg.solve(M[6:, 6:], M[6:, :6])
@@ -252,10 +255,11 @@ figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", 
 plt.show()
 assert np.isclose(IA[1][0, 0] / M[0, 0], 0.24, atol=0.01)
 # %% [markdown] lang="en"
-# The base matters as much. Give the front left hip 1 N m. With the base held it accelerates with $1/D_i$ = 54 rad/s²; on
-# a free robot with 95, since the trunk gives way, and every other joint moves too. So $\hat I_i^A$ is not the answer to a
-# torque at joint $i$, as the chapter pictures it: it is the answer of body $i$ to a wrench that acts on it from outside.
-# (The chapter's pseudocode sets $\boldsymbol a_0 = -\boldsymbol g$ for the base and so computes the held robot.)
+# The base matters as much. Give the front left hip 1 N m. With the base held it accelerates with $1/D_i$ = 54 rad/s²;
+# on a free robot with 95, since the trunk gives way, and every other joint moves too. So $\hat I_i^A$ is not the answer
+# to a torque at joint $i$, as the chapter pictures it: it is the answer of body $i$ to a wrench that acts on it from
+# outside. (The chapter's pseudocode sets $\boldsymbol a_0 = -\boldsymbol g$ for the base, so it computes a robot whose
+# base is held.)
 # %% [markdown] lang="zh"
 # 基座的影响同样大。给左前髋 1 N m。固定基座时它以 $1/D_i$ = 54 rad/s² 加速;机器人自由时是 95,因为躯干会退让,而且其他关节
 # 都跟着动。所以 $\hat I_i^A$ 并不像本章描述的那样是对关节 $i$ 处扭矩的响应,而是刚体 $i$ 对外界作用在它上面的 wrench 的响应。
@@ -272,12 +276,12 @@ assert (np.abs(loose[9:]) > 0.1).all()
 # %% [markdown] lang="en"
 # ## There and back
 #
-# `aba` and `rnea` are inverses of each other. Two programs of a different kind that agree are a good test: a hundred
-# random states at once.
+# `aba` and `rnea` are inverses of each other. It is a good test if two algorithms of different kinds agree. We do it
+# for a hundred random states at once.
 # %% [markdown] lang="zh"
 # ## 一去一回
 #
-# `aba` 与 `rnea` 互为逆。两个路数不同的程序结果一致,就是很好的检验:一次用一百个随机状态。
+# `aba` 与 `rnea` 互为逆。两种不同的算法结果一致,是很好的检验。这里一次用一百个随机状态。
 # %%
 qs = np.array([model.random_configuration(rng=rng) for _ in range(100)])
 vs, taus = rng.standard_normal((2, 100, model.nv))
@@ -320,8 +324,8 @@ print(f"you: {guess}, computed: {answer:.4g} rad/s²")
 # %% [markdown] lang="zh"
 # ## 自由落体
 #
-# 没有力矩又静止时,每个刚体落得一样快:基座的加速度是它自己坐标轴下的 $\boldsymbol g$,关节不动。不是近似,是精确。
-# $v \ne 0$ 时就不是了:摆动的腿会拉动基座,而且空间加速度里不含 $\boldsymbol\omega \times \boldsymbol v$。永远以
+# 没有力矩又静止时,每个刚体落得一样快:基座的加速度是它自己坐标轴下的 $\boldsymbol g$,关节不动。这不是近似,而是精确成立。$v 
+e 0$ 时则不同:摆动的腿会拉动基座,而且空间加速度里不含 $\boldsymbol\omega \times \boldsymbol v$。永远以
 # $\boldsymbol g$ 下落的是质心:$\dot{\boldsymbol h}_G$ 就是重力(49.10)。
 # %%
 for any_q in qs[:10]:
@@ -337,13 +341,12 @@ assert np.allclose(rate, [0, 0, 0, *(model.mass * model.gravity)], atol=1e-10)
 # %% [markdown] lang="en"
 # ## Where there is no answer
 #
-# $D_i^{-1}$ asks for an inertia. If a joint moves nothing that has one, its acceleration is not determined: no number
-# would be right, and `aba` raises an error with the joint's name. Real models have such joints.
+# $D_i^{-1}$ exists only if the joint moves some inertia. If it does not, its acceleration is not determined: no number
+# would be right, and `aba` raises an error with the name of the joint. Real models have such joints.
 # %% [markdown] lang="zh"
 # ## 没有答案的地方
 #
-# $D_i^{-1}$ 要求有惯量。如果一个关节带动的东西全都没有惯量,它的加速度就定不下来:给什么数都不对。`aba` 会直说,并给出
-# 关节的名字。真实的模型里就有这样的关节。
+# $D_i^{-1}$ 要求有惯量。如果一个关节带动的刚体都没有惯量,它的加速度就无法确定:没有一个数是对的,`aba` 会报错并指出关节的名字。真实的模型里就有这样的关节。
 # %%
 builder = tw.Builder("arm with a massless hand", base="fixed")
 forearm = tw.SpatialInertia(1.0, [0, 0, -0.25], np.diag([0.02, 0.02, 0.001]))
@@ -364,16 +367,17 @@ assert np.linalg.matrix_rank(tw.crba(arm, [0.0, 0.0])) == 1
 # ## How exact?
 #
 # Take a chain of ten rods whose mass grows from the first to the last, and compute $\ddot q$ in fifty digits, with 3-D
-# vectors (`newton_euler_3d`). That is the truth; what do `aba`, and `crba` with `solve`, make of it in double precision?
-# Every entry of $M$ contains the heavy tip, and a light rod drowns in rounding. ABA lets the tip go at each free joint
-# before it is added. A light tip does no harm to either, though $M$ is worse conditioned there than with equal rods: the
-# condition number alone does not show.
+# vectors (`newton_euler_3d`). These are the true values. How exact are `aba`, and `crba` with `solve`, in double
+# precision? Every entry of $M$ contains the heavy tip, so the digits of a light rod are lost in rounding. ABA removes
+# the part of the tip that each free joint lets go, before it adds. A light tip harms neither of the two, although $M$
+# then has a larger condition number than with equal rods. So the condition number alone does not tell how exact the
+# result is.
 # %% [markdown] lang="zh"
 # ## 有多准?
 #
 # 取十根杆连成的链,质量从第一根到最后一根逐渐增大,用 3D 向量以五十位数字算出 $\ddot q$(`newton_euler_3d`)。这就是真值;
-# 用双精度的 `aba`,以及 `crba` 加 `solve`,各得到什么?$M$ 的每个元素里都有沉重的末端,轻的杆淹没在舍入误差里。ABA 在每个
-# 自由关节处先把末端放走,再相加。末端轻的时候对两者都没有坏处,尽管那里的 $M$ 比等质量时条件更差:只看条件数是看不出来的。
+# 用双精度的 `aba`,以及 `crba` 加 `solve`,各得到什么?$M$ 的每个元素里都有沉重的末端,轻的杆淹没在舍入误差里。ABA 在每个自由关节处,先减去随关节自由运动的部分,再相加。末端很轻时,两者都不受影响,
+# 尽管这时 $M$ 的条件数比等质量时更大:只看条件数,不能判断结果有多准。
 # %%
 ratios = np.array([1e-9, 1e-6, 1e-3, 1e0, 1e3, 1e6, 1e9])
 errors, conditions = np.zeros((2, len(ratios), 5)), []
@@ -405,15 +409,15 @@ assert conditions[0] > conditions[3]  # worse conditioned, and exact all the sam
 # %% [markdown] lang="en"
 # ## Pinocchio agrees
 #
-# Three more things to know. Its `crba` already returns a symmetric matrix in Python: the chapter's
-# $M + M^T - \mathrm{diag}(M)$ doubles everything off the diagonal. `np.linalg.solve` does not know about triangles: given the
-# upper one only, it solves another problem. And for the arm above its `aba` returns nan, without a word.
+# Three more things to know. Its `crba` already returns a symmetric matrix in Python: the chapter's $M + M^T -
+# \mathrm{diag}(M)$ doubles everything off the diagonal. `np.linalg.solve` uses all entries: if only the upper triangle
+# is filled, it solves another problem. And for the arm above, Pinocchio's `aba` returns nan without an error.
 # %% [markdown] lang="zh"
 # ## 与 Pinocchio 对照
 #
 # 另外有三点要知道。在 Python 里,它的 `crba` 返回的已经是对称矩阵:本章的 $M + M^T - \mathrm{diag}(M)$ 会把对角线以外
-# 全部加倍。`np.linalg.solve` 不认识三角矩阵:只给上三角,它解的就是另一个问题。还有,对上面那条手臂,它的 `aba` 一声不响
-# 地返回 nan。
+# 全部加倍。`np.linalg.solve` 使用矩阵的全部元素:如果只填了上三角,它解的就是另一个问题。还有,对上面那条手臂,
+# Pinocchio 的 `aba` 返回 nan,而且不报错。
 # %%
 try:
     import pinocchio as pin

@@ -1,8 +1,8 @@
 # %% [markdown] lang="en"
 # # 49.8 CRBA: the mass matrix
 #
-# $M(q)$ is the inertia of a robot at each joint, and the coupling of one joint with another. RNEA and ABA go without
-# it; controllers that solve a quadratic program need it. This notebook shows where each entry of $M$ comes from, which
+# $M(q)$ is the inertia of a robot at each joint, and the coupling of one joint with another. RNEA and ABA do not need
+# it; controllers that solve a quadratic program do. This notebook shows where each entry of $M$ comes from, which
 # entries are zero and why, and what the computation costs.
 # %% [markdown] lang="zh"
 # # 49.8 CRBA:质量矩阵
@@ -27,9 +27,9 @@ names = [name.removesuffix("_joint") for name in model.joint_names]
 # %% [markdown] lang="en"
 # ## A column of $M$ is an experiment
 #
-# The equation of motion is $\tau = M\ddot q + h$. Let the robot be at rest, switch gravity off, and ask of one joint the
-# acceleration 1, of all others 0. The forces that this takes are one column of $M$. `rnea` can do the experiment; what
-# gravity adds is taken off again. Eighteen experiments at once:
+# The equation of motion is $\tau = M\ddot q + h$. Let the robot be at rest, switch gravity off, and require the
+# acceleration 1 of one joint and 0 of all others. The forces that this needs are one column of $M$. `rnea` can do this
+# experiment; the part of gravity is subtracted. Eighteen experiments at once:
 # %% [markdown] lang="zh"
 # ## $M$ 的一列就是一次实验
 #
@@ -69,8 +69,8 @@ assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
 # ## Composite inertia
 #
 # Let joint $j$ carry joint $k$. Then the bodies outboard of both are those outboard of $k$, and with the other joints
-# locked they move as one rigid body. Its inertia $I^C_k$, the **composite inertia**, is the sum of theirs, taken to
-# frame $k$: from the tips inward, each adds its own to what carries it.
+# locked they move as one rigid body. Its inertia $I^C_k$, the **composite inertia**, is the sum of their inertias in
+# frame $k$. It is computed from the tips inward: each body adds its composite inertia to that of its parent.
 # %% [markdown] lang="zh"
 # ## 复合刚体惯量
 #
@@ -199,7 +199,7 @@ tw.exercises.check("49.8.2", held_mass_matrix)
 # all legs: the zeros fill up. Beginning with the tips loses none of them. It is the same lesson as in ABA: work from the
 # tips inward.
 # %% [markdown] lang="zh"
-# ## 保住这些零
+# ## 保留这些零
 #
 # 求解 $M\ddot q = \tau - h$ 时,要把 $M$ 分解成三角矩阵。照教科书的顺序从基座开始消元,所有的腿就耦合在一起,
 # 零被填满;从末端开始消元,一个零也不会丢。这和 ABA 是同一个道理:从末端向内做。
@@ -226,7 +226,7 @@ assert np.abs(tips_first[other_legs]).max() < 1e-12
 # ## 正定,以及什么时候不正定
 #
 # 只要没有哪种运动能让所有带质量的东西都静止,$\dot q^T M \dot q = 2T$ 对任何运动都为正。所以 $M$ 的特征值都为正,
-# 满秩。末端连杆没有质量就会破坏这一点:它的关节转动不需要能量。这时正向动力学没有答案,`aba` 会告诉你。
+# 满秩。末端连杆没有质量就会破坏这一点:它的关节转动不需要能量。这时正向动力学没有答案,`aba` 会报错。
 # %%
 eigenvalues = np.linalg.eigvalsh(many)
 print(f"eigenvalues in 50 postures: {eigenvalues.min():.2g} to {eigenvalues.max():.3g}")
@@ -249,13 +249,13 @@ else:
 # ## What it costs
 #
 # Each joint climbs to the base, so the cost is $O(N \cdot \mathrm{depth})$. The table in 49.1 calls CRBA linear, 49.8
-# says $O(N^2)$; both are right for some robot. We do not time this, we count: how many lines that set a
-# term are run? Three kinds of tree: a chain, legs of three links, and a bush, where the base carries every link.
+# says $O(N^2)$; both are right for some robot. Instead of measuring times, we count how many lines that set a term are
+# executed. Three kinds of tree: a chain, legs of three links, and a bush, where the base carries every link.
 # %% [markdown] lang="zh"
 # ## 计算代价
 #
 # 每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$。49.1 的表格说 CRBA 是线性的,49.8 说是 $O(N^2)$:
-# 对某种机器人来说都对。这里不计时,而是数数:一共执行了多少行赋值?三种树:链、每条腿三个连杆的多腿机器人,
+# 对某种机器人来说都对。这里不计时,而是统计一共执行了多少行赋值。三种树:链、每条腿三个连杆的多腿机器人,
 # 以及所有连杆都直接挂在基座上的灌木。
 # %%
 carriers = {
@@ -305,9 +305,9 @@ assert climbs["legs of three"] == sizes  # 0 + 1 + 2 steps for the three links o
 assert lines["chain"][-1] / lines["chain"][-2] > 3.7  # twice the links, almost four times the work
 assert lines["bush"][-1] / lines["bush"][-2] == 2
 # %% [markdown] lang="en"
-# The work goes where the entries are. Of the matrices, the chain's is full and the bush's is diagonal:
+# The work follows the number of entries: the matrix of the chain is full, and that of the bush is diagonal:
 # %% [markdown] lang="zh"
-# 活儿就在有元素的地方。链的矩阵是满的,灌木的矩阵是对角的:
+# 计算量与元素的个数相当:链的矩阵是满的,灌木的矩阵是对角的:
 # %%
 for name, family in trees.items():
     entries = [np.count_nonzero(tw.crba(tree, rng.uniform(-1, 1, tree.nq))) for tree in family]

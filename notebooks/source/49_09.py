@@ -71,9 +71,9 @@ tw.exercises.check("49.9.2", on_all_rows)
 # %% [markdown] lang="en"
 # ## It holds in every state
 #
-# Posture, velocity, torques and foot forces drawn at random. Forward dynamics does not know $J_c$: it is given each foot
-# force as a wrench on the calf, in the calf's frame. Out comes an acceleration, and with it both sides agree. (The feet
-# slide and fly in such a state. That a foot stays where it is would be one more equation,
+# Posture, velocity, torques and foot forces drawn at random. Forward dynamics does not use $J_c$: it gets each foot
+# force as a wrench on the calf, in the calf's frame. With the acceleration that it returns, both sides of the
+# equation agree. (The feet slide and fly in such a state. That a foot stays where it is would be one more equation,
 # $J_c\ddot q + \dot J_c\dot q = 0$.)
 # %% [markdown] lang="zh"
 # ## 在任何状态下都成立
@@ -158,19 +158,18 @@ plt.show()
 print("torques, hip thigh calf, of FL FR RL RR [N m]:", *tau.round(2).reshape(4, 3), sep="\n")
 # %% [markdown] lang="en"
 # The dotted line drops from the centre of mass to the floor, inside the polygon between the feet. It lies 1.7 mm behind
-# the middle, so the rear feet carry a little more. "About $mg/4$ each" holds only that well.
+# the middle, so the rear feet carry a little more. So "about $mg/4$ each" is only approximately true.
 #
 # ## What goes wrong with $g = J_c^T\lambda$
 #
 # Exercise 49.11.3 of the chapter leaves $S^T\tau$ out and fits all eighteen rows by least squares. Foot forces alone
 # cannot hold twelve joints as well; the fit is a compromise that satisfies nothing:
 # %% [markdown] lang="zh"
-# 虚线从质心垂到地面,落在四脚围成的支撑多边形里。它在中心之后 1.7 mm,所以后脚承担得略多。"每只脚约 $mg/4$"只在这个意义上成立。
+# 虚线从质心垂到地面,落在四脚围成的支撑多边形里。它在中心之后 1.7 mm,所以后脚承担得略多。所以"每只脚约 $mg/4$"只是近似成立。
 #
 # ## 写成 $g = J_c^T\lambda$ 错在哪里
 #
-# 本章练习 49.11.3 漏掉了 $S^T\tau$,对全部十八行做最小二乘。仅靠足端力是撑不住十二个关节的,拟合结果是一个折中,
-# 哪一行都没满足:
+# 本章练习 49.11.3 漏掉了 $S^T\tau$,对全部十八行做最小二乘。仅靠足端力是撑不住十二个关节的,拟合结果是一个折中,没有一行得到满足:
 # %%
 fitted = np.linalg.lstsq(d.J_c.T, g)[0]
 residual = d.J_c.T @ fitted - g
@@ -231,11 +230,11 @@ for k, (name, forces) in enumerate(family.items(), start=1):
     assert np.allclose(d.J_c[:, :6].T @ forces.ravel(), g[:6], rtol=1e-12, atol=1e-10)  # the base stands in all three
 plt.show()
 # %% [markdown] lang="en"
-# The base cannot tell them apart, the motors can. A controller may use the freedom, for example to make the torques as
-# small as possible. And it must stay within limits: the ground pushes and does not pull, and friction bounds how far a
-# force may lean (49.4).
+# They make no difference for the base, but they do for the motors. A controller can use this freedom, for example to
+# make the torques as small as possible. It must stay within limits: the ground can push but not pull, and friction
+# limits how far a force may be inclined (49.4).
 # %% [markdown] lang="zh"
-# 基座分不出这三种,电机却分得出。控制器可以利用这份自由,比如让力矩尽量小。但也要守住界限:地面只能推、不能拉,
+# 这三种力对基座没有区别,对电机却有区别。控制器可以利用这种自由,例如让力矩尽量小。但也要遵守限制:地面只能推、不能拉,
 # 而摩擦限制了力能倾斜多少(49.4)。
 # %%
 free = np.linalg.svd(d.J_c[:, :6].T)[2][6:].T  # twelve rows, six directions without effect on the base
@@ -314,8 +313,8 @@ chart.set(xlabel="push [N]", ylabel="vertical force [N]", title="the left feet t
 chart.legend(fontsize=8)
 plt.show()
 # %% [markdown] lang="en"
-# Beyond 84.6 N the centre of pressure would have to lie outside the polygon. No forces that only push can do that:
-# the robot must move, or it tips over.
+# Above 84.6 N, the centre of pressure would have to lie outside the polygon, which is impossible with forces that only
+# push. So the robot must move, or it tips over.
 #
 # ## Straight knees
 #
@@ -327,7 +326,7 @@ plt.show()
 #
 # ## 伸直的膝
 #
-# 本章警告说,膝伸直会使 $J_c$ 掉秩。单条腿自己的 3 × 3 雅可比矩阵确实会奇异:脚再也不能沿腿的方向移动。但 $J_c$ 还有基座的列。
+# 本章警告说,膝伸直会使 $J_c$ 降秩。单条腿自己的 3 × 3 雅可比矩阵确实会奇异:脚再也不能沿腿的方向移动。但 $J_c$ 还有基座的列。
 # 我们把四条腿一起伸直,看各自的最小奇异值:
 # %%
 bend = np.linspace(1.8, 0, 46)
@@ -348,10 +347,11 @@ ax.invert_xaxis()
 ax.legend()
 plt.show()
 # %% [markdown] lang="en"
-# The base's six columns make up for the direction that each leg gives up, as long as these four directions do not depend
-# on each other. Here they do not: the hips of Go2 are 95.5 mm wide, so with the hip joints at 0 the legs lean outward.
-# Turn each hip until the foot is right below it. Now the four legs are parallel, and the rank falls to 11: no motion of the
-# robot can lengthen one leg alone, and nothing tells how four upright posts share the load.
+# The six columns of the base compensate for the direction that each leg has lost, as long as these four directions do
+# not depend on each other. Here they do not: the hips of Go2 are 95.5 mm wide, so with the hip joints at 0 the legs
+# lean outward. Turn each hip until the foot is right below it. Now the four legs are parallel, and the rank falls to
+# 11: no motion of the robot can change the length of one leg alone, and the share of the load on each of the four
+# parallel legs is not determined.
 # %% [markdown] lang="zh"
 # 每条腿失去一个方向,基座的六列可以补上,只要这四个方向彼此不相关。这里正是如此:Go2 的髋宽 95.5 mm,髋关节为 0 时腿向外斜。
 # 再转动髋关节,让每只脚都在髋的正下方。这时四条腿平行,秩降为 11:任何运动都不能只改变一条腿的长度,
@@ -363,8 +363,8 @@ of_upright = np.linalg.svd(tw.contact_jacobian(model, upright, model.feet))[1]
 print(f"smallest singular value {of_upright.min():.1e}, the next {of_upright[-2]:.2f}")
 assert of_upright.min() < 1e-12 < 1e-2 < of_upright[-2]
 # %% [markdown] lang="en"
-# A contact too many costs rank as well. The ankle end and the knee end of one calf are a fixed distance apart: of their
-# six velocities only five are independent.
+# Redundant contacts also reduce the rank. The two ends of one calf have a fixed distance, so only five of their six
+# velocity components are independent.
 # %% [markdown] lang="zh"
 # 多余的接触也会使秩下降。同一根小腿的两端距离固定:它们的六个速度分量里只有五个是独立的。
 # %%
@@ -373,8 +373,8 @@ assert np.linalg.matrix_rank(twice) == 5
 # %% [markdown] lang="en"
 # ## Pinocchio
 #
-# `getFrameJacobian` has the *linear* rows first: a point contact takes rows 0 to 2. The listing in 49.11 takes rows 3 to 5,
-# the angular ones. Its matrix has the right shape, and rank 9.
+# `getFrameJacobian` has the *linear* rows first: a point contact takes rows 0 to 2. The listing in 49.11 takes rows 3
+# to 5, the angular ones. The resulting matrix has the right shape, but its rank is 9.
 # %% [markdown] lang="zh"
 # ## 与 Pinocchio 对照
 #

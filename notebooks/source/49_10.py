@@ -8,7 +8,7 @@
 # # 49.10 质心动量与 CCRBA
 #
 # 不管机器人的腿怎么动,外界能察觉的只有六个数:整体在质心 $G$ 处的动量 $h_G = (k_G, l_G)$,前一半是角动量,后一半是线动量。
-# 这个笔记本先把它算出来,再让 Go2 慢走、小跑(trot)、跳跑(bound),看看第 51 章的简化模型各自丢掉了什么。
+# 这个笔记本先把它算出来,再让 Go2 慢走、小跑(trot)、跳跑(bound),看看第 51 章的简化模型各自略去了什么。
 # %%
 import inspect
 from typing import NamedTuple
@@ -109,16 +109,16 @@ print(f"you: {guess}, computed: {answer:.4g} N")
 # %% [markdown] lang="en"
 # ## What changes it
 #
-# Newton and Euler, for the robot as a whole: only what touches it from outside, and the weight, which has no moment
-# about $G$.
+# These are the equations of Newton and Euler for the whole robot. Only forces from outside act on it: the contacts, and
+# the weight, which has no moment about $G$.
 #
 # $$\dot h_G = \begin{pmatrix} \sum_k (p_k - p_G) \times f_k \\ \sum_k f_k + m g \end{pmatrix}.$$
 #
 # This is for point contacts, such as the feet of Go2. A sole also passes a moment $\tau_k$ (49.4), which is added to the
 # upper half.
 #
-# Any state, any torques, any forces at the feet. Then once more without forces: no motor can change more than how the
-# momentum is shared out inside.
+# We check this for a random state with random torques and foot forces, and then once more without foot forces: motors
+# can only change how the momentum is distributed inside the robot.
 # %% [markdown] lang="zh"
 # ## 什么能改变它
 #
@@ -185,13 +185,14 @@ plt.show()
 # %% [markdown] lang="en"
 # ## At rest it is zero
 #
-# $\dot h_G = A_G\ddot q + \dot A_G\dot q$ is a statement about the motion. At rest, with $\ddot q = 0$, it is zero: on a
-# standing robot the ground balances the weight. The chapter expects the weight to come out; for that the robot must fall.
+# $\dot h_G = A_G\ddot q + \dot A_G\dot q$ depends only on the motion. At rest, with $\ddot q = 0$, it is zero, because
+# the ground balances the weight of a standing robot. The chapter expects the weight here, but $\dot h_G$ is the weight
+# only if the robot falls freely.
 # %% [markdown] lang="zh"
 # ## 静止时为零
 #
-# $\dot h_G = A_G\ddot q + \dot A_G\dot q$ 说的是运动。静止且 $\ddot q = 0$ 时它为零:站着的机器人,重力被地面抵消了。
-# 本章说这时应该得到重力;要得到重力,机器人得真的在下落。
+# $\dot h_G = A_G\ddot q + \dot A_G\dot q$ 只取决于运动。静止且 $\ddot q = 0$ 时它为零,因为站立时重力与地面反力平衡。本章说这时应该得到重力,但只有机器人自由下落时,
+# $\dot h_G$ 才等于重力。
 # %%
 rest, stand = np.zeros(18), model.standing()
 assert not tw.centroidal_momentum_rate(model, stand, rest, rest).any()
@@ -206,8 +207,8 @@ assert np.allclose(held.forces.sum(axis=0) + model.mass * model.gravity, 0, rtol
 # ## Three gaits
 #
 # Now Go2 moves. The joints follow smooth curves: each leg sways, and its knee bends while it swings forward. The trunk
-# bobs, and in the bound it pitches. Position and velocity are written out; the acceleration is the complex-step
-# derivative of the velocity. The motion is prescribed, and we ask what the world must do for it.
+# bobs, and in the bound it pitches. Position and velocity are given by formulas; the acceleration is the complex-step
+# derivative of the velocity. The motion is prescribed, and we compute the forces from outside that it needs.
 # %% [markdown] lang="zh"
 # ## 三种步态
 #
@@ -279,9 +280,10 @@ plt.show()
 # %% [markdown] lang="en"
 # ## $h_G$ over a stride
 #
-# Trot and bound lift the trunk twice in each stride: $l_z$. Forward the speed is nearly constant, and only the wobble
-# about its mean is drawn. (Mind the scales of $k_G$: each gait has its own.) The great difference is in $k_y$: in the trot one leg swings forward while its neighbour stands,
-# and their angular momenta nearly cancel; in the bound the trunk pitches and both pairs go with it.
+# In a trot and in a bound, the trunk rises twice in each stride, as $l_z$ shows. The forward speed is nearly constant,
+# and only its deviation from the mean is drawn. (Note the scales of $k_G$: each gait has its own.) The largest
+# difference is in $k_y$: in the trot one leg swings forward while its neighbour stands, and their angular momenta
+# nearly cancel; in the bound the trunk pitches and both pairs go with it.
 # %% [markdown] lang="zh"
 # ## 一个步态周期里的 $h_G$
 #
@@ -318,9 +320,10 @@ assert largest["trot"] < 0.1 * largest["bound"]
 # %% [markdown] lang="en"
 # ## $\dot h_G$ in three ways
 #
-# By the formula; by watching $h_G$ change (dots: a difference over 0.2 ms; the assertion uses a complex step, which is
-# exact); and from inverse dynamics: the first six of `rnea` are the wrench on the base that the world must supply. Moved
-# to $G$, and with the weight, it has to be the same. Here for the bound:
+# First, by the formula. Second, as the rate of $h_G$ (the dots are differences over 0.2 ms; the assertion uses a
+# complex step, which is exact). Third, from inverse dynamics: the first six entries of `rnea` are the wrench that must
+# act on the base from outside. Transformed to $G$, and added to the weight, it must be the same. The picture is for the
+# bound:
 # %% [markdown] lang="zh"
 # ## 用三种办法求 $\dot h_G$
 #
@@ -395,10 +398,11 @@ plt.show()
 # %% [markdown] lang="en"
 # ## LIPM and SRBM
 #
-# Two more assumptions deserve numbers. The LIPM also keeps the height constant, else it is not linear: with
-# $\ddot z \ne 0$ the force along the leg is scaled by $1 + \ddot z/g$. The single rigid body (SRBM) keeps six equations,
-# but its momentum is that of a body that turns with the trunk, $k_G \approx \bar I \omega$, with the inertia of the
-# standing robot. What swinging legs add is missing, and where the trunk does not turn, that is all of $k_G$.
+# We also measure two further assumptions. The LIPM keeps the height constant, because otherwise it is not linear: with
+# $\ddot z \ne 0$ the force along the leg is scaled by $1 + \ddot z/g$. The single rigid body (SRBM) keeps six
+# equations, but its momentum is that of a body that turns with the trunk, $k_G \approx \bar I \omega$, with the inertia
+# of the standing robot. The contribution of the swinging legs is missing; if the trunk does not turn, this is all of
+# $k_G$.
 # %% [markdown] lang="zh"
 # ## LIPM 与 SRBM
 #

@@ -11,7 +11,7 @@
 # 最后一个笔记本把一切摆在一起:本章的每个公式、本包里的函数、Pinocchio 里的调用;本章的七个测试(改正之后);
 # 以及控制器每个周期都要的四个量。
 #
-# Pinocchio 用 `pip install pin` 安装。PyPI 上名叫 `pinocchio` 的是另一个东西。
+# Pinocchio 用 `pip install pin` 安装。PyPI 上名叫 `pinocchio` 的是另一个软件包。
 # %%
 import timeit
 
@@ -38,9 +38,9 @@ i, foot = model.joint_id("FR_thigh_joint"), "FR_foot"
 # %% [markdown] lang="en"
 # ## The map
 #
-# One line for each quantity: what it is, here, there, and how `tw.bridge` leads from there to here. The last column is the
-# largest difference, in a state drawn at random. In Pinocchio `P` is the model, and `pv`, `pa`, `ptau` are our vectors in
-# its order.
+# There is one line for each quantity: its formula, the call here, the call in Pinocchio, and the function of
+# `tw.bridge` that converts Pinocchio's result into ours. The last column is the largest difference, in a state drawn at
+# random. In Pinocchio `P` is the model, and `pv`, `pa`, `ptau` are our vectors in its order.
 # %% [markdown] lang="zh"
 # ## 对照表
 #
@@ -114,14 +114,14 @@ print(f"you: {guess}, computed: {answer}")
 # %% [markdown] lang="en"
 # ## The bridge
 #
-# `q` is the same on both sides. In everything that belongs to `v`, the six entries of the base change places; in twists and
-# wrenches, the two halves. The bridge is the only place that does this. Forget it, and nothing complains: the shapes fit,
-# the numbers are wrong.
+# `q` is the same on both sides. In everything that belongs to `v`, the six entries of the base change places; in twists
+# and wrenches, the two halves. The bridge is the only place that does this. If you forget it, no error is raised: the
+# shapes fit, but the numbers are wrong.
 # %% [markdown] lang="zh"
 # ## 换序的桥
 #
 # `q` 两边相同。凡是与 `v` 对应的量,基座的六个元素要换位置;twist 和 wrench 则是前后两半互换。只有 `tw.bridge` 做这件事。
-# 忘了它也不会报错:形状都对,数字是错的。
+# 如果忘了换序,也不会报错:形状都对,但数值是错的。
 # %%
 numbered = tw.bridge.to_pinocchio_tangent(model, np.arange(18))
 print("where Pinocchio's entries of v stand in ours:", numbered.astype(int))
@@ -166,8 +166,8 @@ tw.exercises.check("49.11.1", com_velocity)
 # %% [markdown] lang="en"
 # ## Seven tests
 #
-# The chapter's listing ends its sections with seven checks. First in the chapter's own order, $(\boldsymbol\omega,
-# \boldsymbol v)$, where its formulas are right as they stand:
+# The chapter's listing has seven tests, one at the end of each of its parts. We first run them in the chapter's own
+# order, $(\boldsymbol\omega, \boldsymbol v)$, in which its formulas are right:
 #
 # 1. $\tau$ from RNEA is $M\ddot q + h$.
 # 2. ABA solves that for $\ddot q$.
@@ -327,9 +327,9 @@ print("vertical forces", lam[2::3].round(1), "N; largest torque", np.abs(torques
 assert (lam[2::3] > 0).all()  # the ground pushes
 assert (np.abs(torques) < model.effort_limit[6:]).all()
 # %% [markdown] lang="en"
-# Is that so? Give the torques to a robot whose feet are held by whatever force this takes, and see how it moves. Eighteen
-# accelerations and twelve forces are unknown, and there are as many equations. And the momentum of the whole changes as
-# $A_G$ says:
+# To check this, we apply the torques to a robot whose feet are held (by whatever forces this needs), and compute how it
+# moves. Eighteen accelerations and twelve forces are unknown, and there are as many equations. And the momentum of the
+# whole changes as $A_G$ says:
 # %% [markdown] lang="zh"
 # 真是这样吗?把这些力矩交给一个脚被固定住的机器人(需要多大的力就给多大),看它怎样运动。未知数是十八个加速度和十二个力,
 # 方程也有这么多。整体的动量也照 $A_G$ 说的那样变化:

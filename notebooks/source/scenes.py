@@ -1,14 +1,13 @@
 # %% [markdown] lang="en"
 # # Scenes: model only what is needed
 #
-# A humanoid that stands with its arms still needs no equations for its arms. This notebook locks joints, compares the
-# smaller robot with the whole one, looks at what it costs when the arms move after all, asks whether the robot can
-# stand, and picks the cheapest model of a walk.
+# If a humanoid stands and does not move its arms, no equations are needed for the arms. This notebook locks joints,
+# compares the smaller robot with the whole one, measures the error that you make if the arms do move, asks whether the
+# robot can stand, and chooses the cheapest model of a walk that is exact enough.
 # %% [markdown] lang="zh"
 # # 场景:只为需要的东西建模
 #
-# 人形机器人站着不动手臂时,方程里不需要手臂。这个笔记本先锁住关节,把小机器人与整个机器人比较,再看手臂其实在动时代价多大,
-# 然后问机器人站不站得住,最后为一段行走选出够用的模型里最便宜的。
+# 人形机器人站着不动手臂时,方程里不需要手臂。这个笔记本先锁住关节,把小机器人与整个机器人比较,再看手臂其实在动时误差多大,然后判断机器人是否站得住,最后为一段行走选出够用的模型中代价最小的一个。
 # %%
 import time
 
@@ -56,13 +55,13 @@ print(bent.model)
 # %% [markdown] lang="en"
 # ## A scene, and the smallest model that has it
 #
-# A scene locks what is held, drops joints that carry nothing, and keeps contacts, frames, limits and rotors. Its model
-# has the equations of the whole robot with still arms: the rows and columns of $M$ that are left, the same torques, the
-# same momentum.
+# A scene locks the joints that are held and removes joints that carry nothing; it keeps contacts, frames, limits and
+# rotors. Its model has the equations of the whole robot whose arms do not move: the remaining rows and columns of $M$,
+# the same torques, the same momentum.
 # %% [markdown] lang="zh"
 # ## 场景与最小模型
 #
-# 场景锁住不动的关节,去掉什么也不带的关节,保留接触、坐标系、限位和转子惯量。它的模型就是手臂不动时整个机器人的方程:
+# 场景锁住不动的关节,去掉不带动任何质量的关节,保留接触、坐标系、限位和转子惯量。它的模型就是手臂不动时整个机器人的方程:
 # $M$ 中留下的行和列,同样的力矩,同样的动量。
 # %%
 scene = tw.Scene(full, contacts=soles, hold=arms)
@@ -86,7 +85,8 @@ for name, (small, whole) in pairs.items():
     print(f"{name:4} {error:.0e}")
     assert error < 1e-13
 # %% [markdown] lang="en"
-# The time saved is a matter of how many joints are gone. One call after the other, the quickest of many.
+# The time that this saves depends on how many joints are removed. The two models are timed in turns; the shortest of
+# many times counts.
 # %% [markdown] lang="zh"
 # 省多少时间,取决于去掉了多少关节。两者轮流计时,各取多次中最快的一次。
 # %%
@@ -100,13 +100,13 @@ saved = times.min(axis=0)[1] / times.min(axis=0)[0]
 print(f"nv {full.nv} over {model.nv}: rnea takes {saved:.2f} times as long")
 assert saved > 1
 # %% [markdown] lang="en"
-# ## What if the arms move after all?
+# ## What if the arms do move?
 #
 # Give the held joints the speed $r$, and compare the legs' torques. The error has a part that grows as $r$, Coriolis
 # forces between the arms' motion and that of the rest, and one that grows as $r^2$, the arms' own centrifugal forces. It
 # is polynomial of degree two in $r$, exactly: $h$ is quadratic in the velocities.
 # %% [markdown] lang="zh"
-# ## 手臂其实在动呢?
+# ## 如果手臂其实在动?
 #
 # 让锁住的关节以速度 $r$ 转动,比较腿部力矩。误差有一部分与 $r$ 成正比,是手臂与其余部分之间的科里奥利力;另一部分与 $r^2$ 成正比,
 # 是手臂自身的离心力。因为 $h$ 是速度的二次函数,误差恰好是 $r$ 的二次多项式。
@@ -140,13 +140,14 @@ plt.show()
 # %% [markdown] lang="en"
 # ## Can it stand?
 #
-# On both soles, yes. On one sole without moving over it, no. And under a heavy load on the torso the knees give up:
-# a wrench on a frame is part of the scene, constant, in the axes of the world.
+# On both soles, it can. On one sole it cannot, unless it first moves its body over this sole. And under a heavy load on
+# the torso, the motors of the knees are too weak. (A wrench on a frame is part of the scene; it is constant in the axes
+# of the world.)
 # %% [markdown] lang="zh"
 # ## 站得住吗?
 #
-# 两只脚着地,站得住。只剩一只脚而身体不移过去,站不住。躯干上压很重的东西,膝关节的电机先撑不住:
-# 作用在坐标系上的外力是场景的一部分,恒定,沿世界坐标轴。
+# 两只脚着地时站得住。只有一只脚着地时站不住,除非先把身体移到这只脚上方。躯干上的负载很重时,膝关节的电机力矩不够。
+# (作用在坐标系上的外力是场景的一部分,大小恒定,沿世界坐标轴。)
 # %%
 one_leg = tw.Scene(full, contacts=soles[:1], hold=arms)
 for robot in (scene, one_leg):
@@ -167,7 +168,7 @@ assert 0 < loads[-1] < 3000
 # %% [markdown] lang="en"
 # ## Bad scenes raise an error
 # %% [markdown] lang="zh"
-# ## 有问题的场景会被拒绝
+# ## 有问题的场景会报错
 # %%
 bad = {
     "no such frame": lambda: tw.Scene("go2", contacts=[tw.PointContact("FL_fot", 0.7)]),
@@ -190,14 +191,15 @@ assert "did you mean 'FL_foot'" in said["no such frame"]
 # %% [markdown] lang="en"
 # ## The cheapest model that will do
 #
-# Holding the arms is one way to leave something out; the templates of 49.10 leave out more. Over a walk with swinging
-# arms `cheapest` asks of each what it misses of the wrench $\dot h_G$ that ground and weight must exert, as a share of
-# the weight, and of those inside the tolerance how many operations a compiled program has. The fewest are the choice.
+# Holding the arms is one way to simplify the model; the templates of 49.10 leave out more. For a walk with swinging
+# arms, `cheapest` computes the error of each model in the wrench $\dot h_G$ of ground and weight together, as a share
+# of the weight. For the models within the tolerance, it counts the operations of the compiled program, and it chooses
+# the model with the fewest.
 # %% [markdown] lang="zh"
-# ## 够用的模型里最便宜的
+# ## 够用的模型中代价最小的
 #
-# 锁住手臂是一种省法,49.10 的模板省得更多。在一段摆臂行走上,`cheapest` 问每个模型两件事:地面与重力要施加的 $\dot h_G$ 它漏掉多少(占体重的比例),
-# 误差在容许范围之内的，再看编译后的程序算一次要做多少次运算，次数最少的就是选择。
+# 锁住手臂是简化模型的一种办法,49.10 的模板省得更多。对一段摆臂行走,`cheapest` 算出每个模型的 $\dot h_G$(地面反力与重力的合 wrench)的误差,
+# 以占体重的比例表示;再对误差在容许范围之内的模型,统计编译后的程序的运算次数,选出次数最少的一个。
 # %%
 walk = motions.walk(full, samples=60)
 found = scene.cheapest(0.02, walk)
@@ -211,7 +213,8 @@ assert worst["this scene"] < worst["srbm_frozen"]
 assert found.best.worst() <= 0.02
 assert all(option.operations >= found.best.operations for option in found.options if option.worst() <= 0.02)
 # %% [markdown] lang="en"
-# In the table, the templates miss the momentum of the legs, and no shape of one rigid body brings it back. A robot that
-# holds its arms still misses only the swing of the arms, and gives the torques of the legs as well.
+# As the table shows, the templates leave out the momentum of the legs, and a single rigid body of any shape cannot
+# represent it. The robot whose arms are held leaves out only the swing of the arms, and it also gives the torques of
+# the legs.
 # %% [markdown] lang="zh"
-# 从表中可以看到:模板漏掉的是腿的动量,单个刚体取什么形状都补不回来。手臂不动的机器人漏掉的只有摆臂,而且还能给出腿部力矩。
+# 从表中可以看到:模板漏掉的是腿的动量,单个刚体无论取什么形状,都不能表示它。手臂锁住的机器人漏掉的只有摆臂,而且还能给出腿部力矩。

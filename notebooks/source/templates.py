@@ -8,7 +8,7 @@
 # %% [markdown] lang="zh"
 # # 模板:从整个机器人到一个质点,再回来
 #
-# 49.10 节以一座桥收尾:质心动量把整个机器人与规划步行的简化模型连在一起。这个笔记本在桥上来回走一趟:
+# 49.10 节最后说明:质心动量把整个机器人与规划步行的简化模型联系起来。这个笔记本从两个方向来看:
 # 倒立摆规划一段行走,人形机器人照着走,它的动量说明规划漏掉了什么。然后是小跑,以及一次跳跃:腾空时角动量真的恒定。
 # %%
 import matplotlib.pyplot as plt
@@ -54,14 +54,14 @@ assert np.allclose(pendulum.center_of_pressure(p, p_ddot), foot, rtol=0, atol=1e
 # ## A humanoid walks the pendulum's walk
 #
 # `tw.motions.walk` plans with this pendulum. The centre of pressure goes smoothly from sole to sole; for a steady gait
-# the centre of mass follows harmonic by harmonic, $p_n = c_n / (1 + n^2\omega_s^2 z/g)$. Then the whole body is made to
-# do it: feet that stand stand, the trunk stays nearly level, the legs follow. Velocities and accelerations come from the
-# Jacobian of the same tasks.
+# the centre of mass follows harmonic by harmonic, $p_n = c_n / (1 + n^2\omega_s^2 z/g)$. Then the motion of the whole
+# body is computed: the standing feet do not move, the trunk stays nearly level, and the legs follow. Velocities and
+# accelerations come from the Jacobian of the same tasks.
 # %% [markdown] lang="zh"
 # ## 人形机器人照着倒立摆走
 #
 # `tw.motions.walk` 就用这个倒立摆规划。压力中心平滑地从一只脚掌移到另一只;对稳定的步态,质心逐个谐波地跟随,
-# $p_n = c_n / (1 + n^2\omega_s^2 z/g)$。然后让全身来实现它:支撑脚不动,躯干近乎水平,腿跟着走。速度和加速度由同一组任务的雅可比求得。
+# $p_n = c_n / (1 + n^2\omega_s^2 z/g)$。然后让全身来实现它:支撑脚不动,躯干近乎水平,腿跟着走。速度和加速度由同一组任务的雅可比矩阵求得。
 # %%
 walk = motions.walk(humanoid)
 print(walk)
@@ -78,14 +78,14 @@ plt.show()
 # %% [markdown] lang="en"
 # ## What the plan left out
 #
-# The pendulum believes that the centre of pressure is at $p_G - \frac zg \ddot p_G$. What the ground must really do is
-# $\dot h_G$ less the weight, of the whole robot, and its centre of pressure is elsewhere: by $|\dot k_G| / mg$, the moment
-# that swings the legs.
+# The pendulum believes that the centre of pressure is at $p_G - \frac zg \ddot p_G$. In fact, the ground must exert
+# $\dot h_G$ of the whole robot minus the weight, and its centre of pressure is at a distance of $|\dot k_G| / mg$ from
+# there, because of the moment that swings the legs.
 # %% [markdown] lang="zh"
 # ## 规划漏掉了什么
 #
-# 倒立摆以为压力中心在 $p_G - \frac zg \ddot p_G$。地面真正要做的,是整个机器人的 $\dot h_G$ 减去重力,它的压力中心在别处:
-# 相差 $|\dot k_G| / mg$,也就是摆腿所需的力矩。
+# 按倒立摆,压力中心在 $p_G - \frac zg \ddot p_G$。实际上,地面要提供整个机器人的 $\dot h_G$ 减去重力,它的压力中心与前者
+# 相差 $|\dot k_G| / mg$,原因是摆腿所需的力矩。
 # %%
 com = tw.center_of_mass(humanoid, walk.q)
 height = com[0, 2] - tw.frame_placement(humanoid, walk.q[0], walk.feet[0]).translation[2]
@@ -117,8 +117,8 @@ plt.show()
 # %% [markdown] lang="en"
 # ## Six templates, three motions, two robots
 #
-# Every template predicts $\dot h_G$ from what it knows; the full model's comes from the base's rows of RNEA. What is
-# missed, as a share of the weight (a moment over the radius of gyration counts as a force):
+# Every template predicts $\dot h_G$ from what it knows; the full model's comes from the base's rows of RNEA. The table
+# has the errors as a share of the weight (a moment divided by the radius of gyration counts as a force):
 # %% [markdown] lang="zh"
 # ## 六个模板,三种运动,两个机器人
 #
@@ -197,20 +197,22 @@ for ax in axes:
     ax.axvspan(*jump.t[flies][[0, -1]], color=plot.COLOURS["grey"], alpha=0.2, linewidth=0)
 plt.show()
 # %% [markdown] lang="en"
-# ## The law is cheap, the reading is not
+# ## The law costs little, its inputs do not
 #
 # From a whole-body state no template is much cheaper than the full model: $\ddot p_G$ is a sum over all bodies. But its
 # law, once the few numbers are read, is a few multiplications: that is what planners use.
 # %% [markdown] lang="zh"
-# ## 公式便宜,读数不便宜
+# ## 公式省时,输入不省时
 #
-# 从全身状态出发,哪个模板都不比完整模型便宜多少:$\ddot p_G$ 要对所有刚体求和。但读出那几个数之后,公式只是几次乘法:规划器用的就是这一步。
+# 从全身状态出发,没有一个模板比完整模型省很多时间,因为 $\ddot p_G$ 要对所有刚体求和。但已知那几个数之后,公式只需几次乘法,
+# 规划器用的就是这一步。
 # %%
 (known,), exact = TEMPLATES["point_mass"].of(go2, go2.standing()).read(jump.q, jump.v, jump.a), Centroidal
 print("the point mass reads", known.shape, "and its law multiplies by the mass")
 law = TEMPLATES["point_mass"].of(go2, go2.standing()).law(known)
 assert np.allclose(law[:, 3:], exact.of(go2, go2.standing()).rate(jump.q, jump.v, jump.a)[:, 3:], rtol=0, atol=1e-11)
 # %% [markdown] lang="en"
-# `docs/templates.md` has the table for Go2, Solo12, Talos and G1, with times; `twistwrench study templates` makes it anew.
+# `docs/templates.md` has the table for Go2, Solo12, Talos and G1, with times; `twistwrench study templates` computes it
+# again.
 # %% [markdown] lang="zh"
 # Go2、Solo12、Talos、G1 的表格和时间见 `docs/templates.zh-CN.md`;`twistwrench study templates` 可以重新生成。
