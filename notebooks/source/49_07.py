@@ -324,8 +324,7 @@ print(f"you: {guess}, computed: {answer:.4g} rad/s²")
 # %% [markdown] lang="zh"
 # ## 自由落体
 #
-# 没有力矩又静止时,每个刚体落得一样快:基座的加速度是它自己坐标轴下的 $\boldsymbol g$,关节不动。这不是近似,而是精确成立。$v 
-e 0$ 时则不同:摆动的腿会拉动基座,而且空间加速度里不含 $\boldsymbol\omega \times \boldsymbol v$。永远以
+# 没有力矩又静止时,每个刚体落得一样快:基座的加速度是它自己坐标轴下的 $\boldsymbol g$,关节不动。这不是近似,而是精确成立。$v \ne 0$ 时则不同:摆动的腿会拉动基座,而且空间加速度里不含 $\boldsymbol\omega \times \boldsymbol v$。永远以
 # $\boldsymbol g$ 下落的是质心:$\dot{\boldsymbol h}_G$ 就是重力(49.10)。
 # %%
 for any_q in qs[:10]:

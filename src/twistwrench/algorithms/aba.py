@@ -66,8 +66,7 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     q : array_like, shape (..., nq)
         Configuration.
     v, tau : array_like, shape (..., nv)
-        Velocity; joint forces in N m or N, of which the first six of a floating base are a wrench
-        (τ, f) on it from outside, in its frame.
+        Velocity; joint forces, N m or N. The first six of a floating base are a wrench (τ, f) on it, in its frame.
     f_ext : array_like, shape (..., nbodies, 6), optional
         Wrench (τ, f) on each body, in its frame; row 0, the world's, must be zero.
 
@@ -79,19 +78,14 @@ def aba(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: ArrayLi
     Raises
     ------
     SingularError
-        If a joint moves no inertia (or none above rounding), so that q̈ is not determined. The message names the
-        joints.
+        If a joint moves no inertia above rounding, so that q̈ is not determined. The message names the joint.
     ShapeError, ValueError
         As `rnea`.
 
-    See Also
-    --------
-    twistwrench.rnea : the inverse.
-    twistwrench.aba_terms : what is computed on the way.
-
     Notes
     -----
-    Section 49.7; Featherstone, RBDA table 7.1. `articulated_body` has the loops.
+    Section 49.7; Featherstone, RBDA table 7.1. The loops are in `articulated_body`; `twistwrench.aba_terms` returns
+    what they compute. `twistwrench.rnea` is the inverse.
 
     Examples
     --------

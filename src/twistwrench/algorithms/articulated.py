@@ -55,9 +55,8 @@ def articulated_inertia(model: Model, q: ArrayLike, frame: str) -> Array:
     Returns
     -------
     ndarray, shape (..., 6, 6)
-        At the frame's origin in the frame's axes, rows and columns (angular, linear): kg m², kg m, kg. The
-        body's apparent inertia if it were cut off its parent; of a robot whose joints are all free that is
-        `operational_space_inertia`.
+        At the frame's origin in the frame's axes, rows and columns (angular, linear): kg m², kg m, kg. It is the
+        body's apparent inertia if it were cut off its parent.
 
     Raises
     ------
@@ -70,8 +69,7 @@ def articulated_inertia(model: Model, q: ArrayLike, frame: str) -> Array:
 
     Notes
     -----
-    Section 49.7; Featherstone, RBDA section 7.1. With the joints locked it is the composite inertia of `crba_terms`,
-    which is never less.
+    Section 49.7; Featherstone, RBDA section 7.1.
 
     Examples
     --------

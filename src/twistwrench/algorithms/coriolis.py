@@ -62,10 +62,7 @@ def _turning(I: Array, omega: Array, w: Array) -> Array:
 
 @also_of_mimics
 def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
-    """Return a C(q, v) with C v = h − g and Ṁ − 2C skew-symmetric.
-
-    Many matrices give the same C v. This is the one that Christoffel's symbols give, and Pinocchio's
-    ``computeCoriolisMatrix``.
+    """Return the C(q, v) of Christoffel's symbols: C v = h − g, and Ṁ − 2C is skew-symmetric.
 
     Parameters
     ----------
@@ -85,10 +82,7 @@ def coriolis_matrix(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     Notes
     -----
     C = Σ Jᵢᵀ (Iᵢ J̇ᵢ + Bᵢ Jᵢ), where Bᵢ = ½ (V×* I − I V× + (I V)×̄*) and h×̄* x = x ×* h; S. Echeandia
-    and P. M. Wensing, Numerical methods to compute the Coriolis matrix and Christoffel symbols for
-    rigid-body systems, 2021. The columns of Jᵢ and J̇ᵢ are those of the parent, moved to frame i,
-    and the joint's own S and V × S. The linear velocity of a floating base cancels, and is left out: C does not
-    depend on it. O(N d²) for a tree of depth d.
+    and P. M. Wensing, 2021. The linear velocity of a floating base cancels, and is left out. O(N d²).
 
     Examples
     --------

@@ -57,18 +57,10 @@ def crba(model: Model, q: ArrayLike) -> Array:
     ShapeError, ValueError
         As `Model.state`.
 
-    See Also
-    --------
-    twistwrench.crba_terms : what is computed on the way.
-    twistwrench.ltdl : factors of M that keep its zeros.
-
     Notes
     -----
-    Section 49.8; Featherstone, RBDA table 6.2. If joint i alone has a unit acceleration, its subtree moves
-    as one rigid body; so its composite inertia is needed. The wrench for this motion acts through joint i and
-    the joints between it and the base, and through no other joint. The time is O(N d) for a tree of depth d,
-    and O(N²) for a chain.
-    `composite_rigid_body` has the loops.
+    Section 49.8; Featherstone, RBDA table 6.2. O(N d) for a tree of depth d. The loops are in `composite_rigid_body`;
+    `twistwrench.crba_terms` returns what they compute. `twistwrench.ltdl` factors M and keeps its zeros.
 
     Examples
     --------

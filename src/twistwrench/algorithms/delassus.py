@@ -50,14 +50,10 @@ def delassus_matrix(model: Model, q: ArrayLike, J: ArrayLike) -> Array:
     ShapeError, ValueError
         As `Model.state`.
 
-    See Also
-    --------
-    twistwrench.operational_space_inertia : its inverse.
-
     Notes
     -----
-    Sections 49.8 and 49.9; R. Featherstone, Exploiting sparsity in operational-space dynamics, 2010. M⁻¹ is full, and
-    is not formed.
+    Sections 49.8 and 49.9; R. Featherstone, Exploiting sparsity in operational-space dynamics, 2010. The inverse is
+    `twistwrench.operational_space_inertia`.
 
     Examples
     --------
@@ -112,15 +108,13 @@ def operational_space_inertia(model: Model, q: ArrayLike, J: ArrayLike) -> Array
     Raises
     ------
     SingularError
-        If M is singular, or rows of J depend on each other, to rounding: at a stretched knee, or with more rows than
-        degrees of freedom. `delassus_matrix` still answers there.
+        If M is singular, or rows of J depend on each other, as at a stretched knee.
     ShapeError, ValueError
         As `Model.state`.
 
     Notes
     -----
-    Section 49.9; O. Khatib, A unified approach for motion and force control of robot manipulators: the operational
-    space formulation, 1987. All joints are free. Of the base of a floating robot it is therefore `articulated_inertia`.
+    Section 49.9; O. Khatib, 1987 (the operational space formulation). All joints are free.
 
     Examples
     --------

@@ -124,16 +124,10 @@ def ltdl(model: Model, q: ArrayLike) -> tuple[Array, Array]:
     ShapeError, ValueError
         As `Model.state`.
 
-    See Also
-    --------
-    twistwrench.ltl : with square roots, M = LᵀL.
-    twistwrench.solve_mass_matrix : solves with it.
-
     Notes
     -----
-    Section 49.8; Featherstone, RBDA section 6.5, and Efficient factorization of the joint-space inertia matrix for
-    branched kinematic trees, 2005. With d degrees of freedom inboard of k, row k costs d divisions and d (d + 1)/2
-    multiplications and subtractions: O(N d²) for a tree of depth d. `factorize` has the loops.
+    Section 49.8; Featherstone, RBDA section 6.5. O(N d²) for a tree of depth d. The loops are in `factorize`;
+    `twistwrench.solve_mass_matrix` solves with the factors, and `twistwrench.ltl` has square roots.
 
     Examples
     --------

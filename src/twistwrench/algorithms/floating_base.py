@@ -164,17 +164,16 @@ class Equilibrium:
 def static_equilibrium(model: Model, q: ArrayLike, contacts: Iterable[str] | None = None) -> Equilibrium:
     """Return the torques and the contact forces that hold a robot with a floating base at rest.
 
-    The equation is g(q) = Sᵀ τ + J_cᵀ λ. Its six rows of the base do not contain τ, so they determine the contact
-    forces: of all solutions, the one with the least norm. The other rows then give the torques. Forces may pull, and
-    friction is ignored.
+    The six base rows of g(q) = Sᵀ τ + J_cᵀ λ do not contain τ, so they give λ: of all solutions, the one of least norm.
+    The other rows then give the torques. Forces may pull, and friction is ignored.
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (nq,)
-        One real configuration. The least-squares problem is solved in float64, whatever the number type of q is.
+        One real configuration. The least-squares problem is solved in float64.
     contacts : iterable of str, optional
-        Frames at which the robot touches the ground; `model.feet` unless given.
+        Frames that touch the ground; `model.feet` unless given.
 
     Returns
     -------

@@ -53,29 +53,22 @@ def rnea(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLik
     v, a : array_like, shape (..., nv)
         Velocity and acceleration; those of a floating base are (ω, v) and its rate, in its frame.
     f_ext : array_like, shape (..., nbodies, 6), optional
-        Wrench (τ, f) on each body, in its frame; row 0, the world's, must be zero. N m and N.
+        Wrench (τ, f) on each body, in its frame, N m and N; row 0, the world's, must be zero.
 
     Returns
     -------
     ndarray, shape (..., nv)
-        N m or N. The first six entries of a floating base are the wrench, in its frame, that must act
-        on it from outside.
+        N m or N. The first six entries of a floating base are the wrench on it from outside, in its frame.
 
     Raises
     ------
     ShapeError, ValueError
         As `Model.state`; and a wrench on the world, which could change nothing.
 
-    See Also
-    --------
-    twistwrench.aba : the inverse.
-    twistwrench.rnea_terms : what is computed on the way.
-
     Notes
     -----
-    Section 49.6; Featherstone, RBDA table 5.1. Gravity enters as an upward acceleration of the world.
-    The chapter's backward pass overwrites F[i] after the children have added to it, and uses X* instead
-    of Xᵀ. Here F[i] is set in the forward pass, and X[i]ᵀ takes it inward. `newton_euler` has the loops.
+    Section 49.6; Featherstone, RBDA table 5.1. The loops are in `newton_euler`; `twistwrench.rnea_terms` returns what
+    they compute. `twistwrench.aba` is the inverse.
 
     Examples
     --------

@@ -68,13 +68,10 @@ def subtree(model: Model, q: ArrayLike, frame: str) -> Subtree:
 
     Notes
     -----
-    Section 49.10. Pinocchio's ``centerOfMass(..., True)``, ``jacobianSubtreeCenterOfMass``; MuJoCo's ``subtree_com``,
-    ``subtree_linvel`` and ``subtree_angmom``. As in `center_of_mass`, what never moves does not count.
+    Section 49.10. As in `center_of_mass`, what never moves does not count.
 
     Examples
     --------
-    A leg of a Go2:
-
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
     >>> leg = tw.subtree(model, model.standing(), "FL_hip")

@@ -57,33 +57,27 @@ def compile(
     Parameters
     ----------
     model : Model or Scene
-        For a scene, its smallest model is compiled. τ, h, g and q̈ then contain the scene's wrenches, and J_c has the
-        rows of its contacts.
+        For a scene, its smallest model is compiled, with its wrenches and contacts.
     want : str or iterable of str
         Names of functions, or symbols of `quantities.SYMBOLS`. For one name the program returns an array; for several
-        it returns `Results`, and what they have in common is computed once. Λ⁻¹ and Λ belong to J_c, L and D to
-        `ltdl`, and p_S, A_S and I_S to `subtree`.
+        it returns `Results`, and what they have in common is computed once.
     dtype : dtype_like
-        float32 and float64 can be machine code; NumPy runs every floating-point type. "double-double" has 32 digits,
-        in pairs of doubles: see `digits.DoubleDouble`. "quad" has 34 digits, by numpy-quaddtype. "mpmath" has as many
-        digits as ``mpmath.mp.dps`` says when the program is called.
+        A floating-point type (float32 and float64 can be machine code), or one with more digits: "double-double" has
+        32, "quad" 34, and "mpmath" as many as ``mpmath.mp.dps``.
     contacts : iterable of str or Contact, optional
         The frames of J_c, or contacts of any kind; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
-        The frames of placements, Jacobians, J̇ v, IA and subtrees. These results have one more axis, in front of the
-        usual ones, with an entry for each frame.
+        The frames of placements, Jacobians, J̇ v, IA and subtrees; these results have one more axis for the frames.
     reference : {"local", "world", "local_world_aligned"}
         For Jacobians and J̇ v: see `twistwrench.frame_jacobian`.
     given : mapping of str to array_like
-        Arguments that have the same value in every state, such as ``{"v": np.zeros(nv)}``. They become constants of the
-        program, which gets shorter.
+        Arguments that are the same in every state: ``{"v": np.zeros(nv)}``. They become constants of the program.
     backend : {"llvm", "numpy"}, optional
-        Unless given, LLVM if it is installed and has the number type, and NumPy otherwise.
+        By default LLVM if it is installed and has the number type, otherwise NumPy.
     threads : int
         The number of parts into which a batch is divided.
     bound : bool
-        Whether the program also returns a proved bound of the error of each entry: ``value, bound = program(…)``. For
-        float32, float64 and "double-double".
+        Whether the program also returns a proved bound of each entry's error: ``value, bound = program(…)``.
 
     Returns
     -------
@@ -113,12 +107,6 @@ def compile(
     >>> held = tw.compile(model, "rnea", given={"v": np.zeros(18), "a": np.zeros(18)})
     >>> program.operations.total(), held.operations.total(), held.arguments
     (2533, 590, ('q', 'f_ext'))
-
-    The program of a scene has only what the scene requires:
-
-    >>> scene = tw.Scene(model, base="fixed", hold=["F*", "RL*"])
-    >>> tw.compile(scene, "rnea").operations.total()
-    330
 
     Several quantities at once share common work:
 

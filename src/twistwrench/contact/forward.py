@@ -117,8 +117,7 @@ def contact_forward_dynamics(
 ) -> ContactDynamics:
     """Return the acceleration of a robot whose contacts hold, and the forces that hold them.
 
-    The contacts neither slip nor open: they may pull, and friction is ignored. They may be redundant (four corners of a
-    box) or singular (straight knees). The rounding of J M⁻¹ Jᵀ decides about the rank, so the units do not matter. If
+    The contacts neither slip nor open: they may pull, and friction is ignored. They may be redundant or singular. If
     different forces have the same effect, the smallest ones are returned.
 
     Parameters
@@ -150,11 +149,8 @@ def contact_forward_dynamics(
 
     Notes
     -----
-    Section 49.9. A velocity with J v ≠ 0 is not an error: without `stabilise` it stays as it is, and `slip` reports it.
-    If contacts are redundant, drift makes them require slightly different accelerations. The differences are of second
-    order in J v, and of first order in the correction of `stabilise`. Then q̈ is the least-squares solution, and
-    `residual` is what it misses. An error is raised only if the contacts contradict each other even without drift, at
-    the nearest velocity with J v = 0.
+    Section 49.9. A velocity with J v ≠ 0 is not an error: `slip` reports it. If redundant contacts then require
+    different accelerations, q̈ is the least-squares solution, and `residual` is the difference.
 
     Examples
     --------

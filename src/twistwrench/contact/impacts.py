@@ -47,8 +47,8 @@ def impact(
 ) -> Impact:
     """Return the velocity after an impact in which all contacts close at once, J v⁺ = −e J v⁻.
 
-    With e = 0, v⁺ is the velocity nearest to v⁻, in the metric of M, of all that the contacts allow. So this function
-    can also remove drift from a velocity. If the contacts move with a velocity v*, J v⁺ − v* = −e (J v⁻ − v*).
+    With e = 0, v⁺ is the velocity nearest to v⁻, in the metric of M, of all that the contacts allow. If the contacts
+    move with a velocity v*, J v⁺ − v* = −e (J v⁻ − v*).
 
     Parameters
     ----------
@@ -59,8 +59,7 @@ def impact(
     contacts : iterable of Contact
         All contacts that hold during the impact. They stick, and they pull if this is necessary.
     restitution : float, optional
-        e, from 0 to 1. It reverses the whole velocity of a contact, also the part along the ground. Reversing the
-        normal part alone could add energy, because M couples the directions.
+        e, from 0 to 1. It reverses the whole velocity of a contact, also the part along the ground.
 
     Returns
     -------

@@ -62,14 +62,9 @@ def contact_inverse_dynamics(
     NameNotFound, ShapeError, ValueError
         As `constraint_jacobian`; complex numbers.
 
-    See Also
-    --------
-    twistwrench.friction_inverse_dynamics : the same within the friction cones.
-
     Notes
     -----
-    Section 49.9. Moments and forces are compared in the metric of the robot's inertia as one rigid body, so that the
-    rank does not depend on the units.
+    Section 49.9. `twistwrench.friction_inverse_dynamics` does the same within the friction cones.
 
     Examples
     --------
@@ -111,8 +106,7 @@ def friction_inverse_dynamics(
     contacts : iterable of Contact
     f_ext : array_like, shape (nbodies, 6), optional
     sides : int, optional
-        The number of sides of the pyramids that approximate the cones, at least 3. At the middle of a side, an inner
-        pyramid allows cos(π/sides) of the friction μ: 71 % with 4 sides, 92 % with 8, 98 % with 16.
+        The number of sides of the pyramids that approximate the cones, at least 3.
     pyramid : {"inner", "outer"}, optional
         Inner: if forces are found, they are within the cones. Outer: if no forces are found, the cones contain none.
     effort_limits : bool, optional
@@ -132,8 +126,7 @@ def friction_inverse_dynamics(
 
     Notes
     -----
-    Sections 49.9 and 49.4. A motion counts as possible if forces within the limits reproduce the base's wrench to 1e-8
-    of it. If it is only just possible, the forces that are returned satisfy the limits, but need not be the least.
+    Sections 49.9 and 49.4. A motion counts as possible if forces within the limits give the base's wrench to 1e-8.
 
     Examples
     --------

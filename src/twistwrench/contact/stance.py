@@ -63,9 +63,8 @@ def stance_margins(
 ) -> StanceMargins:
     """Return whether a robot can stand in a pose without pulling or slipping, and the margins.
 
-    The motors are taken as unlimited. Each answer comes with a proof that can be checked without a solver: either
-    forces within the limits that hold the robot, or a motion of the base along which the weight does work while no
-    force within the limits does work against it.
+    The motors are taken as unlimited. Each answer comes with a proof: either forces within the limits that hold the
+    robot, or a twist of the base along which the weight does work and no force within the limits does negative work.
 
     Parameters
     ----------
@@ -89,16 +88,10 @@ def stance_margins(
         As `friction_inverse_dynamics`; if the base is fixed, there are no contacts or no gravity, or a contact can also
         pull (a rail, a loop, gears).
 
-    See Also
-    --------
-    twistwrench.static_equilibrium : the torques and the least forces, which may pull.
-    twistwrench.friction_inverse_dynamics : with v = a = 0, the torques and forces of a robot that stands.
-
     Notes
     -----
-    Sections 49.9 and 49.4. The least friction is found to a millionth. Newton's method finds where the distance between
-    the weight and the nearest forces vanishes; a step that does no better than halving the interval is replaced by it.
-    A pose on the edge counts as one that stands: 1e-8 of the weight may stay unbalanced, in the metric of the inertia.
+    Sections 49.9 and 49.4. The least friction is found to a millionth. On the edge, 1e-8 of the weight may stay
+    unbalanced, in the metric of the inertia.
 
     Examples
     --------

@@ -25,8 +25,7 @@ def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | No
     ----------
     model : Model
     other : Model
-        With a floating base, whose root link is welded on. (A model with a fixed base has dropped the mass of its root,
-        which never moved: ``tw.load(file, base="floating")`` keeps it.)
+        With a floating base, whose root link is welded on: ``tw.load(file, base="floating")``.
     frame : str or None
         Of `model`. None for what is not welded, and floats in the same world: two robots in one model.
     placement : SE3, optional
@@ -38,8 +37,7 @@ def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | No
     Returns
     -------
     Model
-        Its q is that of `model`, then that of `other`, without its base if that is welded, and so is its v; the gravity
-        is that of `model`. Named postures go on with the neutral configuration of `other`.
+        Its q and v are those of `model`, then those of `other`, without its base if that is welded.
 
     Raises
     ------
@@ -49,10 +47,6 @@ def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | No
         If `other` has a fixed base, or a name is taken in `model`.
     TypeError
         If an argument is of another type.
-
-    Notes
-    -----
-    Pinocchio's ``appendModel``, whose joints may come in another order.
 
     Examples
     --------

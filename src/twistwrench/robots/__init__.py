@@ -33,35 +33,27 @@ def load(
 ) -> Model:
     """Load a robot of the catalogue, or a URDF: a file, or its text.
 
-    Meshes are not read, and need not exist. Links welded by fixed joints are merged; every link and every joint of
-    the file remains as a frame. A link without ``<inertial>`` has no mass. A joint with ``<mimic>`` moves on its own
-    by default. Damping and friction are applied only by `simulate` with time-stepping.
-
-    If an entry violates the format but has a single possible meaning, it is read, and `Model.report` lists it.
-    Elements that do not affect the dynamics never raise. Ambiguity (an incomplete ``<inertial>``, ``xzy`` in an
-    ``<axis>``, a cycle) is an error.
+    Meshes are not read. Links welded by fixed joints are merged; every link and every joint of the file remains as a
+    frame. If an entry violates the format but has a single possible meaning, it is read, and `Model.report` lists it;
+    ambiguity is an error. docs/urdf.md has the details.
 
     Parameters
     ----------
     source : str or path
-        A name of `twistwrench.robots`, a path to a ``.urdf``, or the text of one, which begins with ``<``. If both
-        packages have a robot of that name, it is this package's; ``"example-robot-data/go2"`` is the other.
+        A name of `twistwrench.robots`, a path to a ``.urdf``, or the text of one, which begins with ``<``.
+        ``"example-robot-data/go2"`` names that package's robot where this package has one of the same name.
     base : {"fixed", "floating"}, optional
-        Whether the root link is welded to the world or flies freely (joint 1, ``"root_joint"``). A robot of the
-        catalogue has its own default; a file is loaded with a fixed base.
+        Whether the root link is welded to the world or flies freely. Default: that of the catalogue; of a file, fixed.
     gravity : array_like, shape (3,)
         In the world, m/s².
     physical : bool
-        Reject a moving body, welded links merged, that cannot exist: its inertia about the centre of mass must be
-        positive definite and obey the triangle inequality. False drops these two conditions and no other.
+        Reject a moving body that cannot exist: its inertia about the centre of mass must be positive definite and
+        obey the triangle inequality.
     mimic : {"independent", "reduce"}, optional
-        "reduce" makes the smaller model in which joints with ``<mimic>`` have no coordinate of their own and follow
-        their leaders, q = multiplier · q_leader + offset. "independent" lets them move on their own as in
-        Pinocchio, without the warning of the default; it also loads a file in which a joint should follow a
-        missing joint, or itself.
+        "reduce" makes the smaller model in which joints with ``<mimic>`` follow their leaders. "independent" lets them
+        move on their own, as in Pinocchio, without the warning of the default.
     strict : bool
-        Reject violations of the format that would otherwise be read with a warning: everything in the
-        report that these arguments did not ask for.
+        Reject violations of the format that would otherwise be read with a warning.
 
     Returns
     -------
@@ -82,8 +74,7 @@ def load(
     Warns
     -----
     UserWarning
-        One warning for a file with a report; it contains the whole report. The robots of the catalogue have reports,
-        but do not warn.
+        For a file with a report; it contains the whole report. The robots of the catalogue do not warn.
 
     Examples
     --------

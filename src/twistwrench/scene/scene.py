@@ -36,23 +36,20 @@ class Scene(SmallestModel):
     robot : str, path or Model
         As `twistwrench.load` takes it, or a model.
     base : {"fixed", "floating", "planar"}, optional
-        "fixed" holds the base where it is in q. "planar" lets it slide and turn on the floor, at the height and tilt
-        that it has in q. By default, the base is that of the model.
+        "fixed" holds the base where it is in q; "planar" lets it slide and turn on the floor. Default: the model's.
     contacts : iterable of Contact
         `PointContact` or `SurfaceContact`.
     hold : iterable of str
-        Joints that stand still, by name or pattern: ``"arm_*"`` means every joint whose name begins with ``arm_``. A
-        floating base cannot be held in this way.
+        Joints that are held still, by name or by a pattern such as ``"arm_*"``.
     q : array_like, shape (nq of the whole robot,), optional
-        Posture of the held joints. By default, the standing posture, or the neutral one if the robot has none.
+        Posture of the held joints. Default: the standing posture, or else the neutral configuration.
     gravity : array_like, shape (3,), optional
         In the world, m/s²; the model's unless given.
     wrenches : mapping of str to array_like, shape (6,), optional
         Constant (τ, f) from outside on a frame: at its origin, in the axes of the world, N m and N.
     payload : mapping of str to float, SpatialInertia or Model, optional
-        What the robot carries, for each frame that carries something: a mass at the origin of the frame, kg; a body, in
-        the axes of the frame; or an object with a floating base. `attach` welds its root to the frame, and puts its
-        name and ``"_"`` in front of the names of its frames. Contacts may be on these frames.
+        What frames carry: a mass at the origin, kg; a body, in the axes of the frame; or an object with a floating
+        base, whose root `attach` welds to the frame, with its name and ``"_"`` in front of the names of its frames.
 
     Attributes
     ----------
@@ -73,15 +70,14 @@ class Scene(SmallestModel):
     Raises
     ------
     NameNotFound
-        If a robot, a joint or pattern, or a frame is not known; the message lists those that are.
+        If a robot, a joint, a pattern or a frame is not known; the message lists those that are.
     ModelError
-        If the base is not one of the three or not one that the model can have, or if `hold` names it; if a contact, a
-        wrench or a payload is on a frame that the scene holds fixed to the world; if two contacts touch at one place;
-        if nothing is left to move; if a payload is a body that cannot exist.
+        If the scene is impossible: a base that the model cannot have; a contact, wrench or payload on a frame that is
+        fixed to the world; two contacts at one place; nothing that can move; a payload that cannot exist.
     ShapeError, ValueError
-        If a value is not a finite number or has the wrong shape; if friction is below zero (see `PointContact`).
+        If a value is not a finite number or has the wrong shape; if friction is below zero.
     TypeError
-        If a contact is not a contact, or wrenches or payloads are given without the names of their frames.
+        If an argument is of another type.
 
     Examples
     --------
@@ -227,35 +223,31 @@ class Scene(SmallestModel):
         margin: float = 1.0,
         groups: Mapping[str, Iterable[str]] | None = None,
     ) -> Costs:
-        """Return what each smaller model of the robot costs over some motions, and the least work that is exact enough.
+        """Return the error and the work of each smaller model on some motions, and the cheapest that is exact enough.
 
-        Compared are the templates of 49.10, the full model, and the full model with groups of joints held where the
-        first motion begins: each group, any two, and all. A model that does not apply (no pendulum without gravity, no
-        template without a floating base) is a row with the reason. The base of the motions is that of `full_model`;
-        what a planar or fixed base of the scene costs is the row "this scene".
+        The models are the templates of 49.10, the full model, and the full model with groups of joints held where the
+        first motion begins: each group, any two, and all. A model that cannot be used is a row with the reason.
 
         Parameters
         ----------
         tolerance : float, or mapping of str to float
-            What is needed, and the largest error that is allowed: ``"wrench"``, ḣ_G, and ``"forces"``, that of the
-            worst contact, as shares of the weight (0.05 is one twentieth; without gravity, of the largest ḣ_G);
-            ``"cop"``, the centre of pressure, m; ``"tau"``, that of the worst motor that is left, N m. A number alone
-            is of the wrench.
+            The largest error that is allowed of each quantity: ``"wrench"``, ḣ_G, and ``"forces"``, at the worst
+            contact, as shares of the weight; ``"cop"``, the centre of pressure, m; ``"tau"``, at the worst motor, N m.
+            A number alone is for the wrench.
         motion : Motion, or iterable of Motion
             Of the whole robot, `full_model`: `twistwrench.motions` makes some.
         held_out : Motion, or iterable of Motion, optional
-            Motions that the choice is not made on: the table has what the errors are there.
+            Motions that are not used for the choice; the table has the errors on them, too.
         margin : float, optional
-            The largest errors over the motions times this must be within the tolerance, at least 1.
+            The largest errors, multiplied by this, must be within the tolerance; at least 1.
         groups : mapping of str to iterable of str, optional
-            Names or patterns of joints to be held, by a name for each group; the limbs that touch nothing, each with
-            all outboard of it, unless given. What the scene itself holds is a group of its own.
+            Names or patterns of joints to be held, by a name for each group. Default: the limbs that touch nothing.
 
         Returns
         -------
         Costs
-            Print it for the table; ``.plot()`` draws it; ``.best`` is the choice, ``.best.model`` its model, and
-            ``.best(q, v, a)`` its answer.
+            ``print`` shows the table, ``.plot()`` draws it; ``.best.model`` is the choice, and ``.best(q, v, a)`` its
+            answer.
 
         Raises
         ------
@@ -268,10 +260,9 @@ class Scene(SmallestModel):
 
         Notes
         -----
-        The work is the operations of the model's law as a compiled program for one state, its own few variables (p̈_G,
-        ω, …) known. Its time decides nothing: it is another one in the next run. Options that are not exact enough have
-        neither. The ground wrench, ḣ_G less the weight, is shared out among the contacts that stand, the least forces
-        that do, at the corners of a sole where the scene has one; torques are then those that are left, τ − Jᵀ f.
+        The work is the number of operations of the compiled program for one state. The wrench of the ground, ḣ_G minus
+        the weight, is distributed among the closed contacts with the least forces f; the torques are τ − Jᵀ f. See
+        docs/scenes.md.
 
         Examples
         --------

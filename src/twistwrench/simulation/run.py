@@ -53,9 +53,8 @@ def simulate(
     With a ground, the contacts are points and soles that may touch it: they land, lift off, stick and slide, and the
     joints stay in their ranges. Constraints that can also pull (a loop, gears, a rail) hold all the time.
 
-    Without a ground, each contact is fixed where it is at the start: it never opens or slips, and it may pull. A robot
-    without contacts falls through the floor. If a contact has a velocity or an acceleration, the surface that it is
-    fixed to begins with this velocity and keeps this acceleration.
+    Without a ground, each contact is fixed where it is at the start: it never opens or slips, and it may pull. See
+    docs/simulation.md, also for the methods.
 
     Parameters
     ----------
@@ -74,21 +73,17 @@ def simulate(
     t0 : float, optional
         Time at the start, s. To continue another motion, give the time at its end.
     tau : callable or array_like, shape (..., nv), optional
-        Joint forces as `aba` takes them: a policy ``(t, q, v) -> tau``, which is called wherever the method needs
-        the forces, or constant ones. Zero unless given.
+        Joint forces as `aba` takes them: a policy ``(t, q, v) -> tau``, or constant ones. Zero unless given.
     dt_control : float, optional
-        The period of the policy, a whole number of dt, s: it is called at the beginning of each period, once, and its
-        forces hold until the next.
+        The period of the policy, a whole number of dt, s: the policy is called once at the beginning of each period.
     contacts : iterable of Contact
-        Of any kind, besides those of a scene; with a ground, no planes that slide. Without one, the state
-        goes back to where they hold after each step (`project_state`). Computed in double precision.
+        Of any kind, in addition to those of a scene; with a ground, no planes that slide.
     ground : Ground, optional
         What the contacts may touch, each with its μ.
     method : {"rk4", "euler", "semi-implicit", "midpoint", "variational", "time-stepping"}, optional
-        Their orders in dt are 4, 1, 1, 2, 2 and 1. "variational" keeps the energy bounded over long times, and
-        conserves the momenta that have a conservation law; it solves an equation in each step, and takes no
-        contacts. "time-stepping" is the method for a ground. Only this method applies damping and friction of the
-        joints, and keeps their ranges. It is the default with a ground; without one, the default is "rk4".
+        Their orders in dt are 4, 1, 1, 2, 2 and 1. "variational" conserves momenta, and takes no contacts.
+        "time-stepping" is the method for a ground, and the only one that applies damping and friction of the joints
+        and keeps their ranges. Default: "time-stepping" with a ground, "rk4" without one.
     stop : callable, optional
         ``(t, q, v) -> bool``, called after each step: the motion ends where it is true.
     progress : bool
@@ -97,33 +92,22 @@ def simulate(
     Returns
     -------
     Simulation
-        t, q, v, energy and momentum, and the τ and contact forces that were applied. ``print`` shows how much energy
-        and momentum changed, the estimated error of a step, and what a real robot could not have done. If an error or
-        Ctrl-C ends the motion, ``error.motion`` has the part that was computed.
+        t, q, v, energy, momentum, τ and contact forces; ``print`` summarises them. If an error or Ctrl-C ends the
+        motion, ``error.motion`` has the part that was computed.
 
     Raises
     ------
     DivergenceError
-        If the motion leaves all bounds, or the equation of a variational step cannot be solved. The message names the
-        time and the joint.
+        If the motion grows without bound, or a step cannot be solved. The message names the time and the joint.
     SingularError
         As `aba` and `contact_forward_dynamics`, with the time.
     NameNotFound
         If there is no such method, or no frame of a contact.
     ShapeError, ValueError
-        As `Model.state`; if `tau` is or returns anything but finite forces of that shape; if dt is not positive; if
-        not one of `steps` and `duration` is given; if `dt_control` is not a whole number of dt, or without a policy;
-        if numbers are complex; if a contact that sticks moves at the start; if a method is asked for contacts or a
-        ground that it does not take; if a point begins below the ground, or a joint that is kept beyond its range.
+        As `Model.state`; if an option has no such value or contradicts another one; if the state at the start violates
+        the contacts, the ground or the ranges of the joints.
     TypeError
         If `ground` is not a Ground, or `stop` not a function.
-
-    Notes
-    -----
-    The steps with a ground are those of Stewart and Trinkle and of Anitescu: see `twistwrench.simulation.stepping`.
-
-    Every method moves on the configuration manifold: q = q ⊕ u, so that quaternions need no repair, and Runge-Kutta
-    methods keep their order on balls and floating bases by Munthe-Kaas' correction of u̇.
 
     Examples
     --------

@@ -53,8 +53,8 @@ class SpatialVector:
     ) -> Self:
         """Make a twist or a wrench from its screw: the inverse of `twistwrench.screw` (sections 49.2 and 49.4).
 
-        Of a twist: ω = magnitude axis and v = point × ω + pitch ω. Of a wrench the same, with f for ω and τ for v. With
-        an infinite pitch a translation or a couple: v or τ = magnitude axis, and the point does not count.
+        ω = magnitude axis, v = point × ω + pitch ω; with an infinite pitch v = magnitude axis. Of a wrench the same,
+        with f for ω and τ for v.
 
         Parameters
         ----------
@@ -80,7 +80,7 @@ class SpatialVector:
         SingularError
             If an axis is zero.
         ValueError
-            If a number is not finite, but for the pitch, or products overflow.
+            If a number other than the pitch is not finite, or products overflow.
 
         Examples
         --------

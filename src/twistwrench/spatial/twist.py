@@ -119,9 +119,7 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     """Axis, point, pitch and magnitude of a twist or a wrench (sections 49.2 and 49.4).
 
     A twist has the axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|² and magnitude |ω|. Without rotation the axis is v/|v|,
-    the pitch infinite and the magnitude |v|; any parallel line will do, so the point is the origin.
-    For a wrench, read f for ω and τ for v. The error of the point is that of v divided by |ω|: an error of
-    1e-16 m/s in v moves the axis of a twist with 1e-8 rad/s by 1e-8 m.
+    the point the origin, the pitch infinite and the magnitude |v|. For a wrench, read f for ω and τ for v.
 
     Parameters
     ----------
@@ -130,8 +128,7 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     of : {"twist", "wrench"}, optional
         What a plain array is; a twist by default. A Twist or a Wrench needs no `of`.
     noise : float
-        By how much ω, rad/s, or f, N, may be wrong. If it is no longer than that, it is taken as zero: a translation
-        or a couple of infinite pitch is left. If ω is a sum of terms of 1 rad/s, it is wrong by about 1e-16.
+        By how much ω, rad/s, or f, N, may be wrong: if it is no larger than that, it is taken as zero.
 
     Returns
     -------
