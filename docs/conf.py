@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import runtime
-from website import beside, cards, chinese, hands, inpage, interface, keywords, notebooks, tables, units
+from website import beside, cards, chinese, hands, inpage, interface, keywords, notebooks, prose, tables, units
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -97,6 +97,7 @@ def setup(app):
     """Connect what adds formulas to the docstrings, what a page is looked for by, and the links that pages show."""
     app.add_transform(keywords.Keywords)
     tables.connect(app)
+    prose.connect(app)
     units.connect(app)
     cards.connect(app)
     app.add_search_language(chinese.PairsOfCharacters)

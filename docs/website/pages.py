@@ -12,9 +12,9 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
-from . import typeset
 from .film import with_films
 from .front import trot
+from .thumbnails import thumbnail
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = Path(__file__).resolve().parent / "text"
@@ -23,8 +23,6 @@ SUFFIX = {"en": "", "zh": ".zh-CN"}
 
 LOOK_UP = ("companion", "mirror", "errata", "conventions", "map", "traps", "glossary")
 PROJECT = ("contributing", "changelog", "models", "exercises")
-TYPESET = ("errata", "conventions", "traps", "exercises")
-"""The pages of whose tables some cells are formulas."""
 ONE_BY_ONE = {
     "README.md": "readme",
     "CHANGELOG.md": "changelog",
@@ -70,7 +68,6 @@ def write_pages(out: Path, language: str) -> None:
         there = (ROOT / own).exists()
         text = (ROOT / (own if there else path)).read_text(encoding="utf-8")
         text = moved(text if there else _with_note(text), own if there else path, name, out)
-        text = typeset.in_tables(text) if name in TYPESET else text
         write(out / f"{name}.md", with_films(text, ROOT / path, language))
 
 
@@ -149,7 +146,7 @@ def write_texts(out: Path, language: str, listings: dict[str, list[str]]) -> Non
         name = path.stem.removesuffix(SUFFIX["zh"]).replace("__", "/")
         text = path.read_text(encoding="utf-8").replace("<!-- trot -->", robot)
         text = "".join(part if f else joined(part, language) for f, part in cut(text))
-        text = re.sub(r"<!-- gallery: (\w+) -->", lambda m: gallery(listings[m[1]], out), text)
+        text = re.sub(r"<!-- gallery: (\w+) -->", lambda m: gallery(listings[m[1]], out, language), text)
         text = re.sub(r"<!-- (hidden )?pages: (\w+) -->", lambda m: contents(listings[m[2]], bool(m[1])), text)
         write(out / f"{name}.md", text)
 
@@ -159,8 +156,8 @@ def contents(names: list[str], hidden: bool = False) -> str:
     return "\n".join(["```{toctree}", ":maxdepth: 1", *([":hidden:"] if hidden else []), "", *names, "```"])
 
 
-def gallery(names: list[str], out: Path) -> str:
-    """Return a door to each of some pages that are written: its first picture, its title and its first sentence."""
+def gallery(names: list[str], out: Path, language: str) -> str:
+    """Return a door to each of some pages that are written: a picture, its title and its first sentence."""
     doors = []
     for name in names:
         text = (out / f"{name}.md").read_text(encoding="utf-8")
@@ -168,8 +165,8 @@ def gallery(names: list[str], out: Path) -> str:
         words = next(block for block in blocks if re.match(r"[\w`]", block))
         says = re.match(r".*?(?:[.?](?=\s|$)|[。？]|$)", words, re.DOTALL)[0]
         says = re.sub(r"\[([^\]]+)\]\([^)]+\)", r"\1", says)
-        seen = [f"![]({path})\n" for path in re.findall(r"(files/docs/pictures/[\w.]+png)", text)[:1]]
-        doors.append("\n".join([":::{container} door", *seen, f"**[{title}]({name}.md)**\n", says, ":::"]))
+        seen = f"```{{raw}} html\n{thumbnail(name, text, language)}```\n"
+        doors.append("\n".join([":::{container} door", seen, f"**[{title}]({name}.md)**\n", says, ":::"]))
     return "\n".join(["::::{container} doors", *doors, "::::"])
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-__all__ = ["in_tables", "tex"]
+__all__ = ["TOKEN", "apart", "tex"]
 
 GREEK = {
     letter: "\\" + (name.lower() if letter.islower() else name.capitalize()).replace("amda", "ambda")
@@ -19,14 +19,19 @@ GREEK = {
 }
 SIGNS = {"−": "-", "×": r"\times", "·": r"\cdot", "⊕": r"\oplus", "⊖": r"\ominus", "⊥": r"\perp", "‖": r"\Vert"}
 SIGNS |= {"→": r"\to", "←": r"\leftarrow", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "…": r"\dots"}
-SIGNS |= {"½": r"\tfrac12", "∂": r"\partial", "∫": r"\int"} | {sign: sign for sign in "=+-/,<>"}
+SIGNS |= {"½": r"\tfrac12", "∞": r"\infty", "∂": r"\partial", "∫": r"\int"} | {sign: sign for sign in "=+-/,<>"}
 MARKS = {"\u0307": "dot", "\u0308": "ddot", "\u0302": "hat", "\u0303": "tilde", "\u0304": "bar"}
 ABOVE = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵀᴬᴮᴳᵂᵃᵇᶜⁱʲᵏⁿᵖˢ", "0123456789-+TABGWabcijknps", strict=True))
+RAISED = ABOVE | {"∧": r"\wedge", "∨": r"\vee", "'": r"\prime", "’": r"\prime"}
 BELOW = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₖₙ", "0123456789ijkn", strict=True))
-WORDS = {word: rf"\operatorname{{{word}}}" for word in ("diag", "vec", "tr", "axis", "RNEA", "ABA", "CRBA", "Ad")}
+WORDS = {
+    word: rf"\operatorname{{{word}}}" for word in ("diag", "vec", "tr", "blkdiag", "axis", "RNEA", "ABA", "CRBA", "Ad")
+}
 WORDS |= {word: rf"\{word}" for word in ("exp", "log", "sin", "cos", "tan", "det", "min", "max")}
 WORDS |= {f"{kind}{axis}": f"{kind}_{axis}" for kind in "RT" for axis in "xyz"}  # a turn, a shift, along an axis
 WORDS |= {f"d{x}": rf"\mathrm{{d}}{x}" for x in "mtw"} | {"d/dt": r"\tfrac{\mathrm{d}}{\mathrm{d}t}"}
+WORDS |= {"SE": r"\mathrm{SE}", "SO": r"\mathrm{SO}", "se": r"\mathfrak{se}", "so": r"\mathfrak{so}"}
+WORDS |= {f"q{part}": f"q_{part}" for part in "wxyz"} | {"mg": "m g"}
 WORDS |= {"nq": "n_q", "nv": "n_v", "...": r"\dots", "+=": "\\mathrel{{+}{=}}", "−=": "\\mathrel{{-}{=}}"}
 
 LETTER = r"[A-Za-z\u0370-\u03ff]"
@@ -34,12 +39,10 @@ TOKEN = re.compile(
     rf"(?P<word>{'|'.join(sorted(map(re.escape, WORDS), key=len, reverse=True))})(?![A-Za-z\u0300-\u036f])"
     rf"|(?P<plain>[A-Za-z]{{3,}})|(?P<total>Σ(?= [^=]))|(?P<letter>{LETTER})(?P<mark>[\u0300-\u036f]?)"
     rf"|(?P<open>[√^]?[(\[])|_(?P<below>λ\(\w\)|{LETTER}+(?:,[a-z])?|[0-9]+)|(?P<lowered>[{''.join(BELOW)}]+)"
-    rf"|\^(?P<above>λ\(\w\)|{LETTER})|(?P<raised>[{''.join(ABOVE)}]+|\*|[∧∨])"
-    rf"|(?P<cross>×)|(?P<number>[0-9]+(?:\.[0-9]+)?)|(?P<sign>[{re.escape(''.join(SIGNS))}])| +"
+    rf"|\^(?P<above>λ\(\w\)|-?[0-9]+|{LETTER})|(?P<raised>[{''.join(ABOVE)}]+|\*|[∧∨]|['’])"
+    rf"|(?P<cross>×)|(?P<number>[0-9]+(?:\.[0-9]+)?(?:e-?[0-9]+)?)|(?P<sign>[{re.escape(''.join(SIGNS))}])| +"
 )
-SAYS = re.compile(r"[=_×⊕⊖∂∫√Σ≤ᵀ⁻]|[\u0300-\u036f]|^[ᴬᴮᴳⁱ]|^λ\(i\)$|^\(?[A-Za-zα-ωΑ-Ω](?:, [A-Za-zα-ωΑ-Ω])*\)?$")
-"""What a cell has that is a formula, and other text has not: a sign, an index, a mark; or it is letters with commas."""
-CELLS = re.compile(r"(?<=\| )[^|`\n]+?(?= \|)")
+ROW = r"\[.*,.*\]"
 
 
 class Unread(ValueError):
@@ -49,19 +52,14 @@ class Unread(ValueError):
 def tex(text: str) -> str | None:
     """Return a formula as TeX, or None where it is not in the notation."""
     try:
-        return _read(unicodedata.normalize("NFD", text.strip())) or None
+        return _read(apart(text.strip())) or None
     except Unread:
         return None
 
 
-def in_tables(text: str) -> str:
-    """Return Markdown in which each cell of a table that is a formula, and nothing else, is TeX."""
-
-    def cell(found: re.Match[str]) -> str:
-        read = tex(found[0]) if SAYS.search(unicodedata.normalize("NFD", found[0])) else None
-        return f"${read}$" if read else found[0]
-
-    return "\n".join(CELLS.sub(cell, line) if line.startswith("|") else line for line in text.split("\n"))
+def apart(text: str) -> str:
+    """Return a text with its marks apart from their letters; ≠ stays one sign."""
+    return unicodedata.normalize("NFD", text).replace("=\u0338", "≠")
 
 
 class Symbol:
@@ -114,6 +112,8 @@ def _closing(text: str, at: int) -> int:
 
 def _bracket(kind: str, inside: str) -> Symbol:
     """Return what stands in brackets: a root, a power, a matrix, or a part of a formula."""
+    if kind == "[" and re.fullmatch(r"\[.*,.*\]", inside) and all(re.fullmatch(ROW, row) for row in _cut(inside, ",")):
+        inside = "; ".join(row[1:-1] for row in _cut(inside, ","))  # [[R, 0], [0, R]], as NumPy writes it
     if kind[-1] == "[" and ";" in inside:
         rows = r" \\ ".join(" & ".join(map(_read, _cut(row, ","))) for row in _cut(inside, ";"))
         return Symbol(rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}")
@@ -141,7 +141,7 @@ def _hang(symbols: list[Symbol], token: re.Match[str], attached: bool) -> None:
     if not attached:
         symbols.append(Symbol("{}"))
     if token["raised"]:
-        above = "".join(ABOVE.get(letter, {"∧": r"\wedge", "∨": r"\vee"}.get(letter, letter)) for letter in token[0])
+        above = "".join(RAISED.get(letter, letter) for letter in token[0])
         symbols[-1].above += re.sub("T", r"\\mathsf{T}", above) if attached else above
     elif token["above"]:
         symbols[-1].above += _read(token["above"])
@@ -167,4 +167,7 @@ def _on_the_line(token: re.Match[str]) -> str:
         return rf"\{MARKS[token['mark']]}{{{letter}}}" if token["mark"] else letter
     if token["total"]:
         return r"\sum"
+    if token["number"] and "e" in token[0]:
+        factor, power = token[0].split("e")
+        return rf"10^{{{power}}}" if factor == "1" else rf"{factor} \cdot 10^{{{power}}}"
     return WORDS.get(token[0]) or SIGNS.get(token[0]) or token[0]

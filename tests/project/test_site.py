@@ -15,7 +15,7 @@ import twistwrench as tw
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "docs"))
 
-from website import beside, browser, formulas, links, pages, steps, tables  # noqa: E402
+from website import beside, browser, formulas, links, pages, steps, tables, thumbnails  # noqa: E402
 
 TEXTS = sorted(path.name for path in pages.TEXT.glob("*.md") if not path.stem.endswith(".zh-CN"))
 
@@ -120,14 +120,50 @@ def test_headings_follow_each_other(tmp_path):
     assert pages.moved("# A\n## B\n### C\n", "docs/x.md", "x", tmp_path) == "# A\n## B\n### C\n"
 
 
-def test_a_gallery_has_a_door_for_each_page_with_its_first_picture_and_sentence(tmp_path):
-    pictures = [f"![seen](files/docs/pictures/{name}.png)\n" for name in "ab"]
-    text = "\n".join(["# A page\n", pictures[0], "One `x.y` and [two](b.md). Three.\n", pictures[1]])
-    pages.write(tmp_path / "a.md", text)
+TABLE = "<!-- table: t -->\n| | time | many |\n|---|---|---|\n| `a(x)` | 3.0 ms (2 … 4) | 1 |\n| b (c) | 1 s | 2 |\n"
+
+
+def test_a_gallery_has_a_door_for_each_page_with_a_picture_and_its_first_sentence(tmp_path, monkeypatch):
+    monkeypatch.setattr(pages, "thumbnail", lambda name, text, language: f"<svg {name} {language}>\n")
+    pages.write(tmp_path / "a.md", "# A page\n\n![seen](a.png)\n\nOne `x.y` and [two](b.md). Three.\n")
     pages.write(tmp_path / "b.md", "# 一页\n\n第一句。第二句。\n")
-    first, second = pages.gallery(["a", "b"], tmp_path).split(":::{container} door\n")[1:]
-    assert first == "![](files/docs/pictures/a.png)\n\n**[A page](a.md)**\n\nOne `x.y` and two.\n:::\n"
-    assert second == "**[一页](b.md)**\n\n第一句。\n:::\n::::"
+    first, second = pages.gallery(["a", "b"], tmp_path, "zh").split(":::{container} door\n")[1:]
+    assert first == "```{raw} html\n<svg a zh>\n```\n\n**[A page](a.md)**\n\nOne `x.y` and two.\n:::\n"
+    assert second == "```{raw} html\n<svg b zh>\n```\n\n**[一页](b.md)**\n\n第一句。\n:::\n::::"
+
+
+@pytest.mark.parametrize(
+    ("own", "shown"),
+    [
+        ({"column": 1, "rows": [1, 0]}, [("b", "1 s"), ("a", "3.0 ms")]),
+        ({"columns": [1, 2], "row": 0}, [("time", "3.0 ms"), ("many", "1")]),
+    ],
+)
+def test_a_picture_shows_cells_of_a_table(own, shown):
+    assert thumbnails.cells({"table": "t", **own}, f"| x |\n|---|\n| 9 |\n\n{TABLE}") == shown
+    assert thumbnails.cells({"table": 0, **own}, TABLE) == shown
+
+
+def test_bars_are_as_long_as_their_numbers_and_points_lie_by_their_logarithms():
+    bars = thumbnails.lines([("a", "2"), ("b", "4")], log=False)
+    assert [float(x) - 5 for x in re.findall(r"H([\d.]+)\" stroke=\"#", bars)] == [83.0, 166.0]
+    points = thumbnails.lines([("a", "1 ms"), ("b", "10 ms"), ("c", "1e-1 s")], log=True)
+    assert re.findall(r'cx="([\d.]+)"', points) == ["5.0", "88.0", "171.0"]
+    with pytest.raises(ValueError, match="no number in the cell 'none'"):
+        thumbnails.lines([("a", "none")], log=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("language", pages.LANGUAGES)
+def test_every_study_has_a_picture_whose_letters_can_be_read(language):
+    for path, name in pages.pages().items():
+        if name in pages.studies():
+            text = (ROOT / pages.twin(path, language)).read_text(encoding="utf-8")
+            drawn = thumbnails.thumbnail(name, text, language)
+            label = re.search(r'aria-label="([^"]+)"', drawn)[1]
+            assert bool(re.search("[\u4e00-\u9fff]", label)) == (language == "zh")
+            rows = re.findall(r'<text x="3" [^>]*>([^<]*)</text><text [^>]*>([^<]*)<', drawn)
+            assert all(len(row) + len(cell) < 29 for row, cell in rows)  # of 6 units each, in 176
 
 
 def test_a_page_without_a_chinese_file_says_so(tmp_path, monkeypatch):
