@@ -78,3 +78,18 @@ def test_equilibrium_and_accuracy_are_shown_as_they_are_read():
     assert float(cells[3]) == pytest.approx(held.forces[0, 2], rel=1e-3)
     accuracy = tw.accuracy(GO2, Q)
     assert next(parsed(accuracy._repr_html_()).iter("pre")).text == str(accuracy)
+
+
+def test_what_is_cheapest_is_a_table_with_the_choice_marked():
+    motion = tw.motions.walk(GO2)
+    found = tw.Scene("go2").cheapest(0.1, motion, held_out=tw.motions.trot(GO2))
+    assert repr(found) == str(found)
+    head, *rows = ([cell.text for cell in row] for row in parsed(found._repr_html_()).iter("tr"))
+    assert all(len(row) == len(head) for row in rows)
+    assert [row[1] for row in rows if row[0]] == [found.best.name]
+    assert [row[1] for row in rows] == [option.name for option in found.options]
+    assert parsed(found._repr_html_()).find("p").text == str(found).split("\n")[0]
+
+
+def test_a_report_with_nothing_in_it_says_so():
+    assert parsed(GO2.report._repr_html_()).find("p").text == "nothing to report"

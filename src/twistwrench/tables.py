@@ -44,7 +44,8 @@ def html_matrix(A: NDArray[np.floating], name: str) -> str:
         if x
     )
     height, width = (SQUARE * n for n in A.shape)
+    said = f"{escape(name)}: full colour ±{largest:.3g}, half ±{largest / 8:.3g}"
     return (
-        f'<svg width="{width}" height="{height}" role="img" style="background: white; outline: 1px solid #808080">'
-        f"<title>{escape(name)}: full colour is ±{largest:.3g}, half ±{largest / 8:.3g}</title>{squares}</svg>"
+        f'{said}<br><svg width="{width}" height="{height}" role="img" '
+        f'style="background: white; outline: 1px solid #808080"><title>{said}</title>{squares}</svg>'
     )

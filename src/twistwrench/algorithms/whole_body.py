@@ -51,7 +51,8 @@ class Dynamics:
 
     def _repr_html_(self) -> str:
         drawn = {name: x for name in ("M", "J_c", "A_G") if np.ndim(x := getattr(self, name)) == 2}
-        pictures = (f"<td>{name}<br>{html_matrix(x.real.astype(float), name)}</td>" for name, x in drawn.items())
+        shown = (html_matrix(x.real.astype(float), name) for name, x in drawn.items())
+        pictures = (f'<td style="vertical-align: top">{picture}</td>' for picture in shown)
         return f"<code>{escape(repr(self))}</code><table><tr>{''.join(pictures)}</tr></table>"
 
 

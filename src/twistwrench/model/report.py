@@ -71,7 +71,7 @@ class Report(tuple[Entry, ...]):
         return text_table(self.columns, self._cells()) if self else "nothing to report"
 
     def _repr_html_(self) -> str:
-        return html_table(self.columns, self._cells())
+        return html_table(self.columns, self._cells()) if self else f"<p>{self}</p>"
 
 
 def _places(entries: Sequence[Entry], shown: int = 4) -> str:

@@ -12,6 +12,7 @@ from ..errors import ShapeError
 from ..model import Model, check_model
 from .matrices import ANGULAR_LINEAR, matrix
 from .style import COLOURS, axes_2d, drawn, drawn_number
+from .words import word
 
 __all__ = ["fill_in", "filled_in", "mass_matrix", "same_branch"]
 
@@ -111,6 +112,7 @@ def fill_in(model: Model, title: str = "", *, indent: float = 0.9, ax: Any = Non
     ax.set_yticks([])
     _tree(model, indent, ax)
     ax.set_ylim(model.nv - 0.4, -0.6)
+    ax.set_xlabel(word("grey: in both orders; orange: in M = L Lᵀ alone"), fontsize=8)
     for side in ax.spines.values():
         side.set_visible(False)
     return ax
@@ -177,6 +179,7 @@ def mass_matrix(
         ax.plot([k - 0.5, k - 0.5], [-0.5, model.nv - 0.5], color=COLOURS["black"], linewidth=0.8)
     _tree(model, indent, ax)
     ax.set_ylim(model.nv - 0.4, -0.6)
+    ax.set_xlabel(word("grey: in both orders; orange: in M = L Lᵀ alone"), fontsize=8)
     for side in ax.spines.values():
         side.set_visible(False)
     return ax

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from ..contact import Contact
 from ..errors import check_known
 from ..model import Model
 from ..motions import Motion
+from ..tables import html_table
 from ..templates.template import Template
 from .articulated import Articulated, radius_of_gyration
 from .candidates import Candidate
@@ -62,8 +64,8 @@ class Option:
 
     name: str
     leaves_out: str
-    errors: Mapping[str, Array]
-    held_out: Mapping[str, Array]
+    errors: Mapping[str, Array] = field(repr=False)
+    held_out: Mapping[str, Array] = field(repr=False)
     operations: float
     seconds: float
     unfit: str = ""
@@ -104,7 +106,7 @@ class Option:
         return Answer(rate, tau[0] if tau else None)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Costs:
     """What `Scene.cheapest` returns: every option, the least work first, and the choice. Printed, it is a table.
 
@@ -144,6 +146,26 @@ class Costs:
     def holds(self) -> bool:
         """Whether the choice stays within the tolerance on the motions that were held out."""
         return self.best.within(self.tolerance, held_out=True)
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_html_(self) -> str:
+        title, *_ = str(self).split("\n")
+        columns = [(name, out) for name in self.tolerance for out in ((False, True) if self.held_out else (False,))]
+        head = ["", "model", *(f"{name}, held out" if out else name + unit(name) for name, out in columns)]
+        rows = [
+            ["→" if option is self.best else "", option.name, *(self._cell(option, *column) for column in columns)]
+            + (["-", "-"] if np.isnan(option.seconds) else _work(option).split())
+            + ["ḣ_G, τ" if option.tells_torques else "ḣ_G", option.leaves_out]
+            for option in self.options
+            if not option.unfit
+        ]
+        blank = ["-"] * (len(columns) + 3)
+        rows += [
+            ["", option.name, *blank, f"does not apply: {option.unfit}"] for option in self.options if option.unfit
+        ]
+        return f"<p>{escape(title)}</p>{html_table((*head, 'operations', 'µs/state', 'tells', 'leaves out'), rows)}"
 
     def __str__(self) -> str:
         width = max(len(option.name) for option in self.options)
