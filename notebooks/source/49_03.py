@@ -35,9 +35,11 @@ plt.show()
 # ## Six steps
 #
 # **1.** In 49.2 a body twist became a spatial one by putting $\dot T = T\,[\boldsymbol V_{body}]$ into
-# $[\boldsymbol V_{spatial}] = \dot T\,T^{-1}$. Between any two frames it is the same:
+# $[\boldsymbol V_{spatial}] = \dot T\,T^{-1}$. It is the same between any two frames A and B that are at rest to each
+# other. A body C has the placements $T_{BC}(t)$ and $T_{AC} = T_{AB}\,T_{BC}$, with $T_{AB}$ constant. Therefore
 #
-# $$[\boldsymbol V_A] = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
+# $$[\boldsymbol V_A] = \dot T_{AC}\,T_{AC}^{-1} = T_{AB}\,\dot T_{BC}\,T_{BC}^{-1}\,T_{AB}^{-1}
+# = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
 #
 # **2.** The inverse of a placement turns back and then moves back:
 #
@@ -51,9 +53,11 @@ plt.show()
 # ## 六步推导
 #
 # **第一步。** 49.2 把 $\dot T = T\,[\boldsymbol V_{body}]$ 代入 $[\boldsymbol V_{spatial}] = \dot T\,T^{-1}$,
-# body twist 就变成了 spatial twist。任意两个坐标系之间也是如此:
+# body twist 就变成了 spatial twist。任意两个相对静止的坐标系 A、B 之间也是如此。刚体 C 的位姿是 $T_{BC}(t)$ 和
+# $T_{AC} = T_{AB}\,T_{BC}$,其中 $T_{AB}$ 不变,所以
 #
-# $$[\boldsymbol V_A] = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
+# $$[\boldsymbol V_A] = \dot T_{AC}\,T_{AC}^{-1} = T_{AB}\,\dot T_{BC}\,T_{BC}^{-1}\,T_{AB}^{-1}
+# = T_{AB}\,[\boldsymbol V_B]\,T_{AB}^{-1}.$$
 #
 # **第二步。** 位姿的逆:先转回去,再移回去:
 #
@@ -119,7 +123,7 @@ assert np.allclose(X @ V_B, tw.vee(carried), atol=1e-15)
 # %% [markdown] lang="en"
 # ## Plücker's lines, and why X bears his name
 #
-# In 1865 Julius Plücker described a line in space by six numbers: its direction $\boldsymbol d$ and its moment
+# In 1865 Julius Plücker described a line in space by six numbers: its direction $\boldsymbol d$, of length 1, and its moment
 # $\boldsymbol m = \boldsymbol r \times \boldsymbol d$, where $\boldsymbol r$ is any point of the line. (Another point
 # $\boldsymbol r + s\boldsymbol d$ gives the same $\boldsymbol m$.) Seen from another frame the line has the direction
 # $R\boldsymbol d$ and the moment $R\boldsymbol m + \boldsymbol p \times R\boldsymbol d$. These are the rules for
@@ -132,7 +136,7 @@ assert np.allclose(X @ V_B, tw.vee(carried), atol=1e-15)
 # %% [markdown] lang="zh"
 # ## Plücker 直线,以及 X 为什么叫这个名字
 #
-# 1865 年,Julius Plücker 用六个数描述空间中的一条直线:方向 $\boldsymbol d$ 和矩
+# 1865 年,Julius Plücker 用六个数描述空间中的一条直线:方向 $\boldsymbol d$(长度为 1)和矩
 # $\boldsymbol m = \boldsymbol r \times \boldsymbol d$,其中 $\boldsymbol r$ 是直线上任意一点。(换一点
 # $\boldsymbol r + s\boldsymbol d$,$\boldsymbol m$ 不变。)换一个坐标系看,方向成为 $R\boldsymbol d$,矩成为
 # $R\boldsymbol m + \boldsymbol p \times R\boldsymbol d$。这正是 $\boldsymbol\omega$ 与 $\boldsymbol v$ 的变换规则:
