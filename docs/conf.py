@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import runtime
-from website import beside, cards, chinese, hands, inpage, interface, keywords, notebooks, prose, tables, units
+from website import beside, cards, chinese, hands, inpage, interface, keywords, notebooks, prose, tables, terms, units
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -99,6 +99,7 @@ def setup(app):
     tables.connect(app)
     prose.connect(app)
     units.connect(app)
+    terms.connect(app)
     cards.connect(app)
     app.add_search_language(chinese.PairsOfCharacters)
     interface.connect(app, "zh" if CHINESE else "en")

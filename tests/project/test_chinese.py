@@ -71,6 +71,9 @@ ONE_TERM = {
     "(?<!复合刚体)复合惯量(?!（)": "复合刚体惯量",
     rf"(?<=[{HAN}])\s?Jacobian(?![A-Za-z(])|(?<![A-Za-z_.])Jacobian\s?(?=[{HAN}])": "雅可比矩阵",
     "[父子](?:物体|刚体)|物体 i|个物体": "连杆, or 刚体",
+    "铰链": "旋转关节, or 关节",
+    "世界系": "世界坐标系",
+    "雅可比(?!矩阵)": "雅可比矩阵",
     "带不动|全部家当|看见机器人|沿树行走": "a mistranslation",
 }
 """What a thing is not called, and what it is called: docs/glossary.zh-CN.md."""
@@ -80,7 +83,7 @@ ELSEWHERE = ("docs/glossary", "docs/mirror")
 
 @pytest.mark.parametrize("word", ONE_TERM)
 def test_one_thing_has_one_term(word):
-    assert re.search(word, "构型，转动关节，棱柱关节，复合惯量，脚的 Jacobian 矩阵，带不动，父物体")
+    assert re.search(word, "构型，转动关节，棱柱关节，复合惯量，脚的 Jacobian 矩阵，带不动，父物体，铰链，世界系，雅可比")
     own = [path for path in FILES if not path.relative_to(ROOT).as_posix().startswith(ELSEWHERE)]
     found = {
         path.name: [one[max(0, hit.start() - 9) : hit.end() + 9] for hit in re.finditer(word, one)]

@@ -290,6 +290,28 @@ def test_a_number_and_its_unit_are_not_parted():
     assert POWER.split("up to 2e-14, e-mail") == ["up to ", "2e-14", ", e-mail"]
 
 
+def test_the_first_use_of_a_word_leads_to_the_glossary():
+    from website.glossary import Words, rows
+
+    def found(language, text, used=()):
+        pieces = [*Words(language).pieces(text, used := {*used})]
+        assert "".join(piece.text for piece in pieces) == text
+        assert used >= {piece.anchor for piece in pieces if piece.anchor}
+        return [(piece.text, piece.anchor.removeprefix("term-")) for piece in pieces if piece.anchor]
+
+    assert len({anchor for anchor, _ in rows()}) == len(rows()) > 50
+    assert found("en", "Twists; a wrench, wrenches; twistwrench, a twisted rod.") == [
+        ("Twists", "twist"),
+        ("wrench", "wrench"),
+    ]
+    assert found("en", "six degrees of freedom", {"term-twist"}) == [("degrees of freedom", "degree-of-freedom")]
+    assert found("en", "a wrench", {"term-wrench"}) == []
+    assert found("zh", "复合刚体惯量，twistwrench，刚体") == [
+        ("复合刚体惯量", "composite-rigid-body-inertia"),
+        ("刚体", "body-rigid-body"),
+    ]
+
+
 def test_what_is_looked_for_leads_to_pages_that_are_there():
     pytest.importorskip("sphinx", reason="Sphinx is not installed: the site's search is not checked")
     from website import hands, keywords, notebooks
