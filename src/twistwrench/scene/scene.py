@@ -210,7 +210,7 @@ class Scene(SmallestModel):
         cannot stand: ...
         """
         if self._base == "planar" or not (self.contacts or self._base == "fixed") or not self.model.gravity.any():
-            raise ValueError(f"{self!r}: to stand takes gravity, and a fixed base or a floating one with contacts")
+            raise ValueError(f"{self!r}: standing needs gravity, and a fixed base or a floating one with contacts")
         q = self.reduce(self.q, np.zeros(self.full_model.nv))[0] if q is None else posture(self.model, q)
         return standing(self.model, q, self.contacts, self.f_ext(q))
 
