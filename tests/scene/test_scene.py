@@ -305,7 +305,7 @@ def test_what_pushes_the_robot_counts():
 
 @pytest.mark.parametrize("given", [{"base": "planar", "contacts": FEET}, {}, {"contacts": FEET, "gravity": [0, 0, 0]}])
 def test_to_stand_takes_gravity_and_something_to_stand_on(given):
-    with pytest.raises(ValueError, match="takes gravity, and a fixed base or a floating one with contacts"):
+    with pytest.raises(ValueError, match="standing needs gravity, and a fixed base or a floating one with contacts"):
         tw.Scene("go2", **given).can_stand()
 
 
