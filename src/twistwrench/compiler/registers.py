@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -81,7 +82,7 @@ class Registers:
             for array, (_, entries) in enumerate(line.outputs.values(), len(line.inputs))
             for k in range(0, len(entries), TOGETHER)
         ]
-        self.unused: list[tuple[Array, Array, list[Any]]] = []  # rows that no thread fills, and the calls between them
+        self.unused: list[tuple[Array, Array, list[partial[Any]]]] = []  # rows that no thread fills, and calls
 
     def _operation(self, pack: int) -> str:
         operation: str = self.nodes[self.packs.packs[pack][0]][0]
@@ -143,14 +144,14 @@ class Registers:
                 self._run(rows, taken, calls, [x[start : start + width] for x in arrays])
         self.unused.append((rows, taken, calls))
 
-    def _calls(self, rows: Array) -> Iterator[tuple[np.ufunc, list[Any]]]:
-        """Yield NumPy's calls between these rows: functions, operands and results."""
+    def _calls(self, rows: Array) -> Iterator[partial[Any]]:
+        """Yield NumPy's calls between these rows: functions with their operands and results."""
         for k, row in self.constants.items():
             rows[self.count + row] = as_number_of(self.dtype, self.nodes[k][1])
         for pack in self.order:
             if (operation := self._operation(pack)) != "input":
                 x = [self._values(rows, lanes) for lanes in self.packs.operands[pack]]
-                yield self.functions[operation], [*x, self._values(rows, self.packs.packs[pack], (pack, 0, 1))]
+                yield partial(self.functions[operation], *x, self._values(rows, self.packs.packs[pack], (pack, 0, 1)))
 
     def _values(self, rows: Array, lanes: tuple[int, ...], view: View | None = None) -> Any:
         """Return the rows of some nodes, lane by lane, or the constants."""
@@ -161,16 +162,14 @@ class Registers:
         constants = [as_number_of(self.dtype, self.nodes[k][1]) for k in lanes]
         return np.array(constants, self.dtype)[:, None] if len(lanes) > 1 else constants[0]
 
-    def _run(
-        self, rows: Array, taken: Array, calls: Sequence[tuple[np.ufunc, list[Any]]], arrays: Sequence[Array]
-    ) -> None:
+    def _run(self, rows: Array, taken: Array, calls: Sequence[partial[Any]], arrays: Sequence[Array]) -> None:
         """Fill the results of a chunk."""
         for array, columns, place in self.inputs:
             rows[place] = arrays[array][:, columns].mT
         for again, place in self.copies:
             rows[place] = rows[again]
-        for function, operands in calls:
-            function(*operands)
+        for call in calls:
+            call()
         for array, columns, index in self.results:
             arrays[array][:, columns] = rows.take(index, 0, taken[: len(index)], "clip").mT
 
