@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import check_known
 from .bounds import Bounded, Bounds
-from .line import Line, operands
+from .line import Line, needed
 from .memory import without_garbage
 from .number import Number, Tape
 from .pair_sine import SINE_ERROR, sine_and_cosine_of_pair
@@ -45,9 +45,8 @@ def double_double(
         Whether each result is followed by a bound.
     """
     work = Rewriting(line, low, fma=fma, bound=bound)
-    exact = {k for name, (_, entries) in line.outputs.items() if name not in plain for k in entries}
-    for k in reversed(range(len(line.nodes))):
-        exact.update(operands(line.nodes[k]) if k in exact else ())
+    wanted = [k for name, (_, entries) in line.outputs.items() if name not in plain for k in entries]
+    exact = {*needed(line.nodes, wanted)}
     for k in range(len(line.nodes)):
         work.rewrite(k) if k in exact else work.copy(k)
     results: dict[str, Any] = {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 from ..arrays import Array
 from .number import Node, Tape
 
-__all__ = ["Line", "Output", "operands"]
+__all__ = ["Line", "Output", "needed", "operands", "ordered"]
 
 DEEPEST = 8
 """How deep operations stand within each other in a text, at most."""
@@ -62,12 +62,14 @@ class Line:
         notes: Sequence[Any],
         inputs: Mapping[str, tuple[int, ...]],
         outputs: Mapping[str, Output],
+        order: Iterable[int] | None = None,
     ) -> Line:
-        needed = _needed(nodes, [k for _, entries in outputs.values() for k in entries])
-        new = {old: k for k, old in enumerate(needed)}
-        kept = tuple(_renumbered(nodes[old], new) for old in needed)
+        """Return a line of some nodes: those that the results need, in their order, unless another order is given."""
+        kept = [*(needed(nodes, [k for _, entries in outputs.values() for k in entries]) if order is None else order)]
+        new = {old: k for k, old in enumerate(kept)}
+        renumbered = tuple(_renumbered(nodes[old], new) for old in kept)
         renamed = {name: (shape, tuple(new[k] for k in entries)) for name, (shape, entries) in outputs.items()}
-        return cls(kept, dict(inputs), renamed, tuple(notes[old] for old in needed) if notes else ())
+        return cls(renumbered, dict(inputs), renamed, tuple(notes[old] for old in kept) if notes else ())
 
     @cached_property
     def inner(self) -> frozenset[int]:
@@ -90,19 +92,8 @@ class Line:
 
         So that fewer numbers are waiting at any time.
         """
-        new: dict[int, int] = {}
-        left = [(k, False) for k in [*wanted, *self.results][::-1]]
-        while left:
-            k, ready = left.pop()
-            if k in new:
-                continue
-            if ready:
-                new[k] = len(new)
-            else:
-                left += [(k, True), *((j, False) for j in reversed(operands(self.nodes[k])))]
-        nodes = tuple(_renumbered(self.nodes[k], new) for k in new)
-        outputs = {name: (shape, tuple(new[k] for k in entries)) for name, (shape, entries) in self.outputs.items()}
-        return Line(nodes, self.inputs, outputs)
+        order = ordered([*wanted, *self.results], lambda k: operands(self.nodes[k]))
+        return self._reduced(self.nodes, self.notes, self.inputs, self.outputs, order)
 
     @property
     def results(self) -> list[int]:
@@ -115,16 +106,30 @@ class Line:
         return Counter(node[0] for node in self.nodes if node[0] not in LEAVES)
 
 
-def _needed(nodes: Sequence[Node], wanted: Iterable[int]) -> list[int]:
-    """Return the nodes on which some depend, in their order."""
-    needed = bytearray(len(nodes))
+def needed(nodes: Sequence[Node], wanted: Iterable[int], ends: Container[int] = ()) -> list[int]:
+    """Return the nodes on which some depend, in their order, but not those on which only the ends depend."""
+    found = bytearray(len(nodes))
     for k in wanted:
-        needed[k] = 1
+        found[k] = 1
     for k in range(len(nodes) - 1, -1, -1):
-        if needed[k]:
+        if found[k] and k not in ends:
             for j in operands(nodes[k]):
-                needed[j] = 1
-    return [k for k, one in enumerate(needed) if one]
+                found[j] = 1
+    return [k for k, one in enumerate(found) if one]
+
+
+def ordered(wanted: Sequence[int], needs: Callable[[int], Sequence[int]]) -> Iterator[int]:
+    """Yield what some need, and them, each just before it is first needed if the wanted are computed in this order."""
+    done = set[int]()
+    left = [(k, False) for k in reversed(wanted)]
+    while left:
+        k, ready = left.pop()
+        if k not in done:
+            if ready:
+                done.add(k)
+                yield k
+            else:
+                left += [(k, True), *((j, False) for j in reversed(needs(k)))]
 
 
 def operands(node: Node) -> tuple[int, ...]:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from .line import Line
+from .line import Line, ordered
 from .packs import Packs, View
 from .pairs import split
 
@@ -61,7 +61,7 @@ class Registers:
     def __init__(self, line: Line, dtype: np.dtype[Any]) -> None:
         self.dtype, self.nodes, self.functions = dtype, line.nodes, functions_of(dtype)
         self.packs = Packs(line)
-        self.order = [*self._order(line.results)]
+        self.order = [*ordered(self._found((k,) for k in line.results), lambda k: self._found(self.packs.operands[k]))]
         self.first, self.count = self._placed(line.results)
         column = {(name, *k): j for name, shape in line.inputs.items() for j, k in enumerate(np.ndindex(shape))}
         number = {name: k for k, name in enumerate(line.inputs)}
@@ -91,18 +91,6 @@ class Registers:
     def _found(self, lanes: Iterable[tuple[int, ...]]) -> list[int]:
         """Return the packs in which some nodes lie; constants lie in none."""
         return [view[0] for one in lanes if (view := self.packs.view(one))]
-
-    def _order(self, results: Sequence[int]) -> Iterator[int]:
-        """Yield the packs, each just before it is first needed, so that few rows are waiting at any time."""
-        done: set[int] = set()
-        left = [(pack, False) for pack in reversed(self._found((k,) for k in results))]
-        while left:
-            pack, ready = left.pop()
-            if ready and pack not in done:
-                yield pack
-                done.add(pack)
-            elif pack not in done:
-                left += [(pack, True), *((other, False) for other in reversed(self._found(self.packs.operands[pack])))]
 
     def _placed(self, results: Sequence[int]) -> tuple[dict[int, int], int]:
         """Return the first row of each pack, and how many rows there are: what is not needed any more makes room."""

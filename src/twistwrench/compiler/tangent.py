@@ -22,7 +22,7 @@ import numpy as np
 from ..arrays import Array
 from ..model import Model
 from ..spatial.rotation import cross_matrix
-from .line import operands
+from .line import needed
 from .number import Number, Tape, is_power_of_two
 
 __all__ = ["directions", "jacobian", "steps"]
@@ -77,7 +77,7 @@ def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None],
     """
     indices = [tape.number(x).index for x in results.flat]
     known: dict[int, Tangent] = {}
-    for k in _up_to(tape, indices, tangents):
+    for k in needed(tape.nodes, indices, tangents):
         tangent = tangents[k] if k in tangents else _tangent(tape, k, known)
         if tangent is None:
             raise NotImplementedError(f"{tape.at(k)!r} is used, and not by the placement of a joint")
@@ -88,23 +88,12 @@ def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None],
     return J.reshape(*results.shape, columns)
 
 
-def _up_to(tape: Tape, indices: list[int], ends: Mapping[int, Any]) -> list[int]:
-    """Return the nodes on which some depend, in their order, but not those on which only the ends depend."""
-    needed, left = set[int](), [*indices]
-    while left:
-        k = left.pop()
-        if k not in needed:
-            needed.add(k)
-            left += () if k in ends else operands(tape.nodes[k])
-    return sorted(needed)
-
-
 def _tangent(tape: Tape, k: int, known: Mapping[int, Tangent]) -> Tangent:
     """Return the tangent of a node from those of its operands: the rules of differentiation."""
-    operation, *needed = tape.nodes[k]
-    if operation in ("input", "const") or not any(known[j] for j in needed):
+    operation, *places = tape.nodes[k]
+    if operation in ("input", "const") or not any(known[j] for j in places):
         return {}
-    (x, dx), *others = [(_value(tape, j), known[j]) for j in needed]
+    (x, dx), *others = [(_value(tape, j), known[j]) for j in places]
     y, dy = others[0] if others else (None, {})
     match operation:
         case "add":

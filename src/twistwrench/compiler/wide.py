@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..model import Model
 from ..newton_euler_3d import as_mpmath
 from .backend import BackEnd
 from .memory import Results
@@ -39,17 +38,16 @@ class DigitsProgram(ABC):
 
     Attributes
     ----------
+    model : Model
     arguments : tuple of str
         The names of the program's arguments, in their order.
+    source, c : callable
+        The texts of the straight line: see `Program`.
     """
 
     def __init__(self, program: Program) -> None:
-        self.program, self.arguments = program, program.arguments
-
-    @property
-    def model(self) -> Model:
-        """The robot."""
-        return self.program.model
+        self.program, self.model, self.arguments = program, program.model, program.arguments
+        self.source, self.c = program.source, program.c
 
     @property
     @abstractmethod
@@ -59,14 +57,6 @@ class DigitsProgram(ABC):
     @abstractmethod
     def __call__(self, *args: Any, **named: Any) -> Any:
         """Return the quantities in a state, or in many."""
-
-    def source(self, functions: str = "math") -> str:
-        """Return the straight line as a Python function: see `Program.source`."""
-        return self.program.source(functions)
-
-    def c(self) -> str:
-        """Return the straight line as a function in C99: see `Program.c`."""
-        return self.program.c()
 
     @property
     def _symbols(self) -> list[str]:
