@@ -12,13 +12,12 @@ instructions   LLVM's language: arithmetic, and the way in and out of memory
 sine           sin and cos of many angles at once
 llvm           machine code, by LLVM
 source         a line as text: Python, annotated with the chapter's steps, and C
-plain          Python's floats, for a few states
 pairs          arithmetic with pairs of doubles
 packs          the same operation in several limbs
 registers      NumPy, for every number type
 fingerprints   what is the same number in every state, computed once
 tangent        the derivatives of what is on a tape, and steps along v from q
-backend        which of them runs a line
+backend        which of them runs a line, or plain Python's floats
 pair_sine      sin and cos of a pair
 bounds         how far a computed number can be off
 double_double  a line rewritten into pairs, with bounds

@@ -13,8 +13,8 @@ from ..arrays import Array
 from .line import Line
 from .llvm import MachineCode, lanes
 from .memory import keep_memory
-from .plain import Plain
 from .registers import Registers
+from .source import python_source
 
 __all__ = ["BackEnd", "divided"]
 
@@ -65,14 +65,40 @@ class BackEnd:
         if self.name == "llvm":
             width = lanes(self.dtype)
             return self.machine_code(width if count >= width else 1)
-        few = (
-            count <= FEW and self.dtype == np.float64 and "round" not in self.line.operations
-        )  # as sines of pairs have
+        # the sines of pairs are rounded to whole numbers, which `math` does not do
+        few = count <= FEW and self.dtype == np.float64 and "round" not in self.line.operations
         kind = Plain if few else Registers
         if kind not in self._made:
             self._made[kind] = Plain(self.line) if kind is Plain else Registers(self.line, self.dtype)
         code: Plain | Registers = self._made[kind]
         return code
+
+
+class Plain:
+    """A line as a Python function of floats.
+
+    Parameters
+    ----------
+    line : Line
+    """
+
+    def __init__(self, line: Line) -> None:
+        names: dict[str, Any] = {}
+        exec(python_source(line, "program"), names)  # our own text
+        self.function = names["program"]
+        self.shapes, self.outputs = [*line.inputs.values()], [*line.outputs.values()]
+
+    def run(self, arrays: Sequence[Array]) -> None:
+        """Fill the results: each array has shape (states, entries)."""
+        given, results = arrays[: len(self.shapes)], arrays[len(self.shapes) :]
+        for k in range(len(arrays[0])):
+            state = [x[k].reshape(shape).tolist() for x, shape in zip(given, self.shapes)]
+            try:
+                values = self.function(*state)
+            except (OverflowError, ValueError, ZeroDivisionError):  # where NumPy goes on with NaN
+                values = [np.nan] * len(results)
+            for x, value, (shape, _) in zip(results, values, self.outputs):
+                x[k] = value if len(shape) == 1 else np.ravel(value)
 
 
 def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], threads: int) -> None:
