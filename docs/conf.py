@@ -8,7 +8,21 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import runtime
-from website import beside, cards, chinese, hands, inpage, interface, keywords, notebooks, prose, tables, terms, units
+from website import (
+    beside,
+    cards,
+    chinese,
+    crosslinks,
+    hands,
+    inpage,
+    interface,
+    keywords,
+    notebooks,
+    prose,
+    tables,
+    terms,
+    units,
+)
 
 CHINESE = os.environ.get("SITE_LANGUAGE", "en") == "zh"
 
@@ -44,6 +58,8 @@ myst_heading_anchors = 4
 myst_html_meta = {"description": DESCRIPTION}
 nb_execution_mode = "off"  # docs/build.py has run them: once for both languages
 nb_merge_streams = True
+nb_code_prompt_show = "显示代码" if CHINESE else "Show the code"
+nb_code_prompt_hide = "收起代码" if CHINESE else "Hide the code"
 
 # ---- the interface, from the docstrings
 default_role = "py:obj"
@@ -100,6 +116,7 @@ def setup(app):
     prose.connect(app)
     units.connect(app)
     terms.connect(app)
+    crosslinks.connect(app)
     cards.connect(app)
     app.add_search_language(chinese.PairsOfCharacters)
     interface.connect(app, "zh" if CHINESE else "en")

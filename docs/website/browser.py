@@ -24,8 +24,8 @@ PAGES = ("index", "chapter/49_06_rnea", "algorithms/rnea", "api/algorithms/rnea"
 PAGES += ("hands/frames", "hands/feet", "map")
 WIDE, NARROW = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 SOUGHT = {
-    "en": {"mass matrix": "49_08_crba", "errata": "errata"},
-    "zh": {"质量矩阵": "49_08_crba", "勘误": "errata"},
+    "en": {"mass matrix": "49_08_crba", "errata": "errata", "aba": "49_07_aba", "Jacobian frame": "kinematics"},
+    "zh": {"质量矩阵": "49_08_crba", "勘误": "errata", "雅可比": "kinematics"},
 }
 """What is looked up, and the page that has to be found first."""
 AXE = (("en", "light"), ("zh", "dark"))

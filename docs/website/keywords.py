@@ -32,6 +32,7 @@ KEYWORDS = {
     ),
     "chapter/49_09_floating_base": ("floating base", "浮动基座"),
     "chapter/49_10_centroidal": ("centroidal momentum", "centre of mass", "center of mass", "质心动量", "质心"),
+    "api/algorithms/kinematics": ("jacobian", "frame jacobian", "jacobian frame", "雅可比", "雅可比矩阵"),
     "conventions": ("conventions", "notation", "约定", "记号"),
     "traps": (
         "questions",

@@ -120,7 +120,7 @@ def _is_one(formula: str, before: str, after: str) -> bool:
 class FormulasAreSet(SphinxPostTransform):
     """Set the formulas wherever a page speaks; code, names and signatures stay as they are written."""
 
-    default_priority = 890  # before a number gets its unit
+    default_priority = 880  # before words get their links and numbers their units
 
     def run(self, **_: Any) -> None:
         """Go through the words of a page; those of lines that follow each other belong together."""

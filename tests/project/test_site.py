@@ -314,13 +314,32 @@ def test_the_first_use_of_a_word_leads_to_the_glossary():
 
 def test_what_is_looked_for_leads_to_pages_that_are_there():
     pytest.importorskip("sphinx", reason="Sphinx is not installed: the site's search is not checked")
-    from website import hands, keywords, notebooks
+    from website import hands, interface, keywords, notebooks
 
     there = {*pages.pages().values(), "chapter/exercises", *(f"chapter/{name}" for name in notebooks.names())}
+    there |= {f"api/{name}" for name in interface.by_page()}
     assert set(keywords.KEYWORDS) <= there | {f"hands/{name}" for name in hands.names()}
     words = [word for own in keywords.KEYWORDS.values() for word in own]
     assert len(words) == len(set(words))
     assert all(word == word.lower() for word in words)
+
+
+def test_names_and_sections_lead_to_where_they_are_explained():
+    pytest.importorskip("sphinx", reason="Sphinx is not installed: the site's links are not checked")
+    from website.crosslinks import chapter, cut, place_of
+
+    names, modules = {"rnea": ("api/rnea", "n"), "Scene.cheapest": ("api/scene", "c")}, {"model": ("api/model", "m")}
+    place = lambda code: place_of(code, names, modules)  # noqa: E731
+    assert place("rnea") == place("tw.rnea(model, q)") == place("twistwrench.rnea") == ("api/rnea", "n")
+    assert place("Scene.cheapest(0.1)") == ("api/scene", "c")
+    assert place("tw.model") == ("api/model", "m")
+    assert all(place(code) is None for code in ("model", "pin.rnea", "rnea + h", "rnea()[0]", "crba"))
+    sections = chapter() | {"49.6.2": ("chapter/exercises", "e")}
+    assert sections["49.6"] == ("chapter/49_06_rnea", "")
+    six, two = sections["49.6"], sections["49.6.2"]
+    said = [("(", None), ("49.6", six), (") and ", None), ("49.6.2", two), (", 49.6.9 or 149.6 or 49.60.", None)]
+    assert [*cut("(49.6) and 49.6.2, 49.6.9 or 149.6 or 49.60.", sections)] == said
+    assert [*cut("49.6.", sections)] == [("49.6", six), (".", None)]
 
 
 # ---------------------------------------------------------------- the checks see what is wrong

@@ -29,3 +29,12 @@ function nameToggles() {
   }
 }
 document.addEventListener("DOMContentLoaded", nameToggles);
+
+// What a button is called is what it shows: the words on it, not others.
+function nameByWords() {
+  for (const shown of document.querySelectorAll("details.hide > summary[aria-label]")) shown.removeAttribute("aria-label");
+  for (const search of document.querySelectorAll(".search-button-field")) {
+    search.setAttribute("aria-label", search.textContent.replace(/\s+/g, " ").trim());
+  }
+}
+document.addEventListener("DOMContentLoaded", nameByWords);

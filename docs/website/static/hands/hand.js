@@ -110,7 +110,7 @@ globalThis.hand = (() => {
 
   // A canvas on which metres are drawn. Dragging turns the view, dragging a handle moves what it belongs to.
   function stage(root, label, draw, { scale: metres = 3, centre = [0, 0, 0], yaw = 0.6, tilt = 0.35, ratio = 0.75, flat = false, handles = [] } = {}) {
-    const canvas = element("canvas", { tabIndex: 0 });
+    const canvas = element("canvas", flat ? {} : { tabIndex: 0 }); // the keys turn it, unless it is flat
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", label);
     canvas.style.aspectRatio = `1 / ${ratio}`;

@@ -79,9 +79,13 @@ hand.begin("translate", (root, words) => {
     const wrong = element("p", { className: "hand-wrong", id: `hand-wrong-${k}` });
     box.setAttribute("aria-describedby", wrong.id);
     box.addEventListener("input", translate);
-    const copy = element("button", { type: "button", textContent: words.copy });
-    copy.setAttribute("aria-label", `${words.copy}: ${name}`);
-    copy.addEventListener("click", () => { out.select(); document.execCommand("copy"); });
+    const copy = element("button", { type: "button" });
+    const say = (word) => ((copy.textContent = word), copy.setAttribute("aria-label", `${word}: ${name}`));
+    say(words.copy);
+    copy.addEventListener("click", () => {
+      out.select();
+      if (document.execCommand("copy")) say(words.copied), setTimeout(() => say(words.copy), 2000);
+    });
     const order = [element("small"), element("small")];
     const label = (text, field, small) => element("label", {}, element("span", {}, element("b", { textContent: text }), " ", small), field);
     fields.append(element("div", { className: "hand-row" }, label(name, box, order[0]), label(`${name} →`, out, order[1]), copy, wrong));
