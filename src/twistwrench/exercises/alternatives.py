@@ -22,7 +22,7 @@ Change = tuple[str, Any]
 
 KINDS = (
     *("exchanged", "sign", "transposed", "left out", "after loop", "in loop"),
-    *("last", "name", "instead", "number", "inserted"),
+    *("last", "name", "index", "instead", "number", "inserted"),
 )
 """The kinds of edits, the likeliest first."""
 
@@ -57,8 +57,11 @@ def alternatives(
     matrices, scalars : sequence of ast.expr
         Square matrices and numbers that are at hand as a further factor.
     """
-    for changes in (_statements, _operations, _containers, _calls, _numbers):
-        yield from changes(node)
+    for changes in (_statements, _operations, _containers, _calls):
+        if not isinstance(parent, ast.Slice):  # the step of a slice has no sign
+            yield from changes(node)
+    kind = "index" if isinstance(parent, ast.Subscript | ast.Slice) else "number"
+    yield from ((kind, other) for other in _numbers(node))
     if isinstance(node, ast.For | ast.While):
         yield from _loops(node, parent)
     if isinstance(getattr(parent, "ctx", None), ast.Store):
@@ -230,7 +233,7 @@ def _containers(node: Any) -> Iterator[Change]:
         pair = [getattr(x, "value", None) for x in getattr(node.slice, "elts", ())]
         if len(pair) == 2 and pair[0] == pair[1] and isinstance(pair[0], int):
             for k in range(6):
-                yield "number", ast.Subscript(node.value, ast.Tuple([ast.Constant(k)] * 2, ast.Load()), node.ctx)
+                yield "index", ast.Subscript(node.value, ast.Tuple([ast.Constant(k)] * 2, ast.Load()), node.ctx)
     if isinstance(node, ast.Subscript):
         if isinstance(node.slice, ast.Slice):
             yield "left out", node.value
@@ -287,7 +290,7 @@ def _twins(name: str) -> Iterator[str]:
     yield from (other for twins in TWINS if name in twins for other in twins if other != name)
 
 
-def _numbers(node: Any) -> Iterator[Change]:
+def _numbers(node: Any) -> Iterator[ast.expr]:
     """Yield other numbers."""
     if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
         x = node.value
@@ -296,4 +299,4 @@ def _numbers(node: Any) -> Iterator[Change]:
             if isinstance(x, int)
             else [10, 9.8, 9.81, 1.0, -x, 2 * x, x / 2, 10 * x, x / 10]
         )
-        yield from (("number", ast.Constant(other)) for other in dict.fromkeys(others) if other != x)
+        yield from (ast.Constant(other) for other in dict.fromkeys(others) if other != x)

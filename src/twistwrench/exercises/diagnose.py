@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -12,7 +13,7 @@ from .compare import Value, agree, close, pieces, values
 from .exercise import Exercise, Part
 from .phrases import say
 from .relations import describe
-from .repairs import Repair, repairs
+from .repairs import Repair, repairs, written
 from .search import Found, exchanged_results, found_edits, right_where
 from .slips import SLIPS, Slip
 from .steps import first_wrong
@@ -27,10 +28,16 @@ Cases = Sequence[tuple[Any, ...]]
 NOTICEABLE = 1e-6
 """The least residual of a property that counts, for answers of the size of 1."""
 
+SHARES = {"mended": 1.2, "edited": 2.2, "twice": 3.0}
+"""Seconds until which each search may go on, of the processor: a busy machine finds the same."""
+
 FEW = 3
 """Lines, or wrong entries, that are taken in at a glance."""
 
 MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
+
+TRACES = {"transpose": (".T", ".mT", "transpose", "swapaxes"), "inverse": ("inv", "solve", "inverse")}
+"""By what a slip that has the word in its name is recognised in a program."""
 
 TWISTS: dict[str, Callable[[Any], Any]] = {
     "swapped-halves": swap,
@@ -44,6 +51,19 @@ TWISTS: dict[str, Callable[[Any], Any]] = {
 def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
     """Return the slips that give these very answers on all cases."""
     return [slip for slip, wrong in part.slips.items() if _matches(part, wrong, answers, cases)]
+
+
+def _borne_out(found: list[str], function: Callable[..., Any]) -> list[str]:
+    """Return of several slips those for which the student's source speaks most: it transposes, it inverts."""
+    source = written(function)
+    if len(found) < 2 or source is None:
+        return found
+
+    def speaks(slip: str) -> int:
+        words = [word for key, traces in TRACES.items() if key in slip for word in traces]
+        return 1 if not words else 2 * any(word in source[0] for word in words)
+
+    return [slip for slip in found if speaks(slip) == max(map(speaks, found))]
 
 
 def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
@@ -118,9 +138,13 @@ def explain(
     lines : list of Text
         The message.
     """
-    found = matching_slips(part, answers, cases)
+    right = [part.value(part.solution, arguments) for arguments in cases]
+    start = time.process_time()
+    until = {how: start + seconds for how, seconds in SHARES.items()}
+    found = _borne_out(matching_slips(part, answers, cases), function)
     if found:
-        return found, _named(exercise, part, found, cases)
+        mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
+        return found, _named(exercise, part, found, cases, [x for x in mended if x.edit.line])
     exchanged = exchanged_results(part, answers, cases)
     if exchanged is not None:
         return [], [say("slip", title=exchanged), say("exchanged"), _where(exercise, exercise.section)]
@@ -131,14 +155,13 @@ def explain(
     structure = _structure(part, answers)
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
-    right = [part.value(part.solution, arguments) for arguments in cases]
-    mended = repairs(part, function, right, answers, cases) if again else []
+    mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
-    edited = found_edits(part, answers, cases) if again else []
+    edited = found_edits(part, answers, cases, until=until["edited"]) if again else []
     if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, edited, answers, cases)
-    mended = repairs(part, function, right, answers, cases, pairs=True) if again else []
+    mended = repairs(part, function, right, answers, cases, until=until["twice"], pairs=True) if again else []
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
     pair = None if _few_entries(part, answers, cases) else two_slips(part, answers, cases)
@@ -185,8 +208,8 @@ def _changes(part: Part, found: Sequence[Found | Repair], cases: Cases, how: str
 def after_error(part: Part, function: Callable[..., Any], cases: Cases) -> list[Text]:
     """Report which change makes a function right that raises an error; nothing where none is found."""
     right = [part.value(part.solution, arguments) for arguments in cases]
-    given = part, function, right, [None] * len(cases), cases
-    found = repairs(*given) or repairs(*given, pairs=True)
+    given, start = (part, function, right, [None] * len(cases), cases), time.process_time()
+    found = repairs(*given, until=start + SHARES["mended"]) or repairs(*given, until=start + SHARES["twice"], pairs=True)
     return _changes(part, found, cases, "mended") if found else []
 
 
@@ -205,7 +228,9 @@ def _slip(exercise: Exercise, part: Part, name: str) -> Slip:
     return Slip(SLIPS[name].title, part.reasons[name], exercise.section)
 
 
-def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases) -> list[Text]:
+def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases, mended: list[Repair]) -> list[Text]:
+    """Name the slip, or those that it may be, and the line of the student's where it is."""
+    own = [say("own code", title=change.title()) for change in mended if change.piece is None]
     slips = [_slip(exercise, part, name) for name in found]
     if len(slips) == 1:
         wrong = part.slips[found[0]]
@@ -214,11 +239,12 @@ def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases) -> li
         return [
             say("slip", title=slips[0].title),
             slips[0].why,
+            *own,
             *([step] if step else []),
             _where(exercise, slips[0].section),
         ]
     each = [Text(f"  - {s.title.en}. {s.why.en}", f"  - {s.title.zh}。{s.why.zh}") for s in slips]
-    return [say("slips"), *each, _where(exercise, slips[0].section)]
+    return [say("slips"), *each, *own, _where(exercise, slips[0].section)]
 
 
 def _named_by_piece(exercise: Exercise, part: Part, found: dict[str, list[str]]) -> list[Text]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import copy
+import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -25,6 +26,9 @@ from .text import Language, Text
 from .wrapping import hanging
 
 __all__ = ["State", "Verdict", "judge"]
+
+SLOW = 0.3
+"""Seconds, of the processor, after which no more cases are tried of what is wrong."""
 
 ROOM = 96
 """Columns for the arguments of a case."""
@@ -105,8 +109,7 @@ def judge(
         return Verdict("to do", (say("needs", name=exercise.needs),))
     calls, so_far = Calls(part.name), _Compared([], [], [], [])
     search = not exercise.needs if search is None else search
-    everything = [*cases(part, seed), *further_cases(part, seed)]
-    for arguments in everything:
+    for arguments in _trials(part, seed, so_far):
         known = part.value(part.solution, arguments)  # first: an answer may change a model that it is given
         try:
             with watch(), watching(part, function, calls):
@@ -117,7 +120,8 @@ def judge(
             if not all(so_far.right):
                 break  # what is wrong without an error comes first
             with silent():
-                more = after_error(part, function, everything) if search and isinstance(stop, _Raised) else []
+                drawn = [*cases(part, seed), *further_cases(part, seed)]
+                more = after_error(part, function, drawn) if search and isinstance(stop, _Raised) else []
             message = _head(exercise, part), *stop.args, *more
             return Verdict("wrong", message, (), failing_case(part, len(so_far.tried), seed, arguments))
         if to_do(answer):
@@ -134,6 +138,14 @@ def judge(
         lines = calls.lines or ([say("one array")] if _same_array(so_far.answers[0]) else [])
         return Verdict("wrong", (_head(exercise, part), *lines)) if lines else Verdict("done")
     return _wrong(exercise, part, function, so_far, seed, kept, again)
+
+
+def _trials(part: Part, seed: int, so_far: _Compared) -> Iterator[tuple[Any, ...]]:
+    """Yield the cases: those that are drawn first, and further ones unless the answer is wrong already, and slow."""
+    start = time.process_time()
+    yield from cases(part, seed)
+    if all(so_far.right) or time.process_time() - start < SLOW:
+        yield from further_cases(part, seed)
 
 
 class _Compared(NamedTuple):

@@ -22,6 +22,7 @@ PHRASES = {
     "edit name": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit instead": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit inserted": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit index": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit number": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit last": Text("only the last term of the sum `{right}` is kept", "求和 `{right}` 只保留了最后一项"),
     "edit argument": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
@@ -41,6 +42,7 @@ PHRASES = {
     "repair name": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair instead": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair inserted": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair index": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair argument": Text(
         "the function is right with `{right}` where it has `{wrong}`", "把参数 `{wrong}` 换成 `{right}`，函数就正确了"
@@ -48,6 +50,7 @@ PHRASES = {
     "repair result": Text(
         "where `{wrong}` is returned, `{right}` would be right", "返回的是 `{wrong}`，而正确的是 `{right}`"
     ),
+    "own code": Text("In your code: {title}.", "在你的代码中：{title}。"),
     "in own line": Text("line {line}, {title}", "第 {line} 行，{title}"),
     "mended": Text(
         "With this change, and no other, it is right in all {all} cases.", "只作这一改动，全部 {all} 组数据就都正确。"

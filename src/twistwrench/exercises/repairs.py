@@ -25,10 +25,7 @@ from .search import Remembering, by_chance, said_where
 from .text import Text
 from .whole import Edit, of_arguments
 
-__all__ = ["Repair", "guarded", "repairs"]
-
-BUDGET = 4.0
-"""Seconds of a search, of the processor: a busy machine finds the same."""
+__all__ = ["Repair", "guarded", "repairs", "written"]
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
@@ -70,14 +67,21 @@ class Repair:
 
 def guarded(function: Function) -> Function:
     """Return a student's function with loops that cannot be endless; itself where its source is not at hand."""
-    found = _written(function)
+    found = written(function)
     if found is None or inspect.isclass(function):
         return function
     return Source(function, function, {}, {}, found[0]).compiled()
 
 
 def repairs(
-    part: Part, function: Function, right: Sequence[Any], answers: Sequence[Any], cases: Cases, *, pairs: bool = False
+    part: Part,
+    function: Function,
+    right: Sequence[Any],
+    answers: Sequence[Any],
+    cases: Cases,
+    *,
+    until: float,
+    pairs: bool = False,
 ) -> list[Repair]:
     """Return the likeliest change that makes a student's function right, or one for each wrong thing of several.
 
@@ -89,6 +93,8 @@ def repairs(
     right, answers : sequence
         What is expected and what it returned, in each case.
     cases : sequence of tuple
+    until : float
+        When the search ends, as `time.process_time` has it: a busy machine finds the same.
     pairs : bool
         Try two changes at once.
     """
@@ -99,7 +105,7 @@ def repairs(
     fine = {k for k in range(len(part.returns)) if several} - bad
     found: dict[int, Repair] = {}
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        for edit, before in _changes(part, function, cases[first], pairs):
+        for edit, before in _changes(part, function, cases[first], until, pairs):
             answer = tried(part, edit.function, cases[first])
             here = {k for k in bad - {*found} if _same(part, [answer], [right[first]], k)}
             if not here and not agree(part, answer, right[first], cases[first]):
@@ -112,10 +118,11 @@ def repairs(
     return [found[k] for k in sorted(found)] if found.keys() == bad else []
 
 
-def _changes(part: Part, function: Function, arguments: tuple[Any, ...], pairs: bool) -> Iterator[tuple[Edit, int]]:
+def _changes(
+    part: Part, function: Function, arguments: tuple[Any, ...], until: float, pairs: bool
+) -> Iterator[tuple[Edit, int]]:
     """Yield the changes of a student's function and the lines before it, for as long as a search may take."""
-    end = time.process_time() + BUDGET
-    found = _written(function)
+    found = written(function)
     if found is None:
         return
     text, before = found
@@ -131,7 +138,7 @@ def _changes(part: Part, function: Function, arguments: tuple[Any, ...], pairs: 
     chance = by_chance(part, arguments)
     whole = bool(arguments) and not inspect.isclass(function)
     for edit in source.pairs(PAIRED) if pairs else _single(source, whole):
-        if time.process_time() > end:
+        if time.process_time() > until:
             return
         if edit.kind not in chance:
             yield edit, before
@@ -145,7 +152,7 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
             yield from (edit for edit in of_arguments(source.compiled()) if not edit.wrong.startswith("0 *"))
 
 
-def _written(function: Function) -> tuple[str, int] | None:
+def written(function: Function) -> tuple[str, int] | None:
     """Return the source of a student's function or class, and how many lines are before it; None if it is unknown."""
     code = getattr(function, "__code__", None)
     if code is None and inspect.isclass(function):

@@ -21,9 +21,6 @@ from .whole import Edit
 
 __all__ = ["Found", "Remembering", "by_chance", "exchanged_results", "found_edits", "right_where", "said_where"]
 
-BUDGET = 8.0
-"""Seconds of a search, of the processor: a busy machine finds the same."""
-
 MANY = 6
 """Numbers in an answer that are not met by chance."""
 
@@ -55,17 +52,20 @@ def said_where(edit: Edit, title: Text) -> Text:
     return say("twice" if edit.everywhere == 2 else "everywhere", title=title)
 
 
-def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:
-    """Return the likeliest edit that gives all of an answer, or one for each wrong thing of several returned."""
+def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> list[Found]:
+    """Return the likeliest edit that gives all of an answer, or one for each wrong thing of several returned.
+
+    The search ends when `time.process_time` is `until`.
+    """
     right = [part.value(part.solution, copied(arguments)) for arguments in cases]
     wrong = [not agree(part, a, b, arguments) for a, b, arguments in zip(answers, right, cases)]
     first = min((k for k, bad in enumerate(wrong) if bad), key=lambda k: _seconds(part, cases[k]))
     several = len(part.returns) > 1 and part.canonical is None
     bad = [k for k in range(len(part.returns)) if not _same(part, answers, right, k)] if several else []
     found: dict[int, Edit] = {}
-    for edit in candidates(part, cases[first]):
+    for edit in candidates(part, cases[first], until=until):
         answer = tried(part, edit.function, cases[first])
-        alone = [] if edit.kind == "number" and not cases[first] else bad  # one of few numbers is met by chance
+        alone = [] if edit.kind in ("number", "index") and not cases[first] else bad  # one of few numbers is met by chance
         here = [k for k in alone if k not in found and _same(part, [answers[first]], [answer], k)]
         if not here and not agree(part, answers[first], answer, cases[first]):
             continue
@@ -76,9 +76,8 @@ def found_edits(part: Part, answers: Answers, cases: Cases) -> list[Found]:
     return [Found(found[k], k) for k in bad if k in found]
 
 
-def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
+def candidates(part: Part, arguments: tuple[Any, ...], *, until: float = np.inf) -> Iterator[Edit]:
     """Yield the edits of all right ways, for as long as a search may take."""
-    end = time.process_time() + BUDGET
     chance = by_chance(part, arguments)
     names = {"tw": Remembering(twistwrench)}
     for way in (part.solution, *part.ways):
@@ -86,7 +85,7 @@ def candidates(part: Part, arguments: tuple[Any, ...]) -> Iterator[Edit]:
         call = _calling(part, way)
         shown = {f.__name__: local_values(call, f, copied(arguments)) for f in (way, *listings)}
         for edit in edits(way, listings, shown=shown, names=names):
-            if time.process_time() > end:
+            if time.process_time() > until:
                 return
             if edit.kind not in chance:
                 yield edit
@@ -97,7 +96,7 @@ def by_chance(part: Part, arguments: tuple[Any, ...]) -> tuple[str, ...]:
     right = values(part.value(part.solution, copied(arguments)), part.returns) or []
     truths = any(x.array is not None and x.array.dtype.kind == "b" for x in right)
     few = not arguments and sum(np.size(x.raw) for x in right) <= MANY
-    return ("number", "inserted") if truths or few else ()
+    return ("index", "number", "inserted") if truths else ("number", "inserted") if few else ()
 
 
 def _seconds(part: Part, arguments: tuple[Any, ...]) -> float:

@@ -133,7 +133,8 @@ WRENCHES = Part(
     returns=(Quantity("F"),),
     cases=_with_wrenches,
     slips={
-        "force-outward": faulty(carried_wrenches, ("transforms(T[i])", "transforms(np.linalg.inv(T[i]))")),
+        "inverse-transform": faulty(carried_wrenches, ("transforms(T[i])", "transforms(np.linalg.inv(T[i]))")),
+        "transpose-for-dual": faulty(carried_wrenches, ("_, X_star = transforms(T[i])", "X_star = transforms(T[i])[0].mT")),
         "motion-for-force": faulty(carried_wrenches, ("_, X_star =", "X_star, _ =")),
         "coupling-dropped": faulty(carried_wrenches, ("X_star @ carried", "_uncoupled(X_star) @ carried")),
         "untransformed": faulty(carried_wrenches, ("X_star @ carried", "carried")),
@@ -144,6 +145,7 @@ WRENCHES = Part(
         "chain-for-tree": lambda parent, T, F: carried_wrenches(_previous(parent), T, F),
         "swapped-halves": lambda parent, T, F: _halves(carried_wrenches(parent, T, F)),
     },
+    alike=(frozenset({"inverse-transform", "transpose-for-dual"}),),  # X(T)ᵀ is X*(T⁻¹)
     residuals=(
         lambda answer, parent, T, F: (
             answer[0] - sum(mine("transforms_of")(P)[1] @ f for P, f in zip(body_placements(parent, T), F))
