@@ -8,6 +8,8 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Any
 
+from .twins import is_copy, is_whole, numbers, twins
+
 __all__ = [
     "FACTORS",
     "KINDS",
@@ -21,19 +23,10 @@ Change = tuple[str, Any]
 """Kind of an edit, and what is put in place of a node."""
 
 KINDS = (
-    *("exchanged", "sign", "transposed", "left out", "after loop", "in loop"),
+    *("exchanged", "halves", "sign", "transposed", "left out", "after loop", "in loop"),
     *("last", "name", "index", "instead", "number", "inserted"),
 )
 """The kinds of edits, the likeliest first."""
-
-TWINS = (
-    *(("motion_transform", "force_transform"), ("cross_motion", "cross_force"), ("inward", "outward")),
-    *(("nonlinear_effects", "gravity"), ("cos", "sin"), ("rotation", "translation"), ("cross", "multiply", "outer")),
-    *(("max", "min", "mean", "sum"), ("mean", "median"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
-    *(("FR_foot", "FL_foot", "RR_foot"), ("hypot", "add"), ("log", "log10"), ("vstack", "hstack"), ("zeros", "eye")),
-    *(("local", "world", "local_world_aligned"), ("com", "translation"), ("neutral", "standing"), ("triu", "tril")),
-)
-"""Names that are taken for each other."""
 
 FACTORS = ("2", "9.81")
 SLICES = (":", ":3", "3:6", "3:", ":6", "6:", "-6:")
@@ -60,8 +53,9 @@ def alternatives(
     for changes in (_statements, _operations, _containers, _calls):
         if not isinstance(parent, ast.Slice):  # the step of a slice has no sign
             yield from changes(node)
-    kind = "index" if isinstance(parent, ast.Subscript | ast.Slice) else "number"
-    yield from ((kind, other) for other in _numbers(node))
+    if not (isinstance(parent, ast.UnaryOp) and is_whole(node)):
+        kind = "index" if isinstance(parent, ast.Subscript) else "number"
+        yield from ((kind, other) for other in numbers(node))
     if isinstance(node, ast.For | ast.While):
         yield from _loops(node, parent)
     if isinstance(getattr(parent, "ctx", None), ast.Store):
@@ -69,8 +63,9 @@ def alternatives(
     if isinstance(node, ast.Name):
         yield from (("name", parsed(name)) for name in names if not _beside(name, parent))
     if _is_term(node, parent):
-        yield "sign", ast.UnaryOp(ast.USub(), node)
-        yield "transposed", _transposed(node)
+        if not is_copy(node):
+            yield "sign", ast.UnaryOp(ast.USub(), node)
+            yield "transposed", _transposed(node)
         yield "instead", parsed("np.linalg.inv(_)", node)
         if isinstance(node, ast.Call) and getattr(node.func, "attr", "") in CONSTANT:
             return
@@ -275,28 +270,14 @@ def _calls(node: Any) -> Iterator[Change]:
         if node.attr in ("mT", "T"):
             yield "transposed", node.value
             yield "instead", parsed("np.linalg.inv(_)", node.value)
-        for other in _twins(node.attr):
+            if isinstance(node.value, ast.Call) and getattr(node.value.func, "attr", "") == "reshape":
+                yield "instead", ast.Call(node.value.func, node.value.args[::-1], [])
+        for other in twins(node.attr):
             yield "instead", ast.Attribute(node.value, other, node.ctx)
     if isinstance(node, ast.Name):
-        yield from (("instead", ast.Name(other, node.ctx)) for other in _twins(node.id))
+        yield from (("instead", ast.Name(other, node.ctx)) for other in twins(node.id))
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield from (("instead", ast.Constant(other)) for other in _twins(node.value))
+        yield from (("instead", ast.Constant(other)) for other in twins(node.value))
 
 
 LAST = ast.parse("-1", mode="eval").body
-
-
-def _twins(name: str) -> Iterator[str]:
-    yield from (other for twins in TWINS if name in twins for other in twins if other != name)
-
-
-def _numbers(node: Any) -> Iterator[ast.expr]:
-    """Yield other numbers."""
-    if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
-        x = node.value
-        others = (
-            [x + 1, x - 1, 0, x + 2, x - 2, -1, -x, 2 * x, x / 2, 3, 6]
-            if isinstance(x, int)
-            else [10, 9.8, 9.81, 1.0, -x, 2 * x, x / 2, 10 * x, x / 10]
-        )
-        yield from (ast.Constant(other) for other in dict.fromkeys(others) if other != x)

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import time
-import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from .compare import Value, agree, close, pieces, values
+from .compare import agree, pieces, values
 from .exercise import Exercise, Part
+from .matching import MISHAPS, borne_out, by_own_line, matching_slips, slips_by_piece, two_slips
 from .phrases import say
-from .relations import describe
-from .repairs import Repair, repairs, written
+from .relations import describe, of_numbers, of_truths
+from .repairs import Repair, repairs
 from .search import Found, exchanged_results, found_edits, right_where
 from .slips import SLIPS, Slip
 from .steps import first_wrong
 from .text import Text
-from .wrong import swap
 
-__all__ = ["after_error", "explain", "matching_slips"]
+__all__ = ["after_error", "explain"]
 
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
@@ -31,94 +30,11 @@ NOTICEABLE = 1e-6
 SHARES = {"mended": 1.2, "edited": 2.2, "twice": 3.0}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
 
+TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
+"""Kinds of changes of a line that say more of a slip with a name: where it is."""
+
 FEW = 3
 """Lines, or wrong entries, that are taken in at a glance."""
-
-MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
-
-TRACES = {"transpose": (".T", ".mT", "transpose", "swapaxes"), "inverse": ("inv", "solve", "inverse")}
-"""By what a slip that has the word in its name is recognised in a program."""
-
-TWISTS: dict[str, Callable[[Any], Any]] = {
-    "swapped-halves": swap,
-    "transposed-answer": lambda x: np.asarray(x).mT,
-    "degrees": lambda x: np.asarray(x) * 180 / np.pi,
-    "thousand": lambda x: np.asarray(x) * 1000,
-}
-"""Slips that can be made on top of any other: by these, two slips at once are recognised."""
-
-
-def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
-    """Return the slips that give these very answers on all cases."""
-    return [slip for slip, wrong in part.slips.items() if _matches(part, wrong, answers, cases)]
-
-
-def _borne_out(found: list[str], function: Callable[..., Any]) -> list[str]:
-    """Return of several slips those for which the student's source speaks most: it transposes, it inverts."""
-    source = written(function)
-    if len(found) < 2 or source is None:
-        return found
-
-    def speaks(slip: str) -> int:
-        words = [word for key, traces in TRACES.items() if key in slip for word in traces]
-        return 1 if not words else 2 * any(word in source[0] for word in words)
-
-    return [slip for slip in found if speaks(slip) == max(map(speaks, found))]
-
-
-def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
-    for answer, arguments in zip(answers, cases):
-        slipped = _slipped(part, wrong, [arguments])
-        if slipped is None or not agree(part, answer, slipped[0], arguments):
-            return False
-    return True
-
-
-def _slipped(part: Part, wrong: Callable[..., Any], cases: Cases) -> list[Any] | None:
-    """Return the answers of a wrong implementation on all cases; None where it raises an error."""
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            return [part.value(wrong, arguments) for arguments in cases]
-    except MISHAPS:
-        return None
-
-
-def slips_by_piece(part: Part, answers: Answers, cases: Cases) -> dict[str, list[str]] | None:
-    """Return the slips in each of several things returned, where every wrong one is explained by some slip."""
-    if len(part.returns) == 1 or part.canonical is not None:
-        return None
-    split = [values(answer, part.returns) for answer in answers]
-    right = [values(part.value(part.solution, arguments), part.returns) for arguments in cases]
-    tried = {slip: _slipped(part, wrong, cases) for slip, wrong in part.slips.items()}
-    made = {slip: [values(answer, part.returns) for answer in found] for slip, found in tried.items() if found}
-
-    def same(first: list[list[Value] | None], second: list[list[Value] | None], k: int) -> bool:
-        return all(a and b and close(a[k], b[k], part.rtol) for a, b in zip(first, second))
-
-    every = range(len(part.returns))
-    wrong = {k for k in every if not same(split, right, k)}
-    touched = {slip: {k for k in every if not same(other, right, k)} for slip, other in made.items()}
-    found = {}
-    for k in sorted(wrong):
-        fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
-        # a slip that would spoil a right part is less likely than one that would not
-        found[part.returns[k].name] = [slip for slip in fitting if touched[slip] <= wrong] or fitting
-    return found if all(found.values()) else None
-
-
-def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:
-    """Return two slips that together give these answers on all cases."""
-    for second, twist in TWISTS.items():
-        for first, wrong in part.slips.items():
-
-            def both(*arguments: Any, wrong: Any = wrong, twist: Any = twist) -> Any:
-                answer = wrong(*arguments)
-                return tuple(map(twist, answer)) if isinstance(answer, tuple) else twist(answer)
-
-            if first != second and _matches(part, both, answers, cases):
-                return first, second
-    return None
 
 
 def explain(
@@ -141,10 +57,11 @@ def explain(
     right = [part.value(part.solution, arguments) for arguments in cases]
     start = time.process_time()
     until = {how: start + seconds for how, seconds in SHARES.items()}
-    found = _borne_out(matching_slips(part, answers, cases), function)
+    found = borne_out(matching_slips(part, answers, cases), function)
     if found:
         mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
-        return found, _named(exercise, part, found, cases, [x for x in mended if x.edit.line])
+        found = by_own_line(part, found, mended)
+        return found, _named(exercise, part, found, cases, [x for x in mended if x.edit.kind in TELLING])
     exchanged = exchanged_results(part, answers, cases)
     if exchanged is not None:
         return [], [say("slip", title=exchanged), say("exchanged"), _where(exercise, exercise.section)]
@@ -152,7 +69,7 @@ def explain(
     if pieces_found:
         names = list(dict.fromkeys(name for found in pieces_found.values() for name in found))
         return names, _named_by_piece(exercise, part, pieces_found)
-    structure = _structure(part, answers)
+    structure = _structure(part, answers) or of_numbers(part, answers, right)
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
     mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
@@ -172,6 +89,7 @@ def explain(
     if edited:
         return [], _edited(exercise, part, edited, answers, cases)
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
+    lines += filter(None, [of_truths([*zip(answers, right)])])
     where = right_where(part, again, cases) if again else None
     if where is not None:
         lines.append(where)
@@ -209,7 +127,9 @@ def after_error(part: Part, function: Callable[..., Any], cases: Cases) -> list[
     """Report which change makes a function right that raises an error; nothing where none is found."""
     right = [part.value(part.solution, arguments) for arguments in cases]
     given, start = (part, function, right, [None] * len(cases), cases), time.process_time()
-    found = repairs(*given, until=start + SHARES["mended"]) or repairs(*given, until=start + SHARES["twice"], pairs=True)
+    found = repairs(*given, until=start + SHARES["mended"]) or repairs(
+        *given, until=start + SHARES["twice"], pairs=True
+    )
     return _changes(part, found, cases, "mended") if found else []
 
 
@@ -270,11 +190,16 @@ def _indented(line: Text) -> Text:
 
 
 def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
-    """Explain what is wrong with the first wrong answer, piece by piece."""
+    """Explain what is wrong, piece by piece, in the first case; a factor only where it is the same in all."""
     tried = ((answer, part.value(part.solution, arguments), arguments) for answer, arguments in zip(answers, cases))
-    wrong, expected, _ = next(case for case in tried if not agree(part, *case))
-    got, right = values(wrong, part.returns), values(expected, part.returns)
-    return [line for a, b in zip(got or [], right or []) for line in describe(a, b, part.rtol)]
+    wrong = [case for case in tried if not agree(part, *case)]
+    pairs = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b, _ in wrong]
+    lines = []
+    for got, right, *others in zip(*(x for pair in pairs for x in pair)):
+        shown = describe(got, right, part.rtol)
+        same = all(describe(a, b, part.rtol) in ([], shown) for a, b in zip(others[::2], others[1::2]))
+        lines += shown if same else describe(got, right, part.rtol, factors=())
+    return lines
 
 
 def _few_entries(part: Part, answers: Answers, cases: Cases) -> bool:

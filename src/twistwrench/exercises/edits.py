@@ -22,6 +22,7 @@ import numpy as np
 from .alternatives import FACTORS, KINDS, alternatives, crossed, parsed
 from .calls import CHANGED, count
 from .excerpts import enclosing, target, term, text_of
+from .twins import habits
 from .whole import Edit, of_arguments
 
 __all__ = ["Source", "edits"]
@@ -133,6 +134,7 @@ class Source:
         self.scalars = [parsed(name) for name, x in values.items() if isinstance(x, float)] + [*map(parsed, FACTORS)]
         self.matrices = [parsed(name) for name in square + placed]
         self.places = [*_places(self.tree.body[0])]
+        self.around = [*dict.fromkeys(text for _, _, node in self.places for text in habits(node, self.kinds))]
 
     def edits(self, kind: str) -> Iterator[Edit]:
         """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
@@ -144,12 +146,25 @@ class Source:
                     texts = self._texts(kind, place)
                     alike.setdefault(_alike(texts, node, other), []).append(place)
                     yield from self._made(kind, texts, [place])
+        yield from self._halves() if kind == "halves" else ()
         for (right, wrong), places in alike.items():
             if len(places) > 1:
                 yield from self._made(kind, (right, wrong), places, everywhere=True)
             if 2 < len(places) <= MOST_PLACES:
                 for two in combinations(places, 2):
                     yield from self._made(kind, (right, wrong), [*two], everywhere=True)
+
+    def _halves(self) -> Iterator[Edit]:
+        """Yield the exchange of the two halves of an array, wherever they stand: ω for v, and v for ω."""
+        halves: dict[str, list[Place]] = {}
+        for parents, field, node in self.places:
+            text = ast.unparse(node) if isinstance(node, ast.Slice) else ""
+            if text in (":3", "3:", "3:6") and isinstance(parents[-1], ast.Subscript):
+                other: Any = parsed("x[3:6]" if text == ":3" else "x[:3]")
+                halves.setdefault(text_of(parents[-1].value), []).append((parents, field, node, other.slice))
+        for name, places in halves.items():
+            if len({ast.unparse(node) == ":3" for _, _, node, _ in places}) == 2:
+                yield from self._made("halves", (f"{name}[:3]", f"{name}[3:]"), places)
 
     def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
         """Yield two edits at once, of the kinds that are likeliest."""
@@ -233,6 +248,9 @@ class Source:
         """Yield what else a name may stand for: an index for a number, the parent for the body before, x·x for y·y."""
         if isinstance(node, ast.Constant) and type(node.value) is int and isinstance(parents[-1], ast.Subscript):
             yield from (name for name, kind in self.kinds.items() if kind is int)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load) and isinstance(self.kinds.get(node.id), tuple):
+            bare = not isinstance(parents[-1], ast.Subscript | ast.Attribute)
+            yield from (text.format(node.id) for text in self.around if bare and node.id not in text)
         if not isinstance(node, ast.BinOp):
             return
         left, right = node.left, node.right

@@ -19,6 +19,7 @@ PHRASES = {
     "edit in loop": Text("`{right}` stands in the loop, not before it", "`{right}` 放在了循环内，而不在循环之前"),
     "edit transposed": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit exchanged": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
+    "edit halves": Text("`{wrong}` and `{right}` are exchanged", "`{wrong}` 与 `{right}` 互换了"),
     "edit name": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit instead": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit inserted": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
@@ -39,6 +40,7 @@ PHRASES = {
     "repair last": Text("`{wrong}` must not be a sum", "`{wrong}` 不应求和"),
     "repair transposed": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair exchanged": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair halves": Text("`{wrong}` and `{right}` are exchanged", "`{wrong}` 与 `{right}` 互换了"),
     "repair name": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair instead": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair inserted": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
@@ -51,6 +53,9 @@ PHRASES = {
         "where `{wrong}` is returned, `{right}` would be right", "返回的是 `{wrong}`，而正确的是 `{right}`"
     ),
     "own code": Text("In your code: {title}.", "在你的代码中：{title}。"),
+    "halves of result": Text("{title}: its two halves are exchanged", "{title}：前后两半互换了"),
+    "inverse of result": Text("{title}: it is the inverse of the right answer", "{title}：它是正确结果的逆"),
+    "first six of result": Text("{title}: its first six do not belong there", "{title}：不应有前六个"),
     "in own line": Text("line {line}, {title}", "第 {line} 行，{title}"),
     "mended": Text(
         "With this change, and no other, it is right in all {all} cases.", "只作这一改动，全部 {all} 组数据就都正确。"
@@ -146,6 +151,17 @@ PHRASES = {
     "number": Text("number", "计算"),
     "explain": Text("explain", "解释"),
     "prove": Text("prove", "证明"),
+    # what shows in all cases together
+    "fixed size": Text(
+        "{name} always has the shape {shape}, whatever the arguments are: the sizes of one robot are written into the"
+        " function.",
+        "无论参数是什么，{name} 的形状总是 {shape}：函数里写死了某个机器人的尺寸。",
+    ),
+    "cut off": Text(
+        "{name} has lost the digits after the point: it is written into an array of whole numbers."
+        " Make that array of floats, as `np.zeros(n)` is.",
+        "{name} 的小数部分丢失了：它被写进了整数数组。请用浮点数组，例如 `np.zeros(n)`。",
+    ),
     # how an entry or a block compares
     "whole": Text("{name}", "{name}"),
     "block": Text("{name}, {block}", "{name}，{block}"),
@@ -175,7 +191,19 @@ PHRASES = {
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),
     "other": Text("other numbers altogether", "数值完全不同"),
-    "false": Text("is {got}", "是 {got}"),
+    "false": Text("is {got}, and must be {right}", "是 {got}，应为 {right}"),
+    "too strict": Text(
+        "It is too strict: False in {strict} cases that are True, and never True where it must not be.",
+        "判断过严：有 {strict} 组应为 True 却给出 False，而没有一组相反。",
+    ),
+    "too loose": Text(
+        "It is too loose: True in {loose} cases that are False, and never False where it must not be.",
+        "判断过宽：有 {loose} 组应为 False 却给出 True，而没有一组相反。",
+    ),
+    "both ways": Text(
+        "It is wrong in both directions: False in {strict} cases that are True, True in {loose} that are False.",
+        "两个方向都有错：有 {strict} 组应为 True 却给出 False，有 {loose} 组应为 False 却给出 True。",
+    ),
     "text differs": Text("another text", "文字不同"),
 }
 

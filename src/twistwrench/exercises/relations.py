@@ -2,22 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from ..arrays import Array
-from .compare import FLOOR, Value
+from .compare import FLOOR, Value, values
+from .exercise import Part
 from .layouts import Layout
 from .phrases import say
 from .text import Text
 
-__all__ = ["describe"]
+__all__ = ["describe", "of_numbers", "of_truths"]
 
 TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
 """Factors that are reported: they show the slip. Others are chance, and would give a number away."""
 
 
-def describe(got: Value, right: Value, rtol: float) -> list[Text]:
-    """Explain what is wrong with one value; empty where it is right."""
+def of_numbers(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text | None:
+    """Report what shows in all cases together: sizes of one robot, or whole numbers in place of numbers."""
+    pairs = [(values(a, part.returns), values(b, part.returns)) for a, b in zip(answers, right)]
+    for k in range(len(part.returns)):
+        arrays = [(a[k].array, b[k].array) for a, b in pairs if a and b]
+        both = [(a, b) for a, b in arrays if a is not None and b is not None]
+        if len(both) < 2 or len(both) < len(pairs):
+            continue
+        name, got, wanted = part.returns[k].title, {a.shape for a, _ in both}, {b.shape for _, b in both}
+        if len(got) == 1 < len(wanted) and {len(x) for x in got} == {len(x) for x in wanted}:
+            return say("fixed size", name=name, shape=got.pop())
+        whole = all(b.dtype.kind == "f" and b.ndim and np.array_equal(a, np.trunc(b)) for a, b in both)
+        if whole and any(a.any() for a, _ in both):
+            return say("cut off", name=name)
+    return None
+
+
+def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] = TELLING) -> list[Text]:
+    """Explain what is wrong with one value; empty where it is right. Factors are looked for among those given."""
     name = got.quantity.label
     problem = _not_comparable(got, right)
     if problem is not None:
@@ -28,17 +49,26 @@ def describe(got: Value, right: Value, rtol: float) -> list[Text]:
     if right.array.dtype.kind == "b":
         return _truths(name, got.array, right.array)
     tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
-    relation = _plain(got.array, right.array, tolerance) or _triangle(got.array, right.array, tolerance)
+    relation = _plain(got.array, right.array, tolerance, factors) or _triangle(got.array, right.array, tolerance)
     if relation == say("right"):
         return []
     if relation is not None:
         return [_is(name, relation)]
-    return _blocks(name, got.quantity.layout, got.array, right.array, tolerance)
+    return _blocks(name, got.quantity.layout, got.array, right.array, tolerance, factors)
 
 
 def _truths(name: Text, got: Array, right: Array) -> list[Text]:
-    wrong = [str(bool(x)) for x, y in zip(got.flat, right.flat) if x != y]
-    return [_is(name, say("false", got=wrong[0]))] if wrong else []
+    wrong = [(bool(x), bool(y)) for x, y in zip(got.flat, right.flat) if x != y]
+    return [_is(name, say("false", got=wrong[0][0], right=wrong[0][1]))] if wrong else []
+
+
+def of_truths(pairs: Sequence[tuple[Any, Any]]) -> Text | None:
+    """Report in which direction answers are wrong that are True or False; None where they are something else."""
+    if not all(isinstance(x, bool | np.bool_) for pair in pairs for x in pair):
+        return None
+    strict, loose = (sum(bool(a) is not truth and bool(b) is truth for a, b in pairs) for truth in (True, False))
+    phrase = "too strict" if not loose else "too loose" if not strict else "both ways"
+    return say(phrase, strict=strict, loose=loose)
 
 
 def _is(what: Text, relation: Text) -> Text:
@@ -65,27 +95,30 @@ def _type(got: Value, expected: str) -> Text:
     return say("not numbers", name=got.quantity.title, what=say(expected), got=type(got.raw).__name__)
 
 
-def _blocks(name: Text, layout: Layout, a: Array, b: Array, tolerance: float) -> list[Text]:
+def _blocks(name: Text, layout: Layout, a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> list[Text]:
     """Explain what is wrong with each block, where the whole shows no pattern."""
     lines, some_right = [], False
     for block, index in layout.blocks(b.shape):
         origin = [0] * (b.ndim - len(index) + 1) + [part.start for part in index[1:]]
-        relation = _relation(a[index], b[index], tolerance, origin)
+        relation = _relation(a[index], b[index], tolerance, origin, factors)
         if relation == say("right"):
             some_right = True
         else:
             lines.append(_is(say("block", name=name, block=block), relation))
     if not lines:
-        return [_is(name, _relation(a, b, tolerance, [0] * b.ndim))]
+        return [_is(name, _relation(a, b, tolerance, [0] * b.ndim, factors))]
     return lines + [say("others right", name=name)] * some_right
 
 
-def _relation(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
+def _relation(a: Array, b: Array, tolerance: float, origin: list[int], factors: Sequence[float]) -> Text:
     """Return how one array is related to the other, or where or by how much they differ.
 
     `origin` is where the block begins, so that entries are numbered as in the whole.
     """
-    for find in (_plain, _triangle, _diagonal, _shuffled):
+    plain = _plain(a, b, tolerance, factors)
+    if plain is not None:
+        return plain
+    for find in (_triangle, _diagonal, _shuffled):
         relation = find(a, b, tolerance)
         if relation is not None:
             return relation
@@ -100,7 +133,7 @@ def _square(b: Array) -> bool:
     return b.ndim >= 2 and b.shape[-1] == b.shape[-2] > 1
 
 
-def _plain(a: Array, b: Array, tolerance: float) -> Text | None:
+def _plain(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
     """Return whether an array is right, zero, of the wrong sign, transposed or off by a factor."""
     disguises = {"right": b, "zero": np.zeros_like(b), "sign": -b}
     if _square(b):
@@ -110,12 +143,12 @@ def _plain(a: Array, b: Array, tolerance: float) -> Text | None:
     for phrase, disguise in disguises.items():
         if _same(a, disguise, tolerance):
             return say(phrase)
-    return _factor(a, b, tolerance)
+    return _factor(a, b, tolerance, factors)
 
 
-def _factor(a: Array, b: Array, tolerance: float) -> Text | None:
+def _factor(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
     """Return the factor, of those reported, by which an array is too large or too small."""
-    for factor in TELLING:
+    for factor in factors:
         if (np.abs(a - factor * b) <= factor * tolerance).all():
             return say("factor", factor=factor)
         if (np.abs(factor * a - b) <= tolerance).all():

@@ -30,6 +30,13 @@ __all__ = ["Repair", "guarded", "repairs", "written"]
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
 
+OF_RESULT = {
+    "np.roll(x, len(x) // 2, 0)": "halves of result",
+    "np.linalg.inv(x)": "inverse of result",
+    "x[6:]": "first six of result",
+}
+"""What a change of the result says of the answer."""
+
 Function = Callable[..., Any]
 Cases = Sequence[tuple[Any, ...]]
 
@@ -55,6 +62,8 @@ class Repair:
         """Report what must stand where."""
         edit = self.edit
         title = say(f"repair {edit.kind}", right=edit.wrong, wrong=edit.right)
+        if edit.kind == "result" and edit.wrong in OF_RESULT:
+            return say(OF_RESULT[edit.wrong], title=title)
         if edit.line:
             title = said_where(edit, title)
             title = say("in own line", line=edit.line + self.before, title=title)

@@ -65,7 +65,9 @@ def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> 
     found: dict[int, Edit] = {}
     for edit in candidates(part, cases[first], until=until):
         answer = tried(part, edit.function, cases[first])
-        alone = [] if edit.kind in ("number", "index") and not cases[first] else bad  # one of few numbers is met by chance
+        alone = (
+            [] if edit.kind in ("number", "index") and not cases[first] else bad
+        )  # one of few numbers is met by chance
         here = [k for k in alone if k not in found and _same(part, [answers[first]], [answer], k)]
         if not here and not agree(part, answers[first], answer, cases[first]):
             continue

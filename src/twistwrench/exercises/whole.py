@@ -19,6 +19,7 @@ ARGUMENTS: dict[str, Function] = {
     "-{}": lambda x: -x,
     "0 * {}": lambda x: [0 * y for y in x] if isinstance(x, list) else 0 * x,
     "{}.T": lambda x: x.mT,
+    "np.eye(len({}))": lambda x: np.eye(len(x)) if x.shape == (len(x), len(x)) else None,
     "np.linalg.inv({})": np.linalg.inv,
     "{}[::-1]": lambda x: x[::-1],
     "np.abs({})": np.abs,
@@ -31,7 +32,11 @@ ARGUMENTS: dict[str, Function] = {
 }
 """What can be done to an argument on the way in."""
 
-RESULTS = {key: change for key, change in ARGUMENTS.items() if key not in ("0 * {}", "{}.T.reshape({}.shape)")} | {
+RESULTS = {
+    key: change
+    for key, change in ARGUMENTS.items()
+    if key not in ("0 * {}", "np.eye(len({}))", "{}.T.reshape({}.shape)")
+} | {
     "{}[:3]": lambda x: x[:3],
     "{}[3:]": lambda x: x[3:],
     "{}[6:]": lambda x: x[6:],

@@ -55,6 +55,8 @@ COUNT = Part(
         "world-as-body": faulty(count_transforms, ("3 * bodies", "3 * len(parent)")),
         "world-counted": faulty(count_transforms, ("sum(depth) - bodies", "sum(depth)")),
         "quadratic-always": faulty(count_transforms, ("sum(depth) - bodies", "bodies * (bodies - 1) // 2")),
+        "one-for-each": faulty(count_transforms, ("sum(depth) - bodies", "sum(d > 1 for d in depth)")),
+        "one-for-each-body": faulty(count_transforms, ("sum(depth) - bodies", "bodies")),
         "longest-branch": faulty(count_transforms, ("sum(depth) - bodies", "max(depth) * (max(depth) - 1) // 2")),
     },
 )

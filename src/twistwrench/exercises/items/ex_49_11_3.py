@@ -99,7 +99,10 @@ FORCES = Part(
         "force-sign": faulty(standing_forces, ("return forces", "return -forces")),
         "base-rows-kept": faulty(standing_forces, (")[6:]", ")")),
     },
-    residuals=(lambda answer, g, J_c: g - np.concatenate([np.zeros(6), answer[1]]) - J_c.mT @ answer[0].ravel(),),
+    residuals=(
+        lambda answer, g, J_c: g - np.concatenate([np.zeros(6), answer[1]]) - J_c.mT @ np.ravel(answer[0]),
+        lambda answer, g, J_c: np.ravel(answer[0]) - J_c[:, :6] @ np.linalg.pinv(J_c[:, :6]) @ np.ravel(answer[0]),
+    ),
 )
 
 LOADS = Part(

@@ -73,6 +73,7 @@ SUM = Part(
         "swapped-halves": swapped(sole_wrench),
         "averaged": faulty(sole_wrench, (".sum(0), forces.sum(0)", ".mean(0), forces.mean(0)")),
         "single-force": lambda points, forces: sole_wrench(points.mean(0)[None], forces.sum(0)[None]),
+        "product-of-sums": lambda points, forces: sole_wrench(points.sum(0)[None], forces.sum(0)[None]),
         "force-sign": negated(sole_wrench),
     },
 )

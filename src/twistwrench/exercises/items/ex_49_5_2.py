@@ -51,6 +51,11 @@ def _whole(model: Any) -> Any:
     return locked.mass, locked.matrix()
 
 
+def _with_mass(model: Any, m: float) -> Any:
+    base = model.inertia[1]
+    return m, spatial_inertia(m, base.com, base.inertia_at_com)
+
+
 def _linear_first(rng: Any) -> Any:
     """Return inertias of random bodies in the order (v, ω)."""
     return [(swapped(spatial_inertia)(*random_body(rng)),) for _ in range(4)]
@@ -65,6 +70,7 @@ REORDERED = Part(
         "rows-only": lambda I: EXCHANGE @ I,
         "columns-only": lambda I: I @ EXCHANGE,
         "reversed": lambda I: I[::-1, ::-1],
+        "diagonal-blocks-only": lambda I: np.block([[I[3:, 3:], I[:3, 3:]], [I[3:, :3], I[:3, :3]]]),
     },
     residuals=(lambda answer, I: answer[3:, 3:] - I[0, 0] * np.eye(3),),
 )
@@ -80,6 +86,8 @@ OF_BASE = Part(
             (LINK_BASE[0], spatial_inertia(*LINK_BASE)) if model.name == "go2" else base_inertia(model)
         ),
         "whole-for-base": _whole,
+        "mass-of-whole": lambda model: _with_mass(model, model.mass),
+        "mass-of-link": lambda model: _with_mass(model, LINK_BASE[0]),
         "swapped-halves": faulty(
             base_inertia,
             (

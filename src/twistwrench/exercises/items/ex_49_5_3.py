@@ -55,6 +55,8 @@ MOVED = Part(
         "rotation-transposed": lambda I, R, p: moved_inertia(I, R.mT, p),
         "steiner-from-any-point": _steiner,
         "untransformed": lambda I, R, p: I,
+        "axes-not-turned": lambda I, R, p: moved_inertia(I, np.eye(3), p),
+        "origin-not-moved": lambda I, R, p: moved_inertia(I, R, 0 * p),
     },
     residuals=(
         lambda answer, I, R, p: answer - answer.mT,

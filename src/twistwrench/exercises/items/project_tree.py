@@ -134,7 +134,9 @@ WRENCHES = Part(
     cases=_with_wrenches,
     slips={
         "inverse-transform": faulty(carried_wrenches, ("transforms(T[i])", "transforms(np.linalg.inv(T[i]))")),
-        "transpose-for-dual": faulty(carried_wrenches, ("_, X_star = transforms(T[i])", "X_star = transforms(T[i])[0].mT")),
+        "transpose-for-dual": faulty(
+            carried_wrenches, ("_, X_star = transforms(T[i])", "X_star = transforms(T[i])[0].mT")
+        ),
         "motion-for-force": faulty(carried_wrenches, ("_, X_star =", "X_star, _ =")),
         "coupling-dropped": faulty(carried_wrenches, ("X_star @ carried", "_uncoupled(X_star) @ carried")),
         "untransformed": faulty(carried_wrenches, ("X_star @ carried", "carried")),

@@ -1,0 +1,119 @@
+"""The slips of the list that give the student's numbers, and which of them his own source bears out."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from .compare import Value, agree, close, values
+from .exercise import Part
+from .repairs import Repair, written
+from .wrong import swap
+
+__all__ = ["MISHAPS", "borne_out", "by_own_line", "matching_slips", "slips_by_piece", "two_slips"]
+
+Answers = Sequence[Any]
+Cases = Sequence[tuple[Any, ...]]
+
+SIGNS = ("cross-order", "lever-reversed")
+"""Slips that give the same numbers: the sign of a cross product."""
+
+MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
+
+TRACES = {"transpose": (".T", ".mT", "transpose", "swapaxes"), "inverse": ("inv", "solve", "inverse")}
+"""By what a slip that has the word in its name is recognised in a program."""
+
+TWISTS: dict[str, Callable[[Any], Any]] = {
+    "swapped-halves": swap,
+    "transposed-answer": lambda x: np.asarray(x).mT,
+    "degrees": lambda x: np.asarray(x) * 180 / np.pi,
+    "thousand": lambda x: np.asarray(x) * 1000,
+}
+"""Slips that can be made on top of any other: by these, two slips at once are recognised."""
+
+
+def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
+    """Return the slips that give these very answers on all cases."""
+    return [slip for slip, wrong in part.slips.items() if _matches(part, wrong, answers, cases)]
+
+
+def borne_out(found: list[str], function: Callable[..., Any]) -> list[str]:
+    """Return of several slips those for which the student's source speaks most: it transposes, it inverts."""
+    source = written(function)
+    if len(found) < 2 or source is None:
+        return found
+
+    def speaks(slip: str) -> int:
+        words = [word for key, traces in TRACES.items() if key in slip for word in traces]
+        return 1 if not words else 2 * any(word in source[0] for word in words)
+
+    return [slip for slip in found if speaks(slip) == max(map(speaks, found))]
+
+
+def by_own_line(part: Part, found: list[str], mended: list[Repair]) -> list[str]:
+    """Return of a cross product and its lever arm, which give one sign, that which the student's line has reversed."""
+    edit = mended[0].edit if mended else None
+    if edit is None or not {*found} & {*SIGNS} or edit.kind != "exchanged":
+        return found
+    if "cross(" in edit.right:
+        return [slip for slip in found if slip != "lever-reversed"] or found
+    if " - " in edit.right:
+        return [*dict.fromkeys("lever-reversed" if slip in SIGNS else slip for slip in found)]
+    return found
+
+
+def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
+    for answer, arguments in zip(answers, cases):
+        slipped = _slipped(part, wrong, [arguments])
+        if slipped is None or not agree(part, answer, slipped[0], arguments):
+            return False
+    return True
+
+
+def _slipped(part: Part, wrong: Callable[..., Any], cases: Cases) -> list[Any] | None:
+    """Return the answers of a wrong implementation on all cases; None where it raises an error."""
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return [part.value(wrong, arguments) for arguments in cases]
+    except MISHAPS:
+        return None
+
+
+def slips_by_piece(part: Part, answers: Answers, cases: Cases) -> dict[str, list[str]] | None:
+    """Return the slips in each of several things returned, where every wrong one is explained by some slip."""
+    if len(part.returns) == 1 or part.canonical is not None:
+        return None
+    split = [values(answer, part.returns) for answer in answers]
+    right = [values(part.value(part.solution, arguments), part.returns) for arguments in cases]
+    tried = {slip: _slipped(part, wrong, cases) for slip, wrong in part.slips.items()}
+    made = {slip: [values(answer, part.returns) for answer in found] for slip, found in tried.items() if found}
+
+    def same(first: list[list[Value] | None], second: list[list[Value] | None], k: int) -> bool:
+        return all(a and b and close(a[k], b[k], part.rtol) for a, b in zip(first, second))
+
+    every = range(len(part.returns))
+    wrong = {k for k in every if not same(split, right, k)}
+    touched = {slip: {k for k in every if not same(other, right, k)} for slip, other in made.items()}
+    found = {}
+    for k in sorted(wrong):
+        fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
+        found[part.returns[k].name] = [slip for slip in fitting if touched[slip] <= wrong]  # it spoils nothing else
+    return found if all(found.values()) else None
+
+
+def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:
+    """Return two slips that together give these answers on all cases."""
+    for second, twist in TWISTS.items():
+        for first, wrong in part.slips.items():
+
+            def both(*arguments: Any, wrong: Any = wrong, twist: Any = twist) -> Any:
+                answer = wrong(*arguments)
+                return tuple(map(twist, answer)) if isinstance(answer, tuple) else twist(answer)
+
+            if first != second and _matches(part, both, answers, cases):
+                return first, second
+    return None
