@@ -60,7 +60,7 @@ def explain(
     found = borne_out(matching_slips(part, answers, cases), function)
     if found:
         mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
-        found = by_own_line(part, found, mended)
+        found = by_own_line(found, mended)
         return found, _named(exercise, part, found, cases, [x for x in mended if x.edit.kind in TELLING])
     exchanged = exchanged_results(part, answers, cases)
     if exchanged is not None:

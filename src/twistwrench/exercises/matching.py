@@ -53,7 +53,7 @@ def borne_out(found: list[str], function: Callable[..., Any]) -> list[str]:
     return [slip for slip in found if speaks(slip) == max(map(speaks, found))]
 
 
-def by_own_line(part: Part, found: list[str], mended: list[Repair]) -> list[str]:
+def by_own_line(found: list[str], mended: list[Repair]) -> list[str]:
     """Return of a cross product and its lever arm, which give one sign, that which the student's line has reversed."""
     edit = mended[0].edit if mended else None
     if edit is None or not {*found} & {*SIGNS} or edit.kind != "exchanged":
