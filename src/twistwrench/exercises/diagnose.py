@@ -153,9 +153,9 @@ def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases, mende
     own = [say("own code", title=change.title()) for change in mended if change.piece is None]
     slips = [_slip(exercise, part, name) for name in found]
     if len(slips) == 1:
-        wrong = part.slips[found[0]]
+        wrong = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers
         within = getattr(wrong, "within", None)
-        step = first_wrong(part, wrong, within, cases[0]) if within in part.beside else None
+        step = first_wrong(part, wrong, within, cases[0]) if wrong and within in part.beside else None
         return [
             say("slip", title=slips[0].title),
             slips[0].why,
