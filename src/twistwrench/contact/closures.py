@@ -163,13 +163,13 @@ class DistanceConstraint(_Internal):
         """One row: it stands for the first linear one."""
         return slice(3, 4)
 
-    def distance(self, T: SE3) -> SE3:
+    def held_place(self, T: SE3) -> SE3:
         """Return the distance as the translation (d, 0, 0)."""
         d = self._distance(T.translation)
         turn = np.broadcast_to(np.eye(3, dtype=d.dtype), T.rotation.shape)
         return SE3._trusted(turn, np.concatenate([d, 0 * d, 0 * d], axis=-1))
 
-    def along(self, point: Array, J: Array, bias: Array, v: Array) -> tuple[Array, Array]:
+    def held_rows(self, point: Array, J: Array, bias: Array, v: Array) -> tuple[Array, Array]:
         """Return the row along the line, and d̈ without q̈."""
         d, rate = self._distance(point), np.matvec(J[..., 3:, :], v)
         n = point / d

@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from ..algorithms.kinematics import motion, placements
-from ..arrays import Array, check_kind, convert
+from ..arrays import Array, check_kind
 from ..errors import unknown_name
 from ..model import Model, Tree, cast, columns, tree_terms
 from ..spatial import SE3, exp3, log3
-from .closures import Coupling, DistanceConstraint
+from .closures import Coupling
 from .types import Contact
 
 __all__ = ["ContactRows", "contact_errors", "contact_rows", "given_motion", "moved", "moved_anchors", "place"]
@@ -52,12 +52,7 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
                 own = [x if i in loop.joints else np.zeros_like(x) for i, x in enumerate(qd)]
                 V, A = motion(tree, own, qdd)
             point = loop.place(model, tree.placement).translation
-            J_c, bias_c = loop.rows(model, tree, bodies, point, v, V, A)
-            if isinstance(c, DistanceConstraint):
-                J_c, bias_c = c.along(point, J_c, bias_c, v)
-            else:
-                N = convert(c.directions, q.dtype)
-                J_c, bias_c = N @ J_c, np.matvec(N, bias_c)
+            J_c, bias_c = c.held_rows(point, *loop.rows(model, tree, bodies, point, v, V, A), v)
         J.append(J_c)
         bias.append(bias_c)
     return ContactRows(at, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
@@ -148,8 +143,7 @@ def place(model: Model, placement: Sequence[SE3], q: Array, c: Contact) -> SE3:
     Of a coupling the translation (q − Σ ratio q, 0, 0), which stays as it is; of points at a distance (d, 0, 0).
     """
     if not isinstance(c, Coupling):
-        T = Loop.of(model, c, q.dtype).place(model, placement)
-        return c.distance(T) if isinstance(c, DistanceConstraint) else T
+        return c.held_place(Loop.of(model, c, q.dtype).place(model, placement))
     off = np.zeros((*q.shape[:-1], 3), q.dtype)
     if c.counts_turns(model):
         off[..., :1] = np.matvec(c.coefficients(model, model.q_slice, model.nq, q.dtype), q)

@@ -21,6 +21,7 @@ from ..algorithms.kinematics import frame_jacobian
 from ..arrays import Array, as_exactly, convert
 from ..errors import unknown_name
 from ..model import Model, readonly
+from ..spatial import SE3
 from ..spatial.rotation import cross_matrix
 
 __all__ = ["Contact", "Motion", "Pyramid", "checked_frame", "checked_motion"]
@@ -125,6 +126,24 @@ class Contact(ABC):
     def directions(self) -> Array:
         """N, which picks what is held of the six rows (ω, v), in the axes of the world or of `to`, shape (dim, 6)."""
         return readonly(np.eye(6)[self.rows])
+
+    def held_rows(self, point: Array, J: Array, bias: Array, v: Array) -> tuple[Array, Array]:
+        """Return what the contact holds of the six rows of a frame, and of J̇ v: shapes (..., dim, nv) and (..., dim).
+
+        Parameters
+        ----------
+        point : ndarray, shape (..., 3)
+            The frame's origin in what holds it.
+        J, bias : ndarray, shapes (..., 6, nv) and (..., 6)
+            In the axes of what holds it.
+        v : ndarray, shape (..., nv)
+        """
+        N = convert(self.directions, bias.dtype)
+        return N @ J, np.matvec(N, bias)
+
+    def held_place(self, T: SE3) -> SE3:
+        """Return what the contact keeps of the frame's placement in what holds it: the placement itself."""
+        return T
 
     @property
     def placed(self) -> Array:
