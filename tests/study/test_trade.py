@@ -489,6 +489,76 @@ def check_errors(maker, keys: list[str], robot: str = "go2") -> None:
     assert np.mean(ratio < 1 / REPRODUCED) < 0.1
 
 
+RATIOS = [  # what the page says in words, of which two times it is the ratio, and what it says
+    (
+        "half of the time of\n  `pin.rnea`",
+        ("ID", "tw.fast.rnea", "float64", 1),
+        ("ID", "pin.rnea", "float64", 1),
+        1 / 2,
+    ),
+    ("a third of that of `pin.aba`", ("FD", "tw.fast.aba", "float64", 1), ("FD", "pin.aba", "float64", 1), 1 / 3),
+    ("about six tenths", ("ID", "tw.compile rnea", "float32", 1000), ("ID", "tw.compile rnea", "float64", 1000), 0.6),
+    ("**Thirty-two digits cost a compiled program ten", ("ID", "double-double", 1000), ("ID", "float64", 1000), 10),
+    ("to thirteen times as much in a batch", ("FD", "double-double", 1000), ("FD", "float64", 1000), 13),
+    ("forty to sixty times with one state", ("FD", "double-double", 1), ("FD", "float64", 1), 40),
+    ("to sixty times with one state", ("ID", "double-double", 1), ("ID", "float64", 1), 60),
+    ("150 to 200", ("ID", "tw.fast.rnea", "longdouble", 1000), ("ID", "tw.fast.rnea", "float64", 1000), 150),
+    ("to 200 times", ("FD", "tw.fast.aba", "longdouble", 1000), ("FD", "tw.fast.aba", "float64", 1000), 200),
+    ("16 times as long as with pairs", ("ID", "tw.fast.rnea", "longdouble", 1000), ("ID", "double-double", 1000), 16),
+    (
+        "49.1 take eight times as long",
+        ("ID", "newton_euler_3d", "20 digits", 1),
+        ("ID", "newton_euler_3d", "float64", 1),
+        8,
+    ),
+    ("some ten thousand times as long for one", ("ID", "newton_euler_3d", "50 digits", 1), ("ID", "float64", 1), 12e3),
+    ("eighty thousand times", ("ID", "newton_euler_3d", "50 digits", 1), ("ID", "float64", 1000), 80e3),
+    (
+        "fourteen times with one state",
+        ("FD", "tw.fast M, h + Cholesky", "float64", 1),
+        ("FD", "tw.fast.aba", "float64", 1),
+        14,
+    ),
+    (
+        "twenty-six times in a batch",
+        ("FD", "tw.fast M, h + Cholesky", "float64", 1000),
+        ("FD", "tw.fast.aba", "float64", 1000),
+        26,
+    ),
+    (
+        "Pinocchio, ABA is faster by a fifth",
+        ("FD", "pin.aba", "float64", 1),
+        ("FD", "pin.crba + Cholesky", "float64", 1),
+        4 / 5,
+    ),
+    (
+        "eight times as long as a forward difference",
+        ("dID/dq", "tw.fast.rnea, complex step", "float64", 100),
+        ("dID/dq", "tw.fast.rnea, forward difference", "float64", 100),
+        8,
+    ),
+    ("as long as two calls", ("dID/dq", "tw.compile dtau_dq", "float64", 1), ("ID", "float64", 1), 2),
+    (
+        "four times as long as `pin.rnea`",
+        ("dID/dq", "pin.computeRNEADerivatives", "float64", 1),
+        ("ID", "pin.rnea", "float64", 1),
+        4,
+    ),
+]
+
+
+def test_the_ratios_in_the_sentences_of_the_page_are_those_of_the_results(maker):
+    """To a fifth, as the page says. Without a way, it is a program's."""
+    text, seconds = page("trade", "").read_text(encoding="utf-8"), {}
+    for p in maker.points("go2"):
+        seconds[p.quantity, p.way, p.number, p.states] = p.seconds
+        if p.way.startswith("tw.compile"):
+            seconds[p.quantity, p.number, p.states] = p.seconds
+    for words, one, other, said in RATIOS:
+        assert words in text
+        assert seconds[one] / seconds[other] == pytest.approx(said, rel=0.2), words
+
+
 @pytest.mark.slow
 def test_the_errors_on_the_page_are_found_again(maker):
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its errors are not found again")
