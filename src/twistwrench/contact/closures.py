@@ -16,7 +16,7 @@ from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index, sqrt
-from .types import Contact, Motion, checked_frame, checked_motion
+from .types import Contact, FrameRows, Motion, checked_frame, checked_motion
 
 __all__ = ["Coupling", "DistanceConstraint", "LoopClosure"]
 
@@ -169,12 +169,12 @@ class DistanceConstraint(_Internal):
         turn = np.broadcast_to(np.eye(3, dtype=d.dtype), T.rotation.shape)
         return SE3._trusted(turn, np.concatenate([d, 0 * d, 0 * d], axis=-1))
 
-    def held_rows(self, point: Array, J: Array, bias: Array, v: Array) -> tuple[Array, Array]:
+    def held_rows(self, rows: FrameRows) -> tuple[Array, Array]:
         """Return the row along the line, and d̈ without q̈."""
-        d, rate = self._distance(point), np.matvec(J[..., 3:, :], v)
-        n = point / d
+        J, d = rows.J[..., 3:, :], self._distance(rows.point)
+        n, rate = rows.point / d, np.matvec(J, rows.v)
         across = rate - n * _dot(n, rate)
-        return n[..., None, :] @ J[..., 3:, :], _dot(n, bias[..., 3:]) + _dot(across, across) / d
+        return n[..., None, :] @ J, _dot(n, rows.bias[..., 3:]) + _dot(across, across) / d
 
     def _distance(self, point: Array) -> Array:
         d = sqrt(_dot(point, point))

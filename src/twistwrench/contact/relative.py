@@ -20,7 +20,7 @@ from ..errors import unknown_name
 from ..model import Model, Tree, cast, columns, tree_terms
 from ..spatial import SE3, exp3, log3
 from .closures import Coupling
-from .types import Contact
+from .types import Contact, FrameRows
 
 __all__ = ["ContactRows", "contact_errors", "contact_rows", "given_motion", "moved", "moved_anchors", "place"]
 
@@ -52,7 +52,7 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
                 own = [x if i in loop.joints else np.zeros_like(x) for i, x in enumerate(qd)]
                 V, A = motion(tree, own, qdd)
             point = loop.place(model, tree.placement).translation
-            J_c, bias_c = c.held_rows(point, *loop.rows(model, tree, bodies, point, v, V, A), v)
+            J_c, bias_c = c.held_rows(FrameRows(point, *loop.rows(model, tree, bodies, point, v, V, A), v))
         J.append(J_c)
         bias.append(bias_c)
     return ContactRows(at, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))

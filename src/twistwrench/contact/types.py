@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,12 +24,31 @@ from ..model import Model, readonly
 from ..spatial import SE3
 from ..spatial.rotation import cross_matrix
 
-__all__ = ["Contact", "Motion", "Pyramid", "checked_frame", "checked_motion"]
+__all__ = ["Contact", "FrameRows", "Motion", "Pyramid", "checked_frame", "checked_motion"]
 
 Pyramid = Literal["inner", "outer"]
 
 Motion = tuple[float, ...]
 """One number for each row that a contact holds; none where it is at rest."""
+
+
+class FrameRows(NamedTuple):
+    """How a frame moves in what holds it, in the axes of that.
+
+    Attributes
+    ----------
+    point : ndarray, shape (..., 3)
+        The frame's origin.
+    J : ndarray, shape (..., 6, nv)
+    bias : ndarray, shape (..., 6)
+        J̇ v.
+    v : ndarray, shape (..., nv)
+    """
+
+    point: Array
+    J: Array
+    bias: Array
+    v: Array
 
 
 class Contact(ABC):
@@ -127,19 +146,10 @@ class Contact(ABC):
         """N, which picks what is held of the six rows (ω, v), in the axes of the world or of `to`, shape (dim, 6)."""
         return readonly(np.eye(6)[self.rows])
 
-    def held_rows(self, point: Array, J: Array, bias: Array, v: Array) -> tuple[Array, Array]:
-        """Return what the contact holds of the six rows of a frame, and of J̇ v: shapes (..., dim, nv) and (..., dim).
-
-        Parameters
-        ----------
-        point : ndarray, shape (..., 3)
-            The frame's origin in what holds it.
-        J, bias : ndarray, shapes (..., 6, nv) and (..., 6)
-            In the axes of what holds it.
-        v : ndarray, shape (..., nv)
-        """
-        N = convert(self.directions, bias.dtype)
-        return N @ J, np.matvec(N, bias)
+    def held_rows(self, rows: FrameRows) -> tuple[Array, Array]:
+        """Return what the contact holds of J and of J̇ v of its frame: shapes (..., dim, nv) and (..., dim)."""
+        N = convert(self.directions, rows.bias.dtype)
+        return N @ rows.J, np.matvec(N, rows.bias)
 
     def held_place(self, T: SE3) -> SE3:
         """Return what the contact keeps of the frame's placement in what holds it: the placement itself."""
