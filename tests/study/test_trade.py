@@ -491,7 +491,7 @@ def check_errors(maker, keys: list[str], robot: str = "go2") -> None:
 
 RATIOS = [  # what the page says in words, of which two times it is the ratio, and what it says
     (
-        "half of the time of\n  `pin.rnea`",
+        "half of the time of `pin.rnea`",
         ("ID", "tw.fast.rnea", "float64", 1),
         ("ID", "pin.rnea", "float64", 1),
         1 / 2,
@@ -549,7 +549,7 @@ RATIOS = [  # what the page says in words, of which two times it is the ratio, a
 
 def test_the_ratios_in_the_sentences_of_the_page_are_those_of_the_results(maker):
     """To a fifth, as the page says. Without a way, it is a program's."""
-    text, seconds = page("trade", "").read_text(encoding="utf-8"), {}
+    text, seconds = " ".join(page("trade", "").read_text(encoding="utf-8").split()), {}
     for p in maker.points("go2"):
         seconds[p.quantity, p.way, p.number, p.states] = p.seconds
         if p.way.startswith("tw.compile"):
