@@ -290,6 +290,22 @@ def test_a_number_and_its_unit_are_not_parted():
     assert POWER.split("up to 2e-14, e-mail") == ["up to ", "2e-14", ", e-mail"]
 
 
+@pytest.mark.parametrize(
+    ("line", "left"),
+    [
+        ("[简体中文](a.zh-CN.md)\n\n", ""),
+        ("[English](a.md) · [README](../README.zh-CN.md)\n\n", ""),
+        (
+            "[English](a.md) · [README](../README.zh-CN.md) · [词汇表](glossary.zh-CN.md)\n",
+            "[词汇表](glossary.zh-CN.md)\n",
+        ),
+        ("[简体中文](a.zh-CN.md) · [glossary](glossary.md)\n", "[glossary](glossary.md)\n"),
+    ],
+)
+def test_a_page_of_the_site_does_not_lead_to_its_twin_by_a_link_of_its_own(line, left):
+    assert pages.TO_THE_TWIN.sub("", f"# A\n\n{line}B\n") == f"# A\n\n{left}B\n"
+
+
 def test_the_first_use_of_a_word_leads_to_the_glossary():
     from website.glossary import Words, rows
 
