@@ -13,7 +13,11 @@ from pathlib import Path
 
 from . import browser
 
-RAW = re.compile(r'<(span|div) class="math notranslate nohighlight"([^>]*)>\s*(\\[(\[].*?\\[)\]])\s*</\1>', re.DOTALL)
+RAW = re.compile(
+    r'<(span|div) class="math notranslate nohighlight"([^>]*)>\s*(\\[(\[].*?\\[)\]])\s*</\1>([，。；：、！？）》”]*)',
+    re.DOTALL,
+)
+"""A formula, and the Chinese marks behind it: no line begins with a comma."""
 SCRIPTS = re.compile(
     r"<script(?: [^>]*)?>window\.MathJax = .*?</script>\s*|<script [^>]*tex-svg-full\.js[^>]*></script>\s*"
 )
@@ -40,14 +44,17 @@ SET = """async (formulas) => {
 
 def unset(html: str) -> list[str]:
     """Return the formulas in a page that are still TeX, as MathJax reads them."""
-    return [unescape(text) for _, _, text in RAW.findall(html)]
+    return [unescape(found[3]) for found in RAW.finditer(html)]
 
 
 def with_formulas(html: str, done: dict[str, str], glyphs: dict[str, str], style: str) -> str:
     """Return a page with its formulas set, the glyphs that they use and MathJax's style, and without its script."""
-    html = RAW.sub(
-        lambda m: f'<{m[1]} class="math notranslate nohighlight"{m[2]}>{done[unescape(m[3])]}</{m[1]}>', html
-    )
+
+    def with_mark(m: re.Match[str]) -> str:
+        formula = f'<{m[1]} class="math notranslate nohighlight"{m[2]}>{done[unescape(m[3])]}</{m[1]}>'
+        return f'<span class="with-mark">{formula}{m[4]}</span>' if m[4] else formula
+
+    html = RAW.sub(with_mark, html)
     used = "".join(glyphs[name] for name in sorted(set(USED.findall(html))))
     html = SCRIPTS.sub("", html).replace("</head>", f"<style>{style}</style>\n</head>", 1)
     return re.sub(r"(<body[^>]*>)", lambda m: m[1] + GLYPHS.format(used), html, count=1)

@@ -112,7 +112,7 @@ def connect(app: Any, language: str, notebooks: list[str]) -> None:
         size = sum(size for group, size in sizes if group in wanted) / 1e6
         text = said["runs"].format(size=f"{size:.0f}") if here else said["not here"]
         link = f'<a href="{name}.ipynb" download>{said["notebook"]}</a>' if is_notebook else ""
-        bar = f'<div class="run-note"><p>{text} {link}</p><div class="run-bar"></div></div>'
+        bar = f'<div class="run-note"><p>{text} {link}</p><div class="run-bar{" waits" * here}"></div></div>'
         context["body"] = context["body"].replace("</h1>", f"</h1>\n{bar}", 1)
         if here:
             app.add_js_file("run.js")

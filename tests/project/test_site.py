@@ -274,6 +274,13 @@ def test_formulas_are_set_in_the_page_and_the_script_goes():
     assert r"<code>\(a\)</code>" in page  # code that looks like a formula is code
 
 
+def test_a_chinese_mark_stays_with_its_formula():
+    raw = '<body><p><span class="math notranslate nohighlight">\\(x\\)</span>。</p>'
+    page = formulas.with_formulas(raw, {r"\(x\)": "<b>x</b>"}, {}, "")
+    formula = '<span class="math notranslate nohighlight"><b>x</b></span>'
+    assert f'<p><span class="with-mark">{formula}。</span></p>' in page
+
+
 def test_a_head_that_is_empty_is_a_cell():
     html = '<tr><th class="head"></th><th class="head x"><p>A</p></th><th class="head"><p></p></th></tr>'
     cells = tables.without_empty_heads(html)
