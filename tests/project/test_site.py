@@ -107,6 +107,13 @@ def test_chinese_pages_link_to_chinese_pages(tmp_path):
     )
 
 
+def test_the_line_that_leads_to_the_other_language_goes_and_other_links_stay(tmp_path):
+    text = "# A\n\n[English](map.md) · [README](../README.zh-CN.md)\n\nB\n"
+    assert pages.moved(text, "docs/traps.zh-CN.md", "traps", tmp_path) == "# A\n\nB\n"
+    text = "# A\n\n[English](map.md) · [B](glossary.zh-CN.md)\n\nC\n"
+    assert pages.moved(text, "docs/traps.zh-CN.md", "traps", tmp_path) == "# A\n\n[B](glossary.md)\n\nC\n"
+
+
 def test_lines_of_chinese_are_joined_without_a_blank(tmp_path):
     text = "# 标题\n第一行，\n第二行\n\n第三行\n- 一\n- 二\n"
     assert pages.moved(text, "docs/x.zh-CN.md", "x", tmp_path) == "# 标题\n第一行，第二行\n\n第三行\n- 一\n- 二\n"
