@@ -8,7 +8,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, start
+from twistwrench.exercises import catalogue, mine, start
 from twistwrench.exercises import judge as judging
 from twistwrench.exercises.cells import check
 from twistwrench.exercises.judge import judge
@@ -155,3 +155,73 @@ def test_an_exercise_whose_package_is_missing_is_to_do(monkeypatch):
     assert verdict.state == "to do"
     assert "pip install pin" in verdict.message("en")
     assert importlib.util.find_spec("numpy")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (
+            "def center_of_pressure(F):\n    return np.array([-F[3:][1], F[3:][0]]) / F[:3][2]\n",
+            "`F[:3]` and `F[3:]` are exchanged",
+        ),
+        (
+            "def growth(sizes, seconds):\n    log = np.log\n    return np.polyfit(log(sizes), seconds, 1)[0]\n",
+            "must be `np.polyfit(log(sizes), log(seconds), 1)`",
+        ),
+        (
+            "def on_all_rows(tau):\n    out = np.zeros(18)\n    out[6 : 6 + len(tau)] = tau[:12]\n    return out\n",
+            "the sizes of one robot are written into the function",
+        ),
+        (
+            "def on_all_rows(tau):\n    out = np.zeros(6 + len(tau), int)\n    out[6:] = tau\n    return out\n",
+            "written into an array of whole numbers",
+        ),
+        ("def selection(nv):\n    S = np.eye(nv)[6:]\n    return S[::-1]\n", "`[::-1]` does not belong there"),
+        (
+            "def sole_wrench(points, forces):\n    for p, f in zip(points, forces):\n        tau = np.cross(p, f)\n"
+            "    return np.r_[tau, forces.sum(0)]\n",
+            "`tau = np.cross(p, f)` must be added up: += in place of =",
+        ),
+    ],
+)
+def test_a_general_slip_is_told_in_the_words_of_the_own_line(written, text, says):
+    assert says in message(written(text), text.partition("(")[0].removeprefix("def "))
+
+
+def test_a_slip_with_a_name_is_shown_in_the_own_line_too(written):
+    text = "def sole_wrench(points, forces):\n    return np.r_[np.cross(forces, points).sum(0), forces.sum(0)]\n"
+    said = message(written(text), "sole_wrench")
+    assert "the factors of the cross product are exchanged" in said
+    assert "In your code: line 12, `np.cross(forces, points)` must be `np.cross(points, forces)`" in said
+
+
+def test_of_two_slips_with_the_same_numbers_the_source_tells_which(written):
+    head = "def carried_wrenches(parent, T, F):\n    out, transforms = F.copy(), mine('transforms_of')\n"
+    loop = "    for i in range(len(parent) - 1, 0, -1):\n        out[parent[i]] += {} @ out[i]\n    return out\n"
+    names = {}
+    for way in ("transforms(T[i])[0].T", "np.linalg.inv(transforms(T[i])[1])"):
+        function = written((head + loop).format(way))
+        function.__globals__["mine"] = mine
+        names[way] = message(function, "carried_wrenches")
+    transposed, inverted = names.values()
+    assert "Xᵀ taken for X*" in transposed
+    assert "the inverse in place of the transform" not in transposed
+    assert "the inverse in place of the transform" in inverted
+    assert "Xᵀ taken for X*" not in inverted
+
+
+def test_what_only_copies_an_array_has_no_sign_and_is_not_left_out(written):
+    text = "def chapter_order(I):\n    J = I.copy()\n    J[:3, :3], J[3:, 3:] = I[3:, 3:], I[:3, :3]\n    return J\n"
+    said = message(written(text), "chapter_order")
+    assert "only the two blocks on the diagonal are exchanged" in said
+    assert "copy" not in said
+
+
+def test_the_difference_of_two_wrenches_is_a_wrench():
+    solution = catalogue.find_part("SpatialVector")[1].solution
+
+    class SpatialVector(solution):
+        def __sub__(self, other):
+            return type(self)("twist", (solution.__sub__(self, other)).vector)
+
+    assert "(F − G).kind" in message(SpatialVector, "SpatialVector")

@@ -23,7 +23,7 @@ Change = tuple[str, Any]
 """Kind of an edit, and what is put in place of a node."""
 
 KINDS = (
-    *("exchanged", "halves", "sign", "transposed", "left out", "after loop", "in loop"),
+    *("exchanged", "halves", "sign", "transposed", "left out", "after loop", "in loop", "summed"),
     *("last", "name", "index", "instead", "number", "inserted"),
 )
 """The kinds of edits, the likeliest first."""
@@ -113,6 +113,11 @@ def _loops(node: Any, parent: Any) -> Iterator[Change]:
         fewer = copy.copy(node)
         fewer.body = node.body[:-1]
         yield "after loop", ast.If(ast.Constant(True), [fewer, node.body[-1]], [])
+    for k, line in enumerate(node.body):
+        if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name):
+            summed = copy.copy(node)
+            summed.body = [*node.body[:k], ast.AugAssign(line.targets[0], ast.Add(), line.value), *node.body[k + 1 :]]
+            yield "summed", ast.If(ast.Constant(True), [ast.Assign(line.targets, ast.Constant(0)), summed], [])
     around = getattr(parent, "body", [])
     k = next((k for k, other in enumerate(around) if other is node), 0)
     if k and isinstance(around[k - 1], ast.Assign):
@@ -247,7 +252,7 @@ def _calls(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Call):
         for arguments in exchanges(node.args) if getattr(node.func, "id", "") != "range" else ():
             yield "exchanged", ast.Call(node.func, arguments, node.keywords)
-        if len(node.args) <= 2:
+        if len(node.args) <= 2 and not is_copy(node):
             kind = "left out" if len(node.args) == 1 else "instead"
             yield from ((kind, argument) for argument in node.args)
         for k, argument in enumerate(node.args):
@@ -258,7 +263,7 @@ def _calls(node: Any) -> Iterator[Change]:
             yield "last", ast.Subscript(ast.List([ast.Starred(node.args[0])], ast.Load()), LAST)
         if isinstance(node.func, ast.Attribute) and node.func.attr == "sum":
             yield "last", ast.Subscript(node.func.value, LAST)
-        if not node.args and isinstance(node.func, ast.Attribute):
+        if not node.args and isinstance(node.func, ast.Attribute) and not is_copy(node):
             yield "left out", node.func.value
         if any(keyword.arg == "dtype" for keyword in node.keywords):
             yield "instead", ast.Call(node.func, node.args, [x for x in node.keywords if x.arg != "dtype"])

@@ -189,7 +189,7 @@ class Source:
     def _texts(self, kind: str, place: Place) -> tuple[str, str]:
         """Return the texts of an edit, right and wrong."""
         parents, field, node, other = place
-        if kind in ("sign", "left out", "after loop", "in loop"):
+        if kind in ("sign", "left out", "after loop", "in loop", "summed"):
             return term(node, other), ""
         around = enclosing(parents, node)
         right = text_of(around)
@@ -278,7 +278,7 @@ def _alike(texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
 
 def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:
     """Yield every expression and assignment with the nodes around it and its place in the innermost of them."""
-    for name, value in ast.iter_fields(node):
+    for name, value in ast.iter_fields(node) if not isinstance(node, ast.Raise) else ():
         if name in ("args", "returns", "annotation", "decorator_list") and not isinstance(node, ast.Call):
             continue
         for field, child in (

@@ -11,6 +11,8 @@ __all__ = ["enclosing", "target", "term", "text_of"]
 def term(node: Any, other: Any) -> str:
     """Return what a node has more than the other, or the term whose sign differs, or the statement that is moved."""
     if isinstance(node, ast.For | ast.While):
+        if isinstance(other, ast.If) and isinstance(other.body[-1], ast.For | ast.While):  # one line is summed up
+            return text_of(next(x for x, y in zip(node.body, other.body[-1].body) if x is not y))
         return text_of(other.body[-1] if isinstance(other, ast.If) else other.body[0])
     if isinstance(other, ast.Pass):
         return text_of(node)

@@ -17,6 +17,7 @@ PHRASES = {
     "edit left out": Text("`{right}` is left out", "漏掉了 `{right}`"),
     "edit after loop": Text("`{right}` stands after the loop, not in it", "`{right}`放在了循环之后，而不在循环内"),
     "edit in loop": Text("`{right}` stands in the loop, not before it", "`{right}` 放在了循环内，而不在循环之前"),
+    "edit summed": Text("`{right}` is added up", "`{right}` 被累加了"),
     "edit transposed": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit exchanged": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit halves": Text("`{wrong}` and `{right}` are exchanged", "`{wrong}` 与 `{right}` 互换了"),
@@ -37,6 +38,10 @@ PHRASES = {
         "`{wrong}` must stand after the loop, not in it", "`{wrong}` 应放在循环之后，而不是循环内"
     ),
     "repair in loop": Text("`{wrong}` must stand in the loop, at its beginning", "`{wrong}` 应放在循环内的开头"),
+    "repair summed": Text(
+        "`{wrong}` must be added up: += in place of =, from zero before the loop",
+        "`{wrong}` 应当累加：用 += 而不是 =，循环前从零开始",
+    ),
     "repair last": Text("`{wrong}` must not be a sum", "`{wrong}` 不应求和"),
     "repair transposed": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair exchanged": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),

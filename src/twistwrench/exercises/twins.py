@@ -33,7 +33,7 @@ def twins(name: str) -> Iterator[str]:
 def is_copy(node: Any) -> bool:
     """Whether a node only copies an array: what is a term of nothing has no sign."""
     name = getattr(node.func, "attr", "") if isinstance(node, ast.Call) else ""
-    return name == "copy" or (name in ("array", "asarray") and isinstance(node.args[0], ast.Name))
+    return name == "copy" or (name in ("array", "asarray") and not isinstance(node.args[0], ast.List | ast.Tuple))
 
 
 def is_whole(node: Any) -> bool:

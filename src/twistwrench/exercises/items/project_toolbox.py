@@ -63,13 +63,13 @@ def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
     """Add, subtract and pair two twists and two wrenches, and try what must raise an error."""
     twist, other_twist = kind("twist", V), kind("twist", W)
     wrench, other_wrench = kind("wrench", F), kind("wrench", G)
-    total, difference = wrench + other_wrench, twist - other_twist
+    total, difference, rest = wrench + other_wrench, twist - other_twist, wrench - other_wrench
     power, reverse = _tried(lambda: wrench.power(twist)), _tried(lambda: twist.power(wrench))
-    if total is ... or difference is ... or power is ...:
+    if any(x is ... for x in (total, difference, rest, power)):
         return ...
     mixed = _error(lambda: twist + wrench, lambda: wrench - twist)
     paired = _error(lambda: twist.power(other_twist), lambda: wrench.power(other_wrench))
-    return total.kind, total.vector, difference.vector, power, reverse, mixed, paired
+    return total.kind, rest.kind, total.vector, difference.vector, power, reverse, mixed, paired
 
 
 def _error(*actions: Any) -> str:
@@ -106,6 +106,7 @@ VECTOR = Part(
 """,
     returns=(
         Quantity("(F + G).kind"),
+        Quantity("(F − G).kind"),
         Quantity("F + G"),
         Quantity("V − W"),
         Quantity("F.power(V)", unit="W"),
