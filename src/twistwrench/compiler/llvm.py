@@ -28,7 +28,7 @@ __all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
 
-PIECE = 400
+PIECE = 800
 """Instructions that are compiled at once."""
 
 LONG = 1_000_000
