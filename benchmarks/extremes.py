@@ -1,9 +1,13 @@
-"""The single numbers of docs/extremes.md, and its tables of a fast base and of exp and log.
+"""The single numbers of docs/extremes.md, and its tables.
 
-python benchmarks/extremes.py            # some minutes; results/extremes.json, the two tables
+python benchmarks/extremes.py            # some minutes; results/extremes.json, the tables
 python benchmarks/extremes.py --tables   # only make the tables anew from results/
 
-The counts over the whole grid are those of `twistwrench study extremes --full --json FILE`.
+The tables of the whole grid, of programs and of bounds are made from what these commands write:
+
+twistwrench study extremes --full --longest 300 --angles 0 --json benchmarks/results/extremes_grid.json  # an hour
+twistwrench study extremes --programs --json benchmarks/results/extremes_programs.json  # ten minutes
+twistwrench study extremes --bounds --json benchmarks/results/bounds.json  # half an hour
 """
 
 from __future__ import annotations
@@ -31,6 +35,8 @@ from twistwrench.study.extremes.truth import truth
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results" / "extremes.json"
+GRID, PROGRAMS = (RESULTS.with_name(f"extremes_{name}.json") for name in ("grid", "programs"))
+BOUNDS = RESULTS.with_name("bounds.json")
 PAGES = tuple(HERE.parent / "docs" / f"extremes{language}.md" for language in ("", ".zh-CN"))
 CELLS = {
     "heavy tip, 20 bodies": Recipe(bodies=20, mass_ratio=1e9),
@@ -133,9 +139,14 @@ def measured() -> dict[str, Any]:
 
 
 def tables() -> dict[str, str]:
-    """Return both tables."""
-    found = json.loads(RESULTS.read_text(encoding="utf-8"))
-    return {"base": table(_base(found["cells"])), "turns": table(_turns(found["exp and log"]))}
+    """Return all tables."""
+    found, grid, programs = (json.loads(path.read_text(encoding="utf-8")) for path in (RESULTS, GRID, PROGRAMS))
+    return {
+        "grid": table(_grid(grid["ways"])),
+        "programs": table(_programs(programs["counts"])),
+        "base": table(_base(found["cells"])),
+        "turns": table(_turns(found["exp and log"])),
+    }
 
 
 def quoted() -> list[str]:
@@ -148,7 +159,62 @@ def quoted() -> list[str]:
     numbers += [cells[name]["centroidal map"]["pinocchio"] for name in ("base at 1e6 m", far)]
     numbers += [cells[far]["centroidal map"]["textbook"], cells["quaternion off by 1e-9"]["rnea"]["pinocchio"]]
     numbers += [cells[name]["aba, steered"]["textbook"] for name in ("heavy tip", "heavy tip, heavy rotors")]
-    return [f"{number:.1e}".replace("e-0", "e-") for number in numbers]
+    said = [f"{number:.1e}".replace("e-0", "e-") for number in numbers]
+    said += [f"{cells['down to 1e-18 kg']['crba']['pinocchio']:.1f}"]
+    said += [f"{100 * cells['quaternion off by 0.1']['rnea']['pinocchio']:.0f} %"]
+    return [*said, *_of_the_grid(), *_of_bounds()]
+
+
+def _of_the_grid() -> Iterator[str]:
+    """Yield the numbers of the whole grid that are in sentences."""
+    grid = json.loads(GRID.read_text(encoding="utf-8"))
+    yield f"{grid['cells']}"
+    for who in ("textbook", "fast"):
+        above = {way["algorithm"]: way["above"] for way in grid["ways"] if way["who"] == who}
+        dynamics = sum(count for name, count in above.items() if name.startswith(("aba", "crba +")))
+        yield f"{sum(above.values())}"
+        yield f"{sum(above.values()) - dynamics}"
+    ratios = [one["median"] for one in grid["estimates"]]
+    yield f"{min(ratios):.0f}"
+    yield f"{max(ratios):.0f}"
+    assert all(one["held"] == one["cells"] for one in grid["estimates"]), "an error is above its estimate"
+
+
+def _of_bounds() -> Iterator[str]:
+    """Yield the numbers of the bounds that are in sentences."""
+    found = json.loads(BOUNDS.read_text(encoding="utf-8"))
+    assert all(one["held"] == one["entries"] for one in found["bounds"]), "an error is above its bound"
+    yield f"{found['cells']}"
+    yield f"{sum(one['entries'] for one in found['bounds']):,}".replace(",", " ")
+    yield f"{sum(one['infinite'] for one in found['bounds'])}"
+
+
+COUNTED = {
+    "answers asked for": "cells",
+    "raised an error": "raised",
+    "a NaN, an infinity, a warning, a number where none is right": "bad",
+    "error above 2 × Pinocchio's + 4 ε": "above",
+    "Pinocchio's above 2 × this + 4 ε": "below",
+    "less than a tenth of Pinocchio's": "tenth",
+}
+
+
+def _grid(ways: list[dict[str, Any]]) -> Iterator[tuple[str, str, str]]:
+    for line, name in COUNTED.items():
+        for column, who in (("textbook", "textbook"), ("`tw.fast`", "fast")):
+            yield line, column, str(sum(way[name] for way in ways if way["who"] == who))
+
+
+def _programs(counts: list[dict[str, Any]]) -> Iterator[tuple[str, str, str]]:
+    for count in counts:
+        line = f"`{count['algorithm']}`" if count["algorithm"] in ("rnea", "crba") else count["algorithm"]
+        yield line, "states", f"{count['states']}"
+        for column, name in (("above 2 ×", "above"), ("below ½ ×", "below")):
+            yield line, column, f"{100 * count[name]:.1f} %"
+        yield line, "median", f"{count['median']:.2f}"
+        yield line, "99 %", f"{count['high']:.1f}"
+        yield line, "cells, median", f"{count['cell_median']:.2f}"
+        yield line, "cells, largest", f"{count['cell_worst']:.2f}"
 
 
 def _base(cells: dict[str, Any]) -> Iterator[tuple[str, str, str]]:

@@ -16,6 +16,9 @@ __all__ = ["add_extremes"]
 
 FAILED = 1
 
+STATES = 100
+"""States of each cell in which programs are compared with the textbook."""
+
 
 def add_extremes(studies: Any) -> None:
     """Add ``twistwrench study extremes``."""
@@ -28,6 +31,12 @@ def add_extremes(studies: Any) -> None:
     )
     parser.add_argument("--full", action="store_true", help="all ends of all pairs, and robots of 1000 bodies")
     parser.add_argument(
+        "--longest",
+        type=int,
+        metavar="N",
+        help="leave out robots of more bodies: the two of 1000 take as long as all others",
+    )
+    parser.add_argument(
         "--cells",
         metavar="FILE",
         help="where each cell is kept as it is done; a study goes on from there (extremes.jsonl)",
@@ -39,6 +48,11 @@ def add_extremes(studies: Any) -> None:
     )
     parser.add_argument(
         "--bounds", action="store_true", help="instead: whether the bounds of compiled programs hold; half an hour"
+    )
+    parser.add_argument(
+        "--programs",
+        action="store_true",
+        help=f"instead: whether programs round worse than the textbook, in {STATES} states a cell; ten minutes",
     )
     parser.add_argument(
         "--progress", action="store_true", help="a progress bar on stderr, also where that is not a terminal"
@@ -63,11 +77,14 @@ def run_extremes(args: argparse.Namespace) -> int:
     check_writable("--json", args.json)
     if args.bounds:
         return _run_bounds(args)
+    if args.programs:
+        return _run_programs(args)
     if args.pictures is not None:
         args.pictures.mkdir(parents=True, exist_ok=True)
     kept = Path(args.cells or "extremes.jsonl") if args.full or args.cells else None
     bar = args.progress or sys.stderr.isatty()
-    found = run(cells(full=args.full), kept, pinocchio=_pinocchio(), progress=bar)
+    recipes = [recipe for recipe in cells(full=args.full) if args.longest is None or recipe.bodies <= args.longest]
+    found = run(recipes, kept, pinocchio=_pinocchio(), progress=bar)
     print(report.table(found))
     turns = rotations(args.angles, progress=bar) if args.angles else []
     print("\n".join(["", *report.turns(turns)]) if turns else "", end="\n" if turns else "")
@@ -97,6 +114,23 @@ def _run_bounds(args: argparse.Namespace) -> int:
     if args.json is not None:
         _write(args.json, {"cells": len(recipes), "bounds": [asdict(bound) for bound in found]})
     return FAILED if any(bound.broken for bound in found) else 0
+
+
+def _run_programs(args: argparse.Namespace) -> int:
+    """Compare the errors of programs with the textbook's, print and write."""
+    from tqdm import tqdm
+
+    from .grid import cells
+    from .programs import LONGEST, compared, counts, medians, table
+
+    recipes = [recipe for recipe in cells(full=args.full) if recipe.bodies <= LONGEST]
+    bar = tqdm(recipes, "programs", unit="cell", disable=not (args.progress or sys.stderr.isatty()))
+    every = [one for recipe in bar for one in compared(recipe, STATES)]
+    found = counts(every)
+    print(table(found))
+    if args.json is not None:
+        _write(args.json, {"states": STATES, "counts": [asdict(count) for count in found], "cells": medians(every)})
+    return 0
 
 
 def _pinocchio() -> bool:

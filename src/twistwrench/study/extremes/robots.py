@@ -111,8 +111,12 @@ class Recipe:
 
     @cached_property
     def state(self) -> State:
-        """A random state, the same numbers for all recipes of as many bodies; v and a are exact in single precision."""
-        rng, n = np.random.default_rng(0), self.bodies - 1
+        """The state of the maps."""
+        return self.drawn(0)
+
+    def drawn(self, seed: int) -> State:
+        """Draw a state, the same numbers for all recipes of as many bodies; v and a are exact in single precision."""
+        rng, n = np.random.default_rng(seed), self.bodies - 1
         direction, quaternion = (x / np.sqrt((x * x).sum()) for x in (rng.standard_normal(3), rng.standard_normal(4)))
         angles = rng.uniform(-np.pi, np.pi, n).astype(np.float32).astype(np.float64)
         v, a = rng.standard_normal((2, n + 6)).astype(np.float32).astype(np.float64)

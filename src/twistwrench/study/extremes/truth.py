@@ -24,7 +24,7 @@ from ...newton_euler_3d.state import take
 from ..trade.numbers import as_long_double
 from .robots import State
 
-__all__ = ["Truth", "truth"]
+__all__ = ["Truth", "size_of_accelerations", "sizes", "truth"]
 
 WHOLE = 40
 """Of a robot with more bodies only some columns of M are compared: all of them would take hours."""
@@ -74,7 +74,7 @@ def truth(model: Model, s: State) -> Truth:
     given = take(model, q=exact.q, v=exact.v, a=exact.a)
     bodies = bodies_in_world(given)
     tau = virtual_power(given, bodies)
-    terms, own, momentum = _sizes(model, bodies, s)
+    terms, own, momentum = sizes(model, bodies, s)
     drives = np.random.default_rng(1).standard_normal(model.nv)
     torques = {"steered": tau.astype(np.float64), "pushed": drives * terms}
     qdd = {name: accelerations(model, s, x) for name, x in torques.items()}
@@ -154,11 +154,24 @@ def _size_of_accelerations(model: Model, s: State, torques: Array, qdd: Array | 
         falling = ne.as_mpmath(tw.aba(model, model.normalize(s.q.astype(np.longdouble)), s.v, 0 * torques))
     except SingularError:
         falling = 0 * qdd
-    largest = max((weight * abs(x)).max() for x in (qdd, falling, qdd - falling))
-    return float(largest) / np.where(weight > 0, weight, 1)
+    return size_of_accelerations(qdd, falling, weight)
 
 
-def _sizes(model: Model, bodies: list[Body], s: State) -> tuple[Array, Array, Array]:
+def size_of_accelerations(qdd: Array, falling: Array, weight: Array) -> Array:
+    """Return the sizes of the entries of q̈, shape (..., nv), where the robot falls without torques as said.
+
+    Parameters
+    ----------
+    qdd, falling : ndarray, shape (..., nv)
+    weight : ndarray, shape (..., nv)
+        The root of each joint's inertia.
+    """
+    weighed = np.stack([weight * abs(x) for x in (qdd, falling, qdd - falling)]).astype(np.float64)
+    size: Array = weighed.max(axis=(0, -1))[..., None] / np.where(weight > 0, weight, 1)
+    return size
+
+
+def sizes(model: Model, bodies: list[Body], s: State) -> tuple[Array, Array, Array]:
     """Return for each entry of v: the size of the terms of τ, its own inertia, the sizes of its column of A_G.
 
     τ_k is a sum over bodies, of ∂ċ/∂v_k · m (c̈ − g) + ∂ω/∂v_k · (I α + ω × I ω): here every vector is replaced by its
