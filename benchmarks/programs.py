@@ -96,6 +96,13 @@ def add_everything(self: Number, other: Any) -> Any:
     return self.tape.add(self.index, self.tape.number(other).index)
 
 
+def multiply_everything(self: Number, other: Any) -> Any:
+    """Return the product, with zeros and ones too."""
+    if not isinstance(other, Number | Fraction | int):
+        return NotImplemented
+    return self.tape.multiply(self.index, self.tape.number(other).index)
+
+
 @contextmanager
 def recorded_on(tape: type[Tape]) -> Iterator[None]:
     """Record on another tape."""
@@ -106,6 +113,8 @@ def recorded_on(tape: type[Tape]) -> Iterator[None]:
         if tape is ZerosKept:
             for name in ("__add__", "__radd__"):
                 stack.enter_context(patch.object(Number, name, add_everything))
+            for name in ("__mul__", "__rmul__"):
+                stack.enter_context(patch.object(Number, name, multiply_everything))
         yield
 
 
