@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import zlib
 from typing import Any
 
@@ -9,12 +10,25 @@ import numpy as np
 
 from ..errors import ModelError
 from . import catalogue
+from .compare import values
 from .exercise import Part
 
 __all__ = ["case", "cases", "further_cases"]
 
-HALF_TURN = np.array([1.0, 2.0, 2.0, 0.0]) / 3
-"""A quaternion whose w is zero; that of no turn has a zero vector."""
+ANGLES = (0, np.pi, 8e-2, 1e-3, 1e-6, np.pi - 1e-2, np.pi - 1e-6)
+"""Turns at which a formula may have a case of its own, and turns just beside them."""
+
+SCALES = (0.0, 1e-6, 1e-3, 3.0)
+"""Factors of vectors: nothing at all, small numbers, and large ones. A robot that races would cost digits."""
+
+SCALED = frozenset(
+    (
+        *("v", "a", "h", "g", "w", "p", "c", "r", "x", "tau", "force", "forces", "f_c", "weight", "points"),
+        *("omega", "alpha", "a_c", "omega_z", "v_x", "p_AB", "p_BC", "xyz", "rpy", "seconds"),
+        *("F", "G", "V", "W", "V_joint", "qd", "qdd", "qdd_joints", "h_G", "k_rate"),
+    )
+)
+"""Arguments that may have any size."""
 
 
 def cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
@@ -23,20 +37,56 @@ def cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
 
 
 def further_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
-    """Return the cases after those that are drawn first: without a turn, with half a turn, and a second draw.
+    """Return the cases after those that are drawn first: at and near a limit, and a second draw.
 
-    Where an angle is zero or π, a formula may divide by zero; and what a function keeps from one call to the next shows
-    when the same sizes come again.
+    Where an angle is zero or π, a formula may divide by zero; a function may have a branch for what is small, and begin
+    it too early; and what it keeps from one call to the next shows when the same sizes come again.
     """
     drawn = cases(part, seed)
     if not drawn[0]:
         return []
     names = part.arguments.split(", ")
-    turns = [tuple(_turned(*x, turn) for x in zip(names, drawn[0])) for turn in (np.array([0.0, 0, 0, 1]), HALF_TURN)]
+    turns = [tuple(_turned(*x, _quaternion(angle)) for x in zip(names, drawn[0])) for angle in ANGLES]
+    factors = SCALES if "model" in names else (*SCALES, 300.0)
+    sizes = [tuple(_scaled(*x, factor) for x in zip(names, drawn[0])) for factor in factors]
     return [
-        *(turn for turn in turns if any(a is not b for a, b in zip(turn, drawn[0]))),
+        *(new for new in turns if any(a is not b for a, b in zip(new, drawn[0]))),
+        *(new for new in sizes if any(a is not b for a, b in zip(new, drawn[0])) and _answered(part, new)),
         *part.cases(_generator(part, seed, 1)),
     ]
+
+
+def _quaternion(angle: float) -> Any:
+    """Return the quaternion (x, y, z, w) of a turn about an axis between those of the frame; exact for 0 and π."""
+    axis, exact = np.array([1.0, 2.0, 2.0]) / 3, {0: (0.0, 1.0), np.pi: (1.0, 0.0)}
+    s, c = exact.get(angle, (np.sin(angle / 2), np.cos(angle / 2)))
+    return np.array([*s * axis, c])
+
+
+def _scaled(name: str, value: Any, factor: float) -> Any:
+    """Return an argument that may have any size times a factor, of a placement its position; others as is."""
+    new = copy.copy(value)
+    if name == "q" and _floats(value):
+        new[:3] *= factor
+        return new
+    if name == "T":
+        new[..., :3, 3] *= factor
+        return new
+    if name == "m":
+        return value * (factor or 1)
+    if name not in SCALED:
+        return value
+    return [factor * x for x in value] if isinstance(value, list) else factor * value
+
+
+def _answered(part: Part, arguments: tuple[Any, ...]) -> bool:
+    """Whether the reference has an answer there: it may divide by what is zero."""
+    try:
+        with np.errstate(all="ignore"):
+            found = values(part.value(part.solution, arguments), part.returns)
+    except (ArithmeticError, ValueError):
+        return False
+    return found is not None and all(x.array is None or np.isfinite(x.array).all() for x in found)
 
 
 def _generator(part: Part, *seeds: int) -> np.random.Generator:
@@ -47,9 +97,11 @@ def _turned(name: str, value: Any, turn: Any) -> Any:
     """Return an argument with another orientation: a configuration q, a rotation R..., a placement T; others as is."""
     if not isinstance(value, np.ndarray):
         return value
-    R = 2 * np.outer(turn, turn)[:3, :3] + (2 * turn[3] ** 2 - 1) * np.eye(3)  # right for these two
+    (x, y, z), w = turn[:3], turn[3]
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    R = np.eye(3) + 2 * w * cross + 2 * cross @ cross
     new = value.copy()
-    if name == "q" and value.size >= 7 and np.isclose(np.linalg.norm(value[3:7]), 1):
+    if name == "q" and _floats(value):
         new[3:7] = turn
     elif name.startswith("R") and value.shape == (3, 3):
         new[:] = R
@@ -58,6 +110,11 @@ def _turned(name: str, value: Any, turn: Any) -> Any:
     else:
         return value
     return new
+
+
+def _floats(q: Any) -> bool:
+    """Whether a configuration begins as that of a floating base does."""
+    return q.size >= 7 and bool(np.isclose(np.linalg.norm(q[3:7]), 1))
 
 
 def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:

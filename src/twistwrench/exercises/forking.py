@@ -65,6 +65,7 @@ def judged(exercise: Exercise, part: Part, function: Function, *, seed: int, tim
         return found
     late = trace.startswith("Timeout")
     lines = [say("endless", seconds=f"{time_limit:g}") if late else say("ended"), *_where(trace)]
+    lines += [say("ended in", name=exercise.needs.title())] if exercise.needs and not late else []
     tried = cases(part, seed)
     k = min(max(calls - 1, 0), len(tried) - 1)  # further calls look for what is wrong
     head = say("head", id=exercise.id, name=part.name)

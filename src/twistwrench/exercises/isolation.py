@@ -140,6 +140,8 @@ class IsolatedWorkbook(Workbook):
                     self._unreadable[died.at] = Text(*("\n".join(line.of(k) for line in lines) for k in ("en", "zh")))
                 else:
                     exercise, part = catalogue.find_part(died.at)
+                    if exercise.needs and not died.trace.startswith("Timeout"):
+                        lines.insert(1, say("ended in", name=exercise.needs.title()))
                     tried = cases(part, self.seed)
                     k = min(died.case, len(tried) - 1)  # further calls look for what is wrong
                     case = failing_case(part, k, self.seed, tried[k])

@@ -133,6 +133,10 @@ PHRASES = {
         "It did not finish in {seconds} s: a loop that never ends?", "{seconds} 秒内没有结束：是不是死循环？"
     ),
     "ended": Text("It ended the whole process of Python.", "它使整个 Python 进程终止了。"),
+    "ended in": Text(
+        "{name} does so where it is given a number of a joint or frame that the model does not have: print the number.",
+        "把模型中没有的关节或 frame 的编号交给 {name}，它就会这样：请打印这个编号。",
+    ),
     "encoding": Text(
         "{file} is not written in UTF-8: save it as UTF-8 in your editor. ({error})",
         "{file} 不是 UTF-8 编码：请在编辑器中另存为 UTF-8。（{error}）",

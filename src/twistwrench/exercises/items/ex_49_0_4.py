@@ -27,7 +27,7 @@ def _cases(rng: Any) -> Any:
     def some(n: int) -> list[str]:
         return [str(kind) for kind in rng.choice(others, size=n)]
 
-    return [(every + some(4),), (some(5),), (every + some(3) + ["free_flyer"],), (some(2) + every,)]
+    return [(every + some(4),), (some(5),), (every + some(3) + ["free_flyer"],), (some(2) + every,), ([],)]
 
 
 EXERCISE = Exercise(

@@ -35,14 +35,17 @@ def _by_scaling(model: Any, q: Any, v: Any, a: Any, s: Any) -> Any:
 
 def _walks(rng: Any) -> Any:
     def state() -> Any:
-        p_G = np.concatenate([rng.uniform(-1, 1, 2), [rng.uniform(0.2, 1.2)]])
+        p_G = np.concatenate([rng.uniform(-1, 1, 2), [10 ** rng.uniform(-1.5, 0.7)]])
         return p_G, p_G[:2] + rng.uniform(-0.2, 0.2, 2), rng.normal(scale=20, size=2), float(rng.uniform(10, 90))
 
     return [state() for _ in range(4)]
 
 
 def _gaits(rng: Any) -> Any:
-    return [(*state, float(rng.uniform(0.2, 0.8))) for state in states(rng, vectors=2)]
+    return [
+        (*state, float(rng.uniform(*paces)))
+        for state, paces in zip(states(rng, vectors=2), ((0.2, 0.8), (1.5, 4), (0.02, 0.1)))
+    ]
 
 
 def _ground(answer: Any, p_G: Any, p: Any, k_rate: Any, m: Any) -> Any:

@@ -40,10 +40,10 @@ def _trees(rng: Any) -> Any:
 
 
 def _times(rng: Any) -> Any:
-    """Return times that grow with a power of N, and are off by some per cent as measured ones are."""
-    sizes = np.array([10.0, 20, 40, 80, 160])
+    """Return times that grow with a power of N, and are off by some per cent as measured ones are, of any sizes."""
+    sizes = [np.array([10.0, 20, 40, 80, 160]), np.array([7.0, 30, 300]), rng.permutation(np.arange(20.0, 90, 9))]
     powers = rng.uniform([0.8, 1.8, 2.6], [1.2, 2.2, 3.2])
-    return [(sizes, rng.uniform(1e-6, 1e-5) * sizes**k * rng.uniform(0.9, 1.1, 5)) for k in powers]
+    return [(N, rng.uniform(1e-6, 1e-5) * N**k * rng.uniform(0.9, 1.1, len(N))) for N, k in zip(sizes, powers)]
 
 
 COUNT = Part(

@@ -9,7 +9,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
-from ..robots import robot, small_robot
+from ..robots import larger, robot, small_robot
 from ..wrong import faulty, negated, times
 
 __all__ = ["EXERCISE", "gravity_from_map", "standing_forces", "standing_loads"]
@@ -49,10 +49,12 @@ def _postures(rng: Any) -> Any:
 
 
 def _arrays(rng: Any) -> Any:
-    """Return g and J_c of the postures, on four feet and on three."""
+    """Return g and J_c of the postures, on four feet and on three, and of a robot that stands beside its feet."""
     (model, first), (_, second) = _postures(rng)
     standing = ((first, model.feet), (second, model.feet), (first, model.feet[1:]))
-    return [(tw.gravity(model, q), tw.contact_jacobian(model, q, feet)) for q, feet in standing]
+    other, posture = larger(rng)[0]
+    arrays = [(tw.gravity(model, q), tw.contact_jacobian(model, q, feet)) for q, feet in standing]
+    return [*arrays, (tw.gravity(other, posture), tw.contact_jacobian(other, posture, other.joint_names[-3:]))]
 
 
 def _maps(rng: Any) -> Any:

@@ -51,8 +51,22 @@ def _robots(rng: Any, *, vectors: int = 0) -> Any:
 
 
 def _frames(rng: Any) -> Any:
-    """Return robots, configurations and the name of a frame that moves with the joints."""
-    return [(model, q, model.names[int(rng.integers(2, model.njoints))]) for model, q in _robots(rng)]
+    """Return robots, configurations and the name of a frame: of a joint, or of a tool, beside others that it is not."""
+    cases = []
+    for (model, q), wanted in zip(_robots(rng), (None, "tool_1", "tool_2")):
+        _add_tools(model, rng)
+        cases.append((model, q, wanted or model.names[int(rng.integers(2, model.njoints))]))
+    return cases
+
+
+def _add_tools(model: Any, rng: Any) -> None:
+    """Add frames of numbers in a row to one body, each at another place and turned in another way."""
+    import pinocchio as pin
+
+    body = int(rng.integers(2, model.njoints))
+    for k in range(4):
+        place = pin.SE3(tw.exp3(rng.standard_normal(3)), rng.standard_normal(3))
+        model.addFrame(pin.Frame(f"tool_{k}", body, 0, place, pin.FrameType.OP_FRAME))
 
 
 def _here(model: Any) -> Any:

@@ -26,9 +26,13 @@ def arc(omega_z: Any, v_x: Any) -> Any:
 
 
 def _cases(rng: Any) -> Any:
-    """Return turns to the left and to the right, forward and backward."""
+    """Return turns to the left and to the right, forward and backward; then slower ones, each decade down to 1e-7."""
     signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
-    return [(a * float(rng.uniform(0.5, 2.5)), b * float(rng.uniform(0.5, 2.0))) for a, b in signs]
+    turns = [(a * float(rng.uniform(0.5, 2.5)), b * float(rng.uniform(0.5, 2.0))) for a, b in signs]
+    slow = [
+        (float(rng.choice([-1, 1]) * rng.uniform(0.4, 0.9) * 10.0**-k), float(rng.uniform(0.5, 2))) for k in range(7)
+    ]
+    return [*turns, *slow]
 
 
 MATRIX = Part(

@@ -32,10 +32,22 @@ def sole_holds(F: Any, d_x: Any, d_y: Any) -> Any:
     return bool(abs(p_x) <= d_x and abs(p_y) <= d_y)
 
 
-def _forces_of(rng: Any) -> Any:
-    """Return four points of a sole, and a force on each: the ground pushes."""
-    points = np.column_stack([rng.uniform(-1, 1, (4, 2)) * [0.1, 0.05], np.zeros(4)])
-    return points, np.column_stack([rng.normal(scale=20, size=(4, 2)), rng.uniform(50, 150, 4)])
+def _forces_of(rng: Any, n: int = 4) -> Any:
+    """Return points of a sole, and a force on each: the ground pushes."""
+    points = np.column_stack([rng.uniform(-1, 1, (n, 2)) * [0.1, 0.05], np.zeros(n)])
+    return points, np.column_stack([rng.normal(scale=20, size=(n, 2)), rng.uniform(50, 150, n)])
+
+
+def _sums(rng: Any) -> Any:
+    """Return forces on four points, on more and on fewer; at the end some pull."""
+    points, forces = _forces_of(rng, 5)
+    return [*(_forces_of(rng, n) for n in (4, 4, 3, 7, 1)), (points, forces * [1, 1, -1])]
+
+
+def _of_any_size(rng: Any) -> Any:
+    """Return wrenches that push, one that pulls, and some with little force for their moment."""
+    wrenches = [sign * sole_wrench(*_forces_of(rng)) for sign in (1, 1, 1, -1)]
+    return [(F,) for F in (*wrenches, *(wrenches[0] * [1, 1, 1, 1, 1, part] for part in (1e-2, 1e-4, 1e-6)))]
 
 
 def _at(p_x: float, p_y: float, f_z: float, rng: Any) -> Any:
@@ -45,28 +57,42 @@ def _at(p_x: float, p_y: float, f_z: float, rng: Any) -> Any:
 
 
 def _wrenches(rng: Any) -> Any:
-    """Return wrenches in the middle, outside each edge, near it and on it, one that pulls, two that hardly push."""
+    """Return wrenches in the middle, outside each edge and near it, and one with a twist; then the limits."""
     near, far = rng.uniform(0.6, 0.9), rng.uniform(1.2, 2.0)
     places = [(0.3, 0.3), (near, 0.2), (0.2, -near), (far, 0.3), (-far, 0.2), (0.3, far), (0.2, -far), (-0.2, 0.3)]
     places += [(0.75, 0.1), (0.1, 0.75), (0.9, 1.9), (1.9, 0.9), (0.9, 0.9)]
-    edges = [_at(*place, 256.0, rng)[0] for place in ((0.125, 0.01), (-0.125, 0.01), (0.05, 0.0625), (0.05, -0.0625))]
     twist = np.array([0, -0.2 * 100, 3.0, 0.01, 0.01, 100]), 0.1, 0.04
     pushes = [_at(0.1 * x, 0.04 * y, rng.uniform(100, 400), rng) for x, y in places]
     return [
         *pushes,
-        *((F, 0.125, 0.0625) for F in edges),  # powers of two: the division is exact
-        _at(0.01, 0.01, -rng.uniform(100, 400), rng),
         _at(0.07, 0.03, 300.0, rng),
-        _at(0.15, 0.06, 0.3, rng),
-        _at(0.05, 0.02, rng.uniform(0.01, 0.3), rng),
         twist,
+        *((F, 0.04, 0.1) for F, _, _ in pushes[:4]),  # wider than long
+        *_edges(rng),
+        *_pressures(rng),
     ]
+
+
+def _edges(rng: Any) -> Any:
+    """Return wrenches on each edge, and a millionth within and beyond it. Powers of two: the division is exact."""
+    places = [(0.125, 0.01), (-0.125, 0.01), (0.05, 0.0625), (0.05, -0.0625)]
+    factors = [(1.0, 1.0), (1 - 1e-6, 1.0), (1 + 1e-6, 1.0), (1.0, 1 - 1e-6), (1.0, 1 + 1e-6)]
+    wrenches = [_at(x, y, 256.0, rng)[0] for x, y in places]
+    return [(F * [b, a, 1, 1, 1, 1], 0.125, 0.0625) for F in wrenches for a, b in factors]
+
+
+def _pressures(rng: Any) -> Any:
+    """Return wrenches that hardly push or pull, in the middle and beside the sole, and those that do neither."""
+    pushes = [_at(*place, f_z, rng) for f_z in (0.3, 1e-3, 1e-6) for place in ((0.05, 0.02), (0.15, 0.06))]
+    pulls = [_at(0.01, 0.01, f_z, rng) for f_z in (-rng.uniform(100, 400), -1e-3, -1e-6)]
+    nothing = (np.zeros(6), np.array([0, 0, 1, 2, 3, 0.0]), np.array([1, 2, 3, 4, 5, 0.0]))
+    return [*pushes, *pulls, *((F, 0.1, 0.04) for F in nothing)]
 
 
 SUM = Part(
     solution=sole_wrench,
     returns=(Quantity("F", WRENCH),),
-    cases=lambda rng: [_forces_of(rng) for _ in range(4)],
+    cases=_sums,
     slips={
         "cross-order": faulty(sole_wrench, ("points, forces)", "forces, points)")),
         "coupling-dropped": before(sole_wrench, np.zeros_like, which=0),
@@ -81,7 +107,7 @@ SUM = Part(
 PRESSURE = Part(
     solution=center_of_pressure,
     returns=(Quantity("p", unit="m"),),
-    cases=lambda rng: [(sign * sole_wrench(*_forces_of(rng)),) for sign in (1, 1, 1, -1)],  # also where f_z < 0
+    cases=_of_any_size,
     slips={
         "cop-sign": faulty(center_of_pressure, ("-tau_y", "tau_y")),
         "cop-axes": lambda F: F[:2] / F[5],

@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, MASS_MATRIX
-from ..robots import robot, small_robot
+from ..robots import larger, robot, small_robot
 from ..wrong import after, doubled, faulty, swapped
 
 __all__ = ["EXERCISE", "mass_matrix_by_rnea", "torques_two_ways"]
@@ -37,7 +37,10 @@ def _motions(rng: Any) -> Any:
 
 
 def _postures(rng: Any) -> Any:
-    return [(model, model.random_configuration(rng=rng)) for model in (small_robot(rng), small_robot(rng))]
+    return [
+        *((model, model.random_configuration(rng=rng)) for model in (small_robot(rng), small_robot(rng))),
+        *larger(rng),
+    ]
 
 
 TWO_WAYS = Part(

@@ -6,6 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
+from ...model import random_tree
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import small_robot, states, weightless
@@ -35,14 +36,20 @@ def gravity_two_ways(model: Any, weightless: Any, q: Any, v: Any, a: Any) -> Any
 def _motions(rng: Any) -> Any:
     return [
         (model, weightless(model), model.random_configuration(rng=rng), *rng.standard_normal((2, model.nv)))
-        for model in (small_robot(rng), small_robot(rng))
+        for model in (small_robot(rng), small_robot(rng), random_tree(4, rng=rng))
     ]
+
+
+def _postures(rng: Any) -> Any:
+    """Return Go2 and a small robot, and one whose base is fixed."""
+    fixed = random_tree(4, rng=rng)
+    return [*states(rng, small=1), (fixed, fixed.random_configuration(rng=rng))]
 
 
 WEIGHTS = Part(
     solution=weight_wrenches,
     returns=(Quantity("W", WRENCH),),
-    cases=lambda rng: [*states(rng, small=1)],
+    cases=_postures,
     slips={
         "moment-dropped": faulty(weight_wrenches, ("np.cross(body.com, force)", "np.zeros(3)")),
         "untransformed": faulty(weight_wrenches, ("placement[i].rotation.mT @ ", "")),

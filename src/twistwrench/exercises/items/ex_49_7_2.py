@@ -69,18 +69,24 @@ def _machines(rng: Any) -> Any:
     machines = [
         Machine(Text("steady", "稳定")),
         Machine(Text("slow at the first call", "首次调用较慢"), start=0.01),
-        Machine(Text("slows down half-way", "中途变慢"), slow_from=int(rng.choice([60, 140]))),
+        *(Machine(Text("slows down for good", "中途变慢，不再恢复"), slow_from=k) for k in (20, 60, 140)),
+        Machine(Text("slower with each call", "越来越慢"), drift=0.01),
         Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=[2 * int(rng.integers(10, 40)) + 1]),
+        Machine(
+            Text("interrupted at one call in fifty", "每五十次调用被打断一次"),
+            pause=3.0,
+            paused_at={*map(int, rng.choice(2 * calls, calls // 25, replace=False))},
+        ),
     ]
-    short = rng.uniform(0.001, 0.002, 4)
-    long = short * rng.uniform(2.5, 4, 4)
+    short = rng.uniform(0.001, 0.002, len(machines))
+    long = short * rng.uniform(2.5, 4, len(machines))
     return [(Task(m, a), Task(m, b), calls, m) for m, a, b in zip(machines, short, long)]
 
 
 def _plausible(answer: Any) -> Any:
-    """Return 1 for a ratio within an order of magnitude of any that we saw, 0 for seconds in place of a ratio."""
+    """Return 1 for a ratio as a machine may have it, ½ for what may be the inverse, 0 for seconds in its place."""
     ratio = float(answer)
-    return 1.0 if 0.2 <= ratio <= 10 else 0.0 if 0 <= ratio < 0.2 else ratio
+    return 1.0 if 0.8 <= ratio <= 10 else 0.5 if 0.2 <= ratio < 0.8 else 0.0 if 0 <= ratio < 0.2 else ratio
 
 
 TWO_WAYS = Part(
@@ -128,7 +134,7 @@ MEASURED = Part(
     returns=(Quantity("ratio"),),
     cases=lambda rng: [()],
     canonical=_plausible,
-    slips={"order-for-time": lambda: 18.0, "time-for-ratio": lambda: 0.0018},
+    slips={"order-for-time": lambda: 18.0, "time-for-ratio": lambda: 0.0018, "ratio-inverted": lambda: 1 / 2.3},
 )
 
 EXERCISE = Exercise(id="49.7.2", kind="explain", parts=(TWO_WAYS, RATIO, MEASURED))

@@ -47,7 +47,8 @@ def _equations(rng: Any) -> Any:
         M, h, J_c = tw.crba(model, q), tw.nonlinear_effects(model, q, v), tw.contact_jacobian(model, q, model.feet)
         S, loads = tw.selection_matrix(model), rng.normal(scale=10, size=(2, 12))
         cases.append((M, h, S, J_c, *loads))
-    return cases
+    (M, h, S, *rest) = cases[0]
+    return [*cases, (M, h, S[rng.permutation(12)], *rest)]  # motors that are numbered otherwise
 
 
 BASE = np.arange(18) < 6

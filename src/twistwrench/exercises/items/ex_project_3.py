@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, CONTACT_JACOBIAN, JOINT_SPACE, MASS_MATRIX, MOMENTUM, WRENCH
-from ..robots import robot, small_robot
+from ..robots import larger, robot
 from ..workbook import mine
 from ..wrong import after, faulty, swap
 from .project_momentum import MAP, RATE
@@ -76,12 +76,12 @@ LAW = Part(
 
 
 def _states(rng: Any) -> Any:
-    """Return states of Go2 on all feet and on two, and of a smaller robot."""
-    feet = (robot("go2").feet, ("FR_foot", "RL_foot"))
-    other = small_robot(rng)
+    """Return states of Go2 on all feet and on two, and of a smaller robot; the feet in any order."""
+    feet = (("RL_foot", "FR_foot", "RR_foot", "FL_foot"), ("RL_foot", "FR_foot"))
+    other, posture = larger(rng)[0]
     return [
         *((model, q, v, names) for (model, q, v, _, _), names in zip(_falls(rng), feet)),
-        (other, other.random_configuration(rng=rng), rng.standard_normal(other.nv), tuple(other.joint_names[2:4])),
+        (other, posture, rng.standard_normal(other.nv), tuple(other.joint_names[3:1:-1])),
     ]
 
 

@@ -85,6 +85,24 @@ FLOATING = Variant(
 STILL = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, tau: tw.aba(model, q, 0 * v, tau))
 
 
+def _less(part: float) -> Variant:
+    """Return forward dynamics under torques of which one is too small, by a part of the largest."""
+
+    def forward(model: Any, q: Any, v: Any, tau: Any) -> Any:
+        short = np.array(tau)
+        short[4] -= part * np.abs(tau).max()
+        return tw.aba(model, q, v, short)
+
+    return Variant(Text(f"off by {part:.0e}", f"相差 {part:.0e}"), forward)
+
+
+def _without_number(model: Any, q: Any, v: Any, a: Any) -> Any:
+    tau = tw.rnea(model, q, v, a)
+    tau[-1] = np.nan
+    return tau
+
+
+BROKEN = Variant(Text("not a number in the last entry", "最后一个分量不是数"), _without_number)
 RESTING = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, a: tw.rnea(model, q, 0 * v, a))
 HELD = Variant(Text("base held", "基座固定"), held_acceleration)
 
@@ -97,13 +115,15 @@ def _states(rng: Any) -> Any:
     ):
         tau = np.concatenate([np.zeros(6), 10 * rng.standard_normal(model.nv - 6)])
         cases.append((forward, INVERSE, model, model.random_configuration(rng=rng), rng.standard_normal(model.nv), tau))
-    return [*cases, (RIGHT, RESTING, *cases[0][2:])]
+    slight = [(_less(part), INVERSE, *cases[0][2:]) for part in (1e4, 1e-2, 1e-4, 1e-6, 1e-8)]
+    return [*cases, (RIGHT, RESTING, *cases[0][2:]), *slight, (RIGHT, BROKEN, *cases[0][2:])]
 
 
 CONSISTENCY = Part(
     solution=consistency_error,
     returns=(Quantity("error"),),
     cases=_states,
+    canonical=lambda answer, *_: float(answer) if np.isfinite(answer) else -1.0,
     rtol=1e-7,
     slips={
         "error-signed": faulty(consistency_error, ("np.abs(back - tau)", "(back - tau)")),

@@ -9,7 +9,7 @@ from ...algorithms.aba import articulated_body
 from ..exercise import Part, Quantity
 from ..wrong import faulty
 from .project_rnea import tree_rnea
-from .project_trees import columns, pieces, previous, tree_of, trees
+from .project_trees import columns, pieces, previous, tree_of, trees, upward
 
 __all__ = ["ABA", "tree_aba"]
 
@@ -22,8 +22,7 @@ def tree_aba(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) ->
 
 def _loads(rng: Any) -> Any:
     return [
-        (*lists, pieces(model, rng), pieces(model, rng), np.concatenate([np.zeros(3), -model.gravity]))
-        for model, *lists in trees(rng)
+        (*lists, pieces(model, rng), pieces(model, rng), a0) for (model, *lists), a0 in zip(trees(rng), upward(rng))
     ]
 
 

@@ -9,7 +9,7 @@ from ...algorithms.kinematics import motion
 from ...algorithms.rnea import newton_euler
 from ..exercise import Part, Quantity
 from ..wrong import faulty
-from .project_trees import columns, pieces, previous, tree_of, trees
+from .project_trees import columns, pieces, previous, tree_of, trees, upward
 
 __all__ = ["ENERGY", "RNEA", "tree_energy", "tree_rnea"]
 
@@ -29,8 +29,7 @@ def tree_energy(parent: Any, S: Any, I: Any, X: Any, qd: Any) -> Any:
 
 def _motions(rng: Any) -> Any:
     return [
-        (*lists, pieces(model, rng), pieces(model, rng), np.concatenate([np.zeros(3), -model.gravity]))
-        for model, *lists in trees(rng)
+        (*lists, pieces(model, rng), pieces(model, rng), a0) for (model, *lists), a0 in zip(trees(rng), upward(rng))
     ]
 
 

@@ -67,9 +67,11 @@ def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
     power, reverse = _tried(lambda: wrench.power(twist)), _tried(lambda: twist.power(wrench))
     if any(x is ... for x in (total, difference, rest, power)):
         return ...
-    mixed = _error(lambda: twist + wrench, lambda: wrench - twist)
+    mixed = _error(lambda: twist + wrench, lambda: wrench - twist, lambda: wrench + twist, lambda: twist - wrench)
     paired = _error(lambda: twist.power(other_twist), lambda: wrench.power(other_wrench))
-    return total.kind, rest.kind, total.vector, difference.vector, power, reverse, mixed, paired
+    of_twists = {str(difference.kind), str((twist + other_twist).kind)}
+    of_rest = rest.kind if of_twists == {"twist"} else f"{rest.kind}, and of twists {', '.join(sorted(of_twists))}"
+    return total.kind, of_rest, total.vector, difference.vector, power, reverse, mixed, paired
 
 
 def _error(*actions: Any) -> str:

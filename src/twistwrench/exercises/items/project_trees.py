@@ -8,7 +8,7 @@ from ...model import Model, Tree, random_tree, tree_terms
 from ...model.tree import split
 from ..robots import robot
 
-__all__ = ["columns", "pieces", "previous", "tree_of", "trees"]
+__all__ = ["columns", "pieces", "previous", "tree_of", "trees", "upward"]
 
 
 def tree_of(parent: Any, S: Any, I: Any, X: Any, a0: Any) -> Tree:
@@ -29,6 +29,15 @@ def trees(rng: np.random.Generator) -> list[tuple[Model, Any, Any, Any, Any]]:
         tree = tree_terms(model, model.random_configuration(rng=rng))
         found.append((model, tree.parent, [*tree.S], [*tree.I], [*tree.X]))
     return found
+
+
+def upward(rng: np.random.Generator) -> Any:
+    """Return −g as the acceleration of the world for each of the trees: on earth, elsewhere, and along no axis."""
+    return [
+        np.array([0, 0, 0, 0, 0, 9.81]),
+        np.array([0, 0, 0, 0, 0, 1.62]),
+        np.array([0, 0, 0, *rng.normal(scale=5, size=3)]),
+    ]
 
 
 def pieces(model: Model, rng: np.random.Generator) -> Any:
