@@ -1,6 +1,7 @@
 """The cases of an answer: no turn and half a turn, negative arguments, a second call, and a change that ends Python."""
 
 import os
+from functools import partial
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from twistwrench.exercises import catalogue
 from twistwrench.exercises.cases import case, cases, further_cases
 from twistwrench.exercises.forking import judged
 from twistwrench.exercises.judge import judge
+from twistwrench.exercises.stopwatch import seconds
 
 PARTS = {p.name: p for e in map(catalogue.exercise, catalogue.available()) for p in e.parts if not e.needs}
 
@@ -100,6 +102,69 @@ def test_arguments_of_both_signs_are_met(name, function):
     message(name, function)
 
 
+def reference(name):
+    return catalogue.find_part(name)[1].solution
+
+
+def straight_below(omega, least):
+    return tw.exp6([0, 0, omega * (abs(omega) >= least), 1, 0, 0]).matrix()
+
+
+def of_pressure(F, d_x, d_y, *, beyond=0.0, least=0.0):
+    return bool(F[5] > least and abs(F[1]) <= (d_x + beyond) * F[5] and abs(F[0]) <= (d_y + beyond) * F[5])
+
+
+def off(forward, inverse, model, q, v, tau):
+    back = inverse(model, q, v, forward(model, q, v, tau))
+    return np.abs(back - tau), np.abs(tau).max()
+
+
+def in_blocks(first, second, calls, clock):
+    return min(seconds(second, calls + 10, clock)) / min(seconds(first, calls + 10, clock))
+
+
+@pytest.mark.parametrize(
+    ("name", "function"),
+    [
+        *(("arc", lambda w, v, least=least: straight_below(w, least)) for least in (0.3, 1e-2, 1e-4, 1e-6)),
+        ("sole_holds", lambda F, d_x, d_y: bool(abs(F[1]) <= d_x * F[5] and abs(F[0]) <= d_y * F[5])),
+        *(("sole_holds", partial(of_pressure, beyond=beyond)) for beyond in (1e-3, 1e-6, -1e-7)),
+        ("sole_holds", partial(of_pressure, least=1e-3)),
+        ("time_ratio", in_blocks),
+        ("measured_ratio", lambda: 1 / 2.3),
+        ("finite_limits", lambda lo, up: (np.where(abs(lo) > 10, -1, lo), np.where(abs(up) > 10, 1, up))),
+        ("finite_limits", lambda lo, up: (np.where(lo < -1e9, -1, lo), np.where(up > 1e9, 1, up))),
+        ("get_dynamics", lambda model, q, v, feet: reference("get_dynamics")(model, q, v, sorted(feet))),
+        ("consistency_error", lambda *case: (lambda e, most: e.max() / most * (e.max() > 1e-6 * most))(*off(*case))),
+        ("consistency_error", lambda *case: (lambda e, most: np.nan_to_num(e).max() / most)(*off(*case))),
+        ("act", lambda R, p, x: (R if np.trace(R) < 2.999999 else np.eye(3)) @ x + p),
+        ("cross_operators", lambda V: reference("cross_operators")(V * (abs(V) > 1e-4))),
+        ("tree_rnea", lambda *lists: reference("tree_rnea")(*lists[:-1], np.array([0, 0, 0, 0, 0, 9.81]))),
+        ("growth", lambda N, t: np.polyfit(np.arange(len(N)), np.log2(t), 1)[0]),
+    ],
+)
+def test_thresholds_orders_and_limits_are_met(name, function):
+    assert judge(*catalogue.find_part(name), function, search=False).state == "wrong"
+
+
+@pytest.mark.parametrize("way", [np.median, min, lambda times: np.mean(sorted(times)[25:75])])
+def test_a_right_way_to_measure_is_not_refused(way):
+    def per_call(task, calls, clock):
+        task()
+        return way(seconds(task, calls, clock))
+
+    def ratio(first, second, calls, clock):
+        pairs = [(seconds(first, 1, clock)[0], seconds(second, 1, clock)[0]) for _ in range(calls)]
+        return way([b for _, b in pairs]) / way([a for a, _ in pairs])
+
+    for name, function in (("time_per_call", per_call), ("time_ratio", ratio)):
+        assert {judge(*catalogue.find_part(name), function, seed=seed).state for seed in range(5)} == {"done"}
+
+
+def test_the_branch_that_is_right_to_rounding_is_not_refused():
+    assert judge(*catalogue.find_part("arc"), lambda w, v: tw.exp6([0, 0, w, v, 0, 0]).matrix()).state == "done"
+
+
 def test_further_cases_are_had_by_their_number():
     part = PARTS["base_pose"]
     (q,) = case("base_pose", len(cases(part, 3)), seed=3)
@@ -109,11 +174,11 @@ def test_further_cases_are_had_by_their_number():
 @pytest.mark.skipif(os.name != "posix", reason="a copy of the process is made on Linux")
 def test_a_change_that_ends_the_process_is_not_taken_for_the_answer():
     """The search tries changes of the student's function, and a library may end Python at one of them."""
-    calls = []
+    calls, judged_on = [], [*cases(PARTS["act"], 0), *further_cases(PARTS["act"], 0)]
 
     def act(R, p, x):
         calls.append(0)
-        if len(calls) > 14:
+        if len(calls) > len(judged_on) + 2:
             os._exit(1)
         return R @ x * np.cos(p)
 

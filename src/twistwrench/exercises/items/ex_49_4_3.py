@@ -74,7 +74,7 @@ def _wrenches(rng: Any) -> Any:
 
 
 def _edges(rng: Any) -> Any:
-    """Return wrenches on each edge, and a millionth within and beyond it. Powers of two: the division is exact."""
+    """Return wrenches on each edge, and a millionth within and outside it. Powers of two: the division is exact."""
     places = [(0.125, 0.01), (-0.125, 0.01), (0.05, 0.0625), (0.05, -0.0625)]
     factors = [(1.0, 1.0), (1 - 1e-6, 1.0), (1 + 1e-6, 1.0), (1.0, 1 - 1e-6), (1.0, 1 + 1e-6)]
     wrenches = [_at(x, y, 256.0, rng)[0] for x, y in places]

@@ -69,13 +69,13 @@ def _machines(rng: Any) -> Any:
     machines = [
         Machine(Text("steady", "稳定")),
         Machine(Text("slow at the first call", "首次调用较慢"), start=0.01),
-        *(Machine(Text("slows down for good", "中途变慢，不再恢复"), slow_from=k) for k in (20, 60, 140)),
+        *(Machine(Text("slows down for good", "中途变慢，不再恢复"), slow_from=k) for k in (60, 90)),
         Machine(Text("slower with each call", "越来越慢"), drift=0.01),
         Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=[2 * int(rng.integers(10, 40)) + 1]),
         Machine(
             Text("interrupted at one call in fifty", "每五十次调用被打断一次"),
             pause=3.0,
-            paused_at={*map(int, rng.choice(2 * calls, calls // 25, replace=False))},
+            paused_at={2 * int(k) + 1 for k in rng.choice(np.arange(60, 95), 4, replace=False)},
         ),
     ]
     short = rng.uniform(0.001, 0.002, len(machines))

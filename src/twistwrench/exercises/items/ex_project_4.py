@@ -96,13 +96,11 @@ def _less(part: float) -> Variant:
     return Variant(Text(f"off by {part:.0e}", f"相差 {part:.0e}"), forward)
 
 
-def _without_number(model: Any, q: Any, v: Any, a: Any) -> Any:
-    tau = tw.rnea(model, q, v, a)
-    tau[-1] = np.nan
-    return tau
+def _without_number(model: Any, *_: Any) -> Any:
+    return np.full(model.nv, np.nan)
 
 
-BROKEN = Variant(Text("not a number in the last entry", "最后一个分量不是数"), _without_number)
+BROKEN = Variant(Text("not a number", "不是数"), _without_number)
 RESTING = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, a: tw.rnea(model, q, 0 * v, a))
 HELD = Variant(Text("base held", "基座固定"), held_acceleration)
 
