@@ -96,8 +96,8 @@ def _less(part: float) -> Variant:
     return Variant(Text(f"off by {part:.0e}", f"相差 {part:.0e}"), forward)
 
 
-def _without_number(model: Any, *_: Any) -> Any:
-    return np.full(model.nv, np.nan)
+def _without_number(model: Any, q: Any, v: Any, a: Any) -> Any:
+    return np.nan * tw.rnea(model, q, v, a)
 
 
 BROKEN = Variant(Text("not a number", "不是数"), _without_number)
