@@ -128,7 +128,7 @@ HOLDS = Part(
     given='p = mine("center_of_pressure")',
     slips={
         "cop-axes": lambda F, d_x, d_y: sole_holds(F, d_y, d_x),
-        "pulling-allowed": faulty(sole_holds, ("F[5] <= 0", "False")),
+        "pulling-allowed": faulty(sole_holds, ("F[5] <= 0", "F[5] == 0")),
         "full-for-half": lambda F, d_x, d_y: sole_holds(F, d_x / 2, d_y / 2),
         "one-sided": faulty(sole_holds, ("abs(p_x)", "p_x"), ("abs(p_y)", "p_y")),
         "either-for-both": faulty(sole_holds, (" and ", " or ")),
