@@ -33,14 +33,14 @@ BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 WORDS = {
     "en": {
         "seen": "A robot in motion, with the forces of the ground",
-        "turn": "Drag, or use the arrow keys, to look from elsewhere.",
+        "turn": "Drag, or press the arrow keys, to turn the view.",
         "play": "Play",
         "pause": "Pause",
         "says": "The motion of this block, with the forces of the ground, their cones and the polygon of what touches.",
     },
     "zh": {
         "seen": "运动中的机器人，以及地面的力",
-        "turn": "拖动或用方向键换个角度看。",
+        "turn": "拖动或按方向键可切换视角。",
         "play": "播放",
         "pause": "暂停",
         "says": "这段代码的运动：地面的力、它们的摩擦锥，以及接触处围成的多边形。",

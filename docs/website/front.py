@@ -18,11 +18,12 @@ FRAMES = 48
 WORDS = {
     "en": {
         "seen": "A Go2 that trots, with the forces that the ground exerts on its feet",
-        "says": "The package computed all of it: the gait, and the forces on the feet.",
+        "says": "Left legs are blue, right legs orange; the arrows are the forces of the ground. "
+        "The package computed the gait and the forces.",
     },
     "zh": {
         "seen": "一台小跑的 Go2，以及地面对各足的力",
-        "says": "图中每个数都由本包算出：步态和足底的力。",
+        "says": "左腿为蓝色，右腿为橙色，箭头是地面的力；步态和力都由本程序包算出。",
     },
 }
 
