@@ -166,6 +166,8 @@ WORDS = HERE / "source" / "zh.toml"
 PLACES = {"loc", "ha", "va", "layout", "textcoords"}
 """Keywords whose words are matplotlib's."""
 PROSE = re.compile(r"(?<![\w.(])[A-Za-z]{2,}[,:;]? \(?[a-z]{2,}(?![\w(.=\[])")
+CHECK = re.compile(r"^(tw\.exercises\.check\(.*)\)$", re.MULTILINE)
+"""The check of an exercise, which answers in the notebook's language and not in that of the machine."""
 CHINESE_FIGURES = "tw.plot.chinese()  # 图中可以写汉字"
 
 
@@ -207,6 +209,7 @@ def in_chinese(code: str, words: dict[str, str]) -> str:
         if text not in words and needs_chinese(text):
             raise ValueError(f"{WORDS.name}: expected the Chinese of {text!r}")
         code = code[:start] + code[start:end].replace(text, words.get(text) or text) + code[end:]
+    code = CHECK.sub(r'\1, language="zh")', code)
     lines = code.split("\n")
     if "import matplotlib.pyplot as plt" in lines:
         last = max(k for k, line in enumerate(lines) if line.startswith(("import ", "from ")))

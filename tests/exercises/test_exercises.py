@@ -368,6 +368,26 @@ def test_a_line_of_the_table_is_punctuated_in_its_language(language, said):
     assert str(Status((Row("49.3", states),), language)).splitlines()[0].endswith(said)
 
 
+def test_what_is_missing_of_an_exercise_that_is_begun_is_named(tmp_path):
+    """Its function can be right, and the words not yet written: "Next" alone would puzzle."""
+    start(tmp_path, language="en")
+    assert "is still missing" not in str(status(tmp_path))
+    file = tmp_path / "ex_49_0.py"
+    file.write_text(skeletons.solved("49.0", "en") + "\nanswer_49_0_3 = ...\n", encoding="utf-8")
+    found = status(tmp_path)
+    assert "Next: 49.0.3 The adjoint, in ex_49_0.py: answer_49_0_3 is still missing" in str(found)
+    file.write_text("answer_49_0_3 = (\n", encoding="utf-8")
+    said = str(status(tmp_path, language="zh"))
+    assert "无法读取，先改好：ex_49_0.py" in said
+    assert "49.0.1" not in said
+
+
+def test_hints_and_solutions_show_as_they_read():
+    for said in (hint("49.3.1", language="en"), solution("49.3.1", language="en")):
+        assert repr(said) == str(said)
+        assert "\n" in said
+
+
 def test_hints_come_one_at_a_time(tmp_path):
     start(tmp_path, language="en")
     first, second = hint("49.3.1", tmp_path), hint("49.3.1", tmp_path)
@@ -677,7 +697,10 @@ def test_a_file_that_cannot_be_read_is_told_the_same_where_it_is_named(tmp_path)
     (tmp_path / "ex_49_1.py").write_text("def sizes():\n    retrun 3\n")
     run = pytest_in(tmp_path, "ex_49_1.py")
     assert run.returncode == 1
-    assert "ex_49_1.py, line 2 cannot be read: SyntaxError: invalid syntax" in run.stdout
+    assert run.stdout.count("ex_49_1.py, line 2 cannot be read: SyntaxError: invalid syntax") == 1
+    assert "1 failed" in run.stdout
+    assert "To mend first, since it cannot be read: ex_49_1.py" in run.stdout
+    assert "Next:" not in run.stdout
     assert "collecting" not in run.stdout
 
 

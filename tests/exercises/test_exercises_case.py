@@ -127,7 +127,7 @@ def test_pytest_draws_its_cases_anew_and_prints_the_seed(tmp_path):
         command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-k", "act", *more]
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
         assert "In a shell:  twistwrench exercises case act 0 --seed" in done.stdout
-        return done.stdout.split("The random cases again: --seed ")[1].split()[0]
+        return done.stdout.split("The same random cases again: python -m pytest --seed ")[1].split()[0]
 
     assert seed() != seed()
     assert seed("--seed", "7") == "7"

@@ -53,6 +53,7 @@ def test_the_hints_come_one_click_at_a_time():
     first, second = (text.index(f"hint {k} of 2") for k in (1, 2))
     assert "</details>" not in text[first:second]  # the second is inside the first
     assert "<details open" not in text
+    assert "twistwrench exercises hint" not in text  # they are below
     assert "hint 1" not in html(check("49.0.2", right, language="en"))
 
 

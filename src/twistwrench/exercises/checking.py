@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
-from typing import Any
+from typing import Any, NoReturn
 
 import pytest
 
@@ -20,7 +20,7 @@ from .isolation import TIME_LIMIT, opened
 from .judge import Verdict
 from .progress import survey
 from .text import Text
-from .workbook import Workbook
+from .workbook import Unread, Workbook
 from .wrapping import wrapped
 
 __all__ = [
@@ -38,7 +38,11 @@ COMPARE = Text(
     "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照，参考答案："
 )
 
-SEED = Text("The random cases again: --seed {seed}", "再用同一批随机数据：--seed {seed}")
+UNREAD = Text("None of its answers can be checked until it can be read.", "文件能读取之后，才能检查其中的答案。")
+
+SEED = Text(
+    "The same random cases again: python -m pytest --seed {seed}", "再用同一批随机数据：python -m pytest --seed {seed}"
+)
 
 BOOKS = pytest.StashKey[dict[str, Workbook]]()
 OPEN = pytest.StashKey[ExitStack]()
@@ -109,6 +113,8 @@ class SectionFile(pytest.File):
 
     section: str
     book: Workbook
+    reported = False
+    """Whether it was reported that the file cannot be read."""
 
     @classmethod
     def of(cls, parent: pytest.Collector, *, path: Any, section: str, book: Workbook) -> SectionFile:
@@ -149,11 +155,21 @@ class Answer(pytest.Item):
         """Judge it."""
         book, exercise = self.parent.book, self.exercise
         verdict = self._verdict()
+        if isinstance(verdict, Unread):
+            self._cannot_read(verdict)
         if verdict.state == "to do":
             todo = TO_DO.fill(id=exercise.id, name=self.asked).of(book.language)
             pytest.skip("  ".join([todo, *(line.of(book.language) for line in verdict.lines)]))
         if verdict.state == "wrong":
             raise Wrong(verdict.report(book.language))
+
+    def _cannot_read(self, verdict: Unread) -> NoReturn:
+        """Report once why a file cannot be read, not again for each function in it."""
+        why, none = (line.of(self.parent.book.language) for line in (verdict.lines[-1], UNREAD))
+        if self.parent.reported:
+            pytest.skip(why)
+        self.parent.reported = True
+        raise Wrong(f"{why}\n{none}")
 
     def _verdict(self) -> Verdict:
         if self.asked == self.exercise.answer_name:

@@ -33,6 +33,15 @@ SAY = {
 }
 
 
+class Shown(str):
+    """A text that a cell or a shell of Python shows as it is, with its lines, without ``print``."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
 def hint(
     number: str,
     folder: str | PathLike[str] = ".",
@@ -81,8 +90,8 @@ def hint(
         title = SAY["hint"].fill(id=number, title=exercise.title, k=k, n=n).of(spoken)
         lines += [title, "", *wrapped(exercise.hints[k - 1].of(spoken)), ""]
     if last == n:
-        return "\n".join([*lines, SAY["last"].fill(id=number).of(spoken)])
-    return "\n".join(lines[:-1] if remembered else [*lines, SAY["forgotten"].of(spoken)])
+        return Shown("\n".join([*lines, SAY["last"].fill(id=number).of(spoken)]))
+    return Shown("\n".join(lines[:-1] if remembered else [*lines, SAY["forgotten"].of(spoken)]))
 
 
 def _has_words(book: Workbook, exercise: Exercise) -> bool:
@@ -132,4 +141,4 @@ def solution(number: str, folder: str | PathLike[str] = ".", *, language: Langua
         attempted = _has_words(book, exercise)
         said = SAY["model"] if attempted else SAY["later"].fill(name=exercise.answer_name)
         lines += ["", said.of(spoken), *(wrapped(exercise.answer.of(spoken)) if attempted else [])]
-    return "\n".join(lines)
+    return Shown("\n".join(lines))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html import escape
 from typing import TYPE_CHECKING
 
@@ -41,6 +42,9 @@ STYLE = """<style>
 .tw-check svg {vertical-align: top; margin: 0.3em 0}
 </style>"""
 
+IN_THE_SHELL = re.compile(r"[;；][^;；\n]*twistwrench exercises hint [\w.]+")
+"""What a message says of a command; where the hints are below it, it is left out."""
+
 SQUARE = 9
 """Pixels of the square of a number in the map of an array."""
 
@@ -55,6 +59,7 @@ def checked_html(checked: Checked, *, hints: bool = True) -> str:
     for name, verdict in checked.verdicts.items():
         shown = verdict_html(verdict, language) if verdict.state == "wrong" else f"<b>{escape(checked.line(name))}</b>"
         kind = {"done": "right", "wrong": "wrong", "to do": "to-do"}[verdict.state]
+        shown = IN_THE_SHELL.sub("", shown) if hints else shown
         parts.append(f'<div class="tw-{kind}">{shown}</div>')
     if checked.words and exercise.answer is not None:
         model = exercise.answer.of(language)

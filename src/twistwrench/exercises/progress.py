@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from typing import Literal
 
@@ -11,7 +11,7 @@ from . import catalogue
 from .isolation import TIME_LIMIT, opened
 from .judge import State
 from .text import Language, Text
-from .workbook import Workbook
+from .workbook import Unread, Workbook
 from .wrapping import columns
 
 __all__ = ["Row", "Status", "status"]
@@ -24,7 +24,9 @@ SAY = {
     "wrong": Text("wrong", "有误"),
     "total": Text("total", "合计"),
     "next": Text("Next: {id} {title}, in {file}", "下一题：{id} {title}（{file}）"),
+    "rest": Text("{next}: {names} is still missing", "{next}：还缺 {names}"),
     "fix": Text("To mend: {ids}", "待改正：{ids}"),
+    "read": Text("To mend first, since it cannot be read: {files}", "无法读取，先改好：{files}"),
     "borrowed": Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现：{names}"),
     "comma": Text(", ", "、"),
     "finished": Text("All done.", "全部完成。"),
@@ -53,11 +55,17 @@ class Status:
         One for each section.
     borrowed : tuple of str
         Functions that later exercises took from the reference.
+    rest : dict
+        Of an exercise that is begun, by its number: the names of what is not yet written.
+    unread : tuple of str
+        Sections whose files cannot be read.
     """
 
     rows: tuple[Row, ...]
     language: Language
     borrowed: tuple[str, ...] = ()
+    rest: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    unread: tuple[str, ...] = ()
 
     @property
     def done(self) -> int:
@@ -88,15 +96,22 @@ class Status:
         return f"{section:8}{title}{' ' * (28 - columns(title))}{bar}  {said}"
 
     def _advice(self, every: Row) -> list[str]:
-        wrong = [number for number, state in every.states.items() if state == "wrong"]
+        comma = self._say("comma")
+        unread = [
+            number for section in self.unread for row in self.rows if row.section == section for number in row.states
+        ]
+        wrong = [number for number, state in every.states.items() if state == "wrong" and number not in unread]
         waiting = [number for number, state in every.states.items() if state == "to do"]
-        lines = [self._say("fix", ids=self._say("comma").join(wrong))] if wrong else []
-        if waiting:
+        lines = [self._say("read", files=comma.join(map(catalogue.file_name, self.unread)))] if self.unread else []
+        lines += [self._say("fix", ids=comma.join(wrong))] if wrong else []
+        if waiting and not unread:
             exercise = catalogue.exercise(waiting[0])
             file = catalogue.file_name(exercise.section)
-            lines.append(self._say("next", id=exercise.id, title=exercise.title, file=file))
+            following = self._say("next", id=exercise.id, title=exercise.title, file=file)
+            rest = comma.join(self.rest.get(exercise.id, ()))
+            lines.append(self._say("rest", next=following, names=rest) if rest else following)
         if self.borrowed:
-            lines.append(self._say("borrowed", names=self._say("comma").join(self.borrowed)))
+            lines.append(self._say("borrowed", names=comma.join(self.borrowed)))
         return lines or [self._say("finished")]
 
 
@@ -137,11 +152,20 @@ def status(
 
 def survey(book: Workbook) -> Status:
     """Return the status of a folder that is open."""
-    rows = []
+    rows: list[Row] = []
+    rest: dict[str, tuple[str, ...]] = {}
+    unread: list[str] = []
     for section in catalogue.SECTIONS:
-        states = {e.id: check_state(v.state for v in book.verdicts(e).values()) for e in catalogue.of_section(section)}
-        rows.append(Row(section, states))
-    return Status(tuple(rows), book.language, tuple(sorted(book.borrowed)))
+        found = {exercise.id: book.verdicts(exercise) for exercise in catalogue.of_section(section)}
+        rows.append(
+            Row(section, {number: check_state(v.state for v in each.values()) for number, each in found.items()})
+        )
+        for number, each in found.items():
+            names = tuple(name for name, verdict in each.items() if verdict.state == "to do")
+            rest |= {number: names} if 0 < len(names) < len(each) else {}
+        if any(isinstance(verdict, Unread) for each in found.values() for verdict in each.values()):
+            unread.append(section)
+    return Status(tuple(rows), book.language, tuple(sorted(book.borrowed)), rest, tuple(unread))
 
 
 def check_state(states: Iterable[State]) -> State:

@@ -25,13 +25,17 @@ from .judge import Verdict, judge
 from .phrases import say
 from .text import Language, Text, default_language
 
-__all__ = ["STATE_FILE", "Workbook", "has_started", "mine", "verdict_on_words"]
+__all__ = ["STATE_FILE", "Unread", "Workbook", "has_started", "mine", "verdict_on_words"]
 
 STATE_FILE = ".twistwrench.json"
 """Remembers the language, how many hints were shown, which solutions and which model answers."""
 
 SHORTEST_ANSWER = 12
 """Characters of an answer in words; a sentence in Chinese needs no more."""
+
+
+class Unread(Verdict):
+    """The verdict on each function of a file that cannot be read."""
 
 
 class Workbook:
@@ -150,7 +154,7 @@ class Workbook:
         head = say("head", id=exercise.id, name=part.name)
         if isinstance(module, Text):
             missing = not (self.folder / file).exists()
-            return Verdict("to do" if missing else "wrong", (head, module))
+            return Verdict("to do", (head, module)) if missing else Unread("wrong", (head, module))
         function = getattr(module, part.name, None)
         if isinstance(function, str):
             return judge_formula(exercise, part, function, seed=self.seed)
