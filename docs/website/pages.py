@@ -34,8 +34,11 @@ ONE_BY_ONE = {
 
 FENCE = re.compile(r"^(`{3,}|~{3,}).*?^\1`*$\n?", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"(\]\(|<img src=\"|<source srcset=\")(?![a-z]+:|#)([^)\s\"#]+)(#[^)\s\"]*)?")
-TO_THE_TWIN = re.compile(r"^\[(?:简体中文|English|中文)\]\([^)]+\)(?: · \[README\]\([^)]+\))?(?: · |\n+)", re.MULTILINE)
-"""What leads to the page in the other language; links to other pages may follow in its line, and stay."""
+TO_THE_TWIN = re.compile(
+    r"^\[(?:简体中文|English|中文)\]\([^)]+\)(?: · \[(?:README|glossary|词汇表)\]\([^)]+\))*(?: · |\n+)", re.MULTILINE
+)
+"""What leads to the page in the other language, to the README and to the glossary, to which each word leads here; links
+to other pages may follow in its line, and stay."""
 LINE_END = re.compile(
     r"(^#.*\n)|(?<=[\u4e00-\u9fff，。；：、！？）》”])\n {0,3}(?=[\u4e00-\u9fff（《“`])"
     r"|(?<=[，。；：、！？）》”])\n {0,3}(?=[A-Za-z\[]|\*\*)",

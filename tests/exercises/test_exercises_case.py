@@ -104,8 +104,8 @@ def test_every_slip_hands_its_case_over_on_a_screen(part):
 
 
 def test_a_case_that_is_not_there_is_an_error():
-    with pytest.raises(tw.ModelError, match="act has the cases 0 to 11, got 12"):
-        case("act", 12)
+    with pytest.raises(tw.ModelError, match=r"act has the cases 0 to \d+, got 1000"):
+        case("act", 1000)
     with pytest.raises(tw.NameNotFound, match="adjoint"):
         case("adjont")
 

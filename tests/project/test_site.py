@@ -112,6 +112,8 @@ def test_the_line_that_leads_to_the_other_language_goes_and_other_links_stay(tmp
     assert pages.moved(text, "docs/traps.zh-CN.md", "traps", tmp_path) == "# A\n\nB\n"
     text = "# A\n\n[English](map.md) · [B](glossary.zh-CN.md)\n\nC\n"
     assert pages.moved(text, "docs/traps.zh-CN.md", "traps", tmp_path) == "# A\n\n[B](glossary.md)\n\nC\n"
+    text = "# A\n\n[English](map.md) · [词汇表](glossary.zh-CN.md)\n\nC\n"
+    assert pages.moved(text, "docs/traps.zh-CN.md", "traps", tmp_path) == "# A\n\nC\n"
 
 
 def test_lines_of_chinese_are_joined_without_a_blank(tmp_path):

@@ -129,8 +129,8 @@ def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Case
                 tests = [(*c[:k], simple(c[k]), *c[k + 1 :]) for c in cases]
             except (IndexError, TypeError):  # no such value
                 continue
-            right = [tried(part, part.solution, test) for test in tests]
-            if all(map(_telling, right)) and all(agree(part, again(t), x, t) for t, x in zip(tests, right)):
+            pairs = [(test, right) for test in tests if _telling(right := tried(part, part.solution, test))]
+            if pairs and all(agree(part, again(test), right, test) for test, right in pairs):
                 return say("only where", name=name, value=value)
     return None
 
