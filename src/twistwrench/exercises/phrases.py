@@ -213,7 +213,7 @@ PHRASES = {
         "It is wrong in both directions: False in {strict} cases that are True, True in {loose} that are False.",
         "两个方向都有错：有 {strict} 组应为 True 却给出 False，有 {loose} 组应为 False 却给出 True。",
     ),
-    "text differs": Text("another text", "文字不同"),
+    "text differs": Text("{got}, where another text is expected", "得到 {got}，应为另一段文字"),
 }
 
 

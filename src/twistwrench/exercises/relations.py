@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import shorten
 from typing import Any
 
 import numpy as np
@@ -44,8 +45,8 @@ def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] 
     if problem is not None:
         return [problem]
     if got.array is None or right.array is None:
-        same = str(got.raw).strip() == str(right.raw).strip()
-        return [] if same else [_is(name, say("text differs"))]
+        text = str(got.raw).strip()
+        return [] if text == str(right.raw).strip() else [_is(name, say("text differs", got=shorten(text, 60)))]
     if right.array.dtype.kind == "b":
         return _truths(name, got.array, right.array)
     tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
