@@ -86,6 +86,12 @@ def test_a_check_names_the_slip_and_no_command(language, slip):
     assert classroom.check("49.0.1", right, "", language)[0][0] == "right"
 
 
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_lines_are_counted_from_the_first_one_of_the_answer(language):
+    [(_, text)] = classroom.check("49.0.1", {"49.0.1": "def skew(w):\n    return w[7] * np.eye(3)\n"}, "", language)
+    assert {"en": "line 2", "zh": "第 2 行"}[language] in text
+
+
 def test_markdown_is_shown_as_far_as_the_notebooks_use_it():
     shim = runpy.run_path(str(ROOT / "docs" / "website" / "run" / "IPython" / "display.py"))
     table = shim["Markdown"]("| a | b |\n|---|--:|\n| `x<1` | 2 |")

@@ -29,6 +29,8 @@ IN_THE_SHELL = re.compile(r"[;；][^;；\n]*twistwrench exercises hint [\w.]+|\n
 """What a message says of commands, which a page has buttons for."""
 ANSWER = re.compile(r"^# -{98}\n# (\S+)  .*\n(?:#.*\n)*# -{98}\n([\s\S]*?)(?=^# -{98}\n|\Z)", re.MULTILINE)
 """In a student's file, the number of an exercise and what stands below its text."""
+LINE = re.compile(r"(\bline |第 )(\d+)\b")
+"""A line of the student's file, in both languages."""
 SPACES: dict[str, dict[str, Any]] = {}
 """What the cells of a page have defined, by the page's name."""
 OUTPUTS: list[tuple[str, str]] = []
@@ -187,7 +189,21 @@ def check(number: str, answers: dict[str, str], state: str, language: str) -> li
                 return [("needs", package)]
             raise
     text = IN_THE_SHELL.sub("", checked_html(verdict, hints=False))
-    return [*outputs, ("right" if verdict.right else "wrong", text)]
+    return [*outputs, ("right" if verdict.right else "wrong", in_the_cell(text, number, answers[number]))]
+
+
+def in_the_cell(message: str, number: str, answer: str) -> str:
+    """Return a message in which the lines of the file are counted as the page shows them, from the answer's first."""
+    from twistwrench.exercises import catalogue
+
+    file = (ANSWERS / catalogue.file_name(catalogue.exercise(number).section)).read_text(encoding="utf-8")
+    above, length = file.partition(answer.rstrip())[0].count("\n"), answer.rstrip().count("\n") + 1
+
+    def here(found: re.Match[str]) -> str:
+        line = int(found[2]) - above
+        return f"{found[1]}{line}" if 1 <= line <= length else found[0]
+
+    return LINE.sub(here, message)
 
 
 def hint(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:

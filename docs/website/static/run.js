@@ -236,13 +236,17 @@
   function addExercise(place) {
     const number = place.dataset.number, key = `answer/${number}`;
     const answer = editable(place.querySelector("pre"), key);
-    const box = element("div", { className: "run-output", ariaLive: "polite" });
+    const [box, hints] = [1, 2].map(() => element("div", { className: "run-output", ariaLive: "polite" }));
     const act = (call) => async () => {
       box.classList.add("run-waiting");
       const all = { ...answers(), [number]: answer.code() };
       try {
         const outputs = await ask(call, number, all, kept("state") ?? "", LANGUAGE);
-        show(box, outputs);
+        if (call === "hint") {
+          const news = outputs.filter(([, text]) => text !== hints.lastChild?.textContent);  // the solution comes again
+          hints.append(...news.map(([kind, text]) => SHOW[kind](text)));
+          box.classList.remove("run-waiting");
+        } else show(box, outputs);
         if (call === "check") mark(outputs.some(([kind]) => kind === "right"));
       } catch (error) {
         say(error.message);
@@ -250,9 +254,9 @@
       }
     };
     const mark = (right) => { keep(`right/${number}`, right); place.classList.toggle("is-right", right); };
-    const back = () => { answer.reset(); box.replaceChildren(); mark(false); };
+    const back = () => { answer.reset(); box.replaceChildren(); hints.replaceChildren(); mark(false); };
     const tools = [button(`▶ ${SAY.run}`, act("try_out")), button(SAY.check, act("check")), button(SAY.hint, act("hint")), button(SAY.reset, back)];
-    place.append(element("div", { className: "run-tools" }, ...tools), box);
+    place.append(element("div", { className: "run-tools" }, ...tools), box, hints);
     place.addEventListener("keydown", (event) => { if (event.key === "Enter" && (event.shiftKey || event.ctrlKey)) { event.preventDefault(); act("check")(); } });
     places[number] = { original: answer.original, pre: place.querySelector("pre"), box: place };
     place.classList.toggle("is-right", kept(`right/${number}`) === true);
