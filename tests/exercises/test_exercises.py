@@ -233,7 +233,7 @@ def bare(text):
     return "".join(text.split())
 
 
-@pytest.mark.parametrize(("e", "part", "slip"), sampled(CELLS, 150, several=True))
+@pytest.mark.parametrize(("e", "part", "slip"), sampled(CELLS, 75, several=True))
 def test_a_slip_is_named(e, part, slip):
     for seed in SEEDS:
         verdict = judge(e, settled(part.name, seed), part.slips[slip])
