@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Any
 
-from .twins import is_copy, is_whole, numbers, twins
+from .twins import has_no_sign, is_copy, is_whole, numbers, twins
 
 __all__ = [
     "FACTORS",
@@ -63,8 +63,9 @@ def alternatives(
     if isinstance(node, ast.Name):
         yield from (("name", parsed(name)) for name in names if not _beside(name, parent))
     if _is_term(node, parent):
-        if not is_copy(node):
+        if not is_copy(node) and not has_no_sign(node) and not has_no_sign(parent):
             yield "sign", ast.UnaryOp(ast.USub(), node)
+        if not is_copy(node):
             yield "transposed", _transposed(node)
         yield "instead", parsed("np.linalg.inv(_)", node)
         if isinstance(node, ast.Call) and getattr(node.func, "attr", "") in CONSTANT:
@@ -178,7 +179,8 @@ def _operations(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.BoolOp):
         yield "instead", ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
         for k, _ in enumerate(node.values):
-            yield "left out", ast.BoolOp(node.op, node.values[:k] + node.values[k + 1 :])
+            others = node.values[:k] + node.values[k + 1 :]
+            yield "left out", ast.BoolOp(node.op, others) if len(others) > 1 else others[0]
 
 
 def crossed(node: ast.expr, one: str, other: str) -> ast.expr:

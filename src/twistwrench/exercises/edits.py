@@ -23,7 +23,7 @@ from .alternatives import FACTORS, KINDS, alternatives, crossed, parsed
 from .calls import CHANGED, count
 from .excerpts import enclosing, target, term, text_of
 from .twins import habits
-from .whole import Edit, of_arguments
+from .whole import Edit, of_arguments, of_order
 
 __all__ = ["Source", "edits"]
 
@@ -71,6 +71,7 @@ def edits(
             yield from source.edits(kind)
         if kind == "sign" and not inspect.isclass(solution):
             yield from of_arguments(_guarded(sources))
+            yield from of_order(_guarded(sources))
     for source in sources[:1]:
         yield from source.pairs()
 

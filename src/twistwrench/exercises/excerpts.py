@@ -24,7 +24,7 @@ def term(node: Any, other: Any) -> str:
         return text_of(node.left if gone else node.right)
     if isinstance(node, ast.List | ast.Tuple | ast.BoolOp):
         mine = node.values if isinstance(node, ast.BoolOp) else node.elts
-        theirs = other.values if isinstance(other, ast.BoolOp) else getattr(other, "elts", [])
+        theirs = other.values if isinstance(other, ast.BoolOp) else getattr(other, "elts", [other])
         return text_of(next((x for x in mine if x not in theirs), node))
     if isinstance(node, ast.Call) and isinstance(other, ast.expr):
         return text_of(node.func) if node.args else f".{getattr(node.func, 'attr', '')}()"

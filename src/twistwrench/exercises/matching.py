@@ -13,7 +13,7 @@ from .exercise import Part
 from .repairs import Repair, written
 from .wrong import swap
 
-__all__ = ["MISHAPS", "borne_out", "by_own_line", "matching_slips", "slips_by_piece", "two_slips"]
+__all__ = ["MISHAPS", "borne_out", "by_own_line", "contradicted", "matching_slips", "slips_by_piece", "two_slips"]
 
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
@@ -59,10 +59,23 @@ def by_own_line(found: list[str], mended: list[Repair]) -> list[str]:
     if edit is None or not {*found} & {*SIGNS} or edit.kind != "exchanged":
         return found
     if "cross(" in edit.right:
-        return [slip for slip in found if slip != "lever-reversed"] or found
+        return [*dict.fromkeys("cross-order" if slip in SIGNS else slip for slip in found)]
     if " - " in edit.right:
         return [*dict.fromkeys("lever-reversed" if slip in SIGNS else slip for slip in found)]
     return found
+
+
+def contradicted(found: list[str], mended: list[Repair], exchanged: bool) -> bool:
+    """Whether the student's own line shows another slip with the same numbers than the only one of the list.
+
+    `exchanged`: all is right with two of the things that are returned exchanged.
+    """
+    edit = mended[0].edit if mended else None
+    if edit is None or len(found) > 1:
+        return False
+    if found[0] == "visited-outward":
+        return not any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
+    return found[0] == "swapped-halves" and edit.kind == "exchanged" and exchanged
 
 
 def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:

@@ -21,9 +21,10 @@ from .compare import agree, close, values
 from .edits import Source
 from .exercise import Part
 from .phrases import say
+from .plausible import plausible
 from .search import Remembering, by_chance, said_where
 from .text import Text
-from .whole import Edit, of_arguments
+from .whole import Edit, of_arguments, of_order
 
 __all__ = ["Repair", "guarded", "repairs", "written"]
 
@@ -108,6 +109,8 @@ def repairs(
         Try two changes at once.
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
+    if pairs and 2 * sum(wrong) < len(wrong):
+        return []  # two slips that make up for each other in most cases are not made
     first = min((k for k, bad in enumerate(wrong) if bad), key=lambda k: _seconds(part, function, cases[k]))
     several = len(part.returns) > 1 and part.canonical is None
     bad = {k for k in range(len(part.returns)) if several and not _same(part, answers, right, k)}
@@ -149,7 +152,7 @@ def _changes(
     for edit in source.pairs(PAIRED) if pairs else _single(source, whole):
         if time.process_time() > until:
             return
-        if edit.kind not in chance:
+        if edit.kind not in chance and plausible(edit, text, part.solution):
             yield edit, before
 
 
@@ -159,6 +162,8 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
         yield from source.edits(kind)
         if kind == "left out" and arguments:
             yield from (edit for edit in of_arguments(source.compiled()) if not edit.wrong.startswith("0 *"))
+        if kind == "index" and arguments:  # their order is given: it is seldom mistaken
+            yield from of_order(source.compiled())
 
 
 def written(function: Function) -> tuple[str, int] | None:

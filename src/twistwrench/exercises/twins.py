@@ -7,12 +7,12 @@ import builtins
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-__all__ = ["habits", "is_copy", "is_whole", "numbers", "twins"]
+__all__ = ["habits", "has_no_sign", "is_copy", "is_whole", "numbers", "twins"]
 
 TWINS = (
     *(("motion_transform", "force_transform"), ("cross_motion", "cross_force"), ("inward", "outward")),
     *(("nonlinear_effects", "gravity"), ("cos", "sin"), ("rotation", "translation"), ("cross", "multiply", "outer")),
-    *(("max", "min", "mean", "sum"), ("mean", "median"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
+    *(("max", "median", "min", "mean", "sum"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
     *(
         ("FR_foot", "FL_foot", "RR_foot"),
         ("hypot", "add"),
@@ -34,6 +34,13 @@ def is_copy(node: Any) -> bool:
     """Whether a node only copies an array: what is a term of nothing has no sign."""
     name = getattr(node.func, "attr", "") if isinstance(node, ast.Call) else ""
     return name == "copy" or (name in ("array", "asarray") and not isinstance(node.args[0], ast.List | ast.Tuple))
+
+
+def has_no_sign(node: Any) -> bool:
+    """Whether a node is a size or a bound, before which nobody forgets a sign."""
+    called = getattr(node, "func", None)
+    name = getattr(called, "attr", getattr(called, "id", ""))
+    return name in ("norm", "abs", "max", "min", "clip", "sqrt", "hypot", "len", "median", "arange", "linspace")
 
 
 def is_whole(node: Any) -> bool:

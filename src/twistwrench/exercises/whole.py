@@ -11,7 +11,7 @@ import numpy as np
 
 from .alternatives import exchanges
 
-__all__ = ["Edit", "of_arguments"]
+__all__ = ["Edit", "of_arguments", "of_order"]
 
 Function = Callable[..., Any]
 
@@ -84,7 +84,7 @@ class Edit:
 
 
 def of_arguments(solution: Function) -> Iterator[Edit]:
-    """Yield the function with a change to one of its arguments, or two of them exchanged."""
+    """Yield the function with a change to one of its arguments, or to its result."""
     names = [*inspect.signature(solution).parameters]
     for k, name in enumerate(names):
         for wrong, change in ARGUMENTS.items():
@@ -102,6 +102,11 @@ def of_arguments(solution: Function) -> Iterator[Edit]:
             return change(answer if isinstance(answer, list) and change is np.concatenate else np.asarray(answer))
 
         yield Edit("result", "x", wrong.replace("{}", "x"), solution, result)
+
+
+def of_order(solution: Function) -> Iterator[Edit]:
+    """Yield the function with two of its arguments exchanged."""
+    names = [*inspect.signature(solution).parameters]
     for order in exchanges([*range(len(names))]):
 
         def exchanged(*given: Any, order: list[int] = order) -> Any:

@@ -1,0 +1,81 @@
+"""What is said to be the slip is one that somebody makes, not a change that switches off what is wrong."""
+
+import linecache
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.exercises import catalogue, mine
+from twistwrench.exercises.judge import judge
+
+SKEW = """\
+def skew(w):
+    n = np.linalg.norm(w)
+    x, y, z = (w / n) if n > 0 else w
+    return np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+"""
+SOLE = """\
+def sole_holds(F, d_x, d_y):
+    if F[5] <= 0 or abs(F[2]) > 1e-9:
+        return False
+    x, y = -F[1] / F[5], F[0] / F[5]
+    return bool(abs(x) <= d_x and abs(y) <= d_y)
+"""
+RATIO = """\
+def time_ratio(first, second, calls, clock):
+    first(); second()
+    ratios = []
+    for _ in range(calls):
+        t0 = clock(); first(); t1 = clock(); second(); t2 = clock()
+        ratios.append((t2 - t1) / (t1 - t0))
+    return float(np.mean(ratios))
+"""
+NET = """\
+def net_wrench(model, q, forces):
+    com = tw.center_of_mass(model, q)
+    F = np.zeros(6)
+    for foot, f in zip(model.feet, forces):
+        r = {}
+        F[:3] += np.cross({})
+        F[3:] += f
+    F[3:] += model.mass * model.gravity
+    return F
+"""
+FOOT = "tw.frame_placement(model, q, foot).translation"
+CARRIED = """\
+def carried_wrenches(parent, T, F):
+    out = np.array(F, dtype=float)
+    for i in range(len(parent) - 1, 0, -1):
+        out[parent[i]] += mine("transforms_of")(T[i])[1] @ F[i]
+    return out
+"""
+PLUCKER = """\
+def plucker(R, p):
+    S, O = tw.skew(p), np.zeros((3, 3))
+    return np.block([[R, S @ R], [O, R]]), np.block([[R, O], [S @ R, R]])
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "says", "never"),
+    [
+        (SKEW, "`n` does not belong there", "norm(w)` is wrong"),
+        (SOLE, "line 12, `abs(F[2]) > 1e-09` does not belong there", " and abs"),
+        (RATIO, "line 17, `np.mean` must be `np.median`", "loop"),
+        (NET.format(f"{FOOT} - com", "f, r"), "`np.cross(f, r)` must be `np.cross(r, f)`", "wrong end"),
+        (NET.format(f"com - {FOOT}", "r, f"), f"`com - {FOOT}` must be `{FOOT} - com`", "factors of the cross"),
+        (CARRIED, "line 14, `F[i]` must be `out[i]`", "visited outward"),
+        (PLUCKER, "X and X* are exchanged", "swapped"),
+    ],
+)
+def test_the_slip_is_one_that_somebody_makes(tmp_path, text, says, never):
+    path = tmp_path / "answer.py"
+    path.write_text("\n" * 10 + text, encoding="utf-8")
+    names = {"np": np, "tw": tw, "mine": mine}
+    exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
+    name = text[4 : text.index("(")]
+    said = " ".join(judge(*catalogue.find_part(name), names[name]).message("en").split())
+    linecache.clearcache()
+    assert says in said
+    assert never not in said
