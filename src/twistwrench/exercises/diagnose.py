@@ -10,6 +10,7 @@ import numpy as np
 
 from .compare import agree, pieces, values
 from .exercise import Exercise, Part
+from .independence import not_used
 from .matching import MISHAPS, borne_out, by_own_line, contradicted, matching_slips, slips_by_piece, two_slips
 from .phrases import say
 from .relations import describe, of_numbers, of_truths
@@ -91,6 +92,7 @@ def explain(
         return [], _edited(exercise, part, edited, answers, cases)
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
     lines += filter(None, [of_truths([*zip(answers, right)])])
+    lines += map(_indented, not_used(part, again, answers, right, cases)) if again else []
     where = right_where(part, again, cases) if again else None
     if where is not None:
         lines.append(where)

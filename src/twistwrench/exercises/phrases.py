@@ -196,6 +196,18 @@ PHRASES = {
         "It is right where {name} = {value}: look at what you do with {name}.",
         "当 {name} = {value} 时结果正确：请检查你对 {name} 的处理。",
     ),
+    "not used": Text(
+        "{name} does not change with {what}, and must: `{what}` does not come into it.",
+        "{what} 改变时 {name} 不变，而它应当改变：计算中没有用到 `{what}`。",
+    ),
+    "diagonal only": Text(
+        "It is right where {name} is diagonal: what stands beside the diagonal is not used as it must be.",
+        "当 {name} 为对角矩阵时结果正确：请检查你对非对角元素的处理。",
+    ),
+    "unturned only": Text(
+        "It is right where nothing in {name} is turned against its parent: look at what you do with the rotation.",
+        "当 {name} 中没有转动时结果正确：请检查你对旋转的处理。",
+    ),
     "inexact": Text("right to {digits} digits only: an approximation?", "只有 {digits} 位正确：是不是用了近似？"),
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),

@@ -109,10 +109,29 @@ def _seconds(part: Part, arguments: tuple[Any, ...]) -> float:
 
 
 PROBES: dict[str, Callable[[Any], Any]] = {
+    "diagonal": lambda x: _diagonal(x),
     "0": lambda x: [0 * y for y in x] if isinstance(x, list) else 0 * x[...],
     "1": lambda x: [*map(_one, x)] if isinstance(x, list) else _one(x),
+    "unturned": lambda x: [*map(_unturned, x)] if isinstance(x, list) else _unturned(x),
 }
 """Simple values of an argument, on which a wrong function may be right."""
+
+SHAPES = {"diagonal": "diagonal only", "unturned": "unturned only"}
+"""What is said of those that are no number."""
+
+
+def _diagonal(x: Any) -> Any:
+    if not isinstance(x, np.ndarray) or x.ndim != 2 or len({*x.shape}) != 1 or np.allclose(x @ x.mT, np.eye(len(x))):
+        raise TypeError("a square matrix is expected that is not a rotation")
+    return np.diag(np.diag(x))
+
+
+def _unturned(x: Any) -> Any:
+    if not isinstance(x, np.ndarray) or x.shape[-2:] != (4, 4) or not (x[..., 3, :] == (0, 0, 0, 1)).all():
+        raise TypeError("placements are expected")
+    other = x.copy()
+    other[..., :3, :3] = np.eye(3)
+    return other
 
 
 def _one(x: Any) -> Any:
@@ -131,7 +150,7 @@ def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Case
                 continue
             pairs = [(test, right) for test in tests if _telling(right := tried(part, part.solution, test))]
             if pairs and all(agree(part, again(test), right, test) for test, right in pairs):
-                return say("only where", name=name, value=value)
+                return say(SHAPES.get(value, "only where"), name=name, value=value)
     return None
 
 

@@ -1,0 +1,98 @@
+"""What a wrong result does not depend on, and should: an argument, or an entry of one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from .calls import tried
+from .compare import close, values
+from .exercise import Part
+from .phrases import say
+from .text import Text
+
+__all__ = ["not_used"]
+
+TRIED = 3
+"""Cases in which the result must not change."""
+
+FEW = 6
+"""Entries of an argument that are changed one by one."""
+
+Case = tuple[Any, ...]
+
+
+def not_used(
+    part: Part, again: Callable[[Case], Any], answers: Sequence[Any], right: Sequence[Any], cases: Sequence[Case]
+) -> list[Text]:
+    """Report each thing returned that does not change with an argument with which the right one does.
+
+    Parameters
+    ----------
+    part : Part
+    again : callable
+        Calls the student's function with other arguments.
+    answers, right : sequence
+        What it returned, and what is expected, in each case.
+    cases : sequence of tuple
+    """
+    wrong = [(a, b, c) for a, b, c in zip(answers, right, cases) if _changed(part, a, b)][:TRIED]
+    lines: list[Text] = []
+    for k, given in enumerate(part.arguments.split(", ") if wrong and part.canonical is None else ()):
+        name = given.partition("=")[0]
+        for entry in (None, *range(FEW)):
+            still = [
+                _still(part, again, *case, [_put(case[2], k, x) for x in _others(case[2][k], entry, cases, k)])
+                for case in wrong
+            ]
+            what = name if entry is None else f"{name}[{entry}]"
+            common = sorted(set[int].intersection(*still))
+            lines += [say("not used", name=part.returns[piece].title, what=what) for piece in common]
+            if common and entry is None:
+                break
+    return lines
+
+
+def _still(
+    part: Part, again: Callable[[Case], Any], answer: Any, right: Any, case: Case, others: Sequence[Case]
+) -> set[int]:
+    """Return the wrong things of an answer that stay as they are with other arguments, while the right ones change."""
+    for other in others:
+        moved = _changed(part, tried(part, part.solution, other), right)
+        if moved and _changed(part, answer, right) & moved:
+            return (_changed(part, answer, right) & moved) - _changed(part, again(other), answer)
+    return set()
+
+
+def _changed(part: Part, answer: Any, other: Any) -> set[int]:
+    """Return which of the things returned differ; none where they cannot be compared."""
+    first, second = values(answer, part.returns), values(other, part.returns)
+    if first is None or second is None:
+        return {*range(len(part.returns))} if first is None and second is not None and answer is None else set()
+    return {k for k, (a, b) in enumerate(zip(first, second)) if not close(a, b, part.rtol)}
+
+
+def _others(x: Any, entry: int | None, cases: Sequence[Case], k: int) -> Iterator[Any]:
+    """Yield other values of an argument: of another case, or with one entry changed."""
+    if entry is None:
+        if isinstance(x, float):
+            yield 1.25 * x + 0.1
+        if isinstance(x, list | tuple) and x and all(isinstance(y, str) for y in x):
+            yield x[::-1]
+        alike = [c[k] for c in cases if type(c[k]) is type(x) and np.shape(_sized(c[k])) == np.shape(_sized(x))]
+        yield from [other for other in alike if other is not x][:TRIED]
+    elif isinstance(x, np.ndarray) and x.ndim == 1 and entry < x.size <= FEW and x.dtype.kind == "f":
+        other = x.copy()
+        other[entry] += 0.1 + 0.25 * abs(x[entry])
+        yield other
+
+
+def _sized(x: Any) -> Any:
+    """Return what the sizes of two arguments are compared by."""
+    return [np.shape(y) for y in x] if isinstance(x, list | tuple) else np.zeros(np.shape(x))
+
+
+def _put(case: Case, k: int, x: Any) -> Case:
+    return (*case[:k], x, *case[k + 1 :])
