@@ -548,7 +548,7 @@ def test_a_class_is_judged_by_what_it_does():
             return self.vector @ other.vector
 
     said = message("SpatialVector", SpatialVector)
-    assert "The slip in the error of V + F: a twist and a wrench can be added." in said
+    assert "The slip in the error of V + F: a twist and a wrench can be added, or subtracted." in said
     assert "The slip in the error of V.power(W): the power of two things of one kind is taken." in said
 
     class Unfinished(SpatialVector):

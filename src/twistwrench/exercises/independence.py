@@ -43,21 +43,19 @@ def not_used(
     for k, given in enumerate(part.arguments.split(", ") if wrong and part.canonical is None else ()):
         name = given.partition("=")[0]
         for entry in (None, *range(FEW)):
-            still = [
-                _still(part, again, *case, [_put(case[2], k, x) for x in _others(case[2][k], entry, cases, k)])
-                for case in wrong
+            unmoved = [
+                _unmoved(part, again, a, b, [(*c[:k], x, *c[k + 1 :]) for x in _others(c[k], entry, cases, k)])
+                for a, b, c in wrong
             ]
             what = name if entry is None else f"{name}[{entry}]"
-            common = sorted(set[int].intersection(*still))
+            common = sorted(set[int].intersection(*unmoved))
             lines += [say("not used", name=part.returns[piece].title, what=what) for piece in common]
             if common and entry is None:
                 break
     return lines
 
 
-def _still(
-    part: Part, again: Callable[[Case], Any], answer: Any, right: Any, case: Case, others: Sequence[Case]
-) -> set[int]:
+def _unmoved(part: Part, again: Callable[[Case], Any], answer: Any, right: Any, others: Sequence[Case]) -> set[int]:
     """Return the wrong things of an answer that stay as they are with other arguments, while the right ones change."""
     for other in others:
         moved = _changed(part, tried(part, part.solution, other), right)
@@ -81,7 +79,7 @@ def _others(x: Any, entry: int | None, cases: Sequence[Case], k: int) -> Iterato
             yield 1.25 * x + 0.1
         if isinstance(x, list | tuple) and x and all(isinstance(y, str) for y in x):
             yield x[::-1]
-        alike = [c[k] for c in cases if type(c[k]) is type(x) and np.shape(_sized(c[k])) == np.shape(_sized(x))]
+        alike = [c[k] for c in cases if type(c[k]) is type(x) and _sizes(c[k]) == _sizes(x)]
         yield from [other for other in alike if other is not x][:TRIED]
     elif isinstance(x, np.ndarray) and x.ndim == 1 and entry < x.size <= FEW and x.dtype.kind == "f":
         other = x.copy()
@@ -89,10 +87,6 @@ def _others(x: Any, entry: int | None, cases: Sequence[Case], k: int) -> Iterato
         yield other
 
 
-def _sized(x: Any) -> Any:
-    """Return what the sizes of two arguments are compared by."""
-    return [np.shape(y) for y in x] if isinstance(x, list | tuple) else np.zeros(np.shape(x))
-
-
-def _put(case: Case, k: int, x: Any) -> Case:
-    return (*case[:k], x, *case[k + 1 :])
+def _sizes(x: Any) -> Any:
+    """Return what two arguments must have in common to be put in each other's place."""
+    return [getattr(y, "shape", ()) for y in x] if isinstance(x, list | tuple) else getattr(x, "shape", ())
