@@ -40,8 +40,8 @@ def not_used(
     """
     wrong = [(a, b, c) for a, b, c in zip(answers, right, cases) if _changed(part, a, b)][:TRIED]
     lines: list[Text] = []
-    for k, given in enumerate(part.arguments.split(", ") if wrong and part.canonical is None else ()):
-        name = given.partition("=")[0]
+    given = min((len(c) for _, _, c in wrong), default=0) if part.canonical is None else 0
+    for k, name in enumerate([name.partition("=")[0] for name in part.arguments.split(", ")][:given]):
         for entry in (None, *range(FEW)):
             unmoved = [
                 _unmoved(part, again, a, b, [(*c[:k], x, *c[k + 1 :]) for x in _others(c[k], entry, cases, k)])
