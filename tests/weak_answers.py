@@ -17,7 +17,9 @@ class Weak(NamedTuple):
 ANSWERS = [
     # 49.0
     Weak(
-        "skew", "return np.array([[0, w[2], -w[1]], [-w[2], 0, w[0]], [w[1], -w[0], 0]])", "cross matrix is transposed"
+        "skew",
+        "return np.array([[0, w[2], -w[1]], [-w[2], 0, w[0]], [w[1], -w[0], 0]])",
+        "skew-symmetric matrix is transposed",
     ),
     Weak("skew", "return np.array([[0, -w[2], w[1]], [w[2], 0, w[0]], [-w[1], w[0], 0]])", "wrong in [1, 2]"),
     Weak("act", "return R @ (x + p)", "translation comes before the rotation"),
@@ -34,14 +36,14 @@ ANSWERS = [
         "nq, nv = 7, 6\nfor k in kinds:\n    if k == 'free_flyer':\n        continue\n    elif k == 'spherical':\n"
         "        nq, nv = nq + 4, nv + 3\n    elif k == 'continuous':\n        nq, nv = nq + 2, nv + 1\n    else:\n"
         "        nq, nv = nq + 1, nv + 1\nreturn nq, nv",
-        "a free-flyer is counted once, whether it is there or not",
+        "exactly one free-flyer is counted, however many there are",
     ),
     Weak("newton_euler", "return I_c @ alpha, m * a_c", "gyroscopic term is missing"),
     Weak("newton_euler", "return m * a_c, I_c @ alpha + np.cross(omega, I_c @ omega)", "swapped"),
     # 49.1
     Weak("sizes", "return 19, 19, 18, 18", "nq in place of nv"),
     Weak("sizes", "return 18", "It must return 4 things"),
-    Weak("polishing_torques", "return M @ a + h + J.T @ force", "the outside force is added"),
+    Weak("polishing_torques", "return M @ a + h + J.T @ force", "the external force is added"),
     # 49.2
     Weak(
         "foot_twist",
@@ -72,7 +74,7 @@ ANSWERS = [
     Weak(
         "chain_two_ways",
         "X = mine('plucker')\nA, B = X(R_AB, p_AB)[0], X(R_BC, p_BC)[0]\nreturn X(R_AB @ R_BC, p_AB + p_BC)[0], A @ B",
-        "p_BC is added without turning it into A",
+        "p_BC is added without being rotated into A",
     ),
     # 49.4
     Weak("foot_loads", "return 12 * 9.81 / 4, 15 * 9.81 / 4", "f_z (model) [N]: too small"),
@@ -122,7 +124,7 @@ ANSWERS = [
     Weak(
         "torques_two_ways",
         "h = tw.rnea(model, q, v, a)\nreturn h, tw.crba(model, q) @ a + h",
-        "h is taken with the acceleration",
+        "h is computed with the acceleration",
     ),
     Weak(
         "torques_two_ways",
@@ -178,7 +180,7 @@ ANSWERS = [
     Weak(
         "time_ratio",
         "from timeit import timeit\nreturn timeit(second, number=calls) / timeit(first, number=calls)",
-        "the clock that is handed in is not read",
+        "the clock that is passed in is not read",
     ),
     Weak("measured_ratio", "return 18 * 18 / 18", "an order of growth is taken for a time"),
     # 49.8
@@ -247,7 +249,7 @@ ANSWERS = [
         "a = 9.81 / p_G[2] * (p_G[:2] - p)\nreturn a + np.array([k_rate[1], -k_rate[0]]) / (m * p_G[2])",
         "k̇_G has the wrong sign",
     ),
-    Weak("rate_at_pace", "return s * tw.centroidal_momentum_rate(model, q, v, a)[:3]", "where it counts twice"),
+    Weak("rate_at_pace", "return s * tw.centroidal_momentum_rate(model, q, v, a)[:3]", "must be applied twice"),
     # 49.11
     Weak("finite_limits", "return -np.ones(len(lower)), np.ones(len(upper))", "also those that are finite"),
     Weak(

@@ -30,7 +30,7 @@ SOUGHT = {
 """What is looked up, and the page that has to be found first."""
 AXE = (("en", "light"), ("zh", "dark"))
 MOST_TABS = 40
-SLIP = {"en": "the cross matrix is transposed", "zh": "反对称矩阵被转置"}
+SLIP = {"en": "the skew-symmetric matrix is transposed", "zh": "反对称矩阵被转置"}
 MOST_TO_START = 180_000
 """Milliseconds until Python answers in a page, on a machine that does other things too."""
 RULES = {"runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}}

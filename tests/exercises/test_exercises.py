@@ -441,11 +441,11 @@ def spoilt(change):
         [
             (lambda B: -B, "the sign is wrong", "符号相反"),
             (lambda B: 0 * B, "zero, and must not be", "为零，不应为零"),
-            (lambda B: 0 * B + 1, "other numbers altogether", "数值完全不同"),
+            (lambda B: 0 * B + 1, "completely different numbers", "数值完全不同"),
             (lambda B: B.mT, "transposed", "被转置"),
             (lambda B: -B.mT, "transposed, and the sign is wrong", "被转置且符号相反"),
-            (lambda B: 2 * B, "too large by a factor of 2", "大了 2 倍"),
-            (lambda B: B / 1000, "too small by a factor of 1000", "小了 1000 倍"),
+            (lambda B: 2 * B, "too large by a factor of 2", "是正确值的 2 倍"),
+            (lambda B: B / 1000, "too small by a factor of 1000", "只有正确值的 1/1000"),
             (lambda B: B[::-1], "the right numbers, in the wrong places", "数值正确，位置不对"),
             (lambda B: np.abs(B), "the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
             (lambda B: B + 1e-5, "right to ", "只有 "),
@@ -479,7 +479,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
         ("plucker", lambda R, p: np.eye(6), "It must return 2 things, in this order: X, X*. It returned ndarray."),
         ("plucker", lambda R, p: (np.eye(6),) * 3, "It returned 3."),
         ("plucker", lambda R: R, "It stopped with TypeError"),
-        ("skew", lambda w: -2 * catalogue.find_part("skew")[1].solution(w), "[w]×: other numbers altogether"),
+        ("skew", lambda w: -2 * catalogue.find_part("skew")[1].solution(w), "[w]×: completely different numbers"),
     ],
 )
 def test_what_cannot_be_compared_is_said(name, function, says):
@@ -495,7 +495,7 @@ def reference(name):
     [
         (lambda M: np.triu(M) + np.tril(M, -1) ** 2, "M (base held): only the upper triangle is right"),
         (lambda M: np.tril(M) + np.triu(M, 1) ** 2, "M (base held): only the lower triangle is right"),
-        (lambda M: M + np.eye(len(M)), "M (base held): right but for the diagonal"),
+        (lambda M: M + np.eye(len(M)), "M (base held): right except on the diagonal"),
     ],
 )
 def test_the_part_of_a_matrix_that_is_right_is_told(change, says):
@@ -511,7 +511,7 @@ def test_a_truth_value_and_a_word_that_are_wrong_are_told():
         def __add__(self, other):
             return Renamed(self.name, super().__add__(other).vector)
 
-    assert "(F + G).kind: screw, where another text is expected" in message("SpatialVector", Renamed)
+    assert "(F + G).kind: screw, where a different text is expected" in message("SpatialVector", Renamed)
     Renamed.name = 1.0
     assert "(F + G).kind must be a string, not float" in message("SpatialVector", Renamed)
 
@@ -549,7 +549,7 @@ def test_a_class_is_judged_by_what_it_does():
 
     said = message("SpatialVector", SpatialVector)
     assert "The slip in the error of V + F: a twist and a wrench can be added, or subtracted." in said
-    assert "The slip in the error of V.power(W): the power of two things of one kind is taken." in said
+    assert "The slip in the error of V.power(W): the power of two quantities of the same kind is computed." in said
 
     class Unfinished(SpatialVector):
         def __add__(self, other):
@@ -579,7 +579,7 @@ def test_power_is_asked_for_both_ways_and_the_error_is_the_one_that_was_asked_fo
 
     assert "only one of wrench.power(twist) and twist.power(wrench) works" in message("SpatialVector", OneWay)
     assert "F.power(V) must be numbers, not str" in message("SpatialVector", OtherWay)
-    assert "the error of V.power(W): ValueError, where another text is expected" in message("SpatialVector", OtherError)
+    assert "the error of V.power(W): ValueError, where a different text is expected" in message("SpatialVector", OtherError)
 
 
 def test_an_explanation_does_not_tell_to_do_what_was_done():

@@ -183,7 +183,7 @@ def test_a_change_that_ends_the_process_is_not_taken_for_the_answer():
         return R @ x * np.cos(p)
 
     found = judged(*catalogue.find_part("act"), act, seed=0, time_limit=10)
-    assert "ended the whole process" not in found.message("en")
+    assert "ended the whole Python process" not in found.message("en")
 
 
 def test_one_array_does_not_count_twice():

@@ -135,7 +135,7 @@ def test_what_ends_python_does_not_end_the_notebook(capsys):
         print("here")
         return R @ x + p
 
-    assert "It ended the whole process of Python" in repr(check("49.0.2", ended, language="en"))
+    assert "It ended the whole Python process" in repr(check("49.0.2", ended, language="en"))
     part = catalogue.find_part("act")[1]
     cases = len(drawn(part, 0)) + len(further_cases(part, 0))
     assert check("49.0.2", loud).right

@@ -68,7 +68,7 @@ def test_the_rows_say_what_was_used_and_why_there_are_no_points(found):
     assert rows["bela", "skew"]["solution"] == "0"
     assert rows["bela", "act"]["solution"] == "1"
     assert rows["bela", "skew"]["reason"].startswith("It did not finish in 1.5 s")
-    assert rows["chen", "skew"]["reason"] == "It ended the whole process of Python."
+    assert rows["chen", "skew"]["reason"] == "It ended the whole Python process."
     assert rows["chen", "act"]["slips"] == "translation-sign"
     assert "calls tw.rnea" in rows["dora", "base_wrench_at_rest"]["reason"]
     assert "that you are to write here" in rows["dora", "skew"]["reason"]

@@ -77,7 +77,7 @@ def test_the_others_are_judged_all_the_same(tmp_path):
     states = {number: state for row in found.rows for number, state in row.states.items()}
     assert {number for number, state in states.items() if state == "wrong"} == {"49.0.3", "49.1.1", "49.1.2"}
     assert states["49.0.2"] == "done"
-    assert said(tmp_path, "adjoint")[1].endswith("It ended the whole process of Python.")
+    assert said(tmp_path, "adjoint")[1].endswith("It ended the whole Python process.")
     file = said(tmp_path, "sizes")[1]
     assert "It did not finish in 1.5 s" in file
     assert "while True: x = 1" in file

@@ -76,7 +76,9 @@ def test_a_figure_becomes_a_picture():
     assert classroom.run("1;", "page", "cell 2") == []
 
 
-@pytest.mark.parametrize(("language", "slip"), [("en", "the cross matrix is transposed"), ("zh", "反对称矩阵")])
+@pytest.mark.parametrize(
+    ("language", "slip"), [("en", "the skew-symmetric matrix is transposed"), ("zh", "反对称矩阵")]
+)
 def test_a_check_names_the_slip_and_no_command(language, slip):
     [(kind, text)] = classroom.check("49.0.1", TRANSPOSED, "", language)
     assert kind == "wrong"

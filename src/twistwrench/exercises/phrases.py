@@ -15,7 +15,7 @@ PHRASES = {
     "two slips": Text("Two slips at once: {first}; and {second}.", "两处错误：{first}；并且 {second}。"),
     "edit sign": Text("the sign of `{right}` is wrong", "`{right}` 的符号错了"),
     "edit left out": Text("`{right}` is left out", "漏掉了 `{right}`"),
-    "edit after loop": Text("`{right}` stands after the loop, not in it", "`{right}`放在了循环之后，而不在循环内"),
+    "edit after loop": Text("`{right}` stands after the loop, not in it", "`{right}` 放在了循环之后，而不在循环内"),
     "edit in loop": Text("`{right}` stands in the loop, not before it", "`{right}` 放在了循环内，而不在循环之前"),
     "edit summed": Text("`{right}` is added up", "`{right}` 被累加了"),
     "edit transposed": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
@@ -52,7 +52,8 @@ PHRASES = {
     "repair index": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair argument": Text(
-        "the function is right with `{right}` where it has `{wrong}`", "把参数 `{wrong}` 换成 `{right}`，函数就正确了"
+        "with `{right}` in place of the argument `{wrong}` the function is right",
+        "把参数 `{wrong}` 换成 `{right}`，函数就正确了",
     ),
     "repair result": Text(
         "where `{wrong}` is returned, `{right}` would be right", "返回的是 `{wrong}`，而正确的是 `{right}`"
@@ -60,7 +61,7 @@ PHRASES = {
     "own code": Text("In your code: {title}.", "在你的代码中：{title}。"),
     "halves of result": Text("{title}: its two halves are exchanged", "{title}：前后两半互换了"),
     "inverse of result": Text("{title}: it is the inverse of the right answer", "{title}：它是正确结果的逆"),
-    "first six of result": Text("{title}: its first six do not belong there", "{title}：不应有前六个"),
+    "first six of result": Text("{title}: its first six entries do not belong there", "{title}：不应有前六个分量"),
     "in own line": Text("line {line}, {title}", "第 {line} 行，{title}"),
     "mended": Text(
         "With this change, and no other, it is right in all {all} cases.", "只作这一改动，全部 {all} 组数据就都正确。"
@@ -79,10 +80,10 @@ PHRASES = {
     ),
     "it shows": Text("It shows in the result:", "反映在结果上："),
     "first wrong": Text(
-        "The first that is wrong with it is {wrong}. Right for every body: {right}.",
-        "这样最先出错的是 {wrong}。各刚体都正确的有：{right}。",
+        "The first quantity that it makes wrong is {wrong}. These are right for every body: {right}.",
+        "这一改动使 {wrong} 最先出错。对每个刚体都正确的有：{right}。",
     ),
-    "wrong first": Text("The first that is wrong with it is {wrong}.", "这样最先出错的是 {wrong}。"),
+    "wrong first": Text("The first quantity that it makes wrong is {wrong}.", "这一改动使 {wrong} 最先出错。"),
     "in line": Text("{title}, where `{target}` is computed", "计算 `{target}` 时，{title}"),
     "results exchanged": Text("{first} and {second} are exchanged", "{first} 与 {second} 互换了"),
     "exchanged": Text("Each of them is right: return them in the other order.", "二者都正确，只是返回的顺序反了。"),
@@ -93,7 +94,9 @@ PHRASES = {
     "arrays": Text("list of {n} arrays", "{n} 个数组的列表"),
     "project": Text("the project at the end of the chapter", "章末的累积项目"),
     "no slip": Text("It is not one of the known slips. What the comparison shows:", "不属于已知的典型错误。比较结果："),
-    "broken": Text("What a right answer has and yours has not: {text}", "正确答案应满足而你的不满足：{text}"),
+    "broken": Text(
+        "This holds for every right answer, but not for yours: {text}", "正确答案都满足而你的不满足：{text}"
+    ),
     # why an answer cannot be compared
     "stopped": Text("It stopped with {error}", "运行出错：{error}"),
     "at line": Text("in {file}, line {line}:", "位于 {file} 第 {line} 行："),
@@ -132,10 +135,10 @@ PHRASES = {
     "endless": Text(
         "It did not finish in {seconds} s: a loop that never ends?", "{seconds} 秒内没有结束：是不是死循环？"
     ),
-    "ended": Text("It ended the whole process of Python.", "它使整个 Python 进程终止了。"),
+    "ended": Text("It ended the whole Python process.", "它使整个 Python 进程终止了。"),
     "ended in": Text(
-        "{name} does so where it is given a number of a joint or frame that the model does not have: print the number.",
-        "把模型中没有的关节或 frame 的编号交给 {name}，它就会这样：请打印这个编号。",
+        "{name} does so if it is given the number of a joint or frame that the model does not have: print the number.",
+        "把模型中没有的关节或坐标系的编号交给 {name}，它就会这样：请打印这个编号。",
     ),
     "encoding": Text(
         "{file} is not written in UTF-8: save it as UTF-8 in your editor. ({error})",
@@ -182,14 +185,14 @@ PHRASES = {
     "sign": Text("the sign is wrong", "符号相反"),
     "transposed": Text("transposed", "被转置"),
     "transposed sign": Text("transposed, and the sign is wrong", "被转置且符号相反"),
-    "factor": Text("too large by a factor of {factor:.4g}", "大了 {factor:.4g} 倍"),
-    "divisor": Text("too small by a factor of {factor:.4g}", "小了 {factor:.4g} 倍"),
+    "factor": Text("too large by a factor of {factor:.4g}", "是正确值的 {factor:.4g} 倍"),
+    "divisor": Text("too small by a factor of {factor:.4g}", "只有正确值的 1/{factor:.4g}"),
     "permuted": Text("the right numbers, in the wrong places", "数值正确，位置不对"),
     "signs": Text("the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
     "upper": Text("only the upper triangle is right", "只有上三角正确"),
     "lower": Text("only the lower triangle is right", "只有下三角正确"),
     "diagonal": Text("only the diagonal is right", "只有对角线正确"),
-    "off diagonal": Text("right but for the diagonal", "除对角线外正确"),
+    "off diagonal": Text("right except on the diagonal", "除对角线外正确"),
     "entries": Text("wrong in {entries}, right elsewhere", "错在 {entries}，其余正确"),
     "rows": Text("wrong in rows {rows}, right in the others", "第 {rows} 行有错，其余各行正确"),
     "only where": Text(
@@ -211,21 +214,22 @@ PHRASES = {
     "inexact": Text("right to {digits} digits only: an approximation?", "只有 {digits} 位正确：是不是用了近似？"),
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),
-    "other": Text("other numbers altogether", "数值完全不同"),
+    "other": Text("completely different numbers", "数值完全不同"),
     "false": Text("is {got}, and must be {right}", "是 {got}，应为 {right}"),
     "too strict": Text(
-        "It is too strict: False in {strict} cases that are True, and never True where it must not be.",
+        "It is too strict: it returns False in {strict} cases that are True, and never True where it must not.",
         "判断过严：有 {strict} 组应为 True 却给出 False，而没有一组相反。",
     ),
     "too loose": Text(
-        "It is too loose: True in {loose} cases that are False, and never False where it must not be.",
+        "It is too loose: it returns True in {loose} cases that are False, and never False where it must not.",
         "判断过宽：有 {loose} 组应为 False 却给出 True，而没有一组相反。",
     ),
     "both ways": Text(
-        "It is wrong in both directions: False in {strict} cases that are True, True in {loose} that are False.",
+        "It is wrong in both directions: it returns False in {strict} cases that are True, and True in {loose} that"
+        " are False.",
         "两个方向都有错：有 {strict} 组应为 True 却给出 False，有 {loose} 组应为 False 却给出 True。",
     ),
-    "text differs": Text("{got}, where another text is expected", "得到 {got}，应为另一段文字"),
+    "text differs": Text("{got}, where a different text is expected", "得到 {got}，应为另一段文字"),
 }
 
 
