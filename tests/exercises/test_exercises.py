@@ -579,7 +579,7 @@ def test_power_is_asked_for_both_ways_and_the_error_is_the_one_that_was_asked_fo
 
     assert "only one of wrench.power(twist) and twist.power(wrench) works" in message("SpatialVector", OneWay)
     assert "F.power(V) must be numbers, not str" in message("SpatialVector", OtherWay)
-    assert "the error of V.power(W): ValueError, where a different text is expected" in message("SpatialVector", OtherError)
+    assert "V.power(W): ValueError, where a different text is expected" in message("SpatialVector", OtherError)
 
 
 def test_an_explanation_does_not_tell_to_do_what_was_done():
