@@ -109,3 +109,10 @@ def test_what_a_result_does_not_depend_on_is_said(name, answer, says):
     said = " ".join(judge(*catalogue.find_part(name), answer).message("en").split())
     assert says in said
     assert said.count("and must: ") <= 1
+
+
+def test_of_true_or_false_it_is_not_said():
+    def holds(F, d_x, d_y):
+        return bool(abs(F[0]) <= d_x * abs(F[5]) and abs(F[1]) <= d_y * abs(F[5]))
+
+    assert "does not change" not in judge(*catalogue.find_part("sole_holds"), holds).message("en")

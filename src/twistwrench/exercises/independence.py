@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .calls import tried
-from .compare import close, values
+from .compare import Value, close, values
 from .exercise import Part
 from .phrases import say
 from .text import Text
@@ -57,11 +57,18 @@ def not_used(
 
 def _unmoved(part: Part, again: Callable[[Case], Any], answer: Any, right: Any, others: Sequence[Case]) -> set[int]:
     """Return the wrong things of an answer that stay as they are with other arguments, while the right ones change."""
+    wrong, wanted, moved = _changed(part, answer, right), set[int](), set[int]()
     for other in others:
-        moved = _changed(part, tried(part, part.solution, other), right)
-        if moved and _changed(part, answer, right) & moved:
-            return (_changed(part, answer, right) & moved) - _changed(part, again(other), answer)
-    return set()
+        expected = tried(part, part.solution, other)
+        if wrong & _changed(part, expected, right):
+            wanted |= _changed(part, expected, right)
+            moved |= _changed(part, again(other), answer)
+    return wrong & wanted - moved - {k for k, x in enumerate(values(right, part.returns) or []) if _truth(x)}
+
+
+def _truth(x: Value) -> bool:
+    """Whether a value is True or False: it stays as it is with most changes."""
+    return x.array is None or x.array.dtype.kind == "b"
 
 
 def _changed(part: Part, answer: Any, other: Any) -> set[int]:

@@ -37,6 +37,8 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
         return not _read_after(_parsed(before), text, edit.line)
     if isinstance(_parsed(after), ast.AugAssign) and isinstance(_parsed(before), ast.Assign):
         return ast.unparse(_parsed(before).targets[0]) not in ast.unparse(_parsed(before).value)  # it is in it already
+    if edit.kind == "inserted" and any(before in ast.unparse(x) for x in _nodes(text) if isinstance(x, ast.Compare)):
+        return False  # a branch that is wrong needs no further factor in its condition
     if edit.kind == "number" and any(isinstance(x, ast.Compare) for x in _nodes(after)):
         return after.count("-") <= before.count("-")  # nothing is below a negative threshold
     if any(name in before and name not in after for name in POSTURES):
