@@ -55,6 +55,15 @@ def plucker(R, p):
     S, O = tw.skew(p), np.zeros((3, 3))
     return np.block([[R, S @ R], [O, R]]), np.block([[R, O], [S @ R, R]])
 """
+ARC = """\
+def arc(omega_z, v_x):
+    c, s, T = np.cos(omega_z), np.sin(omega_z), np.eye(4)
+    if abs(omega_z) < 0.02:
+        T[0, 3] = v_x
+        return T
+    T[:2] = [[c, -s, 0, v_x / omega_z * s], [s, c, 0, v_x / omega_z * (1 - c)]]
+    return T
+"""
 
 
 @pytest.mark.parametrize(
@@ -62,6 +71,7 @@ def plucker(R, p):
     [
         (SKEW, "`n` does not belong there", "norm(w)` is wrong"),
         (SOLE, "line 12, `abs(F[2]) > 1e-09` does not belong there", " and abs"),
+        (ARC, "the branch for `abs(omega_z) < 0.02` must not be taken", "< -0.02"),
         (RATIO, "line 17, `np.mean` must be `np.median`", "loop"),
         (NET.format(f"{FOOT} - com", "f, r"), "`np.cross(f, r)` must be `np.cross(r, f)`", "wrong end"),
         (NET.format(f"com - {FOOT}", "r, f"), f"`com - {FOOT}` must be `{FOOT} - com`", "factors of the cross"),

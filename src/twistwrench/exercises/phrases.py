@@ -58,6 +58,7 @@ PHRASES = {
     "repair result": Text(
         "where `{wrong}` is returned, `{right}` would be right", "返回的是 `{wrong}`，而正确的是 `{right}`"
     ),
+    "branch": Text("the branch for `{wrong}` must not be taken", "不应进入 `{wrong}` 的分支"),
     "own code": Text("In your code: {title}.", "在你的代码中：{title}。"),
     "halves of result": Text("{title}: its two halves are exchanged", "{title}：前后两半互换了"),
     "inverse of result": Text("{title}: it is the inverse of the right answer", "{title}：它是正确结果的逆"),

@@ -10,7 +10,7 @@ from typing import Any
 
 from .whole import Edit
 
-__all__ = ["plausible"]
+__all__ = ["plausible", "shuts"]
 
 POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
@@ -39,11 +39,18 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
         return ast.unparse(_parsed(before).targets[0]) not in ast.unparse(_parsed(before).value)  # it is in it already
     if edit.kind == "inserted" and any(before in ast.unparse(x) for x in _nodes(text) if isinstance(x, ast.Compare)):
         return False  # a branch that is wrong needs no further factor in its condition
-    if edit.kind == "number" and any(isinstance(x, ast.Compare) for x in _nodes(after)):
-        return after.count("-") <= before.count("-")  # nothing is below a negative threshold
+    if shuts(edit):
+        tests = [ast.unparse(x.test) for x in _nodes(text) if isinstance(x, ast.If | ast.IfExp)]
+        return ">" not in before and any(before in test for test in tests)
     if any(name in before and name not in after for name in POSTURES):
         return False
     return edit.kind != "exchanged" or _turned(before, text, reference)
+
+
+def shuts(edit: Edit) -> bool:
+    """Whether a change puts a threshold below zero: then a branch is not taken any more."""
+    compared = any(isinstance(x, ast.Compare) for x in _nodes(edit.wrong))
+    return edit.kind == "number" and compared and edit.wrong.count("-") > edit.right.count("-")
 
 
 def _read_after(assigned: Any, text: str, line: int) -> bool:

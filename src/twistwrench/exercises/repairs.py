@@ -21,7 +21,7 @@ from .compare import agree, close, values
 from .edits import Source
 from .exercise import Part
 from .phrases import say
-from .plausible import plausible
+from .plausible import plausible, shuts
 from .search import Remembering, by_chance, said_where
 from .text import Text
 from .whole import Edit, of_arguments, of_order
@@ -63,6 +63,8 @@ class Repair:
         """Report what must stand where."""
         edit = self.edit
         title = say(f"repair {edit.kind}", right=edit.wrong, wrong=edit.right)
+        if shuts(edit):
+            title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:
             return say(OF_RESULT[edit.wrong], title=title)
         if edit.line:
