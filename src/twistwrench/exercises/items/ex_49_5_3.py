@@ -1,4 +1,4 @@
-"""Exercise 49.5.3: about the centre of mass, turning and moving do not mix."""
+"""Exercise 49.5.3: about the centre of mass, rotation and translation are decoupled."""
 
 from typing import Any
 
