@@ -225,3 +225,81 @@ def test_the_difference_of_two_wrenches_is_a_wrench():
             return type(self)("twist", (solution.__sub__(self, other)).vector)
 
     assert "(F − G).kind" in message(SpatialVector, "SpatialVector")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "says"),
+    [
+        (
+            "arc",
+            """\
+def arc(omega_z, v_x):
+    c, s = np.cos(omega_z), np.sin(omega_z)
+    r = v_x * omega_z
+    return np.array([[c, s, 0, r * s], [-s, c, 0, r * (1 - c)], [0, 0, 1, 0], [0, 0, 0, 1]])
+""",
+            ["the sign of `s` is wrong", "and line 13, `v_x * omega_z` must be `v_x / omega_z`", "With both changes"],
+        ),
+        (
+            "adjoint",
+            """\
+def adjoint(T):
+    R, p = T[:3, :3], T[:3, 3]
+    return np.block([[R, tw.skew(p) @ R], [np.zeros((3, 3)), R.T]])
+""",
+            ["must be `[[R, np.zeros((3, 3))], [tw.skew(p) @ R, R.T]]`; and line 13, `R.T` must be `R`"],
+        ),
+        (
+            "cross_operators",
+            """\
+def cross_operators(V):
+    W, U, Z = tw.skew(V[:3]), tw.skew(V[3:]), np.zeros((3, 3))
+    C = np.block([[W, U], [Z, W]])
+    return C, C.T
+""",
+            ["With both changes", "the sign of `C.T` is wrong"],
+        ),
+    ],
+)
+def test_two_slips_are_found_one_after_the_other(written, name, text, says):
+    said = message(written(text), name)
+    assert all(sentence in said for sentence in says)
+
+
+def test_a_forgotten_argument_is_what_must_stand_there(written):
+    always = """\
+def foot_wrench(model, q, foot):
+    R = tw.frame_placement(model, q, "FR_foot").rotation
+    return np.concatenate([np.zeros(3), -model.mass / 4 * R.T @ model.gravity])
+"""
+    assert "must be `tw.frame_placement(model, q, foot)`" in message(written(always), "foot_wrench")
+
+
+def test_of_two_changes_that_do_the_same_neither_is_claimed(written):
+    turned = """\
+def arc(omega_z, v_x):
+    R = tw.exp3(np.array([0, 0, omega_z]))
+    r, T = v_x / omega_z, np.eye(4)
+    T[:3, :3], T[:3, 3] = R, R @ np.array([r * np.sin(omega_z), r * (1 - np.cos(omega_z)), 0])
+    return T
+"""
+    said = message(written(turned), "arc")
+    assert "One of these changes would make it right" in said
+    assert "`R` does not belong there" in said
+
+
+def test_in_which_two_of_several_places_is_reported(written):
+    six = "def base_rows(M, h, J_c, qdd, forces):\n    return M[:6, :6] @ qdd[:6] + M[:6, 6:12] @ qdd[6:12]"
+    said = message(written(six + " + h[:6] - J_c[:, :6].T @ forces\n"), "base_rows")
+    assert "`6:12` must be `6:`, in `M[:6, 6:12]` and in `qdd[6:12]`" in said
+
+
+def test_a_part_that_a_change_makes_right_is_reported_with_it(written):
+    text = """\
+def adjoint(T):
+    R, p = T[:3, :3], T[:3, 3]
+    return np.block([[R, np.zeros((3, 3))], [tw.skew(p[[2, 0, 1]] + 1) @ R, R.T]])
+"""
+    said = message(written(text), "adjoint")
+    assert "The slip in Ad_T, the block of rows v, columns v" in said
+    assert "Something else is wrong as well" in said

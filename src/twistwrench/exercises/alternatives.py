@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 import copy
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 from typing import Any
 
+from .containers import Change, containers, exchanges, parsed
 from .twins import has_no_sign, is_copy, is_whole, numbers, twins
 
 __all__ = [
@@ -15,23 +15,24 @@ __all__ = [
     "KINDS",
     "alternatives",
     "crossed",
-    "exchanges",
-    "parsed",
 ]
 
-Change = tuple[str, Any]
-"""Kind of an edit, and what is put in place of a node."""
-
 KINDS = (
-    *("exchanged", "halves", "sign", "transposed", "left out", "after loop", "in loop", "summed"),
-    *("last", "name", "index", "instead", "number", "inserted"),
+    *("exchanged", "halves", "sign", "transposed", "left out", "last", "name", "index", "instead"),
+    *("after loop", "in loop", "summed", "number", "inserted"),
 )
 """The kinds of edits, the likeliest first."""
 
 FACTORS = ("2", "9.81")
-SLICES = (":", ":3", "3:6", "3:", ":6", "6:", "-6:")
 OPPOSITE = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Div}
-COMPARED = {ast.LtE: ast.Lt, ast.Lt: ast.LtE, ast.GtE: ast.Gt, ast.Gt: ast.GtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
+COMPARED: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
+    ast.LtE: (ast.Lt, ast.GtE),
+    ast.Lt: (ast.LtE, ast.Gt),
+    ast.GtE: (ast.Gt, ast.LtE),
+    ast.Gt: (ast.GtE, ast.Lt),
+    ast.Eq: (ast.NotEq, ast.LtE, ast.GtE),
+    ast.NotEq: (ast.Eq, ast.Lt, ast.Gt),
+}
 
 CONSTANT = ("zeros", "ones", "eye")
 """What these make does not lack a factor."""
@@ -50,12 +51,13 @@ def alternatives(
     matrices, scalars : sequence of ast.expr
         Square matrices and numbers that are at hand as a further factor.
     """
-    for changes in (_statements, _operations, _containers, _calls):
+    for changes in (_statements, _operations, containers, _calls):
         if not isinstance(parent, ast.Slice):  # the step of a slice has no sign
             yield from changes(node)
     if not (isinstance(parent, ast.UnaryOp) and is_whole(node)):
         kind = "index" if isinstance(parent, ast.Subscript) else "number"
-        yield from ((kind, other) for other in numbers(node))
+        bound = isinstance(parent, ast.Slice)
+        yield from ((kind, other) for other in numbers(node) if not bound or _plausible(node, other))
     if isinstance(node, ast.For | ast.While):
         yield from _loops(node, parent)
     if isinstance(getattr(parent, "ctx", None), ast.Store):
@@ -78,16 +80,14 @@ def alternatives(
             yield from (("inserted", ast.BinOp(node, op, scalar)) for op in (ast.Mult(), ast.Div()))
 
 
+def _plausible(node: Any, other: Any) -> bool:
+    """Whether the bound of a slice is taken for another: one or two beside it, nothing, or that of a block."""
+    x, y = getattr(node, "value", 0), getattr(other, "value", 0)
+    return y in (0, 3, 6, 12) or abs(x - y) <= 2
+
+
 def _transposed(node: ast.expr) -> ast.expr:
     return ast.Attribute(node, "mT", ast.Load())
-
-
-def parsed(text: str, *nodes: ast.expr) -> ast.expr:
-    """Parse an expression; where it is a call, the underscores among its arguments stand for nodes."""
-    tree, given = ast.parse(text, mode="eval").body, iter(nodes)
-    if nodes and isinstance(tree, ast.Call):
-        tree.args = [next(given) if isinstance(x, ast.Name) and x.id == "_" else x for x in tree.args]
-    return tree
 
 
 def _is_term(node: Any, parent: Any) -> bool:
@@ -121,10 +121,18 @@ def _loops(node: Any, parent: Any) -> Iterator[Change]:
             yield "summed", ast.If(ast.Constant(True), [ast.Assign(line.targets, ast.Constant(0)), summed], [])
     around = getattr(parent, "body", [])
     k = next((k for k, other in enumerate(around) if other is node), 0)
-    if k and isinstance(around[k - 1], ast.Assign):
+    if k and isinstance(around[k - 1], ast.Assign) and _set_by(around[k - 1]) & _used(node):
         more = copy.copy(node)
         more.body = [around[k - 1], *node.body]
         yield "in loop", more
+
+
+def _set_by(line: ast.Assign) -> set[str]:
+    return {x.id for target in line.targets for x in ast.walk(target) if isinstance(x, ast.Name)}
+
+
+def _used(loop: Any) -> set[str]:
+    return {x.id for line in loop.body for x in ast.walk(line) if isinstance(x, ast.Name)}
 
 
 def _statements(node: Any) -> Iterator[Any]:
@@ -171,11 +179,12 @@ def _operations(node: Any) -> Iterator[Change]:
             yield "instead", ast.BinOp(right, ast.Div(), left)
             yield "instead", ast.BinOp(left, ast.MatMult(), right)
             yield "instead", parsed("np.cross(_, _)", left, right)
+        yield from _diagonals(left, op, right)
         yield from _brackets(left, op, right)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         yield "sign", node.operand
     if isinstance(node, ast.Compare) and type(node.ops[0]) in COMPARED:
-        yield "instead", ast.Compare(node.left, [COMPARED[type(node.ops[0])]()], node.comparators)
+        yield from (("instead", ast.Compare(node.left, [op()], node.comparators)) for op in COMPARED[type(node.ops[0])])
     if isinstance(node, ast.BoolOp):
         yield "instead", ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
         for k, _ in enumerate(node.values):
@@ -192,6 +201,16 @@ def crossed(node: ast.expr, one: str, other: str) -> ast.expr:
     return found
 
 
+def _diagonals(left: Any, op: Any, right: Any) -> Iterator[Change]:
+    """Yield a matrix in place of its diagonal, which multiplies or divides entry by entry."""
+    for node, other in ((left, right), (right, left)):
+        if isinstance(node, ast.Call) and getattr(node.func, "attr", "") in ("diag", "diagonal") and node.args:
+            if isinstance(op, ast.Mult):
+                yield "instead", ast.BinOp(node.args[0], ast.MatMult(), other)
+            elif isinstance(op, ast.Div) and node is right:
+                yield "instead", parsed("np.linalg.solve(_, _)", node.args[0], other)
+
+
 def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:
     """Yield A (b + c) in place of A b + c, and the other way round."""
     if (
@@ -206,49 +225,6 @@ def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:
         yield "instead", ast.BinOp(right.left, right.op, ast.BinOp(left, op, right.right))
 
 
-def exchanges(entries: list[Any]) -> Iterator[list[Any]]:
-    """Yield the entries with two of them exchanged."""
-    for i, j in combinations(range(len(entries)), 2):
-        yield [entries[j if k == i else i if k == j else k] for k in range(len(entries))]
-
-
-def _containers(node: Any) -> Iterator[Change]:
-    """Yield a list or tuple with two entries exchanged, with an entry that is zero, or another slice."""
-    if isinstance(node, ast.List | ast.Tuple) and isinstance(node.ctx, ast.Load):
-        for entries in exchanges(node.elts):
-            yield "exchanged", type(node)(entries, node.ctx)
-        for k, entry in enumerate(node.elts):
-            if isinstance(entry, ast.Starred):
-                yield "left out", type(node)([*node.elts[:k], *node.elts[k + 1 :]], node.ctx)
-            elif not isinstance(entry, ast.Constant | ast.Slice | ast.List):
-                zero = ast.BinOp(ast.Constant(0), ast.Mult(), entry)
-                yield "left out", type(node)([*node.elts[:k], zero, *node.elts[k + 1 :]], node.ctx)
-    if isinstance(node, ast.Slice) and ast.unparse(node) in SLICES:
-        for other in SLICES:
-            if other != ast.unparse(node):
-                yield "instead", parsed(f"x[{other}]").slice  # type: ignore[attr-defined]
-    if isinstance(node, ast.Slice):
-        ends = [x.value for x in (node.lower, node.upper) if isinstance(x, ast.Constant) and isinstance(x.value, int)]
-        for k in (-1, 1) if len(ends) == 2 else ():
-            yield "instead", ast.Slice(*(ast.Constant(end + k) for end in ends))
-    if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Load):
-        pair = [getattr(x, "value", None) for x in getattr(node.slice, "elts", ())]
-        if len(pair) == 2 and pair[0] == pair[1] and isinstance(pair[0], int):
-            for k in range(6):
-                yield "index", ast.Subscript(node.value, ast.Tuple([ast.Constant(k)] * 2, ast.Load()), node.ctx)
-    if isinstance(node, ast.Subscript):
-        if isinstance(node.slice, ast.Slice):
-            yield "left out", node.value
-            every = ast.Tuple([ast.Slice(), node.slice], ast.Load())
-            yield "instead", ast.Subscript(node.value, every, node.ctx)
-        elif isinstance(node.slice, ast.Tuple) and len(node.slice.elts) == 2 and _is_all(node.slice.elts[0]):
-            yield "instead", ast.Subscript(node.value, node.slice.elts[1], node.ctx)
-
-
-def _is_all(node: Any) -> bool:
-    return isinstance(node, ast.Slice) and node.lower is node.upper is None
-
-
 def _calls(node: Any) -> Iterator[Change]:
     """Yield a call with two arguments exchanged, its argument alone, or what is called or named by a twin."""
     if isinstance(node, ast.Call):
@@ -260,7 +236,7 @@ def _calls(node: Any) -> Iterator[Change]:
         for k, argument in enumerate(node.args):
             if isinstance(argument, ast.Name) or any(isinstance(x, ast.Call) for x in ast.walk(argument)):
                 zero = ast.BinOp(ast.Constant(0), ast.Mult(), argument)
-                yield "instead", ast.Call(node.func, [*node.args[:k], zero, *node.args[k + 1 :]], node.keywords)
+                yield "inserted", ast.Call(node.func, [*node.args[:k], zero, *node.args[k + 1 :]], node.keywords)
         if isinstance(node.func, ast.Name) and node.func.id == "sum":
             yield "last", ast.Subscript(ast.List([ast.Starred(node.args[0])], ast.Load()), LAST)
         if isinstance(node.func, ast.Attribute) and node.func.attr == "sum":

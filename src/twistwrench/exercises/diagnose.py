@@ -12,9 +12,10 @@ from .compare import agree, pieces, values
 from .exercise import Exercise, Part
 from .independence import not_used
 from .matching import MISHAPS, borne_out, by_own_line, contradicted, matching_slips, slips_by_piece, two_slips
+from .nearer import Nearer
 from .phrases import say
 from .relations import describe, of_numbers, of_truths
-from .repairs import Repair, repairs
+from .repairs import Repair, repair_of_blocks, repairs, two_repairs
 from .search import Found, exchanged_results, found_edits, right_where
 from .slips import SLIPS, Slip
 from .steps import first_wrong
@@ -28,7 +29,7 @@ Cases = Sequence[tuple[Any, ...]]
 NOTICEABLE = 1e-6
 """The least residual of a property that counts, for answers of the size of 1."""
 
-SHARES = {"mended": 2.4, "edited": 4.4, "twice": 6.0}
+SHARES = {"mended": 1.6, "edited": 3.0, "after": 4.0, "twice": 5.0}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
 
 TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
@@ -64,23 +65,26 @@ def explain(
         mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
         found = [] if contradicted(found, mended, exchanged is not None) else by_own_line(found, mended)
     if found:
-        return found, _named(exercise, part, found, cases, [x for x in mended if x.edit.kind in TELLING])
+        return found, _named(exercise, part, found, cases, [x for x in mended[:1] if x.edit.kind in TELLING])
     if exchanged is not None:
         return [], [say("slip", title=exchanged), say("exchanged"), _where(exercise, exercise.section)]
-    pieces_found = slips_by_piece(part, answers, cases)
+    pieces_found = slips_by_piece(part, function, answers, cases)
     if pieces_found:
         names = list(dict.fromkeys(name for found in pieces_found.values() for name in found))
         return names, _named_by_piece(exercise, part, pieces_found)
     structure = _structure(part, answers) or of_numbers(part, answers, right)
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
-    mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
+    nearer = Nearer(part, right, answers, cases)
+    mended = repairs(part, function, right, answers, cases, until=until["mended"], nearer=nearer) if again else []
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
     edited = found_edits(part, answers, cases, until=until["edited"]) if again else []
     if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, edited, answers, cases)
-    mended = repairs(part, function, right, answers, cases, until=until["twice"], pairs=True) if again else []
+    mended = two_repairs(part, function, nearer, cases[0], until["after"]) if again else []
+    if again and not mended:
+        mended = repairs(part, function, right, answers, cases, until=until["twice"], pairs=True)
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
     pair = None if _few_entries(part, answers, cases) else two_slips(part, answers, cases)
@@ -90,16 +94,30 @@ def explain(
         return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
     if edited:
         return [], _edited(exercise, part, edited, answers, cases)
+    near = repair_of_blocks(nearer) if again else None
+    if near is not None:
+        return [], _nearer(exercise, part, near, answers, cases)
+    return [], _unexplained(exercise, part, answers, cases, right, again)
+
+
+def _unexplained(
+    exercise: Exercise,
+    part: Part,
+    answers: Answers,
+    cases: Cases,
+    right: Answers,
+    again: Callable[[tuple[Any, ...]], Any] | None,
+) -> list[Text]:
+    """Report what the comparison shows, and on which arguments the answer depends wrongly."""
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
     lines += filter(None, [of_truths([*zip(answers, right)])])
-    lines += map(_indented, not_used(part, again, answers, right, cases)) if again else []
-    where = right_where(part, again, cases) if again else None
-    if where is not None:
-        lines.append(where)
+    if again:
+        lines += map(_indented, not_used(part, again, answers, right, cases))
+        lines += filter(None, [right_where(part, again, cases)])
     broken = _broken_property(part, answers, cases)
     if broken is not None:
         lines.append(say("broken", text=broken))
-    return [], [*lines, _where(exercise, exercise.section)]
+    return [*lines, _where(exercise, exercise.section)]
 
 
 def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers, cases: Cases) -> list[Text]:
@@ -118,12 +136,24 @@ def _mended(exercise: Exercise, part: Part, found: list[Repair], answers: Answer
 def _changes(part: Part, found: Sequence[Found | Repair], cases: Cases, how: str) -> list[Text]:
     """Report each change, of all that is returned or of one piece, and in how many cases it was tried."""
     lines = []
+    if len(found) > 1 and not any(change.piece is not None for change in found):
+        lines = [say("either"), *(_indented(change.title()) for change in found)]
+        return [*lines, say("either way", all=len(cases))]
     for change in found:
         if change.piece is None:
             lines.append(say("slip", title=change.title()))
         else:
             lines.append(say("slip in", name=part.returns[change.piece].title, title=change.title()))
+    if any(isinstance(change, Repair) and change.first is not None for change in found):
+        return [*lines, say("mended both", all=len(cases))]
     return [*lines, say(how, all=len(cases)) if len(cases) > 1 else say(f"{how} once")]
+
+
+def _nearer(exercise: Exercise, part: Part, near: Repair, answers: Answers, cases: Cases) -> list[Text]:
+    """Report which change makes some blocks right, and what is wrong in the others."""
+    lines = [say("slip in", name=name, title=near.title()) for name in near.blocks]
+    shown = [_indented(line) for line in _comparison(part, answers, cases)]
+    return [*lines, say("not all"), say("it shows"), *shown, _where(exercise, exercise.section)]
 
 
 def after_error(part: Part, function: Callable[..., Any], cases: Cases) -> list[Text]:
@@ -208,15 +238,13 @@ def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
 def _few_entries(part: Part, answers: Answers, cases: Cases) -> bool:
     """Whether only a few entries are wrong: then two slips of the whole are not the likeliest explanation."""
     for answer, arguments in zip(answers, cases):
-        pairs = zip(
-            values(answer, part.returns) or (), values(part.value(part.solution, arguments), part.returns) or ()
-        )
-        wrong = 0
+        expected = values(part.value(part.solution, arguments), part.returns)
+        pairs, wrong = [*zip(values(answer, part.returns) or (), expected or ())], 0
         for a, b in pairs:
             if a.array is None or b.array is None or a.array.shape != b.array.shape:
                 return False
             wrong += int((~np.isclose(a.array, b.array)).sum())
-        if wrong > FEW:
+        if wrong > FEW or wrong == sum(int(np.size(a.raw)) for a, _ in pairs):
             return False
     return True
 

@@ -7,6 +7,7 @@ the same numbers; and as no edit may pass the check, they measure the cases of a
 from __future__ import annotations
 
 import ast
+import copy
 import inspect
 import sys
 import textwrap
@@ -19,18 +20,17 @@ from typing import Any
 
 import numpy as np
 
-from .alternatives import FACTORS, KINDS, alternatives, crossed, parsed
+from .alternatives import FACTORS, KINDS, alternatives, crossed
 from .calls import CHANGED, count
+from .containers import parsed
 from .excerpts import enclosing, target, term, text_of
+from .places import Place, all_places, mark, may_be_argument, put, surroundings, unused
 from .twins import habits
 from .whole import Edit, of_arguments, of_order
 
 __all__ = ["Source", "edits"]
 
 Function = Callable[..., Any]
-Place = tuple[list[Any], Any, Any, Any]
-"""The nodes around a node, its place in the innermost, itself, and what is put there."""
-
 MOST_PLACES = 5
 """Of the same text, for which an edit is tried in each two of them."""
 
@@ -132,10 +132,22 @@ class Source:
         self.kinds = {name: _kind(x) for name, x in values.items()}
         square = [n for n, x in values.items() if isinstance(x, np.ndarray) and x.ndim == 2 and len({*x.shape}) == 1]
         placed = [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
-        self.scalars = [parsed(name) for name, x in values.items() if isinstance(x, float)] + [*map(parsed, FACTORS)]
+        self.scalars = [parsed(name) for name, x in values.items() if type(x) in (int, float)] + [*map(parsed, FACTORS)]
         self.matrices = [parsed(name) for name in square + placed]
-        self.places = [*_places(self.tree.body[0])]
+        self.places = [*all_places(self.tree.body[0])]
+        self.unused = unused(self.tree.body[0])
         self.around = [*dict.fromkeys(text for _, _, node in self.places for text in habits(node, self.kinds))]
+
+    def after(self, edit: Edit) -> Source:
+        """Return the source after one edit, to be changed further; its lines keep their numbers."""
+        for parents, field, _, other in edit.places:
+            put(parents[-1], field, other)
+        found = copy.copy(self)
+        found.tree = copy.deepcopy(self.tree)
+        for parents, field, node, _ in edit.places:
+            put(parents[-1], field, node)
+        found.places = [*all_places(ast.fix_missing_locations(found.tree).body[0])]
+        return found
 
     def edits(self, kind: str) -> Iterator[Edit]:
         """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
@@ -145,10 +157,12 @@ class Source:
                 if found == kind:
                     place = parents, field, node, other
                     texts = self._texts(kind, place)
-                    alike.setdefault(_alike(texts, node, other), []).append(place)
+                    alike.setdefault(mark(texts, node, other), []).append(place)
                     yield from self._made(kind, texts, [place])
         yield from self._halves() if kind == "halves" else ()
         for (right, wrong), places in alike.items():
+            if kind == "number" and len({field for _, field, *_ in places}) > 1:
+                continue  # where a slice begins and where another ends are two things
             if len(places) > 1:
                 yield from self._made(kind, (right, wrong), places, everywhere=True)
             if 2 < len(places) <= MOST_PLACES:
@@ -173,11 +187,11 @@ class Source:
             for kind, other in self._alternatives(node, parents):
                 if kind in kinds:
                     first = kind, *self._texts(kind, (parents, field, node, other)), node.lineno
-                    _put(parents[-1], field, other)
+                    put(parents[-1], field, other)
                     for place in self.places[k + 1 :]:
                         if not any(parent is node for parent in place[0]):
                             yield from self._second(first, place, kinds)
-                    _put(parents[-1], field, node)
+                    put(parents[-1], field, node)
 
     def _second(self, first: tuple[str, str, str, int], where: Any, kinds: Sequence[str]) -> Iterator[Edit]:
         parents, field, node = where
@@ -194,9 +208,9 @@ class Source:
             return term(node, other), ""
         around = enclosing(parents, node)
         right = text_of(around)
-        _put(parents[-1], field, other)
+        put(parents[-1], field, other)
         wrong = text_of(other if around is node else around)
-        _put(parents[-1], field, node)
+        put(parents[-1], field, node)
         return right, wrong
 
     def _made(
@@ -204,14 +218,14 @@ class Source:
     ) -> Iterator[Edit]:
         """Yield the edit in some places, if it is a program."""
         for parents, field, _, other in places:
-            _put(parents[-1], field, other)
+            put(parents[-1], field, other)
         try:
             changed = self.compiled()
         except Exception:  # no program; and the body of a class is run
             return
         finally:
             for parents, field, node, _ in places:
-                _put(parents[-1], field, node)
+                put(parents[-1], field, node)
         function = changed
         if self.function is not self.solution:
             names = {**self.solution.__globals__, self.function.__name__: changed}
@@ -219,7 +233,19 @@ class Source:
         computed = "" if everywhere else target(places[0][0])
         node = places[0][2]
         line = (node.body[-1] if kind == "after loop" else node).lineno
-        yield Edit(kind, *texts, self.function, function, len(places) * everywhere, computed, None, line)
+        around = [text_of(surroundings(parents)) for parents, *_ in places] if everywhere and len(places) == 2 else []
+        yield Edit(
+            kind,
+            *texts,
+            self.function,
+            function,
+            len(places) * everywhere,
+            computed,
+            None,
+            line,
+            (*places,),
+            (*around,),
+        )
 
     def compiled(self) -> Function:
         """Return the function as the tree is now."""
@@ -252,6 +278,11 @@ class Source:
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load) and isinstance(self.kinds.get(node.id), tuple):
             bare = not isinstance(parents[-1], ast.Subscript | ast.Attribute)
             yield from (text.format(node.id) for text in self.around if bare and node.id not in text)
+        if isinstance(node, ast.Subscript) and isinstance(parents[-1], ast.Subscript):
+            whole = getattr(node.value, "id", "") or getattr(node.value, "attr", "")
+            yield from [text_of(node.slice)] * (whole == "parent")
+        if may_be_argument(node):
+            yield from self.unused
         if not isinstance(node, ast.BinOp):
             return
         left, right = node.left, node.right
@@ -260,40 +291,3 @@ class Source:
         if isinstance(node.op, ast.Mult) and getattr(left, "id", 0) == getattr(right, "id", 1):
             alike = [name for name, kind in self.kinds.items() if kind == self.kinds.get(text_of(left))]
             yield from (f"{name} * {name}" for name in alike)
-
-
-def _alike(texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
-    """Return by what an edit is recognised in another place."""
-    if (
-        isinstance(node, ast.BinOp)
-        and isinstance(other, ast.BinOp)
-        and (node.left, node.right) == (other.left, other.right)
-    ):
-        if isinstance(node.op, ast.Mult) and isinstance(other.op, ast.MatMult):
-            return "*", "@"
-        signs = (text_of(ast.BinOp(ast.Name("x"), op, node.right)) for op in (node.op, other.op))
-        right, wrong = signs
-        return right, wrong
-    return texts if not texts[1] else (text_of(node), text_of(other))
-
-
-def _places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:
-    """Yield every expression and assignment with the nodes around it and its place in the innermost of them."""
-    for name, value in ast.iter_fields(node) if not isinstance(node, ast.Raise) else ():
-        if name in ("args", "returns", "annotation", "decorator_list") and not isinstance(node, ast.Call):
-            continue
-        for field, child in (
-            [((name, k), x) for k, x in enumerate(value)] if isinstance(value, list) else [(name, value)]
-        ):
-            if isinstance(child, ast.AST) and not isinstance(child, ast.expr_context | ast.operator | ast.cmpop):
-                if isinstance(child, ast.expr | ast.Assign | ast.AugAssign | ast.For | ast.While):
-                    yield [*parents, node], field, child
-                yield from _places(child, (*parents, node))
-
-
-def _put(parent: Any, field: Any, node: Any) -> None:
-    """Put a node in its place."""
-    if isinstance(field, tuple):
-        getattr(parent, field[0])[field[1]] = node
-    else:
-        setattr(parent, field, node)

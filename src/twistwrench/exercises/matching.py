@@ -11,6 +11,7 @@ import numpy as np
 from .compare import Value, agree, close, values
 from .exercise import Part
 from .repairs import Repair, written
+from .slips import SLIPS
 from .wrong import swap
 
 __all__ = ["MISHAPS", "borne_out", "by_own_line", "contradicted", "matching_slips", "slips_by_piece", "two_slips"]
@@ -31,6 +32,7 @@ TWISTS: dict[str, Callable[[Any], Any]] = {
     "transposed-answer": lambda x: np.asarray(x).mT,
     "degrees": lambda x: np.asarray(x) * 180 / np.pi,
     "thousand": lambda x: np.asarray(x) * 1000,
+    "half-missing": lambda x: np.asarray(x) * 2,
 }
 """Slips that can be made on top of any other: by these, two slips at once are recognised."""
 
@@ -96,31 +98,50 @@ def _slipped(part: Part, wrong: Callable[..., Any], cases: Cases) -> list[Any] |
         return None
 
 
-def slips_by_piece(part: Part, answers: Answers, cases: Cases) -> dict[str, list[str]] | None:
-    """Return the slips in each of several things returned, where every wrong one is explained by some slip."""
+def slips_by_piece(
+    part: Part, function: Callable[..., Any], answers: Answers, cases: Cases
+) -> dict[str, list[str]] | None:
+    """Return the slips in each of several things returned, where every wrong one is explained by some slip.
+
+    What the student's source does not have cannot have that slip.
+    """
     if len(part.returns) == 1 or part.canonical is not None:
         return None
     split = [values(answer, part.returns) for answer in answers]
     right = [values(part.value(part.solution, arguments), part.returns) for arguments in cases]
-    tried = {slip: _slipped(part, wrong, cases) for slip, wrong in part.slips.items()}
-    made = {slip: [values(answer, part.returns) for answer in found] for slip, found in tried.items() if found}
 
     def same(first: list[list[Value] | None], second: list[list[Value] | None], k: int) -> bool:
         return all(a and b and close(a[k], b[k], part.rtol) for a, b in zip(first, second))
 
     every = range(len(part.returns))
     wrong = {k for k in every if not same(split, right, k)}
+    first = next((n for n, (a, b) in enumerate(zip(split, right)) if not all(same([a], [b], k) for k in every)), 0)
+    made = {}
+    for slip, other in part.slips.items():
+        once = _slipped(part, other, cases[first : first + 1])  # most are seen not to fit in one case
+        if once and any(same(split[first : first + 1], [values(once[0], part.returns)], k) for k in wrong):
+            made[slip] = [values(answer, part.returns) for answer in _slipped(part, other, cases) or []]
+    made = {slip: found for slip, found in made.items() if found}
     touched = {slip: {k for k in every if not same(other, right, k)} for slip, other in made.items()}
-    found = {}
+    found, source = {}, written(function)
     for k in sorted(wrong):
         fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
-        found[part.returns[k].name] = [slip for slip in fitting if touched[slip] <= wrong]  # it spoils nothing else
+        alone = not cases[0] or isinstance((right[0] or [])[k].raw, str)  # what is typed in, and words, one by one
+        fitting = [slip for slip in fitting if alone or touched[slip] <= wrong]  # it spoils nothing else
+        found[part.returns[k].name] = [slip for slip in fitting if source is None or _traced(slip, source[0])]
     return found if all(found.values()) else None
+
+
+def _traced(slip: str, source: str) -> bool:
+    """Whether a slip in an inverse can be one of this source: it inverts, or returns what it names an inverse."""
+    return "in the inverse" not in SLIPS[slip].title.en or any(word in source for word in TRACES["inverse"])
 
 
 def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:
     """Return two slips that together give these answers on all cases."""
     for second, twist in TWISTS.items():
+        if second == "half-missing" and second not in part.slips:
+            continue  # there is no half to be missed
         for first, wrong in part.slips.items():
 
             def both(*arguments: Any, wrong: Any = wrong, twist: Any = twist) -> Any:

@@ -67,9 +67,19 @@ PHRASES = {
     "mended": Text(
         "With this change, and no other, it is right in all {all} cases.", "只作这一改动，全部 {all} 组数据就都正确。"
     ),
+    "mended both": Text(
+        "With both changes, and no other, it is right in all {all} cases.",
+        "只作这两处改动，全部 {all} 组数据就都正确。",
+    ),
+    "either": Text("One of these changes would make it right:", "下列改动任取其一，就会正确："),
+    "either way": Text(
+        "With either of them alone it is right in all {all} cases.", "单独作其中任一改动，全部 {all} 组数据都正确。"
+    ),
+    "not all": Text("Something else is wrong as well.", "还有别处也错了。"),
     "mended once": Text("With this change, and no other, it is right.", "只作这一改动，就正确了。"),
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
     "twice": Text("{title}, in two places", "{title}（两处都是）"),
+    "both places": Text("{title}, in `{first}` and in `{second}`", "{title}（在 `{first}` 和 `{second}` 中）"),
     "everywhere": Text("{title}, wherever it stands", "{title}（每一处都是）"),
     "edited": Text(
         "A right solution with this change, and no other, gives your numbers, in all {all} cases.",

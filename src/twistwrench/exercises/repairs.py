@@ -20,16 +20,23 @@ from .calls import copied, local_values, tried
 from .compare import agree, close, values
 from .edits import Source
 from .exercise import Part
+from .nearer import Nearer
 from .phrases import say
 from .plausible import plausible, shuts
 from .search import Remembering, by_chance, said_where
 from .text import Text
 from .whole import Edit, of_arguments, of_order
 
-__all__ = ["Repair", "guarded", "repairs", "written"]
+__all__ = ["Repair", "guarded", "repair_of_blocks", "repairs", "two_repairs", "written"]
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
+
+FURTHER = ("index", "instead")
+"""Those that are tried with one of these, or with each other, after them."""
+
+ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
+"""Kinds of which one may make right what another does, and which are then the same for a student."""
 
 OF_RESULT = {
     "np.roll(x, len(x) // 2, 0)": "halves of result",
@@ -53,14 +60,23 @@ class Repair:
         Lines of the file before the function.
     piece : int, optional
         Which of the things is right by it; None for all.
+    first : Edit, optional
+        Another change that is made before it.
+    blocks : tuple of Text
+        What of the result is right by it, where that is not all.
     """
 
     edit: Edit
     before: int
     piece: int | None = None
+    first: Edit | None = None
+    blocks: tuple[Text, ...] = ()
 
     def title(self) -> Text:
         """Report what must stand where."""
+        if self.first is not None:
+            both = (Repair(edit, self.before).title() for edit in (self.first, self.edit))
+            return say("both edits", first=next(both), second=next(both))
         edit = self.edit
         title = say(f"repair {edit.kind}", right=edit.wrong, wrong=edit.right)
         if shuts(edit):
@@ -94,8 +110,11 @@ def repairs(
     *,
     until: float,
     pairs: bool = False,
+    nearer: Nearer | None = None,
 ) -> list[Repair]:
     """Return the likeliest change that makes a student's function right, or one for each wrong thing of several.
+
+    Where another change of a likely kind makes it right as well, both are returned.
 
     Parameters
     ----------
@@ -109,36 +128,86 @@ def repairs(
         When the search ends, as `time.process_time` has it: a busy machine finds the same.
     pairs : bool
         Try two changes at once.
+    nearer : Nearer, optional
+        Is given the changes that make only a part of the answer right.
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
     if pairs and 2 * sum(wrong) < len(wrong):
         return []  # two slips that make up for each other in most cases are not made
-    first = min((k for k, bad in enumerate(wrong) if bad), key=lambda k: _seconds(part, function, cases[k]))
-    several = len(part.returns) > 1 and part.canonical is None
-    bad = {k for k in range(len(part.returns)) if several and not _same(part, answers, right, k)}
-    fine = {k for k in range(len(part.returns)) if several} - bad
+    seconds = {k: _seconds(part, function, cases[k]) for k, bad in enumerate(wrong) if bad}
+    first = min(seconds, key=lambda k: seconds[k])
+    every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
+    bad = {k for k in every if not _same(part, answers, right, k)}
     found: dict[int, Repair] = {}
+    mended: list[Repair] = []
+    source, before = _source(part, function, cases[first])
+    if source is None:
+        return []
+    if nearer is not None:
+        nearer.begin(source, before, first, seconds[first])
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        for edit, before in _changes(part, function, cases[first], until, pairs):
+        for edit in _changes(part, function, source, cases[first], until, pairs):
+            if mended and (edit.kind not in ALIKE or pairs):
+                break
             answer = tried(part, edit.function, cases[first])
             here = {k for k in bad - {*found} if _same(part, [answer], [right[first]], k)}
             if not here and not agree(part, answer, right[first], cases[first]):
+                if nearer is not None:
+                    nearer.note(edit, answer)
                 continue
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
-                return [Repair(edit, before)]
-            if edit.kind == "result" or all(_same(part, others, answers, k) for k in fine):
+                if ALIKE.get(edit.kind) not in [ALIKE.get(repair.edit.kind) for repair in mended]:
+                    mended.append(Repair(edit, before))
+                continue
+            if edit.kind == "result" or all(
+                _same(part, others, answers, k) or _same(part, others, right, k) for k in {*every} - here
+            ):
                 found.update((k, Repair(edit, before, k)) for k in here if _same(part, others, right, k))
-    return [found[k] for k in sorted(found)] if found.keys() == bad else []
+            elif nearer is not None:
+                nearer.note(edit, answer)
+                if all(_same(part, others, right, k) for k in {*every} - bad):
+                    nearer.pieces |= {k: edit for k in here - {*nearer.pieces} if _same(part, others, right, k)}
+    if nearer is not None:
+        nearer.pieces |= {k: repair.edit for k, repair in found.items()}
+        nearer.bad = bad
+    return mended or ([found[k] for k in sorted(found)] if found.keys() == bad else [])
 
 
-def _changes(
-    part: Part, function: Function, arguments: tuple[Any, ...], until: float, pairs: bool
-) -> Iterator[tuple[Edit, int]]:
-    """Yield the changes of a student's function and the lines before it, for as long as a search may take."""
+def two_repairs(
+    part: Part, function: Function, nearer: Nearer, arguments: tuple[Any, ...], until: float
+) -> list[Repair]:
+    """Return two changes, one after the other, that make a student's function right, the first of them a part of it.
+
+    Where there are no two, one for each of the things returned, though it spoils another that is wrong anyway.
+    """
+    chance, whole = by_chance(part, arguments), bool(arguments) and not inspect.isclass(function)
+    text = (written(function) or ("", 0))[0]
+
+    def chosen(source: Source) -> Iterator[Edit]:
+        edits = (edit for edit in _single(source, whole) if edit.kind not in chance)
+        return (edit for edit in edits if plausible(edit, text, part.solution))
+
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        both = nearer.second(chosen, until)
+    if both:
+        return [Repair(both[1], nearer.before, first=both[0])]
+    pieces = sorted(nearer.pieces) if nearer.bad and nearer.pieces.keys() == nearer.bad else []
+    return [Repair(nearer.pieces[k], nearer.before, k) for k in pieces]
+
+
+def repair_of_blocks(nearer: Nearer) -> Repair | None:
+    """Return the change that makes some blocks of the answer right."""
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        found = nearer.blocks()
+    return Repair(found[0], nearer.before, blocks=tuple(found[1])) if found else None
+
+
+def _source(part: Part, function: Function, arguments: tuple[Any, ...]) -> tuple[Source | None, int]:
+    """Return the syntax tree of a student's function, None where it is not at hand, and the lines before it."""
     found = written(function)
     if found is None:
-        return
+        return None, 0
     text, before = found
 
     def call(*given: Any) -> Any:
@@ -146,16 +215,30 @@ def _changes(
 
     try:
         shown = local_values(call, function, copied(arguments))
-        source = Source(function, function, shown, {"tw": Remembering(twistwrench)}, text)
+        return Source(function, function, shown, {"tw": Remembering(twistwrench)}, text), before
     except Exception:  # it does not run again as it did
-        return
-    chance = by_chance(part, arguments)
+        return None, 0
+
+
+def _changes(
+    part: Part, function: Function, source: Source, arguments: tuple[Any, ...], until: float, pairs: bool
+) -> Iterator[Edit]:
+    """Yield the changes of a student's function, for as long as a search may take."""
+    chance, text = by_chance(part, arguments), (written(function) or ("", 0))[0]
     whole = bool(arguments) and not inspect.isclass(function)
-    for edit in source.pairs(PAIRED) if pairs else _single(source, whole):
+    for edit in _pairs(source) if pairs else _single(source, whole):
         if time.process_time() > until:
             return
         if edit.kind not in chance and plausible(edit, text, part.solution):
-            yield edit, before
+            yield edit
+
+
+def _pairs(source: Source) -> Iterator[Edit]:
+    """Yield two changes at once, those of the likeliest kinds first."""
+    yield from source.pairs(PAIRED)
+    for edit in source.pairs(PAIRED + FURTHER):
+        if edit.kind in FURTHER or (edit.first and edit.first[0] in FURTHER):
+            yield edit
 
 
 def _single(source: Source, arguments: bool) -> Iterator[Edit]:

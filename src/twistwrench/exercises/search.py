@@ -49,6 +49,8 @@ def said_where(edit: Edit, title: Text) -> Text:
     """Add to a title in how many places an edit is made."""
     if not edit.everywhere:
         return title
+    if edit.everywhere == 2 and len({*edit.around}) == 2:
+        return say("both places", title=title, first=edit.around[0], second=edit.around[1])
     return say("twice" if edit.everywhere == 2 else "everywhere", title=title)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .alternatives import exchanges
+from .containers import exchanges
 
 __all__ = ["Edit", "of_arguments", "of_order"]
 
@@ -70,6 +70,10 @@ class Edit:
         Kind, right, wrong and line of another edit that is made as well.
     line : int
         Of the text in which it is made; 0 for an argument or a result.
+    places : tuple
+        Where it is made in the syntax tree; empty for an argument or a result.
+    around : tuple of str
+        What stands around it in each of two places, where there are more.
     """
 
     kind: str
@@ -81,6 +85,8 @@ class Edit:
     target: str = ""
     first: tuple[str, str, str, int] | None = None
     line: int = 0
+    places: tuple[Any, ...] = ()
+    around: tuple[str, ...] = ()
 
 
 def of_arguments(solution: Function) -> Iterator[Edit]:

@@ -70,7 +70,10 @@ IN_MOTION = Part(
     slips={
         "classical-acceleration": faulty(fall_in_motion, (" + np.cross(v[:3], v[3:6])", "")),
         "cross-order": faulty(fall_in_motion, ("v[:3], v[3:6]", "v[3:6], v[:3]")),
-        "untransformed": faulty(fall_in_motion, ("base.rotation @ (a[3:6] + np.cross(v[:3], v[3:6]))", "a[3:6]")),
+        "acceleration-of-the-body": faulty(
+            fall_in_motion, ("base.rotation @ (a[3:6] + np.cross(v[:3], v[3:6]))", "a[3:6]")
+        ),
+        "untransformed": faulty(fall_in_motion, ("base.rotation @ (a[3:6]", "(a[3:6]")),
         "rotation-transposed": faulty(fall_in_motion, ("rotation @", "rotation.mT @")),
         "angular-for-linear": faulty(fall_in_motion, ("a[3:6]", "a[:3]")),
         "as-at-rest": lambda model, q, v: (model.gravity, model.gravity),

@@ -1,0 +1,79 @@
+"""Places in a syntax tree: where something may be changed, what stands around it, and how it is put there."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import Any
+
+from .excerpts import text_of
+
+__all__ = ["Place", "all_places", "mark", "may_be_argument", "put", "surroundings", "unused"]
+
+Place = tuple[list[Any], Any, Any, Any]
+"""The nodes around a node, its place in the innermost, itself, and what is put there."""
+
+
+def mark(texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
+    """Return by what an edit is recognised in another place."""
+    if (
+        isinstance(node, ast.BinOp)
+        and isinstance(other, ast.BinOp)
+        and (node.left, node.right) == (other.left, other.right)
+    ):
+        if isinstance(node.op, ast.Mult) and isinstance(other.op, ast.MatMult):
+            return "*", "@"
+        signs = (text_of(ast.BinOp(ast.Name("x"), op, node.right)) for op in (node.op, other.op))
+        right, wrong = signs
+        return right, wrong
+    if isinstance(node, ast.Compare) and isinstance(other, ast.Compare) and node.left is other.left:
+        right, wrong = (text_of(ast.Compare(ast.Name("x"), x.ops, [ast.Name("y")]))[2:-2] for x in (node, other))
+        return right, wrong
+    return texts if not texts[1] else (text_of(node), text_of(other))
+
+
+def all_places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:
+    """Yield every expression and assignment with the nodes around it and its place in the innermost of them."""
+    for name, value in ast.iter_fields(node) if not isinstance(node, ast.Raise) else ():
+        if name in ("args", "returns", "annotation", "decorator_list") and not isinstance(node, ast.Call):
+            continue
+        for field, child in (
+            [((name, k), x) for k, x in enumerate(value)] if isinstance(value, list) else [(name, value)]
+        ):
+            if isinstance(child, ast.AST) and not isinstance(child, ast.expr_context | ast.operator | ast.cmpop):
+                if isinstance(child, ast.expr | ast.Assign | ast.AugAssign | ast.For | ast.While):
+                    yield [*parents, node], field, child
+                yield from all_places(child, (*parents, node))
+
+
+def unused(function: ast.AST) -> list[str]:
+    """Return the arguments of a function that it does not use."""
+    if not isinstance(function, ast.FunctionDef):
+        return []
+    used = {x.id for x in ast.walk(function) if isinstance(x, ast.Name)}
+    return [x.arg for x in function.args.args if x.arg not in used]
+
+
+def may_be_argument(node: Any) -> bool:
+    """Whether a node is something by itself, in place of which an argument may have been forgotten."""
+    if isinstance(node, ast.Constant):
+        return isinstance(node.value, str)
+    return isinstance(node, ast.Name | ast.Attribute) and isinstance(node.ctx, ast.Load)
+
+
+def surroundings(parents: list[Any]) -> Any:
+    """Return the expression around a node, but for a slice, a list or a tuple of them."""
+    found = parents[-1]
+    for parent in reversed(parents):
+        if not isinstance(found, ast.Slice | ast.Tuple | ast.List):
+            break
+        found = parent
+    return found
+
+
+def put(parent: Any, field: Any, node: Any) -> None:
+    """Put a node in its place."""
+    if isinstance(field, tuple):
+        getattr(parent, field[0])[field[1]] = node
+    else:
+        setattr(parent, field, node)
