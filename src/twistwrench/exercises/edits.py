@@ -262,7 +262,8 @@ class Source:
             names.append(f"parent[{name}]")
         if kind == ("array", (6,)) and not isinstance(parents[-1], ast.Subscript):
             names += [f"{name}[:3]", f"{name}[3:]"]
-        if isinstance(kind, tuple) and kind[0] == "array" and len(kind[1]) == 2:
+        matrix = isinstance(kind, tuple) and kind[0] == "array" and len(kind[1]) == 2
+        if matrix and not isinstance(parents[-1], ast.Attribute):
             names.append(f"{name}.ravel()")
         yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
         yield from (("name", parsed(text)) for text in self._other_names(node, parents))

@@ -112,7 +112,7 @@ class Nearer:
             if bad is None or was is None or c.array is None:
                 continue
             for block, index in c.quantity.layout.blocks(c.array.shape):
-                if was[index].any():
+                if was[index].any() and np.abs(c.array[index]).max(initial=0) > FLOOR:
                     gained = not bad[index].any() and not (bad & ~was).any()
                     yield say("block", name=c.quantity.title, block=block), gained
 
