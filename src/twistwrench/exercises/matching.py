@@ -126,8 +126,8 @@ def slips_by_piece(
     found, source = {}, written(function)
     for k in sorted(wrong):
         fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
-        alone = not cases[0] or isinstance((right[0] or [])[k].raw, str)  # what is typed in, and words, one by one
-        fitting = [slip for slip in fitting if alone or touched[slip] <= wrong]  # it spoils nothing else
+        typed = not cases[0]  # numbers one by one
+        fitting = [slip for slip in fitting if typed or touched[slip] <= wrong]  # it spoils nothing else
         found[part.returns[k].name] = [slip for slip in fitting if source is None or _traced(slip, source[0])]
     return found if all(found.values()) else None
 
