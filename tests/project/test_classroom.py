@@ -31,6 +31,7 @@ TRANSPOSED = {"49.0.1": "def skew(w):\n    return tw.skew(w).T\n"}
 def _no_traces(tmp_path, monkeypatch):
     monkeypatch.setattr(classroom, "ANSWERS", tmp_path / "answers")
     monkeypatch.setattr(classroom, "SPACES", {})
+    classroom.OUTPUTS.clear()
 
 
 def test_a_cell_prints_and_shows_its_last_value():
