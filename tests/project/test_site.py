@@ -311,11 +311,8 @@ def test_a_number_and_its_unit_are_not_parted():
     [
         ("[简体中文](a.zh-CN.md)\n\n", ""),
         ("[English](a.md) · [README](../README.zh-CN.md)\n\n", ""),
-        (
-            "[English](a.md) · [README](../README.zh-CN.md) · [词汇表](glossary.zh-CN.md)\n",
-            "[词汇表](glossary.zh-CN.md)\n",
-        ),
-        ("[简体中文](a.zh-CN.md) · [glossary](glossary.md)\n", "[glossary](glossary.md)\n"),
+        ("[简体中文](a.zh-CN.md) · [glossary](glossary.md)\n", ""),
+        ("[English](a.md) · [README](../R.zh-CN.md) · [词汇表](glossary.zh-CN.md) · [B](b.md)\n", "[B](b.md)\n"),
     ],
 )
 def test_a_page_of_the_site_does_not_lead_to_its_twin_by_a_link_of_its_own(line, left):
