@@ -104,7 +104,7 @@ def simulate(
     NameNotFound
         If there is no such method, or no frame of a contact.
     ShapeError, ValueError
-        As `Model.state`; if an option has no such value or contradicts another one; if the state at the start violates
+        As `Model.state`; if an option is impossible or contradicts another one; if the state at the start violates
         the contacts, the ground or the ranges of the joints.
     TypeError
         If `ground` is not a Ground, or `stop` not a function.
