@@ -227,8 +227,9 @@ def felt_mass(
     block = M[np.ix_(3 + np.array(axes, int), 3 + np.array(axes, int))]
     angle = np.linspace(0, 2 * np.pi, 73)
     curve = drawn(as_exactly(at, "at", 2), "at") + scale * np.stack([np.cos(angle), np.sin(angle)], axis=-1) @ block.mT
-    if ax is None:
-        ax, unit = axes_2d(), "kg" if scale == 1 else f"m, {scale:g} for a kg"
+    new, ax = ax is None, axes_2d(ax)
+    if new:
+        unit = "kg" if scale == 1 else f"m, {scale:g} for a kg"
         ax.set(xlabel=f"{'xyz'[int(axes[0])]} [{unit}]", ylabel=f"{'xyz'[int(axes[1])]} [{unit}]")
     ax.plot(*curve.mT, color=colour, label=label, linewidth=1.8)
     ax.set_aspect("equal")
