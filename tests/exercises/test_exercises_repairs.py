@@ -1,7 +1,9 @@
 """The change that makes the student's own function right: it is found, it is true, and it stops."""
 
 import importlib.util
+import itertools
 import linecache
+import signal
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ import twistwrench as tw
 from twistwrench.cli import main
 from twistwrench.exercises import catalogue, diagnose, mine, start
 from twistwrench.exercises import judge as judging
+from twistwrench.exercises.calls import tried
 from twistwrench.exercises.cells import check
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.repairs import guarded, repairs
@@ -105,6 +108,13 @@ def test_a_loop_that_a_change_makes_endless_is_given_up(written):
     with pytest.raises(RuntimeError):
         safe(["revolute"])
     assert "not yet right" in message(written(text), "count")
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="this system does not count the time of a process")
+def test_a_change_that_sends_an_unchanged_function_round_for_ever_is_given_up():
+    _, part = catalogue.find_part("count")
+    assert tried(part, lambda kinds: next(n for n in itertools.count() if n < 0), (["revolute"],)) is None
+    assert tried(part, part.solution, (["revolute"],)) == (1, 1), "the alarm is off again"
 
 
 def test_what_a_function_writes_into_a_result_does_not_reach_the_next_try(written):

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import copy
 import os
+import signal
 import sys
+import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -14,7 +16,7 @@ import numpy as np
 
 from .exercise import Part
 
-__all__ = ["CHANGED", "copied", "count", "local_values", "silent", "tried"]
+__all__ = ["CHANGED", "copied", "count", "limited", "local_values", "silent", "tried"]
 
 Function = Callable[..., Any]
 
@@ -22,6 +24,9 @@ CHANGED = "<changed>"
 """Stands in place of a file in what is compiled here and by `wrong.faulty`."""
 
 MOST_ROUNDS = 1000
+
+LONGEST = 1.0
+"""Seconds of CPU time that one call of a changed function may take."""
 
 _rounds = [0]
 
@@ -33,14 +38,40 @@ def count() -> None:
         raise RuntimeError("an endless loop")
 
 
+class _TooLong(BaseException):
+    """Raised in a call that does not end; no `except Exception` of a student holds it."""
+
+
+@contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Raise in a block that takes longer; counted in CPU seconds of this process, where the system counts them.
+
+    `count` stops the loops of a changed function; a change may also send a function that it calls round for ever.
+    """
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise _TooLong
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds, seconds)  # again, should something hold the first
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
+
+
 def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
-    """Return what a function that may be faulty gives; None where it raises an error."""
+    """Return what a function that may be faulty gives; None where it raises an error or does not end."""
     _rounds[0] = 0
     try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
+        with limited(LONGEST), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             return part.value(function, copied(arguments))
-    except (Exception, SystemExit):  # whatever an edit leads to
+    except (Exception, SystemExit, _TooLong):  # whatever an edit leads to
         return None
 
 
