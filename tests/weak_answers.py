@@ -39,7 +39,9 @@ ANSWERS = [
         "exactly one free-flyer is counted, however many there are",
     ),
     Weak("newton_euler", "return I_c @ alpha, m * a_c", "gyroscopic term is missing"),
-    Weak("newton_euler", "return m * a_c, I_c @ alpha + np.cross(omega, I_c @ omega)", "swapped"),
+    Weak(
+        "newton_euler", "return m * a_c, I_c @ alpha + np.cross(omega, I_c @ omega)", "return them in the other order"
+    ),
     # 49.1
     Weak("sizes", "return 19, 19, 18, 18", "nq in place of nv"),
     Weak("sizes", "return 18", "It must return 4 things"),
@@ -164,7 +166,7 @@ ANSWERS = [
     Weak(
         "fall_in_motion",
         "a = tw.aba(model, q, v, np.zeros(model.nv))\nreturn a[3:6], model.gravity",
-        "the change of frame is left out",
+        "ω × v is missing, and the rotation to the world",
     ),
     Weak(
         "forward_dynamics_two_ways",

@@ -230,9 +230,20 @@ def _comparison(part: Part, answers: Answers, cases: Cases) -> list[Text]:
     lines = []
     for got, right, *others in zip(*(x for pair in pairs for x in pair)):
         shown = describe(got, right, part.rtol)
-        same = all(describe(a, b, part.rtol) in ([], shown) for a, b in zip(others[::2], others[1::2]))
-        lines += shown if same else describe(got, right, part.rtol, factors=())
+        elsewhere = [describe(a, b, part.rtol) for a, b in zip(others[::2], others[1::2])]
+        lines += shown if _same_factors(shown, elsewhere) else describe(got, right, part.rtol, factors=())
     return lines
+
+
+def _same_factors(shown: list[Text], elsewhere: list[list[Text]]) -> bool:
+    """Whether no other case says another thing of what is off by a factor; where it is zero, none is said."""
+    about = {line: line.en.partition(": ")[0] for line in shown if " by a factor of " in line.en}
+    zero = say("zero").en  # what small numbers, divided by a thousand, are taken for
+    return all(
+        line in said or not any(x.en.startswith(what) and not x.en.endswith(zero) for x in said)
+        for said in elsewhere
+        for line, what in about.items()
+    )
 
 
 def _few_entries(part: Part, answers: Answers, cases: Cases) -> bool:
