@@ -58,5 +58,5 @@ def test_rows_are_taken_for_another_number_of_states():
     for states in (5, 3, 3, 8):
         q = np.linspace(0, 1, states)[:, None]
         (g,) = filled(code, line, [q])
-        np.testing.assert_array_equal(g, np.sin(q) * 9.81)
+        np.testing.assert_allclose(g, np.sin(q) * 9.81, rtol=1e-15)
     assert len(code.unused) == 1

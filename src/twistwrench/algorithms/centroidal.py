@@ -28,21 +28,35 @@ __all__ = [
     "centroidal_momentum",
     "centroidal_momentum_rate",
     "centroidal_terms",
+    "composite_center",
     "mean_center",
     "placements_from_first_body",
     "to_center_of_mass",
     "total_mass",
+    "wrench_transforms",
 ]
 
 
-def centroidal_composite(tree: Tree, X: list[Array]) -> CentroidalTerms:
+def centroidal_composite(tree: Tree, placement: list[SE3]) -> CentroidalTerms:
     """Run the CCRBA: a unit velocity of joint i moves its subtree as one rigid body, with the momentum IC[i] S[i].
 
-    X[i] is the chapter's ᴳX*_i: it takes a momentum from frame i to the centre of mass, in the axes of the world.
+    The bodies are placed in the axes of the world, about any origin. X[i] is the chapter's ᴳX*_i: it takes a momentum
+    from frame i to the centre of mass.
     """
     IC = composite_inertias(tree)  # 49.10 IC
+    X = wrench_transforms(placement, composite_center(tree, IC, placement))
     A_G = [X[i] @ IC[i] @ tree.S[i] for i in range(len(X))]  # 49.10 A_G
     return CentroidalTerms(tuple(X), matrices(IC, tree.batch), np.concatenate(A_G, axis=-1))
+
+
+def composite_center(tree: Tree, IC: list[Array], placement: list[SE3]) -> Array:
+    """Return the centre of mass of all that moves, which the bodies next to the world carry: IC[i] holds m and m c."""
+    first = [i for i in tree.outward if tree.parent[i] == 0]
+    mass = {i: IC[i][..., 5, 5, None] for i in first}
+    moment = {i: IC[i][..., [2, 0, 1], [4, 5, 3]] for i in first}  # out of m [c]×
+    moments = [placed_point(placement[i].rotation, mass[i] * placement[i].translation, moment[i]) for i in first]
+    p_G: Array = np.sum(moments, axis=0) / sum(mass.values())
+    return p_G
 
 
 @also_of_mimics
@@ -162,7 +176,8 @@ def centroidal_terms(model: Model, q: ArrayLike) -> CentroidalTerms:
     """
     (q,) = check_state(model, q)
     tree = tree_terms(model, q)
-    return centroidal_composite(tree, to_center_of_mass(model, tree, q))
+    total_mass(model, q, range(model.nbodies), model.name)  # raises where nothing that moves has mass
+    return centroidal_composite(tree, placements_from_first_body(model, tree))
 
 
 @also_of_mimics
@@ -245,7 +260,11 @@ def centroidal_momentum_rate(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayL
 def to_center_of_mass(model: Model, tree: Tree, q: Array) -> list[Array]:
     """Return for each body the X* that takes a wrench or momentum from its frame to G, world axes."""
     placement = placements_from_first_body(model, tree)
-    p_G = mean_center(model, placement, q, range(model.nbodies), model.name)
+    return wrench_transforms(placement, mean_center(model, placement, q, range(model.nbodies), model.name))
+
+
+def wrench_transforms(placement: list[SE3], p_G: Array) -> list[Array]:
+    """Return for each placed body the X* that takes a wrench or momentum from its frame to a point, world axes."""
     return [SE3._trusted(T.rotation, T.translation - p_G).force_transform() for T in placement]  # 49.10 X
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.aba import aba_terms, articulated_body
-from ..algorithms.centroidal import centroidal_composite, centroidal_terms, to_center_of_mass
+from ..algorithms.centroidal import centroidal_composite, centroidal_terms, wrench_transforms
 from ..algorithms.crba import composite_rigid_body, crba_terms
 from ..algorithms.kinematics import placements
 from ..algorithms.rnea import newton_euler, rnea_terms
@@ -229,6 +229,6 @@ _ALGORITHMS = {
     "rnea": _Algorithm(rnea_terms, _rnea_rows, (newton_euler,)),
     "aba": _Algorithm(aba_terms, _aba_rows, (articulated_body,)),
     "crba": _Algorithm(crba_terms, _crba_rows, (composite_rigid_body,)),
-    "ccrba": _Algorithm(centroidal_terms, _ccrba_rows, (to_center_of_mass, composite_inertias, centroidal_composite)),
+    "ccrba": _Algorithm(centroidal_terms, _ccrba_rows, (wrench_transforms, composite_inertias, centroidal_composite)),
 }
 """An algorithm, the function that reads the accounts off its record, and where its lines stand."""
