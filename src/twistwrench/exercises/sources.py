@@ -33,8 +33,9 @@ def solution_sources(exercise: Exercise, language: Language) -> list[str]:
 
 
 def docstring(part: Part, language: Language) -> str:
-    """Write the docstring of a function, on one line where it fits."""
-    lines = [line for text in inspect.cleandoc(part.doc.of(language)).split("\n") for line in wrapped(text, 94) or [""]]
+    """Write the docstring of a function, on one line where it fits; a line ends where a sentence does, or is filled."""
+    sentences = re.split(r"(?<=[.。:：\n])\n|(?<=[.。][)）])\n", inspect.cleandoc(part.doc.of(language)))
+    lines = [line for text in sentences for line in wrapped(text, 94) or [""]]
     end = "\n" if len(lines) > 1 or columns(lines[0]) > 88 else ""
     return textwrap.indent('"""' + "\n".join(lines) + end + '"""', "    ") + "\n"
 

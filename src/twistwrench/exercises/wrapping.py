@@ -9,6 +9,8 @@ import unicodedata
 __all__ = ["columns", "hanging", "wrapped"]
 
 WIDTH = 98
+WIDE_MARKS = "、。，；：！？（）【】《》“”‘’"
+NO_END = "（【《“‘("
 NO_START = "、。，；：！？）】》”’,.;:!?)"
 
 
@@ -38,13 +40,15 @@ def _fill(parts: list[str], width: int) -> list[str]:
     """Fill lines with words; each Chinese character is a word, and no line starts with a full stop."""
     text = ""
     for part in parts:
-        glued = not text or columns(text[-1]) == 2 or columns(part[:1]) == 2
+        wide = [columns(c) == 2 for c in text[-1:] + part[:1]]
+        glued = not text or all(wide) or text[-1] in WIDE_MARKS or part[:1] in WIDE_MARKS
         text += part if glued else " " + part
     lines, line = [], ""
     for word in re.findall(r"[\x21-\u2dff]+ *|[^\x21-\u2dff]", text):
         if line and columns(line + word.rstrip()) > width and word[0] not in NO_START:
-            lines.append(line.rstrip())
-            line = word.lstrip()
+            full = line.rstrip().rstrip(NO_END)
+            line = line[len(full) :].lstrip() + word.lstrip()
+            lines.append(full.rstrip())
         else:
             line += word
     return [*lines, line.rstrip()] if line.strip() else lines
