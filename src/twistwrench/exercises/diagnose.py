@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
-
-import numpy as np
 
 from .compare import agree, pieces, values
 from .exercise import Exercise, Part
 from .independence import not_used
-from .matching import MISHAPS, borne_out, by_own_line, contradicted, matching_slips, slips_by_piece, two_slips
+from .matching import matching_slips, slips_by_piece, two_slips
 from .nearer import Nearer
+from .own import borne_out, by_piece_borne_out, shown_in
 from .phrases import say
+from .properties import FEW, broken_property, few_entries
 from .relations import describe, of_numbers, of_truths
-from .repairs import Repair, repair_of_blocks, repairs, two_repairs
+from .repairs import Repair, repair_of_blocks, repairs, two_repairs, written
 from .search import Found, exchanged_results, found_edits, right_where
 from .slips import SLIPS, Slip
 from .steps import first_wrong
@@ -26,17 +27,11 @@ __all__ = ["after_error", "explain"]
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
-NOTICEABLE = 1e-6
-"""The least residual of a property that counts, for answers of the size of 1."""
-
 SHARES = {"mended": 1.6, "edited": 3.0, "after": 4.0, "twice": 5.0}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
 
 TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
 """Kinds of changes of a line that say more of a slip with a name: where it is."""
-
-FEW = 3
-"""Lines, or wrong entries, that are taken in at a glance."""
 
 
 def explain(
@@ -59,41 +54,60 @@ def explain(
     right = [part.value(part.solution, arguments) for arguments in cases]
     start = time.process_time()
     until = {how: start + seconds for how, seconds in SHARES.items()}
-    exchanged = exchanged_results(part, answers, cases)
-    found = borne_out(matching_slips(part, answers, cases), function)
+    nearer = Nearer(part, right, answers, cases)
+
+    @cache
+    def searched() -> list[Repair]:
+        return repairs(part, function, right, answers, cases, until=until["mended"], nearer=nearer) if again else []
+
+    exchanged, alike = exchanged_results(part, answers, cases), matching_slips(part, answers, cases)
+    found = borne_out(alike, function, [x for x in searched() if x.piece is None]) if alike else []
+    if exchanged is not None and any(x.edit.kind == "exchanged" for x in searched()):
+        found = [slip for slip in found if slip != "swapped-halves"]
     if found:
-        mended = repairs(part, function, right, answers, cases, until=until["mended"]) if again else []
-        found = [] if contradicted(found, mended, exchanged is not None) else by_own_line(found, mended)
-    if found:
-        return found, _named(exercise, part, found, cases, [x for x in mended[:1] if x.edit.kind in TELLING])
+        return found, _named(exercise, part, found, cases, [x for x in searched()[:1] if x.edit.kind in TELLING])
     if exchanged is not None:
         return [], [say("slip", title=exchanged), say("exchanged"), _where(exercise, exercise.section)]
-    pieces_found = slips_by_piece(part, function, answers, cases)
-    if pieces_found:
+    if alike and not searched():
+        slips = [_slip(exercise, part, name) for name in alike]
+        return alike, [*(say("like slip", title=x.title, why=x.why) for x in slips), _where(exercise, slips[0].section)]
+    pieces_found = None if alike else slips_by_piece(part, function, answers, cases)
+    if pieces_found and by_piece_borne_out(part, pieces_found, function, searched()):
         names = list(dict.fromkeys(name for found in pieces_found.values() for name in found))
         return names, _named_by_piece(exercise, part, pieces_found)
     structure = _structure(part, answers) or of_numbers(part, answers, right)
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
-    nearer = Nearer(part, right, answers, cases)
-    mended = repairs(part, function, right, answers, cases, until=until["mended"], nearer=nearer) if again else []
-    if mended:
-        return [], _mended(exercise, part, mended, answers, cases)
+    if searched():
+        return [], _mended(exercise, part, searched(), answers, cases)
+    return _further(exercise, part, function, nearer, until, again)
+
+
+def _further(
+    exercise: Exercise,
+    part: Part,
+    function: Callable[..., Any],
+    nearer: Nearer,
+    until: dict[str, float],
+    again: Callable[[tuple[Any, ...]], Any] | None,
+) -> tuple[list[str], list[Text]]:
+    """Explain what no slip of the list and no single change of the student's lines does."""
+    right, answers, cases = nearer.right, nearer.answers, nearer.cases
     edited = found_edits(part, answers, cases, until=until["edited"]) if again else []
     if edited and not edited[0].edit.first:
-        return [], _edited(exercise, part, edited, answers, cases)
+        return [], _edited(exercise, part, function, edited, answers, cases)
     mended = two_repairs(part, function, nearer, cases[0], until["after"]) if again else []
     if again and not mended:
         mended = repairs(part, function, right, answers, cases, until=until["twice"], pairs=True)
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
-    pair = None if _few_entries(part, answers, cases) else two_slips(part, answers, cases)
+    pair = None if few_entries(part, answers, cases) else two_slips(part, answers, cases)
     if pair is not None:
         first, second = (_slip(exercise, part, name) for name in pair)
         line = say("two slips", first=first.title, second=second.title)
         return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
     if edited:
-        return [], _edited(exercise, part, edited, answers, cases)
+        return [], _edited(exercise, part, function, edited, answers, cases)
     near = repair_of_blocks(nearer) if again else None
     if near is not None:
         return [], _nearer(exercise, part, near, answers, cases)
@@ -114,15 +128,24 @@ def _unexplained(
     if again:
         lines += map(_indented, not_used(part, again, answers, right, cases))
         lines += filter(None, [right_where(part, again, cases)])
-    broken = _broken_property(part, answers, cases)
+    broken = broken_property(part, answers, cases)
     if broken is not None:
         lines.append(say("broken", text=broken))
     return [*lines, _where(exercise, exercise.section)]
 
 
-def _edited(exercise: Exercise, part: Part, found: list[Found], answers: Answers, cases: Cases) -> list[Text]:
+def _edited(
+    exercise: Exercise,
+    part: Part,
+    function: Callable[..., Any],
+    found: list[Found],
+    answers: Answers,
+    cases: Cases,
+) -> list[Text]:
     """Report which change of a right solution gives the answer, or each wrong thing of it."""
-    lines = [*_changes(part, found, cases, "edited"), *_shortly(part, answers, cases)]
+    source = (written(function) or ("", 0))[0]
+    own = all(shown_in(source, change.edit) for change in found)
+    lines = [*_changes(part, found, cases, "edited" if own else "equal"), *_shortly(part, answers, cases)]
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
     return [*lines, *([step] if step else []), _where(exercise, exercise.section)]
 
@@ -141,9 +164,12 @@ def _changes(part: Part, found: Sequence[Found | Repair], cases: Cases, how: str
         return [*lines, say("either way", all=len(cases))]
     for change in found:
         if change.piece is None:
-            lines.append(say("slip", title=change.title()))
+            lines.append(say("slip" if how != "equal" else "equal", title=change.title()))
         else:
-            lines.append(say("slip in", name=part.returns[change.piece].title, title=change.title()))
+            name = part.returns[change.piece].title
+            lines.append(say("slip in" if how != "equal" else "equal in", name=name, title=change.title()))
+    if how == "equal":
+        return [*lines, say("equal cases", all=len(cases))] if len(cases) > 1 else lines
     if any(isinstance(change, Repair) and change.first is not None for change in found):
         return [*lines, say("mended both", all=len(cases))]
     return [*lines, say(how, all=len(cases)) if len(cases) > 1 else say(f"{how} once")]
@@ -246,20 +272,6 @@ def _same_factors(shown: list[Text], elsewhere: list[list[Text]]) -> bool:
     )
 
 
-def _few_entries(part: Part, answers: Answers, cases: Cases) -> bool:
-    """Whether only a few entries are wrong: then two slips of the whole are not the likeliest explanation."""
-    for answer, arguments in zip(answers, cases):
-        expected = values(part.value(part.solution, arguments), part.returns)
-        pairs, wrong = [*zip(values(answer, part.returns) or (), expected or ())], 0
-        for a, b in pairs:
-            if a.array is None or b.array is None or a.array.shape != b.array.shape:
-                return False
-            wrong += int((~np.isclose(a.array, b.array)).sum())
-        if wrong > FEW or wrong == sum(int(np.size(a.raw)) for a, _ in pairs):
-            return False
-    return True
-
-
 def _structure(part: Part, answers: Answers) -> Text | None:
     """Report that nothing was returned, or the wrong number of values."""
     for answer in answers:
@@ -273,16 +285,3 @@ def _structure(part: Part, answers: Answers) -> Text | None:
 
 def _count(answer: Any) -> str:
     return str(len(answer)) if isinstance(answer, tuple | list) else type(answer).__name__
-
-
-def _broken_property(part: Part, answers: Answers, cases: Cases) -> Text | None:
-    """Return the first property of right answers that one of these lacks."""
-    for item in part.properties:
-        for answer, arguments in zip(answers, cases):
-            try:
-                residual = np.abs(np.asarray(item.residual(answer, *arguments), complex))
-            except MISHAPS:
-                return None
-            if not (residual <= NOTICEABLE).all():
-                return item.text
-    return None

@@ -159,7 +159,7 @@ class Source:
                     texts = self._texts(kind, place)
                     alike.setdefault(mark(texts, node, other), []).append(place)
                     yield from self._made(kind, texts, [place])
-        yield from self._halves() if kind == "halves" else ()
+        yield from self._halves() if kind == "halves" else self._crossed() if kind == "exchanged" else ()
         for (right, wrong), places in alike.items():
             if kind == "number" and len({field for _, field, *_ in places}) > 1:
                 continue  # where a slice begins and where another ends are two things
@@ -267,10 +267,16 @@ class Source:
             names.append(f"{name}.ravel()")
         yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
         yield from (("name", parsed(text)) for text in self._other_names(node, parents))
-        if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
-            used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.kinds})
-            pairs = ((x, y) for x, y in combinations(used, 2) if self.kinds[x] == self.kinds[y])
-            yield from (("exchanged", crossed(node, *pair)) for pair in pairs)
+
+    def _crossed(self) -> Iterator[Edit]:
+        """Yield the exchange of two names, wherever they stand in an expression."""
+        for parents, field, node in self.places:
+            if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
+                used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.kinds})
+                for x, y in combinations(used, 2):
+                    if self.kinds[x] == self.kinds[y]:
+                        place = parents, field, node, crossed(node, x, y)
+                        yield from self._made("exchanged", self._texts("exchanged", place), [place])
 
     def _other_names(self, node: Any, parents: list[Any]) -> Iterator[str]:
         """Yield what else a name may stand for: an index for a number, the parent for the body before, x·x for y·y."""

@@ -1,4 +1,4 @@
-"""The slips of the list that give the student's numbers, and which of them his own source bears out."""
+"""The slips of the list that give the student's numbers."""
 
 from __future__ import annotations
 
@@ -10,22 +10,19 @@ import numpy as np
 
 from .compare import Value, agree, close, values
 from .exercise import Part
-from .repairs import Repair, written
-from .slips import SLIPS
+from .own import traced
+from .repairs import written
 from .wrong import swap
 
-__all__ = ["MISHAPS", "borne_out", "by_own_line", "contradicted", "matching_slips", "slips_by_piece", "two_slips"]
+__all__ = ["MISHAPS", "matching_slips", "slips_by_piece", "two_slips"]
 
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
-SIGNS = ("cross-order", "lever-reversed")
-"""Slips that give the same numbers: the sign of a cross product."""
-
 MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
 
-TRACES = {"transpose": (".T", ".mT", "transpose", "swapaxes"), "inverse": ("inv", "solve", "inverse")}
-"""By what a slip that has the word in its name is recognised in a program."""
+COMPUTED = ("tw.", "mine(", "pin.", "for ", "while ")
+"""What stands in a program that computes its numbers: in others each is typed in, and wrong by itself."""
 
 TWISTS: dict[str, Callable[[Any], Any]] = {
     "swapped-halves": swap,
@@ -40,44 +37,6 @@ TWISTS: dict[str, Callable[[Any], Any]] = {
 def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
     """Return the slips that give these very answers on all cases."""
     return [slip for slip, wrong in part.slips.items() if _matches(part, wrong, answers, cases)]
-
-
-def borne_out(found: list[str], function: Callable[..., Any]) -> list[str]:
-    """Return of several slips those for which the student's source speaks most: it transposes, it inverts."""
-    source = written(function)
-    if len(found) < 2 or source is None:
-        return found
-
-    def speaks(slip: str) -> int:
-        words = [word for key, traces in TRACES.items() if key in slip for word in traces]
-        return 1 if not words else 2 * any(word in source[0] for word in words)
-
-    return [slip for slip in found if speaks(slip) == max(map(speaks, found))]
-
-
-def by_own_line(found: list[str], mended: list[Repair]) -> list[str]:
-    """Return of a cross product and its lever arm, which give one sign, that which the student's line has reversed."""
-    edit = mended[0].edit if mended else None
-    if edit is None or not {*found} & {*SIGNS} or edit.kind != "exchanged":
-        return found
-    if "cross(" in edit.right:
-        return [*dict.fromkeys("cross-order" if slip in SIGNS else slip for slip in found)]
-    if " - " in edit.right:
-        return [*dict.fromkeys("lever-reversed" if slip in SIGNS else slip for slip in found)]
-    return found
-
-
-def contradicted(found: list[str], mended: list[Repair], exchanged: bool) -> bool:
-    """Whether the student's own line shows another slip with the same numbers than the only one of the list.
-
-    `exchanged`: all is right with two of the things that are returned exchanged.
-    """
-    edit = mended[0].edit if mended else None
-    if edit is None or len(found) > 1:
-        return False
-    if found[0] == "visited-outward":
-        return not any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
-    return found[0] == "swapped-halves" and edit.kind == "exchanged" and exchanged
 
 
 def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
@@ -123,18 +82,15 @@ def slips_by_piece(
             made[slip] = [values(answer, part.returns) for answer in _slipped(part, other, cases) or []]
     made = {slip: found for slip, found in made.items() if found}
     touched = {slip: {k for k in every if not same(other, right, k)} for slip, other in made.items()}
-    found, source = {}, written(function)
+    found, source = {}, (written(function) or ("", 0))[0]
+    typed = not cases[0] and not any(word in source for word in COMPUTED)
+    words = {k for k, x in enumerate(right[first] or []) if x.array is None}
     for k in sorted(wrong):
         fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
-        typed = not cases[0]  # numbers one by one
-        fitting = [slip for slip in fitting if typed or touched[slip] <= wrong]  # it spoils nothing else
-        found[part.returns[k].name] = [slip for slip in fitting if source is None or _traced(slip, source[0])]
+        alone = [slip for slip in fitting if touched[slip] <= wrong]  # it spoils nothing else
+        fitting = alone or (fitting if typed or k in words else [])  # numbers one by one, or one error of several
+        found[part.returns[k].name] = [slip for slip in fitting if traced(slip, source)]
     return found if all(found.values()) else None
-
-
-def _traced(slip: str, source: str) -> bool:
-    """Whether a slip in an inverse can be one of this source: it inverts, or returns what it names an inverse."""
-    return "in the inverse" not in SLIPS[slip].title.en or any(word in source for word in TRACES["inverse"])
 
 
 def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:

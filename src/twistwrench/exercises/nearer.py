@@ -87,6 +87,8 @@ class Nearer:
             for other in chosen(source) if source else ():
                 if time.process_time() > share:
                     break
+                if other.kind == "transposed" and edit.wrong in other.right:
+                    continue  # of a product that was turned already: its factors exchanged are the shorter way
                 if self._mends(other):
                     return edit, other
         return None

@@ -12,7 +12,25 @@ PHRASES = {
     "slip": Text("The slip: {title}.", "错因：{title}。"),
     "slip in": Text("The slip in {name}: {title}.", "{name} 的错因：{title}。"),
     "slips": Text("One of these, which cannot be distinguished here:", "以下几种之一（此处无法区分）："),
-    "two slips": Text("Two slips at once: {first}; and {second}.", "两处错误：{first}；并且 {second}。"),
+    "two slips": Text(
+        "These are the numbers of two slips at once: {first}; and {second}.",
+        "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
+    ),
+    "like slip": Text(
+        "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
+    ),
+    "equal": Text(
+        "Your numbers are those of a right solution but for this: {title}.",
+        "你的数值等于正确解法只作如下改动的结果：{title}。",
+    ),
+    "equal in": Text(
+        "Your {name} is that of a right solution but for this: {title}.",
+        "你的 {name} 等于正确解法只作如下改动的结果：{title}。",
+    ),
+    "equal cases": Text(
+        "They agree in all {all} cases. Your code may be written in another way: look for what does the same there.",
+        "全部 {all} 组数据都吻合。你的写法可能不同：请在自己的代码中找出效果相同的地方。",
+    ),
     "edit sign": Text("the sign of `{right}` is wrong", "`{right}` 的符号错了"),
     "edit left out": Text("`{right}` is left out", "漏掉了 `{right}`"),
     "edit after loop": Text("`{right}` stands after the loop, not in it", "`{right}` 放在了循环之后，而不在循环内"),
@@ -59,6 +77,9 @@ PHRASES = {
         "where `{wrong}` is returned, `{right}` would be right", "返回的是 `{wrong}`，而正确的是 `{right}`"
     ),
     "branch": Text("the branch for `{wrong}` must not be taken", "不应进入 `{wrong}` 的分支"),
+    "branch always": Text(
+        "what is done only where `{wrong}` holds must be done always", "只在 `{wrong}` 成立时才做的事应当总是做"
+    ),
     "own code": Text("In your code: {title}.", "在你的代码中：{title}。"),
     "halves of result": Text("{title}: its two halves are exchanged", "{title}：前后两半互换了"),
     "inverse of result": Text("{title}: it is the inverse of the right answer", "{title}：它是正确结果的逆"),

@@ -10,7 +10,7 @@ from typing import Any
 
 from .whole import Edit
 
-__all__ = ["plausible", "shuts"]
+__all__ = ["is_cross", "is_difference", "plausible", "shuts"]
 
 POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
@@ -31,6 +31,8 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
     before, after = edit.right, edit.wrong
     if "0 * " in after and "0 * " not in before:
         return False  # it is switched off
+    if _unpacked(before, after, text) or _kept(before, after, text):
+        return False
     if edit.kind == "after loop":
         return not isinstance(_parsed(before), ast.Expr)  # a call after the loop is made only once
     if edit.kind == "in loop":
@@ -57,15 +59,36 @@ def _read_after(assigned: Any, text: str, line: int) -> bool:
     """Whether what is assigned before a loop is read after it, where it would have only what the last round made."""
     loops = [x for x in _nodes(text) if isinstance(x, ast.For | ast.While) and x.lineno == line]
     end = max((x.end_lineno or 0 for x in loops), default=0)
-    names = {ast.unparse(x) for x in getattr(assigned, "targets", ())}
+    names = {x.id for y in getattr(assigned, "targets", ()) for x in ast.walk(y) if isinstance(x, ast.Name)}
     return any(isinstance(x, ast.Name) and x.id in names and x.lineno > end for x in _nodes(text))
+
+
+def _unpacked(before: str, after: str, text: str) -> bool:
+    """Whether things that are computed one by one get each other's names, or a tuple of several is inverted."""
+    whole = [x for x in _nodes(text) if isinstance(x, ast.Assign) and isinstance(x.targets[0], ast.Tuple)]
+    alike = [x for x in whole if isinstance(x.value, ast.GeneratorExp | ast.ListComp)]
+    if before in [ast.unparse(y) for x in alike for y in (x, x.targets[0])]:
+        return True
+    return after == f"np.linalg.inv({before})" and any(before == ast.unparse(x.value) for x in whole)
+
+
+def _kept(before: str, after: str, text: str) -> bool:
+    """Whether of a sum over a loop, or of its largest, only the last would be kept: that is not why it is there."""
+    node, other = _parsed(before), _parsed(after)
+    if isinstance(node, ast.AugAssign) and isinstance(other, ast.Assign):
+        loops = [x for x in _nodes(text) if isinstance(x, ast.For)]
+        inside = [x for x in loops if before in map(ast.unparse, ast.walk(x))]
+        over = {x.id for loop in inside for x in ast.walk(loop.target) if isinstance(x, ast.Name)}
+        return bool(inside) and not over & {x.id for x in ast.walk(node.target) if isinstance(x, ast.Name)}
+    call = node.value if isinstance(node, ast.Expr) else None
+    return (
+        isinstance(call, ast.Call) and ast.unparse(call.func) in ("max", "min") and after in map(ast.unparse, call.args)
+    )
 
 
 def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
     """Whether of a lever arm and its cross product, either of which gives the sign, this is the one that is turned."""
-    node = _parsed(before)
-    node = node.value if isinstance(node, ast.Expr) else node
-    lever, product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub), _is_cross(node)
+    lever, product = is_difference(before), is_cross(before)
     if not lever and not product:
         return True
     try:
@@ -81,20 +104,35 @@ def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
 def _arms(text: str) -> Iterator[int]:
     """Yield of each cross product with a lever arm in it which of its factors that is."""
     nodes = [*_nodes(text)]
-    named = [x for x in nodes if isinstance(x, ast.Assign) and _is_difference(x.value)]
+    named = [x for x in nodes if isinstance(x, ast.Assign) and _is_arm(x.value)]
     arms = {ast.unparse(target) for x in named for target in x.targets}
     for node in nodes:
         if _is_cross(node):
-            found = [k for k, x in enumerate(node.args) if _is_difference(x) or ast.unparse(x) in arms]
+            found = [k for k, x in enumerate(node.args) if _is_arm(x) or ast.unparse(x) in arms]
             yield from found if len(found) == 1 else ()
+
+
+def _is_arm(node: Any) -> bool:
+    """Whether a node is a difference of two points, or one that is turned."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult):
+        return _is_arm(node.left) or _is_arm(node.right)
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
+
+
+def is_cross(text: str) -> bool:
+    """Whether a text is a cross product."""
+    node = _parsed(text)
+    return isinstance(node, ast.Expr) and _is_cross(node.value)
+
+
+def is_difference(text: str) -> bool:
+    """Whether a text is a difference, as a lever arm is."""
+    node = _parsed(text)
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.Sub)
 
 
 def _is_cross(node: Any) -> bool:
     return isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "cross" and len(node.args) == 2
-
-
-def _is_difference(node: Any) -> bool:
-    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
 
 
 def _parsed(text: str) -> Any:

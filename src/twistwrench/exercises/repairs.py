@@ -9,21 +9,22 @@ import linecache
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import FunctionType
 from typing import Any
 
 import twistwrench
 
 from .alternatives import KINDS
+from .branches import settled
 from .calls import copied, local_values, tried
-from .compare import agree, close, values
+from .compare import agree
 from .edits import Source
 from .exercise import Part
 from .nearer import Nearer
 from .phrases import say
-from .plausible import plausible, shuts
-from .search import Remembering, by_chance, said_where
+from .plausible import is_cross, is_difference, plausible, shuts
+from .search import Remembering, by_chance, said_where, same
 from .text import Text
 from .whole import Edit, of_arguments, of_order
 
@@ -64,6 +65,8 @@ class Repair:
         Another change that is made before it.
     blocks : tuple of Text
         What of the result is right by it, where that is not all.
+    branch : Text, optional
+        What it means where it makes a condition always or never hold.
     """
 
     edit: Edit
@@ -71,14 +74,17 @@ class Repair:
     piece: int | None = None
     first: Edit | None = None
     blocks: tuple[Text, ...] = ()
+    branch: Text | None = None
 
     def title(self) -> Text:
         """Report what must stand where."""
+        if self.first is not None and self.first.wrong == self.edit.right:  # two changes of the same piece are one
+            return Repair(replace(self.edit, kind="instead", right=self.first.right), self.before).title()
         if self.first is not None:
             both = (Repair(edit, self.before).title() for edit in (self.first, self.edit))
             return say("both edits", first=next(both), second=next(both))
         edit = self.edit
-        title = say(f"repair {edit.kind}", right=edit.wrong, wrong=edit.right)
+        title = self.branch or say(f"repair {edit.kind}", right=edit.wrong, wrong=edit.right)
         if shuts(edit):
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:
@@ -132,12 +138,13 @@ def repairs(
         Is given the changes that make only a part of the answer right.
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
-    if pairs and 2 * sum(wrong) < len(wrong):
+    rare = 2 * sum(wrong) < len(wrong)
+    if pairs and rare:
         return []  # two slips that make up for each other in most cases are not made
     seconds = {k: _seconds(part, function, cases[k]) for k, bad in enumerate(wrong) if bad}
     first = min(seconds, key=lambda k: seconds[k])
     every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
-    bad = {k for k in every if not _same(part, answers, right, k)}
+    bad = {k for k in every if not same(part, answers, right, k)}
     found: dict[int, Repair] = {}
     mended: list[Repair] = []
     source, before = _source(part, function, cases[first])
@@ -149,29 +156,38 @@ def repairs(
         for edit in _changes(part, function, source, cases[first], until, pairs):
             if mended and (edit.kind not in ALIKE or pairs):
                 break
+            if rare and edit.kind == "inserted" and not edit.wrong.startswith("abs("):
+                continue  # a factor that is missing spoils most cases
             answer = tried(part, edit.function, cases[first])
-            here = {k for k in bad - {*found} if _same(part, [answer], [right[first]], k)}
+            here = {k for k in bad - {*found} if same(part, [answer], [right[first]], k)}
             if not here and not agree(part, answer, right[first], cases[first]):
                 if nearer is not None:
                     nearer.note(edit, answer)
                 continue
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
-                if ALIKE.get(edit.kind) not in [ALIKE.get(repair.edit.kind) for repair in mended]:
-                    mended.append(Repair(edit, before))
+                if not any(_alike(edit, repair.edit) for repair in mended):
+                    mended.append(Repair(edit, before, branch=settled(source, edit, part, cases)))
                 continue
             if edit.kind == "result" or all(
-                _same(part, others, answers, k) or _same(part, others, right, k) for k in {*every} - here
+                same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here
             ):
-                found.update((k, Repair(edit, before, k)) for k in here if _same(part, others, right, k))
+                found.update((k, Repair(edit, before, k)) for k in here if same(part, others, right, k))
             elif nearer is not None:
                 nearer.note(edit, answer)
-                if all(_same(part, others, right, k) for k in {*every} - bad):
-                    nearer.pieces |= {k: edit for k in here - {*nearer.pieces} if _same(part, others, right, k)}
+                if all(same(part, others, right, k) for k in {*every} - bad):
+                    nearer.pieces |= {k: edit for k in here - {*nearer.pieces} if same(part, others, right, k)}
     if nearer is not None:
         nearer.pieces |= {k: repair.edit for k, repair in found.items()}
         nearer.bad = bad
     return mended or ([found[k] for k in sorted(found)] if found.keys() == bad else [])
+
+
+def _alike(edit: Edit, other: Edit) -> bool:
+    """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
+    crossed, levers = ([f(x.right) for x in (edit, other)] for f in (is_cross, is_difference))
+    two = edit.kind == other.kind == "exchanged" and [*map(int, crossed)] == [*map(int, levers)][::-1] != [0, 0]
+    return not two and ALIKE.get(edit.kind) == ALIKE.get(other.kind)
 
 
 def two_repairs(
@@ -280,12 +296,3 @@ def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> floa
     start = time.perf_counter()
     tried(part, function, arguments)
     return time.perf_counter() - start
-
-
-def _same(part: Part, first: Sequence[Any], second: Sequence[Any], k: int) -> bool:
-    """Whether two answers have the same k-th thing in all cases."""
-    for a, b in zip(first, second):
-        x, y = values(a, part.returns), values(b, part.returns)
-        if x is None or y is None or not close(x[k], y[k], part.rtol):
-            return False
-    return True

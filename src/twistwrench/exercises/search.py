@@ -19,7 +19,7 @@ from .phrases import say
 from .text import Text
 from .whole import Edit
 
-__all__ = ["Found", "Remembering", "by_chance", "exchanged_results", "found_edits", "right_where", "said_where"]
+__all__ = ["Found", "Remembering", "by_chance", "exchanged_results", "found_edits", "right_where", "said_where", "same"]
 
 MANY = 6
 """Numbers in an answer that are not met by chance."""
@@ -63,20 +63,20 @@ def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> 
     wrong = [not agree(part, a, b, arguments) for a, b, arguments in zip(answers, right, cases)]
     first = min((k for k, bad in enumerate(wrong) if bad), key=lambda k: _seconds(part, cases[k]))
     several = len(part.returns) > 1 and part.canonical is None
-    bad = [k for k in range(len(part.returns)) if not _same(part, answers, right, k)] if several else []
+    bad = [k for k in range(len(part.returns)) if not same(part, answers, right, k)] if several else []
     found: dict[int, Edit] = {}
     for edit in candidates(part, cases[first], until=until):
         answer = tried(part, edit.function, cases[first])
         alone = (
             [] if edit.kind in ("number", "index") and not cases[first] else bad
         )  # one of few numbers is met by chance
-        here = [k for k in alone if k not in found and _same(part, [answers[first]], [answer], k)]
+        here = [k for k in alone if k not in found and same(part, [answers[first]], [answer], k)]
         if not here and not agree(part, answers[first], answer, cases[first]):
             continue
         others = [tried(part, edit.function, arguments) for arguments in cases]
         if all(agree(part, a, b, c) for a, b, c in zip(answers, others, cases)):
             return [Found(edit, None)]
-        found.update((k, edit) for k in here if _same(part, answers, others, k))
+        found.update((k, edit) for k in here if same(part, answers, others, k))
     return [Found(found[k], k) for k in bad if k in found]
 
 
@@ -166,7 +166,7 @@ def _calling(part: Part, way: Callable[..., Any]) -> Callable[..., Any]:
     return lambda *arguments: part.value(way, arguments)
 
 
-def _same(part: Part, first: Answers, second: Answers, k: int) -> bool:
+def same(part: Part, first: Answers, second: Answers, k: int) -> bool:
     """Whether two answers have the same k-th thing in all cases."""
     for a, b in zip(first, second):
         x, y = values(a, part.returns), values(b, part.returns)
