@@ -56,7 +56,7 @@ def message(function, name, language="en"):
     ("right", "wrong", "says"),
     [
         ("X[i] @ A[parent[i]]", "X[i] @ V[parent[i]]", "line 16, `V[parent[i]]` must be `A[parent[i]]`"),
-        ("vJ = S[i] @ qd[i]", "vJ = 2 * S[i] @ qd[i]", "line 14, `2` does not belong there"),
+        ("vJ = S[i] @ qd[i]", "vJ = 2 * S[i] @ qd[i]", "line 14, `2 *` does not belong there"),
         ("I[i] @ A[i] +", "I[i].T @ V[i] +", "line 17, `V[i]` must be `A[i]`"),
     ],
 )

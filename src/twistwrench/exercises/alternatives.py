@@ -141,7 +141,8 @@ def _statements(node: Any) -> Iterator[Any]:
         yield "left out", ast.Pass()
     if isinstance(node, ast.AugAssign):
         if type(node.op) in OPPOSITE:
-            yield "instead", ast.AugAssign(node.target, OPPOSITE[type(node.op)](), node.value)
+            kind = "sign" if isinstance(node.op, ast.Add | ast.Sub) else "instead"
+            yield kind, ast.AugAssign(node.target, OPPOSITE[type(node.op)](), node.value)
         yield "instead", ast.Assign([node.target], node.value, lineno=node.lineno)
         yield "left out", ast.Pass()
     if isinstance(node, ast.While):

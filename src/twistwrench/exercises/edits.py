@@ -152,13 +152,13 @@ class Source:
     def edits(self, kind: str) -> Iterator[Edit]:
         """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
         alike: dict[tuple[str, str], list[Place]] = {}
-        for parents, field, node in self.places:
-            for found, other in self._alternatives(node, parents):
-                if found == kind:
-                    place = parents, field, node, other
-                    texts = self._texts(kind, place)
-                    alike.setdefault(mark(texts, node, other), []).append(place)
-                    yield from self._made(kind, texts, [place])
+        made = [(*place, x) for place in self.places for k, x in self._alternatives(place[2], place[0]) if k == kind]
+        if kind == "sign":  # a plus for a minus before a minus more
+            made.sort(key=lambda place: isinstance(place[3], ast.UnaryOp))
+        for place in made:
+            texts = self._texts(kind, place)
+            alike.setdefault(mark(texts, *place[2:]), []).append(place)
+            yield from self._made(kind, texts, [place])
         yield from self._halves() if kind == "halves" else self._crossed() if kind == "exchanged" else ()
         for (right, wrong), places in alike.items():
             if kind == "number" and len({field for _, field, *_ in places}) > 1:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-__all__ = ["enclosing", "target", "term", "text_of"]
+__all__ = ["enclosing", "first_alone", "target", "term", "text_of", "with_operator"]
 
 
 def term(node: Any, other: Any) -> str:
@@ -16,6 +16,8 @@ def term(node: Any, other: Any) -> str:
         return text_of(other.body[-1] if isinstance(other, ast.If) else other.body[0])
     if isinstance(other, ast.Pass):
         return text_of(node)
+    if isinstance(node, ast.AugAssign):
+        return text_of(node.value)
     if isinstance(other, ast.UnaryOp) and other.operand is node:
         return text_of(node)
     if isinstance(node, ast.BinOp):
@@ -52,6 +54,26 @@ def enclosing(parents: list[Any], node: Any) -> Any:
             break
         node = parent
     return node
+
+
+def with_operator(node: Any, text: str) -> str:
+    """Return a number that is taken out of a sum or product with the operator beside it: 2 alone may be anywhere."""
+    if not isinstance(node, ast.BinOp) or not text.replace(".", "").isdigit():
+        return text
+    sign = text_of(ast.BinOp(ast.Name("x"), node.op, ast.Name("y")))[1:-1].strip()
+    return f"{text} {sign}" if text_of(node.left) == text else f"{sign} {text}"
+
+
+def first_alone(parents: list[Any], text: str) -> str:
+    """Return what is around a piece of a statement, as far as it stands there once; nothing where the piece does."""
+    inside = [x for x in parents if isinstance(x, ast.stmt)][-1:]
+    whole = text_of(inside[0]) if inside else ""
+    if not isinstance(inside[0] if inside else None, ast.Assign | ast.AugAssign | ast.Return | ast.Expr):
+        return ""
+    if whole.count(text) < 2:
+        return ""
+    pieces = (text_of(x) for x in reversed(parents[parents.index(inside[0]) + 1 :]) if isinstance(x, ast.expr))
+    return next((piece for piece in pieces if text in piece and whole.count(piece) == 1), "")
 
 
 def text_of(node: ast.AST) -> str:

@@ -39,6 +39,7 @@ def not_used(
     cases : sequence of tuple
     """
     wrong = [(a, b, c) for a, b, c in zip(answers, right, cases) if _changed(part, a, b)][:TRIED]
+    good = [(a, c) for a, b, c in zip(answers, right, cases) if not _changed(part, a, b)][:TRIED]
     lines: list[Text] = []
     given = min((len(c) for _, _, c in wrong), default=0) if part.canonical is None else 0
     for k, name in enumerate([name.partition("=")[0] for name in part.arguments.split(", ")][:given]):
@@ -49,6 +50,9 @@ def not_used(
             ]
             what = name if entry is None else f"{name}[{entry}]"
             common = sorted(set[int].intersection(*unmoved))
+            for a, c in good if common else ():  # where it is right, it may come into it
+                others = [(*c[:k], x, *c[k + 1 :]) for x in _others(c[k], entry, cases, k)]
+                common = [j for j in common if not any(j in _changed(part, again(x), a) for x in others)]
             lines += [say("not used", name=part.returns[piece].title, what=what) for piece in common]
             if common and entry is None:
                 break
@@ -89,9 +93,10 @@ def _others(x: Any, entry: int | None, cases: Sequence[Case], k: int) -> Iterato
         alike = [c[k] for c in cases if type(c[k]) is type(x) and _sizes(c[k]) == _sizes(x)]
         yield from [other for other in alike if other is not x][:TRIED]
     elif isinstance(x, np.ndarray) and x.ndim == 1 and entry < x.size <= FEW and x.dtype.kind == "f":
-        other = x.copy()
-        other[entry] += 0.1 + 0.25 * abs(x[entry])
-        yield other
+        for scale in (1.25, 0):  # beyond a limit, and within it
+            other = x.copy()
+            other[entry] = 0.1 + scale * x[entry]
+            yield other
 
 
 def _sizes(x: Any) -> Any:

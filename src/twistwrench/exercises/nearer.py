@@ -114,9 +114,10 @@ class Nearer:
             if bad is None or was is None or c.array is None:
                 continue
             for block, index in c.quantity.layout.blocks(c.array.shape):
-                if was[index].any() and np.abs(c.array[index]).max(initial=0) > FLOOR:
-                    gained = not bad[index].any() and not (bad & ~was).any()
-                    yield say("block", name=c.quantity.title, block=block), gained
+                if (bad & ~was).any():  # what was right would be wrong by it
+                    yield say("block", name=c.quantity.title, block=block), False
+                elif was[index].any() and np.abs(c.array[index]).max(initial=0) > FLOOR:
+                    yield say("block", name=c.quantity.title, block=block), not bad[index].any()
 
     def _mends(self, edit: Edit) -> bool:
         every = [self.tried[0], *range(len(self.cases))] if self.tried else []

@@ -101,6 +101,7 @@ PHRASES = {
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
     "twice": Text("{title}, in two places", "{title}（两处都是）"),
     "both places": Text("{title}, in `{first}` and in `{second}`", "{title}（在 `{first}` 和 `{second}` 中）"),
+    "in place": Text("{title}, in `{around}`", "{title}（在 `{around}` 中）"),
     "everywhere": Text("{title}, wherever it stands", "{title}（每一处都是）"),
     "edited": Text(
         "A right solution with this change, and no other, gives your numbers, in all {all} cases.",

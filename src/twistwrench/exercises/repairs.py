@@ -20,6 +20,7 @@ from .branches import settled
 from .calls import copied, local_values, tried
 from .compare import agree
 from .edits import Source
+from .excerpts import with_operator
 from .exercise import Part
 from .nearer import Nearer
 from .phrases import say
@@ -84,7 +85,8 @@ class Repair:
             both = (Repair(edit, self.before).title() for edit in (self.first, self.edit))
             return say("both edits", first=next(both), second=next(both))
         edit = self.edit
-        title = self.branch or say(f"repair {edit.kind}", right=edit.wrong, wrong=edit.right)
+        wrong = with_operator(edit.places[0][2], edit.right) if edit.kind == "left out" and edit.places else edit.right
+        title = self.branch or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
         if shuts(edit):
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:

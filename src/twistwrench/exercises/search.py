@@ -14,6 +14,7 @@ import twistwrench
 from .calls import copied, local_values, tried
 from .compare import agree, close, values
 from .edits import edits
+from .excerpts import first_alone
 from .exercise import Part
 from .phrases import say
 from .text import Text
@@ -48,7 +49,8 @@ class Found(NamedTuple):
 def said_where(edit: Edit, title: Text) -> Text:
     """Add to a title in how many places an edit is made."""
     if not edit.everywhere:
-        return title
+        around = first_alone(edit.places[0][0], edit.right) if edit.places else ""
+        return say("in place", title=title, around=around) if around else title
     if edit.everywhere == 2 and len({*edit.around}) == 2:
         return say("both places", title=title, first=edit.around[0], second=edit.around[1])
     return say("twice" if edit.everywhere == 2 else "everywhere", title=title)
