@@ -310,7 +310,7 @@ def test_a_part_that_a_change_makes_right_is_reported_with_it(written):
     text = """\
 def adjoint(T):
     R, p = T[:3, :3], T[:3, 3]
-    return np.block([[R, np.zeros((3, 3))], [tw.skew(p[[2, 0, 1]] + 1) @ R, R.T]])
+    return np.block([[R, np.zeros((3, 3))], [np.outer(p, p + 1), R.T]])
 """
     said = message(written(text), "adjoint")
     assert "The slip in Ad_T, the block of rows v, columns v" in said

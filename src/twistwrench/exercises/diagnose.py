@@ -20,6 +20,7 @@ from .repairs import Repair, repair_of_blocks, repairs, two_repairs, written
 from .search import Found, exchanged_results, found_edits, right_where
 from .slips import SLIPS, Slip
 from .steps import first_wrong
+from .stepwise import Stepwise
 from .text import Text
 
 __all__ = ["after_error", "explain"]
@@ -27,7 +28,7 @@ __all__ = ["after_error", "explain"]
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
-SHARES = {"mended": 1.6, "edited": 3.0, "after": 4.0, "twice": 5.0}
+SHARES = {"mended": 1.6, "stepped": 2.2, "edited": 3.2, "after": 3.9, "both": 4.7, "twice": 5.2}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
 
 TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
@@ -92,13 +93,21 @@ def _further(
     again: Callable[[tuple[Any, ...]], Any] | None,
 ) -> tuple[list[str], list[Text]]:
     """Explain what no slip of the list and no single change of the student's lines does."""
-    right, answers, cases = nearer.right, nearer.answers, nearer.cases
-    edited = found_edits(part, answers, cases, until=until["edited"]) if again else []
+    given = function, nearer.right, nearer.answers, nearer.cases
+    _, right, answers, cases = given
+    if again is None:
+        return [], _unexplained(exercise, part, answers, cases, right, None)
+    steps = Stepwise(part, *given)
+    mended = steps.one(until["stepped"])
+    edited = [] if mended else found_edits(part, answers, cases, until=until["edited"])
     if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, function, edited, answers, cases)
-    mended = two_repairs(part, function, nearer, cases[0], until["after"]) if again else []
-    if again and not mended:
-        mended = repairs(part, function, right, answers, cases, until=until["twice"], pairs=True)
+    mended = (
+        mended
+        or two_repairs(part, function, nearer, cases[0], until["after"])
+        or steps.two(until["both"])
+        or repairs(part, *given, until=until["twice"], pairs=True)
+    )
     if mended:
         return [], _mended(exercise, part, mended, answers, cases)
     pair = None if few_entries(part, answers, cases) else two_slips(part, answers, cases)
@@ -108,10 +117,10 @@ def _further(
         return list(pair), [line, first.why, second.why, _where(exercise, first.section)]
     if edited:
         return [], _edited(exercise, part, function, edited, answers, cases)
-    near = repair_of_blocks(nearer) if again else None
+    near = repair_of_blocks(nearer)
     if near is not None:
         return [], _nearer(exercise, part, near, answers, cases)
-    return [], _unexplained(exercise, part, answers, cases, right, again)
+    return [], _unexplained(exercise, part, answers, cases, right, again, steps.line())
 
 
 def _unexplained(
@@ -121,10 +130,11 @@ def _unexplained(
     cases: Cases,
     right: Answers,
     again: Callable[[tuple[Any, ...]], Any] | None,
+    place: Text | None = None,
 ) -> list[Text]:
-    """Report what the comparison shows, and on which arguments the answer depends wrongly."""
+    """Report what the comparison shows, from which place on, and on which arguments the answer depends wrongly."""
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
-    lines += filter(None, [of_truths([*zip(answers, right)])])
+    lines += filter(None, [of_truths([*zip(answers, right)]), place])
     if again:
         lines += map(_indented, not_used(part, again, answers, right, cases))
         lines += filter(None, [right_where(part, again, cases)])

@@ -156,18 +156,18 @@ class Source:
         if kind == "sign":  # a plus for a minus before a minus more
             made.sort(key=lambda place: isinstance(place[3], ast.UnaryOp))
         for place in made:
-            texts = self._texts(kind, place)
+            texts = self.texts(kind, place)
             alike.setdefault(mark(texts, *place[2:]), []).append(place)
-            yield from self._made(kind, texts, [place])
+            yield from self.made(kind, texts, [place])
         yield from self._halves() if kind == "halves" else self._crossed() if kind == "exchanged" else ()
         for (right, wrong), places in alike.items():
             if kind == "number" and len({field for _, field, *_ in places}) > 1:
                 continue  # where a slice begins and where another ends are two things
             if len(places) > 1:
-                yield from self._made(kind, (right, wrong), places, everywhere=True)
+                yield from self.made(kind, (right, wrong), places, everywhere=True)
             if 2 < len(places) <= MOST_PLACES:
                 for two in combinations(places, 2):
-                    yield from self._made(kind, (right, wrong), [*two], everywhere=True)
+                    yield from self.made(kind, (right, wrong), [*two], everywhere=True)
 
     def _halves(self) -> Iterator[Edit]:
         """Yield the exchange of the two halves of an array, wherever they stand: ω for v, and v for ω."""
@@ -179,14 +179,14 @@ class Source:
                 halves.setdefault(text_of(parents[-1].value), []).append((parents, field, node, other.slice))
         for name, places in halves.items():
             if len({ast.unparse(node) == ":3" for _, _, node, _ in places}) == 2:
-                yield from self._made("halves", (f"{name}[:3]", f"{name}[3:]"), places)
+                yield from self.made("halves", (f"{name}[:3]", f"{name}[3:]"), places)
 
     def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
         """Yield two edits at once, of the kinds that are likeliest."""
         for k, (parents, field, node) in enumerate(self.places):
             for kind, other in self._alternatives(node, parents):
                 if kind in kinds:
-                    first = kind, *self._texts(kind, (parents, field, node, other)), node.lineno
+                    first = kind, *self.texts(kind, (parents, field, node, other)), node.lineno
                     put(parents[-1], field, other)
                     for place in self.places[k + 1 :]:
                         if not any(parent is node for parent in place[0]):
@@ -198,10 +198,10 @@ class Source:
         for kind, other in self._alternatives(node, parents):
             if kind in kinds:
                 place = parents, field, node, other
-                for edit in self._made(kind, self._texts(kind, place), [place]):
+                for edit in self.made(kind, self.texts(kind, place), [place]):
                     yield replace(edit, first=first)
 
-    def _texts(self, kind: str, place: Place) -> tuple[str, str]:
+    def texts(self, kind: str, place: Place) -> tuple[str, str]:
         """Return the texts of an edit, right and wrong."""
         parents, field, node, other = place
         if kind in ("sign", "left out", "after loop", "in loop", "summed"):
@@ -213,7 +213,7 @@ class Source:
         put(parents[-1], field, node)
         return right, wrong
 
-    def _made(
+    def made(
         self, kind: str, texts: tuple[str, str], places: list[Place], *, everywhere: bool = False
     ) -> Iterator[Edit]:
         """Yield the edit in some places, if it is a program."""
@@ -276,7 +276,7 @@ class Source:
                 for x, y in combinations(used, 2):
                     if self.kinds[x] == self.kinds[y]:
                         place = parents, field, node, crossed(node, x, y)
-                        yield from self._made("exchanged", self._texts("exchanged", place), [place])
+                        yield from self.made("exchanged", self.texts("exchanged", place), [place])
 
     def _other_names(self, node: Any, parents: list[Any]) -> Iterator[str]:
         """Yield what else a name may stand for: an index for a number, the parent for the body before, x·x for y·y."""

@@ -69,6 +69,12 @@ PHRASES = {
     "repair inserted": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair index": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "repair missing": Text("`{right}` is missing after `{wrong}`", "`{wrong}` 之后缺少 `{right}`"),
+    "first line": Text(
+        "Line {line}, `{text}`: there your numbers first leave those of the right solutions. Either it is another way,"
+        " or the slip is there.",
+        "第 {line} 行 `{text}`：你的数值从这里开始与正确解法的不同。要么这是另一种做法，要么错误就在这里。",
+    ),
     "repair argument": Text(
         "with `{right}` in place of the argument `{wrong}` the function is right",
         "把参数 `{wrong}` 换成 `{right}`，函数就正确了",

@@ -44,7 +44,7 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
     if shuts(edit):
         tests = [ast.unparse(x.test) for x in _nodes(text) if isinstance(x, ast.If | ast.IfExp)]
         return ">" not in before and any(before in test for test in tests)
-    if any(name in before and name not in after for name in POSTURES):
+    if any(name in before and name not in after for name in POSTURES) and any(name in after for name in POSTURES):
         return False
     return edit.kind != "exchanged" or _turned(before, text, reference)
 

@@ -29,7 +29,7 @@ from .search import Remembering, by_chance, said_where, same
 from .text import Text
 from .whole import Edit, of_arguments, of_order
 
-__all__ = ["Repair", "guarded", "repair_of_blocks", "repairs", "two_repairs", "written"]
+__all__ = ["Repair", "guarded", "repair_of_blocks", "repairs", "source_of", "two_repairs", "written"]
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
@@ -149,7 +149,7 @@ def repairs(
     bad = {k for k in every if not same(part, answers, right, k)}
     found: dict[int, Repair] = {}
     mended: list[Repair] = []
-    source, before = _source(part, function, cases[first])
+    source, before = source_of(part, function, cases[first])
     if source is None:
         return []
     if nearer is not None:
@@ -221,7 +221,7 @@ def repair_of_blocks(nearer: Nearer) -> Repair | None:
     return Repair(found[0], nearer.before, blocks=tuple(found[1])) if found else None
 
 
-def _source(part: Part, function: Function, arguments: tuple[Any, ...]) -> tuple[Source | None, int]:
+def source_of(part: Part, function: Function, arguments: tuple[Any, ...]) -> tuple[Source | None, int]:
     """Return the syntax tree of a student's function, None where it is not at hand, and the lines before it."""
     found = written(function)
     if found is None:

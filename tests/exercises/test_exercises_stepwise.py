@@ -1,0 +1,79 @@
+"""A wrong answer is followed statement by statement: what is missing, what must stand there, and two slips at once."""
+
+import linecache
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.exercises import catalogue, mine
+from twistwrench.exercises.judge import judge
+from twistwrench.exercises.records import Known
+
+FALL = """\
+def fall_in_motion(model, q, v):
+    a = tw.aba(model, q, v, np.zeros(model.nv))
+    R = tw.forward_kinematics(model, q).placement[1].rotation
+    return R.T @ a[3:6], np.array(model.gravity, dtype=float)
+"""
+TWO_WAYS = """\
+def forward_dynamics_two_ways(model, q, v, tau):
+    M, h = tw.crba(model, q), tw.gravity(model, q)
+    return tw.aba(model, q, v, tau), np.linalg.solve(M, tau + h)
+"""
+BY_UNITS = """\
+def mass_matrix_by_rnea(model, q):
+    z = np.zeros(model.nv)
+    g = tw.rnea(model, model.neutral(), z, z)
+    return np.array([tw.rnea(model, q, z, e) - g for e in np.eye(model.nv)]).T
+"""
+RATE = """\
+def momentum_rate(model, q, v, a):
+    motion, G = tw.forward_kinematics(model, q, v, a), tw.center_of_mass(model, q)
+    rate = np.zeros(6)
+    for i in range(1, len(model.inertia)):
+        V, A, I = np.asarray(motion.twist[i]), np.asarray(motion.acceleration[i]), model.inertia[i].matrix()
+        h, F = I @ V, I @ A
+        F[:3] += np.cross(V[:3], h[:3])
+        F[3:] += np.cross(V[:3], h[3:])
+        R, p = motion.placement[i].rotation, motion.placement[i].translation - G
+        rate += np.concatenate([R @ F[:3] + np.cross(p, R @ F[3:]), R @ F[3:]])
+    return rate
+"""
+LOADS = """\
+def vertical_loads(p_G, feet, weight):
+    d = np.linalg.norm(feet[:, :2] - p_G[:2], axis=1)
+    w = 1 / d
+    return weight * w / w.sum()
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (FALL, ["line 14, `R.T` must be `R`", "`+ np.cross(v[:3], v[3:6])` is missing after `a[3:6]`", "both changes"]),
+        (TWO_WAYS, ["`tw.gravity(model, q)` must be `tw.nonlinear_effects(model, q, v)`", "the sign of `h` is wrong"]),
+        (BY_UNITS, ["line 13, `model.neutral()` must be `q`"]),
+        (RATE, ["np.cross(V[3:], h[3:])`"]),
+        (LOADS, ["Line 14, `return weight * w / w.sum()`", "first leave those of the right solutions"]),
+    ],
+)
+def test_the_first_statement_that_is_wrong_is_mended(tmp_path, text, says):
+    path = tmp_path / "answer.py"
+    path.write_text("\n" * 10 + text, encoding="utf-8")
+    names = {"np": np, "tw": tw, "mine": mine}
+    exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
+    name = text[4 : text.index("(")]
+    said = " ".join(judge(*catalogue.find_part(name), names[name]).message("en").split())
+    linecache.clearcache()
+    for line in says:
+        assert line in said
+
+
+def test_a_value_is_known_whatever_its_sign():
+    known = Known()
+    known.add([np.array([0.5, -1.5, 2.5]), 0.25])
+    assert known.has(np.array([-0.5, 1.5, -2.5]))
+    assert known.has(-0.25)
+    assert known.has(np.array([1.0, 2.0, 3.0]))  # whole numbers are met by chance
+    assert not known.has(np.array([0.5, -1.5, 2.4]))
