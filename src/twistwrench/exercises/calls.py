@@ -52,8 +52,8 @@ def limited(seconds: float) -> Iterator[None]:
         yield
         return
 
-    def stop(*_: object) -> None:
-        raise _TooLong
+    def stop(*given: object) -> None:
+        raise _TooLong(*given)
 
     before = signal.signal(signal.SIGVTALRM, stop)
     signal.setitimer(signal.ITIMER_VIRTUAL, seconds, seconds)  # again, should something hold the first
