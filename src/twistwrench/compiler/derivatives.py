@@ -52,9 +52,8 @@ def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
         result, watched = quantity.compute(*x.values())
         tangents = steps(model, x["q"]) if of == "q" else directions(x[of])
         J = jacobian(tape, np.asarray(result, object), tangents, model.nv)
-        line = Line.of(tape, _shapes_of(x), {"J": J, "watched": np.array(watched, object)})
-        by_column = np.moveaxis(np.reshape(line.outputs["J"][1], J.shape), -1, 0)
-        line = line.in_order_of(by_column.flat)
+        by_column = np.moveaxis(J, -1, 0).flat
+        line = Line.of(tape, _shapes_of(x), {"J": J, "watched": np.array(watched, object)}, by_column)
         J, questions = replay(line, known)
         return J, [*questions] if J.dtype.hasobject else []
 

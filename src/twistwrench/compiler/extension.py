@@ -102,7 +102,7 @@ class Call(Text):
             self.lines.append(f"store ptr {pointer}, ptr {self.new(f'getelementptr i64, ptr {table}, i64 {2 * k}')}")
         self.lines.append(f"call void {at(program)}(ptr {table}, i64 1)")
         value = self.new(f"load {self.scalar}, ptr {alarm}")
-        sure = self.new(f"fcmp ole {self.scalar} {value}, {self.constant(1)}")
+        sure = self.new(f"fcmp ole {self.scalar} {value}, 1.0")
         names = {"release": api("Py_DecRef"), "keep": api("Py_IncRef"), "none": at(id(None))}
         text = STATE.format(lines="\n  ".join(self.lines), sure=sure, results=results, **names)
         return "\n".join([*sorted(self.declared), text])

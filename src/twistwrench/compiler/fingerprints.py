@@ -21,22 +21,23 @@ Of all rules this is the only one that changes roundings: it takes some away.
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from .line import Line, operands
+from .line import Line, operands, ordered
 from .number import ARITHMETIC, Node, Number, Tape
 
 __all__ = ["each_once"]
 
-PRIME = 2**607 - 1
+PRIME, LARGER = 2**127 - 1, 2**607 - 1
+"""For fingerprints, and to find what a constant is."""
 
 LARGEST = 2**240
-"""Numerators and denominators of constants are smaller: hardly any number below the prime is such a quotient."""
+"""Numerators and denominators of constants are smaller: hardly any number below the larger prime is such a quotient."""
 
 Mark = tuple[int, ...]
 """A fingerprint: the value of a number at two points."""
@@ -48,21 +49,28 @@ def each_once(line: Line) -> Line:
     Of the others only constants are found: if limbs shared them, they would not be alike any longer (see `packs`).
     """
     marks: list[Mark] = []
-    tape, fingerprint = Tape((lambda: line.notes[len(marks)]) if line.notes else None), Fingerprint()
+    tape, fingerprint = Tape((lambda: line.notes[len(marks)]) if line.notes else None), Fingerprint(PRIME)
     values: list[Any] = []
     known: dict[int, Any] = {}
     turns: list[bool] = []  # whether a number depends on a sine
-    for node in line.nodes:
-        operation, needed = node[0], operands(node)
+    constants = Constants(line)
+    for k, node in enumerate(line.nodes):
+        operation = node[0]
         mark = fingerprint.of(node, marks)
         if operation == "const":
             value = node[1]
         elif operation == "input":
             value = tape.input(node[1])
-        elif (value := _known(mark, known)) is None:
-            value = _again(tape, operation, [values[k] for k in needed])
-        if type(value) is Number and (operation in ("sin", "cos") or any(turns[k] for k in needed)):
-            known.setdefault(mark[0], value)
+        else:
+            value = known.get(mark[0])
+            if value is None and mark[0] == mark[1]:
+                value = constants.of(k, mark[0])
+            elif value is None and (opposite := known.get(PRIME - mark[0])) is not None:
+                value = -opposite
+            if value is None:
+                value = _again(tape, operation, [values[j] for j in node[1:]])
+            if type(value) is Number and (operation in ("sin", "cos") or turns[node[1]] or turns[node[-1]]):
+                known.setdefault(mark[0], value)
         turns.append(mark[0] in known)
         marks.append(mark)
         values.append(value)
@@ -72,16 +80,6 @@ def each_once(line: Line) -> Line:
     for name, (_, entries) in line.outputs.items():
         results[name].reshape(-1)[:] = [values[k] for k in entries]
     return Line.of(tape, line.inputs, results)
-
-
-def _known(mark: Mark, known: Mapping[int, Any]) -> Any:
-    """Return the number, or the constant, that is the one with this fingerprint; None if there is none."""
-    value = known.get(mark[0])
-    if value is None and mark[0] == mark[1]:
-        return _constant(mark[0])
-    if value is None and (opposite := known.get(PRIME - mark[0])) is not None:
-        return -opposite
-    return value
 
 
 def _again(tape: Tape, operation: str, values: list[Any]) -> Any:
@@ -94,15 +92,16 @@ def _again(tape: Tape, operation: str, values: list[Any]) -> Any:
 class Fingerprint:
     """The values of numbers at two points, modulo a prime."""
 
-    def __init__(self) -> None:
+    def __init__(self, prime: int) -> None:
+        self.prime = prime
         self.numbers = random.Random(0)  # the same in each run, as programs are
         self.others: dict[Any, Mark] = {}  # of arguments and functions
 
-    def of(self, node: Node, marks: list[Mark]) -> Mark:
+    def of(self, node: Node, marks: Mapping[int, Mark] | Sequence[Mark]) -> Mark:
         """Return that of an operation on numbers whose fingerprints are known."""
-        operation = node[0]
+        operation, prime = node[0], self.prime
         if operation == "const":
-            value = node[1].numerator * _known_inverse(node[1].denominator) % PRIME
+            value = node[1].numerator * _known_inverse(node[1].denominator, prime) % prime
             return value, value
         if operation == "input":
             return self.free(node[1])
@@ -110,39 +109,55 @@ class Fingerprint:
         y0, y1 = marks[node[-1]]
         match operation:
             case "mul":
-                return x0 * y0 % PRIME, x1 * y1 % PRIME
+                return x0 * y0 % prime, x1 * y1 % prime
             case "add":
-                return (x0 + y0) % PRIME, (x1 + y1) % PRIME
+                return (x0 + y0) % prime, (x1 + y1) % prime
             case "sub":
-                return (x0 - y0) % PRIME, (x1 - y1) % PRIME
+                return (x0 - y0) % prime, (x1 - y1) % prime
             case "neg":
-                return -x0 % PRIME, -x1 % PRIME
+                return -x0 % prime, -x1 % prime
             case "div" if y0 and y1:
-                return x0 * _inverse(y0) % PRIME, x1 * _inverse(y1) % PRIME
+                return x0 * _inverse(y0, prime) % prime, x1 * _inverse(y1, prime) % prime
             case "cos":
-                return tuple((1 - t * t) * _inverse(1 + t * t) % PRIME for t in self.free((x0, x1)))
+                return tuple((1 - t * t) * _inverse(1 + t * t, prime) % prime for t in self.free((x0, x1)))
             case "sin":
-                return tuple(2 * t * _inverse(1 + t * t) % PRIME for t in self.free((x0, x1)))
+                return tuple(2 * t * _inverse(1 + t * t, prime) % prime for t in self.free((x0, x1)))
         return self.free((operation, x0, x1, y0, y1))
 
     def free(self, key: Any) -> Mark:
         """Return a random fingerprint, the same for the same key."""
         if key not in self.others:
-            self.others[key] = self.numbers.getrandbits(606), self.numbers.getrandbits(606)
+            self.others[key] = self.numbers.randrange(self.prime), self.numbers.randrange(self.prime)
         return self.others[key]
 
 
-def _inverse(x: int) -> int:
-    return pow(x, -1, PRIME)
+def _inverse(x: int, prime: int) -> int:
+    return pow(x, -1, prime)
 
 
 _known_inverse = lru_cache(_inverse)
 """For denominators of constants, which are a few powers of two."""
 
 
-def _constant(value: int) -> Fraction | None:
-    """Return the constant that has this value at every point, if it is a quotient of numbers that are not large."""
-    a, b, u, v = PRIME, value, 0, 1
-    while b >= LARGEST:  # Euclid: b is v times the fingerprint at any time
-        a, b, u, v = b, a % b, v, u - a // b * v
-    return Fraction(b, v) if abs(v) < LARGEST else None
+class Constants:
+    """What the constants of a line are, by fingerprints modulo the larger prime, which few numbers need."""
+
+    def __init__(self, line: Line) -> None:
+        self.nodes, self.fingerprint = line.nodes, Fingerprint(LARGER)
+        self.marks: dict[int, Mark] = {}
+        self.known: dict[int, Fraction | None] = {0: Fraction(0)}
+
+    def of(self, k: int, mark: int) -> Fraction | None:
+        """Return the constant that a node is in every state, and that has this fingerprint; None if it is too large."""
+        if mark not in self.known:
+            self.known[mark] = self.value(k)
+        return self.known[mark]
+
+    def value(self, k: int) -> Fraction | None:
+        """Return the constant that a node is, if it is a quotient of numbers that are not large."""
+        for j in ordered([k], lambda j: [i for i in operands(self.nodes[j]) if i not in self.marks]):
+            self.marks[j] = self.fingerprint.of(self.nodes[j], self.marks)
+        a, b, u, v = LARGER, self.marks[k][0], 0, 1
+        while b >= LARGEST:  # Euclid: b is v times the fingerprint at any time
+            a, b, u, v = b, a % b, v, u - a // b * v
+        return Fraction(b, v) if abs(v) < LARGEST else None

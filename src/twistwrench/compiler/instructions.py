@@ -14,14 +14,23 @@ INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
 
 
 class Text:
-    """Instructions for `width` states at once."""
+    """Instructions for `width` states at once.
 
-    def __init__(self, scalar: str, width: int) -> None:
+    Parameters
+    ----------
+    scalar : {"double", "float"}
+    width : int
+    constants : dict of str to int, optional
+        What is in memory at ``%constants``, and where; others are added.
+    """
+
+    def __init__(self, scalar: str, width: int, constants: dict[str, int] | None = None) -> None:
         self.scalar, self.width = scalar, width
         self.type = self.vector(scalar)
         self.bytes = 8 if scalar == "double" else 4
         self.lines: list[str] = []
         self.declared: set[str] = set()
+        self.constants = {} if constants is None else constants
 
     def vector(self, scalar: str) -> str:
         """Return the type of `width` numbers of a type."""
@@ -38,14 +47,16 @@ class Text:
         return name
 
     def constant(self, x: Any) -> str:
-        """Return a constant, rounded to the number type."""
+        """Write the load of a constant, rounded to the number type."""
         rounded = float(x) if self.scalar == "double" else float(np.float32(float(x)))
-        return self.splat(self.scalar, f"0x{struct.unpack('<Q', struct.pack('<d', rounded))[0]:016X}")
+        bits = self.splat(self.scalar, f"0x{struct.unpack('<Q', struct.pack('<d', rounded))[0]:016X}")
+        place = self.constants.setdefault(bits, len(self.constants))
+        return self.new(f"load {self.type}, ptr {self.new(f'getelementptr {self.type}, ptr %constants, i64 {place}')}")
 
     def operate(self, operation: str, *operands: str) -> str:
         """Write an operation of a line."""
         if operation == "neg":
-            return self.new(f"fneg {self.type} {operands[0]}")
+            return self.new(f"fsub {self.type} {self.constant(-0.0)}, {operands[0]}")
         if operation in INSTRUCTIONS:
             return self.new(f"{INSTRUCTIONS[operation]} {self.type} {operands[0]}, {operands[1]}")
         kind = ("" if self.width == 1 else f"v{self.width}") + f"f{8 * self.bytes}"

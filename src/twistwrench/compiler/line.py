@@ -43,17 +43,32 @@ class Line:
     notes: tuple[Any, ...] = ()
 
     @classmethod
-    def of(cls, tape: Tape, inputs: Mapping[str, tuple[int, ...]], results: Mapping[str, Array]) -> Line:
-        """Keep of a tape what the results depend on."""
+    def of(
+        cls,
+        tape: Tape,
+        inputs: Mapping[str, tuple[int, ...]],
+        results: Mapping[str, Array],
+        wanted: Iterable[Any] | None = None,
+    ) -> Line:
+        """Keep of a tape what the results depend on.
+
+        If numbers are wanted one after the other, each operation is just before it is first needed: so that fewer
+        numbers are waiting at any time.
+        """
         outputs = {
             name: (result.shape, tuple(tape.number(x).index for x in result.flat)) for name, result in results.items()
         }
-        return cls._reduced(tape.nodes, tape.notes, inputs, outputs)
+        every = [k for _, entries in outputs.values() for k in entries]
+        if wanted is None:
+            return cls._reduced(tape.nodes, tape.notes, inputs, outputs, needed(tape.nodes, every))
+        order = ordered([*(tape.number(x).index for x in wanted), *every], lambda k: operands(tape.nodes[k]))
+        return cls._reduced(tape.nodes, tape.notes, inputs, outputs, order)
 
     def without(self, name: str) -> Line:
         """Return what is left where a result is not asked for."""
         outputs = {other: output for other, output in self.outputs.items() if other != name}
-        return self._reduced(self.nodes, self.notes, self.inputs, outputs)
+        wanted = [k for _, entries in outputs.values() for k in entries]
+        return self._reduced(self.nodes, self.notes, self.inputs, outputs, needed(self.nodes, wanted))
 
     @classmethod
     def _reduced(
@@ -62,10 +77,10 @@ class Line:
         notes: Sequence[Any],
         inputs: Mapping[str, tuple[int, ...]],
         outputs: Mapping[str, Output],
-        order: Iterable[int] | None = None,
+        order: Iterable[int],
     ) -> Line:
-        """Return a line of some nodes: those that the results need, in their order, unless another order is given."""
-        kept = [*(needed(nodes, [k for _, entries in outputs.values() for k in entries]) if order is None else order)]
+        """Return a line of some nodes, in an order in which operands come before what needs them."""
+        kept = [*order]
         new = {old: k for k, old in enumerate(kept)}
         renumbered = tuple(_renumbered(nodes[old], new) for old in kept)
         renamed = {name: (shape, tuple(new[k] for k in entries)) for name, (shape, entries) in outputs.items()}
@@ -86,14 +101,6 @@ class Line:
             if not (alone and depth[k] <= DEEPEST and (not self.notes or self.notes[k] == self.notes[users[k][0]])):
                 depth[k] = 0
         return frozenset(k for k, size in depth.items() if size)
-
-    def in_order_of(self, wanted: Iterable[int]) -> Line:
-        """Return the same line, each operation just before it is first needed if the wanted are computed in this order.
-
-        So that fewer numbers are waiting at any time.
-        """
-        order = ordered([*wanted, *self.results], lambda k: operands(self.nodes[k]))
-        return self._reduced(self.nodes, self.notes, self.inputs, self.outputs, order)
 
     @property
     def results(self) -> list[int]:
@@ -138,4 +145,4 @@ def operands(node: Node) -> tuple[int, ...]:
 
 
 def _renumbered(node: Node, new: Mapping[int, int]) -> Node:
-    return node if node[0] in LEAVES else (node[0], *[new[k] for k in node[1:]])
+    return node if node[0] in LEAVES else (node[0], *map(new.__getitem__, node[1:]))

@@ -32,7 +32,7 @@ PIECE = 800
 """Instructions that are compiled at once."""
 
 LONG = 1_000_000
-"""Letters of a text that LLVM translates as it stands: a third of the time, and what comes out is a tenth slower."""
+"""Letters of a text for which LLVM assigns registers in its quickest way: what comes out is a few per cent slower."""
 
 Group = tuple[int, int, Sequence[int]]
 """Results that are stored together: their array, the place of the first one, and their nodes."""
@@ -113,7 +113,9 @@ def engine_of(text: str) -> Any:
 def written(line: Line, scalar: str, width: int) -> str:
     """Return a line as a module of LLVM's language: pieces, and a loop over the states.
 
-    In pieces, since the time that a compiler takes grows faster than the length of what it compiles at once.
+    In pieces, since the time that a compiler takes grows faster than the length of what it compiles at once. LLVM is to
+    translate each instruction by itself (`optnone`), four times as quickly: there is nothing left for it to improve.
+    It can do so, without its slower ways, where constants are loaded from memory.
     """
     pieces = Pieces(line, scalar, width)
     for node, group in pieces.turns:
@@ -147,7 +149,7 @@ class Pieces:
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
         self.line, self.width = line, width
-        self.text, self.finished = Text(scalar, width), list[Text]()
+        self.text, self.finished = Text(scalar, width, {}), list[Text]()
         self.name: dict[int, str] = {}  # of the nodes that are in registers
         self.slot: dict[int, int] = {}  # of the nodes that are in memory
         self.free: list[int] = []
@@ -202,9 +204,9 @@ class Pieces:
             self.put_away(max(self.name, key=lambda k: self.uses[k][-1]))
 
     def put_away(self, k: int) -> None:
-        """Move a value from its register to memory."""
+        """Move a value from its register to memory, where a constant is anyway."""
         value = self.name.pop(k)
-        if k not in self.slot and self.uses.get(k):
+        if k not in self.slot and self.uses.get(k) and self.line.nodes[k][0] != "const":
             if not self.free:
                 self.free.append(self.slots)
                 self.slots += 1
@@ -213,12 +215,14 @@ class Pieces:
 
     def value(self, k: int) -> str:
         """Return the name of a node's value in this piece."""
+        if k in self.name:
+            return self.name[k]
         operation, *rest = self.line.nodes[k]
         if operation == "const":
-            return self.text.constant(rest[0])
-        if k in self.slot and k not in self.name:
+            self.name[k] = self.text.constant(rest[0])
+        elif k in self.slot:
             self.name[k] = self.text.new(f"load {self.text.type}, ptr {self.kept(self.slot[k])}")
-        elif k not in self.name:
+        else:
             self.load(*rest[0])
         return self.name[k]
 
@@ -255,25 +259,28 @@ class Pieces:
         for k in [*self.name]:
             self.put_away(k)
         self.finished.append(self.text)
-        self.text, self.name, self.rows = Text(self.text.scalar, self.width), {}, {}
+        self.text, self.name, self.rows = Text(self.text.scalar, self.width, self.text.constants), {}, {}
 
     def module(self) -> str:
         """Return all pieces, and the loop that calls them; its last turn ends with the last state."""
         declared = sorted(set().union(*(text.declared for text in self.finished)))
-        arguments = "ptr %table, i64 %state, ptr %kept"
-        pieces = [
-            f"define internal void @piece{k}({arguments}) {{\n  " + "\n  ".join(text.lines) + "\n  ret void\n}"
-            for k, text in enumerate(self.finished)
-        ]
+        arguments = "ptr %table, i64 %state, ptr %kept, ptr %constants"
+        pieces = []
+        for k, text in enumerate(self.finished):
+            head = f"define internal void @piece{k}({arguments}) optnone noinline {{"
+            pieces.append("\n  ".join([head, *text.lines, "ret void\n}"]))
         calls = "\n  ".join(f"call void @piece{k}({arguments})" for k in range(len(pieces)))
+        constants = [f"{self.text.type} {one}" for one in self.text.constants] or [f"{self.text.type} undef"]
+        table = f"@constants = internal constant [{len(constants)} x {self.text.type}] [{', '.join(constants)}]"
         loop = LOOP.format(width=self.width, slots=max(1, self.slots), type=self.text.type, calls=calls)
-        return "\n".join([*declared, *pieces, loop])
+        return "\n".join([*declared, table, *pieces, loop])
 
 
 LOOP = """
 define void @program(ptr %table, i64 %count) {{
 start:
   %kept = alloca {type}, i64 {slots}, align 64
+  %constants = getelementptr i8, ptr @constants, i64 0
   %last = sub i64 %count, {width}
   br label %turn
 turn:

@@ -68,6 +68,7 @@ class Tape:
         self.note, self.notes = note, list[Any]()
         self._index: dict[Node, int] = {}
         self._constants: dict[tuple[int, int], int] = {}  # fractions take long to hash
+        self._opposite: dict[int, int] = {}  # of each node that is the negative of another one, that one
 
     def input(self, name: Any) -> Number:
         """Return a number that is given when the program runs."""
@@ -91,6 +92,8 @@ class Tape:
         if index is None:
             index = self._index[node] = len(self.nodes)
             self.nodes.append(node)
+            if node[0] == "neg":
+                self._opposite[index] = node[1]
             if self.note is not None:
                 self.notes.append(self.note())
         return index
@@ -105,11 +108,13 @@ class Tape:
 
     def signed(self, index: int) -> tuple[bool, int]:
         """Return whether a node is the negative of another one, and that one."""
-        node = self.nodes[index]
-        return (True, node[1]) if node[0] == "neg" else (False, index)
+        other = self._opposite.get(index)
+        return (False, index) if other is None else (True, other)
 
     def _negated(self, index: int, negative: bool = True) -> Number:
-        return Number(self, self.enter("neg", index) if negative else index)
+        if negative:
+            index = self.enter("neg", index)
+        return Number(self, index)
 
     def negative(self, a: int) -> Number:
         """Return −a."""
@@ -124,18 +129,18 @@ class Tape:
             return self._minus(b, a) if minus_a else self._minus(a, b)
         if a == b:
             return self._negated(self._scaled(Fraction(2), a), minus_a)
-        return self._negated(self.enter("add", min(a, b), max(a, b)), minus_a)
+        return self._negated(self.enter("add", *((a, b) if a < b else (b, a))), minus_a)
 
     def _minus(self, a: int, b: int) -> Number | Fraction:
         if a == b:
             return ZERO
         known = self._index.get(("sub", b, a))
-        return self._negated(self.enter("sub", a, b), False) if known is None else self._negated(known)
+        return Number(self, self.enter("sub", a, b)) if known is None else self._negated(known)
 
     def multiply(self, a: int, b: int) -> Number:
         """Return a b."""
         (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
-        return self._negated(self.enter("mul", min(a, b), max(a, b)), minus_a != minus_b)
+        return self._negated(self.enter("mul", *((a, b) if a < b else (b, a))), minus_a != minus_b)
 
     def divide(self, a: int, b: int) -> Number | Fraction:
         """Return a / b."""
@@ -147,7 +152,7 @@ class Tape:
     def scale(self, c: Fraction, a: int) -> Number:
         """Return c a, where c is not 0."""
         minus, a = self.signed(a)
-        if is_power_of_two(-c):
+        if c.numerator < 0 and is_power_of_two(-c):
             minus, c = not minus, -c
         return self._negated(self._scaled(c, a), minus)
 
@@ -158,10 +163,10 @@ class Tape:
             for factor, rest in ((node[1], node[2]), (node[2], node[1])):
                 if self.nodes[factor][0] == "const" and is_power_of_two(self.nodes[factor][1]):
                     return self._scaled(c * self.nodes[factor][1], rest)
-        if c == 1:
+        if c.numerator == c.denominator:
             return a
         k = self.constant(c)
-        return self.enter("mul", min(a, k), max(a, k))
+        return self.enter("mul", *((a, k) if a < k else (k, a)))
 
 
 class Number:
@@ -180,7 +185,7 @@ class Number:
             return self.tape.add(self.index, other.index)
         if not isinstance(other, EXACT):
             return NotImplemented  # NumPy takes an array entry by entry
-        return self.tape.add(self.index, self.tape.constant(Fraction(other))) if other else self
+        return self.tape.add(self.index, self.tape.constant(_exact(other))) if other else self
 
     __radd__ = __add__
 
@@ -197,7 +202,7 @@ class Number:
             return self.tape.multiply(self.index, other.index)
         if not isinstance(other, EXACT):
             return NotImplemented
-        return self.tape.scale(Fraction(other), self.index) if other else ZERO
+        return self.tape.scale(_exact(other), self.index) if other else ZERO
 
     __rmul__ = __mul__
 
@@ -241,6 +246,10 @@ class Number:
 
     def __repr__(self) -> str:
         return f"<Number {self.index}: {self.tape.nodes[self.index]}>"
+
+
+def _exact(c: Fraction | int) -> Fraction:
+    return c if type(c) is Fraction else Fraction(c)
 
 
 def is_power_of_two(c: Fraction) -> bool:

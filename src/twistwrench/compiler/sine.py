@@ -51,18 +51,14 @@ def series(text: Text, x: str) -> tuple[str, str]:
 
 
 def quadrant(text: Text, k: str, sine: str, cosine: str) -> tuple[str, str]:
-    """Write sin and cos of k π/2 + x: they change places where k is odd, and their sign where k or k + 1 has a 2."""
-    whole, bit = text.vector("i32"), text.vector("i1")
-    one = text.splat("i32", "1")
-    k = text.new(f"fptosi {text.type} {k} to {whole}")
-    odd = text.new(f"trunc {whole} {k} to {bit}")
-    results = []
-    for a, b, count in ((cosine, sine, k), (sine, cosine, text.new(f"add {whole} {k}, {one}"))):
-        x = text.new(f"select {bit} {odd}, {text.type} {a}, {text.type} {b}")
-        half = text.new(f"lshr {whole} {count}, {one}")
-        flipped = text.new(f"trunc {whole} {half} to {bit}")
-        results.append(text.new(f"select {bit} {flipped}, {text.type} {text.operate('neg', x)}, {text.type} {x}"))
-    return results[0], results[1]
+    """Write sin and cos of k π/2 + x from those of x. Nothing is rounded: one product of each two is 0."""
+    turns = text.operate("round", text.operate("mul", k, text.constant(0.25)))
+    k = text.operate("sub", k, text.operate("mul", turns, text.constant(4)))  # from −2 to 2
+    size = text.operate("abs", k)
+    c = text.operate("sub", text.constant(1), size)
+    s = text.operate("mul", k, text.operate("sub", text.constant(2), size))
+    cc, ss, cs, sc = (text.operate("mul", a, b) for a, b in ((c, cosine), (s, sine), (c, sine), (s, cosine)))
+    return text.operate("add", cs, sc), text.operate("sub", cc, ss)
 
 
 def _coefficient(n: int) -> Fraction:
