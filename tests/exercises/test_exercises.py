@@ -589,7 +589,7 @@ def test_an_explanation_does_not_tell_to_do_what_was_done():
     assert "top right block is +m [c]×" in message("whole_robot", slips["whole_robot"]["com-sign"])
     assert "minus is in the top right" in message("pinocchio_inertia", slips["pinocchio_inertia"]["com-sign"])
     said = message("pinocchio_linear_momentum", lambda A_G, v: A_G[:3] @ np.r_[v[3:6], v[:3], v[6:]])
-    assert "Pinocchio's (v, ω): take v as it is" in said
+    assert "Pinocchio's (v, ω): take both as they are" in said
 
 
 def test_two_slips_at_once_are_both_named():

@@ -176,6 +176,8 @@ def _operations(node: Any) -> Iterator[Change]:
             yield "exchanged", ast.BinOp(ast.BinOp(right, op, left.right), op, left.left)
         if isinstance(op, ast.MatMult):
             yield "instead", ast.BinOp(left, ast.Mult(), right)
+        if isinstance(op, ast.Div) and getattr(left, "value", 0) == 1:
+            yield "instead", parsed("np.linalg.inv(_)", right)
         if isinstance(op, ast.Mult):
             yield "instead", ast.BinOp(right, ast.Div(), left)
             yield "instead", ast.BinOp(left, ast.MatMult(), right)

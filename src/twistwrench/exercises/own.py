@@ -23,6 +23,9 @@ TURNED = ("sign", "wrong end", "mirrored", "factors of the cross product")
 MISSING = (" missing", " left out", " dropped", " is lost")
 """Words of the titles of slips that lack something."""
 
+FORCES = ("children-overwritten", "children-dropped")
+"""Slips that may give the numbers of a loop in the wrong direction."""
+
 NO_SIGN = ("left out", "index", "name", "last", "summed", "argument")
 """Kinds of changes that do not give back a sign."""
 
@@ -118,8 +121,13 @@ def _halves(slip: str) -> tuple[str, str]:
 def _fits(slip: str, edit: Edit) -> bool:
     """Whether the change that mends the student's line undoes this slip, and not another with the same numbers."""
     title, (said, meant) = SLIPS[slip].title.en, _halves(slip)
-    if slip == "visited-outward":
-        return any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
+    if slip in SIGNS and edit.kind == "exchanged":
+        return SIGNS[slip] in edit.right or "(" not in edit.right
+    backward = any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
+    if slip == "visited-outward" or (slip in FORCES and backward):
+        return slip == "visited-outward" and backward
+    if slip == "children-dropped" and edit.wrong.replace("+=", "=") == edit.right:
+        return False  # they are added, and then overwritten
     if _is_term(edit):
         lacking = any(word in title for word in MISSING)
         return not lacking and not any(word in title for word in TURNED) and sorted(said) != sorted(meant)

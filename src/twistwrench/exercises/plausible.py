@@ -6,6 +6,7 @@ import ast
 import inspect
 import textwrap
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from typing import Any
 
 from .whole import Edit
@@ -29,9 +30,13 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
         The solution.
     """
     before, after = edit.right, edit.wrong
-    if "0 * " in after and "0 * " not in before:
-        return False  # it is switched off
+    if any(x in after and x not in before for x in ("0 * ", "1 * ")):
+        return False  # it is switched off, or nothing
+    if edit.kind == "number" and " != 0" in before and " != 0" not in after:
+        return False  # nobody takes another number for the zero that must not be divided by
     if _unpacked(before, after, text) or _kept(before, after, text):
+        return False
+    if edit.kind == "name" and _left_over(edit, text):
         return False
     if edit.kind == "after loop":
         return not isinstance(_parsed(before), ast.Expr)  # a call after the loop is made only once
@@ -65,15 +70,22 @@ def _read_after(assigned: Any, text: str, line: int) -> bool:
 
 def _unpacked(before: str, after: str, text: str) -> bool:
     """Whether things that are computed one by one get each other's names, or a tuple of several is inverted."""
-    whole = [x for x in _nodes(text) if isinstance(x, ast.Assign) and isinstance(x.targets[0], ast.Tuple)]
-    alike = [x for x in whole if isinstance(x.value, ast.GeneratorExp | ast.ListComp)]
-    if before in [ast.unparse(y) for x in alike for y in (x, x.targets[0])]:
-        return True
-    return after == f"np.linalg.inv({before})" and any(before == ast.unparse(x.value) for x in whole)
+    alike, whole = _unpackings(text)
+    return before in alike or (before in whole and after == f"np.linalg.inv({before})")
+
+
+@lru_cache(maxsize=64)
+def _unpackings(text: str) -> tuple[set[str], set[str]]:
+    """Return what is written where things that are computed alike get their names, and what is unpacked at all."""
+    several = [x for x in _nodes(text) if isinstance(x, ast.Assign) and isinstance(x.targets[0], ast.Tuple)]
+    alike = [x for x in several if isinstance(x.value, ast.GeneratorExp | ast.ListComp)]
+    return {ast.unparse(y) for x in alike for y in (x, x.targets[0])}, {ast.unparse(x.value) for x in several}
 
 
 def _kept(before: str, after: str, text: str) -> bool:
     """Whether of a sum over a loop, or of its largest, only the last would be kept: that is not why it is there."""
+    if not any(word in before for word in ("+=", "max(", "min(")):
+        return False
     node, other = _parsed(before), _parsed(after)
     if isinstance(node, ast.AugAssign) and isinstance(other, ast.Assign):
         loops = [x for x in _nodes(text) if isinstance(x, ast.For)]
@@ -84,6 +96,15 @@ def _kept(before: str, after: str, text: str) -> bool:
     return (
         isinstance(call, ast.Call) and ast.unparse(call.func) in ("max", "min") and after in map(ast.unparse, call.args)
     )
+
+
+def _left_over(edit: Edit, text: str) -> bool:
+    """Whether a change puts the variable of a loop, or of a comprehension, where it has only its last value."""
+    new = {x.id for x in _nodes(edit.wrong) if isinstance(x, ast.Name)} - {
+        x.id for x in _nodes(edit.right) if isinstance(x, ast.Name)
+    }
+    loops = [x for x in _nodes(text) if isinstance(x, ast.For) and ast.unparse(x.target) in new]
+    return bool(loops) and not any(x.lineno <= edit.line <= (x.end_lineno or 0) for x in loops)
 
 
 def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
@@ -143,7 +164,8 @@ def _parsed(text: str) -> Any:
         return None
 
 
-def _nodes(text: str) -> Iterator[Any]:
-    """Yield the nodes of a text; none where it is only a piece of a program."""
+@lru_cache(maxsize=64)
+def _nodes(text: str) -> tuple[Any, ...]:
+    """Return the nodes of a text; none where it is only a piece of a program."""
     node = _parsed(text)
-    yield from () if node is None else ast.walk(node)
+    return () if node is None else (*ast.walk(node),)

@@ -40,10 +40,10 @@ SPLIT = Part(
     cases=lambda rng: [*states(rng), *larger(rng)],
     slips={
         "swapped-halves": faulty(split_map, ("tw.centroidal_map(model, q)", "swap(tw.centroidal_map(model, q))")),
-        "rows-only": faulty(
+        "rows-exchanged": faulty(
             split_map, ("tw.centroidal_map(model, q)", "np.array([*map(swap, tw.centroidal_map(model, q).mT)]).mT")
         ),
-        "columns-only": faulty(
+        "columns-exchanged": faulty(
             split_map, ("tw.centroidal_map(model, q)", "np.array([*map(swap, tw.centroidal_map(model, q))])")
         ),
         "momentum-at-origin": faulty(

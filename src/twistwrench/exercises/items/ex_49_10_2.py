@@ -62,7 +62,7 @@ OURS = Part(
     slips={
         "angular-for-linear": faulty(linear_momentum, ("A_G[3:]", "A_G[:3]")),
         "joints-left-out": lambda A_G, v: A_G[3:, :6] @ v[:6],
-        "pinocchio-velocity": lambda A_G, v: A_G[3:] @ _other_order(v),
+        "columns-and-v": lambda A_G, v: A_G[3:] @ _other_order(v),
     },
 )
 
@@ -73,7 +73,7 @@ THEIRS = Part(
     slips={
         "angular-for-linear": lambda A_G, v: A_G[3:] @ v,
         "joints-left-out": lambda A_G, v: A_G[:3, :6] @ v[:6],
-        "pinocchio-velocity": lambda A_G, v: A_G[:3] @ _other_order(v),
+        "columns-and-v": lambda A_G, v: A_G[:3] @ _other_order(v),
     },
 )
 

@@ -100,7 +100,7 @@ MAP = Part(
             ("tw.force_transform(R, p - p_G) @ model.inertia[i]", "model.inertia[i].transform(tw.SE3(R, p - p_G))"),
         ),
         "orbital-missing": faulty(own_centroidal_map, ("model.inertia[i].matrix()", "_spin(model.inertia[i])")),
-        "rows-only": _rows,
+        "rows-exchanged": _rows,
     },
     residuals=(lambda answer, model, q: answer[3:] - tw.newton_euler_3d.centroidal_map(model, q)[3:],),
 )
