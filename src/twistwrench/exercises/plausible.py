@@ -6,6 +6,7 @@ import ast
 import inspect
 import textwrap
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -29,6 +30,10 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
     reference : callable
         The solution.
     """
+    if edit.first is not None:
+        kind, right, wrong, line = edit.first
+        first = replace(edit, kind=kind, right=right, wrong=wrong, line=line, first=None)
+        return plausible(first, text, reference) and plausible(replace(edit, first=None), text, reference)
     before, after = edit.right, edit.wrong
     if any(x in after and x not in before for x in ("0 * ", "1 * ")):
         return False  # it is switched off, or nothing
@@ -92,10 +97,12 @@ def _kept(before: str, after: str, text: str) -> bool:
         inside = [x for x in loops if before in map(ast.unparse, ast.walk(x))]
         over = {x.id for loop in inside for x in ast.walk(loop.target) if isinstance(x, ast.Name)}
         return bool(inside) and not over & {x.id for x in ast.walk(node.target) if isinstance(x, ast.Name)}
+    held = [ast.unparse(x.targets[0]) for x in _nodes(text) if isinstance(x, ast.Assign)]
     call = node.value if isinstance(node, ast.Expr) else None
-    return (
-        isinstance(call, ast.Call) and ast.unparse(call.func) in ("max", "min") and after in map(ast.unparse, call.args)
-    )
+    if not isinstance(call, ast.Call) or ast.unparse(call.func) not in ("max", "min"):
+        return False
+    arguments = [*map(ast.unparse, call.args)]
+    return after in arguments and any(x in held for x in arguments)
 
 
 def _left_over(edit: Edit, text: str) -> bool:
