@@ -1,0 +1,160 @@
+"""What is said of an answer is true of the student's own code, also where another slip gives the same numbers."""
+
+import linecache
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from twistwrench.exercises import catalogue, mine
+from twistwrench.exercises.judge import judge
+
+TWICE = """\
+def about_center_of_mass(m, c, I_c):
+    build, moved = mine("spatial_inertia"), mine("moved_inertia")
+    S = tw.skew(c)
+    return moved(build(m, c, I_c - m * S @ S), np.eye(3), -c)
+"""
+LEVER = """\
+def base_wrench_at_rest(model, q):
+    base = tw.forward_kinematics(model, q).placement[1]
+    f = -model.mass * model.gravity
+    tau = np.cross(base.translation - tw.center_of_mass(model, q), f)
+    return np.concatenate([base.rotation.T @ tau, base.rotation.T @ f])
+"""
+EULER = """\
+def urdf_pose(xyz, rpy):
+    Rx, Ry, Rz = (tw.exp3(rpy[k] * np.eye(3)[k]) for k in range(3))
+    return np.block([[Rx @ Ry @ Rz, np.reshape(xyz, (3, 1))], [np.eye(4)[3:]]])
+"""
+DUAL = """\
+def body_twists(parent, T, V_joint):
+    V = np.zeros((len(parent), 6))
+    for i in range(1, len(parent)):
+        V[i] = np.linalg.solve(mine("transforms_of")(T[i])[1], V[parent[i]]) + V_joint[i]
+    return V
+"""
+TYPED = """\
+def translation_transforms(p):
+    S, E, O = tw.skew(p), np.eye(3), np.zeros((3, 3))
+    return np.block([[E, O], [S, E]]), np.block([[E, O], [-S, E]]), np.block([[E, -S], [O, E]])
+"""
+ONLY_JOINTS = """\
+def mass_matrix_by_rnea(model, q):
+    n, zero = model.nv, np.zeros(model.nv)
+    M, g = np.zeros((n, n)), tw.rnea(model, q, zero, zero)
+    for i in range(n):
+        M[:, i] = tw.rnea(model, q, zero, np.eye(n)[i])
+        if i >= 6:
+            M[:, i] -= g
+    return M
+"""
+ONLY_HIPS = """\
+def base_block(model, q):
+    M = np.zeros((6, 6))
+    place = tw.forward_kinematics(model, q).placement
+    for i in range(1, len(model.inertia)):
+        if i > 1 and model.parent[i] != 1:
+            continue
+        M += model.inertia[i].transform(place[1].inverse() @ place[i]).matrix()
+    return M
+"""
+FASTEST = """\
+def time_ratio(first, second, calls, clock):
+    first(), second()
+    a, b = [], []
+    for _ in range(calls):
+        t0 = clock(); first(); t1 = clock(); second(); t2 = clock()
+        a.append(t1 - t0); b.append(t2 - t1)
+    return max(b) / np.median(a)
+"""
+LAST = """\
+def count_transforms(parent):
+    depth = [0] * len(parent)
+    for i in range(1, len(parent)):
+        depth[i] = depth[parent[i]] + 1
+    inner = sum(d > 2 for d in depth)
+    return 3 * inner, sum(d - 1 for d in depth[1:])
+"""
+REAR_FIRST = """\
+def standing_loads():
+    model = tw.load("go2")
+    q = model.standing()
+    J = tw.contact_jacobian(model, q, model.feet)
+    loads = np.linalg.pinv(J[:, :6].T) @ tw.gravity(model, q)[:6]
+    return loads[8], loads[2]
+"""
+
+
+def said_of(text, folder):
+    path = folder / "answer.py"
+    path.write_text("\n" * 10 + text, encoding="utf-8")
+    names = {"np": np, "tw": tw, "mine": mine}
+    exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
+    name = text[4 : text.index("(")]
+    said = judge(*catalogue.find_part(name), names[name])
+    linecache.clearcache()
+    return " ".join(said.message("en").split())
+
+
+@pytest.mark.parametrize(
+    ("text", "says", "never"),
+    [
+        (TWICE, "`m * S @ S` does not belong there", "missing"),
+        (LEVER, "the lever arm is taken from the wrong end", "factors of the cross"),
+        (EULER, "`Rx @ Ry @ Rz` must be `Rz @ Ry @ Rx`", "Rx, Ry, Rz = "),
+        (DUAL, "X* taken for X", "Xᵀ"),
+        (TYPED, "the sign of `S` is wrong", "Xᵀ"),
+        (ONLY_JOINTS, "what is done only where `i >= 6` holds must be done always", "n >= 6"),
+        (ONLY_HIPS, "the branch for `i > 1 and model.parent[i] != 1` must not be taken", "i < 1"),
+        (FASTEST, "ratio", "must stand in the loop"),
+        (LAST, "RNEA", "must be `3 * i`"),
+        (REAR_FIRST, "front and rear are exchanged", "wrong end"),
+    ],
+)
+def test_the_students_own_line_decides(tmp_path, text, says, never):
+    said = said_of(text, tmp_path)
+    assert says in said
+    assert never not in said
+
+
+def test_a_right_solution_with_one_change_is_not_called_the_slip_where_the_code_has_it_not():
+    """He reads ω from the upper triangle; nothing of a right solution stands in his code."""
+
+    def adjoint(T):
+        hats = [T @ tw.hat(e) @ np.linalg.inv(T) for e in np.eye(6)]
+        return np.array([[M[1, 2], M[2, 0], M[0, 1], M[0, 3], M[1, 3], M[2, 3]] for M in hats]).T
+
+    said = judge(*catalogue.find_part("adjoint"), adjoint).message("en")
+    assert "Your numbers are those of a right solution but for this: the sign of `R` is wrong" in said
+    assert "The slip: the sign of `R`" not in said
+
+
+def test_a_sum_that_changes_its_first_term_is_told_so():
+    class SpatialVector(catalogue.find_part("SpatialVector")[1].solution):
+        def __add__(self, other):
+            self.vector = super().__add__(other).vector
+            return self
+
+    assert "It changes its argument" in judge(*catalogue.find_part("SpatialVector"), SpatialVector).message("en")
+
+
+def test_a_property_is_said_to_fail_only_where_there_are_numbers():
+    """The forces add up to the weight, but for a weight of zero, where they are not numbers."""
+
+    def clipped(p_G, feet, weight):
+        levers = np.vstack([np.ones(len(feet)), feet[:, 0] - p_G[0], feet[:, 1] - p_G[1]])
+        loads = np.maximum(np.linalg.pinv(levers)[:, 0] * weight, 0)
+        return loads * weight / loads.sum()
+
+    with np.errstate(invalid="ignore"):
+        said = judge(*catalogue.find_part("vertical_loads"), clipped).message("en")
+    assert "the forces add up to the weight" not in said
+
+
+def test_what_comes_in_where_the_answer_is_right_is_not_said_to_be_left_out():
+    def center_of_pressure(F):
+        return np.array([-F[1], F[0]]) / F[5] if F[5] > 0 else np.zeros(2)
+
+    said = judge(*catalogue.find_part("center_of_pressure"), center_of_pressure).message("en")
+    assert "does not come into it" not in said
