@@ -7,19 +7,17 @@ file           what it holds
 =============  ===============================================================================================
 number         `Number`, which only remembers what is done to it, and the `Tape` it writes on
 line           `Line`: the operations that a question needs, one after the other
-memory         what a program returns; rows of a caller's arrays; memory that is used again; no search for garbage
+memory         what a program returns; memory that is used again; no search for garbage
 instructions   LLVM's language: arithmetic, and the way in and out of memory
 sine           sin and cos of many angles at once
 llvm           machine code, by LLVM
 source         a line as text: Python, annotated with the chapter's steps, and C
-pairs          arithmetic with pairs of doubles
+pairs          arithmetic with pairs of doubles, sin and cos
 packs          the same operation in several limbs
 registers      NumPy, for every number type
 fingerprints   what is the same number in every state, computed once
 tangent        the derivatives of what is on a tape, and steps along v from q
 backend        which of them runs a line, or plain Python's floats
-pair_sine      sin and cos of a pair
-bounds         how far a computed number can be off
 double_double  a line rewritten into pairs, with bounds
 watch          what a program watches, so that the textbook can take the states that raise the alarm
 quantity       `Quantity`: what a quantity depends on, and how it is computed

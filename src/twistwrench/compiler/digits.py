@@ -6,17 +6,16 @@ They hold a program in doubles, which knows the arguments and raises the errors,
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..errors import ShapeError
 from .backend import BackEnd
-from .bounds import OWN
-from .double_double import BOUND, LO, double_double
+from .double_double import BOUND, LO, OWN, double_double
 from .llvm import NATIVE
 from .pairs import two_sum
 from .program import Program
@@ -30,6 +29,7 @@ NUMBERS = (PAIRS, *WIDE)
 """Number types that are not NumPy's, by name."""
 
 DOUBLE = np.dtype(np.float64)
+VALUE = ".value"
 
 
 class DoubleDouble(NamedTuple):
@@ -52,6 +52,9 @@ class DoubleDouble(NamedTuple):
 class DoubleDoubleProgram(DigitsProgram):
     """A program with 32 digits: what `twistwrench.compile` returns with ``dtype="double-double"``.
 
+    The results are `DoubleDouble`, for angles up to 2⁴⁵ rad. With a bound the program returns two: the second is an
+    array, or Results, with the bound of each entry, infinite where none is certain.
+
     Parameters
     ----------
     program : Program
@@ -60,17 +63,18 @@ class DoubleDoubleProgram(DigitsProgram):
         Whether each result has a bound.
     """
 
+    expected = "angles up to 2**45 rad, and " + DigitsProgram.expected
+
     def __init__(self, program: Program, *, bound: bool = False) -> None:
         super().__init__(program)
         self.bound = bound
-        self._codes: dict[Any, BackEnd] = {}
 
     @property
     def operations(self) -> Counter[str]:
         """How many operations on doubles one state takes, by kind."""
-        return self.of(self.program._plain, ()).line.operations
+        return self._code(self.program._plain, ()).line.operations
 
-    def of(self, names: tuple[str, ...], low: tuple[str, ...]) -> BackEnd:
+    def _code(self, names: tuple[str, ...], low: tuple[str, ...]) -> BackEnd:
         """Return what runs the line for states with these arguments, of which some are pairs; rewritten once."""
         if (names, low) not in self._codes:
             line, backend = self.program._line(names), self.program.backend
@@ -78,37 +82,26 @@ class DoubleDoubleProgram(DigitsProgram):
             self._codes[names, low] = BackEnd(pairs, DOUBLE, backend)
         return self._codes[names, low]
 
-    def __call__(self, *args: ArrayLike | DoubleDouble | None, **named: ArrayLike | DoubleDouble | None) -> Any:
-        """Return the quantities in a state, or in many.
+    def _own(self, name: str, x: Any) -> tuple[Array, Array] | None:
+        """Return the lower part, and the double nearest to the sum."""
+        if not isinstance(x, DoubleDouble):
+            return None
+        hi, lo = (np.asarray(part, DOUBLE) for part in x)
+        if hi.shape != lo.shape:
+            raise ShapeError(f"{name}: expected hi and lo of the same shape, got {hi.shape} and {lo.shape}")
+        if not (np.isfinite(hi).all() and np.isfinite(lo).all()):
+            raise ValueError(f"{name}: expected finite numbers")
+        hi, lo = two_sum(hi, lo)
+        return lo, hi
 
-        Parameters
-        ----------
-        *args, **named : array_like or DoubleDouble
-            As for `Program`.
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Array]) -> dict[str, Array]:
+        low = {name + LO: np.broadcast_to(lo, states[name].shape) for name, lo in own.items()}
+        code = self._code(tuple(states), tuple(own))
+        return code.results({**states, **low}, self.program.batch(states), self.program.threads)
 
-        Returns
-        -------
-        DoubleDouble, or Results of them
-            With a bound: that, and an array or Results with the bound of each entry, infinite where none is certain.
-
-        Raises
-        ------
-        ShapeError, SingularError, TypeError, ValueError
-            As `Program`; also for angles above 2⁴⁵ rad.
-        """
-        given = self.program._bound(args, named)
-        pairs = {name: _as_pair(name, x) for name, x in given.items() if isinstance(x, DoubleDouble)}
-        states = self.program._arrays({name: pairs[name].hi if name in pairs else x for name, x in given.items()})
-        high = dict(zip(given, states))
-        batch = self.program.batch(high)
-        low = {name + LO: np.broadcast_to(pair.lo, high[name].shape) for name, pair in pairs.items()}
-        found = self.of(tuple(given), tuple(pairs)).results(high | low, batch, self.program.threads)
-        self._check(high, found, "angles up to 2**45 rad, and sizes ")
-        value = {symbol: DoubleDouble(found[symbol], found[symbol + LO]) for symbol in self._symbols}
-        if not self.bound:
-            return self._packed(value)
-        certain = {symbol: _certain(found[symbol + BOUND]) for symbol in value}
-        return self._packed(value), self._packed(certain)
+    def _result(self, found: Mapping[str, Array], symbol: str) -> Any:
+        value = DoubleDouble(found[symbol], found[symbol + LO])
+        return (value, _certain(found[symbol + BOUND])) if self.bound else value
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(DoubleDoubleProgram, bound=self.bound), (self.program,)
@@ -121,13 +114,16 @@ class BoundedProgram(DigitsProgram):
     """A program whose results have a bound: what `twistwrench.compile` returns with ``bound=True``.
 
     The bound of an entry is its distance from the same entry with 32 digits, and what those are off at most by the
-    running error bound (`bounds`). It is for the arguments as they are: numbers of the program's type, taken as exact.
+    running error bound (`double_double`). It is for the arguments as they are: numbers of the program's type, taken as
+    exact.
 
     Parameters
     ----------
     program : Program
         In float32 or float64.
     """
+
+    bound = True
 
     def __init__(self, program: Program) -> None:
         super().__init__(program)
@@ -139,39 +135,20 @@ class BoundedProgram(DigitsProgram):
         """How many operations one state takes, with its bound, by kind."""
         return self.program.operations + self._reference.operations
 
-    def __call__(self, *args: ArrayLike | None, **named: ArrayLike | None) -> tuple[Any, Any]:
-        """Return the quantities in a state, or in many, and how far each entry can be off.
+    def _own(self, name: str, x: Any) -> None:
+        return None
 
-        Parameters
-        ----------
-        *args, **named : array_like
-            As for `Program`.
-
-        Returns
-        -------
-        value : ndarray or Results
-        bound : ndarray or Results
-            Of the same shape and number type; infinite where nothing is certain.
-
-        Raises
-        ------
-        ShapeError, SingularError, TypeError, ValueError
-            As `Program`.
-        """
-        given = self.program._bound(args, named)
-        states = dict(zip(given, self.program._arrays(given)))
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
         value = self.program(**states)
-        batch = self.program.batch(states)
-        wide = {name: x.astype(DOUBLE) for name, x in states.items()}
-        found = self._reference.of(tuple(given), ()).results(wide, batch, self.program.threads)
-        bound = {}
-        for symbol in self._symbols:
-            own = (value if self.program.single else getattr(value, symbol)).astype(DOUBLE)
-            off = np.abs((own - found[symbol]) - found[symbol + LO])
-            bound[symbol] = np.nextafter(
-                _certain(off + found[symbol + BOUND]).astype(self.dtype), self.dtype.type("inf")
-            )
-        return value, self._packed(bound)
+        found = self._reference._run({name: x.astype(DOUBLE) for name, x in states.items()}, own)
+        del found[ALARM]  # the program has heard it
+        return found | {VALUE: {self._symbols[0]: value} if self.program.single else vars(value)}
+
+    def _result(self, found: Mapping[str, Any], symbol: str) -> tuple[Array, Array]:
+        value = found[VALUE][symbol]
+        off = np.abs((value.astype(DOUBLE) - found[symbol]) - found[symbol + LO])
+        bound = _certain(off + found[symbol + BOUND]).astype(self.dtype)
+        return value, np.nextafter(bound, self.dtype.type("inf"))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return BoundedProgram, (self.program,)
@@ -197,16 +174,6 @@ def with_digits(program: Program, number: str | None, *, bound: bool) -> Program
     if number:
         return WideProgram(program, number)
     return BoundedProgram(program) if bound else program
-
-
-def _as_pair(name: str, x: DoubleDouble) -> DoubleDouble:
-    """Return a pair whose first number is the double nearest to the sum."""
-    hi, lo = (np.asarray(part, DOUBLE) for part in x)
-    if hi.shape != lo.shape:
-        raise ShapeError(f"{name}: expected hi and lo of the same shape, got {hi.shape} and {lo.shape}")
-    if not (np.isfinite(hi).all() and np.isfinite(lo).all()):
-        raise ValueError(f"{name}: expected finite numbers")
-    return DoubleDouble(*two_sum(hi, lo))
 
 
 def _certain(bound: Array) -> Array:

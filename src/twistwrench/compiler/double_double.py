@@ -1,7 +1,11 @@
 """A line with 32 digits: each of its operations rewritten into operations on pairs of doubles.
 
 What comes out is a line again, of more and more elementary operations, so that whatever runs the one runs the other.
-With it, if wanted, a bound on how far each result can be off.
+
+With it, if wanted, goes a bound on how far each result can be off: the running error analysis of Higham, *Accuracy and
+Stability of Numerical Algorithms* (2nd ed.), section 3.3. Beside each number â there is e ≥ |â − a|, where a is what
+the operations would give without rounding. A sum takes over the bounds of its terms, a product each factor times the
+bound of the other, and each adds its own rounding. Nothing is estimated.
 """
 
 from __future__ import annotations
@@ -13,17 +17,21 @@ from typing import Any
 import numpy as np
 
 from ..errors import check_known
-from .bounds import Bounded, Bounds
 from .line import Line, needed
 from .memory import without_garbage
 from .number import Number, Tape
-from .pair_sine import SINE_ERROR, sine_and_cosine_of_pair
-from .pairs import EACH, NOTHING, Pair, Pairs
+from .pairs import EACH, NOTHING, SINE_ERROR, Pair, Pairs
 
-__all__ = ["BOUND", "LO", "double_double"]
+__all__ = ["BOUND", "LO", "OWN", "double_double"]
 
 LO, BOUND = ".lo", ".bound"
 """After the name of an argument or of a result: what the double nearest to it leaves, and how far it can be off."""
+
+TINY = Fraction(1, 2**1000)
+"""More than what underflow can take from an operation, here and in the numbers."""
+
+OWN = 1 + Fraction(1, 2**20)
+"""More than what all roundings of the bounds themselves can take from one, in lines of up to 2²⁸ operations."""
 
 
 @without_garbage()
@@ -51,11 +59,11 @@ def double_double(
         work.rewrite(k) if k in exact else work.copy(k)
     results: dict[str, Any] = {}
     for name, (shape, entries) in line.outputs.items():
-        results[name] = work.result([work.pair[k].hi for k in entries], shape)
+        columns = {name: [work.pair[k].hi for k in entries]}
         if name not in plain:
-            results[name + LO] = work.result([work.pair[k].lo for k in entries], shape)
-        if bound and name not in plain:
-            results[name + BOUND] = work.result([work.bounds.last(work.bound[k]) for k in entries], shape)
+            columns[name + LO] = [work.pair[k].lo for k in entries]
+            columns |= {name + BOUND: [work.bound[k] * OWN for k in entries]} if bound else {}
+        results |= {column: np.array(values, object).reshape(shape) for column, values in columns.items()}
     inputs = dict(line.inputs) | {name + LO: line.inputs[name] for name in low}
     return Line.of(work.tape, inputs, results)
 
@@ -72,7 +80,6 @@ class Rewriting:
     def __init__(self, line: Line, low: Collection[str], *, fma: bool, bound: bool) -> None:
         self.line, self.low, self.tape = line, low, Tape()
         self.pairs = Pairs(self.tape, fma=fma)
-        self.bounds = Bounds(self.tape, EACH, SINE_ERROR)
         self.pair: list[Pair] = []
         self.bound: list[Any] = []
         self.bounded = bound
@@ -94,7 +101,7 @@ class Rewriting:
             pair, bound = self._input(*rest[0]), NOTHING
         elif operation == "const":
             pair = self.pairs.constant(rest[0])
-            bound = self.bounds.constant(rest[0] - pair.hi - pair.lo)
+            bound = Fraction(float(abs(rest[0] - pair.hi - pair.lo) * OWN))  # a double not below it
         else:
             pair = self._operate(operation, *rest)
             bound = self._bound(operation, pair, *rest) if self.bounded else NOTHING
@@ -112,7 +119,7 @@ class Rewriting:
             values = [Pair(self.tape.number(x.hi), self.tape.number(x.lo)) for x in values]
         if operation in ("sin", "cos"):
             if places[0] not in self.turns:
-                self.turns[places[0]] = sine_and_cosine_of_pair(self.pairs, values[0])
+                self.turns[places[0]] = self.pairs.sine_and_cosine(values[0])
             return self.turns[places[0]][operation == "cos"]
         if operation == "sub":
             return self.pairs.add(values[0], self.pairs.negative(values[1]))
@@ -123,15 +130,25 @@ class Rewriting:
 
     def _bound(self, operation: str, pair: Pair, *places: int) -> Any:
         """Write how far the result of an operation can be off."""
-        given = [Bounded(self._size(self.pair[j]), self.bound[j]) for j in places]
-        return self.bounds.of(operation, self._size(pair), *given)
+        result, bounds = self._size(pair), [self.bound[j] for j in places]
+        a, e = self._size(self.pair[places[0]]), bounds[0]
+        if operation in ("neg", "abs"):
+            return e
+        if operation in ("sin", "cos"):
+            return e + SINE_ERROR
+        if operation in ("add", "sub"):
+            return e + bounds[1] + EACH * result
+        own = EACH * result + TINY
+        if operation == "sqrt":  # |√â − √a| ≤ e / √â
+            return own + (e + TINY) / result
+        b, e_b = self._size(self.pair[places[1]]), bounds[1]
+        if operation == "mul":  # |âb̂ − ab| ≤ |â| e_b + e e_b + |b̂| e
+            return own + ((a + e) * e_b + b * e)
+        if isinstance(e_b, Fraction) and e_b == 0:
+            return own + (e + TINY) / b
+        root = (b - 2 * e_b).sqrt()  # |â/b̂ − a/b| ≤ (e + |â/b̂| e_b) / (|b̂| − e_b); not a number where b may be 0
+        return own + (e + result * e_b + TINY) / (root * root)
 
     def _size(self, pair: Pair) -> Any:
         """Write the size of a number, to all digits of a double."""
         return self.tape.apply("abs", pair.hi) if isinstance(pair.hi, Number) else abs(pair.hi)
-
-    def result(self, entries: list[Any], shape: tuple[int, ...]) -> Any:
-        """Return an array of results."""
-        array = np.empty(len(entries), object)
-        array[:] = entries
-        return array.reshape(shape)

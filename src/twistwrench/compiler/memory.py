@@ -1,4 +1,4 @@
-"""What a program returns, the rows of a caller's arrays, memory that is used again, and no search for garbage."""
+"""What a program returns, memory that is used again, and no search for garbage."""
 
 from __future__ import annotations
 
@@ -10,9 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ..arrays import Array
-
-__all__ = ["Results", "keep_memory", "rows", "without_garbage"]
+__all__ = ["Results", "keep_memory", "without_garbage"]
 
 KEPT = 2**25 - 2**16
 """Bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`."""
@@ -23,16 +21,6 @@ class Results(SimpleNamespace):
 
     def __repr__(self) -> str:
         return f"Results({', '.join(f'{name}: {np.shape(x)}' for name, x in vars(self).items())})"
-
-
-def rows(x: Array, count: int, size: int) -> Array:
-    """Return an array of shape (count, size) to be filled: a view of x where there is one, else a new one."""
-    try:
-        rows = np.reshape(x, (count, size), copy=False)
-    except ValueError:
-        return np.empty((count, size), x.dtype)
-    contiguous = rows.strides[1] == rows.itemsize and rows.flags.aligned
-    return rows if contiguous else np.empty((count, size), x.dtype)
 
 
 @cache

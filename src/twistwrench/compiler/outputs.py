@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import combinations
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -41,19 +42,36 @@ def check_outputs(given: Mapping[str, Any], batch: Tail, tails: Mapping[str, Tai
 
 
 def targets(
-    given: Mapping[str, Array], states: Sequence[Array], batch: Tail, tails: Mapping[str, Tail], dtype: np.dtype[Any]
+    given: Mapping[str, Array], states: Sequence[Array], count: int, tails: Mapping[str, Tail], dtype: np.dtype[Any]
 ) -> dict[str, Array]:
-    """Return the arrays to be filled: the caller's where no state shares memory with it, else new ones."""
-    own = {name: x for name, x in given.items() if not any(_share(x, state) for state in states)}
-    return {name: own[name] if name in own else np.empty((*batch, *tail), dtype) for name, tail in tails.items()}
+    """Return arrays of shape (count, entries) to be filled: the caller's where they can be, else new ones.
+
+    They cannot where a state shares memory with them, or where the entries of a row do not lie next to each other.
+    """
+    filled = {}
+    for name, tail in tails.items():
+        own = _rows(given[name], count, prod(tail)) if name in given else None
+        if own is None or any(_share(own, state) for state in states):
+            own = np.empty((count, prod(tail)), dtype)
+        filled[name] = own
+    return filled
 
 
 def finish(given: Mapping[str, Array], filled: Mapping[str, Array]) -> dict[str, Array]:
     """Return the results, in the caller's arrays where there are any."""
     for name, out in given.items():
-        if out is not filled[name]:
+        if not np.may_share_memory(out, filled[name]):
             out[...] = filled[name]
     return {**filled, **given}
+
+
+def _rows(x: Array, count: int, size: int) -> Array | None:
+    """Return a view of shape (count, size), the entries of each row next to each other; None if there is none."""
+    try:
+        rows = np.reshape(x, (count, size), copy=False)
+    except ValueError:
+        return None
+    return rows if rows.strides[1] == rows.itemsize and rows.flags.aligned else None
 
 
 def _share(x: Array, y: Array) -> bool:
@@ -65,20 +83,10 @@ def _share(x: Array, y: Array) -> bool:
 
 
 def _overlaps_itself(x: Array) -> bool:
-    """Whether two entries of an array share a byte, as in a view with a stride of 0."""
-    steps = sorted((abs(step), n) for step, n in zip(x.strides, x.shape) if n > 1)
-    if x.size == 0 or _nested(steps, x.itemsize):
-        return False
-    first = np.zeros(1, np.intp)  # byte of each entry
-    for step, n in steps:
-        first = (first[:, None] + step * np.arange(n)).reshape(-1)
-    return bool((np.diff(np.sort(first)) < x.itemsize).any())
-
-
-def _nested(steps: Sequence[tuple[int, int]], size: int) -> bool:
-    """Whether each axis steps over the extent of all axes with smaller steps: then no entries overlap."""
-    for step, n in steps:
-        if step < size:
-            return False
-        size += step * (n - 1)
-    return True
+    """Whether an axis does not step over the extent of those with smaller steps: entries may share a byte then."""
+    extent = x.itemsize
+    for step, n in sorted((abs(step), n) for step, n in zip(x.strides, x.shape) if n > 1):
+        if step < extent:
+            return x.size > 0
+        extent += step * (n - 1)
+    return False

@@ -7,16 +7,23 @@ for a root: Joldes, Muller, Popescu, *Tight and rigorous error bounds for basic 
 arithmetic* (2017), and Lefèvre et al., *Accurate calculation of Euclidean norms using double-word arithmetic* (2023).
 
 Nothing of it may be simplified as if it were exact: (a + b) − a is not b, but what is left of it.
+
+For sin and cos the angle is brought near 0 by a multiple k of π/2, of which 159 bits are subtracted. An eighth of what
+is left has a short series for sin and for 1 − cos, and is doubled three times by sin 2y = 2 sin y (1 − (1 − cos y)) and
+1 − cos 2y = 2 sin² y: there 1 − cos keeps the digits that cos itself would lose. The quadrant, k modulo 4, is
+arithmetic too: one of cos (k π/2) and sin (k π/2) is 0, the other ±1.
 """
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .number import Number, Tape, is_power_of_two
+from .sine import PI
 
-__all__ = ["EACH", "Pair", "Pairs", "split"]
+__all__ = ["EACH", "NOTHING", "SINE_ERROR", "Pair", "Pairs", "split", "two_sum"]
 
 EACH = Fraction(16, 2**106)
 """No operation on pairs has a larger relative error."""
@@ -25,6 +32,16 @@ SPLITTER = 2**27 + 1
 """Times a double, it parts the upper 26 bits from the lower ones."""
 
 NOTHING = Fraction(0)
+
+LARGEST_ANGLE = 2**45
+"""rad. Of larger ones sin and cos are not numbers."""
+
+SINE_ERROR = Fraction(1, 2**99)
+"""No sine or cosine of a pair is further off: 128 roundings of 2⁻¹⁰⁶, where all steps together make less than 60."""
+
+HALVINGS = 3
+SERIES = 9, 5
+"""Terms of the series, and how many of them need a pair; what is left out is below 2⁻¹¹⁷."""
 
 
 class Pair(NamedTuple):
@@ -126,6 +143,55 @@ class Pairs:
         if self.fma and not (_is_zero(ab) or _is_zero(c)):
             return self.tape.apply("fma", c, d, ab)
         return ab + c * d
+
+    # ---------------------------------------------------------------- sin and cos
+
+    def sine_and_cosine(self, x: Pair) -> tuple[Pair, Pair]:
+        """Return sin x and cos x."""
+        k, y = self._reduced(x)
+        y = Pair(y.hi / 2**HALVINGS, y.lo / 2**HALVINGS)
+        square = self.multiply(y, y)
+        third = self.multiply(self.multiply(square, self._series(square, 3)), y)
+        sine = self.add_smaller(y, self.negative(third))
+        less = self.multiply(square, self._series(square, 2))  # 1 − cos y
+        for _ in range(HALVINGS):
+            twice = Pair(2 * sine.hi, 2 * sine.lo)
+            sine, less = self.add_smaller(twice, self.negative(self.multiply(twice, less))), self.multiply(twice, sine)
+        cosine = self.add_smaller(self.constant(Fraction(1)), self.negative(less))
+        return self._turned(k, sine, cosine)
+
+    def _reduced(self, x: Pair) -> tuple[Any, Pair]:
+        """Write k, the whole number next to 2 x / π, and x − k π/2. The first difference rounds nothing."""
+        inside = (LARGEST_ANGLE - self.tape.apply("abs", x.hi)).sqrt()
+        nothing = self.tape.apply("sub", inside, inside)  # or not a number
+        k = self.tape.apply("round", x.hi * split(2 / PI)[0]) + nothing
+        first, second, third = split(PI / 2, 3)
+        p, e = self.two_product(k, first)
+        rest, last = self.two_product(k, second)
+        left = self.add(Pair(*two_sum(x.hi - p, -e)), Pair(-rest, -last))
+        return k, self.add(left, Pair(*two_sum(x.lo, -(k * third))))
+
+    def _series(self, square: Pair, start: int) -> Pair:
+        """Write 1/start! − y²/(start + 2)! + …: the last terms in doubles, then in pairs."""
+        terms, exact = SERIES
+        coefficients = [Fraction((-1) ** n, math.factorial(start + 2 * n)) for n in range(terms)]
+        tail: Any = split(coefficients[-1])[0]
+        for c in reversed(coefficients[exact:-1]):
+            tail = tail * square.hi + split(c)[0]
+        value = Pair(tail, NOTHING)
+        for c in reversed(coefficients[:exact]):
+            value = self.add_smaller(self.constant(c), self.multiply(square, value))
+        return value
+
+    def _turned(self, k: Any, sine: Pair, cosine: Pair) -> tuple[Pair, Pair]:
+        """Write sin and cos of k π/2 + y from those of y. Nothing is rounded: one product of each two is 0."""
+        k = k - 4 * self.tape.apply("round", k / 4)  # from −2 to 2
+        size = self.tape.apply("abs", k)
+        c, s = 1 - size, k * (2 - size)
+        return (
+            Pair(c * sine.hi + s * cosine.hi, c * sine.lo + s * cosine.lo),
+            Pair(c * cosine.hi - s * sine.hi, c * cosine.lo - s * sine.lo),
+        )
 
 
 def two_sum(a: Any, b: Any) -> tuple[Any, Any]:

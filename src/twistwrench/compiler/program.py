@@ -15,7 +15,7 @@ from ..model import Model, floats_of
 from .backend import BackEnd
 from .extension import POSSIBLE, state_function
 from .line import Line
-from .memory import Results, rows
+from .memory import Results
 from .outputs import check_outputs, finish, targets
 from .quantities import ARGUMENTS, Quantity, shapes
 from .recording import ALARM, record
@@ -234,17 +234,14 @@ class Program:
         tails = {name: shape for name, (shape, _) in line.outputs.items() if name != ALARM}
         given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
         check_outputs(given, batch, tails, self.dtype)
-        filled = targets(given, states, batch, tails, self.dtype)
         count = prod(batch)
+        results = targets(given, states, count, tails, self.dtype)
         flat = [x.reshape(count, prod(self._shapes[name])) for name, x in zip(names, states)]
         flat = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in flat]
-        results = {name: rows(x, count, prod(tails[name])) for name, x in filled.items()}
         alarm = np.empty((count, 1), self.dtype)
         if count:
             self._code(names).run([*flat, *results.values(), alarm], self.threads)
-        for name, x in results.items():
-            if not np.may_share_memory(x, filled[name]):
-                filled[name][...] = x.reshape(filled[name].shape)
+        filled = {name: x.reshape(batch + tails[name]) for name, x in results.items()}
         sure = alarm[:, 0].real <= 1
         if not sure.all():
             by_the_textbook(self.model, self.quantities, self.given | named, filled, ~sure.reshape(batch))
