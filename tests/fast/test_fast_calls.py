@@ -10,7 +10,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import fast
-from twistwrench.compiler import registers
+from twistwrench.compiler import registers, textbook
 from twistwrench.fast import programs
 
 from ..strategies import Recipe, random_state
@@ -67,11 +67,11 @@ WRONG = {
 @pytest.mark.parametrize("wrong", WRONG)
 def test_what_the_textbook_refuses_is_refused_in_the_same_words(name, wrong):
     q, v = WRONG[wrong]
-    with pytest.raises(ValueError) as textbook:  # noqa: PT011 - the message is compared below
+    with pytest.raises(ValueError) as book:  # noqa: PT011 - the message is compared below
         CALLS[name](tw, GO2, q, v)
-    with pytest.raises(type(textbook.value)) as ours:
+    with pytest.raises(type(book.value)) as ours:
         CALLS[name](fast, GO2, q, v)
-    assert str(ours.value) == str(textbook.value)
+    assert str(ours.value) == str(book.value)
 
 
 @pytest.mark.parametrize("q", [spoil(Q, slice(3, 7), Q[3:7] * (1 + 1.4e-8)), Q.tolist(), Q.astype(np.float16)])
@@ -149,11 +149,11 @@ def parallel():
 def test_singular_models_are_refused_in_the_same_words(make):
     model = make()
     q = np.array([[0.3, 0.4], [0.5, 0.6]])
-    with pytest.raises(tw.SingularError) as textbook:
+    with pytest.raises(tw.SingularError) as book:
         tw.aba(model, q, q, q)
     with pytest.raises(tw.SingularError) as ours:
         fast.aba(model, q, q, q)
-    assert str(ours.value) == str(textbook.value)
+    assert str(ours.value) == str(book.value)
     np.testing.assert_allclose(fast.crba(model, q), tw.crba(model, q), rtol=0, atol=1e-15)
 
 
@@ -165,11 +165,11 @@ def test_a_massless_base_is_refused_in_the_same_words(batch):
     builder.link("leg", parent="base_link", joint=tw.Revolute([1, 2, 3]), inertia=rod)
     model = builder.build()
     s = random_state(model, rng=0, batch=batch)
-    with pytest.raises(tw.SingularError, match="'root_joint': with its outboard joints free") as textbook:
+    with pytest.raises(tw.SingularError, match="'root_joint': with its outboard joints free") as book:
         tw.aba(model, s.q, s.v, s.tau)
     with pytest.raises(tw.SingularError) as ours:
         fast.aba(model, s.q, s.v, s.tau)
-    assert str(ours.value) == str(textbook.value)
+    assert str(ours.value) == str(book.value)
 
 
 def test_what_is_only_nearly_singular_is_solved():
@@ -330,7 +330,7 @@ def test_memory_does_not_grow_with_the_batch(states):
 def long_chain(monkeypatch):
     """A chain that counts as too long, of which the textbook takes 5 states at a time."""
     monkeypatch.setattr(programs, "LONGEST", 5)
-    monkeypatch.setattr(programs, "CHUNK", 30)
+    monkeypatch.setattr(textbook, "CHUNK", 30)
     return tw.chain(6, base="floating")
 
 
@@ -354,13 +354,13 @@ def test_a_robot_that_is_too_long_is_the_textbooks(long_chain, batch):
 
 def test_a_robot_that_is_too_long_is_refused_in_the_same_words(monkeypatch):
     monkeypatch.setattr(programs, "LONGEST", 1)
-    monkeypatch.setattr(programs, "CHUNK", 4)
+    monkeypatch.setattr(textbook, "CHUNK", 4)
     model, q = parallel(), np.zeros((7, 2))
-    with pytest.raises(tw.SingularError) as textbook:
+    with pytest.raises(tw.SingularError) as book:
         tw.aba(model, q, q, q)
     with pytest.raises(tw.SingularError) as ours:
         fast.aba(model, q, q, q)
-    assert str(ours.value) == str(textbook.value)
+    assert str(ours.value) == str(book.value)
 
 
 def bundle(chains: int, links: int) -> tw.Model:

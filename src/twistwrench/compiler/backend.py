@@ -26,14 +26,7 @@ LEAST = 64
 
 
 class BackEnd:
-    """A line, and what runs it: made when it is first needed.
-
-    Parameters
-    ----------
-    line : Line
-    dtype : dtype
-    name : {"llvm", "numpy"}
-    """
+    """A line, and what runs it, "llvm" or "numpy": made when it is first needed."""
 
     def __init__(self, line: Line, dtype: np.dtype[Any], name: str) -> None:
         self.line, self.dtype, self.name = line, dtype, name
@@ -75,12 +68,7 @@ class BackEnd:
 
 
 class Plain:
-    """A line as a Python function of floats.
-
-    Parameters
-    ----------
-    line : Line
-    """
+    """A line as a Python function of floats."""
 
     def __init__(self, line: Line) -> None:
         names: dict[str, Any] = {}

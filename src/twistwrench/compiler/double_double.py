@@ -38,19 +38,10 @@ OWN = 1 + Fraction(1, 2**20)
 def double_double(
     line: Line, *, low: Collection[str] = (), plain: Collection[str] = (), fma: bool, bound: bool = False
 ) -> Line:
-    """Return a line that computes the same with pairs of doubles.
+    """Return a line that computes the same with pairs of doubles, each result followed by its bound if wanted.
 
-    Parameters
-    ----------
-    line : Line
-    low : collection of str
-        The arguments that are pairs; the others are doubles.
-    plain : collection of str
-        Results for which doubles are enough.
-    fma : bool
-        Whether what runs the line has a b + c with one rounding.
-    bound : bool
-        Whether each result is followed by a bound.
+    The arguments in `low` are pairs, for the results in `plain` doubles are enough; `fma` is whether what runs the line
+    has a b + c with one rounding.
     """
     work = Rewriting(line, low, fma=fma, bound=bound)
     wanted = [k for name, (_, entries) in line.outputs.items() if name not in plain for k in entries]
@@ -69,13 +60,7 @@ def double_double(
 
 
 class Rewriting:
-    """The pairs of the nodes so far, and their bounds.
-
-    Parameters
-    ----------
-    line, low, fma, bound
-        As for `double_double`.
-    """
+    """The pairs of the nodes so far, and their bounds: see `double_double`."""
 
     def __init__(self, line: Line, low: Collection[str], *, fma: bool, bound: bool) -> None:
         self.line, self.low, self.tape = line, low, Tape()

@@ -52,15 +52,7 @@ class Method(ctypes.Structure):
 def state_function(code: MachineCode, line: Line, dtype: np.dtype[Any], single: bool) -> Callable[..., Any]:
     """Return a function from the arrays of one state to the results of a line, without the last, which is the alarm.
 
-    Parameters
-    ----------
-    code : MachineCode
-        The line's, of width 1.
-    line : Line
-    dtype : dtype
-        float32 or float64.
-    single : bool
-        Whether it returns one array; else a tuple of arrays.
+    The code is the line's, of width 1. A single result is an array; several are a tuple of arrays.
     """
     *results, _ = [shape for shape, _ in line.outputs.values()]
     engine = engine_of(Call(dtype).written(code.address, [*line.inputs.values()], results, single))
@@ -72,13 +64,7 @@ def state_function(code: MachineCode, line: Line, dtype: np.dtype[Any], single: 
 
 
 class Call(Text):
-    """The function's instructions.
-
-    Parameters
-    ----------
-    dtype : dtype
-        float32 or float64.
-    """
+    """The function's instructions, for arrays of float32 or float64."""
 
     def __init__(self, dtype: np.dtype[Any]) -> None:
         super().__init__(NATIVE[dtype], 1)

@@ -101,14 +101,6 @@ class Text:
             for lane, row in enumerate(rows):
                 self.lines.append(f"store {self.scalar} {self.extract(value, lane)}, ptr {self.entry(row, k)}")
 
-    def clear(self, rows: list[str], start: int, count: int) -> None:
-        """Store zeros in any number of entries."""
-        function = "void @llvm.memset.p0.i64"
-        self.declared.add(f"declare {function}(ptr, i8, i64, i1)")
-        for row in rows:
-            place = self.entry(row, start)
-            self.lines.append(f"call {function}(ptr {place}, i8 0, i64 {count * self.bytes}, i1 false)")
-
     def insert(self, values: str, one: str, lane: int) -> str:
         """Put a number into a register."""
         return (

@@ -27,17 +27,9 @@ Compute = Callable[..., Array]
 
 
 def inverses(model: Model, dtype: np.dtype[Any], frames: Sequence[str], rows: Quantity) -> Iterator[Quantity]:
-    """Yield M⁻¹, L and D of M = Lᵀ D L, M⁻¹ τ, Λ⁻¹ and Λ of the rows of contacts, and the inertias of frames.
+    """Yield M⁻¹, L and D of M = Lᵀ D L, M⁻¹ τ, Λ⁻¹ = J_c M⁻¹ J_cᵀ and Λ, and the articulated inertias of frames.
 
-    Parameters
-    ----------
-    model : Model
-    dtype : dtype
-        Decides what counts as singular.
-    frames : sequence of str
-        Whose articulated inertias are meant, along an axis before their own.
-    rows : Quantity
-        J_c, of which Λ⁻¹ = J_c M⁻¹ J_cᵀ is.
+    The number type decides what counts as singular; `rows` is J_c.
     """
 
     def by_aba(q: Array) -> list[Any]:

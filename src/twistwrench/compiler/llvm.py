@@ -12,7 +12,6 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
-from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -63,20 +62,9 @@ def lanes(dtype: np.dtype[Any]) -> int:
 
 
 class MachineCode:
-    """A line as machine code, for `width` states at once.
+    """A line as machine code for float32 or float64, `width` states at once: a power of two.
 
-    Parameters
-    ----------
-    line : Line
-    dtype : dtype
-        float32 or float64.
-    width : int
-        A power of two; with 1, for one state after the other.
-
-    Attributes
-    ----------
-    address : int
-        Where the function is that takes a table of pointers and strides, and the number of states.
+    At `address` is the function that takes a table of pointers and strides, and the number of states.
     """
 
     def __init__(self, line: Line, dtype: np.dtype[Any], width: int) -> None:
@@ -133,18 +121,7 @@ class Pieces:
 
     There are a few registers and thousands of values. When they are all taken, the value whose next use is farthest
     goes to memory (Bélády), and is loaded when it is needed again. LLVM would find out itself, in twice the time.
-
-    Parameters
-    ----------
-    line : Line
-    scalar : {"double", "float"}
-    width : int
-
-    Attributes
-    ----------
-    turns : list of tuple
-        What is to be written: each node to compute, and in the end each group of results to store, in the order of
-        memory.
+    In `turns` is what is to be written: each node to compute, in the end each group of results, in the order of memory.
     """
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
@@ -169,15 +146,8 @@ class Pieces:
             if operation not in ("input", "const"):
                 yield k, None
         for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
-            starts = range(0, len(entries), self.width)
-            for zero, some in groupby(starts, key=lambda k: self.nothing(entries[k : k + self.width])):
-                run = [*some]
-                for start, end in [(run[0], run[-1])] if zero else zip(run, run):  # zeros are stored together
-                    yield 0, (array, start, entries[start : end + self.width])
-
-    def nothing(self, nodes: Sequence[int]) -> bool:
-        """Return whether all these are zero."""
-        return all(self.line.nodes[k] == ("const", 0) for k in nodes)
+            for start in range(0, len(entries), self.width):
+                yield 0, (array, start, entries[start : start + self.width])
 
     def compute(self, k: int) -> None:
         """Write the operation of a node."""
@@ -243,10 +213,7 @@ class Pieces:
 
     def store(self, array: int, start: int, nodes: Sequence[int]) -> None:
         """Store entries of a result."""
-        if self.nothing(nodes):
-            self.text.clear(self.row(array), start, len(nodes))
-        else:
-            self.text.store(self.row(array), start, [self.value(k) for k in nodes])
+        self.text.store(self.row(array), start, [self.value(k) for k in nodes])
 
     def row(self, array: int) -> list[str]:
         """Return where the states of this turn have their entries of an array."""

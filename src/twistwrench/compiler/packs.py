@@ -40,18 +40,8 @@ LEAST = 4
 class Packs:
     """The operations of a line, put together.
 
-    Parameters
-    ----------
-    line : Line
-
-    Attributes
-    ----------
-    nodes : tuple of tuple
-        Those of the line.
-    packs : list of tuple of int
-        The nodes of each pack, lane by lane; also what is needed of the arguments. A node can be in several packs.
-    operands : list of tuple of tuple
-        Of each pack its operands: nodes lane by lane, or one node that all lanes share.
+    In `packs` are the nodes of each pack, lane by lane, also what is needed of the arguments; a node can be in several.
+    In `operands` are those of each pack: nodes lane by lane, or one node that all lanes share.
     """
 
     def __init__(self, line: Line) -> None:

@@ -34,18 +34,8 @@ def record(
 ) -> Line:
     """Return the line of several quantities, which share their work.
 
-    Parameters
-    ----------
-    model : Model
-    quantities : sequence of Quantity
-    shapes : mapping of str to tuple of int
-        The arguments that a state has, and the shape of each.
-    given : mapping of str to ndarray
-        The values of other arguments, the same for every state.
-    dtype : dtype
-        Decides what counts as too large or as singular.
-    note : callable, optional
-        See `Tape`.
+    A state has arguments of these shapes; the others are given, the same for every state. The number type decides what
+    counts as too large or as singular. For `note` see `Tape`.
     """
     tape = Tape(note)
     arguments = {name: numbers(tape, name, *shape) for name, shape in shapes.items()}

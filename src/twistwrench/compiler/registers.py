@@ -50,14 +50,9 @@ BUFFER = 16
 
 
 class Registers:
-    """A line as a list of NumPy's calls.
+    """A line as a list of NumPy's calls, in any of its floating-point types, complex ones too.
 
-    Parameters
-    ----------
-    line : Line
-    dtype : dtype
-        Any floating-point type of NumPy, complex ones too; of objects, numbers of mpmath, whose constants have as many
-        digits as are set now.
+    Of objects, in numbers of mpmath, whose constants have as many digits as are set now.
     """
 
     def __init__(self, line: Line, dtype: np.dtype[Any]) -> None:

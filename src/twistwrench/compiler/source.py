@@ -32,14 +32,7 @@ DEEPEST = 12
 
 
 class Step(NamedTuple):
-    """A step of the chapter, for one body.
-
-    Attributes
-    ----------
-    section, symbol, words : str
-        "49.6", "V" and ": twist".
-    body : int or None
-    """
+    """A step of the chapter, for one body or for none: "49.6", "V" and ": twist"."""
 
     section: str
     symbol: str
@@ -67,16 +60,7 @@ def _anchor(code: CodeType, line: int) -> tuple[str, str, str] | None:
 
 
 def python_source(line: Line, name: str, functions: str = "math") -> str:
-    """Return a line as a Python function of sequences of numbers; its results are nested lists.
-
-    Parameters
-    ----------
-    line : Line
-    name : str
-        The function's.
-    functions : str
-        The module that has cos, sin and sqrt for these numbers: "math", "mpmath", "sympy", "jax.numpy", "torch".
-    """
+    """Return a line as a Python function of sequences of numbers, with cos of this module; results are nested lists."""
     names = _names(line, lambda array, index: array + "".join(f"[{k}]" for k in index))
     called = sorted({operation for operation in line.operations if operation not in (*OPERATORS, "neg", "abs")})
     text = [f"from {functions} import {', '.join(called)}", "", ""] if called else []
@@ -88,7 +72,7 @@ def python_source(line: Line, name: str, functions: str = "math") -> str:
 
 def c_source(line: Line, name: str) -> str:
     """Return a line as a C99 function: pointers to its arguments, then to its results, row by row."""
-    names = _names(line, lambda array, index: f"{array}[{_flat(index, line.inputs[array])}]")
+    names = _names(line, lambda array, index: f"{array}[{np.ravel_multi_index(index, line.inputs[array])}]")
     results = [array if len(line.outputs) > 1 else "result" for array in line.outputs]
     arguments = [f"const double *{array}" for array in line.inputs] + [f"double *{result}" for result in results]
     text = ["#include <math.h>", "", f"void {name}({', '.join(arguments)})", "{"]
@@ -147,11 +131,4 @@ def _expression(line: Line, node: Node, names: list[str]) -> str:
 
 def _nested(values: list[str], shape: tuple[int, ...]) -> str:
     """Return values as nested lists of a shape."""
-    if not shape:
-        return values[0]
-    size = len(values) // shape[0] if shape[0] else 0
-    return f"[{', '.join(_nested(values[k * size : (k + 1) * size], shape[1:]) for k in range(shape[0]))}]"
-
-
-def _flat(index: tuple[int, ...], shape: tuple[int, ...]) -> int:
-    return int(np.ravel_multi_index(index, shape))
+    return str(np.reshape(np.array(values, object), shape).tolist()).replace("'", "")

@@ -11,7 +11,7 @@ from ..arrays import Array
 from ..model import Model, floats_of
 from .quantity import Quantity
 
-__all__ = ["CHUNK", "by_the_textbook", "computed"]
+__all__ = ["by_the_textbook", "computed"]
 
 CHUNK = 2**17
 """States times degrees of freedom that the textbook takes at a time."""
@@ -20,18 +20,9 @@ CHUNK = 2**17
 def by_the_textbook(
     model: Model, quantities: Sequence[Quantity], states: Mapping[str, Any], filled: Mapping[str, Array], where: Array
 ) -> None:
-    """Fill the results in some states of a batch, or raise for the first of the batch that is wrong.
+    """Fill the results, by symbol, in the states of a batch where `where` is true, or raise for the first wrong one.
 
-    Parameters
-    ----------
-    model : Model
-    quantities : sequence of Quantity
-    states : mapping of str to ndarray
-        The arguments; each has the batch axes, or none where it is the same in every state.
-    filled : mapping of str to ndarray
-        The result of each quantity, by symbol. Other states are left as they are.
-    where : ndarray of bool, shape (...)
-        Which states.
+    An argument has the batch axes, or none where it is the same in every state.
     """
     places, size = np.argwhere(where), max(1, CHUNK // max(1, model.nv))
     alike = {name: np.ndim(x) == (2 if name == "f_ext" else 1) for name, x in states.items()}

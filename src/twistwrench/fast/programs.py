@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from functools import partial
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from ..compiler import Program, Results
 from ..compiler.llvm import NATIVE, available
 from ..compiler.outputs import check_outputs, finish
 from ..compiler.quantities import Quantity, quantities
-from ..compiler.textbook import CHUNK, computed
+from ..compiler.textbook import by_the_textbook, computed
 from ..errors import SingularError
 from ..model import Model, check_model, floats_of
 
@@ -102,17 +101,7 @@ def result(
 def program(
     model: Model, want: tuple[str, ...], dtype: np.dtype[Any], contacts: tuple[str | HeldRows, ...] | None = None
 ) -> Program | Textbook:
-    """Return what computes some quantities of a model, by symbol.
-
-    Parameters
-    ----------
-    model : Model
-    want : tuple of str
-        One symbol: the program returns an array. With `contacts`, any number: `Results`.
-    dtype : dtype
-    contacts : tuple of str or Contact, optional
-        Of J_c, those of the model.
-    """
+    """Return what computes one quantity, by its symbol; with contacts, which are those of J_c, several: `Results`."""
 
     def asked() -> list[Quantity]:
         known = quantities(model, dtype, contacts or ())
@@ -189,15 +178,7 @@ def too_long(model: Model, want: Collection[str]) -> str | None:
 
 
 class Textbook:
-    """What no program can be made for: called as a program, it is the textbook, some states at a time.
-
-    Parameters
-    ----------
-    model : Model
-    quantities : sequence of Quantity
-    single : bool
-        Whether the result is one array; else it is `Results`.
-    """
+    """What no program can be made for: called as a program, it is the textbook, some states at a time."""
 
     def __init__(self, model: Model, quantities: Sequence[Quantity], single: bool) -> None:
         self.model, self.quantities, self.single = model, tuple(quantities), single
@@ -208,17 +189,11 @@ class Textbook:
         others = dict(zip(self.arguments[1:], args[1:]))
         states = dict(zip(("q", *others), floats_of(self.model, args[0], **others)))
         batch, dtype = states["q"].shape[:-1], states["q"].dtype
-        count, size = prod(batch), max(1, CHUNK // max(1, self.model.nv))
-        flat = {name: x.reshape(count, *x.shape[len(batch) :]) for name, x in states.items()}
-        chunks = [{name: x[k : k + size] for name, x in flat.items()} for k in range(0, max(count, 1), size)]
-        try:
-            pieces = [computed(self.quantities, chunk) for chunk in chunks]
-        except SingularError:
-            computed(self.quantities, states)  # raises, with the place in the batch
-            raise
-        results = {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
-        tails = {name: x.shape[1:] for name, x in results.items()}
+        none = {name: np.empty((0, *x.shape[len(batch) :]), dtype) for name, x in states.items()}
+        tails = {name: x.shape[1:] for name, x in computed(self.quantities, none).items()}
         given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
         check_outputs(given, batch, tails, dtype)
-        done = finish(given, {name: x.reshape(*batch, *tails[name]) for name, x in results.items()})
+        filled = {name: np.empty((*batch, *tail), dtype) for name, tail in tails.items()}
+        by_the_textbook(self.model, self.quantities, states, filled, np.ones(batch, bool))
+        done = finish(given, filled)
         return next(iter(done.values())) if self.single else Results(**done)
