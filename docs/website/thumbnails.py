@@ -11,6 +11,7 @@ import re
 import tomllib
 from html import escape
 from pathlib import Path
+from textwrap import shorten
 from typing import Any
 
 import numpy as np
@@ -88,7 +89,7 @@ def lines(shown: list[tuple[str, str]], log: bool) -> str:
     for k, ((row, cell), value) in enumerate(zip(shown, values, strict=True)):
         share = (math.log(value) - math.log(least)) / math.log(most / least) if log else value / most
         x, y = 5 + (WIDE - 10) * share, round(k * step + 19)
-        drawn.append(f'<text x="3" y="{y - 7}">{escape(row)}</text>')
+        drawn.append(f'<text x="3" y="{y - 7}">{escape(shorten(row, 28 - len(cell), placeholder=" …"))}</text>')
         drawn.append(f'<text x="{WIDE - 3}" y="{y - 7}" text-anchor="end">{escape(cell)}</text>')
         drawn.append(f'<path d="M5 {y}H{WIDE - 5}" stroke="currentColor" stroke-opacity=".25" stroke-width="2"/>')
         if log:
