@@ -198,7 +198,7 @@ def test_a_joint_that_moves_nothing_is_named(function, exact):
     )
     builder.link("tip", parent="arm", joint=tw.Prismatic("z"))
     q = [Fraction(0), Fraction(1)] if exact else [0.0, 1.0]
-    with pytest.raises(tw.SingularError, match="M is singular" if exact else "M is singular at joint 'tip'"):
+    with pytest.raises(tw.SingularError, match="M is singular at joint 'tip'"):
         function(builder.build(), q)
 
 

@@ -55,7 +55,10 @@ def factorize(M: Array, inboard: list[list[int]]) -> tuple[Array, Array]:
     """
     L, n = M.copy(), M.shape[-1]
     for k in reversed(range(n)):
-        scaled = L[..., k, inboard[k]] / L[..., k, k, None]  # 49.8 L
+        try:
+            scaled = L[..., k, inboard[k]] / L[..., k, k, None]  # 49.8 L
+        except ZeroDivisionError:  # fractions raise where floats are infinite
+            raise ZeroDivisionError(k) from None
         for place, i in enumerate(inboard[k]):
             j = inboard[k][: place + 1]  # those inboard of i, and i itself
             L[..., i, j] = L[..., i, j] - scaled[..., place, None] * L[..., k, j]  # 49.8 LTDL
@@ -83,22 +86,24 @@ def solve_outward(L: Array, inboard: list[list[int]], B: Array) -> Array:
 
 def checked_factors(model: Model, tree: Tree) -> tuple[Array, Array, list[list[int]]]:
     """Return L and D of the mass matrix and the inboard degrees of freedom; raise SingularError where D is lost."""
+
+    def singular(k: int, where: str = "") -> SingularError:
+        name = next(name for name, s in zip(model.joint_names, model.v_slice) if s.start <= k < s.stop)
+        said = "with its outboard joints free it moves no inertia beyond rounding"
+        return SingularError(f"M is singular at joint {name!r}: {said}{where}")
+
     M, inboard = composite_rigid_body(tree).M, inboard_dofs(tree)
     try:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             L, D = factorize(M, inboard)
-    except ZeroDivisionError:  # fractions raise where floats are infinite
-        raise SingularError("M is singular: a joint moves no inertia with its outboard joints free") from None
+    except ZeroDivisionError as error:
+        raise singular(*error.args) from None
     size, exact = judged(np.diagonal(M, axis1=-2, axis2=-1)), D.dtype == object
     least = size * (0 if exact else ROUNDINGS * resolution(D.dtype))
     lost = judged(D) <= least if exact else ~(D.real > least)  # a symbol has no value to check
     if lost.any():
         k = int(np.argwhere(lost)[:, -1].max())  # the first that was eliminated; those inboard of it are lost with it
-        name = next(name for name, s in zip(model.joint_names, model.v_slice) if s.start <= k < s.stop)
-        raise SingularError(
-            f"M is singular at joint {name!r}: with its outboard joints free it moves no inertia beyond rounding"
-            f"{at_first_index(np.asarray(lost[..., k]))}"
-        )
+        raise singular(k, at_first_index(np.asarray(lost[..., k])))
     return L, D, inboard
 
 
