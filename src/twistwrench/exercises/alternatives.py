@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import copy
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import Any
 
 from .containers import Change, containers, exchanges, parsed
@@ -121,10 +122,12 @@ def _loops(node: Any, parent: Any) -> Iterator[Change]:
             yield "summed", ast.If(ast.Constant(True), [ast.Assign(line.targets, ast.Constant(0)), summed], [])
     around = getattr(parent, "body", [])
     k = next((k for k, other in enumerate(around) if other is node), 0)
-    if k and isinstance(around[k - 1], ast.Assign) and _set_by(around[k - 1]) & _used(node):
-        more = copy.copy(node)
-        more.body = [around[k - 1], *node.body]
-        yield "in loop", more
+    for j, line in enumerate(around[:k]):
+        near = isinstance(line, ast.Assign) and _set_by(line) & (_used(node) if j == k - 1 else _filled(node))
+        if near:
+            more = copy.copy(node)
+            more.body = [line, *node.body]
+            yield "in loop", more
 
 
 def _set_by(line: ast.Assign) -> set[str]:
@@ -133,6 +136,12 @@ def _set_by(line: ast.Assign) -> set[str]:
 
 def _used(loop: Any) -> set[str]:
     return {x.id for line in loop.body for x in ast.walk(line) if isinstance(x, ast.Name)}
+
+
+def _filled(loop: Any) -> set[str]:
+    """Return the names of arrays of which a loop sets entries."""
+    stored = (x for line in loop.body for x in ast.walk(line) if isinstance(x, ast.Subscript))
+    return {x.value.id for x in stored if isinstance(x.ctx, ast.Store) and isinstance(x.value, ast.Name)}
 
 
 def _statements(node: Any) -> Iterator[Any]:
@@ -233,6 +242,11 @@ def _calls(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Call):
         for arguments in exchanges(node.args) if getattr(node.func, "id", "") != "range" else ():
             yield "exchanged", ast.Call(node.func, arguments, node.keywords)
+        for i, j in combinations(range(len(node.args)), 2):
+            x, y = node.args[i], node.args[j]
+            if isinstance(x, ast.BinOp) and isinstance(y, ast.BinOp) and type(x.op) is type(y.op) is ast.Mult:
+                pair = {i: ast.BinOp(y.left, x.op, x.right), j: ast.BinOp(x.left, y.op, y.right)}
+                yield "exchanged", ast.Call(node.func, [pair.get(k, z) for k, z in enumerate(node.args)], node.keywords)
         if len(node.args) <= 2 and not is_copy(node):
             kind = "left out" if len(node.args) == 1 else "instead"
             yield from ((kind, argument) for argument in node.args)

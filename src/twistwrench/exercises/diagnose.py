@@ -28,7 +28,7 @@ __all__ = ["after_error", "explain"]
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
-SHARES = {"mended": 1.6, "stepped": 2.2, "edited": 3.2, "after": 3.9, "both": 4.7, "twice": 5.2}
+SHARES = {"mended": 1.6, "stepped": 2.2, "edited": 3.2, "both": 4.3, "after": 4.9, "twice": 5.3}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
 
 TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
@@ -98,14 +98,14 @@ def _further(
     if again is None:
         return [], _unexplained(exercise, part, answers, cases, right, None)
     steps = Stepwise(part, *given)
-    mended = steps.one(until["stepped"])
+    mended = steps.one(until["stepped"], every=time.process_time() > until["mended"])
     edited = [] if mended else found_edits(part, answers, cases, until=until["edited"])
     if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, function, edited, answers, cases)
     mended = (
         mended
-        or two_repairs(part, function, nearer, cases[0], until["after"])
         or steps.two(until["both"])
+        or two_repairs(part, function, nearer, cases[0], until["after"])
         or repairs(part, *given, until=until["twice"], pairs=True)
     )
     if mended:

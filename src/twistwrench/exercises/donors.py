@@ -70,7 +70,10 @@ def given(
     unknown = {number for number, event in latest.items() if not known.has(event.value)}
     if isinstance(output.statement, ast.Return):
         unknown -= {id(output.node)}  # all that is asked for
-    own, terms = _atoms(arguments, events, found, bad.when), _Terms(record, right)
+    here = {id(x) for x in ast.walk(output.statement)}
+    end = next((k for k, e in enumerate(events[bad.when :], bad.when) if id(e.node) not in here), len(events))
+    own, terms = _atoms(arguments, events[:end], found, bad.when), _Terms(record, right)
+    yield from _typed(source, here, own)
     for place in source.places:
         node = place[2]
         value = _array(latest[id(node)].value) if id(node) in latest and isinstance(node, ast.expr) else None
@@ -79,7 +82,8 @@ def given(
         for text, x in own if not isinstance(node, ast.Name) else ():
             if x.shape == value.shape and text != ast.unparse(node) and not _same(x, value):
                 yield from _put(source, place, "instead", text)
-        for text in terms.others(value, own) if isinstance(node, ast.Call) and id(node) in unknown else ():
+        whole = isinstance(node, ast.Call) and id(node) in unknown
+        for text in terms.others(value, own) if whole or value.ndim == 0 else ():
             yield from _put(source, place, "instead", text)
         for op, text in terms.missing(value, own):
             yield from _put(source, place, op, text)
@@ -89,6 +93,16 @@ def given(
         for text in terms.turning(value, own):
             written = f"({text}) @ ({ast.unparse(node)})" + (f" @ ({text}).T" if value.ndim == 2 else "")
             yield from _put(source, place, "inserted", written)
+
+
+def _typed(source: Source, here: set[int], own: Atoms) -> Iterator[Edit]:
+    """Yield a number at hand in place of one that is written into a statement."""
+    for place in source.places:
+        value = getattr(place[2], "value", None)
+        if id(place[2]) in here and isinstance(place[2], ast.Constant) and isinstance(value, float):
+            for text, x in own:
+                if x.ndim == 0:
+                    yield from _put(source, place, "instead", text)
 
 
 def _put(source: Source, place: Sequence[Any], kind: str, text: str) -> Iterator[Edit]:
@@ -122,9 +136,10 @@ class _Terms:
                 self.found.setdefault(value.shape, []).append((k, value))
 
     def others(self, value: Array, own: Atoms) -> Iterator[str]:
-        """Yield what of the same shape is called in right solutions."""
-        here = [(k, x) for k, x in self.found.get(value.shape, []) if isinstance(self.record[k].node, ast.Call)]
-        texts = dict.fromkeys(self._written(k, x, own) for k, x in here[:MOST])
+        """Yield what of the same shape right solutions call, or take from something."""
+        kinds = (ast.Call, ast.Attribute) if value.ndim == 0 else (ast.Call,)
+        here = [(k, x) for k, x in self.found.get(value.shape, []) if isinstance(self.record[k].node, kinds)]
+        texts = dict.fromkeys(self._written(k, x, own) for k, x in here[:MOST] if not _same(x, value))
         yield from (text for text in texts if len(text) <= LONGEST)
 
     def missing(self, value: Array, own: Atoms) -> Iterator[tuple[str, str]]:
@@ -189,21 +204,21 @@ def _same(a: Array, b: Array) -> bool:
     return bool((np.abs(a - b) <= 1e-12 * max(float(np.abs(a).max(initial=0)), 1e-3)).all())
 
 
-def _atoms(arguments: Mapping[str, Any], events: Sequence[Event], found: Sequence[Output], when: int) -> Atoms:
+def _atoms(arguments: Mapping[str, Any], events: Sequence[Event], found: Sequence[Output], before: int) -> Atoms:
     """Return what the student's function has at hand at a time: texts and values, the latest first."""
     latest: dict[str, tuple[int, Any]] = {name: (-1, x) for name, x in arguments.items()}
-    for k, event in enumerate(events[:when]):
+    for k, event in enumerate(events):
         if isinstance(event.node, ast.Name | ast.Subscript | ast.Attribute):
             latest[ast.unparse(event.node)] = k, event.value
     for output in found:
         target = getattr(output.statement, "targets", [None])[0]
-        times = [x.when for x in output.values if x.when < when]
+        times = [x.when for x in output.values if x.when < before]
         if times and isinstance(target, ast.Name | ast.Subscript) and output.node is output.statement.value:
             text = ast.unparse(target)
             if latest.get(text, (-1, None))[0] < times[-1]:
                 latest[text] = times[-1], events[times[-1]].value
     kept = ((text, _array(value)) for text, (_, value) in sorted(latest.items(), key=lambda x: -x[1][0]))
-    return [(text, x) for text, x in kept if x is not None and tells(x)]
+    return [(text, x) for text, x in kept if x is not None and (tells(x) or text in arguments)]
 
 
 def _named(value: Array, own: Atoms) -> str:

@@ -131,9 +131,9 @@ class Source:
                 node.body.insert(0, ast.parse("_one_more_round()").body[0])
         self.kinds = {name: _kind(x) for name, x in values.items()}
         square = [n for n, x in values.items() if isinstance(x, np.ndarray) and x.ndim == 2 and len({*x.shape}) == 1]
-        placed = [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
-        self.scalars = [parsed(name) for name, x in values.items() if type(x) in (int, float)] + [*map(parsed, FACTORS)]
-        self.matrices = [parsed(name) for name in square + placed]
+        square += [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
+        numbers = [name for name, x in values.items() if isinstance(x, int | float) and type(x) is not bool]
+        self.scalars, self.matrices = [*map(parsed, (*numbers, *FACTORS))], [*map(parsed, square)]
         self.places = [*all_places(self.tree.body[0])]
         self.unused = unused(self.tree.body[0])
         self.around = [*dict.fromkeys(text for _, _, node in self.places for text in habits(node, self.kinds))]

@@ -136,9 +136,13 @@ def suspects(found: Sequence[Output], ways: Container[tuple[int, int]] = ()) -> 
     What no right solution has, but leads to what one has, is only another way; so is what stands at `ways`.
     """
     fine, size = {v.key for x in found if x.place in ways for v in x.values if not v.known}, -1
+    readers: dict[bytes, list[Value]] = {}
+    for value in (v for x in found for v in x.values if v.telling):
+        for _, key in value.read:
+            readers.setdefault(key, []).append(value)
     while size < len(fine):
         size = len(fine)
-        fine |= {key for x in found for v in x.values if v.telling and (v.known or v.key in fine) for _, key in v.read}
+        fine |= {key for key, values in readers.items() if all(v.known or v.key in fine for v in values)}
     wrong = [(x, [v for v in x.values if not v.known and v.key not in fine]) for x in found]
     wrong = [(x, bad) for x, bad in wrong if bad]
     first = []

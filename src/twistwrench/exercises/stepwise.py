@@ -20,6 +20,7 @@ from .donors import given
 from .edits import Source
 from .excerpts import text_of
 from .exercise import Part
+from .mixups import mixups
 from .outputs import Output, outputs, suspects
 from .phrases import say
 from .plausible import plausible
@@ -48,6 +49,7 @@ class Traced(NamedTuple):
     events: list[Event]
     found: list[Output]
     wrong: list[Output]
+    sure: int
     right: int
     unknown: int
 
@@ -91,10 +93,13 @@ class Stepwise:
                 self.known, self.record = known_values(part, arguments, self.names)
                 self.start = self._traced(source)
 
-    def one(self, until: float) -> list[Repair]:
-        """Return the change of one of the first wrong statements that makes all right."""
+    def one(self, until: float, *, every: bool) -> list[Repair]:
+        """Return the change of one of the first wrong statements that makes all right.
+
+        Unless of `every` kind, it is one of those that are not tried on the whole function.
+        """
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-            for edit in self._edits(self.start, until) if self.start else ():
+            for edit in self._edits(self.start, until, every=every) if self.start else ():
                 if self._mends(edit):
                     return [Repair(edit, self.before)]
         return []
@@ -140,7 +145,7 @@ class Stepwise:
         if self.start is None or not self.start.wrong:
             return None
         first, every = self.start.wrong[0], {id(x.statement) for x in self.start.found}
-        alone = len({id(x.statement) for x in self.start.wrong}) == 1
+        alone = self.start.sure > 0 and len({id(x.statement) for x in self.start.wrong}) == 1
         bare = isinstance(first.statement, ast.Return) and isinstance(first.node, ast.Name)
         if not alone or bare or len(every) < 3:
             return None
@@ -163,25 +168,29 @@ class Stepwise:
             if any(tells(x) for x in arrays(event.value)):
                 known[id(event.node)] = known.get(id(event.node), True) and self.known.has(event.value)
         right = sum(known.values())
-        return Traced(source, events, found, suspects(found, self.ways), right, len(known) - right)
+        wrong = suspects(found, self.ways)[:FEW]  # a right case may be right by chance: the rest comes after
+        more = [x for x in suspects(found) if not any(x is y for y in wrong)]
+        return Traced(source, events, found, wrong + more[:FEW], len(wrong), right, len(known) - right)
 
-    def _edits(self, traced: Traced, until: float) -> Iterator[Edit]:
+    def _edits(self, traced: Traced, until: float, *, every: bool = True) -> Iterator[Edit]:
         """Yield the changes of the statements that are wrong first, and what may be missing in them."""
         chance = by_chance(self.part, self.cases[self.first])
-        if not traced.wrong:  # all numbers are there
+        for edit in self._streams(traced, every):
+            if time.process_time() > until:
+                return
+            if edit.kind not in chance and plausible(edit, self.text, self.part.solution):
+                yield edit
+
+    def _streams(self, traced: Traced, every: bool) -> Iterator[Edit]:
+        yield from mixups(traced.source)
+        if not traced.wrong:  # all numbers are there, but for their signs, places and factors
             yield from traced.source.edits("sign")
-        for output in traced.wrong[:FEW]:
-            within = copy.copy(traced.source)
-            within.places = [x for x in within.places if any(y is output.statement for y in (*x[0], x[2]))]
+        for output in traced.wrong or traced.found[-1:]:
             more = given(
                 *(traced.source, output, traced.events, traced.found),
                 *(self.record, self.given, self.known, self.right[self.first]),
             )
-            for edit in _all(within, more):
-                if time.process_time() > until:
-                    return
-                if edit.kind not in chance and plausible(edit, self.text, self.part.solution):
-                    yield edit
+            yield from _all(_within(traced.source, output), more) if every else more
 
     def _mends(self, edit: Edit) -> bool:
         every = [self.first, *range(len(self.cases))]
@@ -194,6 +203,13 @@ class Stepwise:
         start = time.perf_counter()
         tried(self.part, self.part.solution, arguments)
         return time.perf_counter() - start
+
+
+def _within(source: Source, output: Output) -> Source:
+    """Return the source, of which only one statement is changed."""
+    found = copy.copy(source)
+    found.places = [x for x in source.places if any(y is output.statement for y in (*x[0], x[2]))]
+    return found
 
 
 def _all(within: Source, more: Iterator[Edit]) -> Iterator[Edit]:
