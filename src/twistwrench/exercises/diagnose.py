@@ -28,7 +28,7 @@ __all__ = ["after_error", "explain"]
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
-SHARES = {"mended": 1.6, "stepped": 2.2, "edited": 3.2, "both": 4.3, "after": 4.9, "twice": 5.3}
+SHARES = {"mended": 1.6, "stepped": 2.2, "edited": 3.2, "after": 3.7, "both": 4.8, "twice": 5.3}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
 
 TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
@@ -104,8 +104,8 @@ def _further(
         return [], _edited(exercise, part, function, edited, answers, cases)
     mended = (
         mended
-        or steps.two(until["both"])
         or two_repairs(part, function, nearer, cases[0], until["after"])
+        or steps.two(until["both"])
         or repairs(part, *given, until=until["twice"], pairs=True)
     )
     if mended:

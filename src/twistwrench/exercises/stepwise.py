@@ -145,7 +145,7 @@ class Stepwise:
         if self.start is None or not self.start.wrong:
             return None
         first, every = self.start.wrong[0], {id(x.statement) for x in self.start.found}
-        alone = self.start.sure > 0 and len({id(x.statement) for x in self.start.wrong}) == 1
+        alone = len({id(x.statement) for x in self.start.wrong[: self.start.sure]}) == 1
         bare = isinstance(first.statement, ast.Return) and isinstance(first.node, ast.Name)
         if not alone or bare or len(every) < 3:
             return None
