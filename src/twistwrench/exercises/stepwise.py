@@ -120,10 +120,10 @@ class Stepwise:
                 if after.events and after.unknown < start.unknown and after.right > start.right:
                     better.append((edit, after))
         better = sorted(better, key=lambda pair: pair[1].unknown)[:MOST]
-        for k, (edit, after) in enumerate(better):
+        for edit, after in better:
             now = time.process_time()
-            for other in self._edits(after, now + (until - now) / (len(better) - k)):
-                if {edit.kind, other.kind} != {"left out", "missing"} and self._mends(other):
+            for other in self._edits(after, now + 0.4 * (until - now)):  # the likeliest may take longest
+                if not _rewritten({edit.kind, other.kind}) and self._mends(other):
                     return [Repair(other, self.before, first=edit)]
         return []
 
@@ -203,6 +203,11 @@ class Stepwise:
         start = time.perf_counter()
         tried(self.part, self.part.solution, arguments)
         return time.perf_counter() - start
+
+
+def _rewritten(kinds: set[str]) -> bool:
+    """Whether one of two changes takes something out and the other puts something in: that is not a slip."""
+    return "left out" in kinds and not kinds.isdisjoint(("missing", "inserted", "instead"))
 
 
 def _within(source: Source, output: Output) -> Source:
