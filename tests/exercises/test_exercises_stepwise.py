@@ -77,3 +77,31 @@ def test_a_value_is_known_whatever_its_sign():
     assert known.has(-0.25)
     assert known.has(np.array([1.0, 2.0, 3.0]))  # whole numbers are met by chance
     assert not known.has(np.array([0.5, -1.5, 2.4]))
+
+
+def counted(kinds):
+    nq = {"revolute": 1, "prismatic": 1, "continuous": 2, "spherical": 4, "free_flyer": 12}
+    nv = {"revolute": 1, "prismatic": 1, "continuous": 1, "spherical": 3, "free_flyer": 6}
+    return sum(nq[k] for k in kinds), sum(nv[k] for k in kinds)
+
+
+def inside(F, d_x, d_y):
+    x, y = (-F[1] / F[5], F[0] / F[5]) if F[5] > 0 else (np.inf, np.inf)
+    return bool(-d_x < x <= d_x and -d_y < y <= d_y)
+
+
+def multiplied_out(F, d_x, d_y):
+    return bool(abs(F[0]) <= d_y * F[5] and abs(F[1]) <= d_x * F[5])
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "says"),
+    [
+        ("count", counted, "With kinds = ['free_flyer'], nq is 12, and must be 7."),
+        ("sole_holds", inside, "lies exactly on an edge"),
+        ("sole_holds", multiplied_out, "has F[0] = F[1] = F[5] = 0, and no other case has"),
+    ],
+)
+def test_what_wrong_cases_share_is_said(name, answer, says):
+    answer.__name__ = name  # its source is not found under that name: nothing is searched
+    assert says in " ".join(judge(*catalogue.find_part(name), answer).message("en").split())

@@ -18,6 +18,7 @@ from .properties import FEW, broken_property, few_entries
 from .relations import describe, of_numbers, of_truths
 from .repairs import Repair, repair_of_blocks, repairs, two_repairs, written
 from .search import Found, exchanged_results, found_edits, right_where
+from .simplest import of_words, shared
 from .slips import SLIPS, Slip
 from .steps import first_wrong
 from .stepwise import Stepwise
@@ -135,7 +136,9 @@ def _unexplained(
     """Report what the comparison shows, from which place on, and on which arguments the answer depends wrongly."""
     lines = [say("no slip"), *(_indented(line) for line in _comparison(part, answers, cases))]
     lines += filter(None, [of_truths([*zip(answers, right)]), place])
+    lines += shared(part, answers, right, cases)
     if again:
+        lines += map(_indented, of_words(part, again, cases))
         lines += map(_indented, not_used(part, again, answers, right, cases))
         lines += filter(None, [right_where(part, again, cases)])
     broken = broken_property(part, answers, cases)

@@ -70,6 +70,18 @@ PHRASES = {
     "repair index": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair missing": Text("`{right}` is missing after `{wrong}`", "`{wrong}` 之后缺少 `{right}`"),
+    "simplest": Text(
+        "With {name} = {given}, {what} is {got}, and must be {right}.",
+        "当 {name} = {given} 时，{what} 为 {got}，应为 {right}。",
+    ),
+    "on edge": Text(
+        "Every case that it judges wrongly lies exactly on an edge: `<` and `<=` differ only there.",
+        "判断错误的每一组数据都恰好在边界上：`<` 与 `<=` 只在那里有区别。",
+    ),
+    "all zero": Text(
+        "Every case that it judges wrongly has {what} = 0, and no other case has.",
+        "判断错误的每一组数据都有 {what} = 0，其余各组都不是这样。",
+    ),
     "first line": Text(
         "Line {line}, `{text}`: there your numbers first leave those of the right solutions. Either it is another way,"
         " or the slip is there.",

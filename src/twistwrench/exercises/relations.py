@@ -200,7 +200,8 @@ def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
         where = np.argwhere(wrong) + origin
         signs = (np.abs(a + b)[wrong] <= tolerance).all()
         text = say("entries", entries=_places(where))
-        return say("is", what=text, relation=say("sign")) if signs else text
+        nothing = not a[wrong].any() and np.abs(b[wrong]).min() > tolerance
+        return say("is", what=text, relation=say("sign" if signs else "zero")) if signs or nothing else text
     rows = wrong.reshape(len(b), -1).any(1) if b.ndim else np.array([True])
     if not rows.all() and b.size > 3:
         return say("rows", rows=", ".join(str(int(k) + (origin[0] if origin else 0)) for k in np.flatnonzero(rows)))
