@@ -219,7 +219,7 @@ def _slip(exercise: Exercise, part: Part, name: str) -> Slip:
 
 def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases, mended: list[Repair]) -> list[Text]:
     """Name the slip, or those that it may be, and the line of the student's where it is."""
-    own = own_lines(mended)
+    own = own_lines(mended, found)
     slips = [_slip(exercise, part, name) for name in found]
     if len(slips) == 1:
         wrong = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers

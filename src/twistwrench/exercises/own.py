@@ -93,10 +93,11 @@ def shown_in(source: str, edit: Edit) -> bool:
     return right in own if edit.kind == "sign" else edit.kind == "left out" and right not in own
 
 
-def own_lines(mended: Sequence[Repair]) -> list[Text]:
+def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     """Report the line of the student's where a slip is, or the two where it may be."""
+    lacking = any(word in SLIPS[slip].title.en for slip in found for word in MISSING)
     whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING]
-    whole = [x for x in whole if x.edit.kind != "name" or not x.edit.everywhere]  # that is another way of writing it
+    whole = [x for x in whole if x.edit.kind != "name" or not lacking]  # another name is not what is missing
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
     either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
     return [say("own code", title=either)] if titles else []
