@@ -88,9 +88,12 @@ def shown_in(source: str, edit: Edit) -> bool:
     own, right, wrong = (re.sub(r"[\s()]", "", text).replace(".mT", ".T") for text in (source, edit.right, edit.wrong))
     if edit.first is not None or edit.kind in ("argument", "result"):
         return False
-    if wrong:
-        return wrong in own and right not in own
-    return right in own if edit.kind == "sign" else edit.kind == "left out" and right not in own
+    if wrong:  # a colon, or a number, is in any
+        return len(wrong) > 2 and any(map(str.isalpha, wrong)) and wrong in own and right not in own
+    called = re.findall(r"[\w.]+(?=\()", edit.right)
+    return (
+        right in own if edit.kind == "sign" else edit.kind == "left out" and not any(x in own for x in (right, *called))
+    )
 
 
 def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
