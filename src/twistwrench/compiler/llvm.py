@@ -140,6 +140,7 @@ class Pieces:
         for turn, (node, group) in reversed([*enumerate(self.turns)]):
             for k in {*(operands(line.nodes[node]) if group is None else group[2])}:
                 self.uses.setdefault(k, []).append(turn)
+        self.due = {k: turns[-1] for k, turns in self.uses.items()}
 
     def _turns(self) -> Iterator[tuple[int, Group | None]]:
         for k, (operation, *_) in enumerate(self.line.nodes):
@@ -164,14 +165,16 @@ class Pieces:
         """End a turn that needed some values."""
         for k in {*needed}:
             self.uses[k].pop()
-            if not self.uses[k]:
+            if self.uses[k]:
+                self.due[k] = self.uses[k][-1]
+            else:
                 self.name.pop(k, None)
                 if k in self.slot:
                     self.free.append(self.slot.pop(k))
         if len(self.text.lines) > PIECE:
             self.end()
         while len(self.name) > self.registers:
-            self.put_away(max(self.name, key=lambda k: self.uses[k][-1]))
+            self.put_away(max(self.name, key=self.due.__getitem__))
 
     def put_away(self, k: int) -> None:
         """Move a value from its register to memory, where a constant is anyway."""
