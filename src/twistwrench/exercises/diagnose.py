@@ -12,7 +12,8 @@ from .exercise import Exercise, Part
 from .independence import not_used
 from .matching import matching_slips, slips_by_piece, two_slips
 from .nearer import Nearer
-from .own import borne_out, by_piece_borne_out, own_lines, shown_in
+from .neighbours import Neighbours
+from .own import borne_out, by_piece_borne_out, shown_in
 from .phrases import say
 from .properties import FEW, broken_property, few_entries
 from .relations import describe, of_numbers, of_truths
@@ -29,8 +30,11 @@ __all__ = ["after_error", "explain"]
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
-SHARES = {"mended": 1.6, "stepped": 2.2, "edited": 3.2, "after": 3.7, "both": 4.8, "twice": 5.3}
+SHARES = {"mended": 1.6, "stepped": 2.2, "known": 2.6, "edited": 3.2, "after": 3.7, "both": 4.8, "twice": 5.3}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
+
+TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
+"""Kinds of changes of a line that say more of a slip with a name: where it is."""
 
 
 def explain(
@@ -64,7 +68,7 @@ def explain(
     if exchanged is not None and any(x.edit.kind == "exchanged" for x in searched()):
         found = [slip for slip in found if slip != "swapped-halves"]
     if found:
-        return found, _named(exercise, part, found, cases, searched())
+        return found, _named(exercise, part, found, cases, [x for x in searched()[:1] if x.edit.kind in TELLING])
     if exchanged is not None:
         return [], [say("slip", title=exchanged), say("exchanged"), _where(exercise, exercise.section)]
     if alike and not searched():
@@ -93,10 +97,12 @@ def _further(
     """Explain what no slip of the list and no single change of the student's lines does."""
     given = function, nearer.right, nearer.answers, nearer.cases
     _, right, answers, cases = given
-    if again is None:
+    steps = Stepwise(part, *given) if again else None
+    mended = steps.one(until["stepped"], every=time.process_time() > until["mended"]) if steps else []
+    if not mended and (known := Neighbours(part, right, cases, until["known"]).lines(answers)):
+        return [], [*known, _where(exercise, exercise.section)]
+    if again is None or steps is None:
         return [], _unexplained(exercise, part, answers, cases, right, None)
-    steps = Stepwise(part, *given)
-    mended = steps.one(until["stepped"], every=time.process_time() > until["mended"])
     edited = [] if mended else found_edits(part, answers, cases, until=until["edited"])
     if edited and not edited[0].edit.first:
         return [], _edited(exercise, part, function, edited, answers, cases)
@@ -137,7 +143,8 @@ def _unexplained(
     if again:
         lines += map(_indented, of_words(part, again, cases))
         lines += map(_indented, not_used(part, again, answers, right, cases))
-        lines += filter(None, [right_where(part, again, cases)])
+        wrong = [c for a, b, c in zip(answers, right, cases) if not agree(part, a, b, c)]
+        lines += filter(None, [right_where(part, again, wrong)])
     broken = broken_property(part, answers, cases)
     if broken is not None:
         lines.append(say("broken", text=broken))
@@ -153,8 +160,7 @@ def _edited(
     cases: Cases,
 ) -> list[Text]:
     """Report which change of a right solution gives the answer, or each wrong thing of it."""
-    source = (written(function) or ("", 0))[0]
-    own = all(shown_in(source, change.edit) for change in found)
+    own = all(shown_in((written(function) or ("", 0))[0], change.edit) for change in found)
     lines = [*_changes(part, found, cases, "edited" if own else "equal"), *_shortly(part, answers, cases)]
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
     return [*lines, *([step] if step else []), _where(exercise, exercise.section)]
@@ -219,7 +225,7 @@ def _slip(exercise: Exercise, part: Part, name: str) -> Slip:
 
 def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases, mended: list[Repair]) -> list[Text]:
     """Name the slip, or those that it may be, and the line of the student's where it is."""
-    own = own_lines(mended, found)
+    own = [say("own code", title=change.title()) for change in mended if change.piece is None]
     slips = [_slip(exercise, part, name) for name in found]
     if len(slips) == 1:
         wrong = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers

@@ -191,7 +191,7 @@ def _number(x: Any) -> str:
         return f"{x!s:>9}"
     if isinstance(x, complex):
         return f"{x:.3g}"
-    return f"{x if abs(x) > NOISE else 0.0:>9.4g}"
+    return f"{0.0 if abs(x) <= NOISE else x:>9.4g}"  # nan stays nan
 
 
 def _assigned(name: str, value: Any) -> list[str]:

@@ -1,5 +1,6 @@
 """Every sentence that a message is made of."""
 
+from .sayings import SAYINGS
 from .text import Text
 
 __all__ = ["PHRASES", "say"]
@@ -214,6 +215,7 @@ PHRASES = {
     "number": Text("number", "计算"),
     "explain": Text("explain", "解释"),
     "prove": Text("prove", "证明"),
+    **SAYINGS,
     # what shows in all cases together
     "fixed size": Text(
         "{name} always has the shape {shape}, whatever the arguments are: the sizes of one robot are written into the"

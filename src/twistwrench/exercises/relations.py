@@ -46,9 +46,11 @@ def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] 
         return [problem]
     if got.array is None or right.array is None:
         text = str(got.raw).strip()
-        return [] if text == str(right.raw).strip() else [_is(name, say("text differs", got=shorten(text, 60)))]
+        return [] if text == str(right.raw).strip() else [_is(name, _text(text, str(right.raw).strip()))]
     if right.array.dtype.kind == "b":
         return _truths(name, got.array, right.array)
+    if np.isnan(right.array).any() and np.isfinite(got.array).all():
+        return [_is(name, say("nan expected"))]
     tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
     relation = _plain(got.array, right.array, tolerance, factors) or _triangle(got.array, right.array, tolerance)
     if relation == say("right"):
@@ -56,6 +58,13 @@ def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] 
     if relation is not None:
         return [_is(name, relation)]
     return _blocks(name, got.quantity.layout, got.array, right.array, tolerance, factors)
+
+
+def _text(got: str, right: str) -> Text:
+    """Report that a text is another one; which error is expected is said."""
+    if right.endswith("Error") and right.isidentifier():
+        return say("error differs", got=shorten(got, 60) or say("nothing"), right=right)
+    return say("text differs", got=shorten(got, 60))
 
 
 def _truths(name: Text, got: Array, right: Array) -> list[Text]:
@@ -88,7 +97,7 @@ def _not_comparable(got: Value, right: Value) -> Text | None:
         return say("shape", name=name, got=got.array.shape, expected=right.array.shape)
     bad = np.argwhere(~np.isfinite(got.array)) if not truths else np.empty((0, 0))
     if len(bad) and np.isfinite(right.array).all():
-        return say("nan", name=name, where=_places(bad))
+        return say("nan", name=name, where=_places(bad)) if got.array.ndim else _is(name, say("no number"))
     return None
 
 

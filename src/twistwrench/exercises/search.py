@@ -113,7 +113,7 @@ def _seconds(part: Part, arguments: tuple[Any, ...]) -> float:
 
 
 PROBES: dict[str, Callable[[Any], Any]] = {
-    "diagonal": lambda x: _diagonal(x),
+    "diagonal": lambda x: [*map(_diagonal, x)] if isinstance(x, list) else _diagonal(x),
     "0": lambda x: [0 * y for y in x] if isinstance(x, list) else 0 * x[...],
     "1": lambda x: [*map(_one, x)] if isinstance(x, list) else _one(x),
     "unturned": lambda x: [*map(_unturned, x)] if isinstance(x, list) else _unturned(x),
@@ -122,6 +122,13 @@ PROBES: dict[str, Callable[[Any], Any]] = {
 
 SHAPES = {"diagonal": "diagonal only", "unturned": "unturned only"}
 """What is said of those that are no number."""
+
+
+def _matrices(x: Sequence[Any]) -> bool:
+    """Whether there are matrices, and not rows of vectors: little is left to compute where they are zero."""
+    arrays = [np.asarray(z) for y in x for z in (y if isinstance(y, list) else [y])]
+    square = all(y.ndim > 1 and y.shape[-1] == y.shape[-2] for y in arrays)
+    return square or any(y.ndim > 1 and y.shape[-1] > 3 for y in arrays)
 
 
 def _diagonal(x: Any) -> Any:
@@ -146,8 +153,13 @@ def _one(x: Any) -> Any:
 
 def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Cases) -> Text | None:
     """Report for which argument a simple value makes the student's function right, if there is one."""
-    for k, name in enumerate(part.arguments.split(", ")):
+    names = part.arguments.split(", ")
+    for k, name in enumerate(names):
         for value, simple in PROBES.items():
+            if value in ("0", "1") and (len(names) == 1 or name == "q"):
+                continue  # little is left to compute, or it is not a configuration
+            if value == "0" and _matrices([c[k] for c in cases]):
+                continue
             try:
                 tests = [(*c[:k], simple(c[k]), *c[k + 1 :]) for c in cases]
             except (IndexError, TypeError):  # no such value

@@ -12,6 +12,7 @@ __all__ = ["habits", "has_no_sign", "is_copy", "is_whole", "numbers", "twins"]
 TWINS = (
     *(("motion_transform", "force_transform"), ("cross_motion", "cross_force"), ("inward", "outward")),
     *(("nonlinear_effects", "gravity"), ("cos", "sin"), ("rotation", "translation"), ("cross", "multiply", "outer")),
+    *(("nanmax", "max"), ("nanmin", "min"), ("nanmean", "mean"), ("nansum", "sum")),
     *(("max", "median", "min", "mean", "sum"), ("solve", "matmul"), ("lower", "upper"), ("any", "all")),
     *(
         ("FR_foot", "FL_foot", "RR_foot"),
