@@ -14,15 +14,7 @@ INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
 
 
 class Text:
-    """Instructions for `width` states at once.
-
-    Parameters
-    ----------
-    scalar : {"double", "float"}
-    width : int
-    constants : dict of str to int, optional
-        What is in memory at ``%constants``, and where; others are added.
-    """
+    """Instructions for `width` states at once; `constants` has what is in memory at ``%constants``, and where."""
 
     def __init__(self, scalar: str, width: int, constants: dict[str, int] | None = None) -> None:
         self.scalar, self.width = scalar, width

@@ -77,19 +77,9 @@ def quantities(
 ) -> dict[str, Quantity]:
     """Return what can be computed of a model, by symbol.
 
-    Parameters
-    ----------
-    model : Model
-    dtype : dtype
-        Decides what counts as singular.
-    contacts : sequence of str or Contact
-        The frames whose origins are in J_c, or contacts of any kind.
-    frames : sequence of str
-        The frames whose placements, Jacobians J and J̇ v are meant, along an axis before their own.
-    reference : str
-        Of J and J̇ v: see `twistwrench.frame_jacobian`.
-    instead : iterable of Quantity
-        Take the place of those of the same symbols, also where derivatives are asked for: a scene's.
+    The number type decides what counts as singular. The contacts are those of J_c; the frames, along an axis before
+    their own, those of placements, J and J̇ v, with this reference. What is given `instead`, a scene's quantities, takes
+    the place of those of the same symbols, also where derivatives are asked for.
     """
 
     def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
