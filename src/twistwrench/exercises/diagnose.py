@@ -13,7 +13,7 @@ from .independence import not_used
 from .matching import matching_slips, slips_by_piece, two_slips
 from .nearer import Nearer
 from .neighbours import Neighbours
-from .own import borne_out, by_piece_borne_out, shown_in
+from .own import borne_out, by_piece_borne_out, own_lines, shown_in
 from .phrases import say
 from .properties import FEW, broken_property, few_entries
 from .relations import describe, of_numbers, of_truths
@@ -32,9 +32,6 @@ Cases = Sequence[tuple[Any, ...]]
 
 SHARES = {"mended": 1.6, "stepped": 2.2, "known": 2.6, "edited": 3.2, "after": 3.7, "both": 4.8, "twice": 5.3}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
-
-TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
-"""Kinds of changes of a line that say more of a slip with a name: where it is."""
 
 
 def explain(
@@ -68,7 +65,7 @@ def explain(
     if exchanged is not None and any(x.edit.kind == "exchanged" for x in searched()):
         found = [slip for slip in found if slip != "swapped-halves"]
     if found:
-        return found, _named(exercise, part, found, cases, [x for x in searched()[:1] if x.edit.kind in TELLING])
+        return found, _named(exercise, part, found, cases, searched())
     if exchanged is not None:
         return [], [say("slip", title=exchanged), say("exchanged"), _where(exercise, exercise.section)]
     if alike and not searched():
@@ -225,7 +222,7 @@ def _slip(exercise: Exercise, part: Part, name: str) -> Slip:
 
 def _named(exercise: Exercise, part: Part, found: list[str], cases: Cases, mended: list[Repair]) -> list[Text]:
     """Name the slip, or those that it may be, and the line of the student's where it is."""
-    own = [say("own code", title=change.title()) for change in mended if change.piece is None]
+    own = own_lines(mended, found)
     slips = [_slip(exercise, part, name) for name in found]
     if len(slips) == 1:
         wrong = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers

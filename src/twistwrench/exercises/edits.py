@@ -153,8 +153,8 @@ class Source:
         """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
         alike: dict[tuple[str, str], list[Place]] = {}
         made = [(*place, x) for place in self.places for k, x in self._alternatives(place[2], place[0]) if k == kind]
-        if kind == "sign":  # a plus for a minus before a minus more
-            made.sort(key=lambda place: isinstance(place[3], ast.UnaryOp))
+        if kind == "sign":  # a plus for a minus before a minus more, and that as near to the result as may be
+            made.sort(key=lambda place: (isinstance(place[3], ast.UnaryOp), -place[2].lineno))
         for place in made:
             texts = self.texts(kind, place)
             alike.setdefault(mark(texts, *place[2:]), []).append(place)

@@ -8,11 +8,13 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .exercise import Part
+from .phrases import say
 from .repairs import Repair, written
 from .slips import SLIPS
+from .text import Text
 from .whole import Edit
 
-__all__ = ["borne_out", "by_own_line", "by_piece_borne_out", "shown_in", "traced"]
+__all__ = ["borne_out", "by_own_line", "by_piece_borne_out", "own_lines", "shown_in", "traced"]
 
 SIGNS = {"cross-order": "cross(", "lever-reversed": " - "}
 """Slips that give the same numbers, the sign of a cross product, and what stands in the line that is turned round."""
@@ -22,6 +24,9 @@ TURNED = ("sign", "wrong end", "mirrored", "factors of the cross product")
 
 MISSING = (" missing", " left out", " dropped", " is lost")
 """Words of the titles of slips that lack something."""
+
+TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
+"""Kinds of changes of a line that say more of a slip with a name: where it is."""
 
 FORCES = ("children-overwritten", "children-dropped")
 """Slips that may give the numbers of a loop in the wrong direction."""
@@ -83,9 +88,22 @@ def shown_in(source: str, edit: Edit) -> bool:
     own, right, wrong = (re.sub(r"[\s()]", "", text).replace(".mT", ".T") for text in (source, edit.right, edit.wrong))
     if edit.first is not None or edit.kind in ("argument", "result"):
         return False
-    if wrong:
-        return wrong in own and right not in own
-    return right in own if edit.kind == "sign" else edit.kind == "left out" and right not in own
+    if wrong:  # a colon, or a number, is in any
+        return len(wrong) > 2 and any(map(str.isalpha, wrong)) and wrong in own and right not in own
+    called = re.findall(r"[\w.]+(?=\()", edit.right)
+    return (
+        right in own if edit.kind == "sign" else edit.kind == "left out" and not any(x in own for x in (right, *called))
+    )
+
+
+def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
+    """Report the line of the student's where a slip is, or the two where it may be."""
+    lacking = any(word in SLIPS[slip].title.en for slip in found for word in MISSING)
+    whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING]
+    whole = [x for x in whole if x.edit.kind != "name" or not lacking]  # another name is not what is missing
+    titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
+    either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
+    return [say("own code", title=either)] if titles else []
 
 
 def by_own_line(found: list[str], edits: Sequence[Edit]) -> list[str]:

@@ -12,7 +12,10 @@ from typing import Any
 
 from .whole import Edit
 
-__all__ = ["is_cross", "is_difference", "plausible", "shuts"]
+__all__ = ["ALIKE", "alike", "anywhere", "plausible", "shuts"]
+
+ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
+"""Kinds of which one may make right what another does, and which are then the same for a student."""
 
 POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
@@ -39,6 +42,10 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
         return False  # it is switched off, or nothing
     if edit.kind == "number" and " != 0" in before and " != 0" not in after:
         return False  # nobody takes another number for the zero that must not be divided by
+    if edit.kind == "left out" and any(
+        isinstance(x, ast.Tuple) and isinstance(y[-1], ast.Assign) for y, _, x, _ in edit.places
+    ):
+        return False  # one of several things that get names is only switched off
     if _unpacked(before, after, text) or _kept(before, after, text):
         return False
     if edit.kind == "name" and _left_over(edit, text):
@@ -57,6 +64,19 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
     if any(name in before and name not in after for name in POSTURES) and any(name in after for name in POSTURES):
         return False
     return edit.kind != "exchanged" or _turned(before, text, reference)
+
+
+def alike(edit: Edit, other: Edit) -> bool:
+    """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
+    crossed, levers = ([f(x.right) for x in (edit, other)] for f in (_cross_text, _difference_text))
+    two = edit.kind == other.kind == "exchanged" and crossed == levers[::-1] and any(crossed)
+    return not two and ALIKE.get(edit.kind) == ALIKE.get(other.kind)
+
+
+def anywhere(edit: Edit, other: Edit) -> Edit:
+    """Return a change without its place, if the same one in another place of the line does the same."""
+    same = (edit.kind, edit.right, edit.line) == (other.kind, other.right, other.line) and edit.places != other.places
+    return replace(edit, places=()) if same and not edit.everywhere and not other.everywhere else edit
 
 
 def shuts(edit: Edit) -> bool:
@@ -116,7 +136,7 @@ def _left_over(edit: Edit, text: str) -> bool:
 
 def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
     """Whether of a lever arm and its cross product, either of which gives the sign, this is the one that is turned."""
-    lever, product = is_difference(before), is_cross(before)
+    lever, product = _difference_text(before), _cross_text(before)
     if not lever and not product:
         return True
     try:
@@ -147,13 +167,13 @@ def _is_arm(node: Any) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
 
 
-def is_cross(text: str) -> bool:
+def _cross_text(text: str) -> bool:
     """Whether a text is a cross product."""
     node = _parsed(text)
     return isinstance(node, ast.Expr) and _is_cross(node.value)
 
 
-def is_difference(text: str) -> bool:
+def _difference_text(text: str) -> bool:
     """Whether a text is a difference, as a lever arm is."""
     node = _parsed(text)
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.Sub)

@@ -24,7 +24,7 @@ from .excerpts import with_operator
 from .exercise import Part
 from .nearer import Nearer
 from .phrases import say
-from .plausible import is_cross, is_difference, plausible, shuts
+from .plausible import ALIKE, alike, anywhere, plausible, shuts
 from .search import Remembering, by_chance, said_where, same
 from .text import Text
 from .whole import Edit, of_arguments, of_order
@@ -36,9 +36,6 @@ PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 
 FURTHER = ("index", "instead")
 """Those that are tried with one of these, or with each other, after them."""
-
-ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
-"""Kinds of which one may make right what another does, and which are then the same for a student."""
 
 OF_RESULT = {
     "np.roll(x, len(x) // 2, 0)": "halves of result",
@@ -168,8 +165,9 @@ def repairs(
                 continue
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
-                if not any(_alike(edit, repair.edit) for repair in mended):
+                if not any(alike(edit, repair.edit) for repair in mended):
                     mended.append(Repair(edit, before, branch=settled(source, edit, part, cases)))
+                mended = [replace(x, edit=anywhere(x.edit, edit)) for x in mended]
                 continue
             if edit.kind == "result" or all(
                 same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here
@@ -183,13 +181,6 @@ def repairs(
         nearer.pieces |= {k: repair.edit for k, repair in found.items()}
         nearer.bad = bad
     return mended or ([found[k] for k in sorted(found)] if found.keys() == bad else [])
-
-
-def _alike(edit: Edit, other: Edit) -> bool:
-    """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
-    crossed, levers = ([f(x.right) for x in (edit, other)] for f in (is_cross, is_difference))
-    two = edit.kind == other.kind == "exchanged" and [*map(int, crossed)] == [*map(int, levers)][::-1] != [0, 0]
-    return not two and ALIKE.get(edit.kind) == ALIKE.get(other.kind)
 
 
 def two_repairs(
