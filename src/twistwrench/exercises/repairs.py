@@ -267,8 +267,8 @@ def written(function: Function) -> tuple[str, int] | None:
         code = next((x.__code__ for x in vars(function).values() if isinstance(x, FunctionType)), None)
     if code is None or (not inspect.isclass(function) and code.co_name != function.__name__):
         return None  # it is wrapped
-    if getattr(function, "__closure__", None):
-        return None  # it cannot be compiled by itself
+    if getattr(function, "__closure__", None) or twistwrench.__path__[0] in code.co_filename:
+        return None  # it cannot be compiled by itself, or is none of a student's
     linecache.checkcache(code.co_filename)
     lines = linecache.getlines(code.co_filename)
     try:
