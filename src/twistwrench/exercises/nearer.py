@@ -89,6 +89,8 @@ class Nearer:
                     break
                 if other.kind == "transposed" and edit.wrong in other.right:
                     continue  # of a product that was turned already: its factors exchanged are the shorter way
+                if edit.kind == other.kind == "sign" and edit.right in other.right and edit.line == other.line:
+                    continue  # twice the sign of one thing is only a copy
                 if self._mends(other):
                     return edit, other
         return None

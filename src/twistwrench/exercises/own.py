@@ -139,8 +139,8 @@ def _halves(slip: str) -> tuple[str, str]:
 def _fits(slip: str, edit: Edit) -> bool:
     """Whether the change that mends the student's line undoes this slip, and not another with the same numbers."""
     title, (said, meant) = SLIPS[slip].title.en, _halves(slip)
-    if slip in SIGNS and edit.kind == "exchanged":
-        return SIGNS[slip] in edit.right or "(" not in edit.right
+    if slip in SIGNS:  # a sign alone is neither
+        return edit.kind == "exchanged" and (SIGNS[slip] in edit.right or "(" not in edit.right)
     backward = any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
     if slip == "visited-outward" or (slip in FORCES and backward):
         return slip == "visited-outward" and backward

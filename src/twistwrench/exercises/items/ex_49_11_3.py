@@ -118,7 +118,7 @@ LOADS = Part(
         "lever-reversed": lambda: _loads()[::-1],
         "nominal-mass": lambda: tuple(12 / 16.085 * f for f in _loads()),
         "mass-for-weight": lambda: tuple(f / 9.81 for f in _loads()),
-        "shared-by-two": lambda: tuple(2 * f for f in _loads()),
+        "pair-for-foot": lambda: tuple(2 * f for f in _loads()),
         "force-sign": lambda: tuple(-f for f in _loads()),
         "g-ten": lambda: tuple(10 / 9.81 * f for f in _loads()),
         "g-rounded": lambda: tuple(9.8 / 9.81 * f for f in _loads()),
