@@ -118,7 +118,7 @@ def test_the_students_own_line_decides(tmp_path, text, says, never):
     assert never not in said
 
 
-def test_a_right_solution_with_one_change_is_not_called_the_slip_where_the_code_has_it_not():
+def test_what_stands_only_in_a_right_solution_is_not_called_the_slip():
     """He reads ω from the upper triangle; nothing of a right solution stands in his code."""
 
     def adjoint(T):
@@ -126,8 +126,8 @@ def test_a_right_solution_with_one_change_is_not_called_the_slip_where_the_code_
         return np.array([[M[1, 2], M[2, 0], M[0, 1], M[0, 3], M[1, 3], M[2, 3]] for M in hats]).T
 
     said = judge(*catalogue.find_part("adjoint"), adjoint).message("en")
-    assert "Your numbers are those of a right solution but for this: the sign of `R` is wrong" in said
-    assert "The slip: the sign of `R`" not in said
+    assert "the right Ad_T, with the other sign" in said
+    assert "`R`" not in said
 
 
 def test_a_sum_that_changes_its_first_term_is_told_so():
@@ -158,3 +158,11 @@ def test_what_comes_in_where_the_answer_is_right_is_not_said_to_be_left_out():
 
     said = judge(*catalogue.find_part("center_of_pressure"), center_of_pressure).message("en")
     assert "does not come into it" not in said
+
+
+def test_a_change_of_a_right_solution_is_called_just_that():
+    def polishing_torques(M, h, J, a, force):
+        return M @ a + h - np.linalg.pinv(J) @ force
+
+    said = judge(*catalogue.find_part("polishing_torques"), polishing_torques).message("en")
+    assert "Your numbers are those of a right solution but for this: `np.linalg.inv(J)` in place of `J.T`" in said

@@ -267,7 +267,7 @@ def cross_operators(V):
     C = np.block([[W, U], [Z, W]])
     return C, C.T
 """,
-            ["With both changes", "the sign of `C.T` is wrong"],
+            ["your V×: the right V×*", "your V×*: the right V×, with the other sign"],
         ),
     ],
 )
