@@ -268,7 +268,7 @@ def written(function: Function) -> tuple[str, int] | None:
     if code is None or (not inspect.isclass(function) and code.co_name != function.__name__):
         return None  # it is wrapped
     if getattr(function, "__closure__", None) or twistwrench.__path__[0] in code.co_filename:
-        return None  # it cannot be compiled by itself, or is none of a student's
+        return None  # it cannot be compiled by itself, or is not of a student
     linecache.checkcache(code.co_filename)
     lines = linecache.getlines(code.co_filename)
     try:
