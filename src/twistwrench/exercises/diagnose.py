@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-from .compare import agree, pieces, values
+from .aliases import missing_copies
+from .compare import agree, values
 from .exercise import Exercise, Part
 from .independence import not_used
 from .matching import matching_slips, slips_by_piece, two_slips
@@ -16,7 +17,7 @@ from .neighbours import Neighbours
 from .own import borne_out, by_piece_borne_out, own_lines, shown_in
 from .phrases import say
 from .properties import FEW, broken_property, few_entries
-from .relations import describe, of_numbers, of_truths
+from .relations import describe, of_numbers, of_structure, of_truths
 from .repairs import Repair, repair_of_blocks, repairs, two_repairs, written
 from .search import Found, exchanged_results, found_edits, right_where
 from .simplest import of_words, shared
@@ -60,6 +61,8 @@ def explain(
     def searched() -> list[Repair]:
         return repairs(part, function, right, answers, cases, until=until["mended"], nearer=nearer) if again else []
 
+    if again and (copies := missing_copies(part, function, right, cases)):
+        return [], [*copies, _where(exercise, exercise.section)]
     exchanged, alike = exchanged_results(part, answers, cases), matching_slips(part, answers, cases)
     found = borne_out(alike, function, [x for x in searched() if x.piece is None]) if alike else []
     if exchanged is not None and any(x.edit.kind == "exchanged" for x in searched()):
@@ -75,7 +78,7 @@ def explain(
     if pieces_found and by_piece_borne_out(part, pieces_found, function, searched()):
         names = list(dict.fromkeys(name for found in pieces_found.values() for name in found))
         return names, _named_by_piece(exercise, part, pieces_found)
-    structure = _structure(part, answers) or of_numbers(part, answers, right)
+    structure = of_structure(part, answers) or of_numbers(part, answers, right)
     if structure is not None:
         return [], [structure, _where(exercise, exercise.section)]
     if searched():
@@ -283,18 +286,3 @@ def _same_factors(shown: list[Text], elsewhere: list[list[Text]]) -> bool:
         for said in elsewhere
         for line, what in about.items()
     )
-
-
-def _structure(part: Part, answers: Answers) -> Text | None:
-    """Report that nothing was returned, or the wrong number of values."""
-    for answer in answers:
-        if answer is None:
-            return say("none")
-        if pieces(answer, part.returns) is None:
-            names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
-            return say("pieces", n=len(part.returns), names=names, got=_count(answer))
-    return None
-
-
-def _count(answer: Any) -> str:
-    return str(len(answer)) if isinstance(answer, tuple | list) else type(answer).__name__

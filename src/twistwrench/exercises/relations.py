@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from .compare import FLOOR, Value, values
+from .compare import FLOOR, Value, pieces, values
 from .exercise import Part
 from .layouts import Layout
 from .phrases import say
 from .text import Text
 
-__all__ = ["describe", "of_numbers", "of_truths"]
+__all__ = ["describe", "of_numbers", "of_structure", "of_truths"]
 
 TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
 """Factors that are reported: they show the slip. Others are chance, and would give a number away."""
@@ -36,6 +36,21 @@ def of_numbers(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text
         if whole and any(a.any() for a, _ in both):
             return say("cut off", name=name)
     return None
+
+
+def of_structure(part: Part, answers: Sequence[Any]) -> Text | None:
+    """Report that nothing was returned, or the wrong number of values."""
+    for answer in answers:
+        if answer is None:
+            return say("none")
+        if pieces(answer, part.returns) is None:
+            names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
+            return say("pieces", n=len(part.returns), names=names, got=_count(answer))
+    return None
+
+
+def _count(answer: Any) -> str:
+    return str(len(answer)) if isinstance(answer, tuple | list) else type(answer).__name__
 
 
 def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] = TELLING) -> list[Text]:

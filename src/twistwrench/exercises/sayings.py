@@ -23,6 +23,27 @@ SAYINGS = {
         "the {name} that the function `{function}` of exercise {id} returns",
         "练习 {id} 的函数 `{function}` 返回的 {name}",
     ),
+    # what is kept from one call to the next
+    "kept in": Text(
+        "Called for the first time it is right with these arguments, too; after other calls it is not: `{name}` keeps"
+        " something from one call to the next. Make it anew in each call; a default like `out=[]` is made only once.",
+        "第一次调用时，用这些参数结果也正确；先调用过别的参数之后就不对了：`{name}` 把某些内容从一次调用留到了下一次。"
+        "请在每次调用时重新建立；`out=[]` 这样的默认值只生成一次。",
+    ),
+    "kept by module": Text(
+        "Called for the first time it is right with these arguments, too; after other calls it is not: it keeps"
+        " something from one call to the next (a global variable, a default argument, a cache). Make it"
+        " anew in each call.",
+        "第一次调用时，用这些参数结果也正确；先调用过别的参数之后就不对了：它把某些内容从一次调用留到了下一次"
+        "（全局变量、参数的默认值或缓存）。请在每次调用时重新建立。",
+    ),
+    # a second name for one array
+    "second name": Text(
+        "The slip: line {line}, `{text}` copies nothing: `{name}` and `{value}` are the same numbers in memory,"
+        " and what is written into one of them changes both. Write `{name} = {value}.copy()`.",
+        "错因：第 {line} 行，`{text}` 并没有复制：`{name}` 与 `{value}` 是内存中的同一组数，写入其一，二者都变。"
+        "请写 `{name} = {value}.copy()`。",
+    ),
     # what cannot be compared
     "nan expected": Text("a number, where nan is expected", "给出了一个数，而应为 nan"),
     "nothing": Text("nothing", "无"),
