@@ -38,7 +38,7 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
         first = replace(edit, kind=kind, right=right, wrong=wrong, line=line, first=None)
         return plausible(first, text, reference) and plausible(replace(edit, first=None), text, reference)
     before, after = edit.right, edit.wrong
-    if any(x in after and x not in before for x in ("0 * ", "1 * ")):
+    if any(x in after and x not in before for x in ("0 * ", "1 * ")) or after.endswith(" / 1"):
         return False  # it is switched off, or nothing
     if edit.kind == "number" and " != 0" in before and " != 0" not in after:
         return False  # nobody takes another number for the zero that must not be divided by
