@@ -100,14 +100,7 @@ def _without_number(model: Any, q: Any, v: Any, a: Any) -> Any:
     return np.nan * tw.rnea(model, q, v, a)
 
 
-def _one_without_number(model: Any, q: Any, v: Any, a: Any) -> Any:
-    back = tw.rnea(model, q, v, a)
-    back[7] = np.nan
-    return back
-
-
 BROKEN = Variant(Text("not a number", "不是数"), _without_number)
-PARTLY = Variant(Text("one entry not a number", "有一个分量不是数"), _one_without_number)
 RESTING = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, a: tw.rnea(model, q, 0 * v, a))
 HELD = Variant(Text("base held", "基座固定"), held_acceleration)
 
@@ -121,12 +114,7 @@ def _states(rng: Any) -> Any:
         tau = np.concatenate([np.zeros(6), 10 * rng.standard_normal(model.nv - 6)])
         cases.append((forward, INVERSE, model, model.random_configuration(rng=rng), rng.standard_normal(model.nv), tau))
     slight = [(_less(part), INVERSE, *cases[0][2:]) for part in (1e4, 1e-2, 1e-4, 1e-6, 1e-8)]
-    return [
-        *cases,
-        (RIGHT, RESTING, *cases[0][2:]),
-        *slight,
-        *((RIGHT, inverse, *cases[0][2:]) for inverse in (BROKEN, PARTLY)),
-    ]
+    return [*cases, (RIGHT, RESTING, *cases[0][2:]), *slight, (RIGHT, BROKEN, *cases[0][2:])]
 
 
 CONSISTENCY = Part(
