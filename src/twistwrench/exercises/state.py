@@ -38,7 +38,7 @@ def kept_in_module(part: Part, function: Function, wrong: Sequence[Sequence[Any]
         The arguments of each wrong case, and what is expected.
     """
     names = getattr(function, "__globals__", None) or getattr(getattr(function, "__wrapped__", None), "__globals__", {})
-    if not wrong or inspect.isclass(function) or not [*_holders(names)]:
+    if not wrong or names.get(part.name) is not function or inspect.isclass(function) or not [*_holders(names)]:
         return None
     source = "".join(linecache.getlines(str(names.get("__file__", ""))))
     changed: set[str] = set()
