@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from ..algorithms.factorization import checked_factors, solve_inward, solve_outward
+from ..algorithms.articulated import articulated_inertias
+from ..algorithms.inverse_mass import unit_force_responses
 from ..algorithms.rnea import newton_euler, rnea
 from ..arrays import Array
 from ..arrays.exact import elementary
@@ -25,24 +26,21 @@ from .number import ARITHMETIC, Tape, numbers
 from .quantity import Quantity, shapes
 from .registers import as_number_of
 from .tangent import directions, jacobian, steps
-from .watch import pivots
 
 __all__ = ["derivatives", "of_line", "regressor", "replay"]
 
 Compute = Callable[..., tuple[Array, list[Any]]]
 
 
-def derivatives(model: Model, quantity: Quantity, dtype: np.dtype[Any]) -> Iterator[Quantity]:
+def derivatives(model: Model, quantity: Quantity) -> Iterator[Quantity]:
     """Yield the derivatives of a quantity with respect to its arguments, ``dtau_dq``: its axes, and one of nv columns.
 
-    Those with respect to q are for steps along v, as in `Model.integrate`: x(q ⊕ ε e_k) = x(q) + ε column k. The number
-    type decides what counts as singular.
+    Those with respect to q are for steps along v, as in `Model.integrate`: x(q ⊕ ε e_k) = x(q) + ε column k.
     """
+    make = _of_acceleration if quantity.symbol == "qdd" else of_line
     for name in quantity.arguments:
         if name != "f_ext":
-            direct = quantity.symbol == "qdd"
-            compute = _of_acceleration(model, name, dtype) if direct else of_line(model, quantity, name)
-            yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, compute)
+            yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, make(model, quantity, name))
 
 
 def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
@@ -62,31 +60,20 @@ def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
     return compute
 
 
-def _of_acceleration(model: Model, of: str, dtype: np.dtype[Any]) -> Compute:
+def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
     """Return what computes ∂q̈: M⁻¹ for τ, and −M⁻¹ ∂τ at this q̈ for q and v, since M q̈ + h = τ stays as it is.
 
-    M = LᵀDL keeps the zeros between branches, which M⁻¹ has not. So these are fewer operations than the ABA's own line,
-    differentiated: 13 900 for a Go2 in place of 25 400.
+    Fewer operations than the ABA's own line, differentiated: 17 800 for a Go2 in place of 25 400. M⁻¹ and ∂τ/∂v
+    do not depend on q̈, so for them only the pivots of the ABA are recorded, at rest.
     """
     inverse = Quantity("tau", ("q", "v", "a", "f_ext"), lambda *x: (rnea(model, *x), []))
     d_tau = of_line(model, inverse, of) if of != "tau" else None
 
     def compute(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
+        qdd, watched = forward.compute(q, v, tau, *f_ext) if of == "q" else forward.compute(q, 0 * v, 0 * tau)
         tree = tree_terms(model, q)
-        L, D, inboard = checked_factors(model, tree)
-
-        def solve(B: Array) -> Array:
-            return solve_outward(L, inboard, (1 / D)[..., None] * solve_inward(L, inboard, B))
-
-        if d_tau:
-            rest = (tau - rnea(model, q, v, 0 * v, *f_ext))[..., None]
-            qdd = solve(rest)[..., 0] if of == "q" else 0 * v  # ∂τ/∂v does not depend on it
-            result = -solve(d_tau(q, v, qdd, *f_ext)[0])
-        else:
-            result = solve(np.broadcast_to(np.eye(model.nv, dtype=q.dtype), L.shape))
-        if q.dtype != object:
-            return result, []
-        return result, [*pivots(model, tree, [np.diag(1 / D[s]) for s in model.v_slice], dtype)]
+        M_inv = unit_force_responses(tree, articulated_inertias(tree))
+        return -M_inv @ d_tau(q, v, qdd, *f_ext)[0] if d_tau else M_inv, watched
 
     return compute
 

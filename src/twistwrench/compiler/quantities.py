@@ -123,7 +123,7 @@ def quantities(
     ]
     known = {quantity.symbol: quantity for quantity in every} | {x.symbol: x for x in instead}
     every = [*known.values(), *inverses(model, dtype, frames, known["J_c"])]
-    every += [of("Y", "q v a", regressor), *(d for quantity in every for d in derivatives(model, quantity, dtype))]
+    every += [of("Y", "q v a", regressor), *(d for quantity in every for d in derivatives(model, quantity))]
     return {quantity.symbol: quantity for quantity in every}
 
 
