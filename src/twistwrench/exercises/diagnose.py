@@ -65,8 +65,14 @@ def explain(
         return [], [*copies, _where(exercise, exercise.section)]
     exchanged, alike = exchanged_results(part, answers, cases), matching_slips(part, answers, cases)
     found = borne_out(alike, function, [x for x in searched() if x.piece is None]) if alike else []
-    if exchanged is not None and any(x.edit.kind == "exchanged" for x in searched()):
-        found = [slip for slip in found if slip != "swapped-halves"]
+    if exchanged is not None:
+        lines = (written(function) or ("", 0))[0].split("\n")
+        others = (x for x in searched() if x.piece is None and not lines[x.edit.line - 1].strip().startswith("return"))
+        own = [x.title() for x in others]
+        if own:  # his results are right in the other order, too
+            either = [say("either"), *map(_indented, [say("other order"), *own]), say("either way", all=len(cases))]
+            return [], [*either, _where(exercise, exercise.section)]
+        found = [slip for slip in found if slip != "swapped-halves" or not searched()]
     if found:
         return found, _named(exercise, part, found, cases, searched())
     if exchanged is not None:

@@ -15,6 +15,7 @@ __all__ = [
     "FORCE_TRANSFORM",
     "INERTIA",
     "JACOBIAN",
+    "JOINTS_MAP",
     "JOINT_SPACE",
     "MASS_MATRIX",
     "MOMENTUM",
@@ -98,5 +99,7 @@ PINOCCHIO_INERTIA = Layout((_PINOCCHIO_MOMENTUM, _PINOCCHIO_MOTION))
 JACOBIAN = Layout((_MOTION, _JOINTS))
 MASS_MATRIX = Layout((_JOINTS, _JOINTS))
 CENTROIDAL_MAP = Layout((_MOMENTUM, _STATE))
+JOINTS_MAP = Layout((_MOMENTUM, ((Text("of the joints", "关节"), slice(0, None)),)))
+"""The centroidal map without the base's columns."""
 CONTACT_JACOBIAN = Layout((_FEET, _JOINTS))
 POSE = Layout((_POSE_ROWS, _POSE_COLUMNS))

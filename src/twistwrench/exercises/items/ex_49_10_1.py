@@ -7,7 +7,7 @@ import numpy as np
 import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
-from ..layouts import CENTROIDAL_MAP, INERTIA
+from ..layouts import INERTIA, JOINTS_MAP
 from ..robots import larger, states
 from ..wrong import faulty, swapped
 
@@ -36,7 +36,7 @@ def _bodies(rng: Any) -> Any:
 
 SPLIT = Part(
     solution=split_map,
-    returns=(Quantity("A_Gb", INERTIA), Quantity("A_Gj", CENTROIDAL_MAP)),
+    returns=(Quantity("A_Gb", INERTIA), Quantity("A_Gj", JOINTS_MAP)),
     cases=lambda rng: [*states(rng), *larger(rng)],
     slips={
         "swapped-halves": faulty(split_map, ("tw.centroidal_map(model, q)", "swap(tw.centroidal_map(model, q))")),
