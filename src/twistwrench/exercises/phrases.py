@@ -84,9 +84,9 @@ PHRASES = {
         "判断错误的每一组数据都有 {what} = 0，其余各组都不是这样。",
     ),
     "first line": Text(
-        "Line {line}, `{text}`: there your numbers first leave those of the right solutions. Either it is another way,"
-        " or the slip is there.",
-        "第 {line} 行 `{text}`：你的数值从这里开始与正确解法的不同。要么这是另一种做法，要么错误就在这里。",
+        "Line {line}, `{text}`: there your numbers first leave those of the right solutions. The slip is there or"
+        " before, unless it is only another way.",
+        "第 {line} 行 `{text}`：你的数值从这里开始与正确解法的不同。错误在这里或更前面，除非这只是另一种做法。",
     ),
     "repair argument": Text(
         "with `{right}` in place of the argument `{wrong}` the function is right",

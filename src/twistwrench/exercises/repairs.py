@@ -18,7 +18,7 @@ import twistwrench
 from .alternatives import KINDS
 from .branches import settled
 from .calls import copied, local_values, tried
-from .compare import agree
+from .compare import agree, copied_results
 from .edits import Source
 from .excerpts import with_operator
 from .exercise import Part
@@ -76,7 +76,7 @@ class Repair:
 
     def title(self) -> Text:
         """Report what must stand where."""
-        if self.first is not None and self.first.wrong == self.edit.right:  # two changes of the same piece are one
+        if self.first and self.edit.wrong and self.first.wrong == self.edit.right:  # two changes of one piece are one
             return Repair(replace(self.edit, kind="instead", right=self.first.right), self.before).title()
         if self.first is not None:
             both = (Repair(edit, self.before).title() for edit in (self.first, self.edit))
@@ -138,8 +138,6 @@ def repairs(
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
     rare = 2 * sum(wrong) < len(wrong)
-    if pairs and rare:
-        return []  # two slips that make up for each other in most cases are not made
     seconds = {k: _seconds(part, function, cases[k]) for k, bad in enumerate(wrong) if bad}
     first = min(seconds, key=lambda k: seconds[k])
     every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
@@ -147,7 +145,7 @@ def repairs(
     found: dict[int, Repair] = {}
     mended: list[Repair] = []
     source, before = source_of(part, function, cases[first])
-    if source is None:
+    if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
         return []
     if nearer is not None:
         nearer.begin(source, before, first, seconds[first])
@@ -165,6 +163,8 @@ def repairs(
                 continue
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
+                if copied_results(others, right, answers):  # what is asked for in two ways is not computed in one
+                    continue
                 if not any(alike(edit, repair.edit) for repair in mended):
                     mended.append(Repair(edit, before, branch=settled(source, edit, part, cases)))
                 mended = [replace(x, edit=anywhere(x.edit, edit)) for x in mended]
