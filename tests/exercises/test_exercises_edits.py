@@ -85,7 +85,7 @@ PARTS = {
     if part.arguments and not exercise.needs  # Pinocchio can end the process at an edit
 }
 
-SECONDS = 30
+SECONDS = 4
 """Of the processor, for the edits of one function: the likeliest come first."""
 
 

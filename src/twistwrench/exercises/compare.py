@@ -95,7 +95,7 @@ def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bo
 
 
 def copied_results(answers: Sequence[Any], right: Sequence[Any], before: Sequence[Any]) -> bool:
-    """Whether two things returned are the same to the last bit in all answers, but not in the right ones, nor before."""
+    """Whether two things returned are the same to the last bit in all answers, but not in the right ones or before."""
     if not all(isinstance(x, tuple | list) and len(x) == 2 for x in [*answers, *right, *before]):
         return False
     same = [all(np.array_equal(first, second) for first, second in many) for many in (answers, right, before)]
