@@ -190,7 +190,13 @@ class Textbook:
         states = dict(zip(("q", *others), floats_of(self.model, args[0], **others)))
         batch, dtype = states["q"].shape[:-1], states["q"].dtype
         none = {name: np.empty((0, *x.shape[len(batch) :]), dtype) for name, x in states.items()}
-        tails = {name: x.shape[1:] for name, x in computed(self.quantities, none).items()}
+        try:
+            tails = {name: x.shape[1:] for name, x in computed(self.quantities, none).items()}
+        except (
+            SingularError
+        ):  # it is singular wherever it stands: of no states, only the tips of massless limbs are named
+            computed(self.quantities, states)
+            raise
         given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
         check_outputs(given, batch, tails, dtype)
         filled = {name: np.empty((*batch, *tail), dtype) for name, tail in tails.items()}
