@@ -23,7 +23,7 @@ ANSWERS = [
     ),
     Weak("skew", "return np.array([[0, -w[2], w[1]], [w[2], 0, w[0]], [-w[1], w[0], 0]])", "wrong in [1, 2]"),
     Weak("act", "return R @ (x + p)", "translation comes before the rotation"),
-    Weak("act", "return np.linalg.inv(R) @ x + p", "Rᵀ in place of R"),
+    Weak("act", "return np.linalg.inv(R) @ x + p", "`np.linalg.inv` does not belong there"),
     Weak("adjoint", "return np.array([tw.vee(np.linalg.inv(T) @ tw.hat(e) @ T) for e in np.eye(6)]).T", "the inverse"),
     Weak("adjoint", "return np.array([tw.vee(T @ tw.hat(e) @ np.linalg.inv(T)) for e in np.eye(6)])", "is transposed"),
     Weak(
@@ -337,7 +337,7 @@ ANSWERS = [
     Weak(
         "tree_energy", "return sum(v @ (s.T @ i @ s) @ v for s, i, v in zip(S, I, qd)) / 2", "twist is not carried on"
     ),
-    Weak("rows_of_foot", "return R @ (J[3:] + tw.skew(r) @ J[:3])", "the factors of the cross product are exchanged"),
+    Weak("rows_of_foot", "return R @ (J[3:] + tw.skew(r) @ J[:3])", "the sign of `tw.skew(r) @ J[:3]` is wrong"),
     Weak("accelerated", "return np.linalg.inv(M) @ (J_c.T @ forces - h)", "the motors do nothing"),
     Weak(
         "own_centroidal_map",

@@ -1,5 +1,6 @@
 """The project, stage 2: the trees of the recursions."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,9 +24,13 @@ def columns(arrays: Any) -> Any:
 
 
 def trees(rng: np.random.Generator) -> list[tuple[Model, Any, Any, Any, Any]]:
-    """Return model and lists of Go2 and of two trees with joints of every kind, each in some posture."""
+    """Return model and lists of Go2 and of two trees with joints of every kind, each in some posture.
+
+    Of the second the world carries the last body, and so more than one.
+    """
     found = []
-    for model in (robot("go2"), random_tree(6, rng=rng), random_tree(6, rng=rng, base="floating")):
+    rooted = next(tree for tree in iter(partial(random_tree, 6, rng=rng), None) if tree.parent[-1] == 0)
+    for model in (robot("go2"), rooted, random_tree(6, rng=rng, base="floating")):
         tree = tree_terms(model, model.random_configuration(rng=rng))
         found.append((model, tree.parent, [*tree.S], [*tree.I], [*tree.X]))
     return found
