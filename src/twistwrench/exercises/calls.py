@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
@@ -64,11 +65,26 @@ def limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, before)
 
 
+def _finite(a: Any, b: Any, *others: Any, **named: Any) -> Any:
+    """Solve least squares of finite numbers: of others LAPACK may never come back, and no alarm reaches it."""
+    if not (np.isfinite(a).all() and np.isfinite(b).all()):
+        raise np.linalg.LinAlgError("least squares of numbers that are not finite")
+    return _lstsq(a, b, *others, **named)
+
+
+_lstsq = np.linalg.lstsq
+
+
 def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
     """Return what a function that may be faulty gives; None where it raises an error or does not end."""
     _rounds[0] = 0
     try:
-        with limited(LONGEST), warnings.catch_warnings(), np.errstate(all="ignore"):
+        with (
+            limited(LONGEST),
+            patch.object(np.linalg, "lstsq", _finite),
+            warnings.catch_warnings(),
+            np.errstate(all="ignore"),
+        ):
             warnings.simplefilter("ignore")
             return part.value(function, copied(arguments))
     except (Exception, SystemExit, _TooLong):  # whatever an edit leads to
