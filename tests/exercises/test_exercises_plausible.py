@@ -1,13 +1,12 @@
 """What is said to be the slip is one that somebody makes, not a change that switches off what is wrong."""
 
-import linecache
-
 import numpy as np
 import pytest
 
-import twistwrench as tw
-from twistwrench.exercises import catalogue, mine
+from twistwrench.exercises import catalogue
 from twistwrench.exercises.judge import judge
+
+from .answers import said_of
 
 SKEW = """\
 def skew(w):
@@ -80,13 +79,7 @@ def arc(omega_z, v_x):
     ],
 )
 def test_the_slip_is_one_that_somebody_makes(tmp_path, text, says, never):
-    path = tmp_path / "answer.py"
-    path.write_text("\n" * 10 + text, encoding="utf-8")
-    names = {"np": np, "tw": tw, "mine": mine}
-    exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
-    name = text[4 : text.index("(")]
-    said = " ".join(judge(*catalogue.find_part(name), names[name]).message("en").split())
-    linecache.clearcache()
+    said = said_of(tmp_path, text)
     assert says in said
     assert never not in said
 

@@ -1,14 +1,13 @@
 """A wrong answer is followed statement by statement: what is missing, what must stand there, and two slips at once."""
 
-import linecache
-
 import numpy as np
 import pytest
 
-import twistwrench as tw
-from twistwrench.exercises import catalogue, mine
+from twistwrench.exercises import catalogue
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.records import Known
+
+from .answers import said_of
 
 FALL = """\
 def fall_in_motion(model, q, v):
@@ -59,13 +58,7 @@ def vertical_loads(p_G, feet, weight):
     ],
 )
 def test_the_first_statement_that_is_wrong_is_mended(tmp_path, text, says):
-    path = tmp_path / "answer.py"
-    path.write_text("\n" * 10 + text, encoding="utf-8")
-    names = {"np": np, "tw": tw, "mine": mine}
-    exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
-    name = text[4 : text.index("(")]
-    said = " ".join(judge(*catalogue.find_part(name), names[name]).message("en").split())
-    linecache.clearcache()
+    said = said_of(tmp_path, text)
     for line in says:
         assert line in said
 
