@@ -18,7 +18,7 @@ from .own import borne_out, by_piece_borne_out, own_lines, shown_in
 from .phrases import say
 from .properties import FEW, broken_property, few_entries
 from .relations import describe, of_numbers, of_structure, of_truths
-from .repairs import Repair, repair_of_blocks, repairs, two_repairs, written
+from .repairs import Repair, repair_of_blocks, repairs, text_written, two_repairs
 from .search import Found, exchanged_results, found_edits, right_where
 from .simplest import of_words, shared
 from .slips import SLIPS, Slip
@@ -66,7 +66,7 @@ def explain(
     exchanged, alike = exchanged_results(part, answers, cases), matching_slips(part, answers, cases)
     found = borne_out(alike, function, [x for x in searched() if x.piece is None]) if alike else []
     if exchanged is not None:
-        lines = (written(function) or ("", 0))[0].split("\n")
+        lines = text_written(function).split("\n")
         others = (x for x in searched() if x.piece is None and not lines[x.edit.line - 1].strip().startswith("return"))
         own = [x.title() for x in others]
         if own:  # his results are right in the other order, too
@@ -166,7 +166,7 @@ def _edited(
     cases: Cases,
 ) -> list[Text]:
     """Report which change of a right solution gives the answer, or each wrong thing of it."""
-    own = all(shown_in((written(function) or ("", 0))[0], change.edit) for change in found)
+    own = all(shown_in(text_written(function), change.edit) for change in found)
     lines = [*_changes(part, found, cases, "edited" if own else "equal"), *_shortly(part, answers, cases)]
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
     return [*lines, *([step] if step else []), _where(exercise, exercise.section)]

@@ -11,7 +11,7 @@ import numpy as np
 from .compare import Value, agree, close, values
 from .exercise import Part
 from .own import traced
-from .repairs import written
+from .repairs import text_written
 from .wrong import swap
 
 __all__ = ["MISHAPS", "matching_slips", "slips_by_piece", "two_slips"]
@@ -82,7 +82,7 @@ def slips_by_piece(
             made[slip] = [values(answer, part.returns) for answer in _slipped(part, other, cases) or []]
     made = {slip: found for slip, found in made.items() if found}
     touched = {slip: {k for k in every if not same(other, right, k)} for slip, other in made.items()}
-    found, source = {}, (written(function) or ("", 0))[0]
+    found, source = {}, text_written(function)
     typed = not cases[0] and not any(word in source for word in COMPUTED)
     words = {k for k, x in enumerate(right[first] or []) if x.array is None}
     for k in sorted(wrong):

@@ -9,7 +9,7 @@ from typing import Any
 
 from .exercise import Part
 from .phrases import say
-from .repairs import Repair, written
+from .repairs import Repair, text_written
 from .slips import SLIPS
 from .text import Text
 from .whole import Edit
@@ -52,7 +52,7 @@ def borne_out(found: list[str], function: Callable[..., Any], mended: Sequence[R
     mended : sequence of Repair
         Each makes it right; empty where none was found.
     """
-    source = (written(function) or ("", 0))[0]
+    source = text_written(function)
     edits = [repair.edit for repair in mended]
     found = by_own_line(found, edits)
     if source:

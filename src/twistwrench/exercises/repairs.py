@@ -29,7 +29,7 @@ from .search import Remembering, by_chance, said_where, same
 from .text import Text
 from .whole import Edit, of_arguments, of_order
 
-__all__ = ["Repair", "guarded", "repair_of_blocks", "repairs", "source_of", "two_repairs", "written"]
+__all__ = ["Repair", "guarded", "repair_of_blocks", "repairs", "source_of", "text_written", "two_repairs", "written"]
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
@@ -191,7 +191,7 @@ def two_repairs(
     Where there are no two, one for each of the things returned, though it spoils another that is wrong anyway.
     """
     chance, whole = by_chance(part, arguments), bool(arguments) and not inspect.isclass(function)
-    text = (written(function) or ("", 0))[0]
+    text = text_written(function)
 
     def chosen(source: Source) -> Iterator[Edit]:
         edits = (edit for edit in _single(source, whole) if edit.kind not in chance)
@@ -233,7 +233,7 @@ def _changes(
     part: Part, function: Function, source: Source, arguments: tuple[Any, ...], until: float, pairs: bool
 ) -> Iterator[Edit]:
     """Yield the changes of a student's function, for as long as a search may take."""
-    chance, text = by_chance(part, arguments), (written(function) or ("", 0))[0]
+    chance, text = by_chance(part, arguments), text_written(function)
     whole = bool(arguments) and not inspect.isclass(function)
     for edit in _pairs(source) if pairs else _single(source, whole):
         if time.process_time() > until:
@@ -258,6 +258,11 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
             yield from (edit for edit in of_arguments(source.compiled()) if not edit.wrong.startswith("0 *"))
         if kind == "index" and arguments:  # their order is given: it is seldom mistaken
             yield from of_order(source.compiled())
+
+
+def text_written(function: Function) -> str:
+    """Return the source of a student's function, an empty text where it is unknown."""
+    return (written(function) or ("", 0))[0]
 
 
 def written(function: Function) -> tuple[str, int] | None:

@@ -25,7 +25,7 @@ from .outputs import Output, outputs, suspects
 from .phrases import say
 from .plausible import plausible
 from .records import Event, arrays, known_values, recorded, tells
-from .repairs import PAIRED, Repair, source_of, written
+from .repairs import PAIRED, Repair, source_of, text_written
 from .search import Remembering, by_chance
 from .text import Text
 from .whole import Edit
@@ -76,7 +76,7 @@ class Stepwise:
         cases: Sequence[tuple[Any, ...]],
     ) -> None:
         self.part, self.right, self.cases = part, right, cases
-        self.text = (written(function) or ("", 0))[0]
+        self.text = text_written(function)
         wrong = [k for k, given in enumerate(zip(answers, right, cases)) if not agree(part, *given)]
         self.seldom = 2 * len(wrong) < len(cases)
         self.first = min(wrong, key=lambda k: self._seconds(cases[k]))
