@@ -92,7 +92,7 @@ def peers(rounds: int) -> Iterator[Row]:
     from peers import expected
     from peers import peers as installed
 
-    from twistwrench.robots.catalogue import find
+    from twistwrench.loading.catalogue import find
 
     model = tw.load("go2")
     s = random_states(model, 10_000)

@@ -12,9 +12,7 @@ array([[ 0., -3.,  2.],
        [-2.,  1.,  0.]])
 """
 
-import sys
 from importlib import import_module
-from types import ModuleType
 from typing import Any
 
 import lazy_loader
@@ -22,13 +20,6 @@ import lazy_loader
 __version__ = "0.1.0"
 
 _load, _, __all__ = lazy_loader.attach_stub(__name__, __file__)
-sys.modules[
-    __name__
-].__class__ = ModuleType  # lazy_loader's own class guards `robots`, but no function could be pickled
-
-# The one eager import: the folder has the name of its function, which must be bound after it.
-from .robots import load as load  # noqa: E402
-from .robots import robots as robots  # noqa: E402
 
 
 def __getattr__(name: str) -> Any:

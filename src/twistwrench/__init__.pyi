@@ -55,6 +55,7 @@ from .contact import (
 )
 from .error_bounds import Accuracy, accuracy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
+from .loading import load, robots
 from .model.builder import Builder
 from .model.editing import attach, replace_inertia
 from .model.joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
@@ -62,7 +63,6 @@ from .model.model import Model
 from .model.reduction import Reduction, lock_joints
 from .model.samples import chain, random_tree
 from .model.serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
-from .robots import load, robots
 from .scene import Scene
 from .simulation import DivergenceError, Ground, Simulation, simulate
 from .spatial.cross import cross_force, cross_motion

@@ -129,7 +129,7 @@ def add_robots(commands: Commands) -> None:
 
 def run_robots(args: argparse.Namespace) -> int:
     """Print the catalogue."""
-    from .robots import Catalogue, robots
+    from .loading import Catalogue, robots
 
     print(Catalogue(robot for robot in robots() if args.source in (None, robot.source)))
     return 0

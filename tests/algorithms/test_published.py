@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.robots import catalogue
+from twistwrench.loading import catalogue
 
 from . import published
 from .published import one

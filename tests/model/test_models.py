@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from twistwrench import center_of_mass, frame_placement, static_equilibrium
-from twistwrench.robots import catalogue, load, robots
+from twistwrench.loading import catalogue, load, robots
 
 OWN = [robot for robot in robots() if robot.source == "models"]
 

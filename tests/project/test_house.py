@@ -15,7 +15,7 @@ TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
     *("errors", "tables", "arrays", "newton_euler_3d", "spatial", "model", "algorithms"),
-    *("compiler", "fast", "error_bounds", "tracing", "robots", "plot"),
+    *("compiler", "fast", "error_bounds", "tracing", "loading", "plot"),
     *("files", "stopping", "options", "timing", "contact", "simulation", "motions", "templates", "scene"),
     *("bridge", "viewing", "__init__", "validate", "study", "exercises", "cli", "__main__"),
 ]

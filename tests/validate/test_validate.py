@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.loading.catalogue import find
 from twistwrench.model import random_tree
-from twistwrench.robots.catalogue import find
 from twistwrench.validate import Judge, quantities, sweep, validate
 from twistwrench.validate.conditioning import forward_dynamics_bound
 from twistwrench.validate.oracle import Oracle

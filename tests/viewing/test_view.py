@@ -15,7 +15,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import motions, plot
 from twistwrench.cli import main
-from twistwrench.robots.catalogue import PREFIX, find
+from twistwrench.loading.catalogue import PREFIX, find
 from twistwrench.spatial import quaternion_to_rotation
 from twistwrench.viewing.controls import add_joints, add_time
 from twistwrench.viewing.origin import only_own_page
@@ -443,7 +443,7 @@ def test_meshes_of_another_robot_are_not_put_on(tmp_path):
 def test_our_robots_have_the_meshes_of_example_robot_data_and_none_without_it(monkeypatch):
     here = [shape.body for shape in shapes(GO2, "go2")]
     assert here == [shape.body for shape in shapes(GO2, f"{PREFIX}go2")]
-    monkeypatch.setattr(sys.modules["twistwrench.robots.catalogue"], "example_robot_data_folder", lambda: None)
+    monkeypatch.setattr(sys.modules["twistwrench.loading.catalogue"], "example_robot_data_folder", lambda: None)
     assert shapes(GO2, "go2") == []
 
 

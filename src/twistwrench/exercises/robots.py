@@ -10,8 +10,8 @@ import numpy as np
 from ..algorithms.crba import crba
 from ..algorithms.rnea import nonlinear_effects
 from ..arrays import Array
+from ..loading import load
 from ..model import Model, random_tree
-from ..robots import load
 
 __all__ = ["held_acceleration", "larger", "robot", "small_robot", "states", "weightless"]
 

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_exactly
 from ..errors import ModelError, no_model
+from ..loading import load
 from ..model import Model, in_double, one_configuration
-from ..robots import load
 
 __all__ = ["posture", "whole_robot"]
 

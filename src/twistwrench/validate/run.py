@@ -12,10 +12,10 @@ import numpy as np
 
 from ..arrays import as_count
 from ..errors import NameNotFound, no_model
+from ..loading import load
+from ..loading.catalogue import find
+from ..loading.reading import read_robot_xml
 from ..model import Model
-from ..robots import load
-from ..robots.catalogue import find
-from ..robots.reading import read_robot_xml
 from .fast_rows import FAST
 from .measure import Judge
 from .oracle import Oracle

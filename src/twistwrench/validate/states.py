@@ -78,7 +78,7 @@ def random_states(model: Model, n: int, *, rng: np.random.Generator | int, frame
 
     Examples
     --------
-    >>> from twistwrench.robots import load
+    >>> from twistwrench.loading import load
     >>> random_states(load("pendulum"), 8, rng=0).f_ext.shape
     (8, 2, 6)
     """

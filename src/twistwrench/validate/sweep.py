@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from multiprocessing import active_children, get_context, parent_process
 from typing import Any, Literal
 
-from ..robots import robots
-from ..robots.catalogue import PREFIX, example_robot_data_folder
+from ..loading import robots
+from ..loading.catalogue import PREFIX, example_robot_data_folder
 from ..stopping import without_interrupts
 from .report import Report, notes, number, pad
 from .run import validate

@@ -55,7 +55,7 @@ def run_view(args: argparse.Namespace) -> int:
 def _view(args: argparse.Namespace, **how: Any) -> Any:
     """Call `view` with the options of the command line."""
     from ..errors import unknown_name
-    from ..robots import load
+    from ..loading import load
     from .viewer import view
 
     model, q = load(args.robot, base=args.base, physical=False), None

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from ..loading.catalogue import PREFIX, find, known
+from ..loading.reading import read_robot_xml
 from ..model import Model
-from ..robots.catalogue import PREFIX, find, known
-from ..robots.reading import read_robot_xml
 from ..spatial import SE3
 from .meshes import Unseen, find_mesh, read_mesh
 

@@ -13,10 +13,10 @@ from ..algorithms.kinematics import forward_kinematics
 from ..arrays import Array, as_exactly, as_sequence
 from ..contact import Contact, PointContact, contact_inverse_dynamics, contact_placements
 from ..errors import ShapeError, SingularError, no_model
+from ..loading import load
 from ..model import Model, in_double
 from ..motions import Motion
 from ..plot.style import drawn, newtons
-from ..robots import load
 from ..scene import Scene
 from ..simulation import Simulation
 

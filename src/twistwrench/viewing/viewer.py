@@ -111,7 +111,7 @@ def view(
 def _in_browser(
     robot: Any, seen: Subject, frames: Collection[str] | None, meshes: str | PathLike[str] | bool
 ) -> Browser:
-    from ..robots.catalogue import known
+    from ..loading.catalogue import known
     from .browser import Browser, import_viser
     from .shapes import shapes
 

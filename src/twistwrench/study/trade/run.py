@@ -16,8 +16,8 @@ import numpy as np
 import twistwrench as tw
 
 from ...errors import ModelError, unknown_name
+from ...loading import load
 from ...model import Model
-from ...robots import load
 from ...validate.oracle import Oracle
 from ...validate.states import States, random_states
 from .derivatives import derivative

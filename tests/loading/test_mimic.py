@@ -246,7 +246,7 @@ def test_massless_followers_leave_no_singular_row(save):
 @pytest.mark.parametrize("name", ["panda", "baxter", "tiago_pro", "pr2"])
 def test_robots_of_the_catalogue_equal_pinocchios(name):
     pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
-    from twistwrench.robots.catalogue import find
+    from twistwrench.loading.catalogue import find
 
     model = tw.load(name, base="fixed", mimic="reduce", physical=False)
     theirs = pin.buildModelFromUrdf(str(find(name).path), mimic=True)
@@ -271,7 +271,7 @@ def written_laws(path):
 def test_robots_whose_leaders_come_later_equal_pinocchios_full_model_projected_by_hand(name):
     """Pinocchio's own ``mimic=True`` demands that a leader comes before those that follow it."""
     pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
-    from twistwrench.robots.catalogue import find
+    from twistwrench.loading.catalogue import find
 
     path = find(name).path
     model = tw.load(name, base="floating", mimic="reduce", physical=False)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from twistwrench import ModelError
-from twistwrench.robots import load
+from twistwrench.loading import load
 
 INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
 LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'

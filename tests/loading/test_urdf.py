@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.robots import load
+from twistwrench.loading import load
 
 
 def write(folder, body, name="robot"):

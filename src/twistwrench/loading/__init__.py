@@ -9,15 +9,17 @@ from __future__ import annotations
 from os import PathLike
 from os.path import exists
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import Any, Literal, cast
 
+from numpy.typing import ArrayLike
+
+from ..algorithms.mimic import follow
+from ..arrays import as_flag, check_choice
 from ..errors import ModelError, NameNotFound, no_model
+from ..model import Model
 from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
-
-if TYPE_CHECKING:  # `import twistwrench` runs this: `load` imports what the catalogue does not need
-    from numpy.typing import ArrayLike
-
-    from ..model import Model
+from .srdf import read_states, with_stance, with_states
+from .urdf import load_urdf
 
 __all__ = ["Catalogue", "Robot", "load", "robots"]
 
@@ -86,11 +88,6 @@ def load(
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown robot 'go3'; did you mean 'go2', 'go1', ...
     """
-    from ..algorithms.mimic import follow
-    from ..arrays import as_flag, check_choice
-    from .srdf import read_states, with_stance, with_states
-    from .urdf import load_urdf
-
     if base is not None:
         check_choice(base, "base", ("fixed", "floating"), ModelError)
     if mimic is not None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import twistwrench as tw
-from twistwrench.robots.catalogue import example_robot_data_folder
+from twistwrench.loading.catalogue import example_robot_data_folder
 
 from ..pages import blocks, names_author_and_licence, page, run
 

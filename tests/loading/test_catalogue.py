@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from twistwrench import ModelError, center_of_mass, frame_placement
-from twistwrench.robots import catalogue, load, robots
-from twistwrench.robots.reading import read_robot_xml
-from twistwrench.robots.srdf import read_states, with_stance, with_states
-from twistwrench.robots.stances import STANCES, Stance
+from twistwrench.loading import catalogue, load, robots
+from twistwrench.loading.reading import read_robot_xml
+from twistwrench.loading.srdf import read_states, with_stance, with_states
+from twistwrench.loading.stances import STANCES, Stance
 
 FOLDER = catalogue.example_robot_data_folder()
 OWN = [robot for robot in robots() if robot.source == "models"]

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from twistwrench.robots import load, robots
-from twistwrench.robots.catalogue import example_robot_data_folder
+from twistwrench.loading import load, robots
+from twistwrench.loading.catalogue import example_robot_data_folder
 
 TOLERANCE = 1e-13
 
