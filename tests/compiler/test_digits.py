@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 
 import numpy as np
@@ -112,8 +113,9 @@ def test_what_a_sum_is_rounded_by_is_kept():
         (lambda x, y: x / y, 15),
         (lambda x, _: x.sqrt() if hasattr(x, "sqrt") else mpmath.sqrt(x), 4),
         (lambda x, y: x * y - y * y, None),
+        (lambda x, _: x / Fraction(7, 3), 16),
     ],
-    ids=["+", "-", "×", "÷", "√", "× and -"],
+    ids=["+", "-", "×", "÷", "√", "× and -", "÷ 7/3"],
 )
 def test_operations_on_pairs_are_as_right_as_was_proved(operation, limit, fma):
     rng = np.random.default_rng(0)

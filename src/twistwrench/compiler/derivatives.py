@@ -7,7 +7,7 @@ wanted: with numbers that remember, which drop what is zero there and share what
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -21,8 +21,8 @@ from ..arrays import Array
 from ..arrays.exact import elementary
 from ..model import Model, columns, tree_terms
 from ..spatial.rotation import cross_matrix
-from .line import Line
-from .number import ARITHMETIC, Tape, numbers
+from .line import operands, ordered
+from .number import ARITHMETIC, Number, Tape, numbers
 from .quantity import Quantity, shapes
 from .registers import as_number_of
 from .tangent import directions, jacobian, steps
@@ -52,9 +52,7 @@ def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
         result, watched = quantity.compute(*x.values())
         tangents = steps(model, x["q"]) if of == "q" else directions(x[of])
         J = jacobian(tape, np.asarray(result, object), tangents, model.nv)
-        by_column = np.moveaxis(J, -1, 0).flat
-        line = Line.of(tape, _shapes_of(x), {"J": J, "watched": np.array(watched, object)}, by_column)
-        J, questions = replay(line, known)
+        J, questions = replay(tape, [J, np.array(watched, object)], known)
         return J, [*questions] if J.dtype.hasobject else []
 
     return compute
@@ -73,9 +71,18 @@ def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
         qdd, watched = forward.compute(q, v, tau, *f_ext) if of == "q" else forward.compute(q, 0 * v, 0 * tau)
         tree = tree_terms(model, q)
         M_inv = unit_force_responses(tree, articulated_inertias(tree))
-        return -M_inv @ d_tau(q, v, qdd, *f_ext)[0] if d_tau else M_inv, watched
+        return _product(-M_inv, d_tau(q, v, qdd, *f_ext)[0]) if d_tau else M_inv, watched
 
     return compute
+
+
+def _product(A: Array, B: Array) -> Array:
+    """Return A B; of numbers that remember, without the products that are zero."""
+    if not A.dtype.hasobject:
+        return A @ B
+    columns = [{k: x for k, x in enumerate(column) if type(x) is Number or x} for column in B.mT]
+    C = [[sum((row[k] * x for k, x in column.items()), Fraction(0)) for column in columns] for row in A]
+    return np.array(C, object)
 
 
 def regressor(model: Model, q: Array, v: Array, a: Array) -> Array:
@@ -92,7 +99,7 @@ def regressor(model: Model, q: Array, v: Array, a: Array) -> Array:
     bodies = replace(tree, I=[tree.I[0], *map(_inertia, ten)], rotor=[0 * rotor for rotor in tree.rotor])
     tau = newton_euler(bodies, columns(model, x["v"]), columns(model, x["a"]), nothing).tau
     Y = jacobian(tape, tau, directions(ten), ten.size)
-    return replay(Line.of(tape, _shapes_of(x), {"Y": Y}), known)[0]
+    return replay(tape, [Y], known)[0]
 
 
 def _inertia(ten: Array) -> Array:
@@ -111,30 +118,31 @@ def _fresh(model: Model, like: Mapping[str, Array]) -> tuple[Tape, dict[str, Arr
     return tape, x
 
 
-def _shapes_of(x: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
-    return {name: array.shape for name, array in x.items()}
+def replay(tape: Tape, results: Sequence[Array], arguments: Mapping[str, Array]) -> list[Array]:
+    """Return what is on a tape for numbers of any kind: floats with batch axes, or numbers that remember again.
 
-
-def replay(line: Line, arguments: Mapping[str, Array]) -> list[Array]:
-    """Return the results of a line for numbers of any kind: floats with batch axes, or numbers that remember again."""
+    Column by column, each operation just before it is first needed: so that fewer numbers are waiting at any time.
+    """
     dtype, q = np.result_type(*arguments.values()), arguments["q"]
     exact = dtype.hasobject
-    values: list[Any] = []
-    for operation, *rest in line.nodes:
+    values: dict[int, Any] = {}
+    wanted = [tape.node(x) for result in results for x in np.moveaxis(result, -1, 0).flat]
+    for k in ordered(wanted, lambda k: operands(tape.nodes[k])):
+        operation, *rest = tape.nodes[k]
         if operation == "input":
             name, *index = rest[0]
-            values.append(arguments[name][(*index,) if exact else (..., *index)])
+            values[k] = arguments[name][(*index,) if exact else (..., *index)]
         elif operation == "const":
-            values.append(rest[0] if exact else as_number_of(dtype, rest[0]))
+            values[k] = rest[0] if exact else as_number_of(dtype, rest[0])
         elif operation in ARITHMETIC:
-            values.append(ARITHMETIC[operation](*(values[k] for k in rest)))
+            values[k] = ARITHMETIC[operation](*[values[j] for j in rest])
         else:
             x = values[rest[0]]
-            values.append(elementary(operation, x) if exact else getattr(np, operation)(x))
-    results = []
-    for shape, nodes in line.outputs.values():
-        result = np.empty((*q.shape[:-1], len(nodes)), dtype)
-        for entry, k in enumerate(nodes):
-            result[..., entry] = values[k]
-        results.append(result.reshape(*q.shape[:-1], *shape))
-    return results
+            values[k] = elementary(operation, x) if exact else getattr(np, operation)(x)
+    found = []
+    for result in results:
+        x = np.empty((*q.shape[:-1], result.size), dtype)
+        for entry, one in enumerate(result.flat):
+            x[..., entry] = values[tape.node(one)]
+        found.append(x.reshape(*q.shape[:-1], *result.shape))
+    return found

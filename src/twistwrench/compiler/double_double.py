@@ -129,10 +129,11 @@ class Rewriting:
         b, e_b = self._size(self.pair[places[1]]), bounds[1]
         if operation == "mul":  # |âb̂ − ab| ≤ |â| e_b + e e_b + |b̂| e
             return own + ((a + e) * e_b + b * e)
-        if isinstance(e_b, Fraction) and e_b == 0:
-            return own + (e + TINY) / b
-        root = (b - 2 * e_b).sqrt()  # |â/b̂ − a/b| ≤ (e + |â/b̂| e_b) / (|b̂| − e_b); not a number where b may be 0
-        return own + (e + result * e_b + TINY) / (root * root)
+        gap = b - 2 * e_b  # |â/b̂ − a/b| ≤ (e + |â/b̂| e_b) / (|b̂| − e_b)
+        if isinstance(gap, Number) and not (isinstance(e_b, Fraction) and e_b == 0):
+            root = gap.sqrt()  # not a number where b may be 0
+            gap = root * root
+        return own + (e + result * e_b + TINY) / gap
 
     def _size(self, pair: Pair) -> Any:
         """Write the size of a number, to all digits of a double."""

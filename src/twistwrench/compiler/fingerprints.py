@@ -28,7 +28,7 @@ from typing import Any
 
 import numpy as np
 
-from .line import Line, operands, ordered
+from .line import Line, needed, operands, ordered
 from .number import ARITHMETIC, Node, Number, Tape
 
 __all__ = ["each_once"]
@@ -48,32 +48,33 @@ def each_once(line: Line) -> Line:
 
     Of the others only constants are found: if limbs shared them, they would not be alike any longer (see `packs`).
     """
-    marks: list[Mark] = []
-    tape, fingerprint = Tape((lambda: line.notes[len(marks)]) if line.notes else None), Fingerprint(PRIME)
-    values: list[Any] = []
+    k, count = 0, len(line.nodes)
+    tape, fingerprint = Tape((lambda: line.notes[k]) if line.notes else None), Fingerprint(PRIME)
+    marks: list[Mark] = [()] * count
+    values: list[Any] = [None] * count
+    turns = [False] * count  # whether a number depends on a sine
     known: dict[int, Any] = {}
-    turns: list[bool] = []  # whether a number depends on a sine
     constants = Constants(line)
-    for k, node in enumerate(line.nodes):
+    for k in needed(line.nodes, line.results):
+        node = line.nodes[k]
         operation = node[0]
-        mark = fingerprint.of(node, marks)
+        mark = marks[k] = fingerprint.of(node, marks)
+        one = mark[0]
         if operation == "const":
             value = node[1]
         elif operation == "input":
             value = tape.input(node[1])
+        elif one in known:
+            value, turns[k] = known[one], True
         else:
-            value = known.get(mark[0])
-            if value is None and mark[0] == mark[1]:
-                value = constants.of(k, mark[0])
-            elif value is None and (opposite := known.get(PRIME - mark[0])) is not None:
-                value = -opposite
+            value = constants.of(k, one) if one == mark[1] else None
+            if value is None and PRIME - one in known:
+                value = -known[PRIME - one]
             if value is None:
                 value = _again(tape, operation, [values[j] for j in node[1:]])
             if type(value) is Number and (operation in ("sin", "cos") or turns[node[1]] or turns[node[-1]]):
-                known.setdefault(mark[0], value)
-        turns.append(mark[0] in known)
-        marks.append(mark)
-        values.append(value)
+                known[one], turns[k] = value, True
+        values[k] = value
     if line.notes:
         tape.note = lambda: None  # constants of the results belong to no step
     results = {name: np.empty(shape, object) for name, (shape, _) in line.outputs.items()}

@@ -14,47 +14,44 @@ INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
 
 
 class Text:
-    """Instructions for `width` states at once; `constants` has what is in memory at ``%constants``, and where."""
+    """Instructions for `width` states at once; `constants` has what is in memory at ``%constants``, and where.
+
+    ``%V`` is the type of `width` numbers. A value has a number: LLVM reads it in half the time of a name.
+    """
 
     def __init__(self, scalar: str, width: int, constants: dict[str, int] | None = None) -> None:
         self.scalar, self.width = scalar, width
-        self.type = self.vector(scalar)
         self.bytes = 8 if scalar == "double" else 4
         self.lines: list[str] = []
+        self.count = 0
         self.declared: set[str] = set()
         self.constants = {} if constants is None else constants
 
-    def vector(self, scalar: str) -> str:
-        """Return the type of `width` numbers of a type."""
-        return scalar if self.width == 1 else f"<{self.width} x {scalar}>"
-
-    def splat(self, scalar: str, one: str) -> str:
-        """Return a constant that is the same for all states."""
-        return one if self.width == 1 else "<" + ", ".join([f"{scalar} {one}"] * self.width) + ">"
-
     def new(self, instruction: str) -> str:
         """Write an instruction, and return the name of its result."""
-        name = f"%t{len(self.lines)}"
+        self.count += 1
+        name = f"%{self.count}"
         self.lines.append(f"{name} = {instruction}")
         return name
 
     def constant(self, x: Any) -> str:
         """Write the load of a constant, rounded to the number type."""
         rounded = float(x) if self.scalar == "double" else float(np.float32(float(x)))
-        bits = self.splat(self.scalar, f"0x{struct.unpack('<Q', struct.pack('<d', rounded))[0]:016X}")
-        place = self.constants.setdefault(bits, len(self.constants))
-        return self.new(f"load {self.type}, ptr {self.new(f'getelementptr {self.type}, ptr %constants, i64 {place}')}")
+        bits = f"0x{struct.unpack('<Q', struct.pack('<d', rounded))[0]:016X}"
+        same = bits if self.width == 1 else f"<{', '.join([f'{self.scalar} {bits}'] * self.width)}>"
+        place = self.constants.setdefault(same, len(self.constants))
+        return self.new(f"load %V, ptr {self.new(f'getelementptr %V, ptr %constants, i64 {place}')}")
 
     def operate(self, operation: str, *operands: str) -> str:
         """Write an operation of a line."""
-        if operation == "neg":
-            return self.new(f"fsub {self.type} {self.constant(-0.0)}, {operands[0]}")
         if operation in INSTRUCTIONS:
-            return self.new(f"{INSTRUCTIONS[operation]} {self.type} {operands[0]}, {operands[1]}")
+            return self.new(f"{INSTRUCTIONS[operation]} %V {operands[0]}, {operands[1]}")
+        if operation == "neg":
+            return self.new(f"fsub %V {self.constant(-0.0)}, {operands[0]}")
         kind = ("" if self.width == 1 else f"v{self.width}") + f"f{8 * self.bytes}"
-        function = f"{self.type} @llvm.{INTRINSICS[operation]}.{kind}"
-        self.declared.add(f"declare {function}({', '.join([self.type] * len(operands))})")
-        return self.new(f"call {function}({', '.join(f'{self.type} {x}' for x in operands)})")
+        function = f"%V @llvm.{INTRINSICS[operation]}.{kind}"
+        self.declared.add(f"declare {function}({', '.join(['%V'] * len(operands))})")
+        return self.new(f"call {function}({', '.join(f'%V {x}' for x in operands)})")
 
     # ---------------------------------------------------------------- memory
 
@@ -74,7 +71,7 @@ class Text:
         """Return up to W entries of all states."""
         if count == self.width:
             places = [self.entry(row, start) for row in rows]
-            return self.transposed([self.new(f"load {self.type}, ptr {p}, align {self.bytes}") for p in places])
+            return self.transposed([self.new(f"load %V, ptr {p}, align {self.bytes}") for p in places])
         values = []
         for k in range(start, start + count):
             value = "undef"
@@ -87,7 +84,7 @@ class Text:
         """Store up to W entries: the way of `load` back."""
         if len(values) == self.width:
             for row, x in zip(rows, self.transposed(values)):
-                self.lines.append(f"store {self.type} {x}, ptr {self.entry(row, start)}, align {self.bytes}")
+                self.lines.append(f"store %V {x}, ptr {self.entry(row, start)}, align {self.bytes}")
             return
         for k, value in enumerate(values, start):
             for lane, row in enumerate(rows):
@@ -95,13 +92,11 @@ class Text:
 
     def insert(self, values: str, one: str, lane: int) -> str:
         """Put a number into a register."""
-        return (
-            one if self.width == 1 else self.new(f"insertelement {self.type} {values}, {self.scalar} {one}, i32 {lane}")
-        )
+        return one if self.width == 1 else self.new(f"insertelement %V {values}, {self.scalar} {one}, i32 {lane}")
 
     def extract(self, values: str, lane: int) -> str:
         """Take a number out of a register."""
-        return values if self.width == 1 else self.new(f"extractelement {self.type} {values}, i32 {lane}")
+        return values if self.width == 1 else self.new(f"extractelement %V {values}, i32 {lane}")
 
     def entry(self, row: str, k: int) -> str:
         """Return where entry k of a row is."""
@@ -117,7 +112,7 @@ class Text:
                 high = [j + W if j & half else j + half for j in range(W)]
                 for place, choice in ((k, low), (k + half, high)):
                     mask = ", ".join(f"i32 {j}" for j in choice)
-                    pair = f"{self.type} {rows[k]}, {self.type} {rows[k + half]}"
+                    pair = f"%V {rows[k]}, %V {rows[k + half]}"
                     turned[place] = self.new(f"shufflevector {pair}, <{W} x i32> <{mask}>")
             rows, half = turned, 2 * half
         return rows

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -28,63 +28,44 @@ class Line:
 
     Attributes
     ----------
-    nodes : tuple of tuple
+    nodes : sequence of tuple
         ("input", (name, index, …)), ("const", Fraction), or (operation, operands, …) with the indices of earlier nodes.
     inputs : mapping of str to tuple of int
         The shape of each argument.
     outputs : mapping of str to Output
-    notes : tuple
+    notes : sequence
         Of each node, where the tape took notes: the step of the chapter that it belongs to.
     """
 
-    nodes: tuple[Node, ...]
+    nodes: Sequence[Node]
     inputs: Mapping[str, tuple[int, ...]]
     outputs: Mapping[str, Output]
-    notes: tuple[Any, ...] = ()
+    notes: Sequence[Any] = ()
 
     @classmethod
-    def of(
-        cls,
-        tape: Tape,
-        inputs: Mapping[str, tuple[int, ...]],
-        results: Mapping[str, Array],
-        wanted: Iterable[Any] | None = None,
-    ) -> Line:
-        """Keep of a tape what the results depend on.
+    def whole(cls, tape: Tape, inputs: Mapping[str, tuple[int, ...]], results: Mapping[str, Array]) -> Line:
+        """Return all that is on a tape."""
+        outputs = {name: (result.shape, tuple(map(tape.node, result.flat))) for name, result in results.items()}
+        return cls(tape.nodes, dict(inputs), outputs, tape.notes)
 
-        If numbers are wanted one after the other, each operation is just before it is first needed: so that fewer
-        numbers are waiting at any time.
-        """
-        outputs = {
-            name: (result.shape, tuple(tape.number(x).index for x in result.flat)) for name, result in results.items()
-        }
-        every = [k for _, entries in outputs.values() for k in entries]
-        if wanted is None:
-            return cls._reduced(tape.nodes, tape.notes, inputs, outputs, needed(tape.nodes, every))
-        order = ordered([*(tape.number(x).index for x in wanted), *every], lambda k: operands(tape.nodes[k]))
-        return cls._reduced(tape.nodes, tape.notes, inputs, outputs, order)
+    @classmethod
+    def of(cls, tape: Tape, inputs: Mapping[str, tuple[int, ...]], results: Mapping[str, Array]) -> Line:
+        """Keep of a tape what the results depend on."""
+        return cls.whole(tape, inputs, results).reduced()
 
     def without(self, name: str) -> Line:
         """Return what is left where a result is not asked for."""
-        outputs = {other: output for other, output in self.outputs.items() if other != name}
-        wanted = [k for _, entries in outputs.values() for k in entries]
-        return self._reduced(self.nodes, self.notes, self.inputs, outputs, needed(self.nodes, wanted))
+        return replace(self, outputs={other: self.outputs[other] for other in self.outputs if other != name}).reduced()
 
-    @classmethod
-    def _reduced(
-        cls,
-        nodes: Sequence[Node],
-        notes: Sequence[Any],
-        inputs: Mapping[str, tuple[int, ...]],
-        outputs: Mapping[str, Output],
-        order: Iterable[int],
-    ) -> Line:
-        """Return a line of some nodes, in an order in which operands come before what needs them."""
-        kept = [*order]
-        new = {old: k for k, old in enumerate(kept)}
-        renumbered = tuple(_renumbered(nodes[old], new) for old in kept)
-        renamed = {name: (shape, tuple(new[k] for k in entries)) for name, (shape, entries) in outputs.items()}
-        return cls(renumbered, dict(inputs), renamed, tuple(notes[old] for old in kept) if notes else ())
+    def reduced(self) -> Line:
+        """Return it without what no result needs."""
+        kept, new = needed(self.nodes, self.results), [0] * len(self.nodes)
+        for k, old in enumerate(kept):
+            new[old] = k
+        each = [self.nodes[old] for old in kept]
+        nodes = [node if node[0] in LEAVES else (node[0], *map(new.__getitem__, node[1:])) for node in each]
+        outputs = {name: (shape, tuple([new[k] for k in entries])) for name, (shape, entries) in self.outputs.items()}
+        return Line(tuple(nodes), self.inputs, outputs, tuple(self.notes[old] for old in kept) if self.notes else ())
 
     @cached_property
     def inner(self) -> frozenset[int]:
@@ -119,8 +100,8 @@ def needed(nodes: Sequence[Node], wanted: Iterable[int], ends: Container[int] = 
     for k in wanted:
         found[k] = 1
     for k in range(len(nodes) - 1, -1, -1):
-        if found[k] and k not in ends:
-            for j in operands(nodes[k]):
+        if found[k] and nodes[k][0] not in LEAVES and k not in ends:
+            for j in nodes[k][1:]:
                 found[j] = 1
     return [k for k, one in enumerate(found) if one]
 
@@ -142,7 +123,3 @@ def ordered(wanted: Sequence[int], needs: Callable[[int], Sequence[int]]) -> Ite
 def operands(node: Node) -> tuple[int, ...]:
     """Return the nodes that an operation needs."""
     return () if node[0] in LEAVES else node[1:]
-
-
-def _renumbered(node: Node, new: Mapping[int, int]) -> Node:
-    return node if node[0] in LEAVES else (node[0], *map(new.__getitem__, node[1:]))

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arrays import Array
 from .instructions import Text
-from .line import Line, operands
+from .line import LEAVES, Line
 from .memory import without_garbage
 from .sine import sine_and_cosine
 
@@ -30,7 +30,7 @@ NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 PIECE = 800
 """Instructions that are compiled at once."""
 
-LONG = 1_000_000
+LONG = 750_000
 """Letters of a text for which LLVM assigns registers in its quickest way: what comes out is a few per cent slower."""
 
 Group = tuple[int, int, Sequence[int]]
@@ -106,12 +106,12 @@ def written(line: Line, scalar: str, width: int) -> str:
     It can do so, without its slower ways, where constants are loaded from memory.
     """
     pieces = Pieces(line, scalar, width)
-    for node, group in pieces.turns:
+    for needed, node, group in pieces.turns:
         if group:
             pieces.store(*group)
         elif node not in pieces.name and node not in pieces.slot:  # a cosine is there with its sine
             pieces.compute(node)
-        pieces.done(operands(line.nodes[node]) if group is None else group[2])
+        pieces.done(needed)
     pieces.end()
     return pieces.module()
 
@@ -121,7 +121,8 @@ class Pieces:
 
     There are a few registers and thousands of values. When they are all taken, the value whose next use is farthest
     goes to memory (Bélády), and is loaded when it is needed again. LLVM would find out itself, in twice the time.
-    In `turns` is what is to be written: each node to compute, in the end each group of results, in the order of memory.
+    In `turns` is what is to be written, after the nodes that it needs: each node to compute, in the end each group of
+    results, in the order of memory.
     """
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
@@ -137,23 +138,24 @@ class Pieces:
         self.arrays = {name: k for k, name in enumerate(line.inputs)}
         self.turns = [*self._turns()]
         self.uses: dict[int, list[int]] = {}  # of each node the turns that need it, the last first
-        for turn, (node, group) in reversed([*enumerate(self.turns)]):
-            for k in {*(operands(line.nodes[node]) if group is None else group[2])}:
+        for turn in range(len(self.turns) - 1, -1, -1):
+            for k in self.turns[turn][0]:
                 self.uses.setdefault(k, []).append(turn)
         self.due = {k: turns[-1] for k, turns in self.uses.items()}
 
-    def _turns(self) -> Iterator[tuple[int, Group | None]]:
-        for k, (operation, *_) in enumerate(self.line.nodes):
-            if operation not in ("input", "const"):
-                yield k, None
+    def _turns(self) -> Iterator[tuple[set[int], int, Group | None]]:
+        for k, node in enumerate(self.line.nodes):
+            if node[0] not in LEAVES:
+                yield {*node[1:]}, k, None
         for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
             for start in range(0, len(entries), self.width):
-                yield 0, (array, start, entries[start : start + self.width])
+                group = entries[start : start + self.width]
+                yield {*group}, 0, (array, start, group)
 
     def compute(self, k: int) -> None:
         """Write the operation of a node."""
         operation, *needed = self.line.nodes[k]
-        values = [self.value(j) for j in needed]
+        values = [self.name.get(j) or self.value(j) for j in needed]
         if operation in ("sin", "cos"):
             both = sine_and_cosine(self.text, *values)
             found = {self.places.get((name, *needed)): value for name, value in zip(("sin", "cos"), both)}
@@ -163,10 +165,11 @@ class Pieces:
 
     def done(self, needed: Iterable[int]) -> None:
         """End a turn that needed some values."""
-        for k in {*needed}:
-            self.uses[k].pop()
-            if self.uses[k]:
-                self.due[k] = self.uses[k][-1]
+        for k in needed:
+            uses = self.uses[k]
+            uses.pop()
+            if uses:
+                self.due[k] = uses[-1]
             else:
                 self.name.pop(k, None)
                 if k in self.slot:
@@ -184,7 +187,7 @@ class Pieces:
                 self.free.append(self.slots)
                 self.slots += 1
             self.slot[k] = self.free.pop()
-            self.text.lines.append(f"store {self.text.type} {value}, ptr {self.kept(self.slot[k])}")
+            self.text.lines.append(f"store %V {value}, ptr {self.kept(self.slot[k])}")
 
     def value(self, k: int) -> str:
         """Return the name of a node's value in this piece."""
@@ -194,14 +197,14 @@ class Pieces:
         if operation == "const":
             self.name[k] = self.text.constant(rest[0])
         elif k in self.slot:
-            self.name[k] = self.text.new(f"load {self.text.type}, ptr {self.kept(self.slot[k])}")
+            self.name[k] = self.text.new(f"load %V, ptr {self.kept(self.slot[k])}")
         else:
             self.load(*rest[0])
         return self.name[k]
 
     def kept(self, slot: int) -> str:
         """Return a place in memory."""
-        return self.text.new(f"getelementptr {self.text.type}, ptr %kept, i64 {slot}")
+        return self.text.new(f"getelementptr %V, ptr %kept, i64 {slot}")
 
     def load(self, name: str, *index: int) -> None:
         """Load an argument's entry, and with it its neighbours: squares of W × W numbers, by rows, and transposed."""
@@ -240,16 +243,17 @@ class Pieces:
             head = f"define internal void @piece{k}({arguments}) optnone noinline {{"
             pieces.append("\n  ".join([head, *text.lines, "ret void\n}"]))
         calls = "\n  ".join(f"call void @piece{k}({arguments})" for k in range(len(pieces)))
-        constants = [f"{self.text.type} {one}" for one in self.text.constants] or [f"{self.text.type} undef"]
-        table = f"@constants = internal constant [{len(constants)} x {self.text.type}] [{', '.join(constants)}]"
-        loop = LOOP.format(width=self.width, slots=max(1, self.slots), type=self.text.type, calls=calls)
-        return "\n".join([*declared, table, *pieces, loop])
+        constants = [f"%V {one}" for one in self.text.constants] or ["%V undef"]
+        table = f"@constants = internal constant [{len(constants)} x %V] [{', '.join(constants)}]"
+        loop = LOOP.format(width=self.width, slots=max(1, self.slots), calls=calls)
+        vector = f"<{self.width} x {self.text.scalar}>" if self.width > 1 else self.text.scalar
+        return "\n".join([f"%V = type {vector}", *declared, table, *pieces, loop])
 
 
 LOOP = """
 define void @program(ptr %table, i64 %count) {{
 start:
-  %kept = alloca {type}, i64 {slots}, align 64
+  %kept = alloca %V, i64 {slots}, align 64
   %constants = getelementptr i8, ptr @constants, i64 0
   %last = sub i64 %count, {width}
   br label %turn

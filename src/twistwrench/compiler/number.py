@@ -44,7 +44,7 @@ ARITHMETIC: dict[str, Callable[..., Any]] = {
     "neg": operator.neg,
 }
 
-ZERO, ONE = Fraction(0), Fraction(1)
+ZERO, ONE, TWO = Fraction(0), Fraction(1), Fraction(2)
 
 EXACT = (Fraction, int)
 """Types of constants."""
@@ -66,9 +66,8 @@ class Tape:
     def __init__(self, note: Callable[[], Any] | None = None) -> None:
         self.nodes: list[Node] = []
         self.note, self.notes = note, list[Any]()
-        self._index: dict[Node, int] = {}
+        self.places: dict[Node, int] = {}
         self._constants: dict[tuple[int, int], int] = {}  # fractions take long to hash
-        self._opposite: dict[int, int] = {}  # of each node that is the negative of another one, that one
 
     def input(self, name: Any) -> Number:
         """Return a number that is given when the program runs."""
@@ -78,24 +77,23 @@ class Tape:
         """Return a constant as a number of this tape."""
         return x if isinstance(x, Number) else Number(self, self.constant(Fraction(x)))
 
-    def at(self, index: int) -> Number:
-        """Return the number of a node."""
-        return Number(self, index)
+    def node(self, x: Number | Fraction | float) -> int:
+        """Return the node of a number, where its sign is an operation, too."""
+        x = self.number(x)
+        return self.enter("neg", x.index) if x.minus else x.index
 
     def apply(self, operation: str, *operands: Number | Fraction | float) -> Number:
         """Return the result of an operation as it stands: no rule simplifies it."""
-        return Number(self, self.enter(operation, *(self.number(x).index for x in operands)))
+        return Number(self, self.enter(operation, *map(self.node, operands)))
 
     def enter(self, *node: Any) -> int:
         """Return the index of an operation, which is entered where it is new."""
-        index = self._index.get(node)
+        index = self.places.get(node)
         if index is None:
-            index = self._index[node] = len(self.nodes)
+            index = self.places[node] = len(self.nodes)
             self.nodes.append(node)
-            if node[0] == "neg":
-                self._opposite[index] = node[1]
             if self.note is not None:
-                self.notes.append(self.note())
+                self.notes.append(self.notes[node[1]] if node[0] == "neg" else self.note())
         return index
 
     def constant(self, c: Fraction) -> int:
@@ -106,135 +104,108 @@ class Tape:
             index = self._constants[ratio] = self.enter("const", c)
         return index
 
-    def signed(self, index: int) -> tuple[bool, int]:
-        """Return whether a node is the negative of another one, and that one."""
-        other = self._opposite.get(index)
-        return (False, index) if other is None else (True, other)
-
-    def _negated(self, index: int, negative: bool = True) -> Number:
-        if negative:
-            index = self.enter("neg", index)
-        return Number(self, index)
-
-    def negative(self, a: int) -> Number:
-        """Return −a."""
-        minus, a = self.signed(a)
-        return self._negated(a, not minus)
-
-    def add(self, a: int, b: int, minus: bool = False) -> Number | Fraction:
-        """Return a + b, or a - b."""
-        (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
-        minus_b ^= minus
-        if minus_a != minus_b:
-            return self._minus(b, a) if minus_a else self._minus(a, b)
-        if a == b:
-            return self._negated(self._scaled(Fraction(2), a), minus_a)
-        return self._negated(self.enter("add", *((a, b) if a < b else (b, a))), minus_a)
-
-    def _minus(self, a: int, b: int) -> Number | Fraction:
-        if a == b:
-            return ZERO
-        known = self._index.get(("sub", b, a))
-        return Number(self, self.enter("sub", a, b)) if known is None else self._negated(known)
-
-    def multiply(self, a: int, b: int) -> Number:
-        """Return a b."""
-        (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
-        return self._negated(self.enter("mul", *((a, b) if a < b else (b, a))), minus_a != minus_b)
-
-    def divide(self, a: int, b: int) -> Number | Fraction:
-        """Return a / b."""
-        (minus_a, a), (minus_b, b) = self.signed(a), self.signed(b)
-        if a == b:
-            return -ONE if minus_a != minus_b else ONE
-        return self._negated(self.enter("div", a, b), minus_a != minus_b)
-
-    def scale(self, c: Fraction, a: int) -> Number:
-        """Return c a, where c is not 0."""
-        minus, a = self.signed(a)
-        if c.numerator < 0 and is_power_of_two(-c):
-            minus, c = not minus, -c
-        return self._negated(self._scaled(c, a), minus)
-
-    def _scaled(self, c: Fraction, a: int) -> int:
+    def scaled(self, c: Fraction, a: int) -> int:
         """Return the index of c a; powers of two, which round nothing, are put together."""
         node = self.nodes[a]
         if node[0] == "mul" and is_power_of_two(c):
             for factor, rest in ((node[1], node[2]), (node[2], node[1])):
                 if self.nodes[factor][0] == "const" and is_power_of_two(self.nodes[factor][1]):
-                    return self._scaled(c * self.nodes[factor][1], rest)
+                    return self.scaled(c * self.nodes[factor][1], rest)
         if c.numerator == c.denominator:
             return a
         k = self.constant(c)
-        return self.enter("mul", *((a, k) if a < k else (k, a)))
+        return self.enter("mul", a, k) if a < k else self.enter("mul", k, a)
 
 
 class Number:
     """A number without a value: what is done to it is entered on its tape. Constants are fractions.
 
-    It cannot be compared or looked at: a program is the same for every state.
+    It is a node of the tape, or minus that. It cannot be compared or looked at: a program is the same for every state.
     """
 
-    __slots__ = ("index", "tape")
+    __slots__ = ("index", "minus", "tape")
 
-    def __init__(self, tape: Tape, index: int) -> None:
-        self.tape, self.index = tape, index
+    def __init__(self, tape: Tape, index: int, minus: bool = False) -> None:
+        self.tape, self.index, self.minus = tape, index, minus
+
+    def _sum(self, other: Number, minus: bool) -> Number | Fraction:
+        """Return the sum with a number, where its sign may be another one."""
+        tape, a, b = self.tape, self.index, other.index
+        if self.minus == minus:
+            if a == b:
+                return Number(tape, tape.scaled(TWO, a), minus)
+            return Number(tape, tape.enter("add", a, b) if a < b else tape.enter("add", b, a), minus)
+        if a == b:
+            return ZERO
+        if self.minus:
+            a, b = b, a
+        opposite = tape.places.get(("sub", b, a))
+        return Number(tape, tape.enter("sub", a, b)) if opposite is None else Number(tape, opposite, True)
 
     def __add__(self, other: Any) -> Any:
         if type(other) is Number:
-            return self.tape.add(self.index, other.index)
+            return self._sum(other, other.minus)
         if not isinstance(other, EXACT):
             return NotImplemented  # NumPy takes an array entry by entry
-        return self.tape.add(self.index, self.tape.constant(_exact(other))) if other else self
+        return self._sum(self.tape.number(other), False) if other else self
 
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> Any:
         if type(other) is Number:
-            return self.tape.add(self.index, other.index, minus=True)
+            return self._sum(other, not other.minus)
         return self + -other if isinstance(other, EXACT) else NotImplemented
 
     def __rsub__(self, other: Any) -> Any:
         return -self + other
 
     def __mul__(self, other: Any) -> Any:
+        tape, a, minus = self.tape, self.index, self.minus
         if type(other) is Number:
-            return self.tape.multiply(self.index, other.index)
+            b = other.index
+            return Number(tape, tape.enter("mul", a, b) if a < b else tape.enter("mul", b, a), minus != other.minus)
         if not isinstance(other, EXACT):
             return NotImplemented
-        return self.tape.scale(_exact(other), self.index) if other else ZERO
+        if not other:
+            return ZERO
+        c = other if type(other) is Fraction else Fraction(other)
+        if c.numerator < 0 and is_power_of_two(-c):
+            minus, c = not minus, -c
+        return Number(tape, tape.scaled(c, a), minus)
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Any:
-        if type(other) is Number:
-            return self.tape.divide(self.index, other.index)
-        if not isinstance(other, EXACT):
-            return NotImplemented
-        if is_power_of_two(abs(Fraction(other))):
-            return self * (1 / Fraction(other))
-        return self.tape.divide(self.index, self.tape.number(other).index)
+        if type(other) is not Number:
+            if not isinstance(other, EXACT):
+                return NotImplemented
+            if is_power_of_two(abs(Fraction(other))):
+                return self * (1 / Fraction(other))
+            other = self.tape.number(other)
+        minus = self.minus != other.minus
+        if self.index == other.index:
+            return -ONE if minus else ONE
+        return Number(self.tape, self.tape.enter("div", self.index, other.index), minus)
 
     def __rtruediv__(self, other: Any) -> Any:
         if not isinstance(other, EXACT):
             return NotImplemented
-        return ZERO if other == 0 else self.tape.divide(self.tape.number(other).index, self.index)
+        return self.tape.number(other) / self if other else ZERO
 
     def __neg__(self) -> Number:
-        return self.tape.negative(self.index)
+        return Number(self.tape, self.index, not self.minus)
 
     def sin(self) -> Number:
         """Return the sine, −sin x for −x."""
-        minus, x = self.tape.signed(self.index)
-        return self.tape._negated(self.tape.enter("sin", x), minus)
+        return Number(self.tape, self.tape.enter("sin", self.index), self.minus)
 
     def cos(self) -> Number:
         """Return the cosine, the same for −x."""
-        return Number(self.tape, self.tape.enter("cos", self.tape.signed(self.index)[1]))
+        return Number(self.tape, self.tape.enter("cos", self.index))
 
     def sqrt(self) -> Number:
         """Return the square root."""
-        return Number(self.tape, self.tape.enter("sqrt", self.index))
+        return self.tape.apply("sqrt", self)
 
     def _has_no_value(self, *others: Any) -> NoReturn:
         compare = f" to compare with {others[0]!r}" if others else ""
@@ -245,11 +216,7 @@ class Number:
     __hash__ = object.__hash__
 
     def __repr__(self) -> str:
-        return f"<Number {self.index}: {self.tape.nodes[self.index]}>"
-
-
-def _exact(c: Fraction | int) -> Fraction:
-    return c if type(c) is Fraction else Fraction(c)
+        return f"<Number {'-' * self.minus}{self.index}: {self.tape.nodes[self.index]}>"
 
 
 def is_power_of_two(c: Fraction) -> bool:

@@ -13,7 +13,7 @@ from ..model import Model
 from .fingerprints import each_once
 from .line import Line
 from .memory import without_garbage
-from .number import Tape, numbers
+from .number import Number, Tape, numbers
 from .quantities import Quantity
 from .watch import LARGEST_ANGLE, alarm, state_questions
 
@@ -50,11 +50,11 @@ def record(
         results[quantity.symbol] = np.asarray(result, object)
         questions += watched
     angles = {node[1] for node in tape.nodes if node[0] in ("sin", "cos")}
-    questions += [tape.at(k) / int(LARGEST_ANGLE) for k in sorted(angles)]
+    questions += [Number(tape, k) / int(LARGEST_ANGLE) for k in sorted(angles)]
     if "f_ext" in arguments:
         large = 2 ** (min(int(np.finfo(dtype).maxexp), 1024) - 1)
         questions += [x * large / tape.number(Fraction(1, large)) for x in world]  # anything but zero is too much
-    return each_once(Line.of(tape, shapes, {**results, ALARM: np.asarray(alarm(tape, questions), object)}))
+    return each_once(Line.whole(tape, shapes, {**results, ALARM: np.asarray(alarm(tape, questions), object)}))
 
 
 def _constants(tape: Tape, name: str, x: Array) -> Array:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays import Array
 from .line import LEAVES, Line, ordered
-from .number import Tape
+from .number import Number, Tape
 from .packs import Packs, View
 from .pairs import split
 
@@ -175,7 +175,7 @@ def with_half_angles(line: Line) -> Line:
     tape, index = Tape(), list[int]()
     for operation, *rest in line.nodes:
         if operation in ("sin", "cos"):
-            t = tape.apply("tan", tape.at(index[rest[0]]) / 2)
+            t = tape.apply("tan", Number(tape, index[rest[0]]) / 2)
             square = t * t
             index.append(((2 * t if operation == "sin" else 1 - square) / (1 + square)).index)
         else:

@@ -57,14 +57,13 @@ def steps(model: Model, q: Array) -> dict[int, Tangent | None]:
 
 def _without_factor(x: Number) -> tuple[Fraction, int]:
     """Return ±2ⁿ and the node of x without this factor: the tape puts it together with the next one."""
-    negative, index = x.tape.signed(x.index)
-    sign = Fraction(-1 if negative else 1)
-    operation, *rest = x.tape.nodes[index]
+    sign = Fraction(-1 if x.minus else 1)
+    operation, *rest = x.tape.nodes[x.index]
     for factor, other in (rest, rest[::-1]) if operation == "mul" else ():
         kind, *value = x.tape.nodes[factor]
         if kind == "const" and is_power_of_two(value[0]):
             return sign * value[0], other
-    return sign, index
+    return sign, x.index
 
 
 def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None], columns: int) -> Array:
@@ -75,12 +74,12 @@ def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None],
     NotImplementedError
         If a result depends on a node whose tangent is None.
     """
-    indices = [tape.number(x).index for x in results.flat]
+    indices = [*map(tape.node, results.flat)]
     known: dict[int, Tangent] = {}
     for k in needed(tape.nodes, indices, tangents):
         tangent = tangents[k] if k in tangents else _tangent(tape, k, known)
         if tangent is None:
-            raise NotImplementedError(f"{tape.at(k)!r} is used, and not by the placement of a joint")
+            raise NotImplementedError(f"{Number(tape, k)!r} is used, and not by the placement of a joint")
         known[k] = tangent
     J = np.full((len(indices), columns), Fraction(0), object)
     for row, index in zip(J, indices):
@@ -105,19 +104,19 @@ def _tangent(tape: Tape, k: int, known: Mapping[int, Tangent]) -> Tangent:
         case "mul":
             return _sum(_times(y, dx), _times(x, dy))
         case "div":  # z = x / y: dz = (dx − z dy) / y
-            return {column: d / y for column, d in _sum(dx, _times(-tape.at(k), dy)).items()}
+            return {column: d / y for column, d in _sum(dx, _times(-Number(tape, k), dy)).items()}
         case "sin":
             return _times(x.cos(), dx)
         case "cos":
             return _times(-x.sin(), dx)
         case "sqrt":
-            return _times(1 / (2 * tape.at(k)), dx)
+            return _times(1 / (2 * Number(tape, k)), dx)
     raise NotImplementedError(f"the derivative of {operation!r}")
 
 
 def _value(tape: Tape, k: int) -> Any:
     operation, *rest = tape.nodes[k]
-    return rest[0] if operation == "const" else tape.at(k)
+    return rest[0] if operation == "const" else Number(tape, k)
 
 
 def _times(factor: Any, tangent: Tangent) -> Tangent:
