@@ -6,6 +6,7 @@ import pytest
 from twistwrench.exercises import catalogue
 from twistwrench.exercises.judge import judge
 
+from ..sampling import sampled
 from .answers import said_of
 
 SKEW = """\
@@ -67,16 +68,20 @@ def arc(omega_z, v_x):
 
 @pytest.mark.parametrize(
     ("text", "says", "never"),
-    [
-        (SKEW, "`n` does not belong there", "norm(w)` is wrong"),
-        (SOLE, "line 12, `abs(F[2]) > 1e-09` does not belong there", " and abs"),
-        (ARC, "the branch for `abs(omega_z) < 0.02` must not be taken", "< -0.02"),
-        (RATIO, "line 17, `np.mean` must be `np.median`", "loop"),
-        (NET.format(f"{FOOT} - com", "f, r"), "`np.cross(f, r)` must be `np.cross(r, f)`", "wrong end"),
-        (NET.format(f"com - {FOOT}", "r, f"), f"`com - {FOOT}` must be `{FOOT} - com`", "factors of the cross"),
-        (CARRIED, "line 14, `F[i]` must be `out[i]`", "visited outward"),
-        (PLUCKER, "X and X* are exchanged", "swapped"),
-    ],
+    sampled(
+        [
+            (SKEW, "`n` does not belong there", "norm(w)` is wrong"),
+            (SOLE, "line 12, `abs(F[2]) > 1e-09` does not belong there", " and abs"),
+            (ARC, "the branch for `abs(omega_z) < 0.02` must not be taken", "< -0.02"),
+            (RATIO, "line 17, `np.mean` must be `np.median`", "loop"),
+            (NET.format(f"{FOOT} - com", "f, r"), "`np.cross(f, r)` must be `np.cross(r, f)`", "wrong end"),
+            (NET.format(f"com - {FOOT}", "r, f"), f"`com - {FOOT}` must be `{FOOT} - com`", "factors of the cross"),
+            (CARRIED, "line 14, `F[i]` must be `out[i]`", "visited outward"),
+            (PLUCKER, "X and X* are exchanged", "swapped"),
+        ],
+        3,
+        several=True,
+    ),
 )
 def test_the_slip_is_one_that_somebody_makes(tmp_path, text, says, never):
     said = said_of(tmp_path, text)
@@ -91,22 +96,26 @@ def balanced_about_the_middle(p_G, feet, weight):
 
 @pytest.mark.parametrize(
     ("name", "answer", "says"),
-    [
-        ("com_velocity", lambda h_G, m: h_G[:3] / 16.085, "v_G does not change with m, and must"),
-        (
-            "vertical_loads",
-            balanced_about_the_middle,
-            "f_z does not change with p_G[1], and must",
-        ),
-        (
-            "newton_euler",
-            lambda m, I_c, omega, alpha, a_c: (
-                np.diag(I_c) * alpha + np.cross(omega, np.diag(I_c) * omega),
-                m * a_c,
+    sampled(
+        [
+            ("com_velocity", lambda h_G, m: h_G[:3] / 16.085, "v_G does not change with m, and must"),
+            (
+                "vertical_loads",
+                balanced_about_the_middle,
+                "f_z does not change with p_G[1], and must",
             ),
-            "It is right where I_c is diagonal",
-        ),
-    ],
+            (
+                "newton_euler",
+                lambda m, I_c, omega, alpha, a_c: (
+                    np.diag(I_c) * alpha + np.cross(omega, np.diag(I_c) * omega),
+                    m * a_c,
+                ),
+                "It is right where I_c is diagonal",
+            ),
+        ],
+        1,
+        several=True,
+    ),
 )
 def test_what_a_result_does_not_depend_on_is_said(name, answer, says):
     said = " ".join(judge(*catalogue.find_part(name), answer).message("en").split())

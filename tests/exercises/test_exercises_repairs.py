@@ -18,6 +18,8 @@ from twistwrench.exercises.judge import judge
 from twistwrench.exercises.repairs import guarded, repairs
 from twistwrench.exercises.workbook import Workbook
 
+from ..sampling import sampled
+
 RNEA = """\
 def tree_rnea(parent, S, I, X, qd, qdd, a0):
     V, A, F, tau = [np.zeros(6)], [a0], [np.zeros(6)], {}
@@ -239,37 +241,45 @@ def test_the_difference_of_two_wrenches_is_a_wrench():
 
 @pytest.mark.parametrize(
     ("name", "text", "says"),
-    [
-        (
-            "arc",
-            """\
+    sampled(
+        [
+            (
+                "arc",
+                """\
 def arc(omega_z, v_x):
     c, s = np.cos(omega_z), np.sin(omega_z)
     r = v_x * omega_z
     return np.array([[c, s, 0, r * s], [-s, c, 0, r * (1 - c)], [0, 0, 1, 0], [0, 0, 0, 1]])
 """,
-            ["the sign of `s` is wrong", "and line 13, `v_x * omega_z` must be `v_x / omega_z`", "With both changes"],
-        ),
-        (
-            "adjoint",
-            """\
+                [
+                    "the sign of `s` is wrong",
+                    "and line 13, `v_x * omega_z` must be `v_x / omega_z`",
+                    "With both changes",
+                ],
+            ),
+            (
+                "adjoint",
+                """\
 def adjoint(T):
     R, p = T[:3, :3], T[:3, 3]
     return np.block([[R, tw.skew(p) @ R], [np.zeros((3, 3)), R.T]])
 """,
-            ["must be `[[R, np.zeros((3, 3))], [tw.skew(p) @ R, R.T]]`; and line 13, `R.T` must be `R`"],
-        ),
-        (
-            "cross_operators",
-            """\
+                ["must be `[[R, np.zeros((3, 3))], [tw.skew(p) @ R, R.T]]`; and line 13, `R.T` must be `R`"],
+            ),
+            (
+                "cross_operators",
+                """\
 def cross_operators(V):
     W, U, Z = tw.skew(V[:3]), tw.skew(V[3:]), np.zeros((3, 3))
     C = np.block([[W, U], [Z, W]])
     return C, C.T
 """,
-            ["your V×: the right V×*", "your V×*: the right V×, with the other sign"],
-        ),
-    ],
+                ["your V×: the right V×*", "your V×*: the right V×, with the other sign"],
+            ),
+        ],
+        1,
+        several=True,
+    ),
 )
 def test_two_slips_are_found_one_after_the_other(written, monkeypatch, name, text, says):
     for share in diagnose.SHARES:
@@ -306,6 +316,7 @@ def test_in_which_two_of_several_places_is_reported(written):
     assert "`6:12` must be `6:`, in `M[:6, 6:12]` and in `qdd[6:12]`" in said
 
 
+@pytest.mark.slow
 def test_a_part_that_a_change_makes_right_is_reported_with_it(written):
     text = """\
 def adjoint(T):

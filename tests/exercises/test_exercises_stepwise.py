@@ -7,6 +7,7 @@ from twistwrench.exercises import catalogue
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.records import Known
 
+from ..sampling import sampled
 from .answers import said_of
 
 FALL = """\
@@ -49,13 +50,23 @@ def vertical_loads(p_G, feet, weight):
 
 @pytest.mark.parametrize(
     ("text", "says"),
-    [
-        (FALL, ["line 14, `R.T` must be `R`", "`+ np.cross(v[:3], v[3:6])` is missing after `a[3:6]`", "both changes"]),
-        (TWO_WAYS, ["`tw.gravity(model, q)` must be `tw.nonlinear_effects(model, q, v)`", "the sign of `h` is wrong"]),
-        (BY_UNITS, ["line 13, `model.neutral()` must be `q`"]),
-        (RATE, ["np.cross(V[3:], h[3:])`"]),
-        (LOADS, ["Line 14, `return weight * w / w.sum()`", "first leave those of the right solutions"]),
-    ],
+    sampled(
+        [
+            (
+                FALL,
+                ["line 14, `R.T` must be `R`", "`+ np.cross(v[:3], v[3:6])` is missing after `a[3:6]`", "both changes"],
+            ),
+            (
+                TWO_WAYS,
+                ["`tw.gravity(model, q)` must be `tw.nonlinear_effects(model, q, v)`", "the sign of `h` is wrong"],
+            ),
+            (BY_UNITS, ["line 13, `model.neutral()` must be `q`"]),
+            (RATE, ["np.cross(V[3:], h[3:])`"]),
+            (LOADS, ["Line 14, `return weight * w / w.sum()`", "first leave those of the right solutions"]),
+        ],
+        1,
+        several=True,
+    ),
 )
 def test_the_first_statement_that_is_wrong_is_mended(tmp_path, text, says):
     said = said_of(tmp_path, text)
