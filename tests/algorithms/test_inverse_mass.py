@@ -12,7 +12,7 @@ import twistwrench as tw
 
 from ..invariants import body_frame, close, floating, several, trees
 from ..mechanisms import C2, I2, M1, M2, agrees, cart_and_pole, double_pendulum, states
-from ..strategies import BATCHES, Recipe
+from ..strategies import BATCHES, Recipe, examples
 from ..truth import slow
 from .test_factorization import TYPES, wheels
 
@@ -41,7 +41,7 @@ def test_articulated_inertia_of_a_cart_is_what_its_free_pole_leaves_of_it(q, v, 
 
 
 @trees
-@several
+@examples(4)
 def test_inverse_is_pinocchios_symmetric_and_right_to_fifty_digits(recipe):
     pin = pytest.importorskip("pinocchio")
     model, q = recipe.model, recipe.state().q

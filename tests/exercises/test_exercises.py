@@ -368,6 +368,7 @@ def test_a_line_of_the_table_is_punctuated_in_its_language(language, said):
     assert str(Status((Row("49.3", states),), language)).splitlines()[0].endswith(said)
 
 
+@pytest.mark.slow
 def test_what_is_missing_of_an_exercise_that_is_begun_is_named(tmp_path):
     """Its function can be right, and the words not yet written: "Next" alone would puzzle."""
     start(tmp_path, language="en")

@@ -87,13 +87,15 @@ def assert_as_good(model, s, contacts, *, few=FEW):
 # ---------------------------------------------------------------- the truth
 
 
-@pytest.mark.parametrize("recipe", [Recipe(1, base="floating"), Recipe(5, seed=1, base="floating")], ids=str)
+@pytest.mark.parametrize(
+    "recipe", sampled([Recipe(5, seed=1, base="floating"), Recipe(1, base="floating")], 1), ids=str
+)
 def test_errors_are_within_twice_those_of_the_textbook(recipe):
     assert_as_good(recipe.model, recipe.state(), [recipe.frame(), recipe.model.frame_names[-1]])
 
 
 @given(recipes(10))
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=2, deadline=None)
 def test_so_they_are_without_machine_code(recipe):
     """The same operations, so that more robots can be tried: nothing is compiled."""
     with pytest.MonkeyPatch.context() as patch:
@@ -197,7 +199,7 @@ def assert_same(model, s, contacts, *, rtol=1e-12):
 @pytest.mark.parametrize("batch", BATCHES)
 @pytest.mark.parametrize("base", sampled(["floating", "fixed"], 1))
 def test_any_batch_shape_works(batch, base):
-    recipe = Recipe(9, seed=4, base=base)
+    recipe = Recipe(5, seed=4, base=base)
     assert_same(recipe.model, recipe.state(batch), [recipe.frame()])
 
 
