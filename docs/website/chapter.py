@@ -7,9 +7,10 @@ from pathlib import Path
 
 import nbformat
 
-from twistwrench.exercises import catalogue, skeletons
-from twistwrench.exercises.text import Language
-from twistwrench.exercises.wrapping import wrapped
+from twistwrench.exercises import catalogue
+from twistwrench.exercises.folder import skeletons
+from twistwrench.exercises.words.text import Language
+from twistwrench.exercises.words.wrapping import wrapped
 
 from . import beside, hands, inpage, interface, notebooks
 from .pages import ROOT, SUFFIX, contents, joined, write

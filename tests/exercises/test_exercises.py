@@ -22,15 +22,16 @@ from twistwrench.algorithms.crba import composite_rigid_body
 from twistwrench.algorithms.kinematics import motion, placements
 from twistwrench.algorithms.rnea import newton_euler
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, checking, hint, mine, skeletons, slips, solution, start, status
+from twistwrench.exercises import catalogue, checking, hint, mine, slips, solution, start, status
 from twistwrench.exercises.compare import agree
+from twistwrench.exercises.folder import skeletons
+from twistwrench.exercises.folder.workbook import Workbook
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.layouts import JACOBIAN
 from twistwrench.exercises.progress import Row, Status
 from twistwrench.exercises.prose import read
 from twistwrench.exercises.slips import SLIPS
-from twistwrench.exercises.text import Text
-from twistwrench.exercises.workbook import Workbook
+from twistwrench.exercises.words.text import Text
 from twistwrench.exercises.wrong import after, faulty, swap
 
 from ..sampling import sampled

@@ -8,7 +8,7 @@ from twistwrench.exercises import catalogue
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.robots import robot, small_robot, weightless
 from twistwrench.exercises.stopwatch import Machine, Task
-from twistwrench.exercises.text import Text
+from twistwrench.exercises.words.text import Text
 
 TOLERANCE = 1e-12
 

@@ -9,8 +9,8 @@ import pytest
 import twistwrench as tw
 from twistwrench.exercises import catalogue
 from twistwrench.exercises.cases import case, cases, further_cases
-from twistwrench.exercises.forking import judged
 from twistwrench.exercises.judge import judge
+from twistwrench.exercises.processes.forking import judged
 from twistwrench.exercises.stopwatch import seconds
 
 PARTS = {p.name: p for e in map(catalogue.exercise, catalogue.available()) for p in e.parts if not e.needs}

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue, check, forking
+from twistwrench.exercises import catalogue, check
 from twistwrench.exercises.cases import cases as drawn
 from twistwrench.exercises.cases import further_cases
 from twistwrench.exercises.failing import Block, Compared
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.markup import case_html
+from twistwrench.exercises.notebook.markup import case_html
+from twistwrench.exercises.processes import forking
 
 LIMIT = 1.0
 

@@ -8,9 +8,9 @@ import pytest
 from twistwrench.exercises import catalogue
 from twistwrench.exercises.calls import copied, tried
 from twistwrench.exercises.cases import cases, further_cases
+from twistwrench.exercises.changes.search import candidates
 from twistwrench.exercises.compare import agree
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.search import candidates
 from twistwrench.exercises.wrong import faulty
 
 

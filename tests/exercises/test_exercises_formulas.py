@@ -4,8 +4,8 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.exercises import catalogue, check, start
-from twistwrench.exercises.formulas import difference, judge_formula, typed
-from twistwrench.exercises.workbook import Workbook
+from twistwrench.exercises.folder.formulas import difference, judge_formula, typed
+from twistwrench.exercises.folder.workbook import Workbook
 
 pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not read")
 

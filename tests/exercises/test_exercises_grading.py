@@ -8,9 +8,10 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, hint, skeletons, solution, start
-from twistwrench.exercises.grading import grade
-from twistwrench.exercises.sheets import as_csv, as_html, as_junit, as_table
+from twistwrench.exercises import catalogue, hint, solution, start
+from twistwrench.exercises.course.grading import grade
+from twistwrench.exercises.course.sheets import as_csv, as_html, as_junit, as_table
+from twistwrench.exercises.folder import skeletons
 
 from .test_exercises_isolation import write
 

@@ -11,8 +11,8 @@ import pytest
 
 from twistwrench.cli import main
 from twistwrench.exercises import catalogue, solution, start, status
-from twistwrench.exercises.isolation import opened
-from twistwrench.exercises.workbook import Workbook
+from twistwrench.exercises.folder.workbook import Workbook
+from twistwrench.exercises.processes.isolation import opened
 
 from ..sampling import sampled
 

@@ -5,8 +5,8 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.exercises import catalogue
+from twistwrench.exercises.folder.workbook import Workbook
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.workbook import Workbook
 
 NOT_COPIED = """
 import numpy as np

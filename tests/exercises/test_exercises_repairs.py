@@ -10,13 +10,14 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, diagnose, mine, start
+from twistwrench.exercises import catalogue, mine, start
 from twistwrench.exercises import judge as judging
 from twistwrench.exercises.calls import tried
-from twistwrench.exercises.cells import check
+from twistwrench.exercises.changes.repairs import guarded, repairs
+from twistwrench.exercises.folder.workbook import Workbook
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.repairs import guarded, repairs
-from twistwrench.exercises.workbook import Workbook
+from twistwrench.exercises.naming import diagnose
+from twistwrench.exercises.notebook.cells import check
 
 from ..sampling import sampled
 
@@ -150,7 +151,7 @@ def test_the_language_that_was_asked_for_once_is_remembered(tmp_path, capsys, mo
 
 
 def test_check_remembers_the_language(monkeypatch):
-    monkeypatch.setattr("twistwrench.exercises.cells._ASKED", {})
+    monkeypatch.setattr("twistwrench.exercises.notebook.cells._ASKED", {})
 
     def act(R, p, x):
         return R @ x + p

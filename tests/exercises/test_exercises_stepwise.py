@@ -5,7 +5,7 @@ import pytest
 
 from twistwrench.exercises import catalogue
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.records import Known
+from twistwrench.exercises.statements.records import Known
 
 from ..sampling import sampled
 from .answers import said_of

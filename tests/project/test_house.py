@@ -21,7 +21,12 @@ ORDER = [
 ]
 """The rooms, the chapter's first. A room imports from earlier ones only."""
 
-CHAPTER = ("arrays", "spatial", "model", "algorithms", "compiler")
+EXERCISES = ("words", "changes", "statements", "naming", "folder", "processes", "notebook", "course")
+
+WITH_TABLE = (
+    *("arrays", "spatial", "model", "algorithms", "compiler"),
+    *("exercises", *(f"exercises/{room}" for room in EXERCISES)),
+)
 """The rooms whose `__init__` has a table of their files: there each file imports only from those above it."""
 
 LONGEST_FILE = 300
@@ -50,12 +55,20 @@ def imports(file: str) -> Iterator[tuple[str, list[str]]]:
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) + 1 - node.level] if node.level else []
             module = [*base, *(node.module.split(".") if node.module else [])]
-            targets = [[*module, alias.name] for alias in node.names] if module == ["twistwrench"] else [module]
+            targets = [
+                [*module, a.name] if module == ["twistwrench"] or is_file([*module[1:], a.name]) else module
+                for a in node.names
+            ]
         else:
             continue
         for target in targets:
             if target[0] == "twistwrench":
                 yield f"{file}:{node.lineno}", target[1:] or ["__init__"]
+
+
+def is_file(module: list[str]) -> bool:
+    """Whether a module, below `twistwrench`, is a file or a folder."""
+    return any("/".join(module) + end in TREES for end in (".py", "/__init__.py"))
 
 
 def at_run_time(node: ast.AST) -> Iterator[ast.AST]:
@@ -115,24 +128,32 @@ def test_imports_point_to_earlier_rooms():
     assert later == []
 
 
-@pytest.mark.parametrize("room", CHAPTER)
+def files_of(room: str) -> list[str]:
+    """Return the files of a room, those of its sub-rooms among them."""
+    return [file for file in TREES if file.startswith(f"{room}/") and file != f"{room}/__init__.py"]
+
+
+def part(file: str, room: str) -> str:
+    """Return the file or sub-room of a room that a file belongs to."""
+    return file.removeprefix(f"{room}/").split("/")[0].removesuffix(".py")
+
+
+@pytest.mark.parametrize("room", WITH_TABLE)
 def test_the_table_of_a_room_names_all_its_files(room):
-    files = {file.removeprefix(f"{room}/").split("/")[0].removesuffix(".py") for file in TREES if section(file) == room}
-    assert sorted(table(room)) == sorted(files - {"__init__"})
+    assert sorted(table(room)) == sorted({part(file, room) for file in files_of(room)})
 
 
-@pytest.mark.parametrize("room", CHAPTER)
-def test_in_a_room_of_the_chapter_imports_point_to_earlier_files(room):
-    order = table(room)
+@pytest.mark.parametrize("room", WITH_TABLE)
+def test_in_a_room_with_a_table_imports_point_to_earlier_files(room):
+    order, path = table(room), room.split("/")
     later = [
         f"{place} imports {'.'.join(read)}"
-        for file in TREES
-        if section(file) == room and file != f"{room}/__init__.py"
+        for file in files_of(room)
         for place, read in imports(file)
-        if read[0] == room
-        if read[1:2] == []
-        or order.index(read[1]) > order.index(file.split("/")[1].removesuffix(".py"))
-        or (order.index(read[1]) == order.index(file.split("/")[1].removesuffix(".py")) and file.count("/") == 1)
+        if read[: len(path)] == path
+        if len(read) == len(path)
+        or order.index(read[len(path)]) > order.index(part(file, room))
+        or (read[len(path)] == part(file, room) and f"{room}/{part(file, room)}.py" == file)
     ]
     assert later == []
 

@@ -139,7 +139,8 @@ def explained(error: BaseException) -> str:
 
 def folder(answers: dict[str, str], state: str, language: str) -> Path:
     """Write the folder of a student: the skeletons with the answers in their places, and what was remembered."""
-    from twistwrench.exercises import catalogue, skeletons, start
+    from twistwrench.exercises import catalogue, start
+    from twistwrench.exercises.folder import skeletons
 
     ANSWERS.mkdir(exist_ok=True)
     for path in ANSWERS.iterdir():
@@ -163,7 +164,8 @@ def remembered() -> str:
 
 def try_out(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Run an answer as a cell, with what stands above it in its file."""
-    from twistwrench.exercises import catalogue, skeletons
+    from twistwrench.exercises import catalogue
+    from twistwrench.exercises.folder import skeletons
 
     exercise = catalogue.exercise(number)
     path = folder(answers, state, language) / catalogue.file_name(exercise.section)
@@ -175,9 +177,9 @@ def try_out(number: str, answers: dict[str, str], state: str, language: str) -> 
 def check(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Check an exercise, and return the verdict as HTML."""
     from twistwrench.exercises import catalogue
-    from twistwrench.exercises.cells import checked
-    from twistwrench.exercises.isolation import opened
-    from twistwrench.exercises.markup import checked_html
+    from twistwrench.exercises.notebook.cells import checked
+    from twistwrench.exercises.notebook.markup import checked_html
+    from twistwrench.exercises.processes.isolation import opened
 
     outputs: list[Output] = []
     with redirect_stdout(Lines("out", outputs)), redirect_stderr(Lines("err", outputs)):
@@ -209,7 +211,7 @@ def in_the_cell(message: str, number: str, answer: str) -> str:
 def hint(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Return the next hint; after the last one a solution."""
     from twistwrench import exercises
-    from twistwrench.exercises.workbook import Workbook
+    from twistwrench.exercises.folder.workbook import Workbook
 
     book = Workbook(folder(answers, state, language))
     given = book.state["hints"].get(number, 0)
@@ -220,7 +222,8 @@ def hint(number: str, answers: dict[str, str], state: str, language: str) -> lis
 
 def answers(files: dict[str, str]) -> list[Output]:
     """Return the answers in the files of a student's folder, by their numbers, where they differ from the skeleton."""
-    from twistwrench.exercises import catalogue, skeletons
+    from twistwrench.exercises import catalogue
+    from twistwrench.exercises.folder import skeletons
 
     found = []
     for section in catalogue.SECTIONS:

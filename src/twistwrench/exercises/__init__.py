@@ -5,7 +5,39 @@ what is wrong with them. `status` shows the progress, `hint` and `solution` help
 for the functions of a cell.
 
 The exercises are those of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
-How to add one is in the README beside this file.
+How to add one is in the README beside this file. Each file imports only from those above it in this table:
+
+==========  ======================================================================
+file        what it holds
+==========  ======================================================================
+robots      the robots of the cases, each loaded once, and small random ones
+words       a room: the sentences of the messages
+layouts     how the numbers of an answer are arranged
+prose       the texts of the exercises
+exercise    `Exercise`, `Part`, `Quantity`: what an exercise is
+calls       calls of functions that may be wrong: they end, and change no argument
+catalogue   numbers, sections, names of files
+compare     right or wrong, entry by entry
+cases       the cases that an answer is tried on
+changes     a room: small changes of a function
+failing     the failing case, with its numbers
+rules       calls that an exercise forbids
+slips       a room: the list of slips with a name
+statements  a room: the student's function statement by statement
+stopwatch   a machine whose clock is known
+wrong       wrong functions, made out of right ones
+naming      a room: what is said of a wrong answer
+judge       `judge`: to do, done or wrong
+folder      a room: the student's folder
+items       a room: the exercises
+processes   a room: where a student's code runs
+helping     hints, and solutions on request
+notebook    a room: `check`
+course      a room: a whole class
+progress    a row for each section, and what comes next
+checking    the plugin of pytest in a student's folder
+commands    ``twistwrench exercises``
+==========  ======================================================================
 
 >>> from twistwrench.exercises import hint
 >>> print(hint("49.3.2", language="en").splitlines()[0])
@@ -17,16 +49,22 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .cases import case
-    from .cells import Checked, check
+    from .folder.skeletons import start
+    from .folder.workbook import mine
     from .helping import hint, solution
+    from .notebook.cells import Checked, check
     from .progress import Status, status
-    from .skeletons import start
-    from .workbook import mine
 
 __all__ = ["Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
 
 _HOME = {"hint": "helping", "solution": "helping", "Status": "progress", "status": "progress"}
-_HOME |= {"start": "skeletons", "mine": "workbook", "case": "cases", "check": "cells", "Checked": "cells"}
+_HOME |= {
+    "start": "folder.skeletons",
+    "mine": "folder.workbook",
+    "case": "cases",
+    "check": "notebook.cells",
+    "Checked": "notebook.cells",
+}
 
 
 def __getattr__(name: str) -> Any:

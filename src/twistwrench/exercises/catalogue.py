@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from functools import cache
 from importlib import import_module
+from pathlib import Path
 from pkgutil import iter_modules
 
 from ..errors import check_known
-from . import items
 from .exercise import Exercise, Part
-from .text import Text
+from .words.text import Text
 
 __all__ = ["SECTIONS", "available", "exercise", "file_name", "find_part", "of_section"]
 
@@ -39,7 +39,8 @@ def available() -> tuple[str, ...]:
     >>> available()[:7]
     ('49.0.1', '49.0.2', '49.0.3', '49.0.4', '49.0.5', '49.1.1', '49.1.2')
     """
-    names = [module.name for module in iter_modules(items.__path__) if module.name.startswith("ex_")]
+    folder = str(Path(__file__).with_name("items"))
+    names = [module.name for module in iter_modules([folder]) if module.name.startswith("ex_")]
     split = [name.removeprefix("ex_").replace("_", ".").rpartition(".") for name in names]
     order = list(SECTIONS)
     return tuple("".join(n) for n in sorted(split, key=lambda n: (order.index(n[0]), int(n[2]))))
@@ -60,7 +61,7 @@ def exercise(number: str) -> Exercise:
     'code'
     """
     check_known("exercise", number, available())
-    found: Exercise = import_module(f"{items.__name__}.ex_{number.replace('.', '_')}").EXERCISE
+    found: Exercise = import_module(f".items.ex_{number.replace('.', '_')}", __package__).EXERCISE
     return found
 
 

@@ -16,12 +16,12 @@ import pytest
 
 from . import catalogue
 from .exercise import Exercise
-from .isolation import TIME_LIMIT, opened
+from .folder.workbook import Unread, Workbook
 from .judge import Verdict
+from .processes.isolation import TIME_LIMIT, opened
 from .progress import survey
-from .text import Text
-from .workbook import Unread, Workbook
-from .wrapping import wrapped
+from .words.text import Text
+from .words.wrapping import wrapped
 
 __all__ = [
     "SectionFile",

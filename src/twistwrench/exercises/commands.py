@@ -7,7 +7,7 @@ import sys
 from typing import Any
 
 from ..files import write_text
-from .text import Language, Text
+from .words.text import Language, Text
 
 __all__ = ["register"]
 
@@ -80,7 +80,7 @@ def _seconds(text: str) -> float:
 
 def _language(args: argparse.Namespace, folder: str = ".") -> Language:
     """Return the language that is asked for, and remember it where the exercises are; else the one asked for before."""
-    from .workbook import Workbook, has_started
+    from .folder.workbook import Workbook, has_started
 
     book = Workbook(folder, language=args.language)
     if args.language and has_started(book.folder):
@@ -93,7 +93,7 @@ def run_start(args: argparse.Namespace) -> int:
     import shlex
     from importlib.util import find_spec
 
-    from .skeletons import start
+    from .folder.skeletons import start
 
     new, kept = start(args.dir, language=args.language)
     language = _language(args, args.dir)
@@ -108,7 +108,7 @@ def run_start(args: argparse.Namespace) -> int:
 
 def run_status(args: argparse.Namespace) -> int:
     """Print the progress; exit status 1 where an answer is wrong."""
-    from .isolation import TIME_LIMIT
+    from .processes.isolation import TIME_LIMIT
     from .progress import status
 
     limit = TIME_LIMIT if args.time_limit is None else args.time_limit
@@ -159,10 +159,10 @@ def _sure(number: str, language: Language) -> bool:
 
 def run_grade(args: argparse.Namespace) -> int:
     """Grade folders, print a table, and write what is asked for."""
-    from .grading import grade
-    from .isolation import TIME_LIMIT, drawn
-    from .sheets import as_csv, as_html, as_junit, as_table
-    from .text import default_language
+    from .course.grading import grade
+    from .course.sheets import as_csv, as_html, as_junit, as_table
+    from .processes.isolation import TIME_LIMIT, drawn
+    from .words.text import default_language
 
     seed, language = drawn(args.seed), args.language or default_language()
     limit = args.timeout or TIME_LIMIT
@@ -177,7 +177,7 @@ def run_grade(args: argparse.Namespace) -> int:
 def run_list(args: argparse.Namespace) -> int:
     """Print number, kind and title of every exercise."""
     from . import catalogue
-    from .phrases import say
+    from .words.phrases import say
 
     language = _language(args)
     for exercise in map(catalogue.exercise, catalogue.available()):

@@ -12,7 +12,7 @@ import numpy as np
 
 from .layouts import PLAIN, Layout
 from .prose import as_text, read
-from .text import Text
+from .words.text import Text
 
 __all__ = ["Exercise", "Kind", "Part", "Property", "Quantity"]
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Array
 from .compare import FLOOR, Value, values
 from .exercise import Part, Quantity
-from .text import Language, Text
+from .words.text import Language, Text
 
 __all__ = ["Block", "Case", "Compared", "failing_case", "whole"]
 

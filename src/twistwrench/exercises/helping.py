@@ -6,11 +6,11 @@ from os import PathLike
 
 from . import catalogue
 from .exercise import Exercise
-from .isolation import opened
-from .sources import solution_sources
-from .text import Language, Text
-from .workbook import Workbook
-from .wrapping import wrapped
+from .folder.sources import solution_sources
+from .folder.workbook import Workbook
+from .processes.isolation import opened
+from .words.text import Language, Text
+from .words.wrapping import wrapped
 
 __all__ = ["hint", "solution"]
 

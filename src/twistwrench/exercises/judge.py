@@ -15,16 +15,16 @@ import numpy as np
 
 from .calls import silent
 from .cases import cases, further_cases
+from .changes.repairs import guarded
 from .compare import agree, to_do
-from .diagnose import after_error, explain
 from .exercise import Exercise, Part
 from .failing import Case, failing_case
-from .phrases import say
-from .repairs import guarded
+from .naming.diagnose import after_error, explain
+from .naming.state import kept_in_module
 from .rules import Calls, file_or_cell, is_ours, watching
-from .state import kept_in_module
-from .text import Language, Text
-from .wrapping import hanging
+from .words.phrases import say
+from .words.text import Language, Text
+from .words.wrapping import hanging
 
 __all__ = ["State", "Verdict", "judge"]
 

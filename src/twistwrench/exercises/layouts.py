@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from .text import Text
+from .words.text import Text
 
 __all__ = [
     "CENTROIDAL_MAP",

@@ -8,11 +8,11 @@ from os import PathLike
 from typing import Literal
 
 from . import catalogue
-from .isolation import TIME_LIMIT, opened
+from .folder.workbook import Unread, Workbook
 from .judge import State
-from .text import Language, Text
-from .workbook import Unread, Workbook
-from .wrapping import columns
+from .processes.isolation import TIME_LIMIT, opened
+from .words.text import Language, Text
+from .words.wrapping import columns
 
 __all__ = ["Row", "Status", "status"]
 

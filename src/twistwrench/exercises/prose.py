@@ -8,7 +8,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from .text import Text
+from .words.text import Text
 
 __all__ = ["as_text", "read"]
 

@@ -12,7 +12,7 @@ from types import FrameType
 from typing import Any
 
 from .exercise import Part
-from .text import Text
+from .words.text import Text
 
 __all__ = ["FORBIDDEN", "Calls", "file_or_cell", "is_ours", "watching"]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .text import Text
+from .words.text import Text
 
 __all__ = ["Machine", "Task", "often", "seconds", "timed"]
 

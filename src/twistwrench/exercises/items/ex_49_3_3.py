@@ -4,8 +4,8 @@ from typing import Any
 
 from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
+from ..folder.workbook import mine
 from ..layouts import MOTION_TRANSFORM
-from ..workbook import mine
 from ..wrong import faulty
 
 __all__ = ["EXERCISE", "chain_two_ways"]

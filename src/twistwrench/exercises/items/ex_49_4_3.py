@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Exercise, Part, Quantity
+from ..folder.workbook import mine
 from ..layouts import WRENCH
-from ..workbook import mine
 from ..wrong import after, before, faulty, negated, swap, swapped, times
 
 __all__ = ["EXERCISE", "center_of_pressure", "sole_holds", "sole_wrench"]

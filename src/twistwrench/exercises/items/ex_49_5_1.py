@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Exercise, Part, Quantity
+from ..folder.workbook import mine
 from ..layouts import INERTIA
-from ..workbook import mine
 from ..wrong import before, faulty, swapped
 from .ex_49_0_1 import skew
 

@@ -7,9 +7,9 @@ import numpy as np
 import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
+from ..folder.workbook import mine
 from ..layouts import INERTIA
 from ..robots import robot
-from ..workbook import mine
 from ..wrong import faulty, swapped
 from .ex_49_5_1 import WRONG, random_body, spatial_inertia
 

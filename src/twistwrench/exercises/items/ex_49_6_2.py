@@ -8,9 +8,9 @@ import twistwrench as tw
 
 from ...model import random_tree
 from ..exercise import Exercise, Part, Quantity
+from ..folder.workbook import mine
 from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import small_robot, states, weightless
-from ..workbook import mine
 from ..wrong import faulty, negated, swapped
 
 __all__ = ["EXERCISE", "gravity_two_ways", "weight_wrenches"]

@@ -10,7 +10,7 @@ from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import held_acceleration, states
 from ..stopwatch import Machine, Task, seconds, timed
-from ..text import Text
+from ..words.text import Text
 from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "forward_dynamics_two_ways", "measured_ratio", "time_ratio"]

@@ -7,9 +7,9 @@ import numpy as np
 import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
+from ..folder.workbook import mine
 from ..layouts import CENTROIDAL_MAP, CONTACT_JACOBIAN, JOINT_SPACE, MASS_MATRIX, MOMENTUM, WRENCH
 from ..robots import larger, robot
-from ..workbook import mine
 from ..wrong import after, faulty, swap
 from .project_momentum import MAP, RATE
 

@@ -9,7 +9,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..robots import held_acceleration, robot, small_robot
-from ..text import Text
+from ..words.text import Text
 from ..wrong import faulty, times
 from .project_timing import TIME
 

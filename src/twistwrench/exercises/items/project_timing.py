@@ -6,7 +6,7 @@ import numpy as np
 
 from ..exercise import Part, Quantity
 from ..stopwatch import Machine, Task, often, seconds, timed
-from ..text import Text
+from ..words.text import Text
 
 __all__ = ["TIME", "time_per_call"]
 

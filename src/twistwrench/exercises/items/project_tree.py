@@ -9,8 +9,8 @@ from ...algorithms.kinematics import placements
 from ...model import joint_placements, random_tree
 from ...model.tree import split
 from ..exercise import Part, Quantity
+from ..folder.workbook import mine
 from ..robots import robot
-from ..workbook import mine
 from ..wrong import after, faulty, swap
 
 __all__ = ["PLACEMENTS", "TWISTS", "WRENCHES", "body_placements", "body_twists", "carried_wrenches"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..text import Text
+from ..words.text import Text
 
 __all__ = ["Slip"]
 

@@ -1,0 +1,21 @@
+"""Small changes of a function: which there are, which of them a student makes, and which explain his numbers.
+
+Each file imports only from those above it in this table.
+
+============  ===================================================================
+file          what it holds
+============  ===================================================================
+containers    what may be changed in a list, a tuple, an index or a slice
+excerpts      how a piece of a program and its change are written in a message
+places        places in a syntax tree, and how something is put there
+twins         names and numbers that are taken for each other
+alternatives  what could stand in place of a piece of a program
+whole         an edit; and edits of what goes into a function and comes out of it
+edits         all small edits of a right function
+branches      a condition that always holds, or never: what is said of it
+nearer        changes that make a part of an answer right
+plausible     which changes are slips that somebody makes
+search        the edit of the right function that gives the student's numbers
+repairs       the change of the student's own function that makes it right
+============  ===================================================================
+"""

@@ -1,0 +1,70 @@
+"""A change of a condition after which it always holds, or never: what is said is said of the branch then."""
+
+from __future__ import annotations
+
+import ast
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from ..calls import tried
+from ..exercise import Part
+from ..words.phrases import say
+from ..words.text import Text
+from .edits import Source
+from .excerpts import text_of
+from .places import put
+from .whole import Edit
+
+__all__ = ["settled"]
+
+MOST = 0.3
+"""Seconds for which a condition is watched, of the processor."""
+
+
+def settled(source: Source, edit: Edit, part: Part, cases: Sequence[tuple[Any, ...]]) -> Text | None:
+    """Report of an edit in the condition of a branch that this must always, or never, be taken; None for others.
+
+    Parameters
+    ----------
+    source : Source
+        Of the student's function, in which the edit is made.
+    edit : Edit
+    part : Part
+    cases : sequence of tuple
+        In which the condition is watched.
+    """
+    branch = next((found for place in edit.places if (found := _branch(place)) is not None), None)
+    if branch is None or edit.kind == "left out":
+        return None
+    before, seen = branch.test, set[bool]()
+    for parents, field, _, other in edit.places:
+        put(parents[-1], field, other)
+
+    def noted(holds: Any) -> Any:
+        seen.add(bool(holds))
+        return holds
+
+    branch.test = ast.Call(ast.Name("_noted", ast.Load()), [branch.test], [])
+    source.names["_noted"] = noted
+    try:
+        watched = source.compiled()
+    finally:
+        branch.test = before
+        for parents, field, node, _ in edit.places:
+            put(parents[-1], field, node)
+    until = time.process_time() + MOST
+    for arguments in cases:
+        if time.process_time() < until:
+            tried(part, watched, arguments)
+    if len(seen) != 1:
+        return None
+    return say("branch always" if True in seen else "branch", wrong=text_of(branch.test))
+
+
+def _branch(place: Any) -> Any:
+    """Return the innermost branch in whose condition a place is."""
+    parents, _, node, _ = place
+    inner = [*parents[1:], node]
+    pairs = [(outer, x) for outer, x in zip(parents, inner) if isinstance(outer, ast.If | ast.IfExp)]
+    return next((outer for outer, x in reversed(pairs) if outer.test is x), None)

@@ -1,0 +1,300 @@
+"""Small edits of a right function: a sign, a transpose, a factor, an index, a term left out, two things exchanged.
+
+They are made in its syntax tree, so that no list has to name them. A wrong answer is explained by the edit that gives
+the same numbers; and as no edit may pass the check, they measure the cases of an exercise too.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+import inspect
+import sys
+import textwrap
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import wraps
+from itertools import combinations
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from ..calls import CHANGED, count
+from .alternatives import FACTORS, KINDS, alternatives, crossed
+from .containers import parsed
+from .excerpts import enclosing, target, term, text_of
+from .places import Place, all_places, mark, may_be_argument, put, surroundings, unused
+from .twins import habits
+from .whole import Edit, of_arguments, of_order
+
+__all__ = ["Source", "edits"]
+
+Function = Callable[..., Any]
+MOST_PLACES = 5
+"""Of the same text, for which an edit is tried in each two of them."""
+
+LIKELY = ("sign", "exchanged", "left out")
+"""Those of which two are tried together."""
+
+
+def edits(
+    solution: Function,
+    listings: tuple[Function, ...] = (),
+    *,
+    shown: Mapping[str, Any] = {},
+    names: Mapping[str, Any] = {},
+) -> Iterator[Edit]:
+    """Yield every small edit of a function and of the listings that it calls, the likeliest first.
+
+    Parameters
+    ----------
+    solution : callable
+        A function, or a class, with its source.
+    listings : tuple of callable
+        What it calls and can be edited as well.
+    shown : mapping
+        Values of the names in each of them, by its name: only names of the same kind are exchanged.
+    names : mapping
+        Put in place of what the edited functions call by these names.
+
+    Examples
+    --------
+    >>> from twistwrench.exercises.catalogue import find_part
+    >>> newton_euler = find_part("newton_euler")[1].solution
+    >>> [edit.right for edit in edits(newton_euler) if edit.kind == "sign"][:1]
+    ['np.cross(omega, I_c @ omega)']
+    """
+    sources = [Source(f, solution, shown.get(f.__name__, {}), names) for f in (solution, *listings)]
+    for kind in KINDS:
+        for source in sources:
+            yield from source.edits(kind)
+        if kind == "sign" and not inspect.isclass(solution):
+            yield from of_arguments(_guarded(sources))
+            yield from of_order(_guarded(sources))
+    for source in sources[:1]:
+        yield from source.pairs()
+
+
+def _guarded(sources: list[Source]) -> Function:
+    """Return the solution as it is, with loops that cannot be endless, whatever its arguments are."""
+    solution, *listings = (source.compiled() for source in sources)
+    names = {**solution.__globals__, **{f.__name__: f for f in listings}}
+    return wraps(sources[0].function)(FunctionType(solution.__code__, names, closure=solution.__closure__))
+
+
+def _globals(function: Function) -> Mapping[str, Any]:
+    """Return the names of the module of a function; a class has them from its methods."""
+    methods = [x for x in vars(function).values() if isinstance(x, FunctionType)] if inspect.isclass(function) else []
+    first = methods[0] if methods else function
+    return getattr(first, "__globals__", None) or vars(sys.modules[function.__module__])
+
+
+def _kind(value: Any) -> Any:
+    """Return what two values must have in common to be taken for each other."""
+    if isinstance(value, np.ndarray):
+        return "array", value.shape
+    if isinstance(value, list | tuple) and value:
+        return type(value), len(value), type(value[-1])
+    return type(value)
+
+
+class Source:
+    """The syntax tree of a function, in which one place at a time is changed.
+
+    Parameters
+    ----------
+    function, solution : callable
+        What is changed, and what is called: the same, or one that calls it.
+    values : mapping
+        Of the names in it.
+    names : mapping
+        Put in place of what it calls by these names.
+    text : str, optional
+        Its source, where Python does not find that.
+    """
+
+    def __init__(
+        self,
+        function: Function,
+        solution: Function,
+        values: Mapping[str, Any],
+        names: Mapping[str, Any],
+        text: str | None = None,
+    ) -> None:
+        self.function, self.solution = function, solution
+        module = _globals(function)
+        self.names = {**module, "_one_more_round": count, **{k: x for k, x in names.items() if k in module}}
+        self.tree = ast.parse(textwrap.dedent(inspect.getsource(function) if text is None else text))
+        for node in ast.walk(self.tree):
+            if isinstance(node, ast.While):
+                node.body.insert(0, ast.parse("_one_more_round()").body[0])
+        self.kinds = {name: _kind(x) for name, x in values.items()}
+        square = [n for n, x in values.items() if isinstance(x, np.ndarray) and x.ndim == 2 and len({*x.shape}) == 1]
+        square += [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
+        numbers = [name for name, x in values.items() if isinstance(x, int | float) and type(x) is not bool]
+        self.scalars, self.matrices = [*map(parsed, (*numbers, *FACTORS))], [*map(parsed, square)]
+        self.places = [*all_places(self.tree.body[0])]
+        self.unused = unused(self.tree.body[0])
+        self.around = [*dict.fromkeys(text for _, _, node in self.places for text in habits(node, self.kinds))]
+
+    def after(self, edit: Edit) -> Source:
+        """Return the source after one edit, to be changed further; its lines keep their numbers."""
+        for parents, field, _, other in edit.places:
+            put(parents[-1], field, other)
+        found = copy.copy(self)
+        found.tree = copy.deepcopy(self.tree)
+        for parents, field, node, _ in edit.places:
+            put(parents[-1], field, node)
+        found.places = [*all_places(ast.fix_missing_locations(found.tree).body[0])]
+        return found
+
+    def edits(self, kind: str) -> Iterator[Edit]:
+        """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
+        alike: dict[tuple[str, str], list[Place]] = {}
+        made = [(*place, x) for place in self.places for k, x in self._alternatives(place[2], place[0]) if k == kind]
+        if kind == "sign":  # a plus for a minus before a minus more, and that as near to the result as may be
+            made.sort(key=lambda place: (isinstance(place[3], ast.UnaryOp), -place[2].lineno))
+        for place in made:
+            texts = self.texts(kind, place)
+            alike.setdefault(mark(texts, *place[2:]), []).append(place)
+            yield from self.made(kind, texts, [place])
+        yield from self._halves() if kind == "halves" else self._crossed() if kind == "exchanged" else ()
+        for (right, wrong), places in alike.items():
+            if kind == "number" and len({field for _, field, *_ in places}) > 1:
+                continue  # where a slice begins and where another ends are two things
+            if len(places) > 1:
+                yield from self.made(kind, (right, wrong), places, everywhere=True)
+            if 2 < len(places) <= MOST_PLACES:
+                for two in combinations(places, 2):
+                    yield from self.made(kind, (right, wrong), [*two], everywhere=True)
+
+    def _halves(self) -> Iterator[Edit]:
+        """Yield the exchange of the two halves of an array, wherever they stand: ω for v, and v for ω."""
+        halves: dict[str, list[Place]] = {}
+        for parents, field, node in self.places:
+            text = ast.unparse(node) if isinstance(node, ast.Slice) else ""
+            if text in (":3", "3:", "3:6") and isinstance(parents[-1], ast.Subscript):
+                other: Any = parsed("x[3:6]" if text == ":3" else "x[:3]")
+                halves.setdefault(text_of(parents[-1].value), []).append((parents, field, node, other.slice))
+        for name, places in halves.items():
+            if len({ast.unparse(node) == ":3" for _, _, node, _ in places}) == 2:
+                yield from self.made("halves", (f"{name}[:3]", f"{name}[3:]"), places)
+
+    def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
+        """Yield two edits at once, of the kinds that are likeliest."""
+        for k, (parents, field, node) in enumerate(self.places):
+            for kind, other in self._alternatives(node, parents):
+                if kind in kinds:
+                    first = kind, *self.texts(kind, (parents, field, node, other)), node.lineno
+                    put(parents[-1], field, other)
+                    for place in self.places[k + 1 :]:
+                        if not any(parent is node for parent in place[0]):
+                            yield from self._second(first, place, kinds)
+                    put(parents[-1], field, node)
+
+    def _second(self, first: tuple[str, str, str, int], where: Any, kinds: Sequence[str]) -> Iterator[Edit]:
+        parents, field, node = where
+        for kind, other in self._alternatives(node, parents):
+            if kind in kinds:
+                place = parents, field, node, other
+                for edit in self.made(kind, self.texts(kind, place), [place]):
+                    yield replace(edit, first=first)
+
+    def texts(self, kind: str, place: Place) -> tuple[str, str]:
+        """Return the texts of an edit, right and wrong."""
+        parents, field, node, other = place
+        if kind in ("sign", "left out", "after loop", "in loop", "summed"):
+            return term(node, other), ""
+        around = enclosing(parents, node)
+        right = text_of(around)
+        put(parents[-1], field, other)
+        wrong = text_of(other if around is node else around)
+        put(parents[-1], field, node)
+        return right, wrong
+
+    def made(
+        self, kind: str, texts: tuple[str, str], places: list[Place], *, everywhere: bool = False
+    ) -> Iterator[Edit]:
+        """Yield the edit in some places, if it is a program."""
+        for parents, field, _, other in places:
+            put(parents[-1], field, other)
+        try:
+            changed = self.compiled()
+        except Exception:  # no program; and the body of a class is run
+            return
+        finally:
+            for parents, field, node, _ in places:
+                put(parents[-1], field, node)
+        function = changed
+        if self.function is not self.solution:
+            names = {**self.solution.__globals__, self.function.__name__: changed}
+            function = FunctionType(self.solution.__code__, names, closure=self.solution.__closure__)
+        computed = "" if everywhere else target(places[0][0])
+        node = places[0][2]
+        line = (node.body[-1] if kind == "after loop" else node).lineno
+        around = [text_of(surroundings(parents)) for parents, *_ in places] if everywhere and len(places) == 2 else []
+        yield Edit(
+            kind,
+            *texts,
+            self.function,
+            function,
+            len(places) * everywhere,
+            computed,
+            None,
+            line,
+            (*places,),
+            (*around,),
+        )
+
+    def compiled(self) -> Function:
+        """Return the function as the tree is now."""
+        name, names = self.function.__name__, dict(self.names)
+        exec(compile(ast.fix_missing_locations(self.tree), CHANGED, "exec"), names)
+        found: Function = names[name]
+        return found
+
+    def _alternatives(self, node: Any, parents: list[Any]) -> Iterator[tuple[str, Any]]:
+        name = getattr(node, "id", "")
+        kind = self.kinds.get(name)
+        names = [other for other, found in self.kinds.items() if kind and found == kind and other not in (name, "_")]
+        if kind is int and "parent" in self.kinds and isinstance(parents[-1], ast.Subscript):
+            names.append(f"parent[{name}]")
+        if kind == ("array", (6,)) and not isinstance(parents[-1], ast.Subscript):
+            names += [f"{name}[:3]", f"{name}[3:]"]
+        matrix = isinstance(kind, tuple) and kind[0] == "array" and len(kind[1]) == 2
+        if matrix and not isinstance(parents[-1], ast.Attribute):
+            names.append(f"{name}.ravel()")
+        yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
+        yield from (("name", parsed(text)) for text in self._other_names(node, parents))
+
+    def _crossed(self) -> Iterator[Edit]:
+        """Yield the exchange of two names, wherever they stand in an expression."""
+        for parents, field, node in self.places:
+            if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
+                used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.kinds})
+                for x, y in combinations(used, 2):
+                    if self.kinds[x] == self.kinds[y]:
+                        place = parents, field, node, crossed(node, x, y)
+                        yield from self.made("exchanged", self.texts("exchanged", place), [place])
+
+    def _other_names(self, node: Any, parents: list[Any]) -> Iterator[str]:
+        """Yield what else a name may stand for: an index for a number, the parent for the body before, x·x for y·y."""
+        if isinstance(node, ast.Constant) and type(node.value) is int and isinstance(parents[-1], ast.Subscript):
+            yield from (name for name, kind in self.kinds.items() if kind is int)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load) and isinstance(self.kinds.get(node.id), tuple):
+            bare = not isinstance(parents[-1], ast.Subscript | ast.Attribute)
+            yield from (text.format(node.id) for text in self.around if bare and node.id not in text)
+        if isinstance(node, ast.Subscript) and isinstance(parents[-1], ast.Subscript):
+            whole = getattr(node.value, "id", "") or getattr(node.value, "attr", "")
+            yield from [text_of(node.slice)] * (whole == "parent")
+        if may_be_argument(node):
+            yield from self.unused
+        if not isinstance(node, ast.BinOp):
+            return
+        left, right = node.left, node.right
+        if "parent" in self.kinds and isinstance(node.op, ast.Sub) and getattr(right, "value", 0) == 1:
+            yield f"parent[{text_of(left)}]"
+        if isinstance(node.op, ast.Mult) and getattr(left, "id", 0) == getattr(right, "id", 1):
+            alike = [name for name, kind in self.kinds.items() if kind == self.kinds.get(text_of(left))]
+            yield from (f"{name} * {name}" for name in alike)

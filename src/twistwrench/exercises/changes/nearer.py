@@ -1,0 +1,158 @@
+"""Changes that make a part of a wrong answer right: one after the other they mend a function with two slips."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...arrays import Array
+from ..calls import tried
+from ..compare import FLOOR, Value, agree, values
+from ..exercise import Part
+from ..words.phrases import say
+from ..words.text import Text
+from .edits import Source
+from .whole import Edit
+
+__all__ = ["Nearer"]
+
+MOST = 10
+"""First changes after which a second one is looked for."""
+
+FEW = 2
+"""Numbers in an answer of which a part says nothing: the cases that are right are counted instead."""
+
+QUICK = 0.004
+"""Seconds that a case may take where all of them are tried with each change."""
+
+LIKELY = ("exchanged", "halves", "sign", "transposed", "left out", "last", "name", "index", "instead")
+"""Kinds of changes that are reported where they make only a block right."""
+
+Chosen = Callable[[Source], Iterator[Edit]]
+
+
+class Nearer:
+    """The changes of a student's function after which less is wrong, and nothing that was right.
+
+    Parameters
+    ----------
+    part : Part
+    right, answers : sequence
+        What is expected and what the student's function returned, in each case.
+    cases : sequence of tuple
+    """
+
+    def __init__(
+        self, part: Part, right: Sequence[Any], answers: Sequence[Any], cases: Sequence[tuple[Any, ...]]
+    ) -> None:
+        self.part, self.right, self.answers, self.cases = part, right, answers, cases
+        self.found: list[tuple[int, Edit]] = []
+        self.source: Source | None = None
+        self.pieces: dict[int, Edit] = {}
+        self.bad: set[int] = set()
+        self.before = 0
+
+    def begin(self, source: Source, before: int, first: int, seconds: float) -> None:
+        """Compare with the answers in one case, or in all of them where an answer is only a number or two."""
+        self.source, self.before, self.found = source, before, []
+        wrong = self._wrong([self.answers[first]], [first])
+        few = wrong is not None and wrong.size <= FEW and seconds < QUICK
+        self.tried = [*range(len(self.cases))] if few else [first]
+        self.tried.remove(first)
+        self.tried.insert(0, first)
+        self.wrong = self._wrong([self.answers[k] for k in self.tried], self.tried)
+
+    def note(self, edit: Edit, answer: Any) -> None:
+        """Keep a change, if less is wrong with it than without it."""
+        if self.wrong is None or self.wrong.sum() < 2 or not edit.places:
+            return
+        given = [answer, *(tried(self.part, edit.function, self.cases[k]) for k in self.tried[1:])]
+        wrong = self._wrong(given, self.tried)
+        if wrong is None or wrong.shape != self.wrong.shape or (wrong & ~self.wrong).any():
+            return
+        gained = self.wrong & ~wrong
+        if gained.any() and (len(self.tried) > 1 or self._numbers(self.tried[0])[gained].any()):
+            self.found.append((int(wrong.sum()), edit))
+
+    def second(self, chosen: Chosen, until: float) -> tuple[Edit, Edit] | None:
+        """Return two changes, one after the other, that make all right."""
+        best = sorted(self.found, key=lambda pair: pair[0])[:MOST]
+        for k, (_, edit) in enumerate(best):
+            now = time.process_time()
+            share = now + (until - now) / (len(best) - k)
+            source = self.source.after(edit) if self.source else None
+            for other in chosen(source) if source else ():
+                if time.process_time() > share:
+                    break
+                if other.kind == "transposed" and edit.wrong in other.right:
+                    continue  # of a product that was turned already: its factors exchanged are the shorter way
+                if edit.kind == other.kind == "sign" and edit.right in other.right and edit.line == other.line:
+                    continue  # twice the sign of one thing is only a copy
+                if self._mends(other):
+                    return edit, other
+        return None
+
+    def blocks(self) -> tuple[Edit, list[Text]] | None:
+        """Return the change that makes most blocks right, in all cases, and their names."""
+        for _, edit in sorted(self.found, key=lambda pair: pair[0])[:MOST]:
+            if edit.kind not in LIKELY or len(self.tried) > 1:
+                continue
+            given = [tried(self.part, edit.function, arguments) for arguments in self.cases]
+            pairs = [pair for three in zip(given, self.answers, self.right) for pair in self._blocks(*three)]
+            failed = [name for name, gained in pairs if not gained]
+            names = [name for name in dict.fromkeys(name for name, _ in pairs) if name not in failed]
+            if names:
+                return edit, names
+        return None
+
+    def _blocks(self, answer: Any, before: Any, right: Any) -> Iterator[tuple[Text, bool]]:
+        """Yield the blocks that were wrong, and whether a change has made them right without making another wrong."""
+        split = [values(x, self.part.returns) for x in (answer, before, right)]
+        for a, b, c in zip(*(x or [] for x in split)):
+            bad, was = _differ(a, c), _differ(b, c)
+            if bad is None or was is None or c.array is None:
+                continue
+            for block, index in c.quantity.layout.blocks(c.array.shape):
+                if (bad & ~was).any():  # what was right would be wrong by it
+                    yield say("block", name=c.quantity.title, block=block), False
+                elif was[index].any() and np.abs(c.array[index]).max(initial=0) > FLOOR:
+                    yield say("block", name=c.quantity.title, block=block), not bad[index].any()
+
+    def _mends(self, edit: Edit) -> bool:
+        every = [self.tried[0], *range(len(self.cases))] if self.tried else []
+        return bool(every) and all(
+            agree(self.part, tried(self.part, edit.function, self.cases[k]), self.right[k], self.cases[k])
+            for k in every
+        )
+
+    def _numbers(self, k: int) -> Array:
+        split = values(self.right[k], self.part.returns) or []
+        return np.concatenate([np.ravel(x.array) for x in split if x.array is not None])
+
+    def _wrong(self, answers: Sequence[Any], cases: Sequence[int]) -> Array | None:
+        """Return which numbers are wrong, in some cases; None where they cannot be compared."""
+        found = []
+        for answer, k in zip(answers, cases):
+            a, b = values(answer, self.part.returns), values(self.right[k], self.part.returns)
+            for x, y in zip(a or [], b or []):
+                bad = _differ(x, y)
+                if bad is None:
+                    return None
+                found.append(bad.ravel())
+            if not a or not b:
+                return None
+        return np.concatenate(found) if found and self.part.canonical is None else None
+
+
+def _differ(a: Value, b: Value) -> Array | None:
+    """Return which entries of two values differ; None where their shapes do."""
+    if a.array is None or b.array is None or a.array.shape != b.array.shape:
+        return None
+    if b.array.dtype.kind == "b" or a.array.dtype.kind == "b":
+        return np.asarray(a.array != b.array)
+    tolerance = 1e-9 * np.abs(b.array[np.isfinite(b.array)]).max(initial=FLOOR)
+    with np.errstate(invalid="ignore"):
+        return ~np.asarray(np.abs(a.array - b.array) <= tolerance)

@@ -1,0 +1,296 @@
+"""The small change of the student's own function that makes it right."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import io
+import linecache
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass, replace
+from types import FunctionType
+from typing import Any
+
+import twistwrench
+
+from ..calls import copied, local_values, tried
+from ..compare import agree, copied_results
+from ..exercise import Part
+from ..words.phrases import say
+from ..words.text import Text
+from .alternatives import KINDS
+from .branches import settled
+from .edits import Source
+from .excerpts import with_operator
+from .nearer import Nearer
+from .plausible import ALIKE, alike, anywhere, plausible, shuts
+from .search import Remembering, by_chance, said_where, same
+from .whole import Edit, of_arguments, of_order
+
+__all__ = ["Repair", "guarded", "repair_of_blocks", "repairs", "source_of", "text_written", "two_repairs", "written"]
+
+PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
+"""The kinds of changes of which two are tried at once."""
+
+FURTHER = ("index", "instead")
+"""Those that are tried with one of these, or with each other, after them."""
+
+OF_RESULT = {
+    "np.roll(x, len(x) // 2, 0)": "halves of result",
+    "np.linalg.inv(x)": "inverse of result",
+    "x[6:]": "first six of result",
+}
+"""What a change of the result says of the answer."""
+
+Function = Callable[..., Any]
+Cases = Sequence[tuple[Any, ...]]
+
+
+@dataclass(frozen=True)
+class Repair:
+    """A change that makes a student's function right, or one of the things that it returns.
+
+    Attributes
+    ----------
+    edit : Edit
+    before : int
+        Lines of the file before the function.
+    piece : int, optional
+        Which of the things is right by it; None for all.
+    first : Edit, optional
+        Another change that is made before it.
+    blocks : tuple of Text
+        What of the result is right by it, where that is not all.
+    branch : Text, optional
+        What it means where it makes a condition always or never hold.
+    """
+
+    edit: Edit
+    before: int
+    piece: int | None = None
+    first: Edit | None = None
+    blocks: tuple[Text, ...] = ()
+    branch: Text | None = None
+
+    def title(self) -> Text:
+        """Report what must stand where."""
+        if self.first and self.edit.wrong and self.first.wrong == self.edit.right:  # two changes of one piece are one
+            return Repair(replace(self.edit, kind="instead", right=self.first.right), self.before).title()
+        if self.first is not None:
+            both = (Repair(edit, self.before).title() for edit in (self.first, self.edit))
+            return say("both edits", first=next(both), second=next(both))
+        edit = self.edit
+        wrong = with_operator(edit.places[0][2], edit.right) if edit.kind == "left out" and edit.places else edit.right
+        title = self.branch or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
+        if shuts(edit):
+            title = say("branch", wrong=edit.right)
+        if edit.kind == "result" and edit.wrong in OF_RESULT:
+            return say(OF_RESULT[edit.wrong], title=title)
+        if edit.line:
+            title = said_where(edit, title)
+            title = say("in own line", line=edit.line + self.before, title=title)
+        if edit.first is not None:
+            kind, wrong, right, line = edit.first
+            other = say(f"repair {kind}", right=right, wrong=wrong)
+            return say("both edits", first=say("in own line", line=line + self.before, title=other), second=title)
+        return title
+
+
+def guarded(function: Function) -> Function:
+    """Return a student's function with loops that cannot be endless; itself where its source is not at hand."""
+    found = written(function)
+    if found is None or inspect.isclass(function):
+        return function
+    return Source(function, function, {}, {}, found[0]).compiled()
+
+
+def repairs(
+    part: Part,
+    function: Function,
+    right: Sequence[Any],
+    answers: Sequence[Any],
+    cases: Cases,
+    *,
+    until: float,
+    pairs: bool = False,
+    nearer: Nearer | None = None,
+) -> list[Repair]:
+    """Return the likeliest change that makes a student's function right, or one for each wrong thing of several.
+
+    Where another change of a likely kind makes it right as well, both are returned.
+
+    Parameters
+    ----------
+    part : Part
+    function : callable
+        The student's.
+    right, answers : sequence
+        What is expected and what it returned, in each case.
+    cases : sequence of tuple
+    until : float
+        When the search ends, as `time.process_time` has it: a busy machine finds the same.
+    pairs : bool
+        Try two changes at once.
+    nearer : Nearer, optional
+        Is given the changes that make only a part of the answer right.
+    """
+    wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
+    rare = 2 * sum(wrong) < len(wrong)
+    seconds = {k: _seconds(part, function, cases[k]) for k, bad in enumerate(wrong) if bad}
+    first = min(seconds, key=lambda k: seconds[k])
+    every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
+    bad = {k for k in every if not same(part, answers, right, k)}
+    found: dict[int, Repair] = {}
+    mended: list[Repair] = []
+    source, before = source_of(part, function, cases[first])
+    if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
+        return []
+    if nearer is not None:
+        nearer.begin(source, before, first, seconds[first])
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        for edit in _changes(part, function, source, cases[first], until, pairs):
+            if mended and (edit.kind not in ALIKE or pairs):
+                break
+            if rare and edit.kind == "inserted" and not edit.wrong.startswith("abs("):
+                continue  # a factor that is missing spoils most cases
+            answer = tried(part, edit.function, cases[first])
+            here = {k for k in bad - {*found} if same(part, [answer], [right[first]], k)}
+            if not here and not agree(part, answer, right[first], cases[first]):
+                if nearer is not None:
+                    nearer.note(edit, answer)
+                continue
+            others = [tried(part, edit.function, arguments) for arguments in cases]
+            if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
+                if copied_results(others, right, answers):  # what is asked for in two ways is not computed in one
+                    continue
+                if not any(alike(edit, repair.edit) for repair in mended):
+                    mended.append(Repair(edit, before, branch=settled(source, edit, part, cases)))
+                mended = [replace(x, edit=anywhere(x.edit, edit)) for x in mended]
+                continue
+            if edit.kind == "result" or all(
+                same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here
+            ):
+                found.update((k, Repair(edit, before, k)) for k in here if same(part, others, right, k))
+            elif nearer is not None:
+                nearer.note(edit, answer)
+                if all(same(part, others, right, k) for k in {*every} - bad):
+                    nearer.pieces |= {k: edit for k in here - {*nearer.pieces} if same(part, others, right, k)}
+    if nearer is not None:
+        nearer.pieces |= {k: repair.edit for k, repair in found.items()}
+        nearer.bad = bad
+    return mended or ([found[k] for k in sorted(found)] if found.keys() == bad else [])
+
+
+def two_repairs(
+    part: Part, function: Function, nearer: Nearer, arguments: tuple[Any, ...], until: float
+) -> list[Repair]:
+    """Return two changes, one after the other, that make a student's function right, the first of them a part of it.
+
+    Where there are no two, one for each of the things returned, though it spoils another that is wrong anyway.
+    """
+    chance, whole = by_chance(part, arguments), bool(arguments) and not inspect.isclass(function)
+    text = text_written(function)
+
+    def chosen(source: Source) -> Iterator[Edit]:
+        edits = (edit for edit in _single(source, whole) if edit.kind not in chance)
+        return (edit for edit in edits if plausible(edit, text, part.solution))
+
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        both = nearer.second(chosen, until)
+    if both:
+        return [Repair(both[1], nearer.before, first=both[0])]
+    pieces = sorted(nearer.pieces) if nearer.bad and nearer.pieces.keys() == nearer.bad else []
+    return [Repair(nearer.pieces[k], nearer.before, k) for k in pieces]
+
+
+def repair_of_blocks(nearer: Nearer) -> Repair | None:
+    """Return the change that makes some blocks of the answer right."""
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        found = nearer.blocks()
+    return Repair(found[0], nearer.before, blocks=tuple(found[1])) if found else None
+
+
+def source_of(part: Part, function: Function, arguments: tuple[Any, ...]) -> tuple[Source | None, int]:
+    """Return the syntax tree of a student's function, None where it is not at hand, and the lines before it."""
+    found = written(function)
+    if found is None:
+        return None, 0
+    text, before = found
+
+    def call(*given: Any) -> Any:
+        return part.value(function, given)
+
+    try:
+        shown = local_values(call, function, copied(arguments))
+        return Source(function, function, shown, {"tw": Remembering(twistwrench)}, text), before
+    except Exception:  # it does not run again as it did
+        return None, 0
+
+
+def _changes(
+    part: Part, function: Function, source: Source, arguments: tuple[Any, ...], until: float, pairs: bool
+) -> Iterator[Edit]:
+    """Yield the changes of a student's function, for as long as a search may take."""
+    chance, text = by_chance(part, arguments), text_written(function)
+    whole = bool(arguments) and not inspect.isclass(function)
+    for edit in _pairs(source) if pairs else _single(source, whole):
+        if time.process_time() > until:
+            return
+        if edit.kind not in chance and plausible(edit, text, part.solution):
+            yield edit
+
+
+def _pairs(source: Source) -> Iterator[Edit]:
+    """Yield two changes at once, those of the likeliest kinds first."""
+    yield from source.pairs(PAIRED)
+    for edit in source.pairs(PAIRED + FURTHER):
+        if edit.kind in FURTHER or (edit.first and edit.first[0] in FURTHER):
+            yield edit
+
+
+def _single(source: Source, arguments: bool) -> Iterator[Edit]:
+    """Yield each change by itself; those of arguments and results after those of a sign or a term."""
+    for kind in KINDS:
+        yield from source.edits(kind)
+        if kind == "left out" and arguments:
+            yield from (edit for edit in of_arguments(source.compiled()) if not edit.wrong.startswith("0 *"))
+        if kind == "index" and arguments:  # their order is given: it is seldom mistaken
+            yield from of_order(source.compiled())
+
+
+def text_written(function: Function) -> str:
+    """Return the source of a student's function, an empty text where it is unknown."""
+    return (written(function) or ("", 0))[0]
+
+
+def written(function: Function) -> tuple[str, int] | None:
+    """Return the source of a student's function or class, and how many lines are before it; None if it is unknown."""
+    code = getattr(function, "__code__", None)
+    if code is None and inspect.isclass(function):
+        code = next((x.__code__ for x in vars(function).values() if isinstance(x, FunctionType)), None)
+    if code is None or (not inspect.isclass(function) and code.co_name != function.__name__):
+        return None  # it is wrapped
+    if getattr(function, "__closure__", None) or twistwrench.__path__[0] in code.co_filename:
+        return None  # it cannot be compiled by itself, or is not of a student
+    linecache.checkcache(code.co_filename)
+    lines = linecache.getlines(code.co_filename)
+    try:
+        nodes = ast.walk(ast.parse("".join(lines)))
+    except SyntaxError:
+        return None
+    for node in nodes:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == function.__name__:
+            first = min([node.lineno, *(x.lineno for x in node.decorator_list)])
+            if first <= code.co_firstlineno <= (node.end_lineno or first):
+                node.decorator_list = []
+                return "".join(lines[node.lineno - 1 : node.end_lineno]), node.lineno - 1
+    return None
+
+
+def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> float:
+    """Return how long an answer takes."""
+    start = time.perf_counter()
+    tried(part, function, arguments)
+    return time.perf_counter() - start

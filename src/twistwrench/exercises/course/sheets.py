@@ -1,0 +1,197 @@
+"""What an instructor gets of a graded class: a table, a CSV, a page, and JUnit's XML."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from html import escape
+from xml.etree.ElementTree import Element, SubElement, tostring
+
+from .. import catalogue
+from ..judge import Verdict
+from ..notebook.markup import STYLE, verdict_html
+from ..words.text import Language, Text
+from ..words.wrapping import columns
+from .grading import Graded, Mark
+
+__all__ = ["as_csv", "as_html", "as_junit", "as_table"]
+
+SAY = {
+    "student": Text("student", "学生"),
+    "total": Text("points", "得分"),
+    "hints": Text("hints", "提示"),
+    "solutions": Text("solutions", "看过解答"),
+    "words": Text("words", "文字作答"),
+    "legend": Text(
+        "A dot: to do. A question mark for each hint, an exclamation mark where the solution was shown.",
+        "圆点：未做。每要一条提示记一个问号，看过解答记一个感叹号。",
+    ),
+    "seed": Text(
+        "Random cases: --seed {seed}. A point for each exercise; answers in words are for you to read.",
+        "随机数据：--seed {seed}。每题一分；文字作答请自行批阅。",
+    ),
+    "nothing": Text("nothing was started here", "此文件夹中没有练习"),
+    "title": Text("The exercises of the class", "全班练习"),
+    "model": Text("Model answer", "参考答案"),
+    "none": Text("(no answer)", "（未作答）"),
+    "messages": Text("Messages", "消息"),
+    "read": Text("In words, to be read", "文字作答（请批阅）"),
+    "to do": Text("to do", "未做"),
+    "done": Text("right", "正确"),
+    "wrong": Text("wrong", "有误"),
+}
+
+HEADER = ("student", "exercise", "function", "state", "points", "of", "hints", "solution", "slips", "reason", "words")
+
+PAGE = """<!doctype html>
+<html lang="{code}"><head><meta charset="utf-8"><title>{title}</title>
+<meta name="viewport" content="width=device-width">
+{style}
+<style>
+body {{font-family: sans-serif; margin: 1.5em; color: #222}}
+table.tw-class {{border-collapse: collapse; font-size: 0.9em}}
+table.tw-class td, table.tw-class th {{border: 1px solid #ccc; padding: 2px 6px; text-align: center}}
+table.tw-class th:first-child {{text-align: left; position: sticky; left: 0; background: white;
+  white-space: nowrap}}
+.tw-full {{background: #d5f0e6}} .tw-part {{background: #fdf3cf}} .tw-zero {{background: #fbd5be}}
+table.tw-class pre {{text-align: left; margin: 4px 0; font-family: inherit}}
+.tw-scroll {{overflow-x: auto}}
+</style></head><body><h1>{title}</h1>
+{body}
+</body></html>
+"""
+
+
+def as_table(found: Sequence[Graded], seed: int, language: Language) -> str:
+    """Return a line for each student: points, hints, solutions shown, answers in words."""
+    wide = max([columns(SAY["student"].of(language)), *(columns(one.student) for one in found)]) + 2
+    names = ("total", "hints", "solutions", "words")
+    lines = [_padded(SAY["student"].of(language), wide) + "".join(_padded(SAY[n].of(language), 14) for n in names)]
+    for one in found:
+        marks = one.marks.values()
+        cells = [f"{one.points:.2f} / {len(one.marks)}", f"{sum(m.hints for m in marks)}"]
+        cells += [f"{sum(m.solution for m in marks)}", f"{sum(m.words is not None for m in marks)}"]
+        rest = "".join(_padded(cell, 14) for cell in cells) if one.marks else SAY["nothing"].of(language)
+        lines.append((_padded(one.student, wide) + rest).rstrip())
+    return "\n".join([*lines, "", SAY["seed"].fill(seed=seed).of(language)])
+
+
+def _padded(text: str, width: int) -> str:
+    return text + " " * (width - columns(text))
+
+
+def as_csv(found: Sequence[Graded], seed: int, language: Language) -> str:
+    """Return a row for each function of each student, and one for each answer in words."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow((*HEADER, "seed"))
+    for one in found:
+        for row in _rows(one, language):
+            writer.writerow([_harmless(str(cell)) for cell in (one.student, *row, seed)])
+    return "\ufeff" + text.getvalue()  # the mark by which spreadsheets recognise UTF-8
+
+
+def _rows(one: Graded, language: Language) -> Iterator[tuple[object, ...]]:
+    for number, mark in one.marks.items():
+        share = 1 / len(mark.verdicts)
+        used = mark.hints, int(mark.solution)
+        for name, verdict in mark.verdicts.items():
+            points = share if verdict.state == "done" else 0.0
+            slips, reason = " ".join(verdict.slips), _reason(verdict, language)
+            yield number, name, verdict.state, f"{points:.4g}", f"{share:.4g}", *used, slips, reason, ""
+        if catalogue.exercise(number).answer is not None:
+            state = "to do" if mark.words is None else "to read"
+            yield number, catalogue.exercise(number).answer_name, state, "", "", *used, "", "", mark.words or ""
+
+
+def _harmless(cell: str) -> str:
+    """Keep a spreadsheet from reading what a student wrote as a formula."""
+    return "'" + cell if cell[:1] in ("=", "+", "@", "\t") or (cell[:1] == "-" and not cell[1:2].isdigit()) else cell
+
+
+def _reason(verdict: Verdict, language: Language) -> str:
+    """Return what the message says after its head and its case, on one line."""
+    said = [line.of(language).strip() for line in verdict.lines[1:]]
+    start = said.index("") + 1 if "" in said else 0
+    return next((line for line in said[start:] if line), "")
+
+
+def as_junit(found: Sequence[Graded], seed: int, language: Language) -> str:
+    """Return JUnit's XML: a suite for each student, whose name is also the class of each of the tests."""
+    root = Element("testsuites", name=f"twistwrench exercises, seed {seed}")
+    for one in found:
+        verdicts = [(n, name, v) for n, mark in one.marks.items() for name, v in mark.verdicts.items()]
+        count = {state: str(sum(v.state == state for *_, v in verdicts)) for state in ("wrong", "to do")}
+        how = {"failures": count["wrong"], "skipped": count["to do"], "errors": "0", "time": f"{one.seconds:.3f}"}
+        suite = SubElement(root, "testsuite", {"name": one.student, "tests": str(len(verdicts)), **how})
+        for number, name, verdict in verdicts:
+            test = SubElement(suite, "testcase", classname=one.student, name=f"{number.replace('.', '_')}-{name}")
+            if verdict.state == "wrong":
+                failure = SubElement(test, "failure", message=_printable(_reason(verdict, language)))
+                failure.text = _printable(verdict.report(language))
+            elif verdict.state == "to do":
+                SubElement(test, "skipped", message=SAY["to do"].of(language))
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+
+
+def _printable(text: str) -> str:
+    """Drop characters that XML cannot hold."""
+    return "".join(c for c in text if c in "\n\t" or c >= " ")
+
+
+def as_html(found: Sequence[Graded], seed: int, language: Language) -> str:
+    """Return a page: the points of all, their answers in words beside the model answer, and every message."""
+    said = f"{SAY['seed'].fill(seed=seed).of(language)}<br>{SAY['legend'].of(language)}"
+    body = [f"<p>{said}</p>", _points(found, language)]
+    numbers = list(dict.fromkeys(number for one in found for number in one.marks))
+    asked = [n for n in numbers if catalogue.exercise(n).answer is not None]
+    body += [f"<h2>{SAY['read'].of(language)}</h2>", *(_answers(number, found, language) for number in asked)]
+    body += [f"<h2>{SAY['messages'].of(language)}</h2>", *(_messages(one, language) for one in found)]
+    title, code = SAY["title"].of(language), "zh-CN" if language == "zh" else "en"
+    return PAGE.format(code=code, title=title, style=STYLE, body="\n".join(body))
+
+
+def _points(found: Sequence[Graded], language: Language) -> str:
+    numbers = list(dict.fromkeys(number for one in found for number in one.marks))
+    titles = (escape(catalogue.exercise(number).title.of(language), quote=True) for number in numbers)
+    head = f"<th></th><th>{escape(SAY['total'].of(language))}</th>"
+    head += "".join(f'<th title="{title}">{number}</th>' for number, title in zip(numbers, titles))
+    rows = []
+    for one in found:
+        cells = "".join(_cell(one.marks.get(number)) for number in numbers)
+        rows.append(f"<tr><th>{escape(one.student)}</th><td>{one.points:.2f}</td>{cells}</tr>")
+    return f'<div class="tw-scroll"><table class="tw-class"><tr>{head}</tr>{"".join(rows)}</table></div>'
+
+
+def _cell(mark: Mark | None) -> str:
+    """Return the points of one exercise, with ? for each hint and ! where the solution was shown."""
+    if mark is None:
+        return "<td></td>"
+    begun = any(verdict.state != "to do" for verdict in mark.verdicts.values())
+    kind = "tw-full" if mark.points == 1 else "tw-part" if mark.points else "tw-zero" if begun else ""
+    text = (f"{mark.points:.2g}" if begun else "·") + "?" * mark.hints + "!" * mark.solution
+    return f'<td class="{kind}">{text}</td>'
+
+
+def _answers(number: str, found: Sequence[Graded], language: Language) -> str:
+    """Return the answers of all to one question, the model answer on top."""
+    exercise = catalogue.exercise(number)
+    model = (exercise.answer or Text("", "")).of(language).strip()
+    rows = [f"<tr><th>{SAY['model'].of(language)}</th><td><pre>{escape(model)}</pre></td></tr>"]
+    for one in found:
+        words = one.marks[number].words if number in one.marks else None
+        text = f"<pre>{escape(words)}</pre>" if words else f"<i>{SAY['none'].of(language)}</i>"
+        rows.append(f"<tr><th>{escape(one.student)}</th><td style='text-align: left'>{text}</td></tr>")
+    title = f"{number} {escape(exercise.title.of(language))}"
+    table = f'<table class="tw-class">{"".join(rows)}</table>'
+    return f'<details class="tw-check"><summary>{title}</summary>{table}</details>'
+
+
+def _messages(one: Graded, language: Language) -> str:
+    """Return the messages of one student."""
+    verdicts = (verdict for mark in one.marks.values() for verdict in mark.verdicts.values())
+    wrong = [verdict_html(verdict, language) for verdict in verdicts if verdict.state == "wrong"]
+    inside = "\n".join(f'<div class="tw-wrong">{text}</div>' for text in wrong)
+    said = SAY["wrong"].of(language)
+    return f'<details class="tw-check"><summary>{escape(one.student)}: {len(wrong)} {said}</summary>{inside}</details>'

@@ -1,0 +1,276 @@
+"""A folder with a student's answers: its content, and the progress."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import sys
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from functools import cached_property, partial
+from importlib.util import decode_source
+from os import PathLike
+from os.path import isfile  # Path's own raises where the folder may not be read
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ...errors import ModelError
+from ...files import write_text
+from .. import catalogue
+from ..exercise import Exercise, Part
+from ..judge import Verdict, judge
+from ..words.phrases import say
+from ..words.text import Language, Text, default_language
+from .formulas import judge_formula, typed
+
+__all__ = ["STATE_FILE", "Unread", "Workbook", "has_started", "mine", "verdict_on_words"]
+
+STATE_FILE = ".twistwrench.json"
+"""Remembers the language, how many hints were shown, which solutions and which model answers."""
+
+SHORTEST_ANSWER = 12
+"""Characters of an answer in words; a sentence in Chinese needs no more."""
+
+
+class Unread(Verdict):
+    """The verdict on each function of a file that cannot be read."""
+
+
+class Workbook:
+    """A folder that `start` has filled.
+
+    The student's files are read once: make a new one to see what has been changed since.
+
+    Parameters
+    ----------
+    folder : str or path
+    language : {"en", "zh"}, optional
+        Of the messages; the one that the folder was started in unless given.
+    seed : int
+        Of the random cases.
+    """
+
+    def __init__(self, folder: str | PathLike[str], *, language: Language | None = None, seed: int = 0) -> None:
+        self.folder, self.seed = Path(folder), seed
+        self._asked = language
+        self._modules: dict[str, ModuleType | Text | None] = {}
+        self._verdicts: dict[str, Verdict] = {}
+        self._judging: list[str] = []
+        self.watch: Callable[[str], AbstractContextManager[object]] = nullcontext
+        """Surrounds each call of the student's function of a name, and the reading of a file of a name."""
+        self.search: bool | None = None
+        """Whether small changes are looked for that explain a wrong answer, as in `judge`."""
+        self.borrowed: set[str] = set()
+        """Functions that `mine` took from the reference."""
+
+    @classmethod
+    def existing(cls, folder: str | PathLike[str], *, language: Language | None = None) -> Workbook:
+        """Open a folder that was started before.
+
+        Raises
+        ------
+        ModelError
+            If nothing was started there.
+        """
+        book = cls(folder, language=language)
+        if not has_started(book.folder):
+            raise ModelError(f"{book.folder}: no exercises here; {_where(book.folder)}")
+        return book
+
+    # ---------------------------------------------------------------- what is remembered
+
+    @cached_property
+    def state(self) -> dict[str, Any]:
+        """The content of the hidden file."""
+        try:
+            kept = json.loads((self.folder / STATE_FILE).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            kept = {}
+        return {"hints": {}, "compared": [], "solutions": [], **(kept if isinstance(kept, dict) else {})}
+
+    def remember(self, **news: Any) -> None:
+        """Write the hidden file."""
+        self.state.update(news)
+        text = json.dumps(self.state, indent=1, ensure_ascii=False)
+        write_text(self.folder / STATE_FILE, text + "\n")
+
+    @property
+    def language(self) -> Language:
+        """The language of the messages."""
+        kept = self.state.get("language", default_language())
+        return self._asked or ("zh" if kept == "zh" else "en")
+
+    # ---------------------------------------------------------------- what the student wrote
+
+    def module(self, section: str) -> ModuleType | Text:
+        """Return the student's file of a section as a module, or why it cannot be read."""
+        if section not in self._modules:
+            self._modules[section] = None  # while it is being read
+            self._modules[section] = self._read(self.folder / catalogue.file_name(section))
+        return self._modules[section] or say("no file", file=catalogue.file_name(section))
+
+    def _read(self, path: Path) -> ModuleType | Text:
+        if not path.exists():
+            return say("no file", file=path.name)
+        module = ModuleType(path.stem)
+        module.__dict__.update(__file__=str(path), __workbook__=self)
+        try:
+            source = decode_source(path.read_bytes())  # as Python reads it: with a BOM, or a line that names a coding
+        except (OSError, SyntaxError, UnicodeError) as error:
+            return say("file" if isinstance(error, OSError) else "encoding", file=path.name, error=error)
+        try:
+            with _importable(self.folder), self.watch(path.name):
+                # compiled anew each time: a cached file can be older than the last change
+                exec(compile(source, path, "exec"), module.__dict__)
+        except (Exception, SystemExit) as error:  # whatever the student's file raises becomes a message
+            said = f"{type(error).__name__}: {getattr(error, 'msg', error)}"
+            if (line := _line(error, path)) is not None:
+                return say("file at line", file=path.name, line=line, error=said)
+            return say("file", file=path.name, error=said)
+        return module
+
+    def words(self, exercise: Exercise) -> str | None:
+        """Return the student's answer in words, None if it is not written yet."""
+        module = self.module(exercise.section)
+        text = None if isinstance(module, Text) else getattr(module, exercise.answer_name, None)
+        return text.strip() if isinstance(text, str) and text.strip() else None
+
+    # ---------------------------------------------------------------- the progress
+
+    def verdict(self, exercise: Exercise, part: Part) -> Verdict:
+        """Judge one function; each is judged once."""
+        if part.name not in self._verdicts:
+            self._judging.append(part.name)
+            try:
+                self._verdicts[part.name] = self._judge(exercise, part)
+            finally:
+                self._judging.pop()
+        return self._verdicts[part.name]
+
+    def _judge(self, exercise: Exercise, part: Part) -> Verdict:
+        module, file = self.module(exercise.section), catalogue.file_name(exercise.section)
+        head = say("head", id=exercise.id, name=part.name)
+        if isinstance(module, Text):
+            missing = not (self.folder / file).exists()
+            return Verdict("to do", (head, module)) if missing else Unread("wrong", (head, module))
+        function = getattr(module, part.name, None)
+        if isinstance(function, str):
+            return judge_formula(exercise, part, function, seed=self.seed)
+        if not callable(function):
+            phrase = "missing" if function is None else "not a function"
+            return Verdict("wrong", (head, say(phrase, name=part.name, file=file)))
+        watch = partial(self.watch, part.name)
+        return judge(exercise, part, function, seed=self.seed, watch=watch, search=self.search)
+
+    def verdict_in_words(self, exercise: Exercise) -> Verdict | None:
+        """Judge whether the answer in words is written; None where the exercise needs no words."""
+        if exercise.answer is None:
+            return None
+        words = self.words(exercise)
+        if words is None:
+            return Verdict("to do", (say("words missing", name=exercise.answer_name),))
+        return verdict_on_words(exercise, words)
+
+    def verdicts(self, exercise: Exercise) -> dict[str, Verdict]:
+        """Return the verdicts on all parts of an exercise, by the name in the file."""
+        found = {part.name: self.verdict(exercise, part) for part in exercise.parts}
+        words = self.verdict_in_words(exercise)
+        return found if words is None else {**found, exercise.answer_name: words}
+
+    def best(self, name: str) -> Callable[..., Any]:
+        """Return the student's function where it is right, the reference where it is not yet."""
+        if self._judging[-1:] == [name]:
+            raise RuntimeError(f"mine({name!r}) is the function that you are to write here")
+        exercise, part = catalogue.find_part(name)
+        module = self.module(exercise.section)
+        if name not in self._judging and not isinstance(module, Text) and self.verdict(exercise, part).state == "done":
+            found = getattr(module, name)
+            function: Callable[..., Any] = typed(part, found) if isinstance(found, str) else found
+            return function
+        self.borrowed.add(name)
+        return part.solution
+
+
+def verdict_on_words(exercise: Exercise, words: str) -> Verdict:
+    """Judge an answer in words: only whether there is enough of it."""
+    if len(words.strip()) < SHORTEST_ANSWER:
+        return Verdict("wrong", (say("words short", name=exercise.answer_name),))
+    return Verdict("done")
+
+
+def _line(error: BaseException, path: Path) -> int | None:
+    """Return the line of a file at which an error is, or was raised."""
+    if isinstance(error, SyntaxError):
+        return error.lineno
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    return lines[-1] if lines else None
+
+
+@contextmanager
+def _importable(folder: Path) -> Iterator[None]:
+    """Let files of the folder import each other, and forget these modules afterwards, for the next folder."""
+    before = set(sys.modules)
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+        for name in set(sys.modules) - before:
+            file = getattr(sys.modules[name], "__file__", None)
+            if file and Path(file).parent == folder:
+                del sys.modules[name]
+
+
+def mine(name: str) -> Callable[..., Any]:
+    """Return a function of an earlier exercise: yours once it is right, the reference until then.
+
+    Which of the two is decided when it is first called.
+
+    Parameters
+    ----------
+    name : str
+        Of the function, as in the skeletons.
+
+    Returns
+    -------
+    callable
+
+    Raises
+    ------
+    NameNotFound
+        If no exercise has a function of that name.
+
+    Examples
+    --------
+    >>> skew = mine("skew")  # outside a folder with exercises: the reference
+    >>> skew([1.0, 2.0, 3.0])
+    array([[ 0., -3.,  2.],
+           [ 3.,  0., -1.],
+           [-2.,  1.,  0.]])
+    """
+    _, part = catalogue.find_part(name)
+    asker = sys._getframe(1).f_globals  # the folder is that of the calling file
+    book = asker.get("__workbook__") or Workbook(Path(asker.get("__file__", "")).parent)
+
+    def function(*arguments: Any, **named: Any) -> Any:
+        return book.best(name)(*arguments, **named)
+
+    function.__name__, function.__doc__ = name, part.doc.en
+    return function
+
+
+def has_started(folder: Path) -> bool:
+    """Whether a folder holds a student's files."""
+    return any(isfile(folder / catalogue.file_name(section)) for section in catalogue.SECTIONS)
+
+
+def _where(folder: Path) -> str:
+    """Return where the exercises may be, for a student who is in another folder."""
+    near = [folder / "..", *(sorted(folder.iterdir()) if folder.is_dir() else ())]
+    for other in near:
+        if has_started(other):
+            return f"there are some in {other}: twistwrench exercises status {shlex.quote(str(other))}"
+    named, new = "twistwrench exercises status DIR", "twistwrench exercises start DIR"
+    return f"name the folder that they are in: {named} (to make one: {new})"

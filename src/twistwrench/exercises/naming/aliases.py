@@ -1,0 +1,64 @@
+"""A second name for one array, or a view into it, that is written into: copies in their place make it right."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ..calls import tried
+from ..changes.edits import Source
+from ..changes.repairs import written
+from ..compare import agree
+from ..exercise import Part
+from ..words.phrases import say
+from ..words.text import Text
+
+__all__ = ["missing_copies"]
+
+Function = Callable[..., Any]
+
+
+def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: Sequence[Any]) -> list[Text]:
+    """Report the fewest assignments that must copy, if copies make the function right in all cases; else nothing."""
+    found = written(function)
+    if found is None:
+        return []
+    text, before = found
+    tree = ast.parse(text.lstrip())
+    places = [k for k, node in enumerate(ast.walk(tree)) if isinstance(node, ast.Assign) and _is_second_name(node)]
+
+    def mended(chosen: Sequence[int]) -> bool:
+        source = Source(function, function, {}, {"_copied": _copied}, text)
+        source.names["_copied"] = _copied
+        for k, node in enumerate(ast.walk(source.tree)):
+            if k in chosen and isinstance(node, ast.Assign):
+                node.value = ast.Call(ast.Name("_copied", ast.Load()), [node.value], [])
+        other = source.compiled()
+        return all(agree(part, tried(part, other, c), b, c) for b, c in zip(right, cases))
+
+    if not places or not mended(places):
+        return []
+    for k in [*places]:
+        fewer = [other for other in places if other != k]
+        if fewer and mended(fewer):
+            places = fewer
+    nodes = [node for k, node in enumerate(ast.walk(tree)) if k in places and isinstance(node, ast.Assign)]
+    return [_said(node, before) for node in nodes]
+
+
+def _is_second_name(node: ast.Assign) -> bool:
+    """Whether nothing is computed: what stands on the right is a name, a part of an array, or its transpose."""
+    value: Any = node.value
+    if isinstance(value, ast.Attribute):
+        value = value.value if value.attr in ("T", "mT") else None
+    return isinstance(node.targets[0], ast.Name) and isinstance(value, ast.Name | ast.Subscript)
+
+
+def _copied(x: Any) -> Any:
+    return x.copy() if hasattr(x, "copy") else x
+
+
+def _said(node: ast.Assign, before: int) -> Text:
+    line, name, value = node.lineno + before, ast.unparse(node.targets[0]), ast.unparse(node.value)
+    return say("second name", line=line, text=ast.unparse(node), name=name, value=value)

@@ -1,0 +1,109 @@
+"""The slips of the list that give the student's numbers."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..changes.repairs import text_written
+from ..compare import Value, agree, close, values
+from ..exercise import Part
+from ..wrong import swap
+from .own import traced
+
+__all__ = ["MISHAPS", "matching_slips", "slips_by_piece", "two_slips"]
+
+Answers = Sequence[Any]
+Cases = Sequence[tuple[Any, ...]]
+
+MISHAPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
+
+COMPUTED = ("tw.", "mine(", "pin.", "for ", "while ")
+"""What stands in a program that computes its numbers: in others each is typed in, and wrong by itself."""
+
+TWISTS: dict[str, Callable[[Any], Any]] = {
+    "swapped-halves": swap,
+    "transposed-answer": lambda x: np.asarray(x).mT,
+    "degrees": lambda x: np.asarray(x) * 180 / np.pi,
+    "thousand": lambda x: np.asarray(x) * 1000,
+    "half-missing": lambda x: np.asarray(x) * 2,
+}
+"""Slips that can be made on top of any other: by these, two slips at once are recognised."""
+
+
+def matching_slips(part: Part, answers: Answers, cases: Cases) -> list[str]:
+    """Return the slips that give these very answers on all cases."""
+    return [slip for slip, wrong in part.slips.items() if _matches(part, wrong, answers, cases)]
+
+
+def _matches(part: Part, wrong: Callable[..., Any], answers: Answers, cases: Cases) -> bool:
+    for answer, arguments in zip(answers, cases):
+        slipped = _slipped(part, wrong, [arguments])
+        if slipped is None or not agree(part, answer, slipped[0], arguments):
+            return False
+    return True
+
+
+def _slipped(part: Part, wrong: Callable[..., Any], cases: Cases) -> list[Any] | None:
+    """Return the answers of a wrong implementation on all cases; None where it raises an error."""
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return [part.value(wrong, arguments) for arguments in cases]
+    except MISHAPS:
+        return None
+
+
+def slips_by_piece(
+    part: Part, function: Callable[..., Any], answers: Answers, cases: Cases
+) -> dict[str, list[str]] | None:
+    """Return the slips in each of several things returned, where every wrong one is explained by some slip.
+
+    What the student's source does not have cannot have that slip.
+    """
+    if len(part.returns) == 1 or part.canonical is not None:
+        return None
+    split = [values(answer, part.returns) for answer in answers]
+    right = [values(part.value(part.solution, arguments), part.returns) for arguments in cases]
+
+    def same(first: list[list[Value] | None], second: list[list[Value] | None], k: int) -> bool:
+        return all(a and b and close(a[k], b[k], part.rtol) for a, b in zip(first, second))
+
+    every = range(len(part.returns))
+    wrong = {k for k in every if not same(split, right, k)}
+    first = next((n for n, (a, b) in enumerate(zip(split, right)) if not all(same([a], [b], k) for k in every)), 0)
+    made = {}
+    for slip, other in part.slips.items():
+        once = _slipped(part, other, cases[first : first + 1])  # most are seen not to fit in one case
+        if once and any(same(split[first : first + 1], [values(once[0], part.returns)], k) for k in wrong):
+            made[slip] = [values(answer, part.returns) for answer in _slipped(part, other, cases) or []]
+    made = {slip: found for slip, found in made.items() if found}
+    touched = {slip: {k for k in every if not same(other, right, k)} for slip, other in made.items()}
+    found, source = {}, text_written(function)
+    typed = not cases[0] and not any(word in source for word in COMPUTED)
+    words = {k for k, x in enumerate(right[first] or []) if x.array is None}
+    for k in sorted(wrong):
+        fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
+        alone = [slip for slip in fitting if touched[slip] <= wrong]  # it spoils nothing else
+        fitting = alone or (fitting if typed or k in words else [])  # numbers one by one, or one error of several
+        found[part.returns[k].name] = [slip for slip in fitting if traced(slip, source)]
+    return found if all(found.values()) else None
+
+
+def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:
+    """Return two slips that together give these answers on all cases."""
+    for second, twist in TWISTS.items():
+        if second == "half-missing" and second not in part.slips:
+            continue  # there is no half to be missed
+        for first, wrong in part.slips.items():
+
+            def both(*arguments: Any, wrong: Any = wrong, twist: Any = twist) -> Any:
+                answer = wrong(*arguments)
+                return tuple(map(twist, answer)) if isinstance(answer, tuple) else twist(answer)
+
+            if first != second and _matches(part, both, answers, cases):
+                return first, second
+    return None

@@ -1,0 +1,161 @@
+"""Whether a student's own code bears out a slip with the same numbers: what is false of his code is not said of him."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ..changes.repairs import Repair, text_written
+from ..changes.whole import Edit
+from ..exercise import Part
+from ..slips import SLIPS
+from ..words.phrases import say
+from ..words.text import Text
+
+__all__ = ["borne_out", "by_own_line", "by_piece_borne_out", "own_lines", "shown_in", "traced"]
+
+SIGNS = {"cross-order": "cross(", "lever-reversed": " - "}
+"""Slips that give the same numbers, the sign of a cross product, and what stands in the line that is turned round."""
+
+TURNED = ("sign", "wrong end", "mirrored", "factors of the cross product")
+"""Words of the titles of slips that change a sign."""
+
+MISSING = (" missing", " left out", " dropped", " is lost")
+"""Words of the titles of slips that lack something."""
+
+TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
+"""Kinds of changes of a line that say more of a slip with a name: where it is."""
+
+FORCES = ("children-overwritten", "children-dropped")
+"""Slips that may give the numbers of a loop in the wrong direction."""
+
+NO_SIGN = ("left out", "index", "name", "last", "summed", "argument")
+"""Kinds of changes that do not give back a sign."""
+
+TRACES = {"ᵀ": (".T", ".mT", "transpose", "swapaxes", "einsum"), "⁻¹": ("inv", "solve", ".T", ".mT")}
+"""By what it is seen in a program that something is transposed, or inverted."""
+
+WORDS = {"transpose": TRACES["ᵀ"], "inverse": ("inv", "solve", "inverse")}
+"""The same for slips that have the word in their name."""
+
+
+def borne_out(found: list[str], function: Callable[..., Any], mended: Sequence[Repair]) -> list[str]:
+    """Return of the slips with the student's numbers those that his source and the lines found in it bear out.
+
+    Parameters
+    ----------
+    found : list of str
+    function : callable
+        The student's.
+    mended : sequence of Repair
+        Each makes it right; empty where none was found.
+    """
+    source = text_written(function)
+    edits = [repair.edit for repair in mended]
+    found = by_own_line(found, edits)
+    if source:
+        found = [slip for slip in found if _spoken(slip, source)]
+    if edits:
+        found = [slip for slip in found if any(_fits(slip, edit) for edit in edits)]
+    if len(found) < 2 or not source:
+        return found
+
+    def speaks(slip: str) -> int:
+        words = [word for key, traces in WORDS.items() if key in slip for word in traces]
+        return 1 if not words else 2 * any(word in source for word in words)
+
+    return [slip for slip in found if speaks(slip) == max(map(speaks, found))]
+
+
+def by_piece_borne_out(
+    part: Part, found: dict[str, list[str]], function: Callable[..., Any], mended: Sequence[Repair]
+) -> bool:
+    """Whether of the slips found in each of several things the student's source, and its lines, bear one out in each.
+
+    The others are taken out of what was found.
+    """
+    for k, quantity in enumerate(part.returns):
+        if quantity.name in found:
+            own = [repair for repair in mended if repair.piece in (None, k)]
+            found[quantity.name] = borne_out(found[quantity.name], function, own)
+    return all(found.values())
+
+
+def shown_in(source: str, edit: Edit) -> bool:
+    """Whether a student's source has the wrong text of an edit of a right solution, or lacks what is left out there."""
+    own, right, wrong = (re.sub(r"[\s()]", "", text).replace(".mT", ".T") for text in (source, edit.right, edit.wrong))
+    if edit.first is not None or edit.kind in ("argument", "result"):
+        return False
+    if wrong:  # a colon, or a number, is in any
+        return len(wrong) > 2 and any(map(str.isalpha, wrong)) and wrong in own and right not in own
+    called = re.findall(r"[\w.]+(?=\()", edit.right)
+    return (
+        right in own if edit.kind == "sign" else edit.kind == "left out" and not any(x in own for x in (right, *called))
+    )
+
+
+def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
+    """Report the line of the student's where a slip is, or the two where it may be."""
+    lacking = any(word in SLIPS[slip].title.en for slip in found for word in MISSING)
+    whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING]
+    whole = [x for x in whole if x.edit.kind != "name" or not lacking]  # another name is not what is missing
+    titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
+    either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
+    return [say("own code", title=either)] if titles else []
+
+
+def by_own_line(found: list[str], edits: Sequence[Edit]) -> list[str]:
+    """Return of a cross product and its lever arm, which give one sign, those that the student's lines reverse."""
+    turned = [edit.right for edit in edits if edit.kind == "exchanged"]
+    own = [next((slip for slip, mark in SIGNS.items() if mark in text), "") for text in turned]
+    if not {*found} & {*SIGNS} or not any(own):
+        return found
+    first = min(k for k, slip in enumerate(found) if slip in SIGNS)
+    others = [[slip] if slip not in SIGNS else [*filter(None, own)] * (k == first) for k, slip in enumerate(found)]
+    return [*dict.fromkeys(slip for slips in others for slip in slips)]
+
+
+def traced(slip: str, source: str) -> bool:
+    """Whether a slip in an inverse can be one of this source: it inverts, or returns what it names an inverse."""
+    return (
+        not source or "in the inverse" not in SLIPS[slip].title.en or any(word in source for word in WORDS["inverse"])
+    )
+
+
+def _spoken(slip: str, source: str) -> bool:
+    """Whether what the slip says to stand there can stand in this source: a transpose, an inverse."""
+    said, meant = _halves(slip)
+    return not meant or all(any(x in source for x in traces) for key, traces in TRACES.items() if key in said)
+
+
+def _halves(slip: str) -> tuple[str, str]:
+    """Return what the title of a slip says to stand there, and in place of what, where it has both."""
+    said, *meant = re.split(" taken for | in place of ", SLIPS[slip].title.en, maxsplit=1)
+    return said, meant[0].partition(":")[0] if meant else ""
+
+
+def _fits(slip: str, edit: Edit) -> bool:
+    """Whether the change that mends the student's line undoes this slip, and not another with the same numbers."""
+    title, (said, meant) = SLIPS[slip].title.en, _halves(slip)
+    if slip in SIGNS:  # a sign alone is neither
+        return edit.kind == "exchanged" and (SIGNS[slip] in edit.right or "(" not in edit.right)
+    backward = any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
+    if slip == "visited-outward" or (slip in FORCES and backward):
+        return slip == "visited-outward" and backward
+    if slip == "children-dropped" and edit.wrong.replace("+=", "=") == edit.right:
+        return False  # they are added, and then overwritten
+    if _is_term(edit):
+        lacking = any(word in title for word in MISSING)
+        return not lacking and not any(word in title for word in TURNED) and sorted(said) != sorted(meant)
+    if any(word in title for word in TURNED):
+        return edit.kind not in NO_SIGN or edit.kind == "left out"
+    return True
+
+
+def _is_term(edit: Edit) -> bool:
+    """Whether a change takes a term or a factor away, and not a number or a condition."""
+    node = edit.places[0][2] if edit.places else None
+    number = bool(re.fullmatch(r"[-\d.e]*", edit.right))
+    return edit.kind == "left out" and isinstance(node, ast.BinOp | ast.AugAssign) and not number

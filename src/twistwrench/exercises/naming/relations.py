@@ -1,0 +1,240 @@
+"""How a wrong array differs from the right one: sign, transpose, factor, zero, places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from textwrap import shorten
+from typing import Any
+
+import numpy as np
+
+from ...arrays import Array
+from ..compare import FLOOR, Value, pieces, values
+from ..exercise import Part
+from ..layouts import Layout
+from ..words.phrases import say
+from ..words.text import Text
+
+__all__ = ["describe", "of_numbers", "of_structure", "of_truths"]
+
+TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
+"""Factors that are reported: they show the slip. Others are chance, and would give a number away."""
+
+
+def of_numbers(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text | None:
+    """Report what shows in all cases together: sizes of one robot, or whole numbers in place of numbers."""
+    pairs = [(values(a, part.returns), values(b, part.returns)) for a, b in zip(answers, right)]
+    for k in range(len(part.returns)):
+        arrays = [(a[k].array, b[k].array) for a, b in pairs if a and b]
+        both = [(a, b) for a, b in arrays if a is not None and b is not None]
+        if len(both) < 2 or len(both) < len(pairs):
+            continue
+        name, got, wanted = part.returns[k].title, {a.shape for a, _ in both}, {b.shape for _, b in both}
+        if len(got) == 1 < len(wanted) and {len(x) for x in got} == {len(x) for x in wanted}:
+            return say("fixed size", name=name, shape=got.pop())
+        whole = all(b.dtype.kind == "f" and b.ndim and np.array_equal(a, np.trunc(b)) for a, b in both)
+        if whole and any(a.any() for a, _ in both):
+            return say("cut off", name=name)
+    return None
+
+
+def of_structure(part: Part, answers: Sequence[Any]) -> Text | None:
+    """Report that nothing was returned, or the wrong number of values."""
+    for answer in answers:
+        if answer is None:
+            return say("none")
+        if pieces(answer, part.returns) is None:
+            names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
+            return say("pieces", n=len(part.returns), names=names, got=_count(answer))
+    return None
+
+
+def _count(answer: Any) -> str:
+    return str(len(answer)) if isinstance(answer, tuple | list) else type(answer).__name__
+
+
+def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] = TELLING) -> list[Text]:
+    """Explain what is wrong with one value; empty where it is right. Factors are looked for among those given."""
+    name = got.quantity.label
+    problem = _not_comparable(got, right)
+    if problem is not None:
+        return [problem]
+    if got.array is None or right.array is None:
+        text = str(got.raw).strip()
+        return [] if text == str(right.raw).strip() else [_is(name, _text(text, str(right.raw).strip()))]
+    if right.array.dtype.kind == "b":
+        return _truths(name, got.array, right.array)
+    if np.isnan(right.array).any() and np.isfinite(got.array).all():
+        return [_is(name, say("nan expected"))]
+    tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
+    relation = _plain(got.array, right.array, tolerance, factors) or _triangle(got.array, right.array, tolerance)
+    if relation == say("right"):
+        return []
+    if relation is not None:
+        return [_is(name, relation)]
+    return _blocks(name, got.quantity.layout, got.array, right.array, tolerance, factors)
+
+
+def _text(got: str, right: str) -> Text:
+    """Report that a text is another one; which error is expected is said."""
+    if right.endswith("Error") and right.isidentifier():
+        return say("error differs", got=shorten(got, 60) or say("nothing"), right=right)
+    return say("text differs", got=shorten(got, 60))
+
+
+def _truths(name: Text, got: Array, right: Array) -> list[Text]:
+    wrong = [(bool(x), bool(y)) for x, y in zip(got.flat, right.flat) if x != y]
+    return [_is(name, say("false", got=wrong[0][0], right=wrong[0][1]))] if wrong else []
+
+
+def of_truths(pairs: Sequence[tuple[Any, Any]]) -> Text | None:
+    """Report in which direction answers are wrong that are True or False; None where they are something else."""
+    if not all(isinstance(x, bool | np.bool_) for pair in pairs for x in pair):
+        return None
+    strict, loose = (sum(bool(a) is not truth and bool(b) is truth for a, b in pairs) for truth in (True, False))
+    phrase = "too strict" if not loose else "too loose" if not strict else "both ways"
+    return say(phrase, strict=strict, loose=loose)
+
+
+def _is(what: Text, relation: Text) -> Text:
+    return say("is", what=what, relation=relation)
+
+
+def _not_comparable(got: Value, right: Value) -> Text | None:
+    """Explain why an answer cannot be compared: its type, its shape, its NaN."""
+    name = got.quantity.title
+    if right.array is None:
+        return None if isinstance(got.raw, str) else _type(got, "words")
+    truths = right.array.dtype.kind == "b"
+    if got.array is None or (got.array.dtype.kind == "b") != truths:
+        return _type(got, "truth values" if truths else "numbers")
+    if got.array.shape != right.array.shape:
+        return say("shape", name=name, got=got.array.shape, expected=right.array.shape)
+    bad = np.argwhere(~np.isfinite(got.array)) if not truths else np.empty((0, 0))
+    if len(bad) and np.isfinite(right.array).all():
+        return say("nan", name=name, where=_places(bad)) if got.array.ndim else _is(name, say("no number"))
+    return None
+
+
+def _type(got: Value, expected: str) -> Text:
+    return say("not numbers", name=got.quantity.title, what=say(expected), got=type(got.raw).__name__)
+
+
+def _blocks(name: Text, layout: Layout, a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> list[Text]:
+    """Explain what is wrong with each block, where the whole shows no pattern."""
+    lines, some_right = [], False
+    for block, index in layout.blocks(b.shape):
+        origin = [0] * (b.ndim - len(index) + 1) + [part.start for part in index[1:]]
+        relation = _relation(a[index], b[index], tolerance, origin, factors)
+        if relation == say("right"):
+            some_right = True
+        else:
+            lines.append(_is(say("block", name=name, block=block), relation))
+    if not lines:
+        return [_is(name, _relation(a, b, tolerance, [0] * b.ndim, factors))]
+    return lines + [say("others right", name=name)] * some_right
+
+
+def _relation(a: Array, b: Array, tolerance: float, origin: list[int], factors: Sequence[float]) -> Text:
+    """Return how one array is related to the other, or where or by how much they differ.
+
+    `origin` is where the block begins, so that entries are numbered as in the whole.
+    """
+    plain = _plain(a, b, tolerance, factors)
+    if plain is not None:
+        return plain
+    for find in (_triangle, _diagonal, _shuffled):
+        relation = find(a, b, tolerance)
+        if relation is not None:
+            return relation
+    return _entries(a, b, tolerance, origin)
+
+
+def _same(a: Array, b: Array, tolerance: float) -> bool:
+    return bool((np.abs(a - b) <= tolerance).all())
+
+
+def _square(b: Array) -> bool:
+    return b.ndim >= 2 and b.shape[-1] == b.shape[-2] > 1
+
+
+def _plain(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
+    """Return whether an array is right, zero, of the wrong sign, transposed or off by a factor."""
+    disguises = {"right": b, "zero": np.zeros_like(b), "sign": -b}
+    if _square(b):
+        disguises |= {"transposed": b.mT, "transposed sign": -b.mT}
+    if _same(b, np.zeros_like(b), tolerance):
+        return say("right" if _same(a, b, tolerance) else "not zero")
+    for phrase, disguise in disguises.items():
+        if _same(a, disguise, tolerance):
+            return say(phrase)
+    return _factor(a, b, tolerance, factors)
+
+
+def _factor(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
+    """Return the factor, of those reported, by which an array is too large or too small."""
+    for factor in factors:
+        if (np.abs(a - factor * b) <= factor * tolerance).all():
+            return say("factor", factor=factor)
+        if (np.abs(factor * a - b) <= tolerance).all():
+            return say("divisor", factor=factor)
+    return None
+
+
+def _triangle(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return which triangle of a symmetric matrix is right."""
+    if not _square(b) or not _same(b, b.mT, tolerance):
+        return None
+    for phrase, part in (("upper", np.triu), ("lower", np.tril)):
+        if _same(part(a), part(b), tolerance):
+            return say(phrase)
+    return None
+
+
+def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return whether the diagonal of a square matrix is right, or only the rest."""
+    if not _square(b):
+        return None
+    on = np.eye(b.shape[-1], dtype=bool)
+    if _same(a * ~on, b * ~on, tolerance):
+        return say("off diagonal")
+    right = _same(a * on, b * on, tolerance) and not _same(b * on, np.zeros_like(b), tolerance)
+    return say("diagonal") if right and (np.abs(a - b) > tolerance).sum() > 3 else None
+
+
+def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return whether the numbers are right, and only signs or places wrong."""
+    if b.size < 2:
+        return None
+    if (np.abs(np.abs(a) - np.abs(b)) <= tolerance).all():
+        wrong = np.abs(a - b) > tolerance
+        return say("signs") if wrong.sum() > 3 or b.ndim == 0 else None
+    if (np.abs(np.sort(a.real.ravel()) - np.sort(b.real.ravel())) <= tolerance).all():
+        return say("permuted")
+    return None
+
+
+def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
+    """Return where two arrays differ, or by how much, where there is no simpler relation."""
+    wrong = np.abs(a - b) > tolerance
+    error = float(np.abs(a - b).max() / max(np.abs(b).max(initial=0), FLOOR))
+    if error < 1e-3:
+        return say("inexact", digits=int(-np.log10(error)))
+    if b.ndim and 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
+        where = np.argwhere(wrong) + origin
+        signs = (np.abs(a + b)[wrong] <= tolerance).all()
+        text = say("entries", entries=_places(where))
+        nothing = not a[wrong].any() and np.abs(b[wrong]).min() > tolerance
+        return say("is", what=text, relation=say("sign" if signs else "zero")) if signs or nothing else text
+    rows = wrong.reshape(len(b), -1).any(1) if b.ndim else np.array([True])
+    if not rows.all() and b.size > 3:
+        return say("rows", rows=", ".join(str(int(k) + (origin[0] if origin else 0)) for k in np.flatnonzero(rows)))
+    if b.size == 1:
+        return say("too large" if np.abs(a) > np.abs(b) else "too small")
+    return say("other")
+
+
+def _places(where: Array) -> str:
+    """Write indices as they are written in Python."""
+    shown = ", ".join("[" + ", ".join(str(int(k)) for k in place) + "]" for place in where[:3])
+    return shown + (", ..." if len(where) > 3 else "")

@@ -1,0 +1,87 @@
+"""What wrong answers share: the simplest arguments that give one, an edge on which they all lie, an entry that is 0."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..calls import tried
+from ..compare import agree, values
+from ..exercise import Part
+from ..words.phrases import say
+from ..words.text import Text
+
+__all__ = ["of_words", "shared"]
+
+SHOWN = 3
+"""Of the simplest arguments."""
+
+NEAR = 1e-6
+"""Part of a number by which it is changed: who is on an edge is then not on it any more."""
+
+Case = tuple[Any, ...]
+
+
+def of_words(part: Part, again: Callable[[Case], Any], cases: Sequence[Case]) -> list[Text]:
+    """Report for which single words, or pairs of them, of a list of words a whole number is wrong, and by how much."""
+    if not cases or len(cases[0]) != 1 or not all(isinstance(x, str) for c in cases for x in c[0]) or not cases[0][0]:
+        return []
+    words = sorted({x for c in cases for x in c[0]})
+    lines: list[Text] = []
+    for given in ([[x] for x in words], [[x, y] for x in words for y in words]):
+        for one in given:
+            lines += _apart(part, again, one) if len(lines) < SHOWN else []
+        if lines:
+            break
+    return lines
+
+
+def _apart(part: Part, again: Callable[[Case], Any], given: list[str]) -> Iterator[Text]:
+    name = part.arguments.partition("=")[0]
+    got, right = values(again((given,)), part.returns), values(tried(part, part.solution, (given,)), part.returns)
+    for a, b in zip(got or (), right or ()):
+        if a.array is not None and b.array is not None and a.array.shape == b.array.shape == () and a.array != b.array:
+            a_number, b_number = f"{float(a.array):g}", f"{float(b.array):g}"
+            yield say("simplest", name=name, given=given, what=a.quantity.title, got=a_number, right=b_number)
+
+
+def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequence[Case]) -> list[Text]:
+    """Report of answers that are True or False what all wrong ones share, and no right one."""
+    if not all(isinstance(x, bool | np.bool_) for pair in zip(answers, right) for x in pair):
+        return []
+    wrong = [c for a, b, c in zip(answers, right, cases) if bool(a) is not bool(b)]
+    fine = [c for a, b, c in zip(answers, right, cases) if bool(a) is bool(b)]
+    if len(wrong) < 2:
+        return []
+    lines = []
+    if all(_on_edge(part, c) for c in wrong):
+        lines.append(say("on edge"))
+    names = [name.partition("=")[0] for name in part.arguments.split(", ")]
+    every = set[str].intersection(*(_zeros(names, c) for c in wrong))
+    if every and not any(every <= _zeros(names, c) for c in fine):
+        lines.append(say("all zero", what=" = ".join(sorted(every))))
+    return lines
+
+
+def _zeros(names: Sequence[str], arguments: Case) -> set[str]:
+    """Return the entries of the arguments that are zero."""
+    arrays = [(name, np.ravel(x)) for name, x in zip(names, arguments) if isinstance(x, np.ndarray)]
+    return {f"{name}[{k}]" for name, x in arrays for k in range(x.size) if x[k] == 0}
+
+
+def _on_edge(part: Part, arguments: Case) -> bool:
+    """Whether the right answer changes with a very small change of a number."""
+    known = tried(part, part.solution, arguments)
+    for k, x in enumerate(arguments):
+        if not isinstance(x, float | np.ndarray) or np.asarray(x).dtype.kind != "f":
+            continue
+        for entry in range(np.size(x)):
+            for factor in (1 - NEAR, 1 + NEAR):
+                y = np.array(x)
+                y.flat[entry] *= factor
+                other = (*arguments[:k], y if isinstance(x, np.ndarray) else float(y), *arguments[k + 1 :])
+                if not agree(part, tried(part, part.solution, other), known, other):
+                    return True
+    return False

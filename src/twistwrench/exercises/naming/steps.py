@@ -1,0 +1,71 @@
+"""The first quantity of a recursion that is wrong, and at which body: from the record of what an edit computes."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..calls import copied, local_values
+from ..exercise import Part
+from ..words.phrases import say
+from ..words.text import Text
+
+__all__ = ["first_wrong"]
+
+INWARD = ("inward", "reversed", "-1")
+
+
+def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ...]) -> Text | None:
+    """Report which quantity of which body a change within a listing makes wrong first, and which stay right."""
+    bodies = _computed(within)
+    right, wrong = (
+        local_values(lambda *given, f=f: part.value(f, given), within, copied(arguments))
+        for f in (part.solution, function)
+    )
+    fine: list[str] = []
+    for name in (name for name in bodies if name in right and name in wrong):
+        bad = [key for key, x in _entries(right[name]).items() if not _same(x, _entries(wrong[name]).get(key))]
+        if bad:
+            first = max(bad) if bodies[name] else min(bad)
+            place = f"{name}[{', '.join(map(str, first)) if isinstance(first, tuple) else first}]"
+            return say("first wrong", right=", ".join(fine), wrong=place) if fine else say("wrong first", wrong=place)
+        if _entries(right[name]):
+            fine.append(name)
+    return None
+
+
+def _computed(function: Any) -> dict[str, bool]:
+    """Return the names of which a loop sets one entry after the other, in order, and whether it goes inward."""
+    found: dict[str, bool] = {}
+    for loop in ast.walk(ast.parse(textwrap.dedent(inspect.getsource(function)))):
+        if isinstance(loop, ast.For):
+            inward = any(word in ast.unparse(loop.iter) for word in INWARD)
+            for node in ast.walk(loop):
+                if (
+                    isinstance(node, ast.Subscript)
+                    and isinstance(node.ctx, ast.Store)
+                    and isinstance(node.value, ast.Name)
+                ):
+                    found[node.value.id] = inward
+    return {name: found[name] for name in found if name != "B"}  # the wrench that F begins with
+
+
+def _entries(value: Any) -> Mapping[Any, Any]:
+    """Return the entry of each body."""
+    if isinstance(value, dict):
+        return value
+    if isinstance(value, list) or (isinstance(value, np.ndarray) and value.ndim > 1):
+        return {k: x for k, x in enumerate(value) if isinstance(x, np.ndarray)}
+    return {}
+
+
+def _same(first: Any, second: Any) -> bool:
+    """Whether two entries are the same, to the digits that a rounding leaves."""
+    if second is None or np.shape(first) != np.shape(second):
+        return False
+    return bool(np.allclose(first, second, rtol=1e-9, atol=1e-9))

@@ -1,0 +1,153 @@
+"""What each statement of a student's function computes, and which of them is the first to go wrong."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..changes.edits import Source
+from .records import Event, Known, arrays, tells
+
+__all__ = ["Output", "outputs", "suspects"]
+
+BUILT = ("block", "array", "concatenate", "vstack", "hstack", "stack", "column_stack", "asarray")
+"""What is given to these is looked at by itself."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """What a statement computes at one time.
+
+    Attributes
+    ----------
+    when : int
+    key : bytes
+        By which it is recognised where it is read.
+    known, telling : bool
+        Whether a right solution has it as well, and whether it is not met by chance.
+    read : tuple of (str, bytes)
+        What is unknown of what it is computed from: names and keys.
+    """
+
+    when: int
+    key: bytes
+    known: bool
+    telling: bool
+    read: tuple[tuple[str, bytes], ...]
+
+
+@dataclass(frozen=True)
+class Output:
+    """What a statement computes, or one of several things: the expression, and its values."""
+
+    statement: Any
+    node: Any
+    writes: frozenset[str]
+    values: tuple[Value, ...]
+
+    @property
+    def place(self) -> tuple[int, int]:
+        """Line and column."""
+        return self.node.lineno, self.node.col_offset
+
+    @property
+    def known(self) -> bool:
+        """Whether right solutions have all of its values; of a sum, the last."""
+        return all(x.known for x in self.values)
+
+
+def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Output]:
+    """Return what each statement computes, in the order of the program."""
+    right = [known.has(event.value) for event in events]
+    when: dict[int, list[int]] = {}
+    for k, event in enumerate(events):
+        when.setdefault(id(event.node), []).append(k)
+    fine = {number for number, times in when.items() if all(right[k] for k in times)}
+    found = []
+    for parents, _, node in source.places:
+        statement = next((x for x in reversed([*parents, node]) if isinstance(x, ast.stmt)), None)
+        if id(node) not in when or not any(node is x for x in _results(statement)):
+            continue
+        whole = any(id(x) in fine for x in parents if isinstance(x, ast.expr))
+        operands = {id(x) for x in ast.walk(node) if isinstance(x, ast.Name | ast.Subscript)}
+        values, before = [], -1
+        for k in when[id(node)]:
+            times = (j for j in range(before + 1, k + 1) if id(events[j].node) in operands and not right[j])
+            read = tuple((_base(events[j].node), _key(events[j].value)) for j in times)
+            telling = any(tells(x) for x in arrays(events[k].value))
+            values.append(Value(k, _key(events[k].value), whole or right[k], telling, read))
+            before = k
+        if isinstance(node, ast.AugAssign) and values[-1].known:
+            values = values[-1:]  # the sum, not what it is on the way
+        found.append(Output(statement, node, frozenset(_written(statement, parents)), (*values,)))
+    return found
+
+
+def _key(value: Any) -> bytes:
+    return b"".join(x.tobytes() for x in arrays(value))
+
+
+def _base(node: Any) -> str:
+    while isinstance(node, ast.Subscript | ast.Attribute):
+        node = node.value
+    return str(getattr(node, "id", ""))
+
+
+def _written(statement: Any, parents: Sequence[Any]) -> Iterator[str]:
+    """Yield the names that a statement sets, or an entry of; a helper's result has the helper's name."""
+    if isinstance(statement, ast.Return):
+        yield from [x.name for x in parents[1:] if isinstance(x, ast.FunctionDef)][-1:]
+    found = getattr(statement, "targets", [getattr(statement, "target", None)])
+    if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
+        found = [statement.value.func]  # x.append(…)
+    for node in found:
+        yield from map(_base, node.elts if isinstance(node, ast.Tuple) else [node])
+
+
+def _results(statement: Any) -> Iterator[Any]:
+    """Yield the expressions that a statement computes; of a list or a block matrix, what stands in it."""
+    if isinstance(statement, ast.AugAssign):
+        yield statement
+    elif isinstance(statement, ast.Assign | ast.Return):
+        yield from _leaves(statement.value)
+    elif isinstance(statement, ast.Expr) and isinstance(call := statement.value, ast.Call):
+        for argument in call.args:
+            yield from _leaves(argument)
+
+
+def _leaves(node: Any) -> Iterator[Any]:
+    called = getattr(getattr(node, "func", None), "attr", "")
+    if isinstance(node, ast.Tuple | ast.List):
+        for entry in node.elts:
+            yield from _leaves(entry)
+    elif called in BUILT and node.args:
+        yield from _leaves(node.args[0])
+    elif isinstance(node, ast.Subscript) and getattr(node.value, "attr", "") in ("r_", "c_"):
+        yield from _leaves(node.slice)
+    elif node is not None and called != "empty":
+        yield node
+
+
+def suspects(found: Sequence[Output], ways: Container[tuple[int, int]] = ()) -> list[Output]:
+    """Return what is wrong though all that it is computed from is right, the first of it first.
+
+    What no right solution has, but leads to what one has, is only another way; so is what stands at `ways`.
+    """
+    fine, size = {v.key for x in found if x.place in ways for v in x.values if not v.known}, -1
+    readers: dict[bytes, list[Value]] = {}
+    for value in (v for x in found for v in x.values if v.telling):
+        for _, key in value.read:
+            readers.setdefault(key, []).append(value)
+    while size < len(fine):
+        size = len(fine)
+        fine |= {key for key, values in readers.items() if all(v.known or v.key in fine for v in values)}
+    wrong = [(x, [v for v in x.values if not v.known and v.key not in fine]) for x in found]
+    wrong = [(x, bad) for x, bad in wrong if bad]
+    first = []
+    for x, bad in wrong:
+        others = {name for y, _ in wrong if y.statement is not x.statement for name in y.writes}
+        if not any(name in others and key not in fine for name, key in bad[0].read):
+            first.append((bad[0].when, x))
+    return [x for _, x in sorted(first, key=lambda pair: pair[0])]

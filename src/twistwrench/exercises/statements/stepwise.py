@@ -1,0 +1,224 @@
+"""The search from one wrong statement of a student's function to the next, by the values that they compute."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import inspect
+import io
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from typing import Any, NamedTuple
+
+import twistwrench
+
+from ..calls import tried
+from ..changes.alternatives import KINDS
+from ..changes.edits import Source
+from ..changes.excerpts import text_of
+from ..changes.plausible import plausible
+from ..changes.repairs import PAIRED, Repair, source_of, text_written
+from ..changes.search import Remembering, by_chance
+from ..changes.whole import Edit
+from ..compare import agree
+from ..exercise import Part
+from ..words.phrases import say
+from ..words.text import Text
+from .donors import given
+from .mixups import mixups
+from .outputs import Output, outputs, suspects
+from .records import Event, arrays, known_values, recorded, tells
+
+__all__ = ["Stepwise"]
+
+FEW = 3
+"""Wrong statements that are looked at."""
+
+MOST = 8
+"""First changes after which a second one is looked for."""
+
+LIKELY = (*KINDS[: KINDS.index("instead") + 1], "missing")
+"""Kinds of changes that may be the first of two."""
+
+
+class Traced(NamedTuple):
+    """A student's function, what it computes in one case, and the statements that are wrong first."""
+
+    source: Source
+    events: list[Event]
+    found: list[Output]
+    wrong: list[Output]
+    sure: int
+    right: int
+    unknown: int
+
+
+class Stepwise:
+    """What a student's function computes in one case, statement by statement, beside what right solutions do.
+
+    Parameters
+    ----------
+    part : Part
+    function : callable
+        The student's.
+    right, answers : sequence
+        What is expected and what the function returned, in each case.
+    cases : sequence of tuple
+    """
+
+    def __init__(
+        self,
+        part: Part,
+        function: Callable[..., Any],
+        right: Sequence[Any],
+        answers: Sequence[Any],
+        cases: Sequence[tuple[Any, ...]],
+    ) -> None:
+        self.part, self.right, self.cases = part, right, cases
+        self.text = text_written(function)
+        wrong = [k for k, given in enumerate(zip(answers, right, cases)) if not agree(part, *given)]
+        self.seldom = 2 * len(wrong) < len(cases)
+        self.first = min(wrong, key=lambda k: self._seconds(cases[k]))
+        self.start: Traced | None = None
+        arguments = cases[self.first]
+        if inspect.isclass(function) or not arguments:
+            return
+        self.names = {"tw": Remembering(twistwrench)}
+        self.given = dict(zip(part.arguments.split(", "), arguments))
+        source, self.before = source_of(part, function, arguments)
+        if source is not None:
+            with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+                self.ways = self._ways(source, wrong)
+                self.known, self.record = known_values(part, arguments, self.names)
+                self.start = self._traced(source)
+
+    def one(self, until: float, *, every: bool) -> list[Repair]:
+        """Return the change of one of the first wrong statements that makes all right.
+
+        Unless of `every` kind, it is one of those that are not tried on the whole function.
+        """
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+            for edit in self._edits(self.start, until, every=every) if self.start else ():
+                if self._mends(edit):
+                    return [Repair(edit, self.before)]
+        return []
+
+    def two(self, until: float) -> list[Repair]:
+        """Return two changes, the first of which makes more of the function right, and the second the rest."""
+        if self.start is None or self.seldom:
+            return []
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+            return self._after(self.start, until) or self._both(self.start, until)
+
+    def _after(self, start: Traced, until: float) -> list[Repair]:
+        """Return two changes, the first of them one that makes more of what is computed known."""
+        better, begin = [], time.process_time()
+        for edit in self._edits(start, begin + 0.5 * (until - begin)):
+            if edit.kind in LIKELY and edit.places:
+                after = self._traced(start.source.after(edit))
+                if after.events and after.unknown < start.unknown and after.right > start.right:
+                    better.append((edit, after))
+        better = sorted(better, key=lambda pair: pair[1].unknown)[:MOST]
+        for edit, after in better:
+            now = time.process_time()
+            for other in self._edits(after, now + 0.4 * (until - now)):  # the likeliest may take longest
+                if not _rewritten({edit.kind, other.kind}) and self._mends(other):
+                    return [Repair(other, self.before, first=edit)]
+        return []
+
+    def _both(self, start: Traced, until: float) -> list[Repair]:
+        """Return two changes of the first wrong statement, of the likeliest kinds."""
+        for edit in self._edits(start, until):
+            if edit.kind in PAIRED and edit.places:
+                source = start.source.after(edit)
+                source.places = [x for x in source.places if x[2].lineno == edit.line]
+                for other in (other for kind in PAIRED for other in source.edits(kind)):
+                    if time.process_time() > until:
+                        return []
+                    if self._mends(other):
+                        return [Repair(other, self.before, first=edit)]
+        return []
+
+    def line(self) -> Text | None:
+        """Report the first statement that is wrong, if what it is computed from is right."""
+        if self.start is None or not self.start.wrong:
+            return None
+        first, every = self.start.wrong[0], {id(x.statement) for x in self.start.found}
+        alone = len({id(x.statement) for x in self.start.wrong[: self.start.sure]}) == 1
+        bare = isinstance(first.statement, ast.Return) and isinstance(first.node, ast.Name)
+        if not alone or bare or len(every) < 3:
+            return None
+        return say("first line", line=first.statement.lineno + self.before, text=text_of(first.statement))
+
+    def _ways(self, source: Source, wrong: Sequence[int]) -> set[tuple[int, int]]:
+        """Return the places where another way is gone: no right solution has what is computed there in a right case."""
+        fine = next((c for k, c in enumerate(self.cases) if k not in wrong), None)
+        if fine is None:
+            return set()
+        known, _ = known_values(self.part, fine, self.names)
+        found = outputs(source, recorded(self.part, [source], fine), known)
+        return {x.place for x in found if not x.known}
+
+    def _traced(self, source: Source) -> Traced:
+        events = recorded(self.part, [source], self.cases[self.first])
+        found = outputs(source, events, self.known)
+        known: dict[int, bool] = {}
+        for event in events:
+            if any(tells(x) for x in arrays(event.value)):
+                known[id(event.node)] = known.get(id(event.node), True) and self.known.has(event.value)
+        right = sum(known.values())
+        wrong = suspects(found, self.ways)[:FEW]  # a right case may be right by chance: the rest comes after
+        more = [x for x in suspects(found) if not any(x is y for y in wrong)]
+        return Traced(source, events, found, wrong + more[:FEW], len(wrong), right, len(known) - right)
+
+    def _edits(self, traced: Traced, until: float, *, every: bool = True) -> Iterator[Edit]:
+        """Yield the changes of the statements that are wrong first, and what may be missing in them."""
+        chance = by_chance(self.part, self.cases[self.first])
+        for edit in self._streams(traced, every):
+            if time.process_time() > until:
+                return
+            if edit.kind not in chance and plausible(edit, self.text, self.part.solution):
+                yield edit
+
+    def _streams(self, traced: Traced, every: bool) -> Iterator[Edit]:
+        yield from mixups(traced.source)
+        if not traced.wrong:  # all numbers are there, but for their signs, places and factors
+            yield from traced.source.edits("sign")
+        for output in traced.wrong or traced.found[-1:]:
+            more = given(
+                *(traced.source, output, traced.events, traced.found),
+                *(self.record, self.given, self.known, self.right[self.first]),
+            )
+            yield from _all(_within(traced.source, output), more) if every else more
+
+    def _mends(self, edit: Edit) -> bool:
+        every = [self.first, *range(len(self.cases))]
+        return all(
+            agree(self.part, tried(self.part, edit.function, self.cases[k]), self.right[k], self.cases[k])
+            for k in every
+        )
+
+    def _seconds(self, arguments: tuple[Any, ...]) -> float:
+        start = time.perf_counter()
+        tried(self.part, self.part.solution, arguments)
+        return time.perf_counter() - start
+
+
+def _rewritten(kinds: set[str]) -> bool:
+    """Whether one of two changes takes something out and the other puts something in: that is not a slip."""
+    return "left out" in kinds and not kinds.isdisjoint(("missing", "inserted", "instead"))
+
+
+def _within(source: Source, output: Output) -> Source:
+    """Return the source, of which only one statement is changed."""
+    found = copy.copy(source)
+    found.places = [x for x in source.places if any(y is output.statement for y in (*x[0], x[2]))]
+    return found
+
+
+def _all(within: Source, more: Iterator[Edit]) -> Iterator[Edit]:
+    for kind in KINDS:
+        yield from within.edits(kind)
+        if kind == "left out":
+            yield from more

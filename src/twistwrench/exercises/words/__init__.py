@@ -1,0 +1,13 @@
+"""The words of the messages, in English and Chinese.
+
+Each file imports only from those above it in this table.
+
+========  ================================================================
+file      what it holds
+========  ================================================================
+text      `Text`: what is said, in both languages
+sayings   sentences on what a wrong result is
+phrases   every other sentence that a message is made of
+wrapping  lines of a given width, with spaces between the words or without
+========  ================================================================
+"""
