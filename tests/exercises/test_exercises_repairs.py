@@ -16,7 +16,7 @@ from twistwrench.exercises.calls import tried
 from twistwrench.exercises.changes.repairs import guarded, repairs
 from twistwrench.exercises.folder.workbook import Workbook
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.naming import diagnose
+from twistwrench.exercises.naming import wrong_answer
 from twistwrench.exercises.notebook.cells import check
 
 from ..sampling import sampled
@@ -283,8 +283,8 @@ def cross_operators(V):
     ),
 )
 def test_two_slips_are_found_one_after_the_other(written, monkeypatch, name, text, says):
-    for share in diagnose.SHARES:
-        monkeypatch.setitem(diagnose.SHARES, share, 60.0)  # how fast the machine is decides nothing here
+    for share in wrong_answer.SHARES:
+        monkeypatch.setitem(wrong_answer.SHARES, share, 60.0)  # how fast the machine is decides nothing here
     said = message(written(text), name)
     assert all(sentence in said for sentence in says)
 

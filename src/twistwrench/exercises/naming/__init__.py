@@ -16,6 +16,8 @@ relations     how a wrong array differs: sign, transpose, factor, zero, places
 simplest      the simplest arguments that give a wrong answer, and what all of them share
 state         what stays from one call to the next
 steps         the first quantity of a recursion that is wrong, and at which body
-diagnose      from a wrong answer to its message
+wrong_answer  a wrong answer, and what is found about it, each thing once
+messages      the sentences about it
+diagnose      the explanations that are tried, one after the other
 ============  ===========================================================================
 """

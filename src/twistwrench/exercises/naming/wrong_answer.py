@@ -1,0 +1,134 @@
+"""A wrong answer, and what is found about it: each thing is looked for once, when it is first asked for."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import Any
+
+from ..changes.nearer import Nearer
+from ..changes.repairs import Repair, repairs, two_repairs
+from ..changes.search import Found, exchanged_results, found_edits
+from ..compare import agree
+from ..exercise import Exercise, Part
+from ..slips import SLIPS, Slip
+from ..statements.stepwise import Stepwise
+from ..words.text import Text
+from .matching import matching_slips
+
+__all__ = ["SHARES", "WrongAnswer", "changes_after_error"]
+
+SHARES = {"mended": 1.6, "stepped": 2.2, "known": 2.6, "edited": 3.2, "after": 3.7, "both": 4.8, "twice": 5.3}
+"""Seconds until which each search may go on, of the processor: a busy machine finds the same."""
+
+
+class WrongAnswer:
+    """The answers of a student's function, of which at least one is wrong.
+
+    Parameters
+    ----------
+    exercise : Exercise
+    part : Part
+    function : callable
+        The student's.
+    answers : sequence
+        What it returned, in each case.
+    cases : sequence of tuple
+        Its arguments.
+    again : callable or None
+        Calls it with other arguments; None: nothing more is called.
+    """
+
+    def __init__(
+        self,
+        exercise: Exercise,
+        part: Part,
+        function: Callable[..., Any],
+        answers: Sequence[Any],
+        cases: Sequence[tuple[Any, ...]],
+        again: Callable[[tuple[Any, ...]], Any] | None,
+    ) -> None:
+        self.exercise, self.part, self.function = exercise, part, function
+        self.answers, self.cases, self.again = answers, cases, again
+        self.right = right_values(part, cases)
+        self.until = deadlines()
+        self.nearer = Nearer(part, self.right, answers, cases)
+
+    @property
+    def given(self) -> tuple[Callable[..., Any], Sequence[Any], Sequence[Any], Sequence[tuple[Any, ...]]]:
+        """The function, the right values, the answers, the cases: what a search starts from."""
+        return self.function, self.right, self.answers, self.cases
+
+    @property
+    def wrong_cases(self) -> list[tuple[Any, ...]]:
+        """The cases in which the answer is wrong."""
+        return [c for a, b, c in zip(self.answers, self.right, self.cases) if not agree(self.part, a, b, c)]
+
+    @cached_property
+    def alike(self) -> list[str]:
+        """The slips of the list that give these very numbers."""
+        return matching_slips(self.part, self.answers, self.cases)
+
+    @cached_property
+    def exchanged(self) -> Text | None:
+        """Which two of the results are exchanged, if that is all that is wrong."""
+        return exchanged_results(self.part, self.answers, self.cases)
+
+    @cached_property
+    def changes(self) -> list[Repair]:
+        """The changes of the student's own lines, one at a time, that make them right."""
+        if not self.again:
+            return []
+        return repairs(self.part, *self.given, until=self.until["mended"], nearer=self.nearer)
+
+    @property
+    def whole_changes(self) -> list[Repair]:
+        """Those that make right all that is returned."""
+        return [x for x in self.changes if x.piece is None]
+
+    @cached_property
+    def steps(self) -> Stepwise:
+        """The student's statements, one after the other."""
+        return Stepwise(self.part, *self.given)
+
+    @cached_property
+    def first_statement(self) -> list[Repair]:
+        """What must stand in place of the first statement that is wrong."""
+        return self.steps.one(self.until["stepped"], every=time.process_time() > self.until["mended"])
+
+    @cached_property
+    def edits(self) -> list[Found]:
+        """The change of a right solution that gives these numbers, or one for each wrong thing of several."""
+        return found_edits(self.part, self.answers, self.cases, until=self.until["edited"])
+
+    def two_changes(self) -> list[Repair]:
+        """Return two changes of the student's own lines that together make them right."""
+        return (
+            two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
+            or self.steps.two(self.until["both"])
+            or repairs(self.part, *self.given, until=self.until["twice"], pairs=True)
+        )
+
+    def slip(self, name: str) -> Slip:
+        """Return a slip with the reason that this part gives for it, if it has one of its own."""
+        if name not in self.part.reasons:
+            return SLIPS[name]
+        return Slip(SLIPS[name].title, self.part.reasons[name], self.exercise.section)
+
+
+def changes_after_error(part: Part, function: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Repair]:
+    """Return the changes that make a function right that raises an error."""
+    until, given = deadlines(), (part, function, right_values(part, cases), [None] * len(cases), cases)
+    return repairs(*given, until=until["mended"]) or repairs(*given, until=until["twice"], pairs=True)
+
+
+def right_values(part: Part, cases: Sequence[tuple[Any, ...]]) -> list[Any]:
+    """Return what is expected in each case."""
+    return [part.value(part.solution, arguments) for arguments in cases]
+
+
+def deadlines() -> dict[str, float]:
+    """Return until when each search may go on, as `time.process_time` has it."""
+    start = time.process_time()
+    return {how: start + seconds for how, seconds in SHARES.items()}
