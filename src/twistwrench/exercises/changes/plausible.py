@@ -40,6 +40,8 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
     before, after = edit.right, edit.wrong
     if any(x in after and x not in before for x in ("0 * ", "1 * ")) or after.endswith(" / 1"):
         return False  # it is switched off, or nothing
+    if edit.kind == "inserted" and _undoes(_parsed(after)):
+        return False  # what is divided by does not belong there
     if edit.kind == "number" and " != 0" in before and " != 0" not in after:
         return False  # nobody takes another number for the zero that must not be divided by
     if edit.kind == "left out" and any(
@@ -83,6 +85,16 @@ def shuts(edit: Edit) -> bool:
     """Whether a change puts a threshold below zero: then a branch is not taken any more."""
     compared = any(isinstance(x, ast.Compare) for x in _nodes(edit.wrong))
     return edit.kind == "number" and compared and edit.wrong.count("-") > edit.right.count("-")
+
+
+def _undoes(node: Any) -> bool:
+    """Whether something is multiplied by what it has just been divided by, or the other way round."""
+    for outer in (x for x in ast.walk(node) if isinstance(x, ast.BinOp)) if node else ():
+        inner: Any = outer.left
+        pair = {type(outer.op), type(getattr(inner, "op", None))}
+        if pair == {ast.Mult, ast.Div} and ast.unparse(inner.right) == ast.unparse(outer.right):
+            return True
+    return False
 
 
 def _read_after(assigned: Any, text: str, line: int) -> bool:

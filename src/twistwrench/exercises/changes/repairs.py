@@ -9,7 +9,7 @@ import linecache
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import FunctionType
 from typing import Any
 
@@ -18,18 +18,16 @@ import twistwrench
 from ..calls import copied, local_values, tried
 from ..compare import agree, copied_results
 from ..exercise import Part
-from ..words.phrases import say
-from ..words.text import Text
 from .alternatives import KINDS
-from .branches import settled
 from .edits import Source
-from .excerpts import with_operator
+from .meanings import meaning
 from .nearer import Nearer
-from .plausible import ALIKE, alike, anywhere, plausible, shuts
-from .search import Remembering, by_chance, said_where, same
+from .plausible import ALIKE, alike, anywhere, plausible
+from .repair import Repair
+from .search import Remembering, by_chance, same
 from .whole import Edit, of_arguments, of_order
 
-__all__ = ["Repair", "guarded", "repair_of_blocks", "repairs", "source_of", "text_written", "two_repairs", "written"]
+__all__ = ["guarded", "repair_of_blocks", "repairs", "source_of", "text_written", "two_repairs", "written"]
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
@@ -37,65 +35,8 @@ PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 FURTHER = ("index", "instead")
 """Those that are tried with one of these, or with each other, after them."""
 
-OF_RESULT = {
-    "np.roll(x, len(x) // 2, 0)": "halves of result",
-    "np.linalg.inv(x)": "inverse of result",
-    "x[6:]": "first six of result",
-}
-"""What a change of the result says of the answer."""
-
 Function = Callable[..., Any]
 Cases = Sequence[tuple[Any, ...]]
-
-
-@dataclass(frozen=True)
-class Repair:
-    """A change that makes a student's function right, or one of the things that it returns.
-
-    Attributes
-    ----------
-    edit : Edit
-    before : int
-        Lines of the file before the function.
-    piece : int, optional
-        Which of the things is right by it; None for all.
-    first : Edit, optional
-        Another change that is made before it.
-    blocks : tuple of Text
-        What of the result is right by it, where that is not all.
-    branch : Text, optional
-        What it means where it makes a condition always or never hold.
-    """
-
-    edit: Edit
-    before: int
-    piece: int | None = None
-    first: Edit | None = None
-    blocks: tuple[Text, ...] = ()
-    branch: Text | None = None
-
-    def title(self) -> Text:
-        """Report what must stand where."""
-        if self.first and self.edit.wrong and self.first.wrong == self.edit.right:  # two changes of one piece are one
-            return Repair(replace(self.edit, kind="instead", right=self.first.right), self.before).title()
-        if self.first is not None:
-            both = (Repair(edit, self.before).title() for edit in (self.first, self.edit))
-            return say("both edits", first=next(both), second=next(both))
-        edit = self.edit
-        wrong = with_operator(edit.places[0][2], edit.right) if edit.kind == "left out" and edit.places else edit.right
-        title = self.branch or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
-        if shuts(edit):
-            title = say("branch", wrong=edit.right)
-        if edit.kind == "result" and edit.wrong in OF_RESULT:
-            return say(OF_RESULT[edit.wrong], title=title)
-        if edit.line:
-            title = said_where(edit, title)
-            title = say("in own line", line=edit.line + self.before, title=title)
-        if edit.first is not None:
-            kind, wrong, right, line = edit.first
-            other = say(f"repair {kind}", right=right, wrong=wrong)
-            return say("both edits", first=say("in own line", line=line + self.before, title=other), second=title)
-        return title
 
 
 def guarded(function: Function) -> Function:
@@ -166,7 +107,7 @@ def repairs(
                 if copied_results(others, right, answers):  # what is asked for in two ways is not computed in one
                     continue
                 if not any(alike(edit, repair.edit) for repair in mended):
-                    mended.append(Repair(edit, before, branch=settled(source, edit, part, cases)))
+                    mended.append(Repair(edit, before, meaning=meaning(source, edit, part, right, cases)))
                 mended = [replace(x, edit=anywhere(x.edit, edit)) for x in mended]
                 continue
             if edit.kind == "result" or all(

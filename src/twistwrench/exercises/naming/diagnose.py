@@ -11,7 +11,7 @@ from ..words.phrases import say
 from ..words.text import Text
 from .aliases import missing_copies
 from .matching import slips_by_piece, two_slips
-from .messages import compared, edited, indented, mended, named, named_by_piece, nearer, titles, where
+from .messages import compared, comparison, edited, indented, mended, named, named_by_piece, nearer, titles, where
 from .neighbours import Neighbours
 from .own import borne_out, by_piece_borne_out
 from .properties import few_entries
@@ -22,6 +22,9 @@ __all__ = ["after_error", "explain"]
 
 Explained = tuple[list[str], list[Text]]
 """The slips of the list that give exactly this answer, and the message."""
+
+OF_RESULTS = 0.7
+"""Of the time of a search, for all of several results that are looked at by themselves."""
 
 Explanation = Callable[[WrongAnswer], Explained | None]
 
@@ -125,7 +128,12 @@ def _another_quantity(wrong: WrongAnswer) -> Explained | None:
 
 
 def _change_of_the_solution(wrong: WrongAnswer) -> Explained | None:
-    return ([], edited(wrong)) if wrong.edits and not wrong.edits[0].edit.first else None
+    """Report it where it is one, and explains all that is wrong."""
+    if not wrong.edits or wrong.edits[0].edit.first:
+        return None
+    if wrong.edits[0].piece is not None and len(wrong.edits) < len(wrong.wrong_results):
+        return None
+    return [], edited(wrong)
 
 
 def _two_changes(wrong: WrongAnswer) -> Explained | None:
@@ -143,7 +151,23 @@ def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
     return list(pair), [line, first.why, second.why, where(wrong, first.section)]
 
 
-def _two_changes_of_the_solution(wrong: WrongAnswer) -> Explained | None:
+def _each_result(wrong: WrongAnswer) -> Explained | None:
+    """Report what is wrong in each of several results, where something is found in one of them."""
+    if len(wrong.wrong_results) < 2:
+        return None
+    lines, names, found = [], [], []
+    for k in wrong.wrong_results:
+        alone = wrong.of_result(k, OF_RESULTS / len(wrong.wrong_results))
+        explained = next(filter(None, (explanation(alone) for explanation in (*EXPLANATIONS, *OF_CODE))), None)
+        found.append(explained is not None)
+        slips, shown = explained or ([], [*comparison(alone), where(alone)])
+        names += slips
+        lines += [say("in result", name=wrong.part.returns[k].title), *map(indented, shown[:-1])]
+    return ([*dict.fromkeys(names)], [*lines, where(wrong)]) if any(found) else None
+
+
+def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:
+    """Report two changes of a right solution, or one that does not explain all."""
     return ([], edited(wrong)) if wrong.edits else None
 
 
@@ -170,7 +194,8 @@ OF_CODE: tuple[Explanation, ...] = (
     _change_of_the_solution,
     _two_changes,
     _two_slips_of_the_list,
-    _two_changes_of_the_solution,
+    _each_result,
+    _rest_of_the_solution,
     _change_of_a_block,
 )
 """What is tried where the student's function may be called again."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..changes.repairs import Repair, text_written
+from ..changes.repair import Repair
+from ..changes.repairs import text_written
 from ..changes.search import Found, right_where
 from ..compare import agree, values
 from ..exercise import Part
@@ -19,7 +20,18 @@ from .simplest import of_words, shared
 from .steps import first_wrong
 from .wrong_answer import WrongAnswer
 
-__all__ = ["compared", "edited", "indented", "mended", "named", "named_by_piece", "nearer", "titles", "where"]
+__all__ = [
+    "compared",
+    "comparison",
+    "edited",
+    "indented",
+    "mended",
+    "named",
+    "named_by_piece",
+    "nearer",
+    "titles",
+    "where",
+]
 
 
 def where(wrong: WrongAnswer, section: str | None = None) -> Text:
@@ -84,7 +96,7 @@ def titles(part: Part, found: Sequence[Found | Repair], how: str, every: int) ->
             lines.append(say("slip in" if how != "equal" else "equal in", name=name, title=change.title()))
     if how == "equal":
         return [*lines, say("equal cases", all=every)] if every > 1 else lines
-    if any(isinstance(change, Repair) and change.first is not None for change in found):
+    if any(isinstance(change, Repair) and change.first is not None and not change.one_piece for change in found):
         return [*lines, say("mended both", all=every)]
     return [*lines, say(how, all=every) if every > 1 else say(f"{how} once")]
 
@@ -92,13 +104,13 @@ def titles(part: Part, found: Sequence[Found | Repair], how: str, every: int) ->
 def nearer(wrong: WrongAnswer, near: Repair) -> list[Text]:
     """Report which change makes some blocks right, and what is wrong in the others."""
     lines = [say("slip in", name=name, title=near.title()) for name in near.blocks]
-    return [*lines, say("not all"), say("it shows"), *map(indented, _comparison(wrong)), where(wrong)]
+    return [*lines, say("not all"), say("it shows"), *map(indented, comparison(wrong)), where(wrong)]
 
 
 def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:
     """Report what the comparison shows, from which place on, and on which arguments the answer depends wrongly."""
     part, right, cases, again = wrong.part, wrong.right, wrong.cases, wrong.again
-    lines = [say("no slip"), *map(indented, _comparison(wrong))]
+    lines = [say("no slip"), *map(indented, comparison(wrong))]
     lines += filter(None, [of_truths([*zip(wrong.answers, right)]), place])
     lines += shared(part, wrong.answers, right, cases)
     if again:
@@ -111,21 +123,8 @@ def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:
     return [*lines, where(wrong)]
 
 
-def _shortly(wrong: WrongAnswer) -> list[Text]:
-    """Report what the comparison shows, where that is short and telling."""
-    shown = _comparison(wrong)
-    if len(shown) > FEW or all(line.en.endswith(say("other").en) for line in shown):
-        return []
-    return [say("it shows"), *map(indented, shown)]
-
-
-def indented(line: Text) -> Text:
-    """Return a line two places to the right."""
-    return Text("  " + line.en, "  " + line.zh)
-
-
-def _comparison(wrong: WrongAnswer) -> list[Text]:
-    """Explain what is wrong, piece by piece, in the first case; a factor only where it is the same in all."""
+def comparison(wrong: WrongAnswer) -> list[Text]:
+    """Report what is wrong, piece by piece, in the first case; a factor only where it is the same in all."""
     part, lines = wrong.part, []
     bad = [(a, b) for a, b, c in zip(wrong.answers, wrong.right, wrong.cases) if not agree(part, a, b, c)]
     pairs = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in bad]
@@ -134,6 +133,19 @@ def _comparison(wrong: WrongAnswer) -> list[Text]:
         elsewhere = [describe(a, b, part.rtol) for a, b in zip(others[::2], others[1::2])]
         lines += shown if _same_factors(shown, elsewhere) else describe(got, right, part.rtol, factors=())
     return lines
+
+
+def _shortly(wrong: WrongAnswer) -> list[Text]:
+    """Report what the comparison shows, where that is short and telling."""
+    shown = comparison(wrong)
+    if len(shown) > FEW or all(line.en.endswith(say("other").en) for line in shown):
+        return []
+    return [say("it shows"), *map(indented, shown)]
+
+
+def indented(line: Text) -> Text:
+    """Return a line two places to the right."""
+    return Text("  " + line.en, "  " + line.zh)
 
 
 def _same_factors(shown: list[Text], elsewhere: list[list[Text]]) -> bool:

@@ -7,7 +7,8 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..changes.repairs import Repair, text_written
+from ..changes.repair import Repair
+from ..changes.repairs import text_written
 from ..changes.whole import Edit
 from ..exercise import Part
 from ..slips import SLIPS

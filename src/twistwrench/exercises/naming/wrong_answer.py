@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
 from ..changes.nearer import Nearer
-from ..changes.repairs import Repair, repairs, two_repairs
-from ..changes.search import Found, exchanged_results, found_edits
+from ..changes.repair import Repair
+from ..changes.repairs import repairs, two_repairs
+from ..changes.search import Found, exchanged_results, found_edits, same
 from ..compare import agree
 from ..exercise import Exercise, Part
 from ..slips import SLIPS, Slip
@@ -38,6 +40,8 @@ class WrongAnswer:
         Its arguments.
     again : callable or None
         Calls it with other arguments; None: nothing more is called.
+    share : float
+        Of the time that a search may take.
     """
 
     def __init__(
@@ -48,11 +52,12 @@ class WrongAnswer:
         answers: Sequence[Any],
         cases: Sequence[tuple[Any, ...]],
         again: Callable[[tuple[Any, ...]], Any] | None,
+        share: float = 1,
     ) -> None:
         self.exercise, self.part, self.function = exercise, part, function
         self.answers, self.cases, self.again = answers, cases, again
         self.right = right_values(part, cases)
-        self.until = deadlines()
+        self.until = deadlines(share)
         self.nearer = Nearer(part, self.right, answers, cases)
 
     @property
@@ -64,6 +69,22 @@ class WrongAnswer:
     def wrong_cases(self) -> list[tuple[Any, ...]]:
         """The cases in which the answer is wrong."""
         return [c for a, b, c in zip(self.answers, self.right, self.cases) if not agree(self.part, a, b, c)]
+
+    @cached_property
+    def wrong_results(self) -> list[int]:
+        """Which of several things returned are wrong."""
+        several = len(self.part.returns) > 1 and self.part.canonical is None
+        every = range(len(self.part.returns)) if several else ()
+        return [k for k in every if not same(self.part, self.answers, self.right, k)]
+
+    def of_result(self, k: int, share: float) -> WrongAnswer:
+        """Return what is wrong in one of several things returned, as if it were all that is asked for."""
+        answers = [alone(answer, k, len(self.part.returns)) for answer in self.answers]
+        part = _Result(**{x.name: getattr(self.part, x.name) for x in fields(self.part)})
+        part = replace(part, returns=self.part.returns[k : k + 1], residuals=(), k=k, of=len(self.part.returns))
+        again = self.again
+        once = (lambda given: alone(again(given), k, len(self.part.returns))) if again else None
+        return WrongAnswer(self.exercise, part, self.function, answers, self.cases, once, share)
 
     @cached_property
     def alike(self) -> list[str]:
@@ -117,6 +138,23 @@ class WrongAnswer:
         return Slip(SLIPS[name].title, self.part.reasons[name], self.exercise.section)
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Result(Part):
+    """A function of which one result is looked at, the k-th of several."""
+
+    k: int = 0
+    of: int = 1
+
+    def value(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+        """Call a function as its part does, and take the one result."""
+        return alone(super().value(function, arguments), self.k, self.of)
+
+
+def alone(answer: Any, k: int, several: int) -> Any:
+    """Return one of several results; None where there are not as many."""
+    return answer[k] if isinstance(answer, tuple | list) and len(answer) == several else None
+
+
 def changes_after_error(part: Part, function: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Repair]:
     """Return the changes that make a function right that raises an error."""
     until, given = deadlines(), (part, function, right_values(part, cases), [None] * len(cases), cases)
@@ -128,7 +166,7 @@ def right_values(part: Part, cases: Sequence[tuple[Any, ...]]) -> list[Any]:
     return [part.value(part.solution, arguments) for arguments in cases]
 
 
-def deadlines() -> dict[str, float]:
+def deadlines(share: float = 1) -> dict[str, float]:
     """Return until when each search may go on, as `time.process_time` has it."""
     start = time.process_time()
-    return {how: start + seconds for how, seconds in SHARES.items()}
+    return {how: start + share * seconds for how, seconds in SHARES.items()}

@@ -18,7 +18,8 @@ from ..changes.alternatives import KINDS
 from ..changes.edits import Source
 from ..changes.excerpts import text_of
 from ..changes.plausible import plausible
-from ..changes.repairs import PAIRED, Repair, source_of, text_written
+from ..changes.repair import Repair
+from ..changes.repairs import PAIRED, source_of, text_written
 from ..changes.search import Remembering, by_chance
 from ..changes.whole import Edit
 from ..compare import agree

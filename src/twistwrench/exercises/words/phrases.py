@@ -12,6 +12,7 @@ PHRASES = {
     "all wrong": Text("Tried on {all} random cases. The first:", "用 {all} 组随机数据检验。第一组："),
     "slip": Text("The slip: {title}.", "错因：{title}。"),
     "slip in": Text("The slip in {name}: {title}.", "{name} 的错因：{title}。"),
+    "in result": Text("In {name}:", "在 {name} 中："),
     "slips": Text("One of these, which cannot be distinguished here:", "以下几种之一（此处无法区分）："),
     "two slips": Text(
         "These are the numbers of two slips at once: {first}; and {second}.",
@@ -70,6 +71,7 @@ PHRASES = {
     "repair inserted": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair index": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
+    "must be zero": Text("`{name}` must be zero in `{around}`", "`{around}` 中的 `{name}` 应为零"),
     "repair missing": Text("`{right}` is missing after `{wrong}`", "`{wrong}` 之后缺少 `{right}`"),
     "simplest": Text(
         "With {name} = {given}, {what} is {got}, and must be {right}.",

@@ -1,4 +1,4 @@
-"""A change of a condition after which it always holds, or never: what is said is said of the branch then."""
+"""What a change means, where that is said shorter: a condition that always holds, or never; an argument of zeros."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ..calls import tried
+from ..compare import agree
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -16,14 +17,16 @@ from .excerpts import text_of
 from .places import put
 from .whole import Edit
 
-__all__ = ["settled"]
+__all__ = ["meaning"]
 
 MOST = 0.3
 """Seconds for which a condition is watched, of the processor."""
 
 
-def settled(source: Source, edit: Edit, part: Part, cases: Sequence[tuple[Any, ...]]) -> Text | None:
-    """Report of an edit in the condition of a branch that this must always, or never, be taken; None for others.
+def meaning(
+    source: Source, edit: Edit, part: Part, right: Sequence[Any], cases: Sequence[tuple[Any, ...]]
+) -> Text | None:
+    """Report what an edit that makes a function right means; None where that is what it puts there.
 
     Parameters
     ----------
@@ -31,9 +34,32 @@ def settled(source: Source, edit: Edit, part: Part, cases: Sequence[tuple[Any, .
         Of the student's function, in which the edit is made.
     edit : Edit
     part : Part
+    right : sequence
+        What is expected, in each case.
     cases : sequence of tuple
-        In which the condition is watched.
+        In which the function is watched.
     """
+    return _zero(source, edit, part, right, cases) or _settled(source, edit, part, cases)
+
+
+def _zero(
+    source: Source, edit: Edit, part: Part, right: Sequence[Any], cases: Sequence[tuple[Any, ...]]
+) -> Text | None:
+    """Report that an array must be zero, where another name is put for it only because that has zeros."""
+    if edit.kind != "name" or len(edit.places) != 1:
+        return None
+    parents, field, node, _ = edit.places[0]
+    if not isinstance(parents[-1], ast.Call):
+        return None
+    place = parents, field, node, ast.BinOp(ast.Constant(0), ast.Mult(), node)
+    for other in source.made("inserted", ("", ""), [place]):
+        if all(agree(part, tried(part, other.function, c), x, c) for x, c in zip(right, cases)):
+            return say("must be zero", name=text_of(node), around=text_of(parents[-1]))
+    return None
+
+
+def _settled(source: Source, edit: Edit, part: Part, cases: Sequence[tuple[Any, ...]]) -> Text | None:
+    """Report of an edit in the condition of a branch that this must always, or never, be taken; None for others."""
     branch = next((found for place in edit.places if (found := _branch(place)) is not None), None)
     if branch is None or edit.kind == "left out":
         return None

@@ -1,0 +1,81 @@
+"""A change that makes a student's function right, and how it is said."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ..words.phrases import say
+from ..words.text import Text
+from .excerpts import with_operator
+from .plausible import shuts
+from .search import said_where
+from .whole import Edit
+
+__all__ = ["Repair"]
+
+OF_RESULT = {
+    "np.roll(x, len(x) // 2, 0)": "halves of result",
+    "np.linalg.inv(x)": "inverse of result",
+    "x[6:]": "first six of result",
+}
+"""What a change of the result says of the answer."""
+
+
+@dataclass(frozen=True)
+class Repair:
+    """A change that makes a student's function right, or one of the things that it returns.
+
+    Attributes
+    ----------
+    edit : Edit
+    before : int
+        Lines of the file before the function.
+    piece : int, optional
+        Which of the things is right by it; None for all.
+    first : Edit, optional
+        Another change that is made before it.
+    blocks : tuple of Text
+        What of the result is right by it, where that is not all.
+    meaning : Text, optional
+        What is said in place of what it puts there.
+    """
+
+    edit: Edit
+    before: int
+    piece: int | None = None
+    first: Edit | None = None
+    blocks: tuple[Text, ...] = ()
+    meaning: Text | None = None
+
+    @property
+    def one_piece(self) -> bool:
+        """Whether the second of two changes is one of what the first puts there: then they are one."""
+        return bool(
+            self.first and self.first.wrong and self.edit.wrong and self.edit.right.count(self.first.wrong) == 1
+        )
+
+    def title(self) -> Text:
+        """Report what must stand where."""
+        edit = self.edit
+        if self.first is not None and not self.one_piece:
+            return say(
+                "both edits", first=Repair(self.first, self.before).title(), second=Repair(edit, self.before).title()
+            )
+        if self.first is not None:
+            edit = replace(
+                edit, kind="instead", right=edit.right.replace(self.first.wrong, self.first.right), first=None
+            )
+        wrong = with_operator(edit.places[0][2], edit.right) if edit.kind == "left out" and edit.places else edit.right
+        title = self.meaning or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
+        if shuts(edit):
+            title = say("branch", wrong=edit.right)
+        if edit.kind == "result" and edit.wrong in OF_RESULT:
+            return say(OF_RESULT[edit.wrong], title=title)
+        if edit.line:
+            title = said_where(edit, title)
+            title = say("in own line", line=edit.line + self.before, title=title)
+        if edit.first is not None:
+            kind, wrong, right, line = edit.first
+            other = say(f"repair {kind}", right=right, wrong=wrong)
+            return say("both edits", first=say("in own line", line=line + self.before, title=other), second=title)
+        return title
