@@ -197,3 +197,13 @@ def base_wrench_at_rest(model, q):
     assert "must be `tw.center_of_mass(model, q)" in said
     assert "* m * m" not in said
     assert "With this change" in said
+
+
+def test_a_factor_that_is_missing_is_reported(tmp_path):
+    text = """\
+def whole_robot(block):
+    m = np.trace(block[3:, 3:])
+    c = tw.unskew(block[:3, 3:]) / m
+    return m, c, block[:3, :3] + m * tw.skew(c) @ tw.skew(c)
+"""
+    assert "`np.trace(block[3:, 3:])` must be `np.trace(block[3:, 3:]) / 3`" in said_of(tmp_path, text)

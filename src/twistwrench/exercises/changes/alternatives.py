@@ -82,9 +82,9 @@ def alternatives(
 
 
 def _plausible(node: Any, other: Any) -> bool:
-    """Whether the bound of a slice is taken for another: one or two beside it, nothing, or that of a block."""
+    """Whether the bound of a slice is taken for another: the one beside it, nothing, or that of a block."""
     x, y = getattr(node, "value", 0), getattr(other, "value", 0)
-    return y in (0, 3, 6, 12) or abs(x - y) <= 2
+    return y in (0, 3, 6, 12) or abs(x - y) <= 1
 
 
 def _transposed(node: ast.expr) -> ast.expr:

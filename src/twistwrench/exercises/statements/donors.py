@@ -27,6 +27,9 @@ BACK = 300
 MOST = 30
 """Values of right solutions that are tried in place of another."""
 
+LARGEST = 12
+"""Whole number by which something is multiplied or divided."""
+
 Atoms = list[tuple[str, Array]]
 
 
@@ -82,9 +85,11 @@ def given(
         for text, x in own if not isinstance(node, ast.Name) else ():
             if x.shape == value.shape and text != ast.unparse(node) and not _same(x, value):
                 yield from _put(source, place, "instead", text)
-        whole = isinstance(node, ast.Call) and id(node) in unknown
+        whole = (isinstance(node, ast.Call) or node is output.node) and id(node) in unknown
         for text in terms.others(value, own) if whole or value.ndim == 0 else ():
             yield from _put(source, place, "instead", text)
+        for factor in terms.factors(value) if id(node) in unknown or node is output.node else ():
+            yield from _put(source, place, "inserted", f"({ast.unparse(node)}) {factor}")
         for op, text in terms.missing(value, own):
             yield from _put(source, place, op, text)
             for setting in source.places if isinstance(node, ast.Name) else ():
@@ -129,8 +134,11 @@ class _Terms:
         self.record = record
         results = [*arrays(right)]
         self.found: dict[tuple[int, ...], list[tuple[int, Array]]] = {}
+        self.values: dict[tuple[int, ...], list[Array]] = {}
         for k, event in enumerate(record):
             value = _array(event.value)
+            if value is not None and tells(value):
+                self.values.setdefault(value.shape, []).append(value)
             asked = value is not None and any(x.shape == value.shape and _same(x, value) for x in results)
             if value is not None and tells(value) and (value.ndim == 0 or not asked):
                 self.found.setdefault(value.shape, []).append((k, value))
@@ -141,6 +149,16 @@ class _Terms:
         here = [(k, x) for k, x in self.found.get(value.shape, []) if isinstance(self.record[k].node, kinds)]
         texts = dict.fromkeys(self._written(k, x, own) for k, x in here[:MOST] if not _same(x, value))
         yield from (text for text in texts if len(text) <= LONGEST)
+
+    def factors(self, value: Array) -> Iterator[str]:
+        """Yield the whole number by which a value must be multiplied, or divided, to be one of a right solution."""
+        size = float(np.abs(value).max(initial=0))
+        for x in self.values.get(value.shape, []) if tells(value) and size else ():
+            ratio = float(np.abs(x).max()) / size
+            for op, n in (("*", round(ratio)), ("/", round(1 / ratio))):
+                if 2 <= n <= LARGEST and _same(x, value * n if op == "*" else value / n):
+                    yield f"{op} {n}"
+                    return
 
     def missing(self, value: Array, own: Atoms) -> Iterator[tuple[str, str]]:
         """Yield the operation and the term that make another of these values of a value."""
