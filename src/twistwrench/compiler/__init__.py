@@ -8,8 +8,8 @@ file           what it holds
 number         `Number`, which only remembers what is done to it, and the `Tape` it writes on
 line           `Line`: the operations that a question needs, one after the other
 memory         what a program returns; memory that is used again; no search for garbage
+sine           sin and cos as arithmetic, for many angles at once
 instructions   LLVM's language: arithmetic, and the way in and out of memory
-sine           sin and cos of many angles at once
 llvm           machine code, by LLVM
 source         a line as text: Python, annotated with the chapter's steps, and C
 pairs          arithmetic with pairs of doubles, sin and cos

@@ -9,9 +9,9 @@ from functools import cached_property
 from typing import Any
 
 from ..arrays import Array
-from .number import Node, Tape
+from .number import Node, Number, Tape
 
-__all__ = ["Line", "Output", "needed", "operands", "ordered"]
+__all__ = ["Line", "Output", "needed", "operands", "ordered", "rewritten"]
 
 DEEPEST = 8
 """How deep operations stand within each other in a text, at most."""
@@ -118,6 +118,18 @@ def ordered(wanted: Sequence[int], needs: Callable[[int], Sequence[int]]) -> Ite
                 yield k
             else:
                 left += [(k, True), *((j, False) for j in reversed(needs(k)))]
+
+
+def rewritten(line: Line, rules: Mapping[str, Callable[[Number], Any]]) -> Line:
+    """Return a line in which some functions are written as other operations."""
+    tape, index = Tape(), list[int]()
+    for node in line.nodes:
+        if node[0] in rules:
+            index.append(tape.node(rules[node[0]](Number(tape, index[node[1]]))))
+        else:
+            index.append(tape.enter(node[0], *(node[1:] if node[0] in LEAVES else [index[k] for k in node[1:]])))
+    outputs = {name: (shape, tuple([index[k] for k in entries])) for name, (shape, entries) in line.outputs.items()}
+    return Line(tape.nodes, line.inputs, outputs)
 
 
 def operands(node: Node) -> tuple[int, ...]:

@@ -20,7 +20,7 @@ from ..arrays import Array
 from .instructions import Text
 from .line import LEAVES, Line
 from .memory import without_garbage
-from .sine import sine_and_cosine
+from .sine import with_series
 
 __all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
 
@@ -105,11 +105,11 @@ def written(line: Line, scalar: str, width: int) -> str:
     translate each instruction by itself (`optnone`), four times as quickly: there is nothing left for it to improve.
     It can do so, without its slower ways, where constants are loaded from memory.
     """
-    pieces = Pieces(line, scalar, width)
+    pieces = Pieces(with_series(line, scalar), scalar, width)
     for needed, node, group in pieces.turns:
         if group:
             pieces.store(*group)
-        elif node not in pieces.name and node not in pieces.slot:  # a cosine is there with its sine
+        else:
             pieces.compute(node)
         pieces.done(needed)
     pieces.end()
@@ -134,7 +134,7 @@ class Pieces:
         self.slots = 0
         self.registers = 24 if register_bits() == 512 else 12  # of 32 or 16: the others are for what lies between
         self.rows: dict[int, list[str]] = {}
-        self.places = {node: k for k, node in enumerate(line.nodes) if node[0] in ("input", "sin", "cos")}
+        self.places = {node: k for k, node in enumerate(line.nodes) if node[0] == "input"}
         self.arrays = {name: k for k, name in enumerate(line.inputs)}
         self.turns = [*self._turns()]
         self.uses: dict[int, list[int]] = {}  # of each node the turns that need it, the last first
@@ -155,13 +155,7 @@ class Pieces:
     def compute(self, k: int) -> None:
         """Write the operation of a node."""
         operation, *needed = self.line.nodes[k]
-        values = [self.name.get(j) or self.value(j) for j in needed]
-        if operation in ("sin", "cos"):
-            both = sine_and_cosine(self.text, *values)
-            found = {self.places.get((name, *needed)): value for name, value in zip(("sin", "cos"), both)}
-            self.name |= {place: value for place, value in found.items() if place is not None}
-        else:
-            self.name[k] = self.text.operate(operation, *values)
+        self.name[k] = self.text.operate(operation, *[self.name.get(j) or self.value(j) for j in needed])
 
     def done(self, needed: Iterable[int]) -> None:
         """End a turn that needed some values."""

@@ -10,8 +10,8 @@ Nothing of it may be simplified as if it were exact: (a + b) − a is not b, but
 
 For sin and cos the angle is brought near 0 by a multiple k of π/2, of which 159 bits are subtracted. An eighth of what
 is left has a short series for sin and for 1 − cos, and is doubled three times by sin 2y = 2 sin y (1 − (1 − cos y)) and
-1 − cos 2y = 2 sin² y: there 1 − cos keeps the digits that cos itself would lose. The quadrant, k modulo 4, is
-arithmetic too: one of cos (k π/2) and sin (k π/2) is 0, the other ±1.
+1 − cos 2y = 2 sin² y: there 1 − cos keeps the digits that cos itself would lose. The quadrant is
+that of `sine`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .number import Number, Tape, is_power_of_two
-from .sine import PI
+from .sine import PI, quarter_turns
 
 __all__ = ["EACH", "NOTHING", "SINE_ERROR", "Pair", "Pairs", "split", "two_sum"]
 
@@ -158,7 +158,11 @@ class Pairs:
             twice = Pair(2 * sine.hi, 2 * sine.lo)
             sine, less = self.add_smaller(twice, self.negative(self.multiply(twice, less))), self.multiply(twice, sine)
         cosine = self.add_smaller(self.constant(Fraction(1)), self.negative(less))
-        return self._turned(k, sine, cosine)
+        c, s = quarter_turns(k)
+        return (
+            Pair(c * sine.hi + s * cosine.hi, c * sine.lo + s * cosine.lo),
+            Pair(c * cosine.hi - s * sine.hi, c * cosine.lo - s * sine.lo),
+        )
 
     def _reduced(self, x: Pair) -> tuple[Any, Pair]:
         """Write k, the whole number next to 2 x / π, and x − k π/2. The first difference rounds nothing."""
@@ -182,16 +186,6 @@ class Pairs:
         for c in reversed(coefficients[:exact]):
             value = self.add_smaller(self.constant(c), self.multiply(square, value))
         return value
-
-    def _turned(self, k: Any, sine: Pair, cosine: Pair) -> tuple[Pair, Pair]:
-        """Write sin and cos of k π/2 + y from those of y. Nothing is rounded: one product of each two is 0."""
-        k = k - 4 * self.tape.apply("round", k / 4)  # from −2 to 2
-        size = self.tape.apply("abs", k)
-        c, s = 1 - size, k * (2 - size)
-        return (
-            Pair(c * sine.hi + s * cosine.hi, c * sine.lo + s * cosine.lo),
-            Pair(c * cosine.hi - s * sine.hi, c * cosine.lo - s * sine.lo),
-        )
 
 
 def two_sum(a: Any, b: Any) -> tuple[Any, Any]:

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from .line import LEAVES, Line, ordered
-from .number import Number, Tape
+from .line import Line, ordered, rewritten
+from .number import Number
 from .packs import Packs, View
 from .pairs import split
 
@@ -172,16 +172,17 @@ def with_half_angles(line: Line) -> Line:
     Of doubles NumPy has tan for eight at once where the processor allows it, and sin and cos one by one. The pair is a
     rotation to the last digit, and the angle's as much as t is the tangent.
     """
-    tape, index = Tape(), list[int]()
-    for operation, *rest in line.nodes:
-        if operation in ("sin", "cos"):
-            t = tape.apply("tan", Number(tape, index[rest[0]]) / 2)
-            square = t * t
-            index.append(((2 * t if operation == "sin" else 1 - square) / (1 + square)).index)
-        else:
-            index.append(tape.enter(operation, *(rest if operation in LEAVES else (index[k] for k in rest))))
-    results = {name: (shape, tuple(index[k] for k in entries)) for name, (shape, entries) in line.outputs.items()}
-    return Line(tuple(tape.nodes), line.inputs, results)
+
+    def tangent(x: Number) -> Number:
+        return x.tape.apply("tan", x / 2)
+
+    def sine(x: Number) -> Any:
+        return 2 * tangent(x) / (1 + tangent(x) * tangent(x))
+
+    def cosine(x: Number) -> Any:
+        return (1 - tangent(x) * tangent(x)) / (1 + tangent(x) * tangent(x))
+
+    return rewritten(line, {"sin": sine, "cos": cosine})
 
 
 def functions_of(dtype: np.dtype[Any]) -> dict[str, np.ufunc]:

@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
+from typing import Any
 
 import numpy as np
 
-from .instructions import Text
+from .line import Line, rewritten
+from .number import Number
 
-__all__ = ["PI", "sine_and_cosine"]
+__all__ = ["PI", "quarter_turns", "with_series"]
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803482534211706798")
 """π to 100 digits."""
@@ -24,41 +26,47 @@ TERMS = {"double": 9, "float": 6}
 """So many terms of the series reach the last digit for |x| ≤ π/4."""
 
 
-def sine_and_cosine(text: Text, x: str) -> tuple[str, str]:
-    """Write the instructions for sin x and cos x, and return the names of the two."""
-    k = text.operate("round", text.operate("mul", x, text.constant(2 / PI)))
-    minus = text.operate("neg", k)
-    for part in half_pi(text.scalar):
-        x = text.operate("fma", minus, text.constant(part), x)
-    near = series(text, x)
-    return quadrant(text, k, *near)
+def with_series(line: Line, scalar: str) -> Line:
+    """Return a line for "double" or "float" in which sin and cos are arithmetic, with a b + c in one rounding."""
+
+    def sine(x: Number) -> Any:
+        (c, s), (sine, cosine) = near_zero(x, scalar)
+        return c * sine + s * cosine
+
+    def cosine(x: Number) -> Any:
+        (c, s), (sine, cosine) = near_zero(x, scalar)
+        return c * cosine - s * sine
+
+    return rewritten(line, {"sin": sine, "cos": cosine})
 
 
-def series(text: Text, x: str) -> tuple[str, str]:
-    """Write sin x = x + x³ s(x²) and cos x = 1 − x²/2 + x⁴ c(x²) for |x| ≤ π/4."""
-    terms, square = TERMS[text.scalar], text.operate("mul", x, x)
-    s, c = (text.constant(_coefficient(2 * terms + k)) for k in (1, 0))
+def near_zero(x: Number, scalar: str) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+    """Write cos and sin of k π/2, and sin and cos of x − k π/2, with k such that this is at most π/4."""
+    k = x.tape.apply("round", x * (2 / PI))
+    for part in half_pi(scalar):
+        x = x.tape.apply("fma", -k, part, x)
+    return quarter_turns(k), series(x, TERMS[scalar])
+
+
+def series(x: Number, terms: int) -> tuple[Any, Any]:
+    """Write sin x = x + x³ s(x²) and cos x = 1 − x²/2 + x⁴ c(x²)."""
+    fma, square = partial(x.tape.apply, "fma"), x * x
+    s: Any = _coefficient(2 * terms + 1)
+    c: Any = _coefficient(2 * terms)
     for n in range(terms - 1, 0, -1):
-        s = text.operate("fma", s, square, text.constant(_coefficient(2 * n + 1)))
+        s = fma(s, square, _coefficient(2 * n + 1))
     for n in range(terms - 1, 1, -1):
-        c = text.operate("fma", c, square, text.constant(_coefficient(2 * n)))
-    sine = text.operate("fma", text.operate("mul", s, square), x, x)
-    half = text.operate("mul", square, text.constant(0.5))
-    most = text.operate("sub", text.constant(1), half)
-    lost = text.operate("sub", text.operate("sub", text.constant(1), most), half)  # what 1 − x²/2 was rounded by
-    cosine = text.operate("add", most, text.operate("fma", text.operate("mul", c, square), square, lost))
-    return sine, cosine
+        c = fma(c, square, _coefficient(2 * n))
+    most = 1 - square / 2
+    lost = (1 - most) - square / 2  # what 1 − x²/2 was rounded by
+    return fma(s * square, x, x), most + fma(c * square, square, lost)
 
 
-def quadrant(text: Text, k: str, sine: str, cosine: str) -> tuple[str, str]:
-    """Write sin and cos of k π/2 + x from those of x. Nothing is rounded: one product of each two is 0."""
-    turns = text.operate("round", text.operate("mul", k, text.constant(0.25)))
-    k = text.operate("sub", k, text.operate("mul", turns, text.constant(4)))  # from −2 to 2
-    size = text.operate("abs", k)
-    c = text.operate("sub", text.constant(1), size)
-    s = text.operate("mul", k, text.operate("sub", text.constant(2), size))
-    cc, ss, cs, sc = (text.operate("mul", a, b) for a, b in ((c, cosine), (s, sine), (c, sine), (s, cosine)))
-    return text.operate("add", cs, sc), text.operate("sub", cc, ss)
+def quarter_turns(k: Number) -> tuple[Any, Any]:
+    """Write cos and sin of k π/2: one of them is 0, the other ±1, so that products with them round nothing."""
+    k = k - 4 * k.tape.apply("round", k / 4)  # from −2 to 2
+    size = k.tape.apply("abs", k)
+    return 1 - size, k * (2 - size)
 
 
 def _coefficient(n: int) -> Fraction:
