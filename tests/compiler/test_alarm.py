@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.compiler import textbook
+from twistwrench.compiler import quantity
 from twistwrench.compiler.llvm import available
 
 from ..sampling import sampled
@@ -138,9 +138,9 @@ ARGUMENTS = {
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_the_textbook_takes_no_other_states(backend, monkeypatch):
-    seen, results = [], textbook._results
-    monkeypatch.setattr(textbook, "CHUNK", 4 * GO2.nv)
-    monkeypatch.setattr(textbook, "_results", lambda *args: (seen.append(args[2]["q"].shape), results(*args))[1])
+    seen, results = [], quantity._results
+    monkeypatch.setattr(quantity, "CHUNK", 4 * GO2.nv)
+    monkeypatch.setattr(quantity, "_results", lambda *args: (seen.append(args[2]["q"].shape), results(*args))[1])
     s = random_state(GO2, rng=0, batch=(20, 50))
     s.q[3:6, 7::22, 9] = 1e6
     s.q[3, 7, 9] = -1e7

@@ -10,7 +10,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import fast
-from twistwrench.compiler import registers, textbook
+from twistwrench.compiler import quantity, registers
 from twistwrench.fast import programs
 
 from ..strategies import Recipe, random_state
@@ -330,7 +330,7 @@ def test_memory_does_not_grow_with_the_batch(states):
 def long_chain(monkeypatch):
     """A chain that counts as too long, of which the textbook takes 5 states at a time."""
     monkeypatch.setattr(programs, "LONGEST", 5)
-    monkeypatch.setattr(textbook, "CHUNK", 30)
+    monkeypatch.setattr(quantity, "CHUNK", 30)
     return tw.chain(6, base="floating")
 
 
@@ -354,7 +354,7 @@ def test_a_robot_that_is_too_long_is_the_textbooks(long_chain, batch):
 
 def test_a_robot_that_is_too_long_is_refused_in_the_same_words(monkeypatch):
     monkeypatch.setattr(programs, "LONGEST", 1)
-    monkeypatch.setattr(textbook, "CHUNK", 4)
+    monkeypatch.setattr(quantity, "CHUNK", 4)
     model, q = parallel(), np.zeros((7, 2))
     with pytest.raises(tw.SingularError) as book:
         tw.aba(model, q, q, q)

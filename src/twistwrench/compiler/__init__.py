@@ -7,7 +7,6 @@ file           what it holds
 =============  ===============================================================================================
 number         `Number`, which only remembers what is done to it, and the `Tape` it writes on
 line           `Line`: the operations that a question needs, one after the other
-memory         what a program returns; memory that is used again; no search for garbage
 sine           sin and cos as arithmetic, for many angles at once
 instructions   LLVM's language: arithmetic, and the way in and out of memory
 llvm           machine code, by LLVM
@@ -20,24 +19,20 @@ tangent        the derivatives of what is on a tape, and steps along v from q
 backend        which of them runs a line, or plain Python's floats
 double_double  a line rewritten into pairs, with bounds
 watch          what a program watches, so that the textbook can take the states that raise the alarm
-quantity       `Quantity`: what a quantity depends on, and how it is computed
+quantity       `Quantity`: what it depends on, and how it is computed; by the textbook, for some states
 derivatives    derivatives of all quantities, and the regressor
-inverses       M⁻¹, the factors of M, Λ: what is divided by inertias
 quantities     what can be compiled: the textbook's functions
 recording      from quantities to a line
 outputs        arrays of the caller that are to be filled
 extension      a program for one state as a function of the interpreter
-textbook       the textbook, for the states of a batch that raise the alarm
 program        `Program`, which is called as the textbook's functions are
-wide           programs in quadruple precision, and in mpmath's numbers
-digits         programs in pairs of doubles, and with a bound
+digits         programs in pairs of doubles, in quadruple precision, in mpmath's numbers; and with a bound
 compilation    `compile`
 =============  ===============================================================================================
 """
 
 from .compilation import compile
 from .digits import DoubleDouble
-from .memory import Results
-from .program import Program
+from .program import Program, Results
 
 __all__ = ["DoubleDouble", "Program", "Results", "compile"]

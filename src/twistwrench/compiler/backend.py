@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from math import prod
 from typing import Any
 
@@ -12,7 +13,6 @@ import numpy as np
 from ..arrays import Array
 from .line import Line
 from .llvm import MachineCode, lanes
-from .memory import keep_memory
 from .registers import Registers
 from .source import python_source
 
@@ -23,6 +23,10 @@ FEW = 20
 
 LEAST = 64
 """A thread does at least so many states."""
+
+
+KEPT = 2**25 - 2**16
+"""Bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`."""
 
 
 class BackEnd:
@@ -99,3 +103,14 @@ def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], thr
     edges = [count * k // parts for k in range(parts + 1)]
     with ThreadPoolExecutor(parts) as pool:
         list(pool.map(lambda k: run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
+
+
+@cache
+def keep_memory() -> None:
+    """Let the C library keep the memory of freed arrays instead of returning it to the kernel.
+
+    glibc returns blocks above a limit, at first 128 KiB, and every page of it that is used again then costs a page
+    fault: most of the time of 1000 states. The limit follows the largest block that was ever freed. So a large block is
+    allocated and freed, untouched; once, as the limit never falls. Elsewhere this does nothing.
+    """
+    np.empty(KEPT, np.uint8)

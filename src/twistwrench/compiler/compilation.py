@@ -15,11 +15,10 @@ from ..algorithms.kinematics import Reference
 from ..arrays import Array, as_count, as_flag, as_names, check_choice, check_kind
 from ..errors import check_known
 from ..model import Model, check_arrays, check_model
-from .digits import NUMBERS, with_digits
+from .digits import NUMBERS, WIDE, DigitsProgram, wide_type, with_digits
 from .llvm import NATIVE, available
 from .program import Program
 from .quantities import ARGUMENTS, Quantity, chosen, quantities
-from .wide import WIDE, DigitsProgram, wide_type
 
 __all__ = ["compile"]
 
@@ -82,7 +81,7 @@ def compile(
     Returns
     -------
     Program
-        For more digits or with a bound: `digits.DoubleDoubleProgram`, `wide.WideProgram` or `digits.BoundedProgram`.
+        For more digits or with a bound: `digits.DoubleDoubleProgram`, `WideProgram` or `BoundedProgram`.
 
     Raises
     ------
@@ -126,7 +125,7 @@ def compile(
         "threads": as_count(threads, "threads", 1),
     }
     asked = want if isinstance(want, str) else as_names(want, "want", "quantities")
-    return with_digits(_program(model, asked, options), number, bound=as_flag(bound, "bound"))
+    return with_digits(_program(model, asked, options), number, as_flag(bound, "bound"))
 
 
 def _program(model: Model | SceneLike, asked: str | tuple[str, ...], options: Mapping[str, Any]) -> Program:

@@ -1,35 +1,176 @@
-"""Programs of 32 digits in pairs of doubles, and programs whose results have a bound.
+"""Programs in numbers that no processor has, and programs whose results have a bound.
 
-They hold a program in doubles, which knows the arguments and raises the errors, and run its line in other numbers.
+They hold a program in doubles, which knows the arguments and raises the errors, and run its line in other numbers: in
+quadruple precision, in as many digits of mpmath as are set, or in pairs of doubles, with a bound if wanted.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from functools import partial
+from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arrays import Array
 from ..errors import ShapeError
+from ..newton_euler_3d import as_mpmath
 from .backend import BackEnd
 from .double_double import BOUND, LO, OWN, double_double
 from .llvm import NATIVE
 from .pairs import two_sum
-from .program import Program
+from .program import Program, Results
+from .quantity import by_the_textbook
 from .recording import ALARM
-from .wide import WIDE, DigitsProgram, WideProgram
 
-__all__ = ["NUMBERS", "BoundedProgram", "DoubleDouble", "DoubleDoubleProgram", "with_digits"]
+__all__ = ["NUMBERS", "WIDE", "DigitsProgram", "DoubleDouble", "wide_type", "with_digits"]
 
 PAIRS = "double-double"
+WIDE = {"quad": ("numpy_quaddtype", 'pip install "twistwrench[quad]"'), "mpmath": ("mpmath", "pip install mpmath")}
+"""Number types of other packages: the package, and what installs it."""
+
 NUMBERS = (PAIRS, *WIDE)
 """Number types that are not NumPy's, by name."""
 
 DOUBLE = np.dtype(np.float64)
 VALUE = ".value"
+
+
+class DigitsProgram:
+    """A program whose line is run in other numbers than its own, and which is called as that is.
+
+    Its `model`, `arguments`, `source` and `c` are those of the program, which also raises the errors.
+    """
+
+    number: str | None = None
+    bound = False
+    expected = "sizes whose products are numbers"
+
+    def __init__(self, program: Program) -> None:
+        self.program, self.model, self.arguments = program, program.model, program.arguments
+        self.source, self.c = program.source, program.c
+        self._symbols = [quantity.symbol for quantity in program.quantities]
+        self._codes: dict[Any, BackEnd] = {}
+
+    @property
+    def operations(self) -> Counter[str]:
+        """How many operations a state takes, by kind."""
+        return self.program.operations
+
+    def __call__(self, *args: Any, **named: Any) -> Any:
+        """Return the quantities in a state, or in many.
+
+        Parameters
+        ----------
+        *args, **named : array_like
+            As for `Program`: doubles, which are taken as exact, or numbers of the program's type.
+
+        Returns
+        -------
+        array or Results
+            In numbers of the program's type; with a bound two of them, of which the second has the bound of each entry,
+            infinite where nothing is certain.
+
+        Raises
+        ------
+        ShapeError, SingularError, TypeError, ValueError
+            As `Program`.
+        """
+        given = self.program._bound(args, named)
+        own = {name: both for name, x in given.items() if (both := self._own(name, x)) is not None}
+        rounded = {name: own[name][1] if name in own else x for name, x in given.items()}
+        states = dict(zip(given, self.program._arrays(rounded)))
+        found = self._run(states, {name: wide for name, (wide, _) in own.items()})
+        if ALARM in found:
+            self._check(states, found)
+        results = {symbol: self._result(found, symbol) for symbol in self._symbols}
+        if not self.bound:
+            return self._packed(results)
+        return tuple(self._packed({symbol: both[k] for symbol, both in results.items()}) for k in (0, 1))
+
+    def _own(self, name: str, x: Any) -> tuple[Any, Array] | None:
+        """Return numbers of more digits than a double has, and as doubles; None for others."""
+        return None
+
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the results of the line."""
+        raise NotImplementedError
+
+    def _result(self, found: Mapping[str, Any], symbol: str) -> Any:
+        """Return one of them as the caller gets it, with its bound if there is one."""
+        return found[symbol]
+
+    def _packed(self, results: Mapping[str, Any]) -> Any:
+        """Return one result as it is, several as `Results`."""
+        return next(iter(results.values())) if self.program.single else Results(**results)
+
+    def _check(self, states: Mapping[str, Array], found: Mapping[str, Array]) -> None:
+        """Let the textbook look at the states that raise the alarm: it raises what there is to raise."""
+        unsure = ~(found[ALARM] <= 1)
+        if unsure.any():
+            looked_at = {symbol: np.empty(found[symbol].shape) for symbol in self._symbols}
+            asked = {**self.program.given, **states}
+            by_the_textbook(self.model, self.program.quantities, asked, looked_at, unsure)
+        if not all((abs(found[symbol]) < np.inf).all() for symbol in self._symbols):
+            raise ValueError(f"expected {self.expected}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return with_digits, (self.program, self.number, self.bound)
+
+    def __repr__(self) -> str:
+        text = repr(self.program).replace("float64", self.number or "float64")
+        return f"{text[:-1]}, bound>" if self.bound else text
+
+
+class WideProgram(DigitsProgram):
+    """A program in quadruple precision or in mpmath's numbers: ``dtype="quad"`` or ``"mpmath"``.
+
+    The results are for "quad" of numpy-quaddtype's type, 34 digits; for "mpmath" of mpf, with ``mpmath.mp.dps`` digits
+    as it is at the call. An axis that is oblique to its frame is a unit vector to 38 digits.
+    """
+
+    def __init__(self, program: Program, number: str) -> None:
+        super().__init__(program)
+        self.number, self.dtype = number, wide_type(number)
+
+    def _own(self, name: str, x: Any) -> tuple[Array, Array] | None:
+        try:
+            array = np.asarray(x)
+            if array.dtype not in (self.dtype, np.longdouble):
+                return None
+            own = self._wide(array)
+            return own, own.astype(np.float64)
+        except (TypeError, ValueError):  # complex numbers: the program in doubles raises
+            return None
+
+    def _wide(self, x: Array) -> Array:
+        return as_mpmath(x) if self.dtype.hasobject and not x.dtype.hasobject else x.astype(self.dtype)
+
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Array]) -> dict[str, Array]:
+        """Return the results of the line; its constants have as many digits as mpmath now has."""
+        key = tuple(states), import_module("mpmath").mp.prec if self.dtype.hasobject else None
+        if key not in self._codes:
+            self._codes[key] = BackEnd(self.program._line(tuple(states)), self.dtype, "numpy")
+        filled = {name: self._wide(np.broadcast_to(own.get(name, x), x.shape)) for name, x in states.items()}
+        return self._codes[key].results(filled, self.program.batch(states), self.program.threads)
+
+
+def wide_type(number: Any) -> np.dtype[Any]:
+    """Return NumPy's type for quadruple precision, or for objects, which mpmath's numbers are.
+
+    Raises
+    ------
+    ImportError
+        If the package is not installed.
+    """
+    package, install = WIDE[number]
+    try:
+        module = import_module(package)
+    except ImportError:
+        raise ImportError(f'dtype: "{number}" needs {package.replace("_", "-")}: {install}') from None
+    found: np.dtype[Any] = np.dtype(object) if number == "mpmath" else module.QuadPrecDType()
+    return found
 
 
 class DoubleDouble(NamedTuple):
@@ -50,22 +191,12 @@ class DoubleDouble(NamedTuple):
 
 
 class DoubleDoubleProgram(DigitsProgram):
-    """A program with 32 digits: what `twistwrench.compile` returns with ``dtype="double-double"``.
+    """A program with 32 digits, for angles up to 2⁴⁵ rad: ``dtype="double-double"``; its results are `DoubleDouble`."""
 
-    The results are `DoubleDouble`, for angles up to 2⁴⁵ rad. With a bound the program returns two: the second is an
-    array, or Results, with the bound of each entry, infinite where none is certain.
-
-    Parameters
-    ----------
-    program : Program
-        The same in doubles.
-    bound : bool
-        Whether each result has a bound.
-    """
-
+    number = PAIRS
     expected = "angles up to 2**45 rad, and " + DigitsProgram.expected
 
-    def __init__(self, program: Program, *, bound: bool = False) -> None:
+    def __init__(self, program: Program, bound: bool) -> None:
         super().__init__(program)
         self.bound = bound
 
@@ -103,24 +234,13 @@ class DoubleDoubleProgram(DigitsProgram):
         value = DoubleDouble(found[symbol], found[symbol + LO])
         return (value, _certain(found[symbol + BOUND])) if self.bound else value
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return partial(DoubleDoubleProgram, bound=self.bound), (self.program,)
-
-    def __repr__(self) -> str:
-        return f"{self.program!r}"[:-1].replace("float64", "double-double") + ">"
-
 
 class BoundedProgram(DigitsProgram):
-    """A program whose results have a bound: what `twistwrench.compile` returns with ``bound=True``.
+    """A program in float32 or float64 whose results have a bound: ``bound=True``.
 
     The bound of an entry is its distance from the same entry with 32 digits, and what those are off at most by the
     running error bound (`double_double`). It is for the arguments as they are: numbers of the program's type, taken as
     exact.
-
-    Parameters
-    ----------
-    program : Program
-        In float32 or float64.
     """
 
     bound = True
@@ -128,15 +248,12 @@ class BoundedProgram(DigitsProgram):
     def __init__(self, program: Program) -> None:
         super().__init__(program)
         self.dtype = program.dtype
-        self._reference = DoubleDoubleProgram(program, bound=True)
+        self._reference = DoubleDoubleProgram(program, True)
 
     @property
     def operations(self) -> Counter[str]:
         """How many operations one state takes, with its bound, by kind."""
         return self.program.operations + self._reference.operations
-
-    def _own(self, name: str, x: Any) -> None:
-        return None
 
     def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
         value = self.program(**states)
@@ -150,14 +267,8 @@ class BoundedProgram(DigitsProgram):
         bound = _certain(off + found[symbol + BOUND]).astype(self.dtype)
         return value, np.nextafter(bound, self.dtype.type("inf"))
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return BoundedProgram, (self.program,)
 
-    def __repr__(self) -> str:
-        return f"{self.program!r}"[:-1] + ", bound>"
-
-
-def with_digits(program: Program, number: str | None, *, bound: bool) -> Program | DigitsProgram:
+def with_digits(program: Program, number: str | None, bound: bool) -> Program | DigitsProgram:
     """Return a program as it is, or in other numbers than NumPy's ("double-double", "quad", "mpmath"), or with a bound.
 
     Raises
@@ -168,7 +279,7 @@ def with_digits(program: Program, number: str | None, *, bound: bool) -> Program
         If there is no bound for it.
     """
     if number == PAIRS:
-        return DoubleDoubleProgram(program, bound=bound)
+        return DoubleDoubleProgram(program, bound)
     if bound and (number or program.dtype not in NATIVE):
         raise TypeError(f'bound: expected dtype float32, float64 or "double-double", got {number or program.dtype}')
     if number:

@@ -18,8 +18,7 @@ import numpy as np
 
 from ..errors import check_known
 from .line import Line, needed
-from .memory import without_garbage
-from .number import Number, Tape
+from .number import Number, Tape, without_garbage
 from .pairs import EACH, NOTHING, SINE_ERROR, Pair, Pairs
 
 __all__ = ["BOUND", "LO", "OWN", "double_double"]

@@ -19,7 +19,7 @@ import numpy as np
 from ..arrays import Array
 from .instructions import Text
 from .line import LEAVES, Line
-from .memory import without_garbage
+from .number import without_garbage
 from .sine import with_series
 
 __all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]

@@ -22,8 +22,10 @@ Fraction(0, 1)
 
 from __future__ import annotations
 
+import gc
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any, NoReturn
 
@@ -31,7 +33,7 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["ARITHMETIC", "Node", "Number", "Tape", "is_power_of_two", "numbers"]
+__all__ = ["ARITHMETIC", "Node", "Number", "Tape", "is_power_of_two", "numbers", "without_garbage"]
 
 Node = tuple[Any, ...]
 """An operation and its operands: (op, index, …) of earlier nodes; ("input", name) and ("const", Fraction)."""
@@ -231,3 +233,18 @@ def numbers(tape: Tape, name: str, *shape: int) -> Array:
     for k in np.ndindex(shape):
         x[k] = tape.input((name, *k))
     return x
+
+
+@contextmanager
+def without_garbage() -> Iterator[None]:
+    """Let Python not look for garbage meanwhile: it looks through all operations again and again, a fifth of the time.
+
+    Used where thousands of them are made, none of which is garbage.
+    """
+    before = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if before:
+            gc.enable()

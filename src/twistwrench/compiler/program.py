@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from math import prod
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,14 +16,19 @@ from ..model import Model, floats_of
 from .backend import BackEnd
 from .extension import POSSIBLE, state_function
 from .line import Line
-from .memory import Results
 from .outputs import check_outputs, finish, targets
-from .quantities import ARGUMENTS, Quantity, shapes
+from .quantity import ARGUMENTS, Quantity, by_the_textbook, shapes
 from .recording import ALARM, record
 from .source import c_source, python_source, step
-from .textbook import by_the_textbook
 
-__all__ = ["Program"]
+__all__ = ["Program", "Results"]
+
+
+class Results(SimpleNamespace):
+    """Several quantities, as attributes by their symbols."""
+
+    def __repr__(self) -> str:
+        return f"Results({', '.join(f'{name}: {np.shape(x)}' for name, x in vars(self).items())})"
 
 
 class Program:

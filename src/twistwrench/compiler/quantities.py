@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..algorithms.aba import aba_terms
+from ..algorithms.articulated import articulated_inertia, articulated_inertias
 from ..algorithms.centroidal import center_of_mass, centroidal_map, centroidal_momentum, centroidal_momentum_rate
 from ..algorithms.coriolis import coriolis_matrix
 from ..algorithms.crba import crba
+from ..algorithms.delassus import delassus_matrix, operational_space_inertia
 from ..algorithms.energy import kinetic_energy, potential_energy
+from ..algorithms.factorization import ltdl, solve_mass_matrix
 from ..algorithms.floating_base import HeldRows, contact_jacobian, selection_matrix
+from ..algorithms.inverse_mass import inverse_mass_matrix
 from ..algorithms.kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
 from ..algorithms.momentum_rate import (
     center_of_mass_acceleration,
@@ -27,31 +32,34 @@ from ..arrays import Array
 from ..errors import check_known
 from ..model import Model, tree_terms
 from .derivatives import derivatives, regressor
-from .inverses import inverses
 from .quantity import ARGUMENTS, Quantity, of_each, shapes
-from .watch import pivots, with_watch
+from .watch import LEAST, pivots, with_watch
 
 __all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
 
-SYMBOLS = {
-    "rnea": "tau",
+FUNCTIONS: dict[str, tuple[str, Callable[..., Array]]] = {
+    "tau": ("q v a f_ext", rnea),
+    "M": ("q", crba),
+    "h": ("q v", nonlinear_effects),
+    "g": ("q", gravity),
+    "C": ("q v", coriolis_matrix),
+    "T": ("q v", kinetic_energy),
+    "U": ("q", potential_energy),
+    "S": ("", selection_matrix),
+    "p_G": ("q", center_of_mass),
+    "A_G": ("q", centroidal_map),
+    "h_G": ("q v", centroidal_momentum),
+    "dh_G": ("q v a", centroidal_momentum_rate),
+    "dA_G": ("q v", centroidal_map_rate),
+    "I_G": ("q", centroidal_inertia),
+    "v_G": ("q v", center_of_mass_velocity),
+    "a_G": ("q v a", center_of_mass_acceleration),
+}
+"""What depends on a model and a state alone, and divides by nothing but masses."""
+
+SYMBOLS = {function.__name__: symbol for symbol, (_, function) in FUNCTIONS.items()} | {
     "aba": "qdd",
-    "crba": "M",
-    "nonlinear_effects": "h",
-    "gravity": "g",
-    "coriolis_matrix": "C",
-    "kinetic_energy": "T",
-    "potential_energy": "U",
-    "selection_matrix": "S",
     "contact_jacobian": "J_c",
-    "center_of_mass": "p_G",
-    "centroidal_map": "A_G",
-    "centroidal_momentum": "h_G",
-    "centroidal_momentum_rate": "dh_G",
-    "centroidal_map_rate": "dA_G",
-    "centroidal_inertia": "I_G",
-    "center_of_mass_velocity": "v_G",
-    "center_of_mass_acceleration": "a_G",
     "inverse_mass_matrix": "M_inv",
     "solve_mass_matrix": "M_inv_tau",
     "delassus_matrix": "Lambda_inv",
@@ -77,54 +85,62 @@ def quantities(
 ) -> dict[str, Quantity]:
     """Return what can be computed of a model, by symbol.
 
-    The number type decides what counts as singular. The contacts are those of J_c; the frames, along an axis before
-    their own, those of placements, J and J̇ v, with this reference. What is given `instead`, a scene's quantities, takes
-    the place of those of the same symbols, also where derivatives are asked for.
+    The number type decides what counts as singular: each pivot that is divided by is watched. The contacts are those of
+    J_c; the frames, along an axis before their own, those of placements, J and J̇ v, with this reference. What is given
+    `instead`, a scene's quantities, takes the place of those of the same symbols, also where others depend on them.
     """
 
-    def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
-        return Quantity(symbol, tuple(arguments.split()), lambda *x: (function(model, *x), []))
+    def of(
+        symbol: str, arguments: str, function: Callable[..., Array], watch: Callable[[Array], Any] | None = None
+    ) -> Quantity:
+        def compute(*x: Array) -> tuple[Array, list[Any]]:
+            return function(model, *x), [*watch(x[0])] if watch and x[0].dtype == object else []
 
-    def of_frames(symbol: str, arguments: str, one: Callable[..., Array], *tail: int) -> Quantity:
-        return of(symbol, arguments, partial(of_each, frames, one, tail))
+        return Quantity(symbol, tuple(arguments.split()), compute)
 
-    def forward_dynamics(q: Array, v: Array, tau: Array, f_ext: Array | None = None) -> tuple[Array, list[Any]]:
-        terms = aba_terms(model, q, v, tau, f_ext)
-        if terms.qdd.dtype != object:
-            return terms.qdd, []
-        return terms.qdd, [*pivots(model, tree_terms(model, q), terms.D_inv, dtype)]
+    def by_aba(q: Array) -> Iterator[Any]:
+        tree = tree_terms(model, q)
+        return pivots(model, tree, articulated_inertias(tree).D_inv, dtype)
+
+    def by_factors(q: Array) -> Iterator[Any]:
+        D = ltdl(model, q)[1]
+        return pivots(model, tree_terms(model, q), [np.diag(1 / D[s]) for s in model.v_slice], dtype)
+
+    def mobility(m: Model, q: Array) -> Array:
+        return delassus_matrix(m, q, known["J_c"].compute(q)[0])
+
+    def apparent(m: Model, q: Array) -> Array:
+        return operational_space_inertia(m, q, known["J_c"].compute(q)[0])
+
+    def by_rows(q: Array) -> Iterator[Any]:
+        yield from by_factors(q)
+        yield from _dependence(mobility(model, q), apparent(model, q))
+
+    def each(one: Callable[..., Array], *tail: int) -> Callable[..., Array]:
+        return partial(of_each, frames, one, tail)
 
     nv = model.nv
     every = [
-        of("tau", "q v a f_ext", rnea),
-        Quantity("qdd", ("q", "v", "tau", "f_ext"), forward_dynamics),
-        of("M", "q", crba),
-        of("h", "q v", nonlinear_effects),
-        of("g", "q", gravity),
-        of("C", "q v", coriolis_matrix),
-        of("T", "q v", kinetic_energy),
-        of("U", "q", potential_energy),
-        of("S", "", selection_matrix),
+        *(of(symbol, arguments, function) for symbol, (arguments, function) in FUNCTIONS.items()),
+        of("qdd", "q v tau f_ext", lambda m, *x: aba_terms(m, *x).qdd, by_aba),
         Quantity("J_c", ("q",), lambda q: with_watch(contact_jacobian(model, q, contacts), contacts)),
-        of("p_G", "q", center_of_mass),
-        of("A_G", "q", centroidal_map),
-        of("h_G", "q v", centroidal_momentum),
-        of("dh_G", "q v a", centroidal_momentum_rate),
-        of("dA_G", "q v", centroidal_map_rate),
-        of("I_G", "q", centroidal_inertia),
-        of("v_G", "q v", center_of_mass_velocity),
-        of("a_G", "q v a", center_of_mass_acceleration),
-        of_frames("placement", "q", lambda m, q, name: frame_placement(m, q, name).matrix(), 4, 4),
-        of_frames("J", "q", lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv),
-        of_frames("dJ_v", "q v", lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6),
-        of_frames("p_S", "q", lambda m, q, name: subtree(m, q, name).center_of_mass, 3),
-        of_frames("A_S", "q", lambda m, q, name: subtree(m, q, name).momentum_map, 6, nv),
-        of_frames("I_S", "q", lambda m, q, name: subtree(m, q, name).inertia, 6, 6),
+        of("placement", "q", each(lambda m, q, name: frame_placement(m, q, name).matrix(), 4, 4)),
+        of("J", "q", each(lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv)),
+        of("dJ_v", "q v", each(lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6)),
+        of("p_S", "q", each(lambda m, q, name: subtree(m, q, name).center_of_mass, 3)),
+        of("A_S", "q", each(lambda m, q, name: subtree(m, q, name).momentum_map, 6, nv)),
+        of("I_S", "q", each(lambda m, q, name: subtree(m, q, name).inertia, 6, 6)),
+        of("M_inv", "q", inverse_mass_matrix, by_aba),
+        of("L", "q", lambda m, q: ltdl(m, q)[0], by_factors),
+        of("D", "q", lambda m, q: ltdl(m, q)[1], by_factors),
+        of("M_inv_tau", "q tau", solve_mass_matrix, by_factors),
+        of("Lambda_inv", "q", mobility, by_factors),
+        of("Lambda", "q", apparent, by_rows),
+        of("IA", "q", each(articulated_inertia, 6, 6), by_aba),
     ]
-    known = {quantity.symbol: quantity for quantity in every} | {x.symbol: x for x in instead}
-    every = [*known.values(), *inverses(model, dtype, frames, known["J_c"])]
-    every += [of("Y", "q v a", regressor), *(d for quantity in every for d in derivatives(model, quantity))]
-    return {quantity.symbol: quantity for quantity in every}
+    known = {quantity.symbol: quantity for quantity in [*every, *instead]}
+    made = [d for quantity in known.values() for d in derivatives(model, quantity)]
+    return known | {x.symbol: x for x in [of("Y", "q v a", regressor), *made]}
 
 
 def chosen(known: Mapping[str, Quantity], want: Sequence[str]) -> tuple[Quantity, ...]:
@@ -132,3 +148,13 @@ def chosen(known: Mapping[str, Quantity], want: Sequence[str]) -> tuple[Quantity
     for name in want:
         check_known("quantity", name, [*known, *(f for f, symbol in SYMBOLS.items() if symbol in known)])
     return tuple(dict.fromkeys(known[SYMBOLS.get(name, name)] for name in want))
+
+
+def _dependence(A: Array, A_inv: Array) -> Iterator[Any]:
+    """Yield for each row its entry of A times that of A⁻¹, over the largest that is allowed.
+
+    1 for a row that is independent of the others. The least eigenvalue of A, scaled to a diagonal of ones, is at least
+    1 over the sum of these products.
+    """
+    for k in range(len(A)):
+        yield Fraction(LEAST) * A[k, k] * A_inv[k, k]

@@ -12,8 +12,7 @@ from ..arrays import Array, convert
 from ..model import Model
 from .fingerprints import each_once
 from .line import Line
-from .memory import without_garbage
-from .number import Number, Tape, numbers
+from .number import Number, Tape, numbers, without_garbage
 from .quantities import Quantity
 from .watch import LARGEST_ANGLE, alarm, state_questions
 

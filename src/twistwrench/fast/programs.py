@@ -15,8 +15,8 @@ from ..arrays import Array
 from ..compiler import Program, Results
 from ..compiler.llvm import NATIVE, available
 from ..compiler.outputs import check_outputs, finish
-from ..compiler.quantities import Quantity, quantities
-from ..compiler.textbook import by_the_textbook, computed
+from ..compiler.quantities import quantities
+from ..compiler.quantity import Quantity, by_the_textbook, computed
 from ..errors import SingularError
 from ..model import Model, check_model, floats_of
 
