@@ -6,6 +6,7 @@ quadruple precision, in as many digits of mpmath as are set, or in pairs of doub
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Mapping
 from importlib import import_module
@@ -37,7 +38,7 @@ DOUBLE = np.dtype(np.float64)
 VALUE = ".value"
 
 
-class DigitsProgram:
+class DigitsProgram(ABC):
     """A program whose line is run in other numbers than its own, and which is called as that is.
 
     Its `model`, `arguments`, `source` and `c` are those of the program, which also raises the errors.
@@ -89,13 +90,13 @@ class DigitsProgram:
             return self._packed(results)
         return tuple(self._packed({symbol: both[k] for symbol, both in results.items()}) for k in (0, 1))
 
+    @abstractmethod
     def _own(self, name: str, x: Any) -> tuple[Any, Array] | None:
         """Return numbers of more digits than a double has, and as doubles; None for others."""
-        return None
 
+    @abstractmethod
     def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
         """Return the results of the line."""
-        raise NotImplementedError
 
     def _result(self, found: Mapping[str, Any], symbol: str) -> Any:
         """Return one of them as the caller gets it, with its bound if there is one."""
@@ -254,6 +255,9 @@ class BoundedProgram(DigitsProgram):
     def operations(self) -> Counter[str]:
         """How many operations one state takes, with its bound, by kind."""
         return self.program.operations + self._reference.operations
+
+    def _own(self, name: str, x: Any) -> tuple[Any, Array] | None:
+        return None
 
     def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
         value = self.program(**states)

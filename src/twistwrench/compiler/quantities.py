@@ -32,7 +32,7 @@ from ..arrays import Array
 from ..errors import check_known
 from ..model import Model, tree_terms
 from .derivatives import derivatives, regressor
-from .quantity import ARGUMENTS, Quantity, of_each, shapes
+from .quantity import ARGUMENTS, Quantity, shapes
 from .watch import LEAST, pivots, with_watch
 
 __all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
@@ -106,37 +106,25 @@ def quantities(
         D = ltdl(model, q)[1]
         return pivots(model, tree_terms(model, q), [np.diag(1 / D[s]) for s in model.v_slice], dtype)
 
-    def mobility(m: Model, q: Array) -> Array:
-        return delassus_matrix(m, q, known["J_c"].compute(q)[0])
-
-    def apparent(m: Model, q: Array) -> Array:
-        return operational_space_inertia(m, q, known["J_c"].compute(q)[0])
+    def rows(q: Array) -> Array:
+        return known["J_c"].compute(q)[0]
 
     def by_rows(q: Array) -> Iterator[Any]:
         yield from by_factors(q)
-        yield from _dependence(mobility(model, q), apparent(model, q))
+        yield from _dependence(delassus_matrix(model, q, rows(q)), operational_space_inertia(model, q, rows(q)))
 
-    def each(one: Callable[..., Array], *tail: int) -> Callable[..., Array]:
-        return partial(of_each, frames, one, tail)
-
-    nv = model.nv
     every = [
         *(of(symbol, arguments, function) for symbol, (arguments, function) in FUNCTIONS.items()),
         of("qdd", "q v tau f_ext", lambda m, *x: aba_terms(m, *x).qdd, by_aba),
         Quantity("J_c", ("q",), lambda q: with_watch(contact_jacobian(model, q, contacts), contacts)),
-        of("placement", "q", each(lambda m, q, name: frame_placement(m, q, name).matrix(), 4, 4)),
-        of("J", "q", each(lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv)),
-        of("dJ_v", "q v", each(lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6)),
-        of("p_S", "q", each(lambda m, q, name: subtree(m, q, name).center_of_mass, 3)),
-        of("A_S", "q", each(lambda m, q, name: subtree(m, q, name).momentum_map, 6, nv)),
-        of("I_S", "q", each(lambda m, q, name: subtree(m, q, name).inertia, 6, 6)),
         of("M_inv", "q", inverse_mass_matrix, by_aba),
         of("L", "q", lambda m, q: ltdl(m, q)[0], by_factors),
         of("D", "q", lambda m, q: ltdl(m, q)[1], by_factors),
         of("M_inv_tau", "q tau", solve_mass_matrix, by_factors),
-        of("Lambda_inv", "q", mobility, by_factors),
-        of("Lambda", "q", apparent, by_rows),
-        of("IA", "q", each(articulated_inertia, 6, 6), by_aba),
+        of("Lambda_inv", "q", lambda m, q: delassus_matrix(m, q, rows(q)), by_factors),
+        of("Lambda", "q", lambda m, q: operational_space_inertia(m, q, rows(q)), by_rows),
+        of("IA", "q", of_each(frames, articulated_inertia, 6, 6), by_aba),
+        *(of(*of_frames) for of_frames in _of_frames(model.nv, frames, reference)),
     ]
     known = {quantity.symbol: quantity for quantity in [*every, *instead]}
     made = [d for quantity in known.values() for d in derivatives(model, quantity)]
@@ -148,6 +136,27 @@ def chosen(known: Mapping[str, Quantity], want: Sequence[str]) -> tuple[Quantity
     for name in want:
         check_known("quantity", name, [*known, *(f for f, symbol in SYMBOLS.items() if symbol in known)])
     return tuple(dict.fromkeys(known[SYMBOLS.get(name, name)] for name in want))
+
+
+def of_each(frames: Sequence[str], one: Callable[..., Array], *tail: int) -> Callable[..., Array]:
+    """Return a quantity of each frame, along an axis before its own, which have the shape `tail`."""
+
+    def function(model: Model, *x: Array) -> Array:
+        each = [one(model, *x, name) for name in frames]
+        return np.stack(each, axis=-1 - len(tail)) if each else np.zeros((0, *tail))
+
+    return function
+
+
+def _of_frames(nv: int, frames: Sequence[str], reference: Reference) -> Iterator[tuple[str, str, Callable[..., Array]]]:
+    """Yield symbols, arguments and functions of what is asked of frames."""
+    each = partial(of_each, frames)
+    yield "placement", "q", each(lambda m, q, name: frame_placement(m, q, name).matrix(), 4, 4)
+    yield "J", "q", each(lambda m, q, name: frame_jacobian(m, q, name, reference), 6, nv)
+    yield "dJ_v", "q v", each(lambda m, q, v, name: frame_bias_acceleration(m, q, v, name, reference), 6)
+    yield "p_S", "q", each(lambda m, q, name: subtree(m, q, name).center_of_mass, 3)
+    yield "A_S", "q", each(lambda m, q, name: subtree(m, q, name).momentum_map, 6, nv)
+    yield "I_S", "q", each(lambda m, q, name: subtree(m, q, name).inertia, 6, 6)
 
 
 def _dependence(A: Array, A_inv: Array) -> Iterator[Any]:

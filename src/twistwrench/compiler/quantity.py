@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Array
 from ..model import Model, floats_of
 
-__all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "computed", "of_each", "shapes"]
+__all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "computed", "shapes"]
 
 ARGUMENTS = ("q", "v", "a", "tau", "f_ext")
 """The arguments of a program, in this order."""
@@ -41,12 +41,6 @@ def shapes(model: Model) -> dict[str, tuple[int, ...]]:
     """Return the shape of each argument of one state."""
     nv = (model.nv,)
     return {"q": (model.nq,), "v": nv, "a": nv, "tau": nv, "f_ext": (model.nbodies, 6)}
-
-
-def of_each(frames: Sequence[str], one: Callable[..., Array], tail: tuple[int, ...], model: Model, *x: Array) -> Array:
-    """Return a quantity of each frame, along an axis before its own, which have the shape `tail`."""
-    each = [one(model, *x, name) for name in frames]
-    return np.stack(each, axis=-1 - len(tail)) if each else np.zeros((0, *tail))
 
 
 def by_the_textbook(

@@ -16,13 +16,7 @@ __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rn
 
 
 def rnea(
-    model: Model,
-    q: ArrayLike,
-    v: ArrayLike,
-    a: ArrayLike,
-    f_ext: ArrayLike | None = None,
-    *,
-    out: Array | None = None,
+    model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext: ArrayLike | None = None, *, out: Array | None = None
 ) -> Array:
     """Return what `twistwrench.rnea` does: the joint forces that make a motion happen (49.6).
 
@@ -57,20 +51,12 @@ def rnea(
     return result(model, "tau", ("q", "v", "a"), (q, v, a), f_ext, out)
 
 
-def nonlinear_effects(
-    model: Model,
-    q: ArrayLike,
-    v: ArrayLike,
-    *,
-    out: Array | None = None,
-) -> Array:
+def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | None = None) -> Array:
     """Return what `twistwrench.nonlinear_effects` does: h = C v + g (49.9).
 
     Parameters
     ----------
-    model, q, v
-        As there.
-    out
+    model, q, v, out
         As in `rnea`.
 
     Returns
@@ -97,9 +83,7 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
 
     Parameters
     ----------
-    model, q
-        As there.
-    out
+    model, q, out
         As in `rnea`; `out` has shape (..., nv, nv).
 
     Returns
@@ -127,9 +111,7 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
 
     Parameters
     ----------
-    model, q
-        As there.
-    out
+    model, q, out
         As in `rnea`; `out` has shape (..., 6, nv).
 
     Returns
@@ -139,10 +121,8 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
 
     Raises
     ------
-    SingularError
-        If nothing that moves has mass.
-    ShapeError, ValueError
-        As `rnea`.
+    ShapeError, SingularError, ValueError
+        As `rnea`, and if nothing that moves has mass.
 
     Examples
     --------
@@ -181,10 +161,8 @@ def dynamics(
 
     Raises
     ------
-    NameNotFound, ShapeError, ValueError
+    NameNotFound, ShapeError, SingularError, ValueError
         As `twistwrench.dynamics`.
-    SingularError
-        As `centroidal_map`.
     TypeError
         If `out` is not a `Dynamics`.
 
@@ -202,9 +180,7 @@ def dynamics(
         feet = model.feet if contacts is None else contacts
         found = one_state(model, want, feet if "J_c" in want else (), (q, v))
         if found is not None:
-            made = object.__new__(
-                Dynamics
-            )  # whose own way, entry by frozen entry, takes a third as long as the program
+            made = object.__new__(Dynamics)  # whose own way, entry by entry, takes a third as long as the program
             vars(made).update(zip(want, found))
             return made
     names = wanted(want)
@@ -233,10 +209,8 @@ def aba(
 
     Parameters
     ----------
-    model, q, v, tau, f_ext
-        As there.
-    out
-        As in `rnea`.
+    model, q, v, tau, f_ext, out
+        As there, and as in `rnea`.
 
     Returns
     -------

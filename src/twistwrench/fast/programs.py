@@ -192,9 +192,7 @@ class Textbook:
         none = {name: np.empty((0, *x.shape[len(batch) :]), dtype) for name, x in states.items()}
         try:
             tails = {name: x.shape[1:] for name, x in computed(self.quantities, none).items()}
-        except (
-            SingularError
-        ):  # it is singular wherever it stands: of no states, only the tips of massless limbs are named
+        except SingularError:  # it is so wherever it stands: of no states, only the tips of massless limbs are named
             computed(self.quantities, states)
             raise
         given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
