@@ -207,3 +207,25 @@ def whole_robot(block):
     return m, c, block[:3, :3] + m * tw.skew(c) @ tw.skew(c)
 """
     assert "`np.trace(block[3:, 3:])` must be `np.trace(block[3:, 3:]) / 3`" in said_of(tmp_path, text)
+
+
+def test_a_term_of_which_only_the_diagonal_is_used_is_reported(tmp_path):
+    text = """\
+def spatial_inertia(m, c, I_c):
+    x, y, z = c
+    I_o, C = np.array(I_c, dtype=float), m * tw.skew(c)
+    I_o[0, 0] += m * (y**2 + z**2)
+    I_o[1, 1] += m * (x**2 + z**2)
+    I_o[2, 2] += m * (x**2 + y**2)
+    return np.block([[I_o, C], [C.T, m * np.eye(3)]])
+"""
+    assert "only the diagonal of `m * C @ C` is used" in said_of(tmp_path, text)
+
+
+def test_what_stands_outside_a_call_and_belongs_into_it_is_reported(tmp_path):
+    text = """\
+def forward_dynamics_two_ways(model, q, v, tau):
+    M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)
+    return tw.aba(model, q, v, tau), np.linalg.solve(M, tau) - h
+"""
+    assert "must be `np.linalg.solve(M, tau - h)`" in said_of(tmp_path, text)

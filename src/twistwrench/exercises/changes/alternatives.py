@@ -20,7 +20,7 @@ __all__ = [
 
 KINDS = (
     *("exchanged", "halves", "sign", "transposed", "left out", "last", "name", "index", "instead"),
-    *("after loop", "in loop", "summed", "number", "inserted"),
+    *("after loop", "in loop", "summed", "number", "inserted", "diagonal"),
 )
 """The kinds of edits, the likeliest first."""
 
@@ -74,6 +74,7 @@ def alternatives(
         if isinstance(node, ast.Call) and getattr(node.func, "attr", "") in CONSTANT:
             return
         yield "inserted", parsed("abs(_)", node)
+        yield "diagonal", parsed("np.diag(_)", parsed("np.diag(_)", node))
         for R in matrices:
             yield "inserted", ast.BinOp(R, ast.MatMult(), node)
             yield "inserted", ast.BinOp(_transposed(R), ast.MatMult(), node)
@@ -224,7 +225,9 @@ def _diagonals(left: Any, op: Any, right: Any) -> Iterator[Change]:
 
 
 def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:
-    """Yield A (b + c) in place of A b + c, and the other way round."""
+    """Yield A (b + c) in place of A b + c, and f(A, b + c) in place of f(A, b) + c, and the other way round."""
+    if isinstance(op, ast.Add | ast.Sub) and isinstance(left, ast.Call) and left.args:
+        yield "instead", ast.Call(left.func, [*left.args[:-1], ast.BinOp(left.args[-1], op, right)], left.keywords)
     if (
         isinstance(op, ast.Add | ast.Sub)
         and isinstance(left, ast.BinOp)
@@ -240,6 +243,10 @@ def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:
 def _calls(node: Any) -> Iterator[Change]:
     """Yield a call with two arguments exchanged, its argument alone, or what is called or named by a twin."""
     if isinstance(node, ast.Call):
+        last = node.args[-1] if node.args else None
+        if isinstance(last, ast.BinOp) and isinstance(last.op, ast.Add | ast.Sub):
+            one = ast.Call(node.func, [*node.args[:-1], last.left], node.keywords)
+            yield "instead", ast.BinOp(one, last.op, last.right)
         for arguments in exchanges(node.args) if getattr(node.func, "id", "") != "range" else ():
             yield "exchanged", ast.Call(node.func, arguments, node.keywords)
         for i, j in combinations(range(len(node.args)), 2):

@@ -204,7 +204,7 @@ class Source:
     def texts(self, kind: str, place: Place) -> tuple[str, str]:
         """Return the texts of an edit, right and wrong."""
         parents, field, node, other = place
-        if kind in ("sign", "left out", "after loop", "in loop", "summed"):
+        if kind in ("sign", "left out", "after loop", "in loop", "summed", "diagonal"):
             return term(node, other), ""
         around = enclosing(parents, node)
         right = text_of(around)

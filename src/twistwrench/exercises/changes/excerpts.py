@@ -18,7 +18,7 @@ def term(node: Any, other: Any) -> str:
         return text_of(node)
     if isinstance(node, ast.AugAssign):
         return text_of(node.value)
-    if isinstance(other, ast.UnaryOp) and other.operand is node:
+    if any(x is node for x in ast.walk(other)):
         return text_of(node)
     if isinstance(node, ast.BinOp):
         kept = getattr(other, "operand", getattr(other, "right", other))

@@ -40,6 +40,8 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
     before, after = edit.right, edit.wrong
     if any(x in after and x not in before for x in ("0 * ", "1 * ")) or after.endswith(" / 1"):
         return False  # it is switched off, or nothing
+    if edit.kind == "diagonal":
+        return False  # nobody forgets to drop what is beside the diagonal
     if edit.kind == "inserted" and _undoes(_parsed(after)):
         return False  # what is divided by does not belong there
     if edit.kind == "number" and " != 0" in before and " != 0" not in after:

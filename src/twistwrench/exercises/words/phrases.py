@@ -47,6 +47,7 @@ PHRASES = {
     "edit index": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit number": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit last": Text("only the last term of the sum `{right}` is kept", "求和 `{right}` 只保留了最后一项"),
+    "edit diagonal": Text("only the diagonal of `{right}` is used", "只用了 `{right}` 的对角线"),
     "edit argument": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit result": Text(
         "`{wrong}` is returned in place of `{right}`, the right result", "返回了 `{wrong}`，而不是正确的结果 `{right}`"
