@@ -28,6 +28,7 @@ from tables import fill, table
 
 import twistwrench as tw
 from twistwrench.compiler import recording
+from twistwrench.compiler.line import LEAVES, Line
 from twistwrench.compiler.number import Number, Tape
 from twistwrench.study.cases import random_states
 from twistwrench.timing import round_robin
@@ -68,39 +69,43 @@ class NothingShared(NoFingerprints):
 
     def enter(self, *node: Any) -> int:
         """Return the index of a new operation."""
-        if node[0] not in ("input", "const"):
-            self._index.pop(node, None)
-        return super().enter(*node)
+        index = super().enter(*node)
+        if node[0] not in LEAVES:
+            del self.places[node]
+        return index
 
 
 class ZerosKept(NoFingerprints):
     """Multiplies by 0 and by 1."""
 
-    def scale(self, c: Fraction, a: int) -> Number:
-        """Return c a."""
-        return self.multiply(self.number(c).index, a)
+    def scaled(self, c: Fraction, a: int) -> int:
+        """Return the index of c a."""
+        return self.enter("mul", self.constant(c), a)
 
 
 class SignsKept(NoFingerprints):
     """Leaves a sign where it arises."""
-
-    def signed(self, index: int) -> tuple[bool, int]:
-        """Return that a node is not the negative of another one."""
-        return False, index
 
 
 def add_everything(self: Number, other: Any) -> Any:
     """Return the sum, of zeros too."""
     if not isinstance(other, Number | Fraction | int):
         return NotImplemented
-    return self.tape.add(self.index, self.tape.number(other).index)
+    other = self.tape.number(other)
+    return self._sum(other, other.minus)
 
 
 def multiply_everything(self: Number, other: Any) -> Any:
     """Return the product, with zeros and ones too."""
     if not isinstance(other, Number | Fraction | int):
         return NotImplemented
-    return self.tape.multiply(self.index, self.tape.number(other).index)
+    other = self.tape.number(other)
+    return Number(self.tape, self.tape.enter("mul", self.index, other.index), self.minus != other.minus)
+
+
+def negate(self: Number) -> Number:
+    """Return the negative, by an operation."""
+    return self.tape.apply("neg", self)
 
 
 @contextmanager
@@ -109,12 +114,14 @@ def recorded_on(tape: type[Tape]) -> Iterator[None]:
     with ExitStack() as stack:
         stack.enter_context(patch.object(recording, "Tape", tape))
         if issubclass(tape, NoFingerprints):  # which would find again what another rule lets go
-            stack.enter_context(patch.object(recording, "each_once", lambda line: line))
+            stack.enter_context(patch.object(recording, "each_once", Line.reduced))
         if tape is ZerosKept:
             for name in ("__add__", "__radd__"):
                 stack.enter_context(patch.object(Number, name, add_everything))
             for name in ("__mul__", "__rmul__"):
                 stack.enter_context(patch.object(Number, name, multiply_everything))
+        if tape is SignsKept:
+            stack.enter_context(patch.object(Number, "__neg__", negate))
         yield
 
 

@@ -49,7 +49,7 @@ PHYSICS_AND_ORACLES = [
     "spatial/test_screws.py",
     "model/test_serial.py",
     "spatial/test_shapes.py",
-    "robots/test_urdf.py",
+    "loading/test_urdf.py",
     "simulation/test_simulation.py",
     "simulation/test_ground.py",
     "newton_euler_3d/test_newton_euler_3d.py",
@@ -138,6 +138,11 @@ def test_each_fault_changes_one_line_of_the_source():
         assert text.count(fault.right) == 1, f"{fault.slip}: found {text.count(fault.right)} times in {fault.file}"
         assert fault.wrong != fault.right, fault.slip
     assert len({fault.slip for fault in FAULTS}) == len(FAULTS) >= 30
+
+
+@pytest.mark.parametrize("name", PHYSICS_AND_ORACLES)
+def test_the_tests_that_should_notice_are_there(name):
+    assert (ROOT / "tests" / name).is_file()  # else pytest ends before the first test, which notices nothing
 
 
 def test_a_fault_is_a_slip_and_no_misspelling():
