@@ -108,7 +108,16 @@ ANSWERS = [
         "C = tw.skew(c)\nreturn np.block([[I_c + m * C @ C, m * C], [-m * C, m * np.eye(3)]])",
         "the parallel-axis term has the wrong sign",
     ),
-    Weak("link_inertia", "return np.diag([0.03, 0.03, 0.005, 2, 2, 2]), 0.005", "columns v: zero, and must not be"),
+    Weak(
+        "link_inertia",
+        "return np.diag([0.03, 0.03, 0.005, 2, 2, 2]), np.array([0.005, 0.03, 0.03, 2, 2, 2])",
+        "columns v: zero, and must not be",
+    ),
+    Weak(
+        "link_inertia",
+        "I = spatial_inertia(2.0, np.array([0, 0, 0.1]), np.diag([0.01, 0.01, 0.005]))\nreturn I, np.sort(np.diag(I))",
+        "the diagonal in place of the eigenvalues",
+    ),
     Weak("chapter_order", "return I[[3, 4, 5, 0, 1, 2]]", "only the rows are exchanged"),
     Weak("base_inertia", "b = model.inertia[0]\nreturn b.mass, b.matrix()", "body 0, the universe"),
     Weak(

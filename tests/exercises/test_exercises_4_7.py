@@ -69,12 +69,13 @@ def test_ten_numbers_make_the_matrix_that_pinocchio_makes(pin):
 
 
 def test_the_link_of_the_text_is_positive_definite_and_its_slips_are_not():
-    matrix, smallest = reference("link_inertia")()
+    matrix, eigenvalues = reference("link_inertia")()
     np.testing.assert_allclose(matrix[0, [0, 4]], [0.03, -0.2], rtol=1e-14)
-    assert smallest == pytest.approx(0.005, rel=TOLERANCE)
+    pair = 1.015 + np.array([-1, 1]) * np.sqrt(1.015**2 - 0.02)  # of [[0.03, ±0.2], [±0.2, 2]], twice
+    assert eigenvalues == pytest.approx([0.005, *pair[[0, 0]], 2, *pair[[1, 1]]], rel=TOLERANCE)
     slips = catalogue.find_part("link_inertia")[1].slips
-    assert slips["parallel-axis-dropped"]()[1] < 0
-    assert slips["parallel-axis-sign"]()[1] < 0
+    assert slips["parallel-axis-dropped"]()[1][0] < 0
+    assert slips["parallel-axis-sign"]()[1][0] < 0
 
 
 def test_an_inertia_moves_as_in_pinocchio(pin):

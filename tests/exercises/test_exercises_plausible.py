@@ -110,6 +110,14 @@ def balanced_about_the_middle(p_G, feet, weight):
                     np.diag(I_c) * alpha + np.cross(omega, np.diag(I_c) * omega),
                     m * a_c,
                 ),
+                "only the diagonal of `I_c` is used",
+            ),
+            (
+                "newton_euler",
+                lambda m, I_c, omega, alpha, a_c: (
+                    I_c.max(1) * alpha + np.cross(omega, I_c.max(1) * omega),
+                    m * a_c,
+                ),
                 "It is right where I_c is diagonal",
             ),
         ],

@@ -100,7 +100,14 @@ def _without_number(model: Any, q: Any, v: Any, a: Any) -> Any:
     return np.nan * tw.rnea(model, q, v, a)
 
 
+def _partly_a_number(model: Any, q: Any, v: Any, a: Any) -> Any:
+    tau = tw.rnea(model, q, v, a)
+    tau[len(tau) // 2] = np.nan
+    return tau
+
+
 BROKEN = Variant(Text("not a number", "不是数"), _without_number)
+PARTLY = Variant(Text("one entry is not a number", "一个元素不是数"), _partly_a_number)
 RESTING = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, a: tw.rnea(model, q, 0 * v, a))
 HELD = Variant(Text("base held", "基座固定"), held_acceleration)
 
@@ -114,7 +121,7 @@ def _states(rng: Any) -> Any:
         tau = np.concatenate([np.zeros(6), 10 * rng.standard_normal(model.nv - 6)])
         cases.append((forward, INVERSE, model, model.random_configuration(rng=rng), rng.standard_normal(model.nv), tau))
     slight = [(_less(part), INVERSE, *cases[0][2:]) for part in (1e4, 1e-2, 1e-4, 1e-6, 1e-8)]
-    return [*cases, (RIGHT, RESTING, *cases[0][2:]), *slight, (RIGHT, BROKEN, *cases[0][2:])]
+    return [*cases, (RIGHT, RESTING, *cases[0][2:]), *slight, *((RIGHT, one, *cases[0][2:]) for one in (BROKEN, PARTLY))]
 
 
 CONSISTENCY = Part(
@@ -128,6 +135,7 @@ CONSISTENCY = Part(
         "error-absolute": faulty(consistency_error, (" / np.abs(tau).max()", "")),
         "error-averaged": faulty(consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).mean()")),
         "error-of-joints": faulty(consistency_error, ("np.abs(back - tau)", "np.abs(back - tau)[6:]")),
+        "nan-lost": faulty(consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).max(where=back == back, initial=0.0)")),
         "assumed": lambda forward, inverse, model, q, v, tau: 0.0,
     },
 )

@@ -30,6 +30,12 @@ MOST = 30
 LARGEST = 12
 """Whole number by which something is multiplied or divided."""
 
+PARTS = ("rotation", "translation", "mass", "com")
+"""What a placement and a body have, whether or not the student has asked for it."""
+
+HALVES = {":3": "3:", "3:": ":3", "3:6": ":3", "0:3": "3:"}
+"""The halves of a vector of six numbers, each with the other."""
+
 Atoms = list[tuple[str, Array]]
 
 
@@ -168,8 +174,10 @@ class _Terms:
         values, done = np.array([x for _, x in here]), set()
         within, axes = 1e-9 * max(float(np.abs(values).max()), 1e-3), tuple(range(1, values.ndim))
         for k, term in here:
+            if np.abs(term).max() <= within:
+                continue  # only rounding
             for op, total in (("+", value + term), ("-", value - term)):
-                if tells(total) and (np.abs(values - total) <= within).all(axes).any():
+                if np.abs(total).max() > within and tells(total) and (np.abs(values - total) <= within).all(axes).any():
                     text = self._written(k, term, own)
                     if (op, text) not in done and len(text) <= LONGEST:
                         done.add((op, text))
@@ -208,6 +216,8 @@ class _Renamed(ast.NodeTransformer):
         self.latest, self.own = latest, own
 
     def visit(self, node: ast.AST) -> Any:
+        if isinstance(node, ast.Attribute) and node.attr in ("T", "mT"):  # a row and a column have the same numbers
+            return ast.Attribute(self.visit(node.value), "T", ast.Load())
         value = self.latest.get(ast.unparse(node)) if isinstance(node, ast.expr) else None
         text = _named(value, self.own) if value is not None and tells(value) else ""
         return ast.parse(text, mode="eval").body if text else self.generic_visit(node)
@@ -235,8 +245,28 @@ def _atoms(arguments: Mapping[str, Any], events: Sequence[Event], found: Sequenc
             text = ast.unparse(target)
             if latest.get(text, (-1, None))[0] < times[-1]:
                 latest[text] = times[-1], events[times[-1]].value
+    for text, (when, value) in [*latest.items()]:
+        latest |= {f"{text}.{x}": (when, getattr(value, x)) for x in PARTS if not callable(getattr(value, x, len))}
+        latest |= {half: (when, x) for half, x in _other_half(text, latest) if half not in latest}
     kept = ((text, _array(value)) for text, (_, value) in sorted(latest.items(), key=lambda x: -x[1][0]))
     return [(text, x) for text, x in kept if x is not None and (tells(x) or text in arguments)]
+
+
+def _other_half(text: str, latest: Mapping[str, tuple[int, Any]]) -> Iterator[tuple[str, Any]]:
+    """Yield the other half of a vector of which one is at hand."""
+    node: Any = ast.parse(text, mode="eval").body
+    if not isinstance(node, ast.Subscript) or ast.unparse(node.value) not in latest:
+        return
+    *index, half = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+    if (other := HALVES.get(ast.unparse(half))) is None:
+        return
+    names = {name: value for name, (_, value) in latest.items() if name.isidentifier()}
+    written = ", ".join([*map(ast.unparse, index), other])
+    try:
+        value = eval(f"_whole[{written}]", {**names, "_whole": latest[ast.unparse(node.value)][1]})
+    except (IndexError, NameError, TypeError):
+        return
+    yield f"{ast.unparse(node.value)}[{written}]", value
 
 
 def _named(value: Array, own: Atoms) -> str:

@@ -99,12 +99,12 @@ def _has_value(node: Any, parent: Any, field: Any) -> bool:
 
 
 def _kept(value: Any) -> Any:
-    """Return a copy of an array or of a list of them: it may be changed later."""
+    """Return a copy of an array, or of what holds arrays: it may be changed later."""
     if isinstance(value, np.ndarray):
         return value.copy() if value.size <= ENTRIES else value
     if isinstance(value, list | tuple):
         return [_kept(x) for x in value]
-    return value
+    return {name: _kept(x) for name, x in value.items()} if isinstance(value, dict) else value
 
 
 class Known:

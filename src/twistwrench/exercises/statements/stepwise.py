@@ -9,6 +9,7 @@ import io
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
+from itertools import chain, zip_longest
 from typing import Any, NamedTuple
 
 import twistwrench
@@ -22,7 +23,7 @@ from ..changes.repair import Repair
 from ..changes.repairs import PAIRED, source_of, text_written
 from ..changes.search import Remembering, by_chance
 from ..changes.whole import Edit
-from ..compare import agree
+from ..compare import agree, copied_results
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -44,13 +45,16 @@ LIKELY = (*KINDS[: KINDS.index("instead") + 1], "missing")
 
 
 class Traced(NamedTuple):
-    """A student's function, what it computes in one case, and the statements that are wrong first."""
+    """A student's function, what it computes in one case, and the statements that are wrong first.
+
+    In `sure` are those after all that may be another way, in `wrong` those that come first anyhow as well.
+    """
 
     source: Source
     events: list[Event]
     found: list[Output]
     wrong: list[Output]
-    sure: int
+    sure: list[Output]
     right: int
     unknown: int
 
@@ -76,7 +80,7 @@ class Stepwise:
         answers: Sequence[Any],
         cases: Sequence[tuple[Any, ...]],
     ) -> None:
-        self.part, self.right, self.cases = part, right, cases
+        self.part, self.right, self.answers, self.cases = part, right, answers, cases
         self.text = text_written(function)
         wrong = [k for k, given in enumerate(zip(answers, right, cases)) if not agree(part, *given)]
         self.seldom = 2 * len(wrong) < len(cases)
@@ -143,23 +147,27 @@ class Stepwise:
 
     def line(self) -> Text | None:
         """Report the first statement that is wrong, if what it is computed from is right."""
-        if self.start is None or not self.start.wrong:
+        if self.start is None or not self.start.sure:
             return None
-        first, every = self.start.wrong[0], {id(x.statement) for x in self.start.found}
-        alone = len({id(x.statement) for x in self.start.wrong[: self.start.sure]}) == 1
+        first, every = self.start.sure[0], {id(x.statement) for x in self.start.found}
+        alone = len({id(x.statement) for x in self.start.sure}) == 1
         bare = isinstance(first.statement, ast.Return) and isinstance(first.node, ast.Name)
         if not alone or bare or len(every) < 3:
             return None
         return say("first line", line=first.statement.lineno + self.before, text=text_of(first.statement))
 
     def _ways(self, source: Source, wrong: Sequence[int]) -> set[tuple[int, int]]:
-        """Return the places where another way is gone: no right solution has what is computed there in a right case."""
+        """Return the places where another way is gone: no right solution has what is computed and read there.
+
+        It is so in a right case. What nothing reads, as the sum at the world, may be anything in it.
+        """
         fine = next((c for k, c in enumerate(self.cases) if k not in wrong), None)
         if fine is None:
             return set()
         known, _ = known_values(self.part, fine, self.names)
         found = outputs(source, recorded(self.part, [source], fine), known)
-        return {x.place for x in found if not x.known}
+        read = {key for x in found for v in x.values for _, key in v.read}
+        return {x.place for x in found if any(not v.known and v.key in read for v in x.values)}
 
     def _traced(self, source: Source) -> Traced:
         events = recorded(self.part, [source], self.cases[self.first])
@@ -169,36 +177,44 @@ class Stepwise:
             if any(tells(x) for x in arrays(event.value)):
                 known[id(event.node)] = known.get(id(event.node), True) and self.known.has(event.value)
         right = sum(known.values())
-        wrong = suspects(found, self.ways)[:FEW]  # a right case may be right by chance: the rest comes after
-        more = [x for x in suspects(found) if not any(x is y for y in wrong)]
-        return Traced(source, events, found, wrong + more[:FEW], len(wrong), right, len(known) - right)
+        sure, more = suspects(found, self.ways)[:FEW], suspects(found)[:FEW]
+        in_turn = chain.from_iterable(zip_longest(sure, more))  # a right case may be right by chance
+        wrong = [*{id(x): x for x in in_turn if x is not None}.values()]
+        return Traced(source, events, found, wrong, sure, right, len(known) - right)
 
     def _edits(self, traced: Traced, until: float, *, every: bool = True) -> Iterator[Edit]:
         """Yield the changes of the statements that are wrong first, and what may be missing in them."""
         chance = by_chance(self.part, self.cases[self.first])
-        for edit in self._streams(traced, every):
+        for edit in self._streams(traced, every, until):
             if time.process_time() > until:
                 return
             if edit.kind not in chance and plausible(edit, self.text, self.part.solution):
                 yield edit
 
-    def _streams(self, traced: Traced, every: bool) -> Iterator[Edit]:
+    def _streams(self, traced: Traced, every: bool, until: float) -> Iterator[Edit]:
         yield from mixups(traced.source)
         if not traced.wrong:  # all numbers are there, but for their signs, places and factors
             yield from traced.source.edits("sign")
-        for output in traced.wrong or traced.found[-1:]:
+        looked_at = traced.wrong or traced.found[-1:]
+        for k, output in enumerate(looked_at):
             more = given(
                 *(traced.source, output, traced.events, traced.found),
                 *(self.record, self.given, self.known, self.right[self.first]),
             )
-            yield from _all(_within(traced.source, output), more) if every else more
+            now = time.process_time()
+            share = now + (until - now) / (len(looked_at) - k)
+            for edit in _all(_within(traced.source, output), more) if every else more:
+                yield edit
+                if time.process_time() > share:
+                    break
 
     def _mends(self, edit: Edit) -> bool:
-        every = [self.first, *range(len(self.cases))]
-        return all(
-            agree(self.part, tried(self.part, edit.function, self.cases[k]), self.right[k], self.cases[k])
-            for k in every
-        )
+        given: list[Any] = []
+        for k in (self.first, *range(len(self.cases))):
+            given.append(tried(self.part, edit.function, self.cases[k]))
+            if not agree(self.part, given[-1], self.right[k], self.cases[k]):
+                return False
+        return not copied_results(given[1:], self.right, self.answers)
 
     def _seconds(self, arguments: tuple[Any, ...]) -> float:
         start = time.perf_counter()
@@ -212,10 +228,19 @@ def _rewritten(kinds: set[str]) -> bool:
 
 
 def _within(source: Source, output: Output) -> Source:
-    """Return the source, of which only one statement is changed."""
-    found = copy.copy(source)
-    found.places = [x for x in source.places if any(y is output.statement for y in (*x[0], x[2]))]
+    """Return the source, of which only one statement is changed, and what a sum in a loop begins with and runs over."""
+    found, near = copy.copy(source), [output.statement]
+    for parents, _, node in source.places:
+        if node is output.statement:
+            near += [getattr(x, "iter", None) or x.test for x in parents if isinstance(x, ast.For | ast.While)]
+        if isinstance(node, ast.Assign) and len(near) < FEW and output.writes & _names_of(node.targets):
+            near.append(node)
+    found.places = [x for x in source.places if any(y is z for y in (*x[0], x[2]) for z in near)]
     return found
+
+
+def _names_of(targets: Sequence[ast.expr]) -> set[str]:
+    return {x.id for x in targets if isinstance(x, ast.Name)}
 
 
 def _all(within: Source, more: Iterator[Edit]) -> Iterator[Edit]:
