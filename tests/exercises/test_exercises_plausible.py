@@ -115,7 +115,7 @@ def balanced_about_the_middle(p_G, feet, weight):
             (
                 "newton_euler",
                 lambda m, I_c, omega, alpha, a_c: (
-                    I_c.max(1) * alpha + np.cross(omega, I_c.max(1) * omega),
+                    np.linalg.norm(I_c, axis=1) * alpha + np.cross(omega, np.linalg.norm(I_c, axis=1) * omega),
                     m * a_c,
                 ),
                 "It is right where I_c is diagonal",
