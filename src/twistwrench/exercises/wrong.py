@@ -19,7 +19,19 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["after", "as_column", "before", "doubled", "faulty", "negated", "swap", "swapped", "times", "transposed"]
+__all__ = [
+    "after",
+    "as_column",
+    "before",
+    "both",
+    "doubled",
+    "faulty",
+    "negated",
+    "swap",
+    "swapped",
+    "times",
+    "transposed",
+]
 
 Function = Callable[..., Any]
 
@@ -62,7 +74,21 @@ def faulty(solution: Function, *changes: tuple[str, str], of: Function | None = 
         return compiled()(*arguments)
 
     wrong.within = changed  # type: ignore[attr-defined]
+    wrong.made = solution, changes, of  # type: ignore[attr-defined]
     return wrong
+
+
+def both(first: Function, second: Function) -> Function | None:
+    """Make the changes of two faulty functions together; None where they are not changes of one text.
+
+    Examples
+    --------
+    >>> together = both(faulty(swap, ("k + 3", "k + 2")), faulty(swap, ("else k - 3", "else k - 2")))
+    >>> together(np.arange(6))
+    array([2, 3, 4, 1, 2, 3])
+    """
+    (solution, one, of), (other, more, within) = (getattr(f, "made", (None, (), None)) for f in (first, second))
+    return faulty(solution, *one, *more, of=of) if solution and (solution, of) == (other, within) else None
 
 
 def after(solution: Function, change: Callable[[Any], Any], *, only: tuple[int, ...] | None = None) -> Function:

@@ -9,6 +9,7 @@ from itertools import combinations
 from typing import Any
 
 from .containers import Change, containers, exchanges, parsed
+from .excerpts import text_of
 from .twins import has_no_sign, is_copy, is_whole, numbers, twins
 
 __all__ = [
@@ -20,7 +21,7 @@ __all__ = [
 
 KINDS = (
     *("exchanged", "halves", "sign", "transposed", "left out", "last", "name", "index", "instead"),
-    *("after loop", "in loop", "summed", "number", "inserted", "diagonal"),
+    *("after loop", "in loop", "carried", "summed", "number", "inserted", "diagonal"),
 )
 """The kinds of edits, the likeliest first."""
 
@@ -34,6 +35,9 @@ COMPARED: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.Eq: (ast.NotEq, ast.LtE, ast.GtE),
     ast.NotEq: (ast.Eq, ast.Lt, ast.Gt),
 }
+
+LARGE = 1e3
+"""What is compared with a number of this size may be meant to be infinite."""
 
 CONSTANT = ("zeros", "ones", "eye")
 """What these make does not lack a factor."""
@@ -58,7 +62,10 @@ def alternatives(
     if not (isinstance(parent, ast.UnaryOp) and is_whole(node)):
         kind = "index" if isinstance(parent, ast.Subscript) else "number"
         bound = isinstance(parent, ast.Slice)
-        yield from ((kind, other) for other in numbers(node) if not bound or _plausible(node, other))
+        under = isinstance(parent, ast.BinOp) and isinstance(parent.op, ast.Div) and node is parent.right
+        for other in numbers(node):
+            if (not bound or _plausible(node, other)) and not (under and ast.literal_eval(other) <= 0):
+                yield kind, other
     if isinstance(node, ast.For | ast.While):
         yield from _loops(node, parent)
     if isinstance(getattr(parent, "ctx", None), ast.Store):
@@ -121,6 +128,7 @@ def _loops(node: Any, parent: Any) -> Iterator[Change]:
             summed = copy.copy(node)
             summed.body = [*node.body[:k], ast.AugAssign(line.targets[0], ast.Add(), line.value), *node.body[k + 1 :]]
             yield "summed", ast.If(ast.Constant(True), [ast.Assign(line.targets, ast.Constant(0)), summed], [])
+    yield from _carried(node)
     around = getattr(parent, "body", [])
     k = next((k for k, other in enumerate(around) if other is node), 0)
     for j, line in enumerate(around[:k]):
@@ -129,6 +137,24 @@ def _loops(node: Any, parent: Any) -> Iterator[Change]:
             more = copy.copy(node)
             more.body = [line, *node.body]
             yield "in loop", more
+
+
+def _carried(node: Any) -> Iterator[Change]:
+    """Yield a loop in which what a line computes from a name is kept under that name, for the next round."""
+    stored = {x.id for x in ast.walk(node) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
+    for line in node.body:
+        if not isinstance(line, ast.Assign) or not isinstance(line.targets[0], ast.Name):
+            continue
+        read = {x.id for x in ast.walk(line.value) if isinstance(x, ast.Name)}
+        called = {x.func.id for x in ast.walk(line.value) if isinstance(x, ast.Call) and isinstance(x.func, ast.Name)}
+        whole = {x.value.id for x in ast.walk(line.value) if hasattr(x, "value") and isinstance(x.value, ast.Name)}
+        for name in sorted(read - stored - called - whole):
+            other = copy.deepcopy(node)
+            for x in ast.walk(other):
+                if isinstance(x, ast.Name) and x.id == line.targets[0].id:
+                    x.id = name
+            other.said = text_of(line), name
+            yield "carried", other
 
 
 def _set_by(line: ast.Assign) -> set[str]:
@@ -198,11 +224,23 @@ def _operations(node: Any) -> Iterator[Change]:
         yield "sign", node.operand
     if isinstance(node, ast.Compare) and type(node.ops[0]) in COMPARED:
         yield from (("instead", ast.Compare(node.left, [op()], node.comparators)) for op in COMPARED[type(node.ops[0])])
+        yield from _infinite(node)
     if isinstance(node, ast.BoolOp):
         yield "instead", ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
         for k, _ in enumerate(node.values):
             others = node.values[:k] + node.values[k + 1 :]
             yield "left out", ast.BoolOp(node.op, others) if len(others) > 1 else others[0]
+
+
+def _infinite(node: ast.Compare) -> Iterator[Change]:
+    """Yield a comparison with infinity in place of one with a large number."""
+    try:
+        bound = ast.literal_eval(node.comparators[0])
+    except ValueError:  # no number
+        return
+    if isinstance(bound, int | float) and abs(bound) >= LARGE:
+        other = parsed("np.inf" if bound > 0 else "-np.inf")
+        yield "instead", ast.Compare(node.left, [ast.Eq()], [other])
 
 
 def crossed(node: ast.expr, one: str, other: str) -> ast.expr:
@@ -267,8 +305,9 @@ def _calls(node: Any) -> Iterator[Change]:
             yield "last", ast.Subscript(node.func.value, LAST)
         if not node.args and isinstance(node.func, ast.Attribute) and not is_copy(node):
             yield "left out", node.func.value
-        if any(keyword.arg == "dtype" for keyword in node.keywords):
-            yield "instead", ast.Call(node.func, node.args, [x for x in node.keywords if x.arg != "dtype"])
+        for keyword in node.keywords:
+            kind = "exchanged" if keyword.arg == "order" else "instead"
+            yield kind, ast.Call(node.func, node.args, [x for x in node.keywords if x is not keyword])
         if isinstance(node.func, ast.Name) and node.func.id == "range":
             yield "instead", parsed("reversed(_)", node)
             if len(node.args) == 2 and isinstance(start := getattr(node.args[0], "value", None), int):

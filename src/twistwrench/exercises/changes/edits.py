@@ -204,6 +204,8 @@ class Source:
     def texts(self, kind: str, place: Place) -> tuple[str, str]:
         """Return the texts of an edit, right and wrong."""
         parents, field, node, other = place
+        if kind == "carried":
+            return other.said  # type: ignore[no-any-return]
         if kind in ("sign", "left out", "after loop", "in loop", "summed", "diagonal"):
             return term(node, other), ""
         around = enclosing(parents, node)

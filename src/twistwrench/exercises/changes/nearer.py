@@ -31,11 +31,16 @@ QUICK = 0.004
 LIKELY = ("exchanged", "halves", "sign", "transposed", "left out", "last", "name", "index", "instead")
 """Kinds of changes that are reported where they make only a block right."""
 
+TAKEN = ("left out", "last", "diagonal", "number", "inserted")
+"""Kinds of changes after which a slip of the list says nothing: what is taken out is missing then."""
+
 Chosen = Callable[[Source], Iterator[Edit]]
 
 
 class Nearer:
     """The changes of a student's function after which less is wrong, and nothing that was right.
+
+    In `slips` are those after which it has the numbers of a slip of the list in one case, with the slip's name.
 
     Parameters
     ----------
@@ -50,6 +55,7 @@ class Nearer:
     ) -> None:
         self.part, self.right, self.answers, self.cases = part, right, answers, cases
         self.found: list[tuple[int, Edit]] = []
+        self.slips: list[tuple[Edit, str]] = []
         self.source: Source | None = None
         self.pieces: dict[int, Edit] = {}
         self.bad: set[int] = set()
@@ -64,9 +70,16 @@ class Nearer:
         self.tried.remove(first)
         self.tried.insert(0, first)
         self.wrong = self._wrong([self.answers[k] for k in self.tried], self.tried)
+        slipped = {name: tried(self.part, wrong, self.cases[first]) for name, wrong in self.part.slips.items()}
+        flat = ((name, self._flat(answer)) for name, answer in slipped.items())
+        self.slipped = {name: x for name, x in flat if x is not None}
 
     def note(self, edit: Edit, answer: Any) -> None:
-        """Keep a change, if less is wrong with it than without it."""
+        """Keep a change, if less is wrong with it than without it, or if what is wrong then is a slip of the list."""
+        numbers = self._flat(answer) if edit.places and edit.kind not in TAKEN else None
+        for name, slipped in self.slipped.items():
+            if numbers is not None and numbers.shape == slipped.shape and _near(numbers, slipped):
+                self.slips.append((edit, name))
         if self.wrong is None or self.wrong.sum() < 2 or not edit.places:
             return
         given = [answer, *(tried(self.part, edit.function, self.cases[k]) for k in self.tried[1:])]
@@ -128,6 +141,25 @@ class Nearer:
             for k in every
         )
 
+    def change_and_slip(self) -> tuple[Edit, str] | None:
+        """Return a change after which it has the numbers of a slip of the list in all cases, and the slip's name."""
+        for edit, name in self.slips[:MOST]:
+            slip = self.part.slips[name]
+            if all(
+                agree(self.part, tried(self.part, edit.function, c), tried(self.part, slip, c), c) for c in self.cases
+            ):
+                return edit, name
+        return None
+
+    def _flat(self, answer: Any) -> Array | None:
+        """Return the numbers of an answer, one after the other; None where it has not as many as the right one."""
+        split = values(answer, self.part.returns) if self.part.canonical is None else None
+        arrays = [x.array for x in split or [] if x.array is not None and x.array.dtype.kind == "f"]
+        if not arrays or len(arrays) < len(self.part.returns):
+            return None
+        found = np.concatenate([np.ravel(x) for x in arrays])
+        return found if found.size > FEW and np.isfinite(found).all() else None
+
     def _numbers(self, k: int) -> Array:
         split = values(self.right[k], self.part.returns) or []
         return np.concatenate([np.ravel(x.array) for x in split if x.array is not None])
@@ -145,6 +177,10 @@ class Nearer:
             if not a or not b:
                 return None
         return np.concatenate(found) if found and self.part.canonical is None else None
+
+
+def _near(x: Array, y: Array) -> bool:
+    return bool(np.abs(x - y).max(initial=0) <= 1e-9 * np.abs(y).max(initial=FLOOR))
 
 
 def _differ(a: Value, b: Value) -> Array | None:

@@ -91,7 +91,7 @@ def repairs(
     if nearer is not None:
         nearer.begin(source, before, first, seconds[first])
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        for edit in _changes(part, function, source, cases[first], until, pairs):
+        for edit in _changes(part, function, source, cases[first], until, pairs, len(cases)):
             if mended and (edit.kind not in ALIKE or pairs):
                 break
             if rare and edit.kind == "inserted" and not edit.wrong.startswith("abs("):
@@ -131,7 +131,7 @@ def two_repairs(
 
     Where there are no two, one for each of the things returned, though it spoils another that is wrong anyway.
     """
-    chance, whole = by_chance(part, arguments), bool(arguments) and not inspect.isclass(function)
+    chance, whole = by_chance(part, arguments, len(nearer.cases)), bool(arguments) and not inspect.isclass(function)
     text = text_written(function)
 
     def chosen(source: Source) -> Iterator[Edit]:
@@ -171,10 +171,10 @@ def source_of(part: Part, function: Function, arguments: tuple[Any, ...]) -> tup
 
 
 def _changes(
-    part: Part, function: Function, source: Source, arguments: tuple[Any, ...], until: float, pairs: bool
+    part: Part, function: Function, source: Source, arguments: tuple[Any, ...], until: float, pairs: bool, every: int
 ) -> Iterator[Edit]:
     """Yield the changes of a student's function, for as long as a search may take."""
-    chance, text = by_chance(part, arguments), text_written(function)
+    chance, text = by_chance(part, arguments, every), text_written(function)
     whole = bool(arguments) and not inspect.isclass(function)
     for edit in _pairs(source) if pairs else _single(source, whole):
         if time.process_time() > until:

@@ -29,6 +29,10 @@ Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
 
+SURE = 64
+"""Times that yes or no is not right by chance."""
+
+
 class Found(NamedTuple):
     """An edit that gives the student's numbers, and in which of the things returned: None for all of them."""
 
@@ -67,7 +71,7 @@ def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> 
     several = len(part.returns) > 1 and part.canonical is None
     bad = [k for k in range(len(part.returns)) if not same(part, answers, right, k)] if several else []
     found: dict[int, Edit] = {}
-    for edit in candidates(part, cases[first], until=until):
+    for edit in candidates(part, cases[first], until=until, every=len(cases)):
         answer = tried(part, edit.function, cases[first])
         alone = (
             [] if edit.kind in ("number", "index") and not cases[first] else bad
@@ -82,9 +86,9 @@ def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> 
     return [Found(found[k], k) for k in bad if k in found]
 
 
-def candidates(part: Part, arguments: tuple[Any, ...], *, until: float = np.inf) -> Iterator[Edit]:
+def candidates(part: Part, arguments: tuple[Any, ...], *, until: float = np.inf, every: int = 1) -> Iterator[Edit]:
     """Yield the edits of all right ways, for as long as a search may take."""
-    chance = by_chance(part, arguments)
+    chance = by_chance(part, arguments, every)
     names = {"tw": Remembering(twistwrench)}
     for way in (part.solution, *part.ways):
         listings = part.beside if way is part.solution else ()
@@ -97,12 +101,12 @@ def candidates(part: Part, arguments: tuple[Any, ...], *, until: float = np.inf)
                 yield edit
 
 
-def by_chance(part: Part, arguments: tuple[Any, ...]) -> tuple[str, ...]:
-    """Return the kinds of edits that say nothing here: a single number, or yes and no, is met by chance."""
+def by_chance(part: Part, arguments: tuple[Any, ...], cases: int = 1) -> tuple[str, ...]:
+    """Return the kinds of edits that say nothing here: one number, or yes and no in few cases, is met by chance."""
     right = values(part.value(part.solution, copied(arguments)), part.returns) or []
     truths = any(x.array is not None and x.array.dtype.kind == "b" for x in right)
     few = not arguments and sum(np.size(x.raw) for x in right) <= MANY
-    return ("index", "number", "inserted") if truths else ("number", "inserted") if few else ()
+    return ("index", "number", "inserted") if truths and cases < SURE else ("number", "inserted") if few else ()
 
 
 def _seconds(part: Part, arguments: tuple[Any, ...]) -> float:

@@ -61,7 +61,7 @@ def numbers(node: Any) -> Iterator[ast.expr]:
         others = (
             [x + 1, x - 1, 0, x + 2, x - 2, -1, -x, 2 * x, x / 2, 3, 6]
             if isinstance(x, int)
-            else [10, 9.8, 9.81, 1.0, -x, 2 * x, x / 2, 10 * x, x / 10]
+            else [10, 9.8, 9.81, 1.0, 0.0, -x, 2 * x, x / 2, 10 * x, x / 10]
         )
         yield from (ast.Constant(other) for other in dict.fromkeys(others) if other != x)
 

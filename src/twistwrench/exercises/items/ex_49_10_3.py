@@ -67,6 +67,7 @@ ACCELERATION = Part(
         "rate-left-out": faulty(com_acceleration, (" - k_y / (m * z)", ""), (" + k_x / (m * z)", "")),
         "rate-sign": faulty(com_acceleration, ("- k_y", "+ k_y"), ("+ k_x", "- k_x")),
         "rate-axes": faulty(com_acceleration, ("- k_y", "- k_x"), ("+ k_x", "- k_y")),
+        "rate-unturned": faulty(com_acceleration, ("- k_y", "+ k_x"), ("+ k_x / (m * z)]", "+ k_y / (m * z)]")),
         "pendulum-hangs": faulty(com_acceleration, ("[g / z", "[-g / z"), (", g / z", ", -g / z")),
         "height-dropped": lambda p_G, *rest: p_G[2] * com_acceleration(p_G, *rest),
         "mass-dropped": faulty(com_acceleration, ("k_y / (m * z)", "k_y / z"), ("k_x / (m * z)", "k_x / z")),

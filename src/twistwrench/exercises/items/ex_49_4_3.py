@@ -74,16 +74,17 @@ def _wrenches(rng: Any) -> Any:
 
 
 def _edges(rng: Any) -> Any:
-    """Return wrenches on each edge, and a millionth within and outside it. Powers of two: the division is exact."""
+    """Return wrenches on each edge, and a little within and outside it. Powers of two: the division is exact."""
     places = [(0.125, 0.01), (-0.125, 0.01), (0.05, 0.0625), (0.05, -0.0625)]
-    factors = [(1.0, 1.0), (1 - 1e-6, 1.0), (1 + 1e-6, 1.0), (1.0, 1 - 1e-6), (1.0, 1 + 1e-6)]
+    near = [1 + sign * part for part in (2.0**-20, 2.0**-44) for sign in (-1, 1)]
+    factors = [(1.0, 1.0), *((x, 1.0) for x in near), *((1.0, x) for x in near)]
     wrenches = [_at(x, y, 256.0, rng)[0] for x, y in places]
     return [(F * [b, a, 1, 1, 1, 1], 0.125, 0.0625) for F in wrenches for a, b in factors]
 
 
 def _pressures(rng: Any) -> Any:
     """Return wrenches that hardly push or pull, in the middle and beside the sole, and those that do neither."""
-    pushes = [_at(*place, f_z, rng) for f_z in (0.3, 1e-3, 1e-6) for place in ((0.05, 0.02), (0.15, 0.06))]
+    pushes = [_at(*place, f_z, rng) for f_z in (0.3, 1e-3, 1e-6, 1e-12) for place in ((0.05, 0.02), (0.15, 0.06))]
     pulls = [_at(0.01, 0.01, f_z, rng) for f_z in (-rng.uniform(100, 400), -1e-3, -1e-6)]
     nothing = (np.zeros(6), np.array([0, 0, 1, 2, 3, 0.0]), np.array([1, 2, 3, 4, 5, 0.0]))
     return [*pushes, *pulls, *((F, 0.1, 0.04) for F in nothing)]
@@ -134,6 +135,8 @@ HOLDS = Part(
         "either-for-both": faulty(sole_holds, (" and ", " or ")),
         "cop-not-divided": faulty(sole_holds, ("= p(F)", "= F[1], F[0]")),
         "edge-excluded": faulty(sole_holds, ("abs(p_x) <=", "abs(p_x) <"), ("abs(p_y) <=", "abs(p_y) <")),
+        "edge-tolerance": faulty(sole_holds, ("<= d_x and", "<= d_x + 1e-9 and"), ("<= d_y)", "<= d_y + 1e-9)")),
+        "pressure-threshold": faulty(sole_holds, ("F[5] <= 0", "F[5] <= 1e-9")),
         "swapped-halves": before(sole_holds, swap, which=0),
     },
 )

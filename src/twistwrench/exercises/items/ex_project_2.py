@@ -77,6 +77,7 @@ EQUATION = Part(
         "torques-missing": faulty(accelerated, ("S.mT @ tau + ", "")),
         "bias-for-zero": faulty(accelerated, (" - h", "")),
         "bias-sign": faulty(accelerated, ("- h", "+ h")),
+        "selection-assumed": faulty(accelerated, ("S.mT @ tau", "np.concatenate([np.zeros(6), tau])")),
         "selection-first": faulty(accelerated, ("S.mT @ tau", "np.roll(S.mT @ tau, -6)")),
         "joints-missing": before(accelerated, lambda M: M * (BASE[:, None] == BASE), which=0),
         "one-triangle": before(accelerated, np.triu, which=0),

@@ -121,7 +121,12 @@ def _states(rng: Any) -> Any:
         tau = np.concatenate([np.zeros(6), 10 * rng.standard_normal(model.nv - 6)])
         cases.append((forward, INVERSE, model, model.random_configuration(rng=rng), rng.standard_normal(model.nv), tau))
     slight = [(_less(part), INVERSE, *cases[0][2:]) for part in (1e4, 1e-2, 1e-4, 1e-6, 1e-8)]
-    return [*cases, (RIGHT, RESTING, *cases[0][2:]), *slight, *((RIGHT, one, *cases[0][2:]) for one in (BROKEN, PARTLY))]
+    return [
+        *cases,
+        (RIGHT, RESTING, *cases[0][2:]),
+        *slight,
+        *((RIGHT, one, *cases[0][2:]) for one in (BROKEN, PARTLY)),
+    ]
 
 
 CONSISTENCY = Part(
@@ -135,7 +140,9 @@ CONSISTENCY = Part(
         "error-absolute": faulty(consistency_error, (" / np.abs(tau).max()", "")),
         "error-averaged": faulty(consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).mean()")),
         "error-of-joints": faulty(consistency_error, ("np.abs(back - tau)", "np.abs(back - tau)[6:]")),
-        "nan-lost": faulty(consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).max(where=back == back, initial=0.0)")),
+        "nan-lost": faulty(
+            consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).max(where=back == back, initial=0.0)")
+        ),
         "assumed": lambda forward, inverse, model, q, v, tau: 0.0,
     },
 )

@@ -14,6 +14,7 @@ matching      the slips of the list that give the student's numbers
 properties    what right answers have, and this one has not
 relations     how a wrong array differs: sign, transpose, factor, zero, places
 simplest      the simplest arguments that give a wrong answer, and what all of them share
+small         what is right for small numbers only
 state         what stays from one call to the next
 steps         the first quantity of a recursion that is wrong, and at which body
 wrong_answer  a wrong answer, and what is found about it, each thing once

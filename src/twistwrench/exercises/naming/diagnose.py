@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from ..changes.repair import Repair
 from ..changes.repairs import repair_of_blocks, text_written
 from ..exercise import Exercise, Part
 from ..words.phrases import say
@@ -141,6 +142,21 @@ def _two_changes(wrong: WrongAnswer) -> Explained | None:
     return ([], mended(wrong, found)) if found else None
 
 
+def _any_two_changes(wrong: WrongAnswer) -> Explained | None:
+    found = wrong.any_two_changes()
+    return ([], mended(wrong, found)) if found else None
+
+
+def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
+    """Report a change of a line after which the numbers are those of a slip of the list."""
+    if not wrong.again or (found := wrong.nearer.change_and_slip()) is None:
+        return None
+    edit, name = found
+    slip = wrong.slip(name)
+    line = say("two changes", first=Repair(edit, wrong.nearer.before).title(), second=slip.title)
+    return [name], [line, slip.why, where(wrong, slip.section)]
+
+
 def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
     few = few_entries(wrong.part, wrong.answers, wrong.cases)
     pair = None if few else two_slips(wrong.part, wrong.answers, wrong.cases)
@@ -193,6 +209,8 @@ EXPLANATIONS: tuple[Explanation, ...] = (
 OF_CODE: tuple[Explanation, ...] = (
     _change_of_the_solution,
     _two_changes,
+    _change_and_slip,
+    _any_two_changes,
     _two_slips_of_the_list,
     _each_result,
     _rest_of_the_solution,

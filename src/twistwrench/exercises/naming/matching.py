@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from ..changes.repairs import text_written
 from ..compare import Value, agree, close, values
 from ..exercise import Part
-from ..wrong import swap
+from ..wrong import both, swap
 from .own import traced
 
 __all__ = ["MISHAPS", "matching_slips", "slips_by_piece", "two_slips"]
@@ -100,10 +101,14 @@ def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | N
             continue  # there is no half to be missed
         for first, wrong in part.slips.items():
 
-            def both(*arguments: Any, wrong: Any = wrong, twist: Any = twist) -> Any:
+            def twisted(*arguments: Any, wrong: Any = wrong, twist: Any = twist) -> Any:
                 answer = wrong(*arguments)
                 return tuple(map(twist, answer)) if isinstance(answer, tuple) else twist(answer)
 
-            if first != second and _matches(part, both, answers, cases):
+            if first != second and _matches(part, twisted, answers, cases):
                 return first, second
+    for (first, one), (second, other) in combinations(part.slips.items(), 2):
+        together = both(one, other)
+        if together is not None and _matches(part, together, answers, cases):
+            return first, second
     return None

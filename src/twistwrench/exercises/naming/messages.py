@@ -17,6 +17,7 @@ from .own import own_lines, shown_in
 from .properties import FEW, broken_property
 from .relations import describe, of_truths
 from .simplest import of_words, shared
+from .small import right_when_small
 from .steps import first_wrong
 from .wrong_answer import WrongAnswer
 
@@ -117,6 +118,7 @@ def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:
         lines += map(indented, of_words(part, again, cases))
         lines += map(indented, not_used(part, again, wrong.answers, right, cases))
         lines += filter(None, [right_where(part, again, wrong.wrong_cases)])
+        lines += right_when_small(part, again, wrong.wrong_cases)
     broken = broken_property(part, wrong.answers, cases)
     if broken is not None:
         lines.append(say("broken", text=broken))

@@ -143,11 +143,10 @@ def _relation(a: Array, b: Array, tolerance: float, origin: list[int], factors: 
     plain = _plain(a, b, tolerance, factors)
     if plain is not None:
         return plain
+    relation = _exchanged(a, b, tolerance, origin)
     for find in (_triangle, _diagonal, _shuffled):
-        relation = find(a, b, tolerance)
-        if relation is not None:
-            return relation
-    return _entries(a, b, tolerance, origin)
+        relation = relation or find(a, b, tolerance)
+    return relation or _entries(a, b, tolerance, origin)
 
 
 def _same(a: Array, b: Array, tolerance: float) -> bool:
@@ -174,10 +173,11 @@ def _plain(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Te
 def _factor(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
     """Return the factor, of those reported, by which an array is too large or too small."""
     for factor in factors:
-        if (np.abs(a - factor * b) <= factor * tolerance).all():
-            return say("factor", factor=factor)
-        if (np.abs(factor * a - b) <= tolerance).all():
-            return say("divisor", factor=factor)
+        for sign, said in ((1, ""), (-1, "opposite ")):
+            if (np.abs(a - sign * factor * b) <= factor * tolerance).all():
+                return say(f"{said}factor", factor=factor)
+            if (np.abs(sign * factor * a - b) <= tolerance).all():
+                return say(f"{said}divisor", factor=factor)
     return None
 
 
@@ -200,6 +200,23 @@ def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
         return say("off diagonal")
     right = _same(a * on, b * on, tolerance) and not _same(b * on, np.zeros_like(b), tolerance)
     return say("diagonal") if right and (np.abs(a - b) > tolerance).sum() > 3 else None
+
+
+def _exchanged(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text | None:
+    """Return which two entries, rows or columns are exchanged, where all others are right."""
+    for axis, phrase in ((-2, "rows exchanged"), (-1, "columns exchanged")) if b.ndim == 2 else ():
+        wrong = np.flatnonzero((np.abs(a - b) > tolerance).any(axis=-1 if axis == -2 else -2))
+        if len(wrong) == 2 and _same(np.take(a, wrong[::-1], axis), np.take(b, wrong, axis), tolerance):
+            first, second = (int(k) + origin[axis] for k in wrong)
+            return say(phrase, first=first, second=second)
+    where = np.argwhere(np.abs(a - b) > tolerance)
+    if len(where) != 2 or not b.ndim or _same(np.abs(a), np.abs(b), tolerance):
+        return None
+    (x, y), (x_right, y_right) = ([array[*place] for place in where] for array in (a, b))
+    if np.abs(x - y_right) > tolerance or np.abs(y - x_right) > tolerance:
+        return None
+    one, other = (_places(place[None]) for place in where + origin)
+    return say("entries exchanged", first=one, second=other)
 
 
 def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:

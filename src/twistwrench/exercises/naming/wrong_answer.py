@@ -124,12 +124,13 @@ class WrongAnswer:
         return found_edits(self.part, self.answers, self.cases, until=self.until["edited"])
 
     def two_changes(self) -> list[Repair]:
-        """Return two changes of the student's own lines that together make them right."""
-        return (
-            two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
-            or self.steps.two(self.until["both"])
-            or repairs(self.part, *self.given, until=self.until["twice"], pairs=True)
-        )
+        """Return two changes of the student's own lines that together make them right, each of them a part."""
+        nearer = two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
+        return nearer or self.steps.two(self.until["both"])
+
+    def any_two_changes(self) -> list[Repair]:
+        """Return any two changes of the student's own lines that together make them right."""
+        return repairs(self.part, *self.given, until=self.until["twice"], pairs=True)
 
     def slip(self, name: str) -> Slip:
         """Return a slip with the reason that this part gives for it, if it has one of its own."""

@@ -184,7 +184,7 @@ class Stepwise:
 
     def _edits(self, traced: Traced, until: float, *, every: bool = True) -> Iterator[Edit]:
         """Yield the changes of the statements that are wrong first, and what may be missing in them."""
-        chance = by_chance(self.part, self.cases[self.first])
+        chance = by_chance(self.part, self.cases[self.first], len(self.cases))
         for edit in self._streams(traced, every, until):
             if time.process_time() > until:
                 return
@@ -232,7 +232,9 @@ def _within(source: Source, output: Output) -> Source:
     found, near = copy.copy(source), [output.statement]
     for parents, _, node in source.places:
         if node is output.statement:
-            near += [getattr(x, "iter", None) or x.test for x in parents if isinstance(x, ast.For | ast.While)]
+            near += [
+                x.iter if isinstance(x, ast.For) else x.test for x in parents if isinstance(x, ast.For | ast.While)
+            ]
         if isinstance(node, ast.Assign) and len(near) < FEW and output.writes & _names_of(node.targets):
             near.append(node)
     found.places = [x for x in source.places if any(y is z for y in (*x[0], x[2]) for z in near)]

@@ -18,6 +18,10 @@ PHRASES = {
         "These are the numbers of two slips at once: {first}; and {second}.",
         "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
     ),
+    "two changes": Text(
+        "Two slips at once: {first}; and your numbers are then those of this slip: {second}.",
+        "两处错误同时出现：{first}；改过之后，数值等于犯下这个错误的结果：{second}。",
+    ),
     "like slip": Text(
         "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
     ),
@@ -38,6 +42,9 @@ PHRASES = {
     "edit after loop": Text("`{right}` stands after the loop, not in it", "`{right}` 放在了循环之后，而不在循环内"),
     "edit in loop": Text("`{right}` stands in the loop, not before it", "`{right}` 放在了循环内，而不在循环之前"),
     "edit summed": Text("`{right}` is added up", "`{right}` 被累加了"),
+    "edit carried": Text(
+        "`{right}` is kept as `{wrong}` for the next round", "`{right}` 以 `{wrong}` 之名留给了下一轮"
+    ),
     "edit transposed": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit exchanged": Text("`{wrong}` in place of `{right}`", "`{right}` 写成了 `{wrong}`"),
     "edit halves": Text("`{wrong}` and `{right}` are exchanged", "`{wrong}` 与 `{right}` 互换了"),
@@ -63,6 +70,10 @@ PHRASES = {
         "`{wrong}` must be added up: += in place of =, from zero before the loop",
         "`{wrong}` 应当累加：用 += 而不是 =，循环前从零开始",
     ),
+    "repair carried": Text(
+        "`{wrong}` starts from the same `{right}` in each round: what the round before has computed must be carried on",
+        "`{wrong}` 每一轮都从同一个 `{right}` 开始：应接着用上一轮算出的结果",
+    ),
     "repair last": Text("`{wrong}` must not be a sum", "`{wrong}` 不应求和"),
     "repair transposed": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "repair exchanged": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
@@ -74,6 +85,11 @@ PHRASES = {
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "must be zero": Text("`{name}` must be zero in `{around}`", "`{around}` 中的 `{name}` 应为零"),
     "repair missing": Text("`{right}` is missing after `{wrong}`", "`{wrong}` 之后缺少 `{right}`"),
+    "when small": Text(
+        "{name} is right for small {what} only, up to the power {power}: what is wrong grows with the power {next}. A"
+        " series that is broken off, or a term of that power that is left out?",
+        "{name} 只对很小的 {what} 正确，到 {power} 次为止：误差按 {next} 次方增长。是不是级数截断了，或漏了该次的项？",
+    ),
     "simplest": Text(
         "With {name} = {given}, {what} is {got}, and must be {right}.",
         "当 {name} = {given} 时，{what} 为 {got}，应为 {right}。",
@@ -244,6 +260,15 @@ PHRASES = {
     "transposed sign": Text("transposed, and the sign is wrong", "被转置且符号相反"),
     "factor": Text("too large by a factor of {factor:.4g}", "是正确值的 {factor:.4g} 倍"),
     "divisor": Text("too small by a factor of {factor:.4g}", "只有正确值的 1/{factor:.4g}"),
+    "opposite factor": Text(
+        "too large by a factor of {factor:.4g}, and of the other sign", "是正确值的 {factor:.4g} 倍，且符号相反"
+    ),
+    "opposite divisor": Text(
+        "too small by a factor of {factor:.4g}, and of the other sign", "只有正确值的 1/{factor:.4g}，且符号相反"
+    ),
+    "rows exchanged": Text("rows {first} and {second} are exchanged", "第 {first} 行与第 {second} 行互换了"),
+    "columns exchanged": Text("columns {first} and {second} are exchanged", "第 {first} 列与第 {second} 列互换了"),
+    "entries exchanged": Text("the entries {first} and {second} are exchanged", "元素 {first} 与 {second} 互换了"),
     "permuted": Text("the right numbers, in the wrong places", "数值正确，位置不对"),
     "signs": Text("the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
     "upper": Text("only the upper triangle is right", "只有上三角正确"),
