@@ -15,7 +15,8 @@ __all__ = ["Machine", "Task", "often", "seconds", "timed"]
 class Machine:
     """A clock on a machine that has one of the faults of real ones, the same each time.
 
-    Calling it reads the clock, like ``time.perf_counter``.
+    Calling it reads the clock, like ``time.perf_counter``. Its faults begin with the first reading: what is called
+    before, to warm up, counts for no more than that.
 
     Parameters
     ----------
@@ -26,7 +27,7 @@ class Machine:
     pause : float
         For how long the machine does something else in the middle of some calls, s.
     paused_at : collection of int
-        At which calls, counted from 0 over all tasks.
+        At which calls, counted from 0 over all tasks, from the first reading on.
     slow_from : int, optional
         From which call on everything takes three times as long.
     drift : float
@@ -58,20 +59,22 @@ class Machine:
 
     def reset(self) -> None:
         """Start again."""
-        self._now, self.readings, self.calls = 0.0, 0, 0
+        self._now, self.readings, self.calls, self._before = 0.0, 0, 0, 0
         self._met: set[Task] = set()
 
     def __call__(self) -> float:
         """Read the clock."""
+        self._before = self._before if self.readings else self.calls
         self.readings += 1
         return self._now
 
     def work(self, task: Task) -> None:
         """Let the time of a task pass."""
-        late = self._slow_from is not None and self.calls >= self._slow_from
-        self._now += (3 if late else 1) * (1 + self._drift * self.calls) * task.seconds
+        k = self.calls - self._before if self.readings else 0
+        late = self._slow_from is not None and k >= self._slow_from
+        self._now += (3 if late else 1) * (1 + self._drift * k) * task.seconds
         self._now += 0 if task in self._met else self._start
-        self._now += self._pause if self.calls in self._paused_at else 0
+        self._now += self._pause if self.readings and k in self._paused_at else 0
         self._met.add(task)
         self.calls += 1
 

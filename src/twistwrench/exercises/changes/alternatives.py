@@ -305,6 +305,10 @@ def _calls(node: Any) -> Iterator[Change]:
             yield "last", ast.Subscript(node.func.value, LAST)
         if not node.args and isinstance(node.func, ast.Attribute) and not is_copy(node):
             yield "left out", node.func.value
+        if isinstance(node.func, ast.Attribute) and node.func.attr == "pad" and is_whole(node.args[-1]):
+            for width in ((node.args[-1], ast.Constant(0)), (ast.Constant(0), node.args[-1])):
+                arguments = [*node.args[:-1], ast.Tuple([*width], ast.Load())]
+                yield "exchanged", ast.Call(node.func, arguments, node.keywords)
         for keyword in node.keywords:
             kind = "exchanged" if keyword.arg == "order" else "instead"
             yield kind, ast.Call(node.func, node.args, [x for x in node.keywords if x is not keyword])

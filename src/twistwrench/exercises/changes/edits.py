@@ -132,6 +132,12 @@ class Source:
         self.kinds = {name: _kind(x) for name, x in values.items()}
         square = [n for n, x in values.items() if isinstance(x, np.ndarray) and x.ndim == 2 and len({*x.shape}) == 1]
         square += [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
+        square += sorted(
+            {ast.unparse(x) for x in ast.walk(self.tree) if getattr(x, "attr", "") == "rotation"} - {*square}
+        )
+        self.sums = {
+            x.target.id for x in ast.walk(self.tree) if isinstance(x, ast.AugAssign) and isinstance(x.target, ast.Name)
+        }
         numbers = [name for name, x in values.items() if isinstance(x, int | float) and type(x) is not bool]
         self.scalars, self.matrices = [*map(parsed, (*numbers, *FACTORS))], [*map(parsed, square)]
         self.places = [*all_places(self.tree.body[0])]
@@ -269,6 +275,8 @@ class Source:
             names.append(f"{name}.ravel()")
         yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
         yield from (("name", parsed(text)) for text in self._other_names(node, parents))
+        if isinstance(parents[-1], ast.Assign) and getattr(parents[-1].targets[0], "id", "") in self.sums:
+            yield "instead", parsed("np.zeros_like(_)", node)  # from which a sum begins
 
     def _crossed(self) -> Iterator[Edit]:
         """Yield the exchange of two names, wherever they stand in an expression."""

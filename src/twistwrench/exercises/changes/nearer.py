@@ -12,6 +12,7 @@ from ...arrays import Array
 from ..calls import tried
 from ..compare import FLOOR, Value, agree, values
 from ..exercise import Part
+from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import Source
@@ -33,6 +34,12 @@ LIKELY = ("exchanged", "halves", "sign", "transposed", "left out", "last", "name
 
 TAKEN = ("left out", "last", "diagonal", "number", "inserted")
 """Kinds of changes after which a slip of the list says nothing: what is taken out is missing then."""
+
+TURNS = ("sign", "transposed", "halves", "exchanged")
+"""Kinds of changes that take nothing out."""
+
+TWICE = ("swapped-halves", "transposed-answer")
+"""Slips that turn all numbers round."""
 
 Chosen = Callable[[Source], Iterator[Edit]]
 
@@ -70,9 +77,19 @@ class Nearer:
         self.tried.remove(first)
         self.tried.insert(0, first)
         self.wrong = self._wrong([self.answers[k] for k in self.tried], self.tried)
-        slipped = {name: tried(self.part, wrong, self.cases[first]) for name, wrong in self.part.slips.items()}
-        flat = ((name, self._flat(answer)) for name, answer in slipped.items())
-        self.slipped = {name: x for name, x in flat if x is not None}
+        self.slipped = {name: x for name, x in self._slipped(first) if x is not None}
+
+    def _slipped(self, k: int) -> Iterator[tuple[str, Array | None]]:
+        """Yield the numbers of each slip of the list in a case, if what is wrong then is wrong in the answer, too."""
+        own, right = self._flat(self.answers[k]), self._flat(self.right[k])
+        if own is None or right is None:
+            return
+        for name, wrong in self.part.slips.items():
+            numbers = self._flat(tried(self.part, wrong, self.cases[k]))
+            if numbers is not None and numbers.shape == own.shape == right.shape:
+                within = 1e-9 * np.abs(right).max(initial=FLOOR)
+                spoilt = (np.abs(numbers - right) > within) & (np.abs(own - right) <= within)
+                yield name, None if spoilt.any() else numbers
 
     def note(self, edit: Edit, answer: Any) -> None:
         """Keep a change, if less is wrong with it than without it, or if what is wrong then is a slip of the list."""
@@ -145,6 +162,10 @@ class Nearer:
         """Return a change after which it has the numbers of a slip of the list in all cases, and the slip's name."""
         for edit, name in self.slips[:MOST]:
             slip = self.part.slips[name]
+            if SLIPS[name].lacks and edit.kind not in TURNS:
+                continue  # the change may have taken it out
+            if name in TWICE and edit.kind in TURNS[1:]:
+                continue  # the same on the way in and on the way out
             if all(
                 agree(self.part, tried(self.part, edit.function, c), tried(self.part, slip, c), c) for c in self.cases
             ):

@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
+from ..exercise import Part
 from .whole import Edit
 
 __all__ = ["ALIKE", "alike", "anywhere", "plausible", "shuts"]
@@ -21,7 +22,7 @@ POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
 
 
-def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
+def plausible(edit: Edit, text: str, part: Part) -> bool:
     """Whether a change that makes a function right is the undoing of a slip.
 
     Parameters
@@ -30,16 +31,20 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
         Of the student's function: `right` is what stands there, `wrong` what is put in its place.
     text : str
         The source of the student's function.
-    reference : callable
-        The solution.
+    part : Part
+        What is asked for.
     """
     if edit.first is not None:
         kind, right, wrong, line = edit.first
         first = replace(edit, kind=kind, right=right, wrong=wrong, line=line, first=None)
-        return plausible(first, text, reference) and plausible(replace(edit, first=None), text, reference)
+        return plausible(first, text, part) and plausible(replace(edit, first=None), text, part)
     before, after = edit.right, edit.wrong
     if any(x in after and x not in before for x in ("0 * ", "1 * ")) or after.endswith(" / 1"):
         return False  # it is switched off, or nothing
+    if _crossed_with_itself(after) or _of_the_other_kind(before, after, part):
+        return False
+    if edit.kind in ("sign", "number") and after.count("-") >= before.count("-") and _in_slice(edit):
+        return False  # where a slice begins or ends has no sign
     if edit.kind == "diagonal":
         return False  # nobody forgets to drop what is beside the diagonal
     if edit.kind == "inserted" and _undoes(_parsed(after)):
@@ -67,7 +72,27 @@ def plausible(edit: Edit, text: str, reference: Callable[..., Any]) -> bool:
         return ">" not in before and any(before in test for test in tests)
     if any(name in before and name not in after for name in POSTURES) and any(name in after for name in POSTURES):
         return False
-    return edit.kind != "exchanged" or _turned(before, text, reference)
+    return edit.kind != "exchanged" or _turned(before, text, part.solution)
+
+
+def _in_slice(edit: Edit) -> bool:
+    """Whether a computed bound of a slice gets another sign."""
+    computed = not isinstance(edit.places[0][2], ast.Constant) or "-" in edit.wrong if edit.places else False
+    return computed and any(isinstance(x, ast.Slice) for parents, *_ in edit.places for x in parents)
+
+
+def _crossed_with_itself(after: str) -> bool:
+    """Whether a cross product of something with itself is put there, which is zero."""
+    products = [x for x in _nodes(after) if _is_cross(x)]
+    return any(len({*map(ast.unparse, x.args)}) == 1 for x in products)
+
+
+def _of_the_other_kind(before: str, after: str, part: Part) -> bool:
+    """Whether a wrench that is asked for would be transformed like a twist, or a twist like a wrench."""
+    rows = [x.layout.axes[0][0][0].en for x in part.returns if x.layout.axes]
+    motion, force = (all(row in names for row in rows) for names in (("ω", "v"), ("τ", "k (angular)")))
+    right, wrong = ("force_", "motion_") if force else ("motion_", "force_")
+    return bool(rows) and motion != force and right in before and wrong in after and wrong not in before
 
 
 def alike(edit: Edit, other: Edit) -> bool:

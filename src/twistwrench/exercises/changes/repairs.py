@@ -136,7 +136,7 @@ def two_repairs(
 
     def chosen(source: Source) -> Iterator[Edit]:
         edits = (edit for edit in _single(source, whole) if edit.kind not in chance)
-        return (edit for edit in edits if plausible(edit, text, part.solution))
+        return (edit for edit in edits if plausible(edit, text, part))
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         both = nearer.second(chosen, until)
@@ -179,7 +179,7 @@ def _changes(
     for edit in _pairs(source) if pairs else _single(source, whole):
         if time.process_time() > until:
             return
-        if edit.kind not in chance and plausible(edit, text, part.solution):
+        if edit.kind not in chance and plausible(edit, text, part):
             yield edit
 
 

@@ -86,6 +86,12 @@ RANDOM = Part(
             ("np.isfinite(lower)", "np.arange(len(lower)) > 2"),
             ("np.isfinite(upper)", "np.arange(len(upper)) > 2"),
         ),
+        "limits-clipped": lambda lower, upper: (np.maximum(lower, -1.0), np.minimum(upper, 1.0)),
+        "limits-together": faulty(
+            finite_limits,
+            ("np.isfinite(lower), lower", "np.isfinite(upper - lower), lower"),
+            ("np.isfinite(upper), upper", "np.isfinite(upper - lower), upper"),
+        ),
         "one-sided": faulty(finite_limits, ("np.where(np.isfinite(lower), lower, -1.0)", "lower")),
     },
 )

@@ -128,6 +128,13 @@ def _another_quantity(wrong: WrongAnswer) -> Explained | None:
     return ([], [*known, where(wrong)]) if known else None
 
 
+def _one_triangle(wrong: WrongAnswer) -> Explained | None:
+    """Report that only one triangle of a symmetric matrix is right, where all that is wrong is one."""
+    lines, part = comparison(wrong), wrong.part
+    half = [say("is", what=x.label, relation=say(side)) for x in part.returns for side in ("upper", "lower")]
+    return ([], [*lines, where(wrong)]) if lines and all(line in half for line in lines) else None
+
+
 def _change_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report it where it is one, and explains all that is wrong."""
     if not wrong.edits or wrong.edits[0].edit.first:
@@ -203,6 +210,7 @@ EXPLANATIONS: tuple[Explanation, ...] = (
     _change_of_a_line,
     _first_statement,
     _another_quantity,
+    _one_triangle,
 )
 """What a wrong answer may be, the likeliest first."""
 

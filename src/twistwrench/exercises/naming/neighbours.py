@@ -146,13 +146,16 @@ class Neighbours:
             return False
 
     def _all(self) -> list[Known]:
-        """Return what is tried: known quantities, what else is to be returned, the arguments, other exercises."""
+        """Return what is tried: what is to be returned, known quantities, the arguments, other exercises."""
         if not self._candidates:
             names = {*self.names}
+            known = (x for x in KNOWN if {*x.needs} <= names)
             self._candidates = [
-                Known(x.title, lambda *given, f=x.value: f(*given[:-1]), x.needs) for x in KNOWN if {*x.needs} <= names
+                *self._others(),
+                *(Known(x.title, lambda *given, f=x.value: f(*given[:-1]), x.needs) for x in known),
+                *self._arguments(),
+                *self._exercises(names),
             ]
-            self._candidates += [*self._others(), *self._arguments(), *self._exercises(names)]
         return self._candidates
 
     def _others(self) -> Iterator[Known]:

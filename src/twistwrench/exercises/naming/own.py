@@ -23,9 +23,6 @@ SIGNS = {"cross-order": "cross(", "lever-reversed": " - "}
 TURNED = ("sign", "wrong end", "mirrored", "factors of the cross product")
 """Words of the titles of slips that change a sign."""
 
-MISSING = (" missing", " left out", " dropped", " is lost")
-"""Words of the titles of slips that lack something."""
-
 TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
 """Kinds of changes of a line that say more of a slip with a name: where it is."""
 
@@ -99,7 +96,7 @@ def shown_in(source: str, edit: Edit) -> bool:
 
 def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     """Report the line of the student's where a slip is, or the two where it may be."""
-    lacking = any(word in SLIPS[slip].title.en for slip in found for word in MISSING)
+    lacking = any(SLIPS[slip].lacks for slip in found)
     whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING]
     whole = [x for x in whole if x.edit.kind != "name" or not lacking]  # another name is not what is missing
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
@@ -148,8 +145,7 @@ def _fits(slip: str, edit: Edit) -> bool:
     if slip == "children-dropped" and edit.wrong.replace("+=", "=") == edit.right:
         return False  # they are added, and then overwritten
     if _is_term(edit):
-        lacking = any(word in title for word in MISSING)
-        return not lacking and not any(word in title for word in TURNED) and sorted(said) != sorted(meant)
+        return not SLIPS[slip].lacks and not any(word in title for word in TURNED) and sorted(said) != sorted(meant)
     if any(word in title for word in TURNED):
         return edit.kind not in NO_SIGN or edit.kind == "left out"
     return True

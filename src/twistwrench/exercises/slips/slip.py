@@ -8,6 +8,9 @@ from ..words.text import Text
 
 __all__ = ["Slip"]
 
+LACKING = (" missing", " left out", " dropped", " is lost")
+"""Words of the titles of slips that lack something."""
+
 
 class Slip(NamedTuple):
     """A mistake that many have made before.
@@ -25,3 +28,8 @@ class Slip(NamedTuple):
     title: Text
     why: Text
     section: str
+
+    @property
+    def lacks(self) -> bool:
+        """Whether it is that something is not there."""
+        return any(word in self.title.en for word in LACKING)

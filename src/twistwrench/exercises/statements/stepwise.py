@@ -188,7 +188,7 @@ class Stepwise:
         for edit in self._streams(traced, every, until):
             if time.process_time() > until:
                 return
-            if edit.kind not in chance and plausible(edit, self.text, self.part.solution):
+            if edit.kind not in chance and plausible(edit, self.text, self.part):
                 yield edit
 
     def _streams(self, traced: Traced, every: bool, until: float) -> Iterator[Edit]:
