@@ -12,8 +12,8 @@ twins         names and numbers that are taken for each other
 alternatives  what could stand in place of a piece of a program
 whole         an edit; and edits of what goes into a function and comes out of it
 edits         all small edits of a right function
-nearer        changes that make a part of an answer right
 plausible     which changes are slips that somebody makes
+nearer        changes that make a part of an answer right
 search        the edit of the right function that gives the student's numbers
 meanings      what a change means: a condition that always holds, an argument of zeros
 repair        a change that makes the student's own function right, and how it is said

@@ -285,7 +285,9 @@ def _calls(node: Any) -> Iterator[Change]:
         if isinstance(last, ast.BinOp) and isinstance(last.op, ast.Add | ast.Sub):
             one = ast.Call(node.func, [*node.args[:-1], last.left], node.keywords)
             yield "instead", ast.BinOp(one, last.op, last.right)
-        for arguments in exchanges(node.args) if getattr(node.func, "id", "") != "range" else ():
+        for arguments in (
+            exchanges(node.args) if _called(node) not in ("range", "clip", "max", "min", "maximum") else ()
+        ):
             yield "exchanged", ast.Call(node.func, arguments, node.keywords)
         for i, j in combinations(range(len(node.args)), 2):
             x, y = node.args[i], node.args[j]
@@ -294,7 +296,7 @@ def _calls(node: Any) -> Iterator[Change]:
                 yield "exchanged", ast.Call(node.func, [pair.get(k, z) for k, z in enumerate(node.args)], node.keywords)
         if len(node.args) <= 2 and not is_copy(node):
             kind = "left out" if len(node.args) == 1 else "instead"
-            yield from ((kind, argument) for argument in node.args)
+            yield from ((kind, argument) for argument in node.args if not isinstance(argument, ast.Constant))
         for k, argument in enumerate(node.args):
             if isinstance(argument, ast.Name) or any(isinstance(x, ast.Call) for x in ast.walk(argument)):
                 zero = ast.BinOp(ast.Constant(0), ast.Mult(), argument)
@@ -303,8 +305,10 @@ def _calls(node: Any) -> Iterator[Change]:
             yield "last", ast.Subscript(ast.List([ast.Starred(node.args[0])], ast.Load()), LAST)
         if isinstance(node.func, ast.Attribute) and node.func.attr == "sum":
             yield "last", ast.Subscript(node.func.value, LAST)
-        if not node.args and isinstance(node.func, ast.Attribute) and not is_copy(node):
-            yield "left out", node.func.value
+        turned = _called(node) in ("transpose", "swapaxes", "moveaxis")
+        if isinstance(node.func, ast.Attribute) and (turned or not node.args) and not is_copy(node):
+            module = getattr(node.func.value, "id", "") == "np"
+            yield "left out", node.args[0] if module else node.func.value
         if isinstance(node.func, ast.Attribute) and node.func.attr == "pad" and is_whole(node.args[-1]):
             for width in ((node.args[-1], ast.Constant(0)), (ast.Constant(0), node.args[-1])):
                 arguments = [*node.args[:-1], ast.Tuple([*width], ast.Load())]
@@ -328,6 +332,12 @@ def _calls(node: Any) -> Iterator[Change]:
         yield from (("instead", ast.Name(other, node.ctx)) for other in twins(node.id))
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         yield from (("instead", ast.Constant(other)) for other in twins(node.value))
+
+
+def _called(node: ast.Call) -> str:
+    """Return the name of what is called, without that of its module."""
+    name: str = getattr(node.func, "attr", getattr(node.func, "id", ""))
+    return name
 
 
 LAST = ast.parse("-1", mode="eval").body

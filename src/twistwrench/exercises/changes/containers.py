@@ -56,6 +56,8 @@ def containers(node: Any) -> Iterator[Change]:
             yield "instead", ast.Slice(node.lower)
         for k in (-1, 1) if len(ends) == 2 else ():
             yield "instead", ast.Slice(*(ast.Constant(end + k) for end in ends))
+    if isinstance(node, ast.Slice):
+        yield from _by_blocks(node)
     if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Load):
         pair = [getattr(x, "value", None) for x in getattr(node.slice, "elts", ())]
         if len(pair) == 2 and pair[0] == pair[1] and isinstance(pair[0], int):
@@ -68,6 +70,16 @@ def containers(node: Any) -> Iterator[Change]:
             yield "instead", ast.Subscript(node.value, every, node.ctx)
         elif isinstance(node.slice, ast.Tuple) and len(node.slice.elts) == 2 and _is_all(node.slice.elts[0]):
             yield "instead", ast.Subscript(node.value, node.slice.elts[1], node.ctx)
+
+
+def _by_blocks(node: ast.Slice) -> Iterator[Change]:
+    """Yield n k : n k + n in place of k : k + n."""
+    low, high = node.lower, node.upper
+    if not isinstance(low, ast.Name) or not isinstance(high, ast.BinOp) or not isinstance(high.op, ast.Add):
+        return
+    if isinstance(high.right, ast.Constant) and getattr(high.left, "id", "") == low.id:
+        begin = ast.BinOp(high.right, ast.Mult(), low)
+        yield "instead", ast.Slice(begin, ast.BinOp(begin, ast.Add(), high.right))
 
 
 def _is_all(node: Any) -> bool:

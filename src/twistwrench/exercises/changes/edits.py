@@ -273,6 +273,19 @@ class Source:
         matrix = isinstance(kind, tuple) and kind[0] == "array" and len(kind[1]) == 2
         if matrix and not isinstance(parents[-1], ast.Attribute):
             names.append(f"{name}.ravel()")
+        if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Name | ast.Constant):
+            row = self.kinds.get(getattr(node.value, "id", ""), ())
+            if (
+                row
+                and row[0] == "array"
+                and len(row[1]) == 2
+                and len({*row[1]}) == 1
+                and isinstance(node.ctx, ast.Load)
+            ):
+                column = ast.Tuple([ast.Slice(), node.slice], ast.Load())
+                yield "transposed", ast.Subscript(node.value, column, node.ctx)
+        if matrix and isinstance(parents[-1], ast.Call):
+            yield "instead", parsed(f"np.eye(len({name}))")
         yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
         yield from (("name", parsed(text)) for text in self._other_names(node, parents))
         if isinstance(parents[-1], ast.Assign) and getattr(parents[-1].targets[0], "id", "") in self.sums:

@@ -16,6 +16,7 @@ from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import Source
+from .plausible import turns_the_rest
 from .whole import Edit
 
 __all__ = ["Nearer"]
@@ -119,8 +120,8 @@ class Nearer:
                     break
                 if other.kind == "transposed" and edit.wrong in other.right:
                     continue  # of a product that was turned already: its factors exchanged are the shorter way
-                if edit.kind == other.kind == "sign" and edit.right in other.right and edit.line == other.line:
-                    continue  # twice the sign of one thing is only a copy
+                if turns_the_rest(edit, other):
+                    continue
                 if self._mends(other):
                     return edit, other
         return None

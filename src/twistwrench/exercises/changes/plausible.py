@@ -13,7 +13,7 @@ from typing import Any
 from ..exercise import Part
 from .whole import Edit
 
-__all__ = ["ALIKE", "alike", "anywhere", "plausible", "shuts"]
+__all__ = ["ALIKE", "alike", "anywhere", "plausible", "shuts", "turns_the_rest"]
 
 ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
 """Kinds of which one may make right what another does, and which are then the same for a student."""
@@ -37,14 +37,22 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
     if edit.first is not None:
         kind, right, wrong, line = edit.first
         first = replace(edit, kind=kind, right=right, wrong=wrong, line=line, first=None)
-        return plausible(first, text, part) and plausible(replace(edit, first=None), text, part)
+        return (
+            not turns_the_rest(first, edit)
+            and plausible(first, text, part)
+            and plausible(replace(edit, first=None), text, part)
+        )
     before, after = edit.right, edit.wrong
     if any(x in after and x not in before for x in ("0 * ", "1 * ")) or after.endswith(" / 1"):
         return False  # it is switched off, or nothing
     if _crossed_with_itself(after) or _of_the_other_kind(before, after, part):
         return False
-    if edit.kind in ("sign", "number") and after.count("-") >= before.count("-") and _in_slice(edit):
-        return False  # where a slice begins or ends has no sign
+    if edit.kind in ("sign", "number") and _is_place(edit):
+        return False  # where something stands has no sign
+    if edit.kind == "sign" and _is_rotation(before):
+        return False  # −R is no rotation
+    if edit.kind == "index" and _is_written_to(edit):
+        return False  # two things would be written to one place
     if edit.kind == "diagonal":
         return False  # nobody forgets to drop what is beside the diagonal
     if edit.kind == "inserted" and _undoes(_parsed(after)):
@@ -75,10 +83,27 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
     return edit.kind != "exchanged" or _turned(before, text, part.solution)
 
 
-def _in_slice(edit: Edit) -> bool:
-    """Whether a computed bound of a slice gets another sign."""
-    computed = not isinstance(edit.places[0][2], ast.Constant) or "-" in edit.wrong if edit.places else False
-    return computed and any(isinstance(x, ast.Slice) for parents, *_ in edit.places for x in parents)
+def _is_place(edit: Edit) -> bool:
+    """Whether a computed index, or bound of a slice, gets another sign."""
+    if not edit.places or (isinstance(edit.places[0][2], ast.Constant) and "-" not in edit.wrong):
+        return False
+    chains = [[*parents, node] for parents, _, node, _ in edit.places]
+    return any(isinstance(x, ast.Subscript) and x.slice in chain for chain in chains for x in chain)
+
+
+def _is_rotation(text: str) -> bool:
+    """Whether a text is a rotation matrix by its name, or the transpose of one."""
+    return text.removesuffix(".T").rpartition(".")[2] in ("R", "rotation")
+
+
+def _is_written_to(edit: Edit) -> bool:
+    """Whether what is written to would be the end, or what the same statement writes to as well."""
+    for parents, *_ in edit.places:
+        for statement in (x for x in parents if isinstance(x, ast.Assign)):
+            targets = [ast.unparse(x) for target in statement.targets for x in getattr(target, "elts", [target])]
+            if edit.right in targets and (edit.wrong in targets or edit.wrong.endswith("[-1]")):
+                return True
+    return False
 
 
 def _crossed_with_itself(after: str) -> bool:
@@ -93,6 +118,11 @@ def _of_the_other_kind(before: str, after: str, part: Part) -> bool:
     motion, force = (all(row in names for row in rows) for names in (("ω", "v"), ("τ", "k (angular)")))
     right, wrong = ("force_", "motion_") if force else ("motion_", "force_")
     return bool(rows) and motion != force and right in before and wrong in after and wrong not in before
+
+
+def turns_the_rest(edit: Edit, other: Edit) -> bool:
+    """Whether two changes give a sign to something and to all that is around it: to the rest alone, that is."""
+    return edit.kind == other.kind == "sign" and (edit.right in other.right or other.right in edit.right)
 
 
 def alike(edit: Edit, other: Edit) -> bool:
@@ -115,7 +145,10 @@ def shuts(edit: Edit) -> bool:
 
 
 def _undoes(node: Any) -> bool:
-    """Whether something is multiplied by what it has just been divided by, or the other way round."""
+    """Whether something is multiplied by what it has just been divided by or by its transpose."""
+    products = [x for x in ast.walk(node) if isinstance(x, ast.BinOp) and isinstance(x.op, ast.MatMult)] if node else ()
+    if any(ast.unparse(x.left) in (f"{ast.unparse(x.right)}.T", f"{ast.unparse(x.right)}.mT") for x in products):
+        return True
     for outer in (x for x in ast.walk(node) if isinstance(x, ast.BinOp)) if node else ():
         inner: Any = outer.left
         pair = {type(outer.op), type(getattr(inner, "op", None))}

@@ -179,8 +179,15 @@ def _changes(
     for edit in _pairs(source) if pairs else _single(source, whole):
         if time.process_time() > until:
             return
-        if edit.kind not in chance and plausible(edit, text, part):
+        if (edit.kind not in chance or _off_by_one(edit)) and plausible(edit, text, part):
             yield edit
+
+
+def _off_by_one(edit: Edit) -> bool:
+    """Whether a whole number is off by one: there are so few of these that none is right by chance."""
+    numbers = [getattr(x, "value", None) for x in (edit.places[0][2:] if edit.places else ())]
+    first, second = [*numbers, None, None][:2]
+    return type(first) is int and type(second) is int and abs(first - second) == 1
 
 
 def _pairs(source: Source) -> Iterator[Edit]:

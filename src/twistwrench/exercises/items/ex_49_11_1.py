@@ -51,7 +51,9 @@ def _limits(rng: Any) -> Any:
     ]
     limits[2][0][-2], limits[2][1][-1] = -np.inf, np.inf
     limits[0][1][-1] = 0.3 * limits[0][0][-1]  # a knee: both limits are negative
-    sizes = np.array([0.0, *10.0 ** np.arange(-6, 16, 3)]) * rng.uniform(1, 3)  # finite, from small to large
+    sizes = np.array([0.0, *10.0 ** np.array([*range(-6, 16, 3), 30, 300])]) * rng.uniform(
+        1, 3
+    )  # finite, from small to large
     return [*limits, *((np.array([-np.inf, -x, x]), np.array([x, np.inf, 2 * x])) for x in sizes)]
 
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from ..changes.nearer import Nearer
 from ..changes.repair import Repair
 from ..changes.repairs import repairs, two_repairs
@@ -123,13 +125,22 @@ class WrongAnswer:
         """The change of a right solution that gives these numbers, or one for each wrong thing of several."""
         return found_edits(self.part, self.answers, self.cases, until=self.until["edited"])
 
+    @property
+    def by_chance(self) -> bool:
+        """Whether two changes may be right by chance: a single number, which need not be met to the last digit."""
+        return self.part.canonical is not None and len(self.part.returns) == 1 and np.ndim(self.right[0]) == 0
+
     def two_changes(self) -> list[Repair]:
         """Return two changes of the student's own lines that together make them right, each of them a part."""
+        if self.by_chance:
+            return []
         nearer = two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
         return nearer or self.steps.two(self.until["both"])
 
     def any_two_changes(self) -> list[Repair]:
         """Return any two changes of the student's own lines that together make them right."""
+        if self.by_chance:
+            return []
         return repairs(self.part, *self.given, until=self.until["twice"], pairs=True)
 
     def slip(self, name: str) -> Slip:

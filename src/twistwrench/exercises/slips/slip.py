@@ -8,7 +8,7 @@ from ..words.text import Text
 
 __all__ = ["Slip"]
 
-LACKING = (" missing", " left out", " dropped", " is lost")
+LACKING = (" missing", " left out", " dropped", " is lost", " cut off")
 """Words of the titles of slips that lack something."""
 
 

@@ -64,7 +64,8 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
     when: dict[int, list[int]] = {}
     for k, event in enumerate(events):
         when.setdefault(id(event.node), []).append(k)
-    fine = {number for number, times in when.items() if all(right[k] for k in times)}
+    sure = {id(event.node) for event in events if any(map(tells, arrays(event.value)))}
+    fine = {number for number, times in when.items() if number in sure and all(right[k] for k in times)}
     found = []
     for parents, _, node in source.places:
         statement = next((x for x in reversed([*parents, node]) if isinstance(x, ast.stmt)), None)
@@ -142,7 +143,7 @@ def suspects(found: Sequence[Output], ways: Container[tuple[int, int]] = ()) -> 
             readers.setdefault(key, []).append(value)
     while size < len(fine):
         size = len(fine)
-        fine |= {key for key, values in readers.items() if all(v.known or v.key in fine for v in values)}
+        fine |= {key for key, values in readers.items() if any(v.known or v.key in fine for v in values)}
     wrong = [(x, [v for v in x.values if not v.known and v.key not in fine]) for x in found]
     wrong = [(x, bad) for x, bad in wrong if bad]
     first = []

@@ -18,7 +18,7 @@ from ..calls import tried
 from ..changes.alternatives import KINDS
 from ..changes.edits import Source
 from ..changes.excerpts import text_of
-from ..changes.plausible import plausible
+from ..changes.plausible import plausible, turns_the_rest
 from ..changes.repair import Repair
 from ..changes.repairs import PAIRED, source_of, text_written
 from ..changes.search import Remembering, by_chance
@@ -128,7 +128,8 @@ class Stepwise:
         for edit, after in better:
             now = time.process_time()
             for other in self._edits(after, now + 0.4 * (until - now)):  # the likeliest may take longest
-                if not _rewritten({edit.kind, other.kind}) and self._mends(other):
+                made_of_one = _rewritten({edit.kind, other.kind}) or turns_the_rest(edit, other)
+                if not made_of_one and self._mends(other):
                     return [Repair(other, self.before, first=edit)]
         return []
 
@@ -141,7 +142,7 @@ class Stepwise:
                 for other in (other for kind in PAIRED for other in source.edits(kind)):
                     if time.process_time() > until:
                         return []
-                    if self._mends(other):
+                    if not turns_the_rest(edit, other) and self._mends(other):
                         return [Repair(other, self.before, first=edit)]
         return []
 

@@ -1,0 +1,212 @@
+"""Two slips in one answer, and what only the numbers show: small arguments, exchanged entries, tolerances."""
+
+import numpy as np
+import pytest
+
+from twistwrench.exercises import catalogue
+from twistwrench.exercises.judge import judge
+from twistwrench.exercises.wrong import both, faulty, negated
+
+from ..sampling import sampled
+from .answers import said_of
+
+PUSHED = """\
+def base_rows(M, h, J_c, qdd, forces):
+    push = J_c[:, :6].T @ forces
+    return (M @ qdd)[:6] - h[:6] + push
+"""
+HANGING = """\
+def com_acceleration(p_G, p, k_rate, m):
+    return 9.81 / p_G[2] * (p - p_G[:2]) + k_rate / (m * p_G[2])
+"""
+HALF_A_LEVER = """\
+def base_wrench_at_rest(model, q):
+    base = tw.forward_kinematics(model, q).placement[1]
+    f = -model.inertia[1].mass * np.asarray(model.gravity)
+    tau = np.cross(tw.center_of_mass(model, q), f)
+    return np.r_[base.rotation.T @ tau, base.rotation.T @ f]
+"""
+FROM_THE_SECOND = """\
+def momentum_of_links(model, q, v):
+    motion, total = tw.forward_kinematics(model, q, v), np.zeros(3)
+    for i in range(2, model.nbodies):
+        V = np.asarray(motion.twist[i])
+        total = total + model.inertia[i].mass * (motion.placement[i].rotation @ V[3:])
+    return total
+"""
+ON_THE_EDGE = """\
+def sole_holds(F, d_x, d_y):
+    least = 1e-4
+    if F[5] <= least:
+        return False
+    x, y = mine("center_of_pressure")(F)
+    return bool(abs(x) <= d_x + least and abs(y) <= d_y + least)
+"""
+RIGID = """\
+def tree_aba(parent, S, I, X, qd, tau, a0):
+    n = len(parent)
+    V, c, p, A = [np.zeros(6)], [np.zeros(6)], [np.zeros(6)], [x.copy() for x in I]
+    for i in range(1, n):
+        joint = S[i] @ qd[i]
+        V.append(X[i] @ V[parent[i]] + joint)
+        c.append(tw.cross_motion(V[i]) @ joint)
+        p.append(tw.cross_force(V[i]) @ I[i] @ V[i])
+    kept = {}
+    for i in range(n - 1, 0, -1):
+        U = A[i] @ S[i]
+        D = np.linalg.inv(S[i].T @ U)
+        u = tau[i] - S[i].T @ p[i]
+        kept[i] = U, D, u
+        A[parent[i]] = A[parent[i]] + X[i].T @ A[i] @ X[i]
+        p[parent[i]] = p[parent[i]] + X[i].T @ (p[i] + A[i] @ c[i] + U @ D @ (u - U.T @ c[i]))
+    a, found = [a0], []
+    for i in range(1, n):
+        U, D, u = kept[i]
+        brought = X[i] @ a[parent[i]] + c[i]
+        found.append(D @ (u - U.T @ brought))
+        a.append(brought + S[i] @ found[-1])
+    return np.concatenate(found)
+"""
+NOT_CARRIED = """\
+def tree_crba(parent, S, I, X):
+    n, IC = len(parent), [x.copy() for x in I]
+    for i in range(n - 1, 0, -1):
+        IC[parent[i]] = IC[parent[i]] + X[i].T @ IC[i] @ X[i]
+    ends = np.cumsum([s.shape[1] for s in S])
+    rows = [slice(end - s.shape[1], end) for end, s in zip(ends, S)]
+    M = np.zeros((ends[-1], ends[-1]))
+    for i in range(1, n):
+        first = IC[i] @ S[i]
+        M[rows[i], rows[i]] = S[i].T @ first
+        j = i
+        while parent[j] > 0:
+            wrench = X[j].T @ first
+            j = parent[j]
+            M[rows[j], rows[i]] = S[j].T @ wrench
+            M[rows[i], rows[j]] = M[rows[j], rows[i]].T
+    return M
+"""
+BY_COLUMNS = """\
+def out_of_balance(model, q, tau, forces):
+    S, J = tw.selection_matrix(model), tw.contact_jacobian(model, q, model.feet)
+    return tw.gravity(model, q) - S.T @ tau - J.T @ forces.ravel(order="F")
+"""
+HUGE = """\
+def finite_limits(lower, upper):
+    return np.where(lower < -1e9, -1.0, lower), np.where(upper > 1e9, 1.0, upper)
+"""
+BOTH_ENDS = """\
+def on_all_rows(tau):
+    return np.pad(tau, 6)
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    sampled(
+        [
+            (PUSHED, ["the sign of `h[:6]` is wrong", "the sign of `push` is wrong"]),
+            (HANGING, ["two slips at once", "k̇_G is added as it is", "the pendulum hangs"]),
+            (HALF_A_LEVER, ["`model.inertia[1].mass` must be `model.mass`", "- base.translation"]),
+            (FROM_THE_SECOND, ["`+ np.cross(V[:3], model.inertia[i].com)` is missing", "must be `range(1, "]),
+            (ON_THE_EDGE, ["`0.0001` must be `0.0`"]),
+            (RIGID, ["`- U @ D @ U.T` is missing after `A[i]`"]),
+            (NOT_CARRIED, ["`wrench = X[j].T @ first` starts from the same `first` in each round"]),
+            (BY_COLUMNS, ["`forces.ravel(order='F')` must be `forces.ravel()`"]),
+            (HUGE, ["`lower < -1000000000.0` must be `lower == -np.inf`", "must be `upper == np.inf`"]),
+            (BOTH_ENDS, ["`np.pad(tau, 6)` must be `np.pad(tau, (6, 0))`"]),
+        ],
+        3,
+        several=True,
+    ),
+)
+def test_what_must_stand_there_is_found(tmp_path, text, says):
+    said = said_of(tmp_path, text)
+    for words in says:
+        assert words in said
+
+
+def broken_off(omega_z, v_x):
+    V = np.zeros((4, 4))
+    V[0, 1], V[1, 0], V[0, 3] = -omega_z, omega_z, v_x
+    return np.eye(4) + V + V @ V / 2 + V @ V @ V / 6
+
+
+def turned_about(q):
+    x, y, z, w = q[3:7]
+    T = np.eye(4)
+    T[0, :3] = 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)
+    T[1, :3] = 2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)
+    T[2, :3] = 2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)
+    T[:3, 3] = q[:3]
+    return T
+
+
+def diagonal_exchanged(q):
+    T = catalogue.find_part("base_pose")[1].solution(q)
+    T[0, 0], T[1, 1] = T[1, 1], T[0, 0]
+    return T
+
+
+def columns_exchanged(q):
+    T = catalogue.find_part("base_pose")[1].solution(q)
+    T[:3, :2] = T[:3, [1, 0]]
+    return T
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "says"),
+    [
+        ("arc", broken_off, "up to the power 3: what is wrong grows with the power 4"),
+        ("base_pose", turned_about, "rows 1 and 2 are exchanged"),
+        ("base_pose", columns_exchanged, "columns 0 and 1 are exchanged"),
+        ("base_pose", diagonal_exchanged, "the entries [0, 0] and [1, 1] are exchanged"),
+    ],
+)
+def test_what_the_numbers_show_is_said(name, answer, says):
+    exercise, part = catalogue.find_part(name)
+    assert says in " ".join(judge(exercise, part, answer).message("en").split())
+
+
+def test_two_changes_are_of_one_text():
+    solution = catalogue.find_part("accelerated")[1].solution
+    first, second = faulty(solution, ("- h", "+ h")), faulty(solution, ("+ J_c", "- J_c"))
+    M, J_c = np.eye(3), np.zeros((1, 3))
+    answer = both(first, second)(M, np.ones(3), np.eye(3), J_c, np.zeros(3), np.zeros(1))
+    np.testing.assert_allclose(answer, np.ones(3))
+    assert both(first, negated(solution)) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "never"),
+    [
+        # the force that a motion transform would turn as well: a wrench with no moment
+        (
+            "def foot_wrench(model, q, foot):\n"
+            "    T = tw.frame_placement(model, q, foot)\n"
+            "    F = np.array([0, 0, 0, 0, 0, model.mass * 9.81 / 4])\n"
+            "    return T.inverse().force_transform() @ F\n",
+            "motion_transform",
+        ),
+        # the two ways are not made one
+        (
+            "def forward_dynamics_two_ways(model, q, v, tau):\n"
+            "    one, S = tw.aba(model, q, v, tau), tw.selection_matrix(model)\n"
+            "    right = S.T @ (S @ tau) - tw.nonlinear_effects(model, q, v)\n"
+            "    return one, np.linalg.solve(tw.crba(model, q), right)\n",
+            "must be `one`",
+        ),
+        # −R is no rotation
+        (
+            "def adjoint(T):\n"
+            "    R, p = T[:3, :3], T[:3, 3]\n"
+            "    back = np.eye(4)\n"
+            "    back[:3, :3], back[:3, 3] = R.T, -R.T @ p\n"
+            "    hats = [T @ tw.hat(e) @ back for e in np.eye(6)]\n"
+            "    return np.array([[M[1, 2], M[2, 0], M[0, 1], M[0, 3], M[1, 3], M[2, 3]] for M in hats]).T\n",
+            "the sign of `R.T`",
+        ),
+    ],
+)
+def test_no_mending_is_offered_that_nobody_would_make(tmp_path, text, never):
+    assert never not in said_of(tmp_path, text)
