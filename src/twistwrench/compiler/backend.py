@@ -34,6 +34,8 @@ class BackEnd:
 
     def __init__(self, line: Line, dtype: np.dtype[Any], name: str) -> None:
         self.line, self.dtype, self.name = line, dtype, name
+        # the sines of pairs are rounded to whole numbers, which `math` does not do
+        self.few = FEW if dtype == np.float64 and "round" not in line.operations else 0
         self._made: dict[Any, Any] = {}
         keep_memory()
 
@@ -62,9 +64,7 @@ class BackEnd:
         if self.name == "llvm":
             width = lanes(self.dtype)
             return self.machine_code(width if count >= width else 1)
-        # the sines of pairs are rounded to whole numbers, which `math` does not do
-        few = count <= FEW and self.dtype == np.float64 and "round" not in self.line.operations
-        kind = Plain if few else Registers
+        kind = Plain if count <= self.few else Registers
         if kind not in self._made:
             self._made[kind] = Plain(self.line) if kind is Plain else Registers(self.line, self.dtype)
         code: Plain | Registers = self._made[kind]

@@ -21,7 +21,7 @@ from .backend import BackEnd
 from .double_double import BOUND, LO, OWN, double_double
 from .llvm import NATIVE
 from .pairs import two_sum
-from .program import Program, Results
+from .program import Program
 from .quantity import by_the_textbook
 from .recording import ALARM
 
@@ -81,14 +81,14 @@ class DigitsProgram(ABC):
         given = self.program._bound(args, named)
         own = {name: both for name, x in given.items() if (both := self._own(name, x)) is not None}
         rounded = {name: own[name][1] if name in own else x for name, x in given.items()}
-        states = dict(zip(given, self.program._arrays(rounded)))
+        states = self.program._states(rounded)
         found = self._run(states, {name: wide for name, (wide, _) in own.items()})
         if ALARM in found:
             self._check(states, found)
         results = {symbol: self._result(found, symbol) for symbol in self._symbols}
         if not self.bound:
-            return self._packed(results)
-        return tuple(self._packed({symbol: both[k] for symbol, both in results.items()}) for k in (0, 1))
+            return self.program.packed(results)
+        return tuple(self.program.packed({symbol: both[k] for symbol, both in results.items()}) for k in (0, 1))
 
     @abstractmethod
     def _own(self, name: str, x: Any) -> tuple[Any, Array] | None:
@@ -101,10 +101,6 @@ class DigitsProgram(ABC):
     def _result(self, found: Mapping[str, Any], symbol: str) -> Any:
         """Return one of them as the caller gets it, with its bound if there is one."""
         return found[symbol]
-
-    def _packed(self, results: Mapping[str, Any]) -> Any:
-        """Return one result as it is, several as `Results`."""
-        return next(iter(results.values())) if self.program.single else Results(**results)
 
     def _check(self, states: Mapping[str, Array], found: Mapping[str, Array]) -> None:
         """Let the textbook look at the states that raise the alarm: it raises what there is to raise."""

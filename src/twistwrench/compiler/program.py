@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..model import Model, floats_of
+from ..model import Model
 from .backend import BackEnd
 from .extension import POSSIBLE, state_function
 from .line import Line
 from .outputs import check_outputs, finish, targets
-from .quantity import ARGUMENTS, Quantity, by_the_textbook, shapes
+from .quantity import ARGUMENTS, Quantity, by_the_textbook, checked, shapes
 from .recording import ALARM, record
 from .source import c_source, python_source, step
 
@@ -43,7 +43,7 @@ class Program:
     given : mapping of str to ndarray
         Arguments that are the same for every state.
     dtype : dtype
-    backend : {"llvm", "numpy"}
+    backend : {"llvm", "numpy", "textbook"}
     threads : int
     remake : callable
         Makes the program anew, from what can be pickled.
@@ -233,45 +233,45 @@ class Program:
 
     def _many(self, bound: Mapping[str, ArrayLike], out: Any) -> Any:
         """Return the results for any number of states."""
-        names, states = tuple(bound), self._arrays(bound)
-        named = dict(zip(names, states))
-        batch = self.batch(named)
-        line = self._line(names)
-        tails = {name: shape for name, (shape, _) in line.outputs.items() if name != ALARM}
+        states = self._states(bound)
+        batch, tails = self.batch(states), self._tails(states)
         given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
         check_outputs(given, batch, tails, self.dtype)
-        count = prod(batch)
-        results = targets(given, states, count, tails, self.dtype)
-        flat = [x.reshape(count, prod(self._shapes[name])) for name, x in zip(names, states)]
-        flat = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in flat]
-        alarm = np.empty((count, 1), self.dtype)
-        if count:
-            self._code(names).run([*flat, *results.values(), alarm], self.threads)
-        filled = {name: x.reshape(batch + tails[name]) for name, x in results.items()}
-        sure = alarm[:, 0].real <= 1
-        if not sure.all():
-            by_the_textbook(self.model, self.quantities, self.given | named, filled, ~sure.reshape(batch))
-        done = finish(given, filled)
-        return next(iter(done.values())) if self.single else Results(**done)
+        rows = targets(given, [*states.values()], prod(batch), tails, self.dtype)
+        unsure = self._fill(states, [*rows.values()])
+        filled = {name: x.reshape(batch + tails[name]) for name, x in rows.items()}
+        if unsure.any():
+            by_the_textbook(self.model, self.quantities, self.given | states, filled, unsure.reshape(batch))
+        return self.packed(finish(given, filled))
 
-    def _arrays(self, bound: Mapping[str, ArrayLike]) -> tuple[Array, ...]:
+    def _tails(self, states: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
+        """Return the shape of each result of one state."""
+        return {name: shape for name, (shape, _) in self._line(tuple(states)).outputs.items() if name != ALARM}
+
+    def _fill(self, states: Mapping[str, Array], rows: Sequence[Array]) -> Array:
+        """Fill the results, a row for each state, and return which states are left to the textbook."""
+        count = prod(self.batch(states))
+        flat = [x.reshape(count, prod(self._shapes[name])) for name, x in states.items()]
+        flat = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in flat]
+        alarm = np.full((count, 1), np.nan, self.dtype)
+        if count and self.backend != "textbook":
+            self._code(tuple(states)).run([*flat, *rows, alarm], self.threads)
+        sure: Array = alarm[:, 0].real <= 1
+        return ~sure
+
+    def packed(self, results: Mapping[str, Any]) -> Any:
+        """Return one result as it is, several as `Results`."""
+        return next(iter(results.values())) if self.single else Results(**results)
+
+    def _states(self, bound: Mapping[str, Any]) -> dict[str, Array]:
         """Return the arguments as arrays of one batch shape, in the program's number type."""
-        arrays, batch = [], None
-        for name, x in bound.items():
-            tail = self._shapes[name]
-            if type(x) is not np.ndarray or x.dtype != self.dtype or x.shape[x.ndim - len(tail) :] != tail:
-                break
-            if self.dtype.kind == "c":  # the alarm adds squares, and those of complex numbers may cancel
-                break
-            if x.shape[: x.ndim - len(tail)] != (batch := x.shape[: x.ndim - len(tail)] if batch is None else batch):
-                break
-            arrays.append(x)
-        else:
-            return tuple(arrays)
-        others = dict(bound)
-        q = others.pop("q", self.model.neutral())
-        checked = dict(zip(("q", *others), floats_of(self.model, q, **others)))
-        return tuple(checked[name].astype(self.dtype, copy=False) for name in bound)
+        tails = {name: self._shapes[name] for name in bound}
+        # the alarm adds squares, and those of complex numbers may cancel
+        if self.dtype.kind != "c" and all(type(x) is np.ndarray and x.dtype == self.dtype for x in bound.values()):
+            parts = {name: np.shape(x)[np.ndim(x) - len(tails[name]) :] for name, x in bound.items()}
+            if parts == tails and len({np.shape(x)[: np.ndim(x) - len(tails[name])] for name, x in bound.items()}) <= 1:
+                return dict(bound)
+        return {name: x.astype(self.dtype, copy=False) for name, x in checked(self.model, bound).items()}
 
     def batch(self, states: Mapping[str, Array]) -> tuple[int, ...]:
         """Return the batch axes of arguments that have been checked."""

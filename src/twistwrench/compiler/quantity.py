@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Array
 from ..model import Model, floats_of
 
-__all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "computed", "shapes"]
+__all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "checked", "computed", "shapes"]
 
 ARGUMENTS = ("q", "v", "a", "tau", "f_ext")
 """The arguments of a program, in this order."""
@@ -67,8 +67,14 @@ def by_the_textbook(
 
 def _results(model: Model, quantities: Sequence[Quantity], states: Mapping[str, Any]) -> dict[str, Array]:
     """Return the quantities, by symbol."""
-    checked = dict(zip(("q", *(name for name in states if name != "q")), floats_of(model, **states)))
-    return computed(quantities, checked)
+    return computed(quantities, checked(model, states))
+
+
+def checked(model: Model, states: Mapping[str, Any]) -> dict[str, Array]:
+    """Return the arguments, of which q may be missing, as checked arrays of one number type and batch shape."""
+    named = {"q": model.neutral(), **states}
+    found = dict(zip(named, floats_of(model, **named)))
+    return {name: found[name] for name in states}
 
 
 def computed(quantities: Sequence[Quantity], states: Mapping[str, Array]) -> dict[str, Array]:

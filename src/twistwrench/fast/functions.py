@@ -1,4 +1,8 @@
-"""The public functions of `twistwrench.fast`: those of the textbook, as programs."""
+"""The public functions of `twistwrench.fast`: those of the textbook, as programs, with its arguments and errors.
+
+In `out` is what is to be filled, of the number type of the result. It may share memory with the inputs: all are read as
+they were before the call. ValueError is raised if it does not fit, is read-only, or has entries that share memory.
+"""
 
 from __future__ import annotations
 
@@ -25,18 +29,10 @@ def rnea(
     model, q, v, a, f_ext
         As there.
     out : ndarray, shape (..., nv), optional
-        To be filled, of the number type of the result. It may share memory with the inputs: all are read as they were
-        before the call.
 
     Returns
     -------
     ndarray, shape (..., nv)
-        N m or N.
-
-    Raises
-    ------
-    ShapeError, ValueError
-        As `twistwrench.rnea`; or if `out` does not fit, is read-only, or has entries that share memory.
 
     Examples
     --------
@@ -48,7 +44,7 @@ def rnea(
     >>> np.allclose(tau[0], tw.rnea(model, model.standing(), v[0], v[0]), rtol=0, atol=1e-11)
     True
     """
-    return result(model, "tau", ("q", "v", "a"), (q, v, a), f_ext, out)
+    return result(model, "tau", {"q": q, "v": v, "a": a}, f_ext, out)
 
 
 def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | None = None) -> Array:
@@ -56,18 +52,13 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | 
 
     Parameters
     ----------
-    model, q, v, out
-        As in `rnea`.
+    model, q, v
+        As there.
+    out : ndarray, shape (..., nv), optional
 
     Returns
     -------
     ndarray, shape (..., nv)
-        N m or N.
-
-    Raises
-    ------
-    ShapeError, ValueError
-        As `rnea`.
 
     Examples
     --------
@@ -75,7 +66,7 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | 
     >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0]) + 0.0  # standing: nothing for the cart
     array([0., 0.])
     """
-    return result(model, "h", ("q", "v"), (q, v), None, out)
+    return result(model, "h", {"q": q, "v": v}, None, out)
 
 
 def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -83,27 +74,21 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
 
     Parameters
     ----------
-    model, q, out
-        As in `rnea`; `out` has shape (..., nv, nv).
+    model, q
+        As there.
+    out : ndarray, shape (..., nv, nv), optional
 
     Returns
     -------
     ndarray, shape (..., nv, nv)
-        kg m², kg m and kg.
-
-    Raises
-    ------
-    ShapeError, ValueError
-        As `rnea`.
 
     Examples
     --------
     >>> import twistwrench as tw
-    >>> model = tw.load("pendulum")
-    >>> tw.fast.crba(model, [[0.0], [1.0]]).shape
+    >>> tw.fast.crba(tw.load("pendulum"), [[0.0], [1.0]]).shape
     (2, 1, 1)
     """
-    return result(model, "M", ("q",), (q,), None, out)
+    return result(model, "M", {"q": q}, None, out)
 
 
 def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -111,18 +96,14 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
 
     Parameters
     ----------
-    model, q, out
-        As in `rnea`; `out` has shape (..., 6, nv).
+    model, q
+        As there.
+    out : ndarray, shape (..., 6, nv), optional
 
     Returns
     -------
     ndarray, shape (..., 6, nv)
         Rows (angular, linear), in the axes of the world.
-
-    Raises
-    ------
-    ShapeError, SingularError, ValueError
-        As `rnea`, and if nothing that moves has mass.
 
     Examples
     --------
@@ -131,7 +112,7 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
     >>> tw.fast.centroidal_map(model, model.standing())[5, 5].round(3)  # the whole mass
     np.float64(16.085)
     """
-    return result(model, "A_G", ("q",), (q,), None, out)
+    return result(model, "A_G", {"q": q}, None, out)
 
 
 def dynamics(
@@ -152,7 +133,7 @@ def dynamics(
     model, q, v, contacts, want
         As there.
     out : Dynamics, optional
-        Arrays that the results are written to. Where an entry is None, a new array is made.
+        Where an entry is None, a new array is made.
 
     Returns
     -------
@@ -161,8 +142,6 @@ def dynamics(
 
     Raises
     ------
-    NameNotFound, ShapeError, SingularError, ValueError
-        As `twistwrench.dynamics`.
     TypeError
         If `out` is not a `Dynamics`.
 
@@ -209,18 +188,13 @@ def aba(
 
     Parameters
     ----------
-    model, q, v, tau, f_ext, out
-        As there, and as in `rnea`.
+    model, q, v, tau, f_ext
+        As there.
+    out : ndarray, shape (..., nv), optional
 
     Returns
     -------
     ndarray, shape (..., nv)
-        rad/s² or m/s².
-
-    Raises
-    ------
-    SingularError, ShapeError, ValueError
-        As `twistwrench.aba`; or if `out` does not fit.
 
     Examples
     --------
@@ -232,4 +206,4 @@ def aba(
     >>> np.allclose(tw.fast.rnea(model, q, q, qdd), q)
     True
     """
-    return result(model, "qdd", ("q", "v", "tau"), (q, v, tau), f_ext, out)
+    return result(model, "qdd", {"q": q, "v": v, "tau": tau}, f_ext, out)

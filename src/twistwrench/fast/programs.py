@@ -12,13 +12,12 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.floating_base import HeldRows
 from ..arrays import Array
-from ..compiler import Program, Results
+from ..compiler import Program
 from ..compiler.llvm import NATIVE, available
-from ..compiler.outputs import check_outputs, finish
 from ..compiler.quantities import quantities
-from ..compiler.quantity import Quantity, by_the_textbook, computed
+from ..compiler.quantity import Quantity, checked, computed
 from ..errors import SingularError
-from ..model import Model, check_model, floats_of
+from ..model import Model, check_model
 
 __all__ = [
     "ASKED",
@@ -60,16 +59,12 @@ ASKED = Quantity("asked", ("q", "v"), lambda q, v: (q[..., :0], []))
 """Nothing; but q and v are looked at, whatever else depends on them."""
 
 
-def states_of(
-    model: Model, named: Mapping[str, ArrayLike], f_ext: ArrayLike | None = None
-) -> tuple[tuple[Any, ...], np.dtype[Any]]:
+def states_of(model: Model, named: Mapping[str, Any]) -> tuple[tuple[Any, ...], np.dtype[Any]]:
     """Return the arguments, and their number type: as they are where they are arrays of one type, else converted."""
-    args = tuple(named.values()) if f_ext is None else (*named.values(), f_ext)
-    dtype = args[0].dtype if type(args[0]) is np.ndarray else None
-    if dtype in PLAIN and all(type(x) is np.ndarray and x.dtype == dtype for x in args):
-        return args, dtype
-    others = dict(named) if f_ext is None else {**named, "f_ext": f_ext}
-    args = floats_of(model, others.pop("q"), **others)
+    args = tuple(named.values())
+    dtype = getattr(args[0], "dtype", None)
+    if dtype not in PLAIN or not all(type(x) is np.ndarray and x.dtype == dtype for x in args):
+        args = tuple(checked(model, named).values())
     return args, args[0].dtype
 
 
@@ -80,27 +75,25 @@ def one_state(model: Model, want: Any, contacts: Any, args: Sequence[Any]) -> An
     """
     try:
         found = model._programs[want, args[0].dtype, contacts].one_state
-    except (AttributeError, KeyError, TypeError):  # none yet, the textbook, or arguments of other kinds
+    except (AttributeError, KeyError, TypeError):  # none yet, or arguments of other kinds
         return None
     return found and found(*args)
 
 
-def result(
-    model: Model, symbol: str, names: tuple[str, ...], args: tuple[ArrayLike, ...], f_ext: ArrayLike | None, out: Any
-) -> Array:
+def result(model: Model, symbol: str, named: Mapping[str, ArrayLike], f_ext: ArrayLike | None, out: Any) -> Array:
     """Return one quantity, which depends on these arguments, of one state or many."""
     found: Array | None = None
     if f_ext is None and out is None:
-        found = one_state(model, (symbol,), None, args)
+        found = one_state(model, (symbol,), None, [*named.values()])
     if found is None:
-        states, dtype = states_of(model, dict(zip(names, args)), f_ext)
+        states, dtype = states_of(model, named if f_ext is None else {**named, "f_ext": f_ext})
         found = program(model, (symbol,), dtype)(*states, out=out)
     return found
 
 
 def program(
     model: Model, want: tuple[str, ...], dtype: np.dtype[Any], contacts: tuple[str | HeldRows, ...] | None = None
-) -> Program | Textbook:
+) -> Program:
     """Return what computes one quantity, by its symbol; with contacts, which are those of J_c, several: `Results`."""
 
     def asked() -> list[Quantity]:
@@ -119,39 +112,32 @@ def remembered(
     *,
     single: bool = False,
     after: int = 0,
-) -> Program | Textbook:
+) -> Program:
     """Return the program for the quantities that `asked` returns, the one that was made for this key before if any.
 
     For the first `after` calls it is the textbook: a program is not worth its making for a few states.
     """
     programs = model._programs
-    found: Program | Textbook | int | None = programs.get(key)
+    found: Program | int | None = programs.get(key)
     if found is None or isinstance(found, int):
         calls = found or 0
         if calls < after:
             programs[key] = calls + 1
-            return Textbook(model, asked(), single)
+            return _made(model, asked(), dtype, single, called=False)
         for forgotten in [*programs][: len(programs) + 1 - REMEMBERED]:
             programs.pop(forgotten, None)
         found = programs[key] = _made(model, asked(), dtype, single)
     return found
 
 
-def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single: bool) -> Program | Textbook:
-    symbols = [quantity.symbol for quantity in asked]
-    if (reason := too_long(model, symbols)) is not None:
-        LOG.warning("%s has %s: the textbook computes %s", model.name, reason, ", ".join(symbols))
-    else:
-        made = Program(
-            model,
-            asked,
-            single=single,
-            given={},
-            dtype=dtype,
-            backend="llvm" if dtype in NATIVE and available() else "numpy",
-            threads=1,
-            remake=partial(_made, model, asked, dtype, single),  # type: ignore[arg-type]  # a program, as here
-        )
+def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single: bool, called: bool = True) -> Program:
+    """Return a program, or the textbook where there can be none, or where it is `called` too seldom for one."""
+    symbols, reason = [quantity.symbol for quantity in asked], None
+    machine = dtype in NATIVE and available()
+    options: dict[str, Any] = {"single": single, "given": {}, "dtype": dtype, "threads": 1}
+    options["remake"] = partial(_made, model, asked, dtype, single)
+    if called and (reason := too_long(model, symbols)) is None:
+        made = Program(model, asked, backend="llvm" if machine else "numpy", **options)
         try:
             if made.operations.total() > COMPILED:
                 made.backend = "numpy"
@@ -159,7 +145,9 @@ def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single:
             pass  # a joint that asks what its q is; no inertia
         else:
             return made
-    return Textbook(model, asked, single)
+    if reason:
+        LOG.warning("%s has %s: the textbook computes %s", model.name, reason, ", ".join(symbols))
+    return Textbook(model, asked, backend="textbook", **options)
 
 
 def too_long(model: Model, want: Collection[str]) -> str | None:
@@ -177,27 +165,13 @@ def too_long(model: Model, want: Collection[str]) -> str | None:
     return None
 
 
-class Textbook:
+class Textbook(Program):
     """What no program can be made for: called as a program, it is the textbook, some states at a time."""
 
-    def __init__(self, model: Model, quantities: Sequence[Quantity], single: bool) -> None:
-        self.model, self.quantities, self.single = model, tuple(quantities), single
-        self.arguments = max((quantity.arguments for quantity in quantities), key=len)
-
-    def __call__(self, *args: ArrayLike, out: Any = None) -> Any:
-        """Return the quantities: see `Program`."""
-        others = dict(zip(self.arguments[1:], args[1:]))
-        states = dict(zip(("q", *others), floats_of(self.model, args[0], **others)))
-        batch, dtype = states["q"].shape[:-1], states["q"].dtype
-        none = {name: np.empty((0, *x.shape[len(batch) :]), dtype) for name, x in states.items()}
+    def _tails(self, states: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
+        none = {name: np.empty((0, *self._shapes[name]), x.dtype) for name, x in states.items()}
         try:
-            tails = {name: x.shape[1:] for name, x in computed(self.quantities, none).items()}
+            return {name: x.shape[1:] for name, x in computed(self.quantities, none).items()}
         except SingularError:  # it is so wherever it stands: of no states, only the tips of massless limbs are named
             computed(self.quantities, states)
             raise
-        given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
-        check_outputs(given, batch, tails, dtype)
-        filled = {name: np.empty((*batch, *tail), dtype) for name, tail in tails.items()}
-        by_the_textbook(self.model, self.quantities, states, filled, np.ones(batch, bool))
-        done = finish(given, filled)
-        return next(iter(done.values())) if self.single else Results(**done)
