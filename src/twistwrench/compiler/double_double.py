@@ -19,7 +19,7 @@ import numpy as np
 from ..errors import check_known
 from .line import Line, needed
 from .number import Number, Tape, without_garbage
-from .pairs import EACH, NOTHING, SINE_ERROR, Pair, Pairs
+from .pairs import EACH, NOTHING, OPERATIONS, SINE_ERROR, Pair, Pairs
 
 __all__ = ["BOUND", "LO", "OWN", "double_double"]
 
@@ -42,98 +42,65 @@ def double_double(
     The arguments in `low` are pairs, for the results in `plain` doubles are enough; `fma` is whether what runs the line
     has a b + c with one rounding.
     """
-    work = Rewriting(line, low, fma=fma, bound=bound)
+    tape = Tape()
+    pairs = Pairs(tape, fma=fma)
     wanted = [k for name, (_, entries) in line.outputs.items() if name not in plain for k in entries]
     exact = {*needed(line.nodes, wanted)}
-    for k in range(len(line.nodes)):
-        work.rewrite(k) if k in exact else work.copy(k)
+    value: list[Pair] = []
+    error: list[Any] = []
+    for k, (operation, *rest) in enumerate(line.nodes):
+        off: Any = NOTHING
+        if operation == "input":
+            name, *index = rest[0]
+            x = Pair(tape.input(rest[0]), tape.input((name + LO, *index)) if name in low else NOTHING)
+        elif operation == "const":
+            x = pairs.constant(rest[0])
+            off = Fraction(float(abs(rest[0] - x.hi - x.lo) * OWN))  # a double not below it
+        elif k not in exact:
+            x = Pair(tape.apply(operation, *(value[j].hi for j in rest)), NOTHING)
+        else:
+            given = [value[j] for j in rest]
+            if all(isinstance(one.hi, Fraction) for one in given):  # fractions add up to what no pair may hold
+                given = [Pair(tape.number(one.hi), tape.number(one.lo)) for one in given]
+            check_known("operation on pairs", operation, OPERATIONS)
+            x = getattr(pairs, operation)(*given)
+            if bound:
+                off = error_of(operation, size(x), [size(value[j]) for j in rest], [error[j] for j in rest])
+        value.append(x)
+        error.append(off)
     results: dict[str, Any] = {}
     for name, (shape, entries) in line.outputs.items():
-        columns = {name: [work.pair[k].hi for k in entries]}
+        columns = {name: [value[k].hi for k in entries]}
         if name not in plain:
-            columns[name + LO] = [work.pair[k].lo for k in entries]
-            columns |= {name + BOUND: [work.bound[k] * OWN for k in entries]} if bound else {}
+            columns[name + LO] = [value[k].lo for k in entries]
+            columns |= {name + BOUND: [error[k] * OWN for k in entries]} if bound else {}
         results |= {column: np.array(values, object).reshape(shape) for column, values in columns.items()}
-    inputs = dict(line.inputs) | {name + LO: line.inputs[name] for name in low}
-    return Line.of(work.tape, inputs, results)
+    return Line.of(tape, dict(line.inputs) | {name + LO: line.inputs[name] for name in low}, results)
 
 
-class Rewriting:
-    """The pairs of the nodes so far, and their bounds: see `double_double`."""
+def error_of(operation: str, result: Any, sizes: list[Any], errors: list[Any]) -> Any:
+    """Write how far the result of an operation can be off, from its size, and the operands' sizes and bounds."""
+    (a, *others), (e, *others_e) = sizes, errors
+    if operation == "neg":
+        return e
+    if operation in ("sin", "cos"):
+        return e + SINE_ERROR
+    own = EACH * result
+    if operation in ("add", "sub"):
+        return e + others_e[0] + own
+    own = own + TINY
+    if operation == "sqrt":  # |√â − √a| ≤ e / √â
+        return own + (e + TINY) / result
+    b, e_b = others[0], others_e[0]
+    if operation == "mul":  # |âb̂ − ab| ≤ |â| e_b + e e_b + |b̂| e
+        return own + ((a + e) * e_b + b * e)
+    gap = b - 2 * e_b  # |â/b̂ − a/b| ≤ (e + |â/b̂| e_b) / (|b̂| − e_b)
+    if isinstance(gap, Number) and not (isinstance(e_b, Fraction) and e_b == 0):
+        root = gap.sqrt()  # not a number where b may be 0
+        gap = root * root
+    return own + (e + result * e_b + TINY) / gap
 
-    def __init__(self, line: Line, low: Collection[str], *, fma: bool, bound: bool) -> None:
-        self.line, self.low, self.tape = line, low, Tape()
-        self.pairs = Pairs(self.tape, fma=fma)
-        self.pair: list[Pair] = []
-        self.bound: list[Any] = []
-        self.bounded = bound
-        self.turns: dict[int, tuple[Pair, Pair]] = {}  # sin and cos of an angle
 
-    def copy(self, k: int) -> None:
-        """Write an operation for which doubles are enough."""
-        operation, *rest = self.line.nodes[k]
-        if operation in ("input", "const"):
-            self.rewrite(k)
-            return
-        self.pair.append(Pair(self.tape.apply(operation, *(self.pair[j].hi for j in rest)), NOTHING))
-        self.bound.append(NOTHING)
-
-    def rewrite(self, k: int) -> None:
-        """Write an operation on pairs, and its bound."""
-        operation, *rest = self.line.nodes[k]
-        if operation == "input":
-            pair, bound = self._input(*rest[0]), NOTHING
-        elif operation == "const":
-            pair = self.pairs.constant(rest[0])
-            bound = Fraction(float(abs(rest[0] - pair.hi - pair.lo) * OWN))  # a double not below it
-        else:
-            pair = self._operate(operation, *rest)
-            bound = self._bound(operation, pair, *rest) if self.bounded else NOTHING
-        self.pair.append(pair)
-        self.bound.append(bound)
-
-    def _input(self, name: str, *index: int) -> Pair:
-        lo = self.tape.input((name + LO, *index)) if name in self.low else NOTHING
-        return Pair(self.tape.input((name, *index)), lo)
-
-    def _operate(self, operation: str, *places: int) -> Pair:
-        """Write an operation on pairs."""
-        values = [self.pair[j] for j in places]
-        if all(isinstance(x.hi, Fraction) for x in values):  # fractions add up to what no pair may hold
-            values = [Pair(self.tape.number(x.hi), self.tape.number(x.lo)) for x in values]
-        if operation in ("sin", "cos"):
-            if places[0] not in self.turns:
-                self.turns[places[0]] = self.pairs.sine_and_cosine(values[0])
-            return self.turns[places[0]][operation == "cos"]
-        if operation == "sub":
-            return self.pairs.add(values[0], self.pairs.negative(values[1]))
-        known = {"add": "add", "mul": "multiply", "div": "divide", "neg": "negative", "sqrt": "sqrt"}
-        check_known("operation on pairs", operation, known)
-        result: Pair = getattr(self.pairs, known[operation])(*values)
-        return result
-
-    def _bound(self, operation: str, pair: Pair, *places: int) -> Any:
-        """Write how far the result of an operation can be off."""
-        result, bounds = self._size(pair), [self.bound[j] for j in places]
-        a, e = self._size(self.pair[places[0]]), bounds[0]
-        if operation in ("neg", "abs"):
-            return e
-        if operation in ("sin", "cos"):
-            return e + SINE_ERROR
-        if operation in ("add", "sub"):
-            return e + bounds[1] + EACH * result
-        own = EACH * result + TINY
-        if operation == "sqrt":  # |√â − √a| ≤ e / √â
-            return own + (e + TINY) / result
-        b, e_b = self._size(self.pair[places[1]]), bounds[1]
-        if operation == "mul":  # |âb̂ − ab| ≤ |â| e_b + e e_b + |b̂| e
-            return own + ((a + e) * e_b + b * e)
-        gap = b - 2 * e_b  # |â/b̂ − a/b| ≤ (e + |â/b̂| e_b) / (|b̂| − e_b)
-        if isinstance(gap, Number) and not (isinstance(e_b, Fraction) and e_b == 0):
-            root = gap.sqrt()  # not a number where b may be 0
-            gap = root * root
-        return own + (e + result * e_b + TINY) / gap
-
-    def _size(self, pair: Pair) -> Any:
-        """Write the size of a number, to all digits of a double."""
-        return self.tape.apply("abs", pair.hi) if isinstance(pair.hi, Number) else abs(pair.hi)
+def size(x: Pair) -> Any:
+    """Write the size of a number, to all digits of a double."""
+    return x.hi.tape.apply("abs", x.hi) if isinstance(x.hi, Number) else abs(x.hi)

@@ -23,13 +23,16 @@ from typing import Any, NamedTuple
 from .number import Number, Tape, is_power_of_two
 from .sine import PI, quarter_turns
 
-__all__ = ["EACH", "NOTHING", "SINE_ERROR", "Pair", "Pairs", "split", "two_sum"]
+__all__ = ["EACH", "NOTHING", "OPERATIONS", "SINE_ERROR", "Pair", "Pairs", "split", "two_sum"]
 
 EACH = Fraction(16, 2**106)
 """No operation on pairs has a larger relative error."""
 
 SPLITTER = 2**27 + 1
 """Times a double, it parts the upper 26 bits from the lower ones."""
+
+OPERATIONS = ("add", "sub", "mul", "div", "neg", "sqrt", "sin", "cos")
+"""What there is on pairs."""
 
 NOTHING = Fraction(0)
 
@@ -76,7 +79,7 @@ class Pairs:
         """Return a constant to all digits of a pair."""
         return Pair(*split(x))
 
-    def negative(self, a: Pair) -> Pair:
+    def neg(self, a: Pair) -> Pair:
         """Return −a."""
         return Pair(-a.hi, -a.lo)
 
@@ -90,12 +93,16 @@ class Pairs:
             s, e = quick_two_sum(s, e + rest)
         return Pair(s, e)
 
+    def sub(self, a: Pair, b: Pair) -> Pair:
+        """Return a − b."""
+        return self.add(a, self.neg(b))
+
     def add_smaller(self, a: Pair, b: Pair) -> Pair:
         """Return a + b where |a| ≥ 2 |b|: nothing cancels, and half the operations do."""
         s, e = quick_two_sum(a.hi, b.hi)
         return Pair(*quick_two_sum(s, e + (a.lo + b.lo)))
 
-    def multiply(self, a: Pair, b: Pair) -> Pair:
+    def mul(self, a: Pair, b: Pair) -> Pair:
         """Return a b."""
         for x, y in ((a, b), (b, a)):
             if isinstance(x.hi, Fraction) and _is_zero(x.lo) and is_power_of_two(abs(x.hi)):
@@ -105,10 +112,10 @@ class Pairs:
             return Pair(p, e)
         return Pair(*quick_two_sum(p, e + self._sum_of_products(a.hi, b.lo, a.lo, b.hi)))
 
-    def divide(self, a: Pair, b: Pair) -> Pair:
+    def div(self, a: Pair, b: Pair) -> Pair:
         """Return a / b: a quotient of doubles, and that of what is left."""
         q = a.hi / b.hi
-        p = self.multiply(b, Pair(q, NOTHING))
+        p = self.mul(b, Pair(q, NOTHING))
         left = (a.hi - p.hi) + (a.lo - p.lo)
         return Pair(*quick_two_sum(q, left / b.hi))
 
@@ -146,23 +153,28 @@ class Pairs:
 
     # ---------------------------------------------------------------- sin and cos
 
-    def sine_and_cosine(self, x: Pair) -> tuple[Pair, Pair]:
-        """Return sin x and cos x."""
+    def sin(self, x: Pair) -> Pair:
+        """Return sin x."""
+        (c, s), sine, cosine = self._near_zero(x)
+        return Pair(c * sine.hi + s * cosine.hi, c * sine.lo + s * cosine.lo)
+
+    def cos(self, x: Pair) -> Pair:
+        """Return cos x."""
+        (c, s), sine, cosine = self._near_zero(x)
+        return Pair(c * cosine.hi - s * sine.hi, c * cosine.lo - s * sine.lo)
+
+    def _near_zero(self, x: Pair) -> tuple[tuple[Any, Any], Pair, Pair]:
+        """Write cos and sin of k π/2, and sin and cos of x − k π/2: the tape shares what sin x and cos x share."""
         k, y = self._reduced(x)
         y = Pair(y.hi / 2**HALVINGS, y.lo / 2**HALVINGS)
-        square = self.multiply(y, y)
-        third = self.multiply(self.multiply(square, self._series(square, 3)), y)
-        sine = self.add_smaller(y, self.negative(third))
-        less = self.multiply(square, self._series(square, 2))  # 1 − cos y
+        square = self.mul(y, y)
+        third = self.mul(self.mul(square, self._series(square, 3)), y)
+        sine = self.add_smaller(y, self.neg(third))
+        less = self.mul(square, self._series(square, 2))  # 1 − cos y
         for _ in range(HALVINGS):
             twice = Pair(2 * sine.hi, 2 * sine.lo)
-            sine, less = self.add_smaller(twice, self.negative(self.multiply(twice, less))), self.multiply(twice, sine)
-        cosine = self.add_smaller(self.constant(Fraction(1)), self.negative(less))
-        c, s = quarter_turns(k)
-        return (
-            Pair(c * sine.hi + s * cosine.hi, c * sine.lo + s * cosine.lo),
-            Pair(c * cosine.hi - s * sine.hi, c * cosine.lo - s * sine.lo),
-        )
+            sine, less = self.add_smaller(twice, self.neg(self.mul(twice, less))), self.mul(twice, sine)
+        return quarter_turns(k), sine, self.add_smaller(self.constant(Fraction(1)), self.neg(less))
 
     def _reduced(self, x: Pair) -> tuple[Any, Pair]:
         """Write k, the whole number next to 2 x / π, and x − k π/2. The first difference rounds nothing."""
@@ -184,7 +196,7 @@ class Pairs:
             tail = tail * square.hi + split(c)[0]
         value = Pair(tail, NOTHING)
         for c in reversed(coefficients[:exact]):
-            value = self.add_smaller(self.constant(c), self.multiply(square, value))
+            value = self.add_smaller(self.constant(c), self.mul(square, value))
         return value
 
 
