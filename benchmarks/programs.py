@@ -87,12 +87,9 @@ class SignsKept(NoFingerprints):
     """Leaves a sign where it arises."""
 
 
-def add_everything(self: Number, other: Any) -> Any:
+def add_everything(self: Number, other: Any, add: Callable[..., Any] = Number.__add__) -> Any:
     """Return the sum, of zeros too."""
-    if not isinstance(other, Number | Fraction | int):
-        return NotImplemented
-    other = self.tape.number(other)
-    return self._sum(other, other.minus)
+    return add(self, self.tape.number(other)) if isinstance(other, Number | Fraction | int) else NotImplemented
 
 
 def multiply_everything(self: Number, other: Any) -> Any:

@@ -3,11 +3,9 @@
 A tape takes two operations for one if they look the same. But m cos² q + m sin² q is m, and half of the entries of
 Xᵀ I X are there twice, added up in other ways. To see it, the line is run with whole numbers modulo a large prime: each
 argument is a random one, and cos and sin are those of a random point of the circle, (1 − t²) / (1 + t²) and
-2 t / (1 + t²). What is equal in every state is equal there, too; anything else is so by chance, which no one will ever
-see (J. T. Schwartz, 1980; R. Zippel, 1979). So a number with the fingerprint of an earlier one, or of its negative, is
-that one; and what has the same fingerprint at two points is a constant.
-
-Of all rules this is the only one that changes roundings: it takes some away.
+2 t / (1 + t²). What is equal there is equal in every state (the chance of anything else is none: J. T. Schwartz, 1980;
+R. Zippel, 1979), what is the same at two such points is a constant. It is the only rule that changes roundings: it
+takes some away.
 
 >>> from twistwrench.compiler.number import numbers
 >>> tape = Tape()
@@ -49,12 +47,12 @@ def each_once(line: Line) -> Line:
     Of the others only constants are found: if limbs shared them, they would not be alike any longer (see `packs`).
     """
     k, count = 0, len(line.nodes)
-    tape, fingerprint = Tape((lambda: line.notes[k]) if line.notes else None), Fingerprint(PRIME)
+    tape = Tape((lambda: line.notes[k]) if line.notes else None)
+    fingerprint, constants = Fingerprint(PRIME), Constants(line)
     marks: list[Mark] = [()] * count
     values: list[Any] = [None] * count
     turns = [False] * count  # whether a number depends on a sine
     known: dict[int, Any] = {}
-    constants = Constants(line)
     for k in needed(line.nodes, line.results):
         node = line.nodes[k]
         operation = node[0]
@@ -71,7 +69,10 @@ def each_once(line: Line) -> Line:
             if value is None and PRIME - one in known:
                 value = -known[PRIME - one]
             if value is None:
-                value = _again(tape, operation, [values[j] for j in node[1:]])
+                x = [values[j] for j in node[1:]]
+                by_rules = operation in ARITHMETIC and not (operation == "div" and isinstance(x[1], Fraction))
+                # functions of constants stay as they are, too; and a quotient by 0 is the alarm's
+                value = ARITHMETIC[operation](*x) if by_rules else tape.apply(operation, *x)
             if type(value) is Number and (operation in ("sin", "cos") or turns[node[1]] or turns[node[-1]]):
                 known[one], turns[k] = value, True
         values[k] = value
@@ -81,13 +82,6 @@ def each_once(line: Line) -> Line:
     for name, (_, entries) in line.outputs.items():
         results[name].reshape(-1)[:] = [values[k] for k in entries]
     return Line.of(tape, line.inputs, results)
-
-
-def _again(tape: Tape, operation: str, values: list[Any]) -> Any:
-    """Write an operation to another tape."""
-    if operation in ARITHMETIC and not (operation == "div" and isinstance(values[1], Fraction)):
-        return ARITHMETIC[operation](*values)
-    return tape.apply(operation, *values)  # functions of constants, too; and a quotient by 0 is the alarm's
 
 
 class Fingerprint:
@@ -136,8 +130,7 @@ def _inverse(x: int, prime: int) -> int:
     return pow(x, -1, prime)
 
 
-_known_inverse = lru_cache(_inverse)
-"""For denominators of constants, which are a few powers of two."""
+_known_inverse = lru_cache(_inverse)  # of the denominators of constants, a few powers of two
 
 
 class Constants:

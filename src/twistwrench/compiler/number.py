@@ -2,16 +2,16 @@
 
 The algorithms of this package are arithmetic. Called with arrays of `Number` in the place of q and v, they run as they
 stand, and each + − × ÷, sin, cos and sqrt is written down instead of computed. Once the tree is known the loops are
-gone: what is left is one line after the other. Nothing of it need be read twice, so that
+gone: what is left is one line after the other, in which
 
 - what is multiplied by 0 is dropped, and so is a factor of 1 or an addition of 0: most entries of S, of X and of the
   inertias are such;
 - what occurs a second time is the first one again;
-- signs go outward, −a · b = −(a · b), where a sum absorbs them; but a constant keeps its own, and a difference is taken
-  as it is written, so that a left limb and a right one come to the same operations.
+- signs go outward, −a · b = −(a · b), where a sum absorbs them; but a constant keeps its own, so that a left limb and a
+  right one come to the same operations.
 
-None of these rules changes a rounding: a program computes what the textbook computes, to the last bit but for signs
-of zero, the order of a sum of two, and doublings.
+No rule changes a rounding: a program computes what the textbook computes, to the last bit but for signs of zero, the
+order of a sum of two, and doublings.
 
 >>> tape = Tape()
 >>> x, y = tape.input("x"), tape.input("y")
@@ -47,9 +47,7 @@ ARITHMETIC: dict[str, Callable[..., Any]] = {
 }
 
 ZERO, ONE, TWO = Fraction(0), Fraction(1), Fraction(2)
-
-EXACT = (Fraction, int)
-"""Types of constants."""
+EXACT = (Fraction, int)  # the types of constants
 
 
 class Tape:
@@ -61,8 +59,6 @@ class Tape:
         See `Node`. Operands come before what uses them.
     note : callable, optional
         Called for each new operation; what it returns is in `notes`: see `source.step`.
-    notes : list
-        Empty without `note`.
     """
 
     def __init__(self, note: Callable[[], Any] | None = None) -> None:
@@ -120,43 +116,37 @@ class Tape:
 
 
 class Number:
-    """A number without a value: what is done to it is entered on its tape. Constants are fractions.
-
-    It is a node of the tape, or minus that. It cannot be compared or looked at: a program is the same for every state.
-    """
+    """A number without a value: a node of the tape, or minus that. Constants are fractions."""
 
     __slots__ = ("index", "minus", "tape")
 
     def __init__(self, tape: Tape, index: int, minus: bool = False) -> None:
         self.tape, self.index, self.minus = tape, index, minus
 
-    def _sum(self, other: Number, minus: bool) -> Number | Fraction:
-        """Return the sum with a number, where its sign may be another one."""
-        tape, a, b = self.tape, self.index, other.index
-        if self.minus == minus:
+    def __add__(self, other: Any) -> Any:
+        tape, a, minus = self.tape, self.index, self.minus
+        if type(other) is not Number:
+            if not isinstance(other, EXACT):
+                return NotImplemented  # NumPy takes an array entry by entry
+            if not other:
+                return self
+            other = tape.number(other)
+        b = other.index
+        if minus == other.minus:
             if a == b:
                 return Number(tape, tape.scaled(TWO, a), minus)
             return Number(tape, tape.enter("add", a, b) if a < b else tape.enter("add", b, a), minus)
         if a == b:
             return ZERO
-        if self.minus:
+        if minus:
             a, b = b, a
         opposite = tape.places.get(("sub", b, a))
         return Number(tape, tape.enter("sub", a, b)) if opposite is None else Number(tape, opposite, True)
 
-    def __add__(self, other: Any) -> Any:
-        if type(other) is Number:
-            return self._sum(other, other.minus)
-        if not isinstance(other, EXACT):
-            return NotImplemented  # NumPy takes an array entry by entry
-        return self._sum(self.tape.number(other), False) if other else self
-
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> Any:
-        if type(other) is Number:
-            return self._sum(other, not other.minus)
-        return self + -other if isinstance(other, EXACT) else NotImplemented
+        return self + (Number(self.tape, other.index, not other.minus) if type(other) is Number else -other)
 
     def __rsub__(self, other: Any) -> Any:
         return -self + other
@@ -237,10 +227,7 @@ def numbers(tape: Tape, name: str, *shape: int) -> Array:
 
 @contextmanager
 def without_garbage() -> Iterator[None]:
-    """Let Python not look for garbage meanwhile: it looks through all operations again and again, a fifth of the time.
-
-    Used where thousands of them are made, none of which is garbage.
-    """
+    """Let Python not look for garbage among thousands of operations, again and again: a fifth of the time."""
     before = gc.isenabled()
     gc.disable()
     try:
