@@ -24,7 +24,6 @@ FEW = 20
 LEAST = 64
 """A thread does at least so many states."""
 
-
 KEPT = 2**25 - 2**16
 """Bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`."""
 
@@ -50,14 +49,18 @@ class BackEnd:
         """Fill the results: each array has shape (states, entries). The states are divided among threads."""
         divided(self._chosen(len(arrays[-1])).run, arrays, threads)
 
-    def results(self, states: Mapping[str, Array], batch: tuple[int, ...], threads: int) -> dict[str, Array]:
-        """Return the results by name, from arguments with these batch axes."""
+    def results(
+        self, states: Mapping[str, Array], batch: tuple[int, ...], threads: int, into: Mapping[str, Array]
+    ) -> dict[str, Array]:
+        """Return the results by name, from arguments with these batch axes; `into` has rows for some of them."""
         count, line = prod(batch), self.line
-        given = [np.ascontiguousarray(states[name].reshape(count, prod(shape))) for name, shape in line.inputs.items()]
-        results = {name: np.empty((count, len(entries)), self.dtype) for name, (_, entries) in line.outputs.items()}
+        given = [states[name].reshape(count, prod(shape)) for name, shape in line.inputs.items()]
+        given = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in given]
+        made = {name: np.empty((count, len(line.outputs[name][1])), self.dtype) for name in line.outputs.keys() - into}
+        rows = {**into, **made}
         if count:
-            self.run([*given, *results.values()], threads)
-        return {name: results[name].reshape(batch + shape) for name, (shape, _) in line.outputs.items()}
+            self.run([*given, *(rows[name] for name in line.outputs)], threads)
+        return {name: rows[name].reshape(batch + shape) for name, (shape, _) in line.outputs.items()}
 
     def _chosen(self, count: int) -> MachineCode | Plain | Registers:
         """Return what is quickest for so many states."""
@@ -109,8 +112,7 @@ def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], thr
 def keep_memory() -> None:
     """Let the C library keep the memory of freed arrays instead of returning it to the kernel.
 
-    glibc returns blocks above a limit, at first 128 KiB, and every page of it that is used again then costs a page
-    fault: most of the time of 1000 states. The limit follows the largest block that was ever freed. So a large block is
-    allocated and freed, untouched; once, as the limit never falls. Elsewhere this does nothing.
+    glibc returns blocks above a limit, at first 128 KiB, and every page that is used again then costs a page fault:
+    most of the time of 1000 states. The limit follows the largest block that was ever freed; elsewhere nothing happens.
     """
     np.empty(KEPT, np.uint8)

@@ -22,8 +22,6 @@ from .quantities import ARGUMENTS, Quantity, chosen, quantities
 
 __all__ = ["compile"]
 
-BACKENDS = ("llvm", "numpy")
-
 
 class SceneLike(Protocol):
     """What is compiled of a `Scene`, which is in a later room."""
@@ -33,9 +31,7 @@ class SceneLike(Protocol):
     def model(self) -> Model: ...
 
     @abstractmethod
-    def _quantities(
-        self, dtype: np.dtype[Any], frames: tuple[str, ...], reference: Reference
-    ) -> dict[str, Quantity]: ...
+    def _quantities(self, dtype: np.dtype[Any], frames: tuple[str, ...], reference: Any, /) -> dict[str, Quantity]: ...
 
 
 def compile(
@@ -120,49 +116,47 @@ def compile(
         "contacts": None if contacts is None else as_frames(contacts),
         "frames": as_names(frames, "frames", "frame names", ordered=True),
         "reference": reference,
-        "given": _mapping(given),
+        "given": given,
         "backend": _backend(backend, wide_type(number) if number in WIDE else own),
         "threads": as_count(threads, "threads", 1),
     }
     asked = want if isinstance(want, str) else as_names(want, "want", "quantities")
-    return with_digits(_program(model, asked, options), number, as_flag(bound, "bound"))
+    return with_digits(_program(model, asked, **options), number, as_flag(bound, "bound"))
 
 
-def _program(model: Model | SceneLike, asked: str | tuple[str, ...], options: Mapping[str, Any]) -> Program:
-    """Return a program in numbers of NumPy."""
-    known, body = _known(model, *(options[name] for name in ("dtype", "contacts", "frames", "reference")))
-    return Program(
-        body,
-        chosen(known, (asked,) if isinstance(asked, str) else asked),
-        single=isinstance(asked, str),
-        given=_checked(body, options["given"]),
-        dtype=options["dtype"],
-        backend=options["backend"],
-        threads=options["threads"],
-        remake=partial(_program, model, asked, options),
-    )
-
-
-def _known(
+def _program(
     model: Any,
+    asked: str | tuple[str, ...],
+    *,
     dtype: np.dtype[Any],
     contacts: tuple[str | HeldRows, ...] | None,
     frames: tuple[str, ...],
     reference: Reference,
-) -> tuple[dict[str, Quantity], Model]:
-    """Return what can be computed of a model or a scene, and the model."""
+    given: Mapping[str, ArrayLike] | None,
+    **how: Any,
+) -> Program:
+    """Return a program in numbers of NumPy, of a model or a scene."""
+    remake = partial(_program, model, asked, dtype=dtype, contacts=contacts, frames=frames, reference=reference)
     check_known("reference", reference, get_args(Reference))
-    if (of_scene := getattr(model, "_quantities", None)) is not None:
-        if contacts is not None:
-            raise ValueError(f"contacts: a scene has its own, got {list(contacts)}; tw.Scene(..., contacts=) sets them")
-        for frame in frames:
-            model.model.frame(frame)
-        return of_scene(dtype, frames, reference), model.model
-    check_model(model)
-    contacts = as_held(model, model.feet if contacts is None else contacts)
+    of_scene = getattr(model, "_quantities", None)
+    if of_scene is not None and contacts is not None:
+        raise ValueError(f"contacts: a scene has its own, got {list(contacts)}; tw.Scene(..., contacts=) sets them")
+    body = model if of_scene is None else model.model
+    check_model(body)
+    held = as_held(body, body.feet if contacts is None else contacts) if of_scene is None else ()
     for frame in frames:
-        model.frame(frame)
-    return quantities(model, dtype, contacts, frames, reference), model
+        body.frame(frame)
+    known = of_scene(dtype, frames, reference) if of_scene else quantities(body, dtype, held, frames, reference)
+    given = _checked(body, given)
+    return Program(
+        body,
+        chosen(known, (asked,) if isinstance(asked, str) else asked),
+        single=isinstance(asked, str),
+        given=given,
+        dtype=dtype,
+        remake=partial(remake, given=given, **how),
+        **how,
+    )
 
 
 def _number_type(dtype: DTypeLike) -> np.dtype[Any]:
@@ -176,15 +170,11 @@ def _number_type(dtype: DTypeLike) -> np.dtype[Any]:
     return found
 
 
-def _mapping(given: Mapping[str, ArrayLike] | None) -> dict[str, ArrayLike]:
+def _checked(model: Model, given: Mapping[str, ArrayLike] | None) -> dict[str, Array]:
+    """Return the arguments that are the same for every state, each of one state."""
     if given is None:
         return {}
     check_kind(given, "given", Mapping, "values of arguments by their names")
-    return dict(given)
-
-
-def _checked(model: Model, given: Mapping[str, ArrayLike]) -> dict[str, Array]:
-    """Return the arguments that are the same for every state, each of one state."""
     for name in given:
         check_known("argument", name, ARGUMENTS)
     checked = dict(zip(given, check_arrays(model, **given)))
@@ -198,7 +188,7 @@ def _backend(asked: str | None, dtype: np.dtype[Any]) -> str:
     """Return what runs the program: LLVM where it is there and has the number type, unless something else is asked."""
     if asked is None:
         return "llvm" if dtype in NATIVE and available() else "numpy"
-    check_choice(asked, "backend", BACKENDS)
+    check_choice(asked, "backend", ("llvm", "numpy"))
     if asked == "llvm" and not available():
         raise ImportError('backend: "llvm" needs llvmlite: pip install "twistwrench[compile]"')
     if asked == "llvm" and dtype not in NATIVE:

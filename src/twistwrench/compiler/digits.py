@@ -1,7 +1,6 @@
 """Programs in numbers that no processor has, and programs whose results have a bound.
 
-They hold a program in doubles, which knows the arguments and raises the errors, and run its line in other numbers: in
-quadruple precision, in as many digits of mpmath as are set, or in pairs of doubles, with a bound if wanted.
+They hold a program, which knows the arguments and raises the errors, and run its line in other numbers.
 """
 
 from __future__ import annotations
@@ -39,10 +38,7 @@ VALUE = ".value"
 
 
 class DigitsProgram(ABC):
-    """A program whose line is run in other numbers than its own, and which is called as that is.
-
-    Its `model`, `arguments`, `source` and `c` are those of the program, which also raises the errors.
-    """
+    """A program whose line is run in other numbers than its own, and which is called as that is."""
 
     number: str | None = None
     bound = False
@@ -60,23 +56,10 @@ class DigitsProgram(ABC):
         return self.program.operations
 
     def __call__(self, *args: Any, **named: Any) -> Any:
-        """Return the quantities in a state, or in many.
+        """Return the quantities in a state, or in many: as `Program`, in numbers of the program's type.
 
-        Parameters
-        ----------
-        *args, **named : array_like
-            As for `Program`: doubles, which are taken as exact, or numbers of the program's type.
-
-        Returns
-        -------
-        array or Results
-            In numbers of the program's type; with a bound two of them, of which the second has the bound of each entry,
-            infinite where nothing is certain.
-
-        Raises
-        ------
-        ShapeError, SingularError, TypeError, ValueError
-            As `Program`.
+        The arguments are doubles, which are taken as exact, or numbers of that type. With a bound there are two
+        results, of which the second has the bound of each entry, infinite where nothing is certain.
         """
         given = self.program._bound(args, named)
         own = {name: both for name, x in given.items() if (both := self._own(name, x)) is not None}
@@ -121,10 +104,9 @@ class DigitsProgram(ABC):
 
 
 class WideProgram(DigitsProgram):
-    """A program in quadruple precision or in mpmath's numbers: ``dtype="quad"`` or ``"mpmath"``.
+    """A program in numpy-quaddtype's numbers, 34 digits, or in mpmath's, ``mpmath.mp.dps`` digits as at the call.
 
-    The results are for "quad" of numpy-quaddtype's type, 34 digits; for "mpmath" of mpf, with ``mpmath.mp.dps`` digits
-    as it is at the call. An axis that is oblique to its frame is a unit vector to 38 digits.
+    An axis that is oblique to its frame is a unit vector to 38 digits.
     """
 
     def __init__(self, program: Program, number: str) -> None:
@@ -150,17 +132,11 @@ class WideProgram(DigitsProgram):
         if key not in self._codes:
             self._codes[key] = BackEnd(self.program._line(tuple(states)), self.dtype, "numpy")
         filled = {name: self._wide(np.broadcast_to(own.get(name, x), x.shape)) for name, x in states.items()}
-        return self._codes[key].results(filled, self.program.batch(states), self.program.threads)
+        return self._codes[key].results(filled, self.program.batch(states), self.program.threads, {})
 
 
 def wide_type(number: Any) -> np.dtype[Any]:
-    """Return NumPy's type for quadruple precision, or for objects, which mpmath's numbers are.
-
-    Raises
-    ------
-    ImportError
-        If the package is not installed.
-    """
+    """Return NumPy's type for quadruple precision, or for objects, which mpmath's numbers are."""
     package, install = WIDE[number]
     try:
         module = import_module(package)
@@ -171,12 +147,7 @@ def wide_type(number: Any) -> np.dtype[Any]:
 
 
 class DoubleDouble(NamedTuple):
-    """Numbers of 32 digits: hi + lo, where hi is the double nearest to the sum.
-
-    Attributes
-    ----------
-    hi, lo : ndarray
-        Of the same shape.
+    """Numbers of 32 digits: hi + lo, arrays of the same shape, where hi is the double nearest to the sum.
 
     Examples
     --------
@@ -225,7 +196,7 @@ class DoubleDoubleProgram(DigitsProgram):
     def _run(self, states: Mapping[str, Array], own: Mapping[str, Array]) -> dict[str, Array]:
         low = {name + LO: np.broadcast_to(lo, states[name].shape) for name, lo in own.items()}
         code = self._code(tuple(states), tuple(own))
-        return code.results({**states, **low}, self.program.batch(states), self.program.threads)
+        return code.results({**states, **low}, self.program.batch(states), self.program.threads, {})
 
     def _result(self, found: Mapping[str, Array], symbol: str) -> Any:
         value = DoubleDouble(found[symbol], found[symbol + LO])
@@ -236,8 +207,7 @@ class BoundedProgram(DigitsProgram):
     """A program in float32 or float64 whose results have a bound: ``bound=True``.
 
     The bound of an entry is its distance from the same entry with 32 digits, and what those are off at most by the
-    running error bound (`double_double`). It is for the arguments as they are: numbers of the program's type, taken as
-    exact.
+    running error bound (`double_double`).
     """
 
     bound = True
@@ -269,15 +239,7 @@ class BoundedProgram(DigitsProgram):
 
 
 def with_digits(program: Program, number: str | None, bound: bool) -> Program | DigitsProgram:
-    """Return a program as it is, or in other numbers than NumPy's ("double-double", "quad", "mpmath"), or with a bound.
-
-    Raises
-    ------
-    ImportError
-        If the package of the number type is not installed.
-    TypeError
-        If there is no bound for it.
-    """
+    """Return a program as it is, or in numbers that are not NumPy's ("double-double", …), or with a bound."""
     if number == PAIRS:
         return DoubleDoubleProgram(program, bound)
     if bound and (number or program.dtype not in NATIVE):

@@ -9,7 +9,6 @@ import numpy as np
 
 __all__ = ["Text"]
 
-INSTRUCTIONS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
 
 
@@ -44,8 +43,8 @@ class Text:
 
     def operate(self, operation: str, *operands: str) -> str:
         """Write an operation of a line."""
-        if operation in INSTRUCTIONS:
-            return self.new(f"{INSTRUCTIONS[operation]} %V {operands[0]}, {operands[1]}")
+        if operation in ("add", "sub", "mul", "div"):
+            return self.new(f"f{operation} %V {operands[0]}, {operands[1]}")
         if operation == "neg":
             return self.new(f"fsub %V {self.constant(-0.0)}, {operands[0]}")
         kind = ("" if self.width == 1 else f"v{self.width}") + f"f{8 * self.bytes}"

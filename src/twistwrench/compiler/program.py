@@ -34,6 +34,8 @@ class Results(SimpleNamespace):
 class Program:
     """What `twistwrench.compile` returns: call it with arrays like any function of the package.
 
+    TypeError is raised where it is called without one of its arguments, or with others.
+
     Parameters
     ----------
     model : Model
@@ -53,21 +55,15 @@ class Program:
     arguments : tuple of str
         The names of the program's arguments, in their order.
     one_state : callable, optional
-        Where there is machine code and a state was asked for: returns its result, or a tuple of several, where each
-        0.1 µs counts. None for a state that raises the alarm, and for arguments of other kinds: see `extension`.
-
-    Raises
-    ------
-    TypeError
-        Where it is called without one of its arguments, or with others.
+        What answers for one state, once one was asked for, where each 0.1 µs counts: see `extension`.
 
     Examples
     --------
     >>> import numpy as np
     >>> import twistwrench as tw
     >>> program = tw.compile(tw.load("pendulum"), "gravity")
-    >>> program([np.pi / 2]), program([[0.0], [np.pi / 2]]).shape
-    (array([9.81]), (2, 1))
+    >>> program([np.pi / 2]), program([[0.0], [np.pi / 2]]).shape, program.operations
+    (array([9.81]), (2, 1), Counter({'sin': 1, 'mul': 1}))
     """
 
     def __init__(
@@ -95,14 +91,7 @@ class Program:
 
     @property
     def operations(self) -> Counter[str]:
-        """How many operations a state takes, by kind, without those that watch the state.
-
-        Examples
-        --------
-        >>> import twistwrench as tw
-        >>> tw.compile(tw.load("pendulum"), "gravity").operations  # m g l sin q
-        Counter({'sin': 1, 'mul': 1})
-        """
+        """How many operations a state takes, by kind, without those that watch the state."""
         return self.line.operations
 
     @property
@@ -164,16 +153,18 @@ class Program:
         return self.quantities[0].symbol if self.single else "program"
 
     def _noted(self) -> Line:
-        """Return the line with the steps of the chapter, recorded anew."""
-        wanted = {name: self._shapes[name] for name in self._plain}
-        return record(self.model, self.quantities, wanted, self.given, self.dtype, step).without(ALARM)
+        """Return the line with the steps of the chapter."""
+        return self._recorded(self._plain, step).without(ALARM)
 
     def _line(self, names: tuple[str, ...]) -> Line:
         """Return the line for states with these arguments, recorded once."""
         if names not in self._lines:
-            wanted = {name: self._shapes[name] for name in names}
-            self._lines[names] = record(self.model, self.quantities, wanted, self.given, self.dtype)
+            self._lines[names] = self._recorded(names)
         return self._lines[names]
+
+    def _recorded(self, names: tuple[str, ...], note: Callable[[], Any] | None = None) -> Line:
+        shapes = {name: self._shapes[name] for name in names}
+        return record(self.model, self.quantities, shapes, self.given, self.dtype, note)
 
     def _code(self, names: tuple[str, ...]) -> BackEnd:
         """Return what runs that line, made once."""
@@ -238,26 +229,18 @@ class Program:
         given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
         check_outputs(given, batch, tails, self.dtype)
         rows = targets(given, [*states.values()], prod(batch), tails, self.dtype)
-        unsure = self._fill(states, [*rows.values()])
         filled = {name: x.reshape(batch + tails[name]) for name, x in rows.items()}
+        unsure = np.ones(batch, bool)
+        if self.backend != "textbook":
+            found = self._code(tuple(states)).results(states, batch, self.threads, rows)
+            unsure = ~(found[ALARM].real <= 1)
         if unsure.any():
-            by_the_textbook(self.model, self.quantities, self.given | states, filled, unsure.reshape(batch))
+            by_the_textbook(self.model, self.quantities, self.given | states, filled, unsure)
         return self.packed(finish(given, filled))
 
     def _tails(self, states: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
         """Return the shape of each result of one state."""
         return {name: shape for name, (shape, _) in self._line(tuple(states)).outputs.items() if name != ALARM}
-
-    def _fill(self, states: Mapping[str, Array], rows: Sequence[Array]) -> Array:
-        """Fill the results, a row for each state, and return which states are left to the textbook."""
-        count = prod(self.batch(states))
-        flat = [x.reshape(count, prod(self._shapes[name])) for name, x in states.items()]
-        flat = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in flat]
-        alarm = np.full((count, 1), np.nan, self.dtype)
-        if count and self.backend != "textbook":
-            self._code(tuple(states)).run([*flat, *rows, alarm], self.threads)
-        sure: Array = alarm[:, 0].real <= 1
-        return ~sure
 
     def packed(self, results: Mapping[str, Any]) -> Any:
         """Return one result as it is, several as `Results`."""

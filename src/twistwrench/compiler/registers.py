@@ -1,7 +1,7 @@
 """A straight line in NumPy, for many states: a call for each operation, or for the same one in several limbs (`packs`).
 
-Which works for every number type that NumPy has. The numbers of all states are rows of one array, those of a pack one
-after the other; there are not many more rows than numbers that are still needed.
+The numbers of all states are rows of one array, those of a pack one after the other; there are not many more rows than
+numbers that are still needed.
 """
 
 from __future__ import annotations
@@ -22,42 +22,28 @@ from .pairs import split
 
 __all__ = ["Registers"]
 
-FUNCTIONS = {
-    "add": np.add,
-    "sub": np.subtract,
-    "mul": np.multiply,
-    "div": np.divide,
-    "neg": np.negative,
-    "sin": np.sin,
-    "cos": np.cos,
-    "tan": np.tan,
-    "sqrt": np.sqrt,
-    "abs": np.abs,
-    "round": np.rint,
-}
+NAMES = {"sub": "subtract", "mul": "multiply", "div": "divide", "neg": "negative", "round": "rint"}
+"""Operations that have another name in NumPy."""
 
 CHUNK = 2048
 """States that are computed together: for fewer, a call takes longer than what it computes."""
 
-TOGETHER = 64
-"""Entries of a result that are brought together before they are written: more of them would not stay in the cache."""
-
 MEMORY = 2**24
 """Bytes that the rows of a chunk take together, at most."""
+
+TOGETHER = 64
+"""Entries of a result that are brought together before they are written: more would not stay in the cache."""
 
 BUFFER = 16
 """NumPy's smallest buffer: with a larger one, rows that do not lie next to each other take up to twice as long."""
 
 
 class Registers:
-    """A line as a list of NumPy's calls, in any of its floating-point types, complex ones too.
-
-    Of objects, in numbers of mpmath, whose constants have as many digits as are set now.
-    """
+    """A line as a list of NumPy's calls, in any of its floating-point types, or in numbers of mpmath, as objects."""
 
     def __init__(self, line: Line, dtype: np.dtype[Any]) -> None:
         line = with_half_angles(line) if dtype == np.float64 else line
-        self.dtype, self.nodes, self.functions = dtype, line.nodes, functions_of(dtype)
+        self.dtype, self.nodes = dtype, line.nodes
         self.packs = Packs(line)
         self.order = [*ordered(self._found((k,) for k in line.results), lambda k: self._found(self.packs.operands[k]))]
         self.first, self.count = self._placed(line.results)
@@ -65,15 +51,14 @@ class Registers:
         number = {name: k for k, name in enumerate(line.inputs)}
         self.inputs: list[tuple[int, slice | list[int], slice]] = []  # arrays, their columns, and rows
         self.copies: list[tuple[list[int], slice]] = []  # rows, and where they are needed again, in another order
-        for pack in self.order:
-            if self._operation(pack) == "input":
-                lanes = self.packs.packs[pack]
-                place = slice(self.first[pack], self.first[pack] + len(lanes))
-                if self._found([lanes[:1]]) == [pack]:
-                    keys = [self.nodes[k][1] for k in lanes]
-                    self.inputs.append((number[keys[0][0]], _slice_of([column[key] for key in keys]), place))
-                else:
-                    self.copies.append(([self._row(k) for k in lanes], place))
+        for pack in (pack for pack in self.order if self._operation(pack) == "input"):
+            lanes = self.packs.packs[pack]
+            place = slice(self.first[pack], self.first[pack] + len(lanes))
+            if self._found([lanes[:1]]) == [pack]:
+                keys = [self.nodes[k][1] for k in lanes]
+                self.inputs.append((number[keys[0][0]], _slice_of([column[key] for key in keys]), place))
+            else:
+                self.copies.append(([self._row(k) for k in lanes], place))
         self.constants: dict[int, int] = {}  # the rows of results that are constants
         self.results = [
             (array, slice(k, k + TOGETHER), np.array([self._row(j) for j in entries[k : k + TOGETHER]], np.intp))
@@ -137,7 +122,8 @@ class Registers:
         for pack in self.order:
             if (operation := self._operation(pack)) != "input":
                 x = [self._values(rows, lanes) for lanes in self.packs.operands[pack]]
-                yield partial(self.functions[operation], *x, self._values(rows, self.packs.packs[pack], (pack, 0, 1)))
+                filled = self._values(rows, self.packs.packs[pack], (pack, 0, 1))
+                yield partial(function_of(operation, self.dtype), *x, filled)
 
     def _values(self, rows: Array, lanes: tuple[int, ...], view: View | None = None) -> Any:
         """Return the rows of some nodes, lane by lane, or the constants."""
@@ -185,20 +171,16 @@ def with_half_angles(line: Line) -> Line:
     return rewritten(line, {"sin": sine, "cos": cosine})
 
 
-def functions_of(dtype: np.dtype[Any]) -> dict[str, np.ufunc]:
-    """Return what computes each operation; where numbers of mpmath raise an error, the result is NaN as in NumPy."""
-    if not dtype.hasobject:
-        return FUNCTIONS
+def function_of(operation: str, dtype: np.dtype[Any]) -> Any:
+    """Return what computes an operation; where numbers of mpmath raise an error, the result is NaN as in NumPy."""
+    if not dtype.hasobject or operation not in ("div", "sqrt", "sin", "cos"):
+        return getattr(np, NAMES.get(operation, operation))
     from mpmath import mp
 
-    def quotient(a: Any, b: Any) -> Any:
-        return a / b if b else mp.nan
-
-    def root(a: Any) -> Any:
-        return mp.sqrt(a) if a >= 0 else mp.nan
-
-    own = {"div": np.frompyfunc(quotient, 2, 1), "sqrt": np.frompyfunc(root, 1, 1)}
-    return FUNCTIONS | own | {name: np.frompyfunc(getattr(mp, name), 1, 1) for name in ("sin", "cos")}
+    if operation == "div":
+        return np.frompyfunc(lambda a, b: a / b if b else mp.nan, 2, 1)
+    function = getattr(mp, operation)
+    return np.frompyfunc(lambda a: function(a) if operation != "sqrt" or a >= 0 else mp.nan, 1, 1)
 
 
 def as_number_of(dtype: np.dtype[Any], x: Fraction) -> Any:
