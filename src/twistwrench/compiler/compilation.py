@@ -76,15 +76,14 @@ def compile(
 
     Returns
     -------
-    Program
-        For more digits or with a bound: `digits.DoubleDoubleProgram`, `WideProgram` or `BoundedProgram`.
+    Program or DigitsProgram
 
     Raises
     ------
     NameNotFound
         If there is no such quantity, frame, reference or argument; the message lists those that exist.
     ImportError
-        If llvmlite is not installed but `backend` is "llvm", or if the package of the number type is not installed.
+        If a package that is asked for is not installed.
     ShapeError, TypeError, ValueError
         If an option is not one of those above.
 

@@ -1,8 +1,8 @@
 """Derivatives of all that can be compiled, and the regressor: lines that are made of lines.
 
-To differentiate with respect to an argument, it must be one, even where its value is known or is a result itself. So a
-quantity is recorded and differentiated on a tape of its own, and the line that comes of it is run again where it is
-wanted: with numbers that remember, which drop what is zero there and share what is there already, or with floats.
+A quantity is recorded and differentiated on a tape of its own, where each argument is one, and the line that comes of
+it is run again where it is wanted: with numbers that remember, which drop what is zero there and share what is there
+already, or with floats.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Compute = Callable[..., tuple[Array, list[Any]]]
 def derivatives(model: Model, quantity: Quantity) -> Iterator[Quantity]:
     """Yield the derivatives of a quantity with respect to its arguments, ``dtau_dq``: its axes, and one of nv columns.
 
-    Those with respect to q are for steps along v, as in `Model.integrate`: x(q ⊕ ε e_k) = x(q) + ε column k.
+    Those for q are along v: x(q ⊕ ε e_k) = x(q) + ε column k.
     """
     make = _of_acceleration if quantity.symbol == "qdd" else of_line
     for name in quantity.arguments:

@@ -1,6 +1,4 @@
-"""A line with 32 digits: each of its operations rewritten into operations on pairs of doubles.
-
-What comes out is a line again, of more and more elementary operations, so that whatever runs the one runs the other.
+"""A line with 32 digits: each of its operations rewritten into operations on pairs of doubles. It is a line again.
 
 With it, if wanted, goes a bound on how far each result can be off: the running error analysis of Higham, *Accuracy and
 Stability of Numerical Algorithms* (2nd ed.), section 3.3. Beside each number â there is e ≥ |â − a|, where a is what

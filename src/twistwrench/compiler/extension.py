@@ -1,11 +1,9 @@
 """A program as a function of the interpreter, such as a module in C would have: for one state, where 0.1 µs counts.
 
 With the machine code of a line goes a little more, which finds the numbers where CPython and NumPy keep them, makes the
-arrays of the results and lets the line fill them: no Python runs in between. Whatever is not an array of the right
-number type and shape, and each state that raises the alarm, is answered with None, and the caller goes another way.
-
-It relies on what every compiled module relies on: the functions of CPython's and NumPy's C-API, and the first members
-of `PyObject` and `PyArrayObject`.
+arrays of the results and lets the line fill them: by what every compiled module relies on, the C-API of CPython and
+NumPy, and the first members of `PyObject` and `PyArrayObject`. Whatever is not an array of the right number type and
+shape, and each state that raises the alarm, is answered with None, and the caller goes another way.
 """
 
 from __future__ import annotations
@@ -33,14 +31,9 @@ KIND = 8
 DATA, AXES, SHAPE, DTYPE, FLAGS = 16, 24, 32, 56, 64
 """Where an object has its type; and an array its members, from the first byte on."""
 
-USUAL = 0x101
-"""Flags of an array in C's order, whose entries are where the processor wants them."""
-
-POSITIONAL = 0x80
-"""METH_FASTCALL: the function gets its arguments as pointers, one after the other, and their count."""
-
-NEW_ARRAY = 93
-"""The place of PyArray_New among the functions of NumPy's C-API."""
+USUAL = 0x101  # flags of an array in C's order, whose entries are where the processor wants them
+POSITIONAL = 0x80  # METH_FASTCALL: the function gets its arguments as pointers, one after the other, and their count
+NEW_ARRAY = 93  # the place of PyArray_New among the functions of NumPy's C-API
 
 
 class Method(ctypes.Structure):

@@ -13,9 +13,9 @@ INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
 
 
 class Text:
-    """Instructions for `width` states at once; `constants` has what is in memory at ``%constants``, and where.
+    """Instructions for `width` states at once, of type ``%V``; `constants` are in memory at ``%constants``, and where.
 
-    ``%V`` is the type of `width` numbers. A value has a number: LLVM reads it in half the time of a name.
+    A value has a number: LLVM reads it in half the time of a name.
     """
 
     def __init__(self, scalar: str, width: int, constants: dict[str, int] | None = None) -> None:

@@ -24,17 +24,9 @@ Output = tuple[tuple[int, ...], tuple[int, ...]]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Line:
-    """Operations one after the other, without a loop and without a condition.
+    """Operations one after the other, without a loop and without a condition: see `Node`.
 
-    Attributes
-    ----------
-    nodes : sequence of tuple
-        ("input", (name, index, …)), ("const", Fraction), or (operation, operands, …) with the indices of earlier nodes.
-    inputs : mapping of str to tuple of int
-        The shape of each argument.
-    outputs : mapping of str to Output
-    notes : sequence
-        Of each node, where the tape took notes: the step of the chapter that it belongs to.
+    `inputs` has the shape of each argument; `notes` the step of the chapter of each node, where the tape took notes.
     """
 
     nodes: Sequence[Node]

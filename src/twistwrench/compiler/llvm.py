@@ -1,10 +1,8 @@
 """Machine code from a straight line, by LLVM: one state, or as many at once as a register of the processor holds.
 
 Every operation becomes one instruction of LLVM's language, with the same numbers of W states in one register. All that
-is written besides is a loop over the states, the way in and out of memory, and sin and cos (`sine`). Nothing is put
-together or reordered by the compiler: what comes out is what the operations say, to the last bit.
-
-`llvmlite` is an extra: ``pip install "twistwrench[compile]"``.
+is written besides is a loop over the states, the way in and out of memory, and sin and cos (`sine`). The results are
+what the operations say, to the last bit.
 """
 
 from __future__ import annotations
@@ -62,10 +60,7 @@ def lanes(dtype: np.dtype[Any]) -> int:
 
 
 class MachineCode:
-    """A line as machine code for float32 or float64, `width` states at once: a power of two.
-
-    At `address` is the function that takes a table of pointers and strides, and the number of states.
-    """
+    """A line as machine code, `width` states at once, a power of two: a function of a table and a number of states."""
 
     def __init__(self, line: Line, dtype: np.dtype[Any], width: int) -> None:
         self._engine = engine_of(written(line, NATIVE[dtype], width))  # keeps the code alive
@@ -73,10 +68,7 @@ class MachineCode:
         self._call = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int64)(self.address)
 
     def run(self, arrays: Sequence[Array]) -> None:
-        """Fill the results: each array has shape (states, entries), its entries next to each other in memory.
-
-        Other threads of Python run in the meantime.
-        """
+        """Fill the results: each array has shape (states, entries), its entries next to each other in memory."""
         table = np.array([(x.ctypes.data, x.strides[0]) for x in arrays], np.int64)
         self._call(table.ctypes.data, len(arrays[0]))
 
@@ -102,8 +94,7 @@ def written(line: Line, scalar: str, width: int) -> str:
     """Return a line as a module of LLVM's language: pieces, and a loop over the states.
 
     In pieces, since the time that a compiler takes grows faster than the length of what it compiles at once. LLVM is to
-    translate each instruction by itself (`optnone`), four times as quickly: there is nothing left for it to improve.
-    It can do so, without its slower ways, where constants are loaded from memory.
+    translate each instruction by itself (`optnone`), four times as quickly, which needs constants in memory.
     """
     pieces = Pieces(with_series(line, scalar), scalar, width)
     for needed, node, group in pieces.turns:
@@ -119,10 +110,9 @@ def written(line: Line, scalar: str, width: int) -> str:
 class Pieces:
     """The pieces of a line, and which values are in registers.
 
-    There are a few registers and thousands of values. When they are all taken, the value whose next use is farthest
-    goes to memory (Bélády), and is loaded when it is needed again. LLVM would find out itself, in twice the time.
-    In `turns` is what is to be written, after the nodes that it needs: each node to compute, in the end each group of
-    results, in the order of memory.
+    When all registers are taken, the value whose next use is farthest goes to memory (Bélády), and is loaded when it is
+    needed again. LLVM would find out itself, in twice the time. In `turns` is what is to be written, after the nodes
+    that it needs: each node to compute, in the end each group of results, in the order of memory.
     """
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:

@@ -1,7 +1,7 @@
 """Arrays of the caller to be filled: their validation, and the case that they share memory with an input.
 
-As NumPy's own functions do, each result is what it would be if all inputs were read before the first number is
-written. Where an array of the caller shares memory with an input, a new array is filled and copied at the end.
+As with NumPy's own functions, each result is as if all inputs were read before the first number is written: where an
+array of the caller shares memory with an input, a new array is filled and copied at the end.
 """
 
 from __future__ import annotations

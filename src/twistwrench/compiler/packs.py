@@ -2,12 +2,11 @@
 
 The four legs of a quadruped run through the same operations with different numbers. Such operations are the lanes of
 a pack: k numbers that lie one after the other in memory, for all states. Operands of a pack should be packs too, in the
-same order of the legs, since numbers that must first be brought together cost as much as the operation. So packs are
-made from the results back to the arguments: what a pack needs of its first operands is one pack, of its second ones
-another. (Compilers call this superword-level parallelism: S. Larsen and S. Amarasinghe, 2000.)
+same order, since numbers that must first be brought together cost as much as the operation. So packs are made from the
+results back to the arguments: superword-level parallelism (S. Larsen and S. Amarasinghe, 2000).
 
-Which operations are alike is a matter of their kind: the function, and the kinds of its operands. Which belong to
-different limbs is seen from the arguments that they depend on.
+Operations are alike if they are the same function of operands that are alike, and belong to different limbs if they
+depend on different arguments.
 
 >>> import numpy as np
 >>> from twistwrench.compiler.number import Tape, numbers
@@ -31,7 +30,6 @@ __all__ = ["Packs", "View"]
 
 View = tuple[int, int, int]
 """Lanes of a pack: its number, the first lane, and the step to the next one."""
-
 
 LEAST = 4
 """Lanes that are worth a pack: fewer calls are as quick as one whose operands do not all lie next to each other."""

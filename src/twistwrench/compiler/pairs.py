@@ -1,8 +1,8 @@
 """Arithmetic with pairs of doubles, hi + lo: 32 digits, from the operations that a processor has.
 
-The rounding error of a sum of two doubles is a double itself, and so is that of a product: both can be computed. So a
-number is kept as the double nearest to it and what is left, and each operation on such pairs is a few on doubles. With
-u = 2⁻⁵³ the relative error is at most 3u² for a sum, 5u² for a product (7u² without fma), 15u² for a quotient and 4u²
+The rounding error of a sum of two doubles is a double itself, and so is that of a product. So a number is kept as the
+double nearest to it and what is left, and each operation on such pairs is a few on doubles. With u = 2⁻⁵³ the relative
+error is at most 3u² for a sum, 5u² for a product (7u² without fma), 15u² for a quotient and 4u²
 for a root: Joldes, Muller, Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
 arithmetic* (2017), and Lefèvre et al., *Accurate calculation of Euclidean norms using double-word arithmetic* (2023).
 
@@ -65,11 +65,7 @@ def split(x: Fraction, parts: int = 2) -> tuple[Fraction, ...]:
 class Pairs:
     """Writes operations on pairs to a tape, as operations on doubles.
 
-    Parameters
-    ----------
-    tape : Tape
-    fma : bool
-        Whether there is an operation a b + c with one rounding; where there is none, factors are split in halves.
+    Without `fma`, an operation a b + c with one rounding, factors are split in halves.
     """
 
     def __init__(self, tape: Tape, *, fma: bool) -> None:

@@ -85,9 +85,9 @@ def quantities(
 ) -> dict[str, Quantity]:
     """Return what can be computed of a model, by symbol.
 
-    The number type decides what counts as singular: each pivot that is divided by is watched. The contacts are those of
-    J_c; the frames, along an axis before their own, those of placements, J and J̇ v, with this reference. What is given
-    `instead`, a scene's quantities, takes the place of those of the same symbols, also where others depend on them.
+    The number type decides what counts as singular. The contacts are those of J_c, the frames those of placements, J,
+    J̇ v and the like. What is given `instead` takes the place of those of the same symbols, also where others depend on
+    them.
     """
 
     def of(

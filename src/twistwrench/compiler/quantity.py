@@ -20,16 +20,9 @@ CHUNK = 2**17
 
 
 class Quantity(NamedTuple):
-    """Something that a program can compute.
+    """Something that a program can compute: the chapter's symbol, what it depends on, of `ARGUMENTS`, and how.
 
-    Attributes
-    ----------
-    symbol : str
-        The chapter's, and the name of the result where several are asked for.
-    arguments : tuple of str
-        What it depends on, of `ARGUMENTS`; f_ext may be left out.
-    compute : callable
-        From these arguments to an array, by the textbook's function; and to what is to be watched besides: see `watch`.
+    `compute` returns an array, by the textbook's function, and what is to be watched besides: see `watch`.
     """
 
     symbol: str

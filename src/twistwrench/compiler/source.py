@@ -1,8 +1,8 @@
 """A straight line as text: Python that runs on any numbers, and C.
 
 A value has the name of the chapter's step that it belongs to, and the body's number: ``V7_2`` is the second new number
-in V of body 7. The steps are read off the source while the line is recorded: each new operation asks which line of
-which algorithm is being run, and that line's anchor, ``# 49.6 V: twist``, gives the name.
+in V of body 7. While the line is recorded, each new operation asks which line of which algorithm is being run: that
+line's anchor, ``# 49.6 V: twist``, gives the name.
 """
 
 from __future__ import annotations

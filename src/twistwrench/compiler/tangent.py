@@ -67,13 +67,7 @@ def _without_factor(x: Number) -> tuple[Fraction, int]:
 
 
 def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None], columns: int) -> Array:
-    """Return the derivatives of results, shape (*results.shape, columns), where those of some nodes are known.
-
-    Raises
-    ------
-    NotImplementedError
-        If a result depends on a node whose tangent is None.
-    """
+    """Return the derivatives of results, shape (*results.shape, columns), where those of some nodes are known."""
     indices = [*map(tape.node, results.flat)]
     known: dict[int, Tangent] = {}
     for k in needed(tape.nodes, indices, tangents):

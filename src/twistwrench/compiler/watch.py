@@ -1,10 +1,9 @@
 """What a program watches while it runs: numbers whose squares add up to at most 1 for every ordinary state.
 
-A straight line cannot stop and ask. But each question that the textbook asks of a state, and of the pivots of the ABA,
-can be put as a number that is small where all is well: an entry over the largest that is allowed, a norm's distance
-from 1 over the tolerance, the least inertia that counts over the inertia of a joint. The sum of their squares is one
-more result of the program. Where it is above 1, or not a number, the textbook takes the state: it asks the questions
-one by one, and names what is wrong, or finds that nothing is.
+Each question that the textbook asks of a state, and of the pivots of the ABA, can be put as a number that is small
+where all is well: an entry over the largest that is allowed, a norm's distance from 1 over the tolerance, the least
+inertia that counts over the inertia of a joint. The sum of their squares is one more result of the program. Where it is
+above 1, or not a number, the textbook takes the state: it names what is wrong, or finds that nothing is.
 """
 
 from __future__ import annotations

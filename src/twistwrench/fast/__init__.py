@@ -1,13 +1,10 @@
 """The same quantities for a thousand states or a control loop: the textbook's functions as programs.
 
-Same functions, same signatures, same errors as the textbook's. What they compute is the textbook's recursion too,
-recorded once for this model, this question and this number type, with nothing else left in it: see
-`twistwrench.compiler`. It is recorded and compiled when it is first asked for, which takes some tenths of a second, and
-remembered with the model. Everything that is asked for in one call shares its work.
-
-Which to take: the textbook to read, for a state now and then, and where an intermediate result is wanted; this for
-batches and loops. With the extra ``pip install "twistwrench[compile]"`` float32 and float64 have machine code; without
-it, and for long double and complex numbers, NumPy does the same operations for many states at once.
+Same functions, same signatures, same errors as the textbook's, and its recursions, recorded for this model, this
+question and this number type when first asked for, which takes some tenths of a second, and remembered with the model:
+see `twistwrench.compiler`. Everything that is asked for in one call shares its work. With the extra
+``pip install "twistwrench[compile]"`` float32 and float64 have machine code; without it, and for long double and
+complex numbers, NumPy does the same operations for many states at once.
 
 The textbook itself takes, some states at a time, what no program can be made for:
 
