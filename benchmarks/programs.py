@@ -29,7 +29,7 @@ from tables import fill, table
 import twistwrench as tw
 from twistwrench.compiler import recording
 from twistwrench.compiler.line import LEAVES, Line
-from twistwrench.compiler.number import Number, Tape
+from twistwrench.compiler.number import Node, Number, Tape
 from twistwrench.study.cases import random_states
 from twistwrench.timing import round_robin
 
@@ -64,15 +64,29 @@ class NoFingerprints(Tape):
     """Takes for different what looks different."""
 
 
+class Anew(dict[Node, int]):
+    """Indices of nodes, of which only the leaves are known again."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+
+    def __missing__(self, node: Node) -> int:
+        self.nodes.append(node)
+        index = len(self.nodes) - 1
+        return self.setdefault(node, index) if node[0] in LEAVES else index
+
+
 class NothingShared(NoFingerprints):
     """Enters every operation anew, also one that is there."""
 
-    def enter(self, *node: Any) -> int:
-        """Return the index of a new operation."""
-        index = super().enter(*node)
-        if node[0] not in LEAVES:
-            del self.places[node]
-        return index
+    def __init__(self, note: Callable[[], Any] | None = None) -> None:
+        super().__init__(note)
+        self.places = Anew()
+
+    @property
+    def nodes(self) -> list[Node]:
+        """All operations."""
+        return self.places.nodes
 
 
 class ZerosKept(NoFingerprints):
@@ -80,7 +94,7 @@ class ZerosKept(NoFingerprints):
 
     def scaled(self, c: Fraction, a: int) -> int:
         """Return the index of c a."""
-        return self.enter("mul", self.constant(c), a)
+        return self.places["mul", self.constant(c), a]
 
 
 class SignsKept(NoFingerprints):
@@ -97,7 +111,7 @@ def multiply_everything(self: Number, other: Any) -> Any:
     if not isinstance(other, Number | Fraction | int):
         return NotImplemented
     other = self.tape.number(other)
-    return Number(self.tape, self.tape.enter("mul", self.index, other.index), self.minus != other.minus)
+    return Number(self.tape, self.tape.places["mul", self.index, other.index], self.minus != other.minus)
 
 
 def negate(self: Number) -> Number:

@@ -127,8 +127,9 @@ def replay(tape: Tape, results: Sequence[Array], arguments: Mapping[str, Array])
     exact = dtype.hasobject
     values: dict[int, Any] = {}
     wanted = [tape.node(x) for result in results for x in np.moveaxis(result, -1, 0).flat]
-    for k in ordered(wanted, lambda k: operands(tape.nodes[k])):
-        operation, *rest = tape.nodes[k]
+    nodes = tape.nodes
+    for k in ordered(wanted, lambda k: operands(nodes[k])):
+        operation, *rest = nodes[k]
         if operation == "input":
             name, *index = rest[0]
             values[k] = arguments[name][(*index,) if exact else (..., *index)]

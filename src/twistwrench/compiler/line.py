@@ -119,7 +119,7 @@ def rewritten(line: Line, rules: Mapping[str, Callable[[Number], Any]]) -> Line:
         if node[0] in rules:
             index.append(tape.node(rules[node[0]](Number(tape, index[node[1]]))))
         else:
-            index.append(tape.enter(node[0], *(node[1:] if node[0] in LEAVES else [index[k] for k in node[1:]])))
+            index.append(tape.places[node if node[0] in LEAVES else (node[0], *[index[k] for k in node[1:]])])
     outputs = {name: (shape, tuple([index[k] for k in entries])) for name, (shape, entries) in line.outputs.items()}
     return Line(tape.nodes, line.inputs, outputs)
 

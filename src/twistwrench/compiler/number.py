@@ -24,9 +24,11 @@ from __future__ import annotations
 
 import gc
 import operator
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from fractions import Fraction
+from itertools import count
 from typing import Any, NoReturn
 
 import numpy as np
@@ -55,21 +57,32 @@ class Tape:
 
     Attributes
     ----------
-    nodes : list of tuple
-        See `Node`. Operands come before what uses them.
-    note : callable, optional
-        Called for each new operation; what it returns is in `notes`: see `source.step`.
+    places : dict
+        The index of each node: ``tape.places["add", a, b]`` enters a sum where it is new.
+    factors : dict
+        Of nodes that are a power of two times another one, the power and the other one.
+    notes : list
+        What `note` returned for each new operation, if it is given: see `source.step`.
     """
 
     def __init__(self, note: Callable[[], Any] | None = None) -> None:
-        self.nodes: list[Node] = []
         self.note, self.notes = note, list[Any]()
-        self.places: dict[Node, int] = {}
+        self.places = defaultdict[Node, int](self._noted if note else count().__next__)
+        self.factors: dict[int, tuple[Fraction, int]] = {}
         self._constants: dict[tuple[int, int], int] = {}  # fractions take long to hash
+
+    def _noted(self) -> int:
+        self.notes.append(self.note and self.note())
+        return len(self.places)
+
+    @property
+    def nodes(self) -> list[Node]:
+        """All operations: operands come before what uses them."""
+        return [*self.places]
 
     def input(self, name: Any) -> Number:
         """Return a number that is given when the program runs."""
-        return Number(self, self.enter("input", name))
+        return Number(self, self.places["input", name])
 
     def number(self, x: Number | Fraction | float) -> Number:
         """Return a constant as a number of this tape."""
@@ -78,41 +91,38 @@ class Tape:
     def node(self, x: Number | Fraction | float) -> int:
         """Return the node of a number, where its sign is an operation, too."""
         x = self.number(x)
-        return self.enter("neg", x.index) if x.minus else x.index
+        if not x.minus:
+            return x.index
+        index = self.places["neg", x.index]
+        if self.note:
+            self.notes[index] = self.notes[x.index]
+        return index
 
     def apply(self, operation: str, *operands: Number | Fraction | float) -> Number:
         """Return the result of an operation as it stands: no rule simplifies it."""
-        return Number(self, self.enter(operation, *map(self.node, operands)))
-
-    def enter(self, *node: Any) -> int:
-        """Return the index of an operation, which is entered where it is new."""
-        index = self.places.get(node)
-        if index is None:
-            index = self.places[node] = len(self.nodes)
-            self.nodes.append(node)
-            if self.note is not None:
-                self.notes.append(self.notes[node[1]] if node[0] == "neg" else self.note())
-        return index
+        return Number(self, self.places[operation, *map(self.node, operands)])
 
     def constant(self, c: Fraction) -> int:
         """Return the index of a constant."""
         ratio = c.as_integer_ratio()
         index = self._constants.get(ratio)
         if index is None:
-            index = self._constants[ratio] = self.enter("const", c)
+            index = self._constants[ratio] = self.places["const", c]
         return index
 
     def scaled(self, c: Fraction, a: int) -> int:
         """Return the index of c a; powers of two, which round nothing, are put together."""
-        node = self.nodes[a]
-        if node[0] == "mul" and is_power_of_two(c):
-            for factor, rest in ((node[1], node[2]), (node[2], node[1])):
-                if self.nodes[factor][0] == "const" and is_power_of_two(self.nodes[factor][1]):
-                    return self.scaled(c * self.nodes[factor][1], rest)
+        power = is_power_of_two(c)
+        if power and a in self.factors:
+            factor, a = self.factors[a]
+            c = c * factor
         if c.numerator == c.denominator:
             return a
         k = self.constant(c)
-        return self.enter("mul", a, k) if a < k else self.enter("mul", k, a)
+        index = self.places["mul", a, k] if a < k else self.places["mul", k, a]
+        if power:
+            self.factors[index] = c, a
+        return index
 
 
 class Number:
@@ -135,13 +145,13 @@ class Number:
         if minus == other.minus:
             if a == b:
                 return Number(tape, tape.scaled(TWO, a), minus)
-            return Number(tape, tape.enter("add", a, b) if a < b else tape.enter("add", b, a), minus)
+            return Number(tape, tape.places["add", a, b] if a < b else tape.places["add", b, a], minus)
         if a == b:
             return ZERO
         if minus:
             a, b = b, a
         opposite = tape.places.get(("sub", b, a))
-        return Number(tape, tape.enter("sub", a, b)) if opposite is None else Number(tape, opposite, True)
+        return Number(tape, tape.places["sub", a, b]) if opposite is None else Number(tape, opposite, True)
 
     __radd__ = __add__
 
@@ -155,7 +165,7 @@ class Number:
         tape, a, minus = self.tape, self.index, self.minus
         if type(other) is Number:
             b = other.index
-            return Number(tape, tape.enter("mul", a, b) if a < b else tape.enter("mul", b, a), minus != other.minus)
+            return Number(tape, tape.places["mul", a, b] if a < b else tape.places["mul", b, a], minus != other.minus)
         if not isinstance(other, EXACT):
             return NotImplemented
         if not other:
@@ -177,7 +187,7 @@ class Number:
         minus = self.minus != other.minus
         if self.index == other.index:
             return -ONE if minus else ONE
-        return Number(self.tape, self.tape.enter("div", self.index, other.index), minus)
+        return Number(self.tape, self.tape.places["div", self.index, other.index], minus)
 
     def __rtruediv__(self, other: Any) -> Any:
         if not isinstance(other, EXACT):
@@ -189,11 +199,11 @@ class Number:
 
     def sin(self) -> Number:
         """Return the sine, −sin x for −x."""
-        return Number(self.tape, self.tape.enter("sin", self.index), self.minus)
+        return Number(self.tape, self.tape.places["sin", self.index], self.minus)
 
     def cos(self) -> Number:
         """Return the cosine, the same for −x."""
-        return Number(self.tape, self.tape.enter("cos", self.index))
+        return Number(self.tape, self.tape.places["cos", self.index])
 
     def sqrt(self) -> Number:
         """Return the square root."""

@@ -13,7 +13,7 @@ array([Fraction(3, 1), Fraction(0, 1)], dtype=object)
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -23,7 +23,7 @@ from ..arrays import Array
 from ..model import Model
 from ..spatial.rotation import cross_matrix
 from .line import needed
-from .number import Number, Tape, is_power_of_two
+from .number import Node, Number, Tape
 
 __all__ = ["directions", "jacobian", "steps"]
 
@@ -50,28 +50,19 @@ def steps(model: Model, q: Array) -> dict[int, Tangent | None]:
             dR, dp = T.rotation @ cross_matrix(S[:3, k]), T.rotation @ S[3:, k]
             for x, dx in zip([*T.rotation.flat, *T.translation.flat], [*dR.flat, *dp.flat]):
                 if isinstance(x, Number):
-                    factor, index = _without_factor(x)
-                    tangents.setdefault(index, {}).update(_nonzero({vs.start + k: dx / factor}))
+                    factor, index = x.tape.factors.get(x.index, (1, x.index))  # the tape puts it together with the next
+                    column = {vs.start + k: dx / (-factor if x.minus else factor)}
+                    tangents.setdefault(index, {}).update(_nonzero(column))
     return {number.index: None for number in q.flat} | tangents
-
-
-def _without_factor(x: Number) -> tuple[Fraction, int]:
-    """Return ±2ⁿ and the node of x without this factor: the tape puts it together with the next one."""
-    sign = Fraction(-1 if x.minus else 1)
-    operation, *rest = x.tape.nodes[x.index]
-    for factor, other in (rest, rest[::-1]) if operation == "mul" else ():
-        kind, *value = x.tape.nodes[factor]
-        if kind == "const" and is_power_of_two(value[0]):
-            return sign * value[0], other
-    return sign, x.index
 
 
 def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None], columns: int) -> Array:
     """Return the derivatives of results, shape (*results.shape, columns), where those of some nodes are known."""
     indices = [*map(tape.node, results.flat)]
     known: dict[int, Tangent] = {}
-    for k in needed(tape.nodes, indices, tangents):
-        tangent = tangents[k] if k in tangents else _tangent(tape, k, known)
+    nodes = tape.nodes
+    for k in needed(nodes, indices, tangents):
+        tangent = tangents[k] if k in tangents else _tangent(tape, nodes, k, known)
         if tangent is None:
             raise NotImplementedError(f"{Number(tape, k)!r} is used, and not by the placement of a joint")
         known[k] = tangent
@@ -81,12 +72,12 @@ def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None],
     return J.reshape(*results.shape, columns)
 
 
-def _tangent(tape: Tape, k: int, known: Mapping[int, Tangent]) -> Tangent:
+def _tangent(tape: Tape, nodes: Sequence[Node], k: int, known: Mapping[int, Tangent]) -> Tangent:
     """Return the tangent of a node from those of its operands: the rules of differentiation."""
-    operation, *places = tape.nodes[k]
+    operation, *places = nodes[k]
     if operation in ("input", "const") or not any(known[j] for j in places):
         return {}
-    (x, dx), *others = [(_value(tape, j), known[j]) for j in places]
+    (x, dx), *others = [(nodes[j][1] if nodes[j][0] == "const" else Number(tape, j), known[j]) for j in places]
     y, dy = others[0] if others else (None, {})
     match operation:
         case "add":
@@ -106,11 +97,6 @@ def _tangent(tape: Tape, k: int, known: Mapping[int, Tangent]) -> Tangent:
         case "sqrt":
             return _times(1 / (2 * Number(tape, k)), dx)
     raise NotImplementedError(f"the derivative of {operation!r}")
-
-
-def _value(tape: Tape, k: int) -> Any:
-    operation, *rest = tape.nodes[k]
-    return rest[0] if operation == "const" else Number(tape, k)
 
 
 def _times(factor: Any, tangent: Tangent) -> Tangent:
