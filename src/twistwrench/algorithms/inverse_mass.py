@@ -11,26 +11,21 @@ from ..spatial.formulas import symmetric
 from .articulated import checked_inertias
 from .terms import ArticulatedTerms
 
-__all__ = ["inverse_mass_matrix", "unit_force_responses"]
+__all__ = ["inverse_mass_matrix", "unit_force_responses", "unit_forces"]
 
 
 def unit_force_responses(tree: Tree, terms: ArticulatedTerms) -> Array:
     """Return M⁻¹: column k is the q̈ of a unit force at the degree of freedom k, at rest and without gravity.
 
-    Passes 2 and 3 of the ABA; pA[i], u[i] and A[i] have a column for each k. A force at k is passed inboard of k only:
-    pA[i] is zero but in the columns of the joints that body i carries. Outward the columns from joint i's on are
-    enough, since M⁻¹ is symmetric.
+    Passes 2 and 3 of the ABA; u[i] and A[i] have a column for each k. Outward the columns from joint i's on are enough,
+    since M⁻¹ is symmetric.
     """
     parent, S, X, U, D_inv = tree.parent, tree.S, tree.X, terms.U, terms.D_inv
     end = [int(k) for k in np.cumsum(tree.nv)]
-    unit, zero = np.eye(end[-1], dtype=X[0].dtype), np.zeros((*tree.batch, 6, end[-1]), X[0].dtype)
-    pA, A, u = [zero] * len(parent), [zero] * len(parent), [zero] * len(parent)
-    M_inv = np.zeros((*tree.batch, *unit.shape), unit.dtype)
+    u, zero = unit_forces(tree, terms), np.zeros((*tree.batch, 6, end[-1]), X[0].dtype)
+    A = [zero] * len(parent)
+    M_inv = np.zeros((*tree.batch, end[-1], end[-1]), zero.dtype)
 
-    for i in tree.inward:
-        p, own = parent[i], slice(end[i - 1], end[i])
-        u[i] = unit[own] - S[i].mT @ pA[i]
-        pA[p] = pA[p] + X[i].mT @ (pA[i] + U[i] @ D_inv[i] @ u[i])  # 49.8 inverse_inward
     for i in tree.outward:
         p, own, rest = parent[i], slice(end[i - 1], end[i]), slice(end[i - 1], None)
         a = X[i] @ A[p][..., rest]
@@ -39,6 +34,24 @@ def unit_force_responses(tree: Tree, terms: ArticulatedTerms) -> Array:
         M_inv[..., own, rest], M_inv[..., rest, own] = qdd, qdd.mT
         M_inv[..., own, own] = symmetric(M_inv[..., own, own])
     return M_inv
+
+
+def unit_forces(tree: Tree, terms: ArticulatedTerms) -> list[Array]:
+    """Return u[i], what is left at joint i of a unit force at each degree of freedom k: pass 2 of the ABA.
+
+    A force at k is passed inboard of k only: pA[i] and u[i] are zero but in the columns of the joints that body i
+    carries. M⁻¹ is Σ u[i]ᵀ D[i]⁻¹ u[i] (G. Rodriguez, A. Jain and K. Kreutz-Delgado, 1991).
+    """
+    parent, S, X, U, D_inv = tree.parent, tree.S, tree.X, terms.U, terms.D_inv
+    end = [int(k) for k in np.cumsum(tree.nv)]
+    unit, zero = np.eye(end[-1], dtype=X[0].dtype), np.zeros((*tree.batch, 6, end[-1]), X[0].dtype)
+    pA, u = [zero] * len(parent), [zero[..., :0, :]] * len(parent)
+
+    for i in tree.inward:
+        p = parent[i]
+        u[i] = unit[end[i - 1] : end[i]] - S[i].mT @ pA[i]
+        pA[p] = pA[p] + X[i].mT @ (pA[i] + U[i] @ D_inv[i] @ u[i])  # 49.8 inverse_inward
+    return u
 
 
 def inverse_mass_matrix(model: Model, q: ArrayLike) -> Array:

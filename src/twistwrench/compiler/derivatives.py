@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..algorithms.articulated import articulated_inertias
-from ..algorithms.inverse_mass import unit_force_responses
+from ..algorithms.inverse_mass import unit_forces
 from ..algorithms.rnea import newton_euler, rnea
 from ..arrays import Array
 from ..arrays.exact import elementary
@@ -61,8 +61,9 @@ def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
 def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
     """Return what computes ∂q̈: M⁻¹ for τ, and −M⁻¹ ∂τ at this q̈ for q and v, since M q̈ + h = τ stays as it is.
 
-    Fewer operations than the ABA's own line, differentiated: 17 800 for a Go2 in place of 25 400. M⁻¹ and ∂τ/∂v
-    do not depend on q̈, so for them only the pivots of the ABA are recorded, at rest.
+    M⁻¹ is uᵀ D⁻¹ u of the ABA, where u is triangular and has the zeros of M. So there are fewer operations than in the
+    ABA's own line, differentiated: 14 700 for a Go2 in place of 25 400. M⁻¹ and ∂τ/∂v do not depend on q̈, so for them
+    only the pivots of the ABA are recorded, at rest.
     """
     inverse = Quantity("tau", ("q", "v", "a", "f_ext"), lambda *x: (rnea(model, *x), []))
     d_tau = of_line(model, inverse, of) if of != "tau" else None
@@ -70,8 +71,13 @@ def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
     def compute(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
         qdd, watched = forward.compute(q, v, tau, *f_ext) if of == "q" else forward.compute(q, 0 * v, 0 * tau)
         tree = tree_terms(model, q)
-        M_inv = unit_force_responses(tree, articulated_inertias(tree))
-        return _product(-M_inv, d_tau(q, v, qdd, *f_ext)[0]) if d_tau else M_inv, watched
+        terms = articulated_inertias(tree)
+        each = unit_forces(tree, terms)[1:]
+        u = np.concatenate(each, axis=-2)
+        D_inv_u = np.concatenate([*map(np.matmul, terms.D_inv[1:], each)], axis=-2)
+        if d_tau is None:
+            return _product(u.mT, D_inv_u), watched
+        return _product(-u.mT, _product(D_inv_u, d_tau(q, v, qdd, *f_ext)[0])), watched
 
     return compute
 
