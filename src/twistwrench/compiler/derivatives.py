@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..algorithms.articulated import articulated_inertias
+from ..algorithms.articulated import checked_inertias
 from ..algorithms.inverse_mass import unit_forces
 from ..algorithms.rnea import newton_euler, rnea
 from ..arrays import Array
@@ -26,21 +26,24 @@ from .number import ARITHMETIC, Number, Tape, numbers
 from .quantity import Quantity, shapes
 from .registers import as_number_of
 from .tangent import directions, jacobian, steps
+from .watch import pivots
 
 __all__ = ["derivatives", "of_line", "regressor", "replay"]
 
 Compute = Callable[..., tuple[Array, list[Any]]]
 
 
-def derivatives(model: Model, quantity: Quantity) -> Iterator[Quantity]:
+def derivatives(model: Model, quantity: Quantity, dtype: np.dtype[Any]) -> Iterator[Quantity]:
     """Yield the derivatives of a quantity with respect to its arguments, ``dtau_dq``: its axes, and one of nv columns.
 
-    Those for q are along v: x(q ⊕ ε e_k) = x(q) + ε column k.
+    Those for q are along v: x(q ⊕ ε e_k) = x(q) + ε column k. The number type decides what counts as singular.
     """
-    make = _of_acceleration if quantity.symbol == "qdd" else of_line
     for name in quantity.arguments:
         if name != "f_ext":
-            yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, make(model, quantity, name))
+            compute = of_line(model, quantity, name)
+            if quantity.symbol == "qdd":
+                compute = _of_acceleration(model, quantity, name, dtype)
+            yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, compute)
 
 
 def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
@@ -58,25 +61,25 @@ def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
     return compute
 
 
-def _of_acceleration(model: Model, forward: Quantity, of: str) -> Compute:
+def _of_acceleration(model: Model, forward: Quantity, of: str, dtype: np.dtype[Any]) -> Compute:
     """Return what computes ∂q̈: M⁻¹ for τ, and −M⁻¹ ∂τ at this q̈ for q and v, since M q̈ + h = τ stays as it is.
 
     M⁻¹ is uᵀ D⁻¹ u of the ABA, where u is triangular and has the zeros of M. So there are fewer operations than in the
-    ABA's own line, differentiated: 14 700 for a Go2 in place of 25 400. M⁻¹ and ∂τ/∂v do not depend on q̈, so for them
-    only the pivots of the ABA are recorded, at rest.
+    ABA's own line, differentiated: 14 700 for a Go2 in place of 25 400. ∂τ/∂v does not depend on q̈.
     """
     inverse = Quantity("tau", ("q", "v", "a", "f_ext"), lambda *x: (rnea(model, *x), []))
     d_tau = of_line(model, inverse, of) if of != "tau" else None
 
     def compute(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
-        qdd, watched = forward.compute(q, v, tau, *f_ext) if of == "q" else forward.compute(q, 0 * v, 0 * tau)
         tree = tree_terms(model, q)
-        terms = articulated_inertias(tree)
+        terms = checked_inertias(model, tree)
+        watched = [*pivots(model, tree, terms.D_inv, dtype)] if q.dtype == object else []
         each = unit_forces(tree, terms)[1:]
         u = np.concatenate(each, axis=-2)
         D_inv_u = np.concatenate([*map(np.matmul, terms.D_inv[1:], each)], axis=-2)
         if d_tau is None:
             return _product(u.mT, D_inv_u), watched
+        qdd = forward.compute(q, v, tau, *f_ext)[0] if of == "q" else 0 * v
         return _product(-u.mT, _product(D_inv_u, d_tau(q, v, qdd, *f_ext)[0])), watched
 
     return compute

@@ -69,10 +69,11 @@ def each_once(line: Line) -> Line:
             if value is None and PRIME - one in known:
                 value = -known[PRIME - one]
             if value is None:
-                x = [values[j] for j in node[1:]]
-                by_rules = operation in ARITHMETIC and not (operation == "div" and isinstance(x[1], Fraction))
-                # functions of constants stay as they are, too; and a quotient by 0 is the alarm's
-                value = ARITHMETIC[operation](*x) if by_rules else tape.apply(operation, *x)
+                rule, x = ARITHMETIC.get(operation), [values[j] for j in node[1:]]
+                if rule is None or (operation == "div" and type(x[1]) is Fraction):  # a quotient by 0 is the alarm's
+                    value = tape.apply(operation, *x)
+                else:
+                    value = rule(*x)
             if type(value) is Number and (operation in ("sin", "cos") or turns[node[1]] or turns[node[-1]]):
                 known[one], turns[k] = value, True
         values[k] = value

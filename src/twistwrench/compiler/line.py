@@ -54,8 +54,7 @@ class Line:
         kept, new = needed(self.nodes, self.results), [0] * len(self.nodes)
         for k, old in enumerate(kept):
             new[old] = k
-        each = [self.nodes[old] for old in kept]
-        nodes = [node if node[0] in LEAVES else (node[0], *map(new.__getitem__, node[1:])) for node in each]
+        nodes = [renumbered(self.nodes[old], new) for old in kept]
         outputs = {name: (shape, tuple([new[k] for k in entries])) for name, (shape, entries) in self.outputs.items()}
         return Line(tuple(nodes), self.inputs, outputs, tuple(self.notes[old] for old in kept) if self.notes else ())
 
@@ -119,9 +118,16 @@ def rewritten(line: Line, rules: Mapping[str, Callable[[Number], Any]]) -> Line:
         if node[0] in rules:
             index.append(tape.node(rules[node[0]](Number(tape, index[node[1]]))))
         else:
-            index.append(tape.places[node if node[0] in LEAVES else (node[0], *[index[k] for k in node[1:]])])
+            index.append(tape.places[renumbered(node, index)])
     outputs = {name: (shape, tuple([index[k] for k in entries])) for name, (shape, entries) in line.outputs.items()}
     return Line(tape.nodes, line.inputs, outputs)
+
+
+def renumbered(node: Node, index: Sequence[int]) -> Node:
+    """Return an operation whose operands have other indices."""
+    if len(node) == 3:
+        return node[0], index[node[1]], index[node[2]]
+    return node if node[0] in LEAVES else (node[0], *[index[k] for k in node[1:]])
 
 
 def operands(node: Node) -> tuple[int, ...]:

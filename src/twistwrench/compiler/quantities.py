@@ -127,7 +127,7 @@ def quantities(
         *(of(*of_frames) for of_frames in _of_frames(model.nv, frames, reference)),
     ]
     known = {quantity.symbol: quantity for quantity in [*every, *instead]}
-    made = [d for quantity in known.values() for d in derivatives(model, quantity)]
+    made = [d for quantity in known.values() for d in derivatives(model, quantity, dtype)]
     return known | {x.symbol: x for x in [of("Y", "q v a", regressor), *made]}
 
 
