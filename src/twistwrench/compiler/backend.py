@@ -18,14 +18,9 @@ from .source import python_source
 
 __all__ = ["BackEnd", "divided"]
 
-FEW = 20
-"""Without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy."""
-
-LEAST = 64
-"""A thread does at least so many states."""
-
-KEPT = 2**25 - 2**16
-"""Bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`."""
+FEW = 20  # without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy
+LEAST = 64  # a thread does at least so many states
+KEPT = 2**25 - 2**16  # bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`
 
 
 class BackEnd:

@@ -30,8 +30,7 @@ PAIRS = "double-double"
 WIDE = {"quad": ("numpy_quaddtype", 'pip install "twistwrench[quad]"'), "mpmath": ("mpmath", "pip install mpmath")}
 """Number types of other packages: the package, and what installs it."""
 
-NUMBERS = (PAIRS, *WIDE)
-"""Number types that are not NumPy's, by name."""
+NUMBERS = (PAIRS, *WIDE)  # number types that are not NumPy's, by name
 
 DOUBLE = np.dtype(np.float64)
 VALUE = ".value"

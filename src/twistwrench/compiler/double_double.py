@@ -24,8 +24,7 @@ __all__ = ["BOUND", "LO", "OWN", "double_double"]
 LO, BOUND = ".lo", ".bound"
 """After the name of an argument or of a result: what the double nearest to it leaves, and how far it can be off."""
 
-TINY = Fraction(1, 2**1000)
-"""More than what underflow can take from an operation, here and in the numbers."""
+TINY = Fraction(1, 2**1000)  # more than what underflow can take from an operation, here and in the numbers
 
 OWN = 1 + Fraction(1, 2**20)
 """More than what all roundings of the bounds themselves can take from one, in lines of up to 2²⁸ operations."""

@@ -31,14 +31,12 @@ from .number import ARITHMETIC, Node, Number, Tape
 
 __all__ = ["each_once"]
 
-PRIME, LARGER = 2**127 - 1, 2**607 - 1
-"""For fingerprints, and to find what a constant is."""
+PRIME, LARGER = 2**127 - 1, 2**607 - 1  # for fingerprints, and to find what a constant is
 
 LARGEST = 2**240
 """Numerators and denominators of constants are smaller: hardly any number below the larger prime is such a quotient."""
 
-Mark = tuple[int, ...]
-"""A fingerprint: the value of a number at two points."""
+Mark = tuple[int, ...]  # a fingerprint: the value of a number at two points
 
 
 def each_once(line: Line) -> Line:

@@ -13,13 +13,11 @@ from .number import Node, Number, Tape
 
 __all__ = ["Line", "Output", "needed", "operands", "ordered", "rewritten"]
 
-DEEPEST = 8
-"""How deep operations stand within each other in a text, at most."""
+DEEPEST = 8  # how deep operations stand within each other in a text, at most
 
 LEAVES = ("input", "const")
 
-Output = tuple[tuple[int, ...], tuple[int, ...]]
-"""The shape of a result, and the node of each of its entries."""
+Output = tuple[tuple[int, ...], tuple[int, ...]]  # the shape of a result, and the node of each of its entries
 
 
 @dataclass(frozen=True, eq=False, repr=False)

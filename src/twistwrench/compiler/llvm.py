@@ -25,8 +25,7 @@ __all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
 
-PIECE = 800
-"""Instructions that are compiled at once."""
+PIECE = 800  # instructions that are compiled at once
 
 LONG = 750_000
 """Letters of a text for which LLVM assigns registers in its quickest way: what comes out is a few per cent slower."""

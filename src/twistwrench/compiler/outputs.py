@@ -18,8 +18,7 @@ from ..errors import ShapeError
 
 __all__ = ["Tail", "check_outputs", "finish", "targets"]
 
-WORK = 10_000
-"""Effort of the search for a common byte of two arrays; after that they count as sharing memory."""
+WORK = 10_000  # effort of the search for a common byte of two arrays; after that they count as sharing memory
 
 Tail = tuple[int, ...]
 

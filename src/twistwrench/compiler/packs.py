@@ -28,8 +28,7 @@ from .line import Line, operands
 
 __all__ = ["Packs", "View"]
 
-View = tuple[int, int, int]
-"""Lanes of a pack: its number, the first lane, and the step to the next one."""
+View = tuple[int, int, int]  # lanes of a pack: its number, the first lane, and the step to the next one
 
 LEAST = 4
 """Lanes that are worth a pack: fewer calls are as quick as one whose operands do not all lie next to each other."""

@@ -21,30 +21,23 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .number import Number, Tape, is_power_of_two
-from .sine import PI, quarter_turns
+from .sine import PI, quarter_turns, split
 
-__all__ = ["EACH", "NOTHING", "OPERATIONS", "SINE_ERROR", "Pair", "Pairs", "split", "two_sum"]
+__all__ = ["EACH", "NOTHING", "OPERATIONS", "SINE_ERROR", "Pair", "Pairs", "two_sum"]
 
-EACH = Fraction(16, 2**106)
-"""No operation on pairs has a larger relative error."""
-
-SPLITTER = 2**27 + 1
-"""Times a double, it parts the upper 26 bits from the lower ones."""
-
-OPERATIONS = ("add", "sub", "mul", "div", "neg", "sqrt", "sin", "cos")
-"""What there is on pairs."""
+EACH = Fraction(16, 2**106)  # no operation on pairs has a larger relative error
+SPLITTER = 2**27 + 1  # times a double, it parts the upper 26 bits from the lower ones
+OPERATIONS = ("add", "sub", "mul", "div", "neg", "sqrt", "sin", "cos")  # what there is on pairs
 
 NOTHING = Fraction(0)
 
-LARGEST_ANGLE = 2**45
-"""rad. Of larger ones sin and cos are not numbers."""
+LARGEST_ANGLE = 2**45  # rad. Of larger ones sin and cos are not numbers.
 
 SINE_ERROR = Fraction(1, 2**99)
 """No sine or cosine of a pair is further off: 128 roundings of 2⁻¹⁰⁶, where all steps together make less than 60."""
 
 HALVINGS = 3
-SERIES = 9, 5
-"""Terms of the series, and how many of them need a pair; what is left out is below 2⁻¹¹⁷."""
+SERIES = 9, 5  # terms of the series, and how many of them need a pair; what is left out is below 2⁻¹¹⁷
 
 
 class Pair(NamedTuple):
@@ -52,14 +45,6 @@ class Pair(NamedTuple):
 
     hi: Any
     lo: Any
-
-
-def split(x: Fraction, parts: int = 2) -> tuple[Fraction, ...]:
-    """Return the double nearest to x, the one nearest to what is left, and so on."""
-    found: list[Fraction] = []
-    for _ in range(parts):
-        found.append(Fraction(float(x - sum(found))))
-    return tuple(found)
 
 
 class Pairs:

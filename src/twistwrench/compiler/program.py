@@ -127,24 +127,7 @@ class Program:
         return python_source(self._noted(), self._name, functions)
 
     def c(self) -> str:
-        """Return the straight line as a function in C99: pointers to the arguments, then to the results, in doubles.
-
-        Examples
-        --------
-        >>> import twistwrench as tw
-        >>> print(tw.compile(tw.load("pendulum"), "gravity").c())
-        #include <math.h>
-        <BLANKLINE>
-        void g(const double *q, double *result)
-        {
-            // 49.3 T_J: tree constant, then joint
-            const double T_J_1 = sin(q[0]);
-            // 49.6 A: acceleration, body 1
-            const double A1_1 = T_J_1 * 9.81;
-            result[0] = A1_1;
-        }
-        <BLANKLINE>
-        """
+        """Return the straight line as a function in C99: pointers to the arguments, then to the results, in doubles."""
         return c_source(self._noted(), self._name)
 
     @property

@@ -110,8 +110,10 @@ def quantities(
         return known["J_c"].compute(q)[0]
 
     def by_rows(q: Array) -> Iterator[Any]:
+        """Yield also A_kk (A⁻¹)_kk of each row, 1 where it is independent of the others, over the largest allowed."""
         yield from by_factors(q)
-        yield from _dependence(delassus_matrix(model, q, rows(q)), operational_space_inertia(model, q, rows(q)))
+        A, A_inv = delassus_matrix(model, q, rows(q)), operational_space_inertia(model, q, rows(q))
+        yield from Fraction(LEAST) * np.diag(A) * np.diag(A_inv)
 
     every = [
         *(of(symbol, arguments, function) for symbol, (arguments, function) in FUNCTIONS.items()),
@@ -157,13 +159,3 @@ def _of_frames(nv: int, frames: Sequence[str], reference: Reference) -> Iterator
     yield "p_S", "q", each(lambda m, q, name: subtree(m, q, name).center_of_mass, 3)
     yield "A_S", "q", each(lambda m, q, name: subtree(m, q, name).momentum_map, 6, nv)
     yield "I_S", "q", each(lambda m, q, name: subtree(m, q, name).inertia, 6, 6)
-
-
-def _dependence(A: Array, A_inv: Array) -> Iterator[Any]:
-    """Yield for each row its entry of A times that of A⁻¹, over the largest that is allowed.
-
-    1 for a row that is independent of the others. The least eigenvalue of A, scaled to a diagonal of ones, is at least
-    1 over the sum of these products.
-    """
-    for k in range(len(A)):
-        yield Fraction(LEAST) * A[k, k] * A_inv[k, k]

@@ -12,11 +12,8 @@ from ..model import Model, floats_of
 
 __all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "checked", "computed", "shapes"]
 
-ARGUMENTS = ("q", "v", "a", "tau", "f_ext")
-"""The arguments of a program, in this order."""
-
-CHUNK = 2**17
-"""States times degrees of freedom that the textbook takes at a time."""
+ARGUMENTS = ("q", "v", "a", "tau", "f_ext")  # the arguments of a program, in this order
+CHUNK = 2**17  # states times degrees of freedom that the textbook takes at a time
 
 
 class Quantity(NamedTuple):

@@ -18,8 +18,7 @@ from .watch import LARGEST_ANGLE, alarm, state_questions
 
 __all__ = ["ALARM", "record"]
 
-ALARM = "alarm"
-"""The name of the result that says whether a state is the textbook's: see `watch`."""
+ALARM = "alarm"  # the name of the result that says whether a state is the textbook's: see `watch`
 
 
 @without_garbage()

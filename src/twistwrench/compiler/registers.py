@@ -18,21 +18,16 @@ from ..arrays import Array
 from .line import Line, ordered, rewritten
 from .number import Number
 from .packs import Packs, View
-from .pairs import split
+from .sine import split
 
 __all__ = ["Registers"]
 
 NAMES = {"sub": "subtract", "mul": "multiply", "div": "divide", "neg": "negative", "round": "rint"}
 """Operations that have another name in NumPy."""
 
-CHUNK = 2048
-"""States that are computed together: for fewer, a call takes longer than what it computes."""
-
-MEMORY = 2**24
-"""Bytes that the rows of a chunk take together, at most."""
-
-TOGETHER = 64
-"""Entries of a result that are brought together before they are written: more would not stay in the cache."""
+CHUNK = 2048  # states that are computed together: for fewer, a call takes longer than what it computes
+MEMORY = 2**24  # bytes that the rows of a chunk take together, at most
+TOGETHER = 64  # entries of a result that are brought together before they are written: more would not stay in the cache
 
 BUFFER = 16
 """NumPy's smallest buffer: with a larger one, rows that do not lie next to each other take up to twice as long."""

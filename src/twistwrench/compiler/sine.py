@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,13 +17,13 @@ import numpy as np
 from .line import Line, rewritten
 from .number import Number
 
-__all__ = ["PI", "quarter_turns", "with_series"]
+__all__ = ["PI", "quarter_turns", "split", "with_series"]
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803482534211706798")
 """π to 100 digits."""
 
-TERMS = {"double": 9, "float": 6}
-"""So many terms of the series reach the last digit for |x| ≤ π/4."""
+TERMS = {"double": 9, "float": 6}  # so many terms of the series reach the last digit for |x| ≤ π/4
+KIND: dict[str, type[np.floating[Any]]] = {"double": np.float64, "float": np.float32}
 
 
 def with_series(line: Line, scalar: str) -> Line:
@@ -43,7 +43,7 @@ def with_series(line: Line, scalar: str) -> Line:
 def near_zero(x: Number, scalar: str) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
     """Write cos and sin of k π/2, and sin and cos of x − k π/2, with k such that this is at most π/4."""
     k = x.tape.apply("round", x * (2 / PI))
-    for part in half_pi(scalar):
+    for part in split(PI / 2, 3, KIND[scalar]):
         x = x.tape.apply("fma", -k, part, x)
     return quarter_turns(k), series(x, TERMS[scalar])
 
@@ -74,11 +74,9 @@ def _coefficient(n: int) -> Fraction:
     return Fraction((-1) ** (n // 2), math.factorial(n))
 
 
-@cache
-def half_pi(scalar: str) -> tuple[Fraction, ...]:
-    """Return π/2 as the sum of three numbers of a type."""
-    parts: list[Fraction] = []
-    for _ in range(3):
-        left = float(PI / 2 - sum(parts))
-        parts.append(Fraction(left if scalar == "double" else float(np.float32(left))))
-    return tuple(parts)
+def split(x: Fraction, parts: int = 2, kind: type[np.floating[Any]] = np.float64) -> tuple[Fraction, ...]:
+    """Return the number of a type that is nearest to x, the one nearest to what is left, and so on."""
+    found: list[Fraction] = []
+    for _ in range(parts):
+        found.append(Fraction(float(kind(float(x - sum(found))))))
+    return tuple(found)

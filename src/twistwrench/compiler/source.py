@@ -27,8 +27,7 @@ ANCHOR = re.compile(r"  # (49\.\d+) (\w+)(:.*)?$")
 
 OPERATORS = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
-DEEPEST = 12
-"""So many calls above an operation the line of the algorithm is looked for."""
+DEEPEST = 12  # so many calls above an operation the line of the algorithm is looked for
 
 
 class Step(NamedTuple):

@@ -27,8 +27,7 @@ from .number import Node, Number, Tape
 
 __all__ = ["directions", "jacobian", "steps"]
 
-Tangent = dict[int, Any]
-"""The derivatives of a number, by column; what is not in it is zero."""
+Tangent = dict[int, Any]  # the derivatives of a number, by column; what is not in it is zero
 
 
 def directions(x: Array) -> dict[int, Tangent]:

@@ -20,11 +20,8 @@ from .number import Number, Tape
 
 __all__ = ["alarm", "pivots", "state_questions", "with_watch"]
 
-LARGEST_ANGLE = 2.0**17
-"""rad. The sine of a program for vectors is good below; the textbook takes larger angles."""
-
-LEAST = 1e-6
-"""A joint with less than this share of its inertia with all joints locked is the textbook's, too."""
+LARGEST_ANGLE = 2.0**17  # rad. The sine of a program for vectors is good below; the textbook takes larger angles.
+LEAST = 1e-6  # a joint with less than this share of its inertia with all joints locked is the textbook's, too
 
 
 def alarm(tape: Tape, questions: list[Any]) -> Number:
@@ -44,7 +41,7 @@ def state_questions(model: Model, arguments: Mapping[str, Array], dtype: np.dtyp
             yield x[k] / limit
     if "q" not in arguments:
         return
-    tolerance = _power_of_two_below(Fraction(float(np.sqrt(resolution(dtype)))))
+    tolerance = Fraction(2) ** (int(np.frexp(float(resolution(dtype) ** 0.5))[1]) - 1)  # dividing by it rounds nothing
     for joint, s in zip(model.joints, model.q_slice):
         if joint is not None and joint.unit is not None:
             part = arguments["q"][s][joint.unit]
@@ -88,8 +85,3 @@ def _length(x: Array) -> Any:
     """Return the length of a vector of constants or numbers."""
     square = sum(one * one for one in x)
     return square.sqrt() if isinstance(square, Number) else Fraction(float(square) ** 0.5)
-
-
-def _power_of_two_below(x: Fraction) -> Fraction:
-    """Return the largest power of two that is not above x: dividing by it rounds nothing."""
-    return Fraction(2) ** (int(np.frexp(float(x))[1]) - 1)

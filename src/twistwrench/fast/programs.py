@@ -38,17 +38,13 @@ LONGEST = 80
 """Degrees of freedom from the world to a body: beyond, a program, which rounds every product, loses to the textbook's
 matrix products, and the pivots of q̈ are always below what a program takes."""
 
-WIDEST = 1000
-"""Degrees of freedom of a robot that is not too large for a straight line."""
-
-MOST = 20_000
-"""Entries of M on and below its diagonal that are not always zero, where M is asked for."""
+WIDEST = 1000  # degrees of freedom of a robot that is not too large for a straight line
+MOST = 20_000  # entries of M on and below its diagonal that are not always zero, where M is asked for
 
 COMPILED = 60_000
 """Operations that are not too many for machine code, which then takes some seconds to make: NumPy does longer lines."""
 
-REMEMBERED = 64
-"""Programs that a model remembers: of gaits each set of feet is one."""
+REMEMBERED = 64  # programs that a model remembers: of gaits each set of feet is one
 
 LOG = logging.getLogger(__name__)
 
