@@ -44,7 +44,7 @@ def rnea(
     >>> np.allclose(tau[0], tw.rnea(model, model.standing(), v[0], v[0]), rtol=0, atol=1e-11)
     True
     """
-    return result(model, "tau", {"q": q, "v": v, "a": a}, f_ext, out)
+    return result(model, "tau", ("q", "v", "a"), (q, v, a), f_ext, out)
 
 
 def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | None = None) -> Array:
@@ -66,7 +66,7 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | 
     >>> tw.fast.nonlinear_effects(tw.load("cart_pole"), [0.0, 0.0], [0.0, 0.0]) + 0.0  # standing: nothing for the cart
     array([0., 0.])
     """
-    return result(model, "h", {"q": q, "v": v}, None, out)
+    return result(model, "h", ("q", "v"), (q, v), None, out)
 
 
 def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -88,7 +88,7 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
     >>> tw.fast.crba(tw.load("pendulum"), [[0.0], [1.0]]).shape
     (2, 1, 1)
     """
-    return result(model, "M", {"q": q}, None, out)
+    return result(model, "M", ("q",), (q,), None, out)
 
 
 def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
@@ -112,7 +112,7 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
     >>> tw.fast.centroidal_map(model, model.standing())[5, 5].round(3)  # the whole mass
     np.float64(16.085)
     """
-    return result(model, "A_G", {"q": q}, None, out)
+    return result(model, "A_G", ("q",), (q,), None, out)
 
 
 def dynamics(
@@ -206,4 +206,4 @@ def aba(
     >>> np.allclose(tw.fast.rnea(model, q, q, qdd), q)
     True
     """
-    return result(model, "qdd", {"q": q, "v": v, "tau": tau}, f_ext, out)
+    return result(model, "qdd", ("q", "v", "tau"), (q, v, tau), f_ext, out)

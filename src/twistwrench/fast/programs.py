@@ -76,13 +76,16 @@ def one_state(model: Model, want: Any, contacts: Any, args: Sequence[Any]) -> An
     return found and found(*args)
 
 
-def result(model: Model, symbol: str, named: Mapping[str, ArrayLike], f_ext: ArrayLike | None, out: Any) -> Array:
+def result(
+    model: Model, symbol: str, names: tuple[str, ...], args: tuple[ArrayLike, ...], f_ext: ArrayLike | None, out: Any
+) -> Array:
     """Return one quantity, which depends on these arguments, of one state or many."""
     found: Array | None = None
     if f_ext is None and out is None:
-        found = one_state(model, (symbol,), None, [*named.values()])
+        found = one_state(model, (symbol,), None, args)
     if found is None:
-        states, dtype = states_of(model, named if f_ext is None else {**named, "f_ext": f_ext})
+        named = dict(zip(names, args)) | ({} if f_ext is None else {"f_ext": f_ext})
+        states, dtype = states_of(model, named)
         found = program(model, (symbol,), dtype)(*states, out=out)
     return found
 
