@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from functools import cache
 from math import prod
 from typing import Any
@@ -74,9 +75,9 @@ class Plain:
 
     def __init__(self, line: Line) -> None:
         names: dict[str, Any] = {}
-        exec(python_source(line, "program"), names)  # our own text
-        self.function = names["program"]
-        self.shapes, self.outputs = [*line.inputs.values()], [*line.outputs.values()]
+        flat = replace(line, outputs={name: ((len(entries),), entries) for name, (_, entries) in line.outputs.items()})
+        exec(python_source(flat, "program"), names)  # our own text
+        self.function, self.shapes = names["program"], [*line.inputs.values()]
 
     def run(self, arrays: Sequence[Array]) -> None:
         """Fill the results: each array has shape (states, entries)."""
@@ -87,8 +88,8 @@ class Plain:
                 values = self.function(*state)
             except (OverflowError, ValueError, ZeroDivisionError):  # where NumPy goes on with NaN
                 values = [np.nan] * len(results)
-            for x, value, (shape, _) in zip(results, values, self.outputs):
-                x[k] = value if len(shape) == 1 else np.ravel(value)
+            for x, value in zip(results, values):
+                x[k] = value
 
 
 def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], threads: int) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from numpy.typing import ArrayLike
 
-from ..algorithms.floating_base import HeldRows, as_frames, as_held
+from ..algorithms.floating_base import HeldRows, as_frames
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array
 from ..model import Model, check_model
@@ -165,8 +165,6 @@ def dynamics(
     names = wanted(want)
     want = tuple(name for name in QUANTITIES if name in names)
     contacts = as_frames(model.feet if contacts is None else contacts)
-    if "J_c" in want:
-        as_held(model, contacts)  # raises for those that the model has not
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
     args, dtype = states_of(model, {"q": q, "v": v})
