@@ -3,7 +3,7 @@
 A tape takes two operations for one if they look the same. But m cos² q + m sin² q is m, and half of the entries of
 Xᵀ I X are there twice, added up in other ways. To see it, the line is run with whole numbers modulo a large prime: each
 argument is a random one, and cos and sin are those of a random point of the circle, (1 − t²) / (1 + t²) and
-2 t / (1 + t²). What is equal there is equal in every state (the chance of anything else is none: J. T. Schwartz, 1980;
+2 t / (1 + t²). What is equal there is equal in every state (anything else has no chance: J. T. Schwartz, 1980;
 R. Zippel, 1979), what is the same at two such points is a constant. It is the only rule that changes roundings: it
 takes some away.
 
