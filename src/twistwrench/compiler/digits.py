@@ -160,7 +160,7 @@ class DoubleDouble(NamedTuple):
 class DoubleDoubleProgram(DigitsProgram):
     """A program with 32 digits, for angles up to 2⁴⁵ rad: ``dtype="double-double"``; its results are `DoubleDouble`."""
 
-    number = PAIRS
+    number: str | None = PAIRS
     expected = "angles up to 2**45 rad, and " + DigitsProgram.expected
 
     def __init__(self, program: Program, bound: bool) -> None:
@@ -202,31 +202,30 @@ class DoubleDoubleProgram(DigitsProgram):
         return (value, _certain(found[symbol + BOUND])) if self.bound else value
 
 
-class BoundedProgram(DigitsProgram):
+class BoundedProgram(DoubleDoubleProgram):
     """A program in float32 or float64 whose results have a bound: ``bound=True``.
 
     The bound of an entry is its distance from the same entry with 32 digits, and what those are off at most by the
     running error bound (`double_double`).
     """
 
-    bound = True
+    number = None
 
     def __init__(self, program: Program) -> None:
-        super().__init__(program)
+        super().__init__(program, True)
         self.dtype = program.dtype
-        self._reference = DoubleDoubleProgram(program, True)
 
     @property
     def operations(self) -> Counter[str]:
         """How many operations one state takes, with its bound, by kind."""
-        return self.program.operations + self._reference.operations
+        return self.program.operations + super().operations
 
-    def _own(self, name: str, x: Any) -> tuple[Any, Array] | None:
+    def _own(self, name: str, x: Any) -> None:
         return None
 
     def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
         value = self.program(**states)
-        found = self._reference._run({name: x.astype(DOUBLE) for name, x in states.items()}, own)
+        found = super()._run({name: x.astype(DOUBLE) for name, x in states.items()}, own)
         del found[ALARM]  # the program has heard it
         return found | {VALUE: {self._symbols[0]: value} if self.program.single else vars(value)}
 
