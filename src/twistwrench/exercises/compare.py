@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Array
 from .exercise import Part, Quantity
 
-__all__ = ["Value", "agree", "close", "copied_results", "pieces", "to_do", "values"]
+__all__ = ["Value", "agree", "close", "copied_results", "only_zero_is_missed", "pieces", "to_do", "values"]
 
 FLOOR = 1e-3
 """Entries below this count as zero: an exact 0 is as good as 1e-17."""
@@ -92,6 +92,21 @@ def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bo
         returns = part.returns
     a, b = values(first, returns), values(second, returns)
     return a is not None and b is not None and all(close(x, y, part.rtol) for x, y in zip(a, b))
+
+
+def only_zero_is_missed(part: Part, answer: Any, right: Any) -> bool:
+    """Whether every wrong number of an answer must be zero: it has a term too many, and none is missing."""
+    pairs = [*zip(values(answer, part.returns) or [], values(right, part.returns) or [])]
+    if part.canonical is not None or not pairs:
+        return False
+    for a, b in pairs:
+        if a.array is None or b.array is None or a.array.shape != b.array.shape or b.array.dtype.kind == "b":
+            return False
+        within = part.rtol * np.abs(b.array).max(initial=FLOOR)
+        missed = b.array[~(np.abs(a.array - b.array) <= within)]
+        if (np.abs(missed) > within).any():
+            return False
+    return True
 
 
 def copied_results(answers: Sequence[Any], right: Sequence[Any], before: Sequence[Any]) -> bool:

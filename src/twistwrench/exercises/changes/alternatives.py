@@ -308,7 +308,7 @@ def _calls(node: Any) -> Iterator[Change]:
         turned = _called(node) in ("transpose", "swapaxes", "moveaxis")
         if isinstance(node.func, ast.Attribute) and (turned or not node.args) and not is_copy(node):
             module = getattr(node.func.value, "id", "") == "np"
-            yield "left out", node.args[0] if module else node.func.value
+            yield from (("left out", x) for x in (node.args[:1] if module else [node.func.value]))
         if isinstance(node.func, ast.Attribute) and node.func.attr == "pad" and is_whole(node.args[-1]):
             for width in ((node.args[-1], ast.Constant(0)), (ast.Constant(0), node.args[-1])):
                 arguments = [*node.args[:-1], ast.Tuple([*width], ast.Load())]

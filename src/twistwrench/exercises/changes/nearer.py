@@ -33,14 +33,14 @@ QUICK = 0.004
 LIKELY = ("exchanged", "halves", "sign", "transposed", "left out", "last", "name", "index", "instead")
 """Kinds of changes that are reported where they make only a block right."""
 
-TAKEN = ("left out", "last", "diagonal", "number", "inserted")
-"""Kinds of changes after which a slip of the list says nothing: what is taken out is missing then."""
-
 TURNS = ("sign", "transposed", "halves", "exchanged")
 """Kinds of changes that take nothing out."""
 
+SURE = (*TURNS, "instead")
+"""Those after which a slip of the list is another slip, and not what the change has made."""
+
 TWICE = ("swapped-halves", "transposed-answer")
-"""Slips that turn all numbers round."""
+"""Slips that turn all numbers round: with a change on the way in they are the same on the way out."""
 
 Chosen = Callable[[Source], Iterator[Edit]]
 
@@ -66,6 +66,7 @@ class Nearer:
         self.slips: list[tuple[Edit, str]] = []
         self.source: Source | None = None
         self.pieces: dict[int, Edit] = {}
+        self.wrong: Array | None = None
         self.bad: set[int] = set()
         self.before = 0
 
@@ -86,6 +87,8 @@ class Nearer:
         if own is None or right is None:
             return
         for name, wrong in self.part.slips.items():
+            if name in TWICE:
+                continue
             numbers = self._flat(tried(self.part, wrong, self.cases[k]))
             if numbers is not None and numbers.shape == own.shape == right.shape:
                 within = 1e-9 * np.abs(right).max(initial=FLOOR)
@@ -94,7 +97,7 @@ class Nearer:
 
     def note(self, edit: Edit, answer: Any) -> None:
         """Keep a change, if less is wrong with it than without it, or if what is wrong then is a slip of the list."""
-        numbers = self._flat(answer) if edit.places and edit.kind not in TAKEN else None
+        numbers = self._flat(answer) if edit.places and edit.kind in SURE and not edit.everywhere else None
         for name, slipped in self.slipped.items():
             if numbers is not None and numbers.shape == slipped.shape and _near(numbers, slipped):
                 self.slips.append((edit, name))
@@ -159,14 +162,19 @@ class Nearer:
             for k in every
         )
 
+    def spoils(self, function: Callable[..., Any]) -> bool:
+        """Whether a changed function gives wrong numbers where the answer has right ones."""
+        if self.wrong is None:
+            return False
+        wrong = self._wrong([tried(self.part, function, self.cases[k]) for k in self.tried], self.tried)
+        return wrong is None or wrong.shape != self.wrong.shape or bool((wrong & ~self.wrong).any())
+
     def change_and_slip(self) -> tuple[Edit, str] | None:
         """Return a change after which it has the numbers of a slip of the list in all cases, and the slip's name."""
         for edit, name in self.slips[:MOST]:
             slip = self.part.slips[name]
             if SLIPS[name].lacks and edit.kind not in TURNS:
                 continue  # the change may have taken it out
-            if name in TWICE and edit.kind in TURNS[1:]:
-                continue  # the same on the way in and on the way out
             if all(
                 agree(self.part, tried(self.part, edit.function, c), tried(self.part, slip, c), c) for c in self.cases
             ):

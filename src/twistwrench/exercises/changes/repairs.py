@@ -184,9 +184,10 @@ def _changes(
 
 
 def _off_by_one(edit: Edit) -> bool:
-    """Whether a whole number is off by one: there are so few of these that none is right by chance."""
-    numbers = [getattr(x, "value", None) for x in (edit.places[0][2:] if edit.places else ())]
-    first, second = [*numbers, None, None][:2]
+    """Whether an index or an argument is off by one: there are so few of these that none is right by chance."""
+    if not edit.places or not isinstance(edit.places[0][0][-1], ast.Call | ast.Slice | ast.Subscript):
+        return False
+    first, second = (getattr(x, "value", None) for x in edit.places[0][2:])
     return type(first) is int and type(second) is int and abs(first - second) == 1
 
 

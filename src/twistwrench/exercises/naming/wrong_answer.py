@@ -14,7 +14,7 @@ from ..changes.nearer import Nearer
 from ..changes.repair import Repair
 from ..changes.repairs import repairs, two_repairs
 from ..changes.search import Found, exchanged_results, found_edits, same
-from ..compare import agree
+from ..compare import agree, only_zero_is_missed
 from ..exercise import Exercise, Part
 from ..slips import SLIPS, Slip
 from ..statements.stepwise import Stepwise
@@ -125,17 +125,19 @@ class WrongAnswer:
         """The change of a right solution that gives these numbers, or one for each wrong thing of several."""
         return found_edits(self.part, self.answers, self.cases, until=self.until["edited"])
 
-    @property
+    @cached_property
     def by_chance(self) -> bool:
-        """Whether two changes may be right by chance: a single number, which need not be met to the last digit."""
-        return self.part.canonical is not None and len(self.part.returns) == 1 and np.ndim(self.right[0]) == 0
+        """Whether two changes may be right by chance: a single number of few digits, or a term that must be zero."""
+        few = self.part.canonical is not None and len(self.part.returns) == 1 and np.ndim(self.right[0]) == 0
+        wrong = [(a, b) for a, b, c in zip(self.answers, self.right, self.cases) if not agree(self.part, a, b, c)]
+        return few or all(only_zero_is_missed(self.part, a, b) for a, b in wrong)
 
     def two_changes(self) -> list[Repair]:
         """Return two changes of the student's own lines that together make them right, each of them a part."""
         if self.by_chance:
             return []
         nearer = two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
-        return nearer or self.steps.two(self.until["both"])
+        return nearer or self.steps.two(self.until["both"], self.nearer.spoils)
 
     def any_two_changes(self) -> list[Repair]:
         """Return any two changes of the student's own lines that together make them right."""

@@ -23,7 +23,7 @@ from ..changes.repair import Repair
 from ..changes.repairs import PAIRED, source_of, text_written
 from ..changes.search import Remembering, by_chance
 from ..changes.whole import Edit
-from ..compare import agree, copied_results
+from ..compare import agree, copied_results, only_zero_is_missed
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -84,6 +84,7 @@ class Stepwise:
         self.text = text_written(function)
         wrong = [k for k, given in enumerate(zip(answers, right, cases)) if not agree(part, *given)]
         self.seldom = 2 * len(wrong) < len(cases)
+        self.surplus = all(only_zero_is_missed(part, answers[k], right[k]) for k in wrong)
         self.first = min(wrong, key=lambda k: self._seconds(cases[k]))
         self.start: Traced | None = None
         arguments = cases[self.first]
@@ -109,20 +110,24 @@ class Stepwise:
                     return [Repair(edit, self.before)]
         return []
 
-    def two(self, until: float) -> list[Repair]:
-        """Return two changes, the first of which makes more of the function right, and the second the rest."""
+    def two(self, until: float, spoils: Callable[[Callable[..., Any]], bool]) -> list[Repair]:
+        """Return two changes, the first of which makes more of the function right, and the second the rest.
+
+        The first one must not give wrong numbers where they are right: it `spoils` something then.
+        """
         if self.start is None or self.seldom:
             return []
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-            return self._after(self.start, until) or self._both(self.start, until)
+            return self._after(self.start, until, spoils) or self._both(self.start, until, spoils)
 
-    def _after(self, start: Traced, until: float) -> list[Repair]:
+    def _after(self, start: Traced, until: float, spoils: Callable[[Callable[..., Any]], bool]) -> list[Repair]:
         """Return two changes, the first of them one that makes more of what is computed known."""
         better, begin = [], time.process_time()
         for edit in self._edits(start, begin + 0.5 * (until - begin)):
             if edit.kind in LIKELY and edit.places:
                 after = self._traced(start.source.after(edit))
-                if after.events and after.unknown < start.unknown and after.right > start.right:
+                more = after.events and after.unknown < start.unknown and after.right > start.right
+                if more and not spoils(edit.function):
                     better.append((edit, after))
         better = sorted(better, key=lambda pair: pair[1].unknown)[:MOST]
         for edit, after in better:
@@ -133,10 +138,10 @@ class Stepwise:
                     return [Repair(other, self.before, first=edit)]
         return []
 
-    def _both(self, start: Traced, until: float) -> list[Repair]:
+    def _both(self, start: Traced, until: float, spoils: Callable[[Callable[..., Any]], bool]) -> list[Repair]:
         """Return two changes of the first wrong statement, of the likeliest kinds."""
         for edit in self._edits(start, until):
-            if edit.kind in PAIRED and edit.places:
+            if edit.kind in PAIRED and edit.places and not spoils(edit.function):
                 source = start.source.after(edit)
                 source.places = [x for x in source.places if x[2].lineno == edit.line]
                 for other in (other for kind in PAIRED for other in source.edits(kind)):
@@ -202,6 +207,7 @@ class Stepwise:
                 *(traced.source, output, traced.events, traced.found),
                 *(self.record, self.given, self.known, self.right[self.first]),
             )
+            more = iter(()) if self.surplus else more
             now = time.process_time()
             share = now + (until - now) / (len(looked_at) - k)
             for edit in _all(_within(traced.source, output), more) if every else more:
