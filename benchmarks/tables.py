@@ -68,6 +68,7 @@ def tables() -> dict[str, str]:
     return {
         "one": table((r["quantity"], f"`{WAYS[r['way']]}`", f"{number(r['us'])} µs, {ratio(r)}") for r in rows("one")),
         "batch": table((r["quantity"], f"{r['dtype']}, {int(r['batch']):,}", ratio(r)) for r in batches),
+        "registers": table((r["quantity"], f"{r['bits']} bits", ratio(r)) for r in rows("registers")),
         "links": table(
             (q, f"{name}, batch {b}", f"{growth(q, b, *ends):.2f}")
             for q in ("rnea", "aba", "A_G")
@@ -99,6 +100,7 @@ CHINESE = {
     "after 1 s": "（1 s 后）",
     "links": "个连杆",
     "power": "幂次",
+    "bits": "位",
     "batch": "批量",
     "program": "程序",
     "textbook": "教科书写法",
