@@ -47,8 +47,8 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
         return False  # it is switched off, or nothing
     if _crossed_with_itself(after) or _of_the_other_kind(before, after, part):
         return False
-    if edit.kind in ("sign", "number") and _is_place(edit):
-        return False  # where something stands has no sign
+    if edit.kind in ("sign", "number", "exchanged") and _is_place(edit):
+        return False  # where something stands, or how often, has no sign
     if edit.kind == "sign" and _is_rotation(before):
         return False  # −R is no rotation
     if edit.kind == "index" and _is_written_to(edit):
@@ -84,11 +84,18 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
 
 
 def _is_place(edit: Edit) -> bool:
-    """Whether a computed index, or bound of a slice, gets another sign."""
-    if not edit.places or (isinstance(edit.places[0][2], ast.Constant) and "-" not in edit.wrong):
+    """Whether a computed index, bound of a slice, or number of rounds gets another sign."""
+    if not edit.places or isinstance(edit.places[0][2], ast.Slice | ast.Tuple | ast.Call):
         return False
-    chains = [[*parents, node] for parents, _, node, _ in edit.places]
-    return any(isinstance(x, ast.Subscript) and x.slice in chain for chain in chains for x in chain)
+    for parents, _, node, other in edit.places:
+        if isinstance(node, ast.Constant) and not ast.unparse(other).startswith("-"):
+            return False
+        chain = [*parents, node]
+        if any(isinstance(x, ast.Subscript) and x.slice in chain for x in chain):
+            return True
+        if any(isinstance(x, ast.Call) and ast.unparse(x.func) == "range" for x in parents):
+            return True
+    return False
 
 
 def _is_rotation(text: str) -> bool:
