@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
@@ -97,7 +98,8 @@ class Nearer:
 
     def note(self, edit: Edit, answer: Any) -> None:
         """Keep a change, if less is wrong with it than without it, or if what is wrong then is a slip of the list."""
-        numbers = self._flat(answer) if edit.places and edit.kind in SURE and not edit.everywhere else None
+        sure = edit.places and not edit.everywhere and (edit.kind in SURE or _is_of_rounds(edit))
+        numbers = self._flat(answer) if sure else None
         for name, slipped in self.slipped.items():
             if numbers is not None and numbers.shape == slipped.shape and _near(numbers, slipped):
                 self.slips.append((edit, name))
@@ -173,7 +175,7 @@ class Nearer:
         """Return a change after which it has the numbers of a slip of the list in all cases, and the slip's name."""
         for edit, name in self.slips[:MOST]:
             slip = self.part.slips[name]
-            if SLIPS[name].lacks and edit.kind not in TURNS:
+            if SLIPS[name].lacks and edit.kind not in TURNS and not _is_of_rounds(edit):
                 continue  # the change may have taken it out
             if all(
                 agree(self.part, tried(self.part, edit.function, c), tried(self.part, slip, c), c) for c in self.cases
@@ -207,6 +209,12 @@ class Nearer:
             if not a or not b:
                 return None
         return np.concatenate(found) if found and self.part.canonical is None else None
+
+
+def _is_of_rounds(edit: Edit) -> bool:
+    """Whether a change lets a loop begin or end with another round."""
+    around = edit.places[0][0][-1]
+    return isinstance(around, ast.Call) and ast.unparse(around.func) == "range"
 
 
 def _near(x: Array, y: Array) -> bool:
