@@ -19,10 +19,10 @@ calls       calls of functions that may be wrong: they end, and change no argume
 catalogue   numbers, sections, names of files
 compare     right or wrong, entry by entry
 cases       the cases that an answer is tried on
+slips       a room: the list of slips with a name
 changes     a room: small changes of a function
 failing     the failing case, with its numbers
 rules       calls that an exercise forbids
-slips       a room: the list of slips with a name
 statements  a room: the student's function statement by statement
 stopwatch   a machine whose clock is known
 wrong       wrong functions, made out of right ones

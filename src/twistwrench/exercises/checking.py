@@ -7,7 +7,9 @@ section, ``s49_3``.
 
 from __future__ import annotations
 
+import io
 import re
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from typing import Any, NoReturn
@@ -56,6 +58,8 @@ def mark_of(section: str) -> str:
 def pytest_configure(config: pytest.Config) -> None:
     """Announce the marks, and let ``-k 49_1`` mean section 49.1 and not 49.10 as well."""
     config.stash[BOOKS], config.stash[OPEN] = {}, ExitStack()
+    if isinstance(sys.stdout, io.TextIOWrapper):  # as in `cli`; else pytest escapes a message, its line ends as well
+        sys.stdout.reconfigure(errors="backslashreplace")
     for section, title in catalogue.SECTIONS.items():
         config.addinivalue_line("markers", f"{mark_of(section)}: {title.en}")
     if config.option.keyword:

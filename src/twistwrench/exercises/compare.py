@@ -10,7 +10,17 @@ import numpy as np
 from ..arrays import Array
 from .exercise import Part, Quantity
 
-__all__ = ["Value", "agree", "close", "copied_results", "only_zero_is_missed", "pieces", "to_do", "values"]
+__all__ = [
+    "Value",
+    "agree",
+    "close",
+    "copied_results",
+    "is_one_array",
+    "only_zero_is_missed",
+    "pieces",
+    "to_do",
+    "values",
+]
 
 FLOOR = 1e-3
 """Entries below this count as zero: an exact 0 is as good as 1e-17."""
@@ -94,6 +104,12 @@ def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bo
     return a is not None and b is not None and all(close(x, y, part.rtol) for x, y in zip(a, b))
 
 
+def is_one_array(answer: Any) -> bool:
+    """Whether one array is returned as two of several things."""
+    arrays = [id(x) for x in answer if isinstance(x, np.ndarray)] if isinstance(answer, tuple | list) else []
+    return len({*arrays}) < len(arrays)
+
+
 def only_zero_is_missed(part: Part, answer: Any, right: Any) -> bool:
     """Whether every wrong number of an answer must be zero: it has a term too many, and none is missing."""
     pairs = [*zip(values(answer, part.returns) or [], values(right, part.returns) or [])]
@@ -115,3 +131,10 @@ def copied_results(answers: Sequence[Any], right: Sequence[Any], before: Sequenc
         return False
     same = [all(np.array_equal(first, second) for first, second in many) for many in (answers, right, before)]
     return same == [True, False, False]
+
+
+def unchanged(before: Any, after: Any) -> bool:
+    """Whether an array, a number, or each of a list of them is unchanged."""
+    if isinstance(before, list):
+        return len(before) == len(after) and all(map(unchanged, before, after))
+    return not isinstance(before, np.ndarray | int | float) or np.array_equal(before, after)

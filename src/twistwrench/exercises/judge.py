@@ -16,7 +16,7 @@ import numpy as np
 from .calls import silent
 from .cases import cases, further_cases
 from .changes.repairs import guarded
-from .compare import agree, to_do
+from .compare import agree, copied_results, is_one_array, to_do, unchanged
 from .exercise import Exercise, Part
 from .failing import Case, failing_case
 from .naming.diagnose import after_error, explain
@@ -136,7 +136,7 @@ def judge(
     again = (lambda given: _again(part, safe, given, watch)) if search else None
     kept = _keeps(part, function, so_far, watch)
     if all(so_far.right) and kept is None:
-        lines = calls.lines or ([say("one array")] if _same_array(so_far.answers[0]) else [])
+        lines = calls.lines or [say(phrase) for phrase in _made_one(so_far)][:1]
         return Verdict("wrong", (_head(exercise, part), *lines)) if lines else Verdict("done")
     return _wrong(exercise, part, function, so_far, seed, kept, again)
 
@@ -204,10 +204,12 @@ def _keeps(part: Part, function: Callable[..., Any], found: _Compared, watch: Wa
     return say("returned before") if changed else held
 
 
-def _same_array(answer: Any) -> bool:
-    """Whether one array is returned as two of several things."""
-    arrays = [id(x) for x in answer if isinstance(x, np.ndarray)] if isinstance(answer, tuple | list) else []
-    return len({*arrays}) < len(arrays)
+def _made_one(found: _Compared) -> Iterator[str]:
+    """Yield what is wrong where two of the things returned are one."""
+    if is_one_array(found.answers[0]):
+        yield "one array"
+    if copied_results(found.answers, found.expected, found.expected):
+        yield "one way"
 
 
 def _repeated(first: Any, second: Any) -> bool:
@@ -240,16 +242,9 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
         outside = isinstance(error, MemoryError | SystemExit)  # no slip of the mathematics
         raise (_Stop if outside else _Raised)(*_stopped(error)) from None
     for name, before, after in zip(part.arguments.split(", "), arguments, given):
-        if not _unchanged(before, after):
+        if not unchanged(before, after):
             raise _Stop(say("changed", name=name.partition("=")[0]))
     return answer
-
-
-def _unchanged(before: Any, after: Any) -> bool:
-    """Whether an array, a number, or each of a list of them is unchanged."""
-    if isinstance(before, list):
-        return len(before) == len(after) and all(map(_unchanged, before, after))
-    return not isinstance(before, np.ndarray | int | float) or np.array_equal(before, after)
 
 
 def _stopped(error: BaseException) -> list[Text]:

@@ -18,7 +18,7 @@ __all__ = ["FORBIDDEN", "Calls", "file_or_cell", "is_ours", "watching"]
 
 FORBIDDEN: dict[str, tuple[str, ...]] = {
     "base_wrench_at_rest": ("rnea", "rnea_terms", "gravity", "nonlinear_effects", "dynamics"),
-    "mass_matrix_by_rnea": ("crba", "crba_terms", "dynamics"),
+    "mass_matrix_by_rnea": ("crba", "crba_terms", "dynamics", "inverse_mass_matrix", "kinetic_energy", "ltdl"),
     "base_block": ("crba", "crba_terms", "rnea", "rnea_terms", "dynamics"),
     "on_all_rows": ("selection_matrix",),
     "momentum_of_links": ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics"),

@@ -9,7 +9,9 @@ containers    what may be changed in a list, a tuple, an index or a slice
 excerpts      how a piece of a program and its change are written in a message
 places        places in a syntax tree, and how something is put there
 twins         names and numbers that are taken for each other
+calling       what could stand in place of a call or of a name
 alternatives  what could stand in place of a piece of a program
+scope         what the names in a function stand for, and may be taken for
 whole         an edit; and edits of what goes into a function and comes out of it
 edits         all small edits of a right function
 plausible     which changes are slips that somebody makes

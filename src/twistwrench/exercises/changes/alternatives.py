@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 import copy
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 from typing import Any
 
+from .calling import CONSTANT, called, calls, names_used
 from .containers import Change, containers, exchanges, parsed
 from .excerpts import text_of
-from .twins import has_no_sign, is_copy, is_whole, numbers, twins
+from .twins import has_no_sign, is_copy, is_whole, numbers
 
 __all__ = [
     "FACTORS",
@@ -39,9 +39,6 @@ COMPARED: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
 LARGE = 1e3
 """What is compared with a number of this size may be meant to be infinite."""
 
-CONSTANT = ("zeros", "ones", "eye")
-"""What these make does not lack a factor."""
-
 
 def alternatives(
     node: Any, parent: Any, names: Sequence[str], matrices: Sequence[ast.expr], scalars: Sequence[ast.expr]
@@ -56,7 +53,7 @@ def alternatives(
     matrices, scalars : sequence of ast.expr
         Square matrices and numbers that are at hand as a further factor.
     """
-    for changes in (_statements, _operations, containers, _calls):
+    for changes in (_statements, _operations, containers, calls, names_used):
         if not isinstance(parent, ast.Slice):  # the step of a slice has no sign
             yield from changes(node)
     if not (isinstance(parent, ast.UnaryOp) and is_whole(node)):
@@ -78,7 +75,7 @@ def alternatives(
         if not is_copy(node):
             yield "transposed", _transposed(node)
         yield "instead", parsed("np.linalg.inv(_)", node)
-        if isinstance(node, ast.Call) and getattr(node.func, "attr", "") in CONSTANT:
+        if isinstance(node, ast.Call) and called(node) in CONSTANT:
             return
         yield "inserted", parsed("abs(_)", node)
         yield "diagonal", parsed("np.diag(_)", parsed("np.diag(_)", node))
@@ -124,7 +121,11 @@ def _loops(node: Any, parent: Any) -> Iterator[Change]:
         fewer.body = node.body[:-1]
         yield "after loop", ast.If(ast.Constant(True), [fewer, node.body[-1]], [])
     for k, line in enumerate(node.body):
-        if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name):
+        if (
+            isinstance(line, ast.Assign)
+            and isinstance(line.targets[0], ast.Name)
+            and not isinstance(line.value, ast.Constant)  # nobody adds up a number that is written there
+        ):
             summed = copy.copy(node)
             summed.body = [*node.body[:k], ast.AugAssign(line.targets[0], ast.Add(), line.value), *node.body[k + 1 :]]
             yield "summed", ast.If(ast.Constant(True), [ast.Assign(line.targets, ast.Constant(0)), summed], [])
@@ -184,7 +185,8 @@ def _statements(node: Any) -> Iterator[Any]:
     if isinstance(node, ast.While):
         yield "instead", ast.If(node.test, node.body, [])
     if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
-        for targets in exchanges(node.targets[0].elts):
+        beside = isinstance(node.value, ast.Tuple)  # each name stands beside its own value
+        for targets in () if beside else exchanges(node.targets[0].elts):
             yield "exchanged", ast.Assign([ast.Tuple(targets, ast.Store())], node.value, lineno=node.lineno)
         if isinstance(node.value, ast.Tuple) and isinstance(node.value.elts[0], ast.Subscript):
             copies = ast.Tuple([parsed("np.copy(_)", x) for x in node.value.elts], ast.Load())
@@ -212,6 +214,8 @@ def _operations(node: Any) -> Iterator[Change]:
             yield "exchanged", ast.BinOp(ast.BinOp(right, op, left.right), op, left.left)
         if isinstance(op, ast.MatMult):
             yield "instead", ast.BinOp(left, ast.Mult(), right)
+        if isinstance(op, ast.Pow) and ast.unparse(right) == "-1":
+            yield "instead", parsed("np.linalg.inv(_)", left)
         if isinstance(op, ast.Div) and getattr(left, "value", 0) == 1:
             yield "instead", parsed("np.linalg.inv(_)", right)
         if isinstance(op, ast.Mult):
@@ -226,10 +230,19 @@ def _operations(node: Any) -> Iterator[Change]:
         yield from (("instead", ast.Compare(node.left, [op()], node.comparators)) for op in COMPARED[type(node.ops[0])])
         yield from _infinite(node)
     if isinstance(node, ast.BoolOp):
+        yield from _compared_with_each(node)
         yield "instead", ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
         for k, _ in enumerate(node.values):
             others = node.values[:k] + node.values[k + 1 :]
             yield "left out", ast.BoolOp(node.op, others) if len(others) > 1 else others[0]
+
+
+def _compared_with_each(node: ast.BoolOp) -> Iterator[Change]:
+    """Yield x == a or x == b in place of x == a or b."""
+    first, *others = node.values
+    if isinstance(first, ast.Compare) and any(isinstance(x, ast.Constant) for x in others):
+        each = [ast.Compare(first.left, first.ops, [x]) if isinstance(x, ast.Constant) else x for x in others]
+        yield "instead", ast.BoolOp(node.op, [first, *each])
 
 
 def _infinite(node: ast.Compare) -> Iterator[Change]:
@@ -276,68 +289,3 @@ def _brackets(left: Any, op: Any, right: Any) -> Iterator[Change]:
     if isinstance(op, ast.MatMult | ast.Mult) and isinstance(right, ast.BinOp) and type(right.op) in (ast.Add, ast.Sub):
         yield "instead", ast.BinOp(ast.BinOp(left, op, right.left), right.op, right.right)
         yield "instead", ast.BinOp(right.left, right.op, ast.BinOp(left, op, right.right))
-
-
-def _calls(node: Any) -> Iterator[Change]:
-    """Yield a call with two arguments exchanged, its argument alone, or what is called or named by a twin."""
-    if isinstance(node, ast.Call):
-        last = node.args[-1] if node.args else None
-        if isinstance(last, ast.BinOp) and isinstance(last.op, ast.Add | ast.Sub):
-            one = ast.Call(node.func, [*node.args[:-1], last.left], node.keywords)
-            yield "instead", ast.BinOp(one, last.op, last.right)
-        for arguments in (
-            exchanges(node.args) if _called(node) not in ("range", "clip", "max", "min", "maximum") else ()
-        ):
-            yield "exchanged", ast.Call(node.func, arguments, node.keywords)
-        for i, j in combinations(range(len(node.args)), 2):
-            x, y = node.args[i], node.args[j]
-            if isinstance(x, ast.BinOp) and isinstance(y, ast.BinOp) and type(x.op) is type(y.op) is ast.Mult:
-                pair = {i: ast.BinOp(y.left, x.op, x.right), j: ast.BinOp(x.left, y.op, y.right)}
-                yield "exchanged", ast.Call(node.func, [pair.get(k, z) for k, z in enumerate(node.args)], node.keywords)
-        if len(node.args) <= 2 and not is_copy(node):
-            kind = "left out" if len(node.args) == 1 else "instead"
-            yield from ((kind, argument) for argument in node.args if not isinstance(argument, ast.Constant))
-        for k, argument in enumerate(node.args):
-            if isinstance(argument, ast.Name) or any(isinstance(x, ast.Call) for x in ast.walk(argument)):
-                zero = ast.BinOp(ast.Constant(0), ast.Mult(), argument)
-                yield "inserted", ast.Call(node.func, [*node.args[:k], zero, *node.args[k + 1 :]], node.keywords)
-        if isinstance(node.func, ast.Name) and node.func.id == "sum":
-            yield "last", ast.Subscript(ast.List([ast.Starred(node.args[0])], ast.Load()), LAST)
-        if isinstance(node.func, ast.Attribute) and node.func.attr == "sum":
-            yield "last", ast.Subscript(node.func.value, LAST)
-        turned = _called(node) in ("transpose", "swapaxes", "moveaxis")
-        if isinstance(node.func, ast.Attribute) and (turned or not node.args) and not is_copy(node):
-            module = getattr(node.func.value, "id", "") == "np"
-            yield from (("left out", x) for x in (node.args[:1] if module else [node.func.value]))
-        if isinstance(node.func, ast.Attribute) and node.func.attr == "pad" and is_whole(node.args[-1]):
-            for width in ((node.args[-1], ast.Constant(0)), (ast.Constant(0), node.args[-1])):
-                arguments = [*node.args[:-1], ast.Tuple([*width], ast.Load())]
-                yield "exchanged", ast.Call(node.func, arguments, node.keywords)
-        for keyword in node.keywords:
-            kind = "exchanged" if keyword.arg == "order" else "instead"
-            yield kind, ast.Call(node.func, node.args, [x for x in node.keywords if x is not keyword])
-        if isinstance(node.func, ast.Name) and node.func.id == "range":
-            yield "instead", parsed("reversed(_)", node)
-            if len(node.args) == 2 and isinstance(start := getattr(node.args[0], "value", None), int):
-                yield "instead", ast.Call(node.func, [node.args[0], ast.Constant(start + 1)], [])
-    if isinstance(node, ast.Attribute):
-        if node.attr in ("mT", "T"):
-            yield "transposed", node.value
-            yield "instead", parsed("np.linalg.inv(_)", node.value)
-            if isinstance(node.value, ast.Call) and getattr(node.value.func, "attr", "") == "reshape":
-                yield "instead", ast.Call(node.value.func, node.value.args[::-1], [])
-        for other in twins(node.attr):
-            yield "instead", ast.Attribute(node.value, other, node.ctx)
-    if isinstance(node, ast.Name):
-        yield from (("instead", ast.Name(other, node.ctx)) for other in twins(node.id))
-    if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield from (("instead", ast.Constant(other)) for other in twins(node.value))
-
-
-def _called(node: ast.Call) -> str:
-    """Return the name of what is called, without that of its module."""
-    name: str = getattr(node.func, "attr", getattr(node.func, "id", ""))
-    return name
-
-
-LAST = ast.parse("-1", mode="eval").body

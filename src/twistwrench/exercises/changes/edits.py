@@ -18,14 +18,12 @@ from itertools import combinations
 from types import FunctionType
 from typing import Any
 
-import numpy as np
-
 from ..calls import CHANGED, count
-from .alternatives import FACTORS, KINDS, alternatives, crossed
+from .alternatives import KINDS, crossed
 from .containers import parsed
 from .excerpts import enclosing, target, term, text_of
-from .places import Place, all_places, mark, may_be_argument, put, surroundings, unused
-from .twins import habits
+from .places import Place, all_places, mark, put, surroundings
+from .scope import Scope
 from .whole import Edit, of_arguments, of_order
 
 __all__ = ["Source", "edits"]
@@ -90,15 +88,6 @@ def _globals(function: Function) -> Mapping[str, Any]:
     return getattr(first, "__globals__", None) or vars(sys.modules[function.__module__])
 
 
-def _kind(value: Any) -> Any:
-    """Return what two values must have in common to be taken for each other."""
-    if isinstance(value, np.ndarray):
-        return "array", value.shape
-    if isinstance(value, list | tuple) and value:
-        return type(value), len(value), type(value[-1])
-    return type(value)
-
-
 class Source:
     """The syntax tree of a function, in which one place at a time is changed.
 
@@ -129,20 +118,8 @@ class Source:
         for node in ast.walk(self.tree):
             if isinstance(node, ast.While):
                 node.body.insert(0, ast.parse("_one_more_round()").body[0])
-        self.kinds = {name: _kind(x) for name, x in values.items()}
-        square = [n for n, x in values.items() if isinstance(x, np.ndarray) and x.ndim == 2 and len({*x.shape}) == 1]
-        square += [f"{name}.rotation" for name, x in values.items() if hasattr(x, "rotation")]
-        square += sorted(
-            {ast.unparse(x) for x in ast.walk(self.tree) if getattr(x, "attr", "") == "rotation"} - {*square}
-        )
-        self.sums = {
-            x.target.id for x in ast.walk(self.tree) if isinstance(x, ast.AugAssign) and isinstance(x.target, ast.Name)
-        }
-        numbers = [name for name, x in values.items() if isinstance(x, int | float) and type(x) is not bool]
-        self.scalars, self.matrices = [*map(parsed, (*numbers, *FACTORS))], [*map(parsed, square)]
         self.places = [*all_places(self.tree.body[0])]
-        self.unused = unused(self.tree.body[0])
-        self.around = [*dict.fromkeys(text for _, _, node in self.places for text in habits(node, self.kinds))]
+        self.scope = Scope(self.tree, values, self.names)
 
     def after(self, edit: Edit) -> Source:
         """Return the source after one edit, to be changed further; its lines keep their numbers."""
@@ -158,7 +135,9 @@ class Source:
     def edits(self, kind: str) -> Iterator[Edit]:
         """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
         alike: dict[tuple[str, str], list[Place]] = {}
-        made = [(*place, x) for place in self.places for k, x in self._alternatives(place[2], place[0]) if k == kind]
+        made = [
+            (*place, x) for place in self.places for k, x in self.scope.alternatives(place[2], place[0]) if k == kind
+        ]
         if kind == "sign":  # a plus for a minus before a minus more, and that as near to the result as may be
             made.sort(key=lambda place: (isinstance(place[3], ast.UnaryOp), -place[2].lineno))
         for place in made:
@@ -190,7 +169,7 @@ class Source:
     def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
         """Yield two edits at once, of the kinds that are likeliest."""
         for k, (parents, field, node) in enumerate(self.places):
-            for kind, other in self._alternatives(node, parents):
+            for kind, other in self.scope.alternatives(node, parents):
                 if kind in kinds:
                     first = kind, *self.texts(kind, (parents, field, node, other)), node.lineno
                     put(parents[-1], field, other)
@@ -201,7 +180,7 @@ class Source:
 
     def _second(self, first: tuple[str, str, str, int], where: Any, kinds: Sequence[str]) -> Iterator[Edit]:
         parents, field, node = where
-        for kind, other in self._alternatives(node, parents):
+        for kind, other in self.scope.alternatives(node, parents):
             if kind in kinds:
                 place = parents, field, node, other
                 for edit in self.made(kind, self.texts(kind, place), [place]):
@@ -262,62 +241,12 @@ class Source:
         found: Function = names[name]
         return found
 
-    def _alternatives(self, node: Any, parents: list[Any]) -> Iterator[tuple[str, Any]]:
-        name = getattr(node, "id", "")
-        kind = self.kinds.get(name)
-        names = [other for other, found in self.kinds.items() if kind and found == kind and other not in (name, "_")]
-        if kind is int and "parent" in self.kinds and isinstance(parents[-1], ast.Subscript):
-            names.append(f"parent[{name}]")
-        if kind == ("array", (6,)) and not isinstance(parents[-1], ast.Subscript):
-            names += [f"{name}[:3]", f"{name}[3:]"]
-        matrix = isinstance(kind, tuple) and kind[0] == "array" and len(kind[1]) == 2
-        if matrix and not isinstance(parents[-1], ast.Attribute):
-            names.append(f"{name}.ravel()")
-        if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Name | ast.Constant):
-            row = self.kinds.get(getattr(node.value, "id", ""), ())
-            if (
-                row
-                and row[0] == "array"
-                and len(row[1]) == 2
-                and len({*row[1]}) == 1
-                and isinstance(node.ctx, ast.Load)
-            ):
-                column = ast.Tuple([ast.Slice(), node.slice], ast.Load())
-                yield "transposed", ast.Subscript(node.value, column, node.ctx)
-        if matrix and isinstance(parents[-1], ast.Call):
-            yield "instead", parsed(f"np.eye(len({name}))")
-        yield from alternatives(node, parents[-1], names, self.matrices, self.scalars)
-        yield from (("name", parsed(text)) for text in self._other_names(node, parents))
-        if isinstance(parents[-1], ast.Assign) and getattr(parents[-1].targets[0], "id", "") in self.sums:
-            yield "instead", parsed("np.zeros_like(_)", node)  # from which a sum begins
-
     def _crossed(self) -> Iterator[Edit]:
         """Yield the exchange of two names, wherever they stand in an expression."""
         for parents, field, node in self.places:
             if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
-                used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.kinds})
+                used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.scope.kinds})
                 for x, y in combinations(used, 2):
-                    if self.kinds[x] == self.kinds[y]:
+                    if self.scope.kinds[x] == self.scope.kinds[y]:
                         place = parents, field, node, crossed(node, x, y)
                         yield from self.made("exchanged", self.texts("exchanged", place), [place])
-
-    def _other_names(self, node: Any, parents: list[Any]) -> Iterator[str]:
-        """Yield what else a name may stand for: an index for a number, the parent for the body before, x·x for y·y."""
-        if isinstance(node, ast.Constant) and type(node.value) is int and isinstance(parents[-1], ast.Subscript):
-            yield from (name for name, kind in self.kinds.items() if kind is int)
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load) and isinstance(self.kinds.get(node.id), tuple):
-            bare = not isinstance(parents[-1], ast.Subscript | ast.Attribute)
-            yield from (text.format(node.id) for text in self.around if bare and node.id not in text)
-        if isinstance(node, ast.Subscript) and isinstance(parents[-1], ast.Subscript):
-            whole = getattr(node.value, "id", "") or getattr(node.value, "attr", "")
-            yield from [text_of(node.slice)] * (whole == "parent")
-        if may_be_argument(node):
-            yield from self.unused
-        if not isinstance(node, ast.BinOp):
-            return
-        left, right = node.left, node.right
-        if "parent" in self.kinds and isinstance(node.op, ast.Sub) and getattr(right, "value", 0) == 1:
-            yield f"parent[{text_of(left)}]"
-        if isinstance(node.op, ast.Mult) and getattr(left, "id", 0) == getattr(right, "id", 1):
-            alike = [name for name, kind in self.kinds.items() if kind == self.kinds.get(text_of(left))]
-            yield from (f"{name} * {name}" for name in alike)

@@ -85,7 +85,9 @@ def _settled(source: Source, edit: Edit, part: Part, cases: Sequence[tuple[Any, 
             tried(part, watched, arguments)
     if len(seen) != 1:
         return None
-    return say("branch always" if True in seen else "branch", wrong=text_of(branch.test))
+    last = any(outer.orelse == [branch] for place in edit.places for outer in place[0] if isinstance(outer, ast.If))
+    always = "branch otherwise" if last else "branch always"
+    return say(always if True in seen else "branch", wrong=text_of(branch.test))
 
 
 def _branch(place: Any) -> Any:

@@ -45,16 +45,8 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
     before, after = edit.right, edit.wrong
     if any(x in after and x not in before for x in ("0 * ", "1 * ")) or after.endswith(" / 1"):
         return False  # it is switched off, or nothing
-    if _crossed_with_itself(after) or _of_the_other_kind(before, after, part):
+    if _nobody_makes(edit, part):
         return False
-    if edit.kind in ("sign", "number", "exchanged") and _is_place(edit):
-        return False  # where something stands, or how often, has no sign
-    if edit.kind == "sign" and _is_rotation(before):
-        return False  # −R is no rotation
-    if edit.kind == "index" and _is_written_to(edit):
-        return False  # two things would be written to one place
-    if edit.kind == "diagonal":
-        return False  # nobody forgets to drop what is beside the diagonal
     if edit.kind == "inserted" and _undoes(_parsed(after)):
         return False  # what is divided by does not belong there
     if edit.kind == "number" and " != 0" in before and " != 0" not in after:
@@ -81,6 +73,18 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
     if any(name in before and name not in after for name in POSTURES) and any(name in after for name in POSTURES):
         return False
     return edit.kind != "exchanged" or _turned(before, text, part.solution)
+
+
+def _nobody_makes(edit: Edit, part: Part) -> bool:
+    """Whether what an edit puts there cannot be what was meant."""
+    return (
+        edit.kind == "diagonal"  # nobody forgets to drop what is beside the diagonal
+        or (edit.kind in ("sign", "number", "exchanged") and _is_place(edit))  # a place, or how often, has no sign
+        or (edit.kind == "sign" and _is_rotation(edit.right))  # −R is not a rotation matrix
+        or (edit.kind == "index" and _is_written_to(edit))  # two things would be written to one place
+        or _crossed_with_itself(edit.wrong)
+        or _of_the_other_kind(edit.right, edit.wrong, part)
+    )
 
 
 def _is_place(edit: Edit) -> bool:

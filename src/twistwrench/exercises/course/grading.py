@@ -12,6 +12,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from tqdm import tqdm
+
 from ...errors import ModelError, check_known
 from .. import catalogue
 from ..exercise import Exercise
@@ -125,7 +127,8 @@ def grade(
 
     with ThreadPoolExecutor(jobs or os.cpu_count() or 1) as pool:
         try:
-            return list(pool.map(graded, students(folders)))
+            every = students(folders)
+            return list(tqdm(pool.map(graded, every), total=len(every), unit="folder", disable=None, leave=False))
         except BaseException:
             stopping.set()
             pool.shutdown(cancel_futures=True)
@@ -138,8 +141,8 @@ def students(folders: Sequence[str | PathLike[str]]) -> list[Path]:
     for folder in map(Path, folders):
         if not folder.is_dir():
             raise ModelError(f"{folder}: expected the folder of a student, or a folder of such folders")
-        inside = [] if has_started(folder) else sorted(path for path in folder.iterdir() if has_started(path))
-        found += inside or [folder.resolve()]
+        inside = [] if has_started(folder) else sorted(path for path in folder.iterdir() if path.is_dir())
+        found += inside if any(map(has_started, inside)) else [folder.resolve()]
     return found
 
 

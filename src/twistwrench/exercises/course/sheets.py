@@ -111,10 +111,11 @@ def _harmless(cell: str) -> str:
 
 
 def _reason(verdict: Verdict, language: Language) -> str:
-    """Return what the message says after its head and its case, on one line."""
+    """Return what the message says first after its head and its case, on one line."""
     said = [line.of(language).strip() for line in verdict.lines[1:]]
-    start = said.index("") + 1 if "" in said else 0
-    return next((line for line in said[start:] if line), "")
+    found = [line for line in said[said.index("") + 1 if "" in said else 0 :] if line]
+    last = next((k for k, line in enumerate(found) if not line.endswith((":", "："))), 0)
+    return " ".join(found[: last + 1])
 
 
 def as_junit(found: Sequence[Graded], seed: int, language: Language) -> str:

@@ -16,6 +16,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
+import twistwrench
+
 from ...errors import ModelError
 from ...files import write_text
 from .. import catalogue
@@ -32,6 +36,10 @@ STATE_FILE = ".twistwrench.json"
 
 SHORTEST_ANSWER = 12
 """Characters of an answer in words; a sentence in Chinese needs no more."""
+
+
+SHARED = {"np": np, "np.linalg": np.linalg, "tw": twistwrench}
+"""Modules that the reference uses as the student does: what a file changes in them would be changed for both."""
 
 
 class Unread(Verdict):
@@ -120,6 +128,7 @@ class Workbook:
             source = decode_source(path.read_bytes())  # as Python reads it: with a BOM, or a line that names a coding
         except (OSError, SyntaxError, UnicodeError) as error:
             return say("file" if isinstance(error, OSError) else "encoding", file=path.name, error=error)
+        kept = {name: (x, dict(vars(x))) for name, x in SHARED.items()}
         try:
             with _importable(self.folder), self.watch(path.name):
                 # compiled anew each time: a cached file can be older than the last change
@@ -129,7 +138,8 @@ class Workbook:
             if (line := _line(error, path)) is not None:
                 return say("file at line", file=path.name, line=line, error=said)
             return say("file", file=path.name, error=said)
-        return module
+        changed = [*_restored(kept)]
+        return say("patched", file=path.name, name=changed[0]) if changed else module
 
     def words(self, exercise: Exercise) -> str | None:
         """Return the student's answer in words, None if it is not written yet."""
@@ -206,6 +216,15 @@ def _line(error: BaseException, path: Path) -> int | None:
         return error.lineno
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
     return lines[-1] if lines else None
+
+
+def _restored(kept: dict[str, tuple[ModuleType, dict[str, Any]]]) -> Iterator[str]:
+    """Put back what a file has changed in modules, and yield its names."""
+    for name, (module, before) in kept.items():
+        for key, value in before.items():
+            if vars(module).get(key) is not value:
+                setattr(module, key, value)
+                yield f"{name}.{key}"
 
 
 @contextmanager

@@ -123,6 +123,10 @@ def _first_statement(wrong: WrongAnswer) -> Explained | None:
     return ([], mended(wrong, found)) if found else None
 
 
+def _none_in_some(wrong: WrongAnswer) -> Explained | None:
+    return ([], [say("none in some"), where(wrong)]) if any(answer is None for answer in wrong.answers) else None
+
+
 def _another_quantity(wrong: WrongAnswer) -> Explained | None:
     known = Neighbours(wrong.part, wrong.right, wrong.cases, wrong.until["known"]).lines(wrong.answers)
     return ([], [*known, where(wrong)]) if known else None
@@ -181,7 +185,7 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
     lines, names, found = [], [], []
     for k in wrong.wrong_results:
         alone = wrong.of_result(k, OF_RESULTS / len(wrong.wrong_results))
-        explained = next(filter(None, (explanation(alone) for explanation in (*EXPLANATIONS, *OF_CODE))), None)
+        explained = next(filter(None, (explanation(alone) for explanation in OF_ONE_RESULT)), None)
         found.append(explained is not None)
         slips, shown = explained or ([], [*comparison(alone), where(alone)])
         names += slips
@@ -209,6 +213,7 @@ EXPLANATIONS: tuple[Explanation, ...] = (
     _structure,
     _change_of_a_line,
     _first_statement,
+    _none_in_some,
     _another_quantity,
     _one_triangle,
 )
@@ -225,3 +230,6 @@ OF_CODE: tuple[Explanation, ...] = (
     _change_of_a_block,
 )
 """What is tried where the student's function may be called again."""
+
+OF_ONE_RESULT = [x for x in (*EXPLANATIONS, *OF_CODE) if x not in (_two_changes, _any_two_changes)]
+"""What is tried for one of several results: two changes that make it right may spoil another."""

@@ -90,7 +90,8 @@ def _others(x: Any, entry: int | None, cases: Sequence[Case], k: int) -> Iterato
             yield 1.25 * x + 0.1
         if isinstance(x, list | tuple) and x and all(isinstance(y, str) for y in x):
             yield x[::-1]
-        alike = [c[k] for c in cases if type(c[k]) is type(x) and _sizes(c[k]) == _sizes(x)]
+        words = isinstance(x, list) and all(isinstance(y, str) for y in x)  # of any number
+        alike = [c[k] for c in cases if type(c[k]) is type(x) and (words or _sizes(c[k]) == _sizes(x))]
         yield from [other for other in alike if other is not x][:TRIED]
     elif isinstance(x, np.ndarray) and x.ndim == 1 and entry < x.size <= FEW and x.dtype.kind == "f":
         for scale in (1.25, 0):  # beyond a limit, and within it

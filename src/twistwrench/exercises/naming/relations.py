@@ -21,6 +21,10 @@ TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi
 """Factors that are reported: they show the slip. Others are chance, and would give a number away."""
 
 
+NEARLY = 6e-3
+"""Part of the largest number by which one is off that is rounded to two digits."""
+
+
 def of_numbers(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text | None:
     """Report what shows in all cases together: sizes of one robot, or whole numbers in place of numbers."""
     pairs = [(values(a, part.returns), values(b, part.returns)) for a, b in zip(answers, right)]
@@ -40,10 +44,10 @@ def of_numbers(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text
 
 def of_structure(part: Part, answers: Sequence[Any]) -> Text | None:
     """Report that nothing was returned, or the wrong number of values."""
+    if all(answer is None for answer in answers):
+        return say("none")
     for answer in answers:
-        if answer is None:
-            return say("none")
-        if pieces(answer, part.returns) is None:
+        if answer is not None and pieces(answer, part.returns) is None:
             names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
             return say("pieces", n=len(part.returns), names=names, got=_count(answer))
     return None
@@ -235,7 +239,7 @@ def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
     """Return where two arrays differ, or by how much, where there is no simpler relation."""
     wrong = np.abs(a - b) > tolerance
     error = float(np.abs(a - b).max() / max(np.abs(b).max(initial=0), FLOOR))
-    if error < 1e-3:
+    if error < NEARLY:
         return say("inexact", digits=int(-np.log10(error)))
     if b.ndim and 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
         where = np.argwhere(wrong) + origin

@@ -14,14 +14,6 @@ PHRASES = {
     "slip in": Text("The slip in {name}: {title}.", "{name} 的错因：{title}。"),
     "in result": Text("In {name}:", "在 {name} 中："),
     "slips": Text("One of these, which cannot be distinguished here:", "以下几种之一（此处无法区分）："),
-    "two slips": Text(
-        "These are the numbers of two slips at once: {first}; and {second}.",
-        "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
-    ),
-    "two changes": Text(
-        "Two slips at once: {first}; and your numbers are then those of this slip: {second}.",
-        "两处错误同时出现：{first}；改过之后，数值等于犯下这个错误的结果：{second}。",
-    ),
     "like slip": Text(
         "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
     ),
@@ -85,11 +77,6 @@ PHRASES = {
     "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
     "must be zero": Text("`{name}` must be zero in `{around}`", "`{around}` 中的 `{name}` 应为零"),
     "repair missing": Text("`{right}` is missing after `{wrong}`", "`{wrong}` 之后缺少 `{right}`"),
-    "when small": Text(
-        "{name} is right for small {what} only, up to the power {power}: what is wrong grows with the power {next}. A"
-        " series that is broken off, or a term of that power that is left out?",
-        "{name} 只对很小的 {what} 正确，到 {power} 次为止：误差按 {next} 次方增长。是不是级数截断了，或漏了该次的项？",
-    ),
     "simplest": Text(
         "With {name} = {given}, {what} is {got}, and must be {right}.",
         "当 {name} = {given} 时，{what} 为 {got}，应为 {right}。",
@@ -260,15 +247,6 @@ PHRASES = {
     "transposed sign": Text("transposed, and the sign is wrong", "被转置且符号相反"),
     "factor": Text("too large by a factor of {factor:.4g}", "是正确值的 {factor:.4g} 倍"),
     "divisor": Text("too small by a factor of {factor:.4g}", "只有正确值的 1/{factor:.4g}"),
-    "opposite factor": Text(
-        "too large by a factor of {factor:.4g}, and of the other sign", "是正确值的 {factor:.4g} 倍，且符号相反"
-    ),
-    "opposite divisor": Text(
-        "too small by a factor of {factor:.4g}, and of the other sign", "只有正确值的 1/{factor:.4g}，且符号相反"
-    ),
-    "rows exchanged": Text("rows {first} and {second} are exchanged", "第 {first} 行与第 {second} 行互换了"),
-    "columns exchanged": Text("columns {first} and {second} are exchanged", "第 {first} 列与第 {second} 列互换了"),
-    "entries exchanged": Text("the entries {first} and {second} are exchanged", "元素 {first} 与 {second} 互换了"),
     "permuted": Text("the right numbers, in the wrong places", "数值正确，位置不对"),
     "signs": Text("the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
     "upper": Text("only the upper triangle is right", "只有上三角正确"),

@@ -44,10 +44,52 @@ SAYINGS = {
         "错因：第 {line} 行，`{text}` 并没有复制：`{name}` 与 `{value}` 是内存中的同一组数，写入其一，二者都变。"
         "请写 `{name} = {value}.copy()`。",
     ),
+    # what is not what is asked for, though the numbers are right
+    "one way": Text(
+        "The numbers are right, but the two results are the same to the last bit in all cases: compute each in its own"
+        " way.",
+        "数值正确，但两个结果在所有情形中逐位相同：请分别用各自的方法计算。",
+    ),
+    "patched": Text(
+        "{file} changes `{name}`, which the check needs as it is: give what you write another name.",
+        "{file} 改动了 `{name}`，而检查需要它保持原样：请换一个名称。",
+    ),
     # what cannot be compared
+    "none in some": Text(
+        "In some cases it returned None: a way through the function that ends without `return`?",
+        "在某些情形中返回了 None：函数中是不是有的路径没有 `return`？",
+    ),
     "nan expected": Text("a number, where nan is expected", "给出了一个数，而应为 nan"),
     "nothing": Text("nothing", "无"),
     "error differs": Text("{got}, and {right} is expected", "{got}，应为 {right}"),
     "no number": Text("not a finite number", "不是有限的数"),
+    # what only the numbers show
+    "opposite factor": Text(
+        "too large by a factor of {factor:.4g}, and of the other sign", "是正确值的 {factor:.4g} 倍，且符号相反"
+    ),
+    "opposite divisor": Text(
+        "too small by a factor of {factor:.4g}, and of the other sign", "只有正确值的 1/{factor:.4g}，且符号相反"
+    ),
+    "rows exchanged": Text("rows {first} and {second} are exchanged", "第 {first} 行与第 {second} 行互换了"),
+    "columns exchanged": Text("columns {first} and {second} are exchanged", "第 {first} 列与第 {second} 列互换了"),
+    "entries exchanged": Text("the entries {first} and {second} are exchanged", "元素 {first} 与 {second} 互换了"),
+    "when small": Text(
+        "{name} is right for small {what} only, up to the power {power}: what is wrong grows with the power {next}. A"
+        " series that is broken off, or a term of that power that is left out?",
+        "{name} 只对很小的 {what} 正确，到 {power} 次为止：误差按 {next} 次方增长。是不是级数截断了，或漏了该次的项？",
+    ),
+    "branch otherwise": Text(
+        "what is done where `{wrong}` holds must be done in all other cases",
+        "`{wrong}` 成立时所做的，在其余所有情形中都应当做",
+    ),
+    # two slips at once
+    "two slips": Text(
+        "These are the numbers of two slips at once: {first}; and {second}.",
+        "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
+    ),
+    "two changes": Text(
+        "Two slips at once: {first}; and your numbers are then those of this slip: {second}.",
+        "两处错误同时出现：{first}；改过之后，数值等于犯下这个错误的结果：{second}。",
+    ),
 }
 """A part of the phrases that messages are made of."""
