@@ -80,21 +80,20 @@ class Nearer:
         self.tried.remove(first)
         self.tried.insert(0, first)
         self.wrong = self._wrong([self.answers[k] for k in self.tried], self.tried)
-        self.slipped = {name: x for name, x in self._slipped(first) if x is not None}
+        self.slipped = dict(self._slipped(first))
 
-    def _slipped(self, k: int) -> Iterator[tuple[str, Array | None]]:
+    def _slipped(self, k: int) -> Iterator[tuple[str, Array]]:
         """Yield the numbers of each slip of the list in a case, if what is wrong then is wrong in the answer, too."""
         own, right = self._flat(self.answers[k]), self._flat(self.right[k])
         if own is None or right is None:
             return
-        for name, wrong in self.part.slips.items():
-            if name in TWICE:
-                continue
-            numbers = self._flat(tried(self.part, wrong, self.cases[k]))
+        within = 1e-9 * np.abs(right).max(initial=FLOOR)
+        for name in (name for name in self.part.slips if name not in TWICE):
+            numbers = self._flat(tried(self.part, self.part.slips[name], self.cases[k]))
             if numbers is not None and numbers.shape == own.shape == right.shape:
-                within = 1e-9 * np.abs(right).max(initial=FLOOR)
-                spoilt = (np.abs(numbers - right) > within) & (np.abs(own - right) <= within)
-                yield name, None if spoilt.any() else numbers
+                fine = np.abs(own - right) <= within
+                if (np.abs(numbers - right)[fine] <= within).all():
+                    yield name, numbers
 
     def note(self, edit: Edit, answer: Any) -> None:
         """Keep a change, if less is wrong with it than without it, or if what is wrong then is a slip of the list."""

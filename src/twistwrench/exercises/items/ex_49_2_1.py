@@ -56,6 +56,10 @@ TWIST_OF_FOOT = Part(
         "aligned-for-local": faulty(
             foot_twist, ("return foot_base", "return tw.motion_transform(world_foot.rotation, np.zeros(3)) @ foot_base")
         ),
+        "base-for-local": faulty(
+            foot_twist,
+            ("return foot_base", "return tw.motion_transform(foot_base.rotation.mT, np.zeros(3)) @ foot_base"),
+        ),
         "untransformed": faulty(foot_twist, ("foot_base.motion_transform() @ ", "")),
         "coupling-dropped": after(foot_twist, lambda V: V * np.repeat([1, 0], 3)),
         "coupling-sign": after(foot_twist, lambda V: V * np.repeat([1, -1], 3)),

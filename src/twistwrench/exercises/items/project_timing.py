@@ -48,6 +48,12 @@ def _warmed(task: Any, calls: Any, clock: Any) -> Any:
     return np.mean(seconds(task, calls, clock))
 
 
+def _trimmed(task: Any, calls: Any, clock: Any, first: int) -> Any:
+    """Leave out a tenth of the times at the end, and from the first on."""
+    task()
+    return np.mean(sorted(seconds(task, calls, clock))[first : calls - calls // 10])
+
+
 def _near(answer: Any, task: Any) -> Any:
     """Return 1 for about the right time: the median and the shortest are both right."""
     ratio = float(answer) / task.seconds
@@ -64,6 +70,8 @@ TIME = Part(
         "single-call": lambda task, calls, clock: seconds(task, 1, clock)[0],
         "mean-of-times": lambda task, calls, clock: np.mean(seconds(task, calls, clock)),
         "mean-after-warm-up": _warmed,
+        "slowest-tenth": lambda task, calls, clock: _trimmed(task, calls, clock, 0),
+        "tenth-at-each-end": lambda task, calls, clock: _trimmed(task, calls, clock, calls // 10),
         "mean-of-blocks": lambda task, calls, clock: _block(task, calls, clock) / calls,
         "not-per-call": _block,
         "thousand": lambda task, calls, clock: 1000 * time_per_call(task, calls, clock),

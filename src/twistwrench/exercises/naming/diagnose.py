@@ -14,7 +14,7 @@ from .aliases import missing_copies
 from .matching import slips_by_piece, two_slips
 from .messages import compared, comparison, edited, indented, mended, named, named_by_piece, nearer, titles, where
 from .neighbours import Neighbours
-from .own import borne_out, by_piece_borne_out
+from .own import borne_out, by_piece_borne_out, in_other_roles
 from .properties import few_entries
 from .relations import of_numbers, of_structure
 from .wrong_answer import WrongAnswer, changes_after_error
@@ -141,7 +141,7 @@ def _one_triangle(wrong: WrongAnswer) -> Explained | None:
 
 def _change_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report it where it is one, and explains all that is wrong."""
-    if not wrong.edits or wrong.edits[0].edit.first:
+    if not wrong.edits or wrong.edits[0].edit.first or any(in_other_roles(wrong.function, x.edit) for x in wrong.edits):
         return None
     if wrong.edits[0].piece is not None and len(wrong.edits) < len(wrong.wrong_results):
         return None
@@ -195,7 +195,8 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
 
 def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report two changes of a right solution, or one that does not explain all."""
-    return ([], edited(wrong)) if wrong.edits else None
+    other = any(in_other_roles(wrong.function, x.edit) for x in wrong.edits)
+    return ([], edited(wrong)) if wrong.edits and not other else None
 
 
 def _change_of_a_block(wrong: WrongAnswer) -> Explained | None:

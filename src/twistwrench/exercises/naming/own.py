@@ -15,7 +15,7 @@ from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 
-__all__ = ["borne_out", "by_own_line", "by_piece_borne_out", "own_lines", "shown_in", "traced"]
+__all__ = ["borne_out", "by_own_line", "by_piece_borne_out", "in_other_roles", "own_lines", "shown_in", "traced"]
 
 SIGNS = {"cross-order": "cross(", "lever-reversed": " - "}
 """Slips that give the same numbers, the sign of a cross product, and what stands in the line that is turned round."""
@@ -92,6 +92,16 @@ def shown_in(source: str, edit: Edit) -> bool:
     return (
         right in own if edit.kind == "sign" else edit.kind == "left out" and not any(x in own for x in (right, *called))
     )
+
+
+def in_other_roles(function: Callable[..., Any], edit: Edit) -> bool:
+    """Whether a student's code has both names of which an edit of a right solution puts one for the other.
+
+    They may mean other things there, and he would look for the slip where there is none.
+    """
+    source = text_written(function)
+    names = {*re.findall(r"\w+", source)}
+    return edit.kind == "name" and {edit.right, edit.wrong} <= names and not shown_in(source, edit)
 
 
 def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:

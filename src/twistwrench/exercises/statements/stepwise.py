@@ -44,6 +44,10 @@ LIKELY = (*KINDS[: KINDS.index("instead") + 1], "missing")
 """Kinds of changes that may be the first of two."""
 
 
+Spoils = Callable[[Callable[..., Any]], bool]
+"""Whether a changed function gives wrong numbers where the student's are right."""
+
+
 class Traced(NamedTuple):
     """A student's function, what it computes in one case, and the statements that are wrong first.
 
@@ -110,7 +114,7 @@ class Stepwise:
                     return [Repair(edit, self.before)]
         return []
 
-    def two(self, until: float, spoils: Callable[[Callable[..., Any]], bool]) -> list[Repair]:
+    def two(self, until: float, spoils: Spoils) -> list[Repair]:
         """Return two changes, the first of which makes more of the function right, and the second the rest.
 
         The first one must not give wrong numbers where they are right: it `spoils` something then.
@@ -120,7 +124,7 @@ class Stepwise:
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
             return self._after(self.start, until, spoils) or self._both(self.start, until, spoils)
 
-    def _after(self, start: Traced, until: float, spoils: Callable[[Callable[..., Any]], bool]) -> list[Repair]:
+    def _after(self, start: Traced, until: float, spoils: Spoils) -> list[Repair]:
         """Return two changes, the first of them one that makes more of what is computed known."""
         better, begin = [], time.process_time()
         for edit in self._edits(start, begin + 0.5 * (until - begin)):
@@ -138,7 +142,7 @@ class Stepwise:
                     return [Repair(other, self.before, first=edit)]
         return []
 
-    def _both(self, start: Traced, until: float, spoils: Callable[[Callable[..., Any]], bool]) -> list[Repair]:
+    def _both(self, start: Traced, until: float, spoils: Spoils) -> list[Repair]:
         """Return two changes of the first wrong statement, of the likeliest kinds."""
         for edit in self._edits(start, until):
             if edit.kind in PAIRED and edit.places and not spoils(edit.function):
