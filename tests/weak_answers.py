@@ -111,11 +111,11 @@ ANSWERS = [
     Weak(
         "link_inertia",
         "return np.diag([0.03, 0.03, 0.005, 2, 2, 2]), np.array([0.005, 0.03, 0.03, 2, 2, 2])",
-        "columns v: zero, and must not be",
+        "only the diagonal of `build(2.0, ",
     ),
     Weak(
         "link_inertia",
-        "I = spatial_inertia(2.0, np.array([0, 0, 0.1]), np.diag([0.01, 0.01, 0.005]))\nreturn I, np.sort(np.diag(I))",
+        "I = build(2.0, np.array([0, 0, 0.1]), np.diag([0.01, 0.01, 0.005]))\nreturn I, np.sort(np.diag(I))",
         "the diagonal in place of the eigenvalues",
     ),
     Weak("chapter_order", "return I[[3, 4, 5, 0, 1, 2]]", "only the rows are exchanged"),
@@ -164,7 +164,7 @@ ANSWERS = [
     Weak(
         "base_wrench_at_rest",
         "m = sum(body.mass for body in model.inertia)\nreturn np.array([0, 0, 0, 0, 0, m * 9.81])",
-        "the τ rows: zero, and must not be",
+        "two slips at once: the moment of the weight is left out",
     ),
     # 49.7
     Weak(

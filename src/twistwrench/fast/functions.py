@@ -1,8 +1,4 @@
-"""The public functions of `twistwrench.fast`: those of the textbook, as programs, with its arguments and errors.
-
-In `out` is what is to be filled, of the number type of the result. It may share memory with the inputs: all are read as
-they were before the call. ValueError is raised if it does not fit, is read-only, or has entries that share memory.
-"""
+"""The public functions of `twistwrench.fast`: those of the textbook, as programs."""
 
 from __future__ import annotations
 
@@ -10,7 +6,7 @@ from collections.abc import Iterable
 
 from numpy.typing import ArrayLike
 
-from ..algorithms.floating_base import HeldRows, as_frames
+from ..algorithms.floating_base import HeldRows, as_frames, as_held
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array
 from ..model import Model, check_model
@@ -29,10 +25,18 @@ def rnea(
     model, q, v, a, f_ext
         As there.
     out : ndarray, shape (..., nv), optional
+        To be filled, of the number type of the result. It may share memory with the inputs: all are read as they were
+        before the call.
 
     Returns
     -------
     ndarray, shape (..., nv)
+        N m or N.
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `twistwrench.rnea`; or if `out` does not fit, is read-only, or has entries that share memory.
 
     Examples
     --------
@@ -52,13 +56,18 @@ def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | 
 
     Parameters
     ----------
-    model, q, v
-        As there.
-    out : ndarray, shape (..., nv), optional
+    model, q, v, out
+        As in `rnea`.
 
     Returns
     -------
     ndarray, shape (..., nv)
+        N m or N.
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `rnea`.
 
     Examples
     --------
@@ -74,18 +83,24 @@ def crba(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
 
     Parameters
     ----------
-    model, q
-        As there.
-    out : ndarray, shape (..., nv, nv), optional
+    model, q, out
+        As in `rnea`; `out` has shape (..., nv, nv).
 
     Returns
     -------
     ndarray, shape (..., nv, nv)
+        kg m², kg m and kg.
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `rnea`.
 
     Examples
     --------
     >>> import twistwrench as tw
-    >>> tw.fast.crba(tw.load("pendulum"), [[0.0], [1.0]]).shape
+    >>> model = tw.load("pendulum")
+    >>> tw.fast.crba(model, [[0.0], [1.0]]).shape
     (2, 1, 1)
     """
     return result(model, "M", ("q",), (q,), None, out)
@@ -96,14 +111,18 @@ def centroidal_map(model: Model, q: ArrayLike, *, out: Array | None = None) -> A
 
     Parameters
     ----------
-    model, q
-        As there.
-    out : ndarray, shape (..., 6, nv), optional
+    model, q, out
+        As in `rnea`; `out` has shape (..., 6, nv).
 
     Returns
     -------
     ndarray, shape (..., 6, nv)
         Rows (angular, linear), in the axes of the world.
+
+    Raises
+    ------
+    ShapeError, SingularError, ValueError
+        As `rnea`, and if nothing that moves has mass.
 
     Examples
     --------
@@ -133,7 +152,7 @@ def dynamics(
     model, q, v, contacts, want
         As there.
     out : Dynamics, optional
-        Where an entry is None, a new array is made.
+        Arrays that the results are written to. Where an entry is None, a new array is made.
 
     Returns
     -------
@@ -142,6 +161,8 @@ def dynamics(
 
     Raises
     ------
+    NameNotFound, ShapeError, SingularError, ValueError
+        As `twistwrench.dynamics`.
     TypeError
         If `out` is not a `Dynamics`.
 
@@ -165,6 +186,8 @@ def dynamics(
     names = wanted(want)
     want = tuple(name for name in QUANTITIES if name in names)
     contacts = as_frames(model.feet if contacts is None else contacts)
+    if "J_c" in want:
+        as_held(model, contacts)  # raises for those that the model has not
     if not isinstance(out, Dynamics | None):
         raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
     args, dtype = states_of(model, {"q": q, "v": v})
@@ -186,13 +209,18 @@ def aba(
 
     Parameters
     ----------
-    model, q, v, tau, f_ext
-        As there.
-    out : ndarray, shape (..., nv), optional
+    model, q, v, tau, f_ext, out
+        As there, and as in `rnea`.
 
     Returns
     -------
     ndarray, shape (..., nv)
+        rad/s² or m/s².
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `twistwrench.aba`; or if `out` does not fit.
 
     Examples
     --------

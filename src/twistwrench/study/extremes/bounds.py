@@ -86,10 +86,10 @@ def measured(recipe: Recipe) -> Iterator[Measured]:
         return
     tau = ne.inverse_dynamics(model, *(ne.as_mpmath(x) for x in s)).astype(np.float64)
     for wanted in (("tau", "M", "A_G"), ("qdd",)):
-        shared = None
+        shared: dict[Any, Any] = {}
         for number in NUMBERS:
             program: Any = tw.compile(model, wanted, dtype=number, bound=True, backend="numpy")
-            program._reference = shared = shared or program._reference  # the same line: rewritten once
+            program._codes = shared  # the same line: rewritten once
             with np.errstate(over="ignore"):
                 state = {"q": s.q, "v": s.v, "a": s.a, "tau": tau}
                 given = {name: x.astype(number) for name, x in state.items() if name in program.arguments}
