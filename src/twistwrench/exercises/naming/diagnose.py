@@ -153,11 +153,6 @@ def _two_changes(wrong: WrongAnswer) -> Explained | None:
     return ([], mended(wrong, found)) if found else None
 
 
-def _any_two_changes(wrong: WrongAnswer) -> Explained | None:
-    found = wrong.any_two_changes()
-    return ([], mended(wrong, found)) if found else None
-
-
 def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
     """Report a change of a line after which the numbers are those of a slip of the list."""
     if not wrong.again or (found := wrong.nearer.change_and_slip()) is None:
@@ -224,7 +219,6 @@ OF_CODE: tuple[Explanation, ...] = (
     _change_of_the_solution,
     _two_changes,
     _change_and_slip,
-    _any_two_changes,
     _two_slips_of_the_list,
     _each_result,
     _rest_of_the_solution,
@@ -232,5 +226,5 @@ OF_CODE: tuple[Explanation, ...] = (
 )
 """What is tried where the student's function may be called again."""
 
-OF_ONE_RESULT = [x for x in (*EXPLANATIONS, *OF_CODE) if x not in (_two_changes, _any_two_changes)]
+OF_ONE_RESULT = [x for x in (*EXPLANATIONS, *OF_CODE) if x is not _two_changes]
 """What is tried for one of several results: two changes that make it right may spoil another."""

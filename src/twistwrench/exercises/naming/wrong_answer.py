@@ -139,12 +139,6 @@ class WrongAnswer:
         nearer = two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
         return nearer or self.steps.two(self.until["both"], self.nearer.spoils)
 
-    def any_two_changes(self) -> list[Repair]:
-        """Return any two changes of the student's own lines that together make them right."""
-        if self.by_chance:
-            return []
-        return repairs(self.part, *self.given, until=self.until["twice"], pairs=True)
-
     def slip(self, name: str) -> Slip:
         """Return a slip with the reason that this part gives for it, if it has one of its own."""
         if name not in self.part.reasons:
