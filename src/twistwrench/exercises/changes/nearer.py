@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+import re
 import time
 from collections.abc import Callable, Iterator, Sequence
+from operator import ne
 from typing import Any
 
 import numpy as np
@@ -36,9 +38,6 @@ LIKELY = ("exchanged", "halves", "sign", "transposed", "left out", "last", "name
 
 TURNS = ("sign", "transposed", "halves", "exchanged")
 """Kinds of changes that take nothing out."""
-
-SURE = (*TURNS, "instead")
-"""Those after which a slip of the list is another slip, and not what the change has made."""
 
 TWICE = ("swapped-halves", "transposed-answer")
 """Slips that turn all numbers round: with a change on the way in they are the same on the way out."""
@@ -97,8 +96,7 @@ class Nearer:
 
     def note(self, edit: Edit, answer: Any) -> None:
         """Keep a change, if less is wrong with it than without it, or if what is wrong then is a slip of the list."""
-        sure = edit.places and not edit.everywhere and (edit.kind in SURE or _is_of_rounds(edit))
-        numbers = self._flat(answer) if sure else None
+        numbers = self._flat(answer) if edit.places and _leaves_the_rest(edit) else None
         for name, slipped in self.slipped.items():
             if numbers is not None and numbers.shape == slipped.shape and _near(numbers, slipped):
                 self.slips.append((edit, name))
@@ -208,6 +206,13 @@ class Nearer:
             if not a or not b:
                 return None
         return np.concatenate(found) if found and self.part.canonical is None else None
+
+
+def _leaves_the_rest(edit: Edit) -> bool:
+    """Whether a change leaves all other terms as they are: a slip of the list that shows then was there before."""
+    words = [re.findall(r"\w+", text) for text in (edit.right, edit.wrong)]
+    twin = edit.kind == "instead" and len(words[0]) == len(words[1]) and sum(map(ne, *words)) == 1
+    return not edit.everywhere and (edit.kind in TURNS or twin or _is_of_rounds(edit))
 
 
 def _is_of_rounds(edit: Edit) -> bool:
