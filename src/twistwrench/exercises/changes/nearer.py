@@ -212,13 +212,21 @@ def _leaves_the_rest(edit: Edit) -> bool:
     """Whether a change leaves all other terms as they are: a slip of the list that shows then was there before."""
     words = [re.findall(r"\w+", text) for text in (edit.right, edit.wrong)]
     twin = edit.kind == "instead" and len(words[0]) == len(words[1]) and sum(map(ne, *words)) == 1
-    return not edit.everywhere and (edit.kind in TURNS or twin or _is_of_rounds(edit))
+    turned = edit.kind in TURNS and not _of_an_index(edit)
+    return not edit.everywhere and (turned or twin or _is_of_rounds(edit))
+
+
+def _of_an_index(edit: Edit) -> bool:
+    """Whether a change exchanges the entries of an index: a row read for a column may be zero, so a term is gone."""
+    return edit.kind == "exchanged" and isinstance(edit.places[0][0][-1], ast.Subscript)
 
 
 def _is_of_rounds(edit: Edit) -> bool:
-    """Whether a change lets a loop begin or end with another round."""
-    around = edit.places[0][0][-1]
-    return isinstance(around, ast.Call) and ast.unparse(around.func) == "range"
+    """Whether a change lets a loop begin or end one round earlier or later."""
+    around, first, second = edit.places[0][0][-1], *(getattr(x, "value", None) for x in edit.places[0][2:])
+    if not isinstance(around, ast.Call) or ast.unparse(around.func) != "range":
+        return False
+    return type(first) is int and type(second) is int and abs(first - second) == 1
 
 
 def _near(x: Array, y: Array) -> bool:
