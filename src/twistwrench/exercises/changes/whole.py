@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import Array
 from .containers import exchanges
 
 __all__ = ["Edit", "of_arguments", "of_order"]
@@ -26,7 +27,7 @@ ARGUMENTS: dict[str, Function] = {
     "np.roll({}, len({}) // 2, 0)": lambda x: np.roll(x, len(x) // 2, 0),
     "np.triu({})": np.triu,
     "np.triu({}) + np.triu({}).T": lambda x: np.triu(x) + np.triu(x).mT,
-    "np.r_[{}[4:7], {}[:4], {}[7:]]": lambda x: np.r_[x[4:7], x[:4], x[7:]],
+    "np.r_[{}[4:7], {}[:4], {}[7:]]": lambda x: np.r_[x[4:7], x[:4], x[7:]] if _has_quaternion(x) else None,
     "{} + {}.T": lambda x: x + x.mT,
     "{}.T.reshape({}.shape)": lambda x: x.mT.reshape(x.shape),
 }
@@ -37,6 +38,7 @@ RESULTS = {
     for key, change in ARGUMENTS.items()
     if key not in ("0 * {}", "np.eye(len({}))", "{}.T.reshape({}.shape)")
 } | {
+    "np.r_[{}[3:6], {}[:3], {}[6:]]": lambda x: np.r_[x[3:6], x[:3], x[6:]] if x.ndim == 1 else None,
     "{}[:3]": lambda x: x[:3],
     "{}[3:]": lambda x: x[3:],
     "{}[6:]": lambda x: x[6:],
@@ -46,6 +48,11 @@ RESULTS = {
     "np.concatenate({})": np.concatenate,
 }
 """What can be done to a result."""
+
+
+def _has_quaternion(x: Array) -> bool:
+    """Whether a vector begins with a unit quaternion, or with a point and one."""
+    return x.ndim == 1 and any(abs(np.linalg.norm(part) - 1) < 1e-6 for part in (x[:4], x[3:7]))
 
 
 @dataclass(frozen=True)
