@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Array
+from ...bridge.spatial import from_pinocchio_motion
 from .containers import exchanges
 
 __all__ = ["Edit", "of_arguments", "of_order"]
@@ -38,7 +39,7 @@ RESULTS = {
     for key, change in ARGUMENTS.items()
     if key not in ("0 * {}", "np.eye(len({}))", "{}.T.reshape({}.shape)")
 } | {
-    "np.r_[{}[3:6], {}[:3], {}[6:]]": lambda x: np.r_[x[3:6], x[:3], x[6:]] if x.ndim == 1 else None,
+    "np.r_[{}[3:6], {}[:3], {}[6:]]": lambda x: np.r_[from_pinocchio_motion(x[:6]), x[6:]],
     "{}[:3]": lambda x: x[:3],
     "{}[3:]": lambda x: x[3:],
     "{}[6:]": lambda x: x[6:],
