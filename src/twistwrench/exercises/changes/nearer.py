@@ -218,15 +218,12 @@ def _leaves_the_rest(edit: Edit) -> bool:
 
 def _of_an_index(edit: Edit) -> bool:
     """Whether a change exchanges the entries of an index: a row read for a column may be zero, so a term is gone."""
-    return edit.kind == "exchanged" and isinstance(edit.places[0][0][-1], ast.Subscript)
+    return edit.kind == "exchanged" and isinstance(edit.inside, ast.Subscript)
 
 
 def _is_of_rounds(edit: Edit) -> bool:
     """Whether a change lets a loop begin or end one round earlier or later."""
-    around, first, second = edit.places[0][0][-1], *(getattr(x, "value", None) for x in edit.places[0][2:])
-    if not isinstance(around, ast.Call) or ast.unparse(around.func) != "range":
-        return False
-    return type(first) is int and type(second) is int and abs(first - second) == 1
+    return edit.by_one and isinstance(edit.inside, ast.Call) and ast.unparse(edit.inside.func) == "range"
 
 
 def _near(x: Array, y: Array) -> bool:

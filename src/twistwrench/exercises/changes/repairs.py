@@ -185,10 +185,7 @@ def _changes(
 
 def _off_by_one(edit: Edit) -> bool:
     """Whether an index or an argument is off by one: there are so few of these that none is right by chance."""
-    if not edit.places or not isinstance(edit.places[0][0][-1], ast.Call | ast.Slice | ast.Subscript):
-        return False
-    first, second = (getattr(x, "value", None) for x in edit.places[0][2:])
-    return type(first) is int and type(second) is int and abs(first - second) == 1
+    return edit.by_one and isinstance(edit.inside, ast.Call | ast.Slice | ast.Subscript)
 
 
 def _pairs(source: Source) -> Iterator[Edit]:

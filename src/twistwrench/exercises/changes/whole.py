@@ -96,6 +96,17 @@ class Edit:
     places: tuple[Any, ...] = ()
     around: tuple[str, ...] = ()
 
+    @property
+    def inside(self) -> Any:
+        """The node of the syntax tree in which it is made; None for an argument or a result."""
+        return self.places[0][0][-1] if self.places else None
+
+    @property
+    def by_one(self) -> bool:
+        """Whether it puts a whole number in place of the next one or of the one before."""
+        first, second = (getattr(x, "value", None) for x in self.places[0][2:]) if self.places else (None, None)
+        return type(first) is int and type(second) is int and abs(first - second) == 1
+
 
 def of_arguments(solution: Function) -> Iterator[Edit]:
     """Yield the function with a change to one of its arguments, or to its result."""
