@@ -390,6 +390,16 @@ def test_hints_and_solutions_show_as_they_read():
         assert "\n" in said
 
 
+def test_an_exercise_is_found_by_its_number_or_a_function():
+    """A student sees the name of the function before him, and not always the number."""
+    assert hint("skew", language="en") == hint("49.0.1", language="en")
+    assert solution("tree_aba", language="en") == solution(catalogue.find_part("tree_aba")[0].id, language="en")
+    with pytest.raises(tw.NameNotFound, match="did you mean 'rows_of_foot'"):
+        hint("rows_of_fot")
+    with pytest.raises(tw.NameNotFound, match=r"unknown exercise 'project.9'"):
+        hint("project.9")
+
+
 def test_hints_come_one_at_a_time(tmp_path):
     start(tmp_path, language="en")
     first, second = hint("49.3.1", tmp_path), hint("49.3.1", tmp_path)

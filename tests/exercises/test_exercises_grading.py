@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from xml.etree import ElementTree
 
 import pytest
@@ -85,6 +86,11 @@ def test_the_page_has_the_points_and_the_words_beside_the_model_answer(found):
         assert page.index(model[:20]) < page.index("=1+1 &lt;b&gt;")
         assert page.count("<details") == page.count("</details>")
         assert "<script" not in page
+        links = re.findall(r'href="#([^"]+)"', page)
+        assert len(links) == sum(
+            any(v.state == "wrong" for v in m.verdicts.values()) for x in found for m in x.marks.values()
+        )
+        assert all(page.count(f'id="{link}"') == 1 for link in links)
     assert "--seed 5" in as_html(found, 5, "en")
 
 

@@ -11,7 +11,7 @@ from ..errors import check_known
 from .exercise import Exercise, Part
 from .words.text import Text
 
-__all__ = ["SECTIONS", "available", "exercise", "file_name", "find_part", "of_section"]
+__all__ = ["SECTIONS", "asked_for", "available", "exercise", "file_name", "find_part", "of_section"]
 
 SECTIONS = {
     "49.0": Text("Before you start", "前置自测"),
@@ -63,6 +63,22 @@ def exercise(number: str) -> Exercise:
     check_known("exercise", number, available())
     found: Exercise = import_module(f".items.ex_{number.replace('.', '_')}", __package__).EXERCISE
     return found
+
+
+def asked_for(name: str) -> Exercise:
+    """Return an exercise by its number, or by the name of one of its functions.
+
+    Raises
+    ------
+    NameNotFound
+        If there is neither.
+
+    Examples
+    --------
+    >>> asked_for("skew").id
+    '49.0.1'
+    """
+    return exercise(name) if name[:1].isdigit() or name.startswith("project") else find_part(name)[0]
 
 
 def of_section(section: str) -> tuple[Exercise, ...]:

@@ -40,7 +40,7 @@ def register(commands: Any) -> None:
     hint = _action(actions, "hint", "the next hint for an exercise", run_hint)
     solution = _action(actions, "solution", "a solution of an exercise", run_solution)
     for asked in (hint, solution):
-        asked.add_argument("id", metavar="ID", help="as 49.3.1")
+        asked.add_argument("id", metavar="ID", help="as 49.3.1, or the name of a function")
         asked.add_argument("--dir", default=".", metavar="DIR", help="where the exercises are (here)")
     hint.add_argument("--all", action="store_true", help="all hints")
     hint.add_argument("--again", action="store_true", help="the last hint again")
@@ -141,11 +141,10 @@ def run_solution(args: argparse.Namespace) -> int:
     from . import catalogue
     from .helping import solution
 
-    catalogue.exercise(args.id)
-    language = _language(args, args.dir)
-    if not args.yes and not _sure(args.id, language):
+    number, language = catalogue.asked_for(args.id).id, _language(args, args.dir)
+    if not args.yes and not _sure(number, language):
         return REFUSED
-    print(solution(args.id, args.dir, language=language))
+    print(solution(number, args.dir, language=language))
     return 0
 
 

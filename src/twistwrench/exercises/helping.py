@@ -43,7 +43,7 @@ class Shown(str):
 
 
 def hint(
-    number: str,
+    name: str,
     folder: str | PathLike[str] = ".",
     *,
     again: bool = False,
@@ -54,8 +54,8 @@ def hint(
 
     Parameters
     ----------
-    number : str
-        Of the exercise, as "49.3.1".
+    name : str
+        The number of the exercise, as "49.3.1", or the name of one of its functions.
     folder : str or path
         One that `start` has filled. In any other, nothing is remembered, and each call returns the first hint.
     again : bool
@@ -72,15 +72,15 @@ def hint(
     Raises
     ------
     NameNotFound
-        If there is no such exercise.
+        If there is no such exercise or function.
 
     Examples
     --------
     >>> print(hint("49.3.1", language="en").splitlines()[0])
     49.3.1 A pure translation: hint 1 of 2
     """
-    exercise, book = catalogue.exercise(number), Workbook(folder, language=language)
-    spoken, n = book.language, len(exercise.hints)
+    exercise, book = catalogue.asked_for(name), Workbook(folder, language=language)
+    number, spoken, n = exercise.id, book.language, len(exercise.hints)
     shown = int(book.state["hints"].get(number, 0))
     last = n if every else min(max(shown, 1) if again else shown + 1, n)
     if remembered := (book.folder / catalogue.file_name(exercise.section)).exists():
@@ -102,7 +102,7 @@ def _has_words(book: Workbook, exercise: Exercise) -> bool:
         return other.words(exercise) is not None
 
 
-def solution(number: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
+def solution(name: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
     """Return a solution of an exercise, as it could stand in the student's file.
 
     It includes the model answer to a question in words once the student has answered it. That it was shown is
@@ -110,8 +110,8 @@ def solution(number: str, folder: str | PathLike[str] = ".", *, language: Langua
 
     Parameters
     ----------
-    number : str
-        Of the exercise, as "49.3.1".
+    name : str
+        The number of the exercise, as "49.3.1", or the name of one of its functions.
     folder : str or path
         One that `start` has filled.
     language : {"en", "zh"}, optional
@@ -124,15 +124,15 @@ def solution(number: str, folder: str | PathLike[str] = ".", *, language: Langua
     Raises
     ------
     NameNotFound
-        If there is no such exercise.
+        If there is no such exercise or function.
 
     Examples
     --------
     >>> print(solution("49.3.1", language="en").splitlines()[0])
     49.3.1 A pure translation: a solution
     """
-    exercise, book = catalogue.exercise(number), Workbook(folder, language=language)
-    spoken = book.language
+    exercise, book = catalogue.asked_for(name), Workbook(folder, language=language)
+    number, spoken = exercise.id, book.language
     if (book.folder / catalogue.file_name(exercise.section)).exists():
         book.remember(solutions=sorted({*book.state["solutions"], number}))
     lines = [SAY["solution"].fill(id=number, title=exercise.title).of(spoken)]

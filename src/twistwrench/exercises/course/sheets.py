@@ -148,7 +148,7 @@ def as_html(found: Sequence[Graded], seed: int, language: Language) -> str:
     numbers = list(dict.fromkeys(number for one in found for number in one.marks))
     asked = [n for n in numbers if catalogue.exercise(n).answer is not None]
     body += [f"<h2>{SAY['read'].of(language)}</h2>", *(_answers(number, found, language) for number in asked)]
-    body += [f"<h2>{SAY['messages'].of(language)}</h2>", *(_messages(one, language) for one in found)]
+    body += [f"<h2>{SAY['messages'].of(language)}</h2>", *(_messages(one, k, language) for k, one in enumerate(found))]
     title, code = SAY["title"].of(language), "zh-CN" if language == "zh" else "en"
     return PAGE.format(code=code, title=title, style=STYLE, body="\n".join(body))
 
@@ -159,20 +159,29 @@ def _points(found: Sequence[Graded], language: Language) -> str:
     head = f"<th></th><th>{escape(SAY['total'].of(language))}</th>"
     head += "".join(f'<th title="{title}">{number}</th>' for number, title in zip(numbers, titles))
     rows = []
-    for one in found:
-        cells = "".join(_cell(one.marks.get(number)) for number in numbers)
+    for k, one in enumerate(found):
+        cells = "".join(_cell(one.marks.get(number), _place(k, number)) for number in numbers)
         rows.append(f"<tr><th>{escape(one.student)}</th><td>{one.points:.2f}</td>{cells}</tr>")
     return f'<div class="tw-scroll"><table class="tw-class"><tr>{head}</tr>{"".join(rows)}</table></div>'
 
 
-def _cell(mark: Mark | None) -> str:
-    """Return the points of one exercise, with ? for each hint and ! where the solution was shown."""
+def _place(student: int, number: str) -> str:
+    """Return the name of the place on the page where a student's messages about an exercise begin."""
+    return f"m{student}-{number}"
+
+
+def _cell(mark: Mark | None, place: str) -> str:
+    """Return the points of one exercise, with ? for each hint and ! where the solution was shown.
+
+    Where something is wrong, it is a link to the messages.
+    """
     if mark is None:
         return "<td></td>"
     begun = any(verdict.state != "to do" for verdict in mark.verdicts.values())
     kind = "tw-full" if mark.points == 1 else "tw-part" if mark.points else "tw-zero" if begun else ""
     text = (f"{mark.points:.2g}" if begun else "·") + "?" * mark.hints + "!" * mark.solution
-    return f'<td class="{kind}">{text}</td>'
+    wrong = any(verdict.state == "wrong" for verdict in mark.verdicts.values())
+    return f'<td class="{kind}"><a href="#{place}">{text}</a></td>' if wrong else f'<td class="{kind}">{text}</td>'
 
 
 def _answers(number: str, found: Sequence[Graded], language: Language) -> str:
@@ -189,10 +198,12 @@ def _answers(number: str, found: Sequence[Graded], language: Language) -> str:
     return f'<details class="tw-check"><summary>{title}</summary>{table}</details>'
 
 
-def _messages(one: Graded, language: Language) -> str:
-    """Return the messages of one student."""
-    verdicts = (verdict for mark in one.marks.values() for verdict in mark.verdicts.values())
-    wrong = [verdict_html(verdict, language) for verdict in verdicts if verdict.state == "wrong"]
-    inside = "\n".join(f'<div class="tw-wrong">{text}</div>' for text in wrong)
-    said = SAY["wrong"].of(language)
-    return f'<details class="tw-check"><summary>{escape(one.student)}: {len(wrong)} {said}</summary>{inside}</details>'
+def _messages(one: Graded, student: int, language: Language) -> str:
+    """Return the messages of one student, those about one exercise together."""
+    about = {n: [v for v in mark.verdicts.values() if v.state == "wrong"] for n, mark in one.marks.items()}
+    shown = ""
+    for number in filter(about.get, about):
+        each = (f'<div class="tw-wrong">{verdict_html(verdict, language)}</div>' for verdict in about[number])
+        shown += f'<div id="{_place(student, number)}">{"".join(each)}</div>\n'
+    title = f"{escape(one.student)}: {sum(map(len, about.values()))} {SAY['wrong'].of(language)}"
+    return f'<details class="tw-check"><summary>{title}</summary>{shown}</details>'
