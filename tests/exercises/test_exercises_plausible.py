@@ -65,6 +65,46 @@ def arc(omega_z, v_x):
     return T
 """
 
+CARRIED_OVER = """\
+def foot_wrench(model, q, foot):
+    weight = -model.mass * np.asarray(model.gravity)
+    foot = tw.frame_placement(model, q, foot)
+    return foot.motion_transform().T @ np.hstack([np.zeros(3), weight / 4])
+"""
+HELD = """\
+def base_wrench_at_rest(model, q):
+    base, total_mass = tw.forward_kinematics(model, q).placement[1], 0.0
+    for body in model.inertia:
+        total_mass = total_mass + body.mass
+    f = base.rotation.T @ (total_mass * np.asarray(model.gravity))
+    c = base.rotation.T @ (tw.center_of_mass(model, q) - base.translation)
+    return np.concatenate([np.cross(c, f), f])
+"""
+WRITTEN_TO = """\
+def plucker(R, p):
+    X, Y = np.zeros((6, 6)), np.zeros((6, 6))
+    X[:3, :3] = X[3:, 3:] = Y[:3, :3] = Y[3:, 3:] = R
+    X[3:, :3] = tw.skew(p) @ R
+    X[:3, 3:] = tw.skew(p) @ R
+    return X, Y
+"""
+ALL_NUMBERS = """\
+def sole_wrench(points, forces):
+    return np.r_[np.sum(np.cross(points, forces)) * np.ones(3), np.sum(forces, axis=0)]
+"""
+TO_THE_LAST = """\
+def selection(nv):
+    n, S = nv - 6, np.zeros((nv - 6, nv))
+    for i in range(1, n):
+        S[i - 1, 5 + i] = 1
+    return S
+"""
+ROWS_ONLY = """\
+def pinocchio_inertia(m, c, I_c):
+    I = tw.SpatialInertia(m, c, I_c).matrix()
+    return np.vstack([I[3:], I[:3]])
+"""
+
 
 @pytest.mark.parametrize(
     ("text", "says", "never"),
@@ -78,6 +118,12 @@ def arc(omega_z, v_x):
             (NET.format(f"com - {FOOT}", "r, f"), f"`com - {FOOT}` must be `{FOOT} - com`", "factors of the cross"),
             (CARRIED, "line 14, `F[i]` must be `out[i]`", "visited outward"),
             (PLUCKER, "X and X* are exchanged", "swapped"),
+            (CARRIED_OVER, "a point contact has no moment about itself", "must be"),
+            (HELD, "wrong sign", "the sign of `body.mass`"),
+            (WRITTEN_TO, "line 15, `X[:3, 3:]` must be `Y[:3, 3:]`", "another quantity"),
+            (ALL_NUMBERS, "`np.sum(np.cross(points, forces))` must be `np.sum(np.cross(points, forces), axis=0)`", "?"),
+            (TO_THE_LAST, "line 13, `range(1, n)` must be `range(1, n + 1)`", "known slips"),
+            (ROWS_ONLY, "the columns of what is returned, `x`, have their two halves exchanged", "np.r_"),
         ],
         3,
         several=True,

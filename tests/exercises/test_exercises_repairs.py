@@ -74,7 +74,7 @@ def test_a_slip_in_a_way_of_ones_own_is_found_at_its_line(written, right, wrong,
     [
         ("def act(R, p, x):\n    return (R @ x + p)[:2]\n", "x_A has the shape (2,); it must be (3,)"),
         ("def act(R, p, x):\n    y = R * x\n    return y + p\n", "`R * x` must be `R @ x`"),
-        ("def act(R, p, x):\n    return np.r_[R @ x + p, 1.0]\n", "where `x` is returned, `x[:3]` would be right"),
+        ("def act(R, p, x):\n    return np.r_[R @ x + p, 1.0]\n", "return `x[:3]` where `x` is returned"),
         ("def skew(w):\n    W = -tw.skew(w).T\n    W += tw.skew(w)\n    return W\n", "does not belong there"),
     ],
 )

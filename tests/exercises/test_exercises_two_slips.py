@@ -100,6 +100,16 @@ def on_all_rows(tau):
     return np.pad(tau, 6)
 """
 
+UNIT_SPEED = """\
+def mass_matrix_by_rnea(model, q):
+    M, rest = np.zeros((model.nv, model.nv)), np.zeros(model.nv)
+    for k in range(6, model.nv):
+        e = np.zeros(model.nv)
+        e[k] = 1.0
+        M[:, k] = tw.rnea(model, q, rest, e) - tw.rnea(model, q, e, rest)
+    return M
+"""
+
 
 @pytest.mark.parametrize(
     ("text", "says"),
@@ -114,6 +124,10 @@ def on_all_rows(tau):
             (NOT_CARRIED, ["`wrench = X[j].T @ first` starts from the same `first` in each round"]),
             (BY_COLUMNS, ["`forces.ravel(order='F')` must be `forces.ravel()`"]),
             (HUGE, ["`lower < -1000000000.0` must be `lower == -np.inf`", "must be `upper == np.inf`"]),
+            (
+                UNIT_SPEED,
+                ["`tw.rnea(model, q, rest, rest)`", "`tw.rnea(model, q, e, e)`", "changes of one of them"],
+            ),
             (BOTH_ENDS, ["`np.pad(tau, 6)` must be `np.pad(tau, (6, 0))`"]),
         ],
         3,

@@ -65,10 +65,11 @@ def alternatives(
                 yield kind, other
     if isinstance(node, ast.For | ast.While):
         yield from _loops(node, parent)
-    if isinstance(getattr(parent, "ctx", None), ast.Store):
-        return  # the name of what is written to
-    if isinstance(node, ast.Name):
+    written = isinstance(getattr(parent, "ctx", None), ast.Store)
+    if isinstance(node, ast.Name) and (not written or node is getattr(parent, "value", None)):
         yield from (("name", parsed(name)) for name in names if not _beside(name, parent))
+    if written:
+        return  # a term is read, and this is written to
     if _is_term(node, parent):
         if not is_copy(node) and not has_no_sign(node) and not has_no_sign(parent):
             yield "sign", ast.UnaryOp(ast.USub(), node)

@@ -25,6 +25,9 @@ IN_ORDER = ("range", "clip", "max", "min", "maximum")
 TURNING = ("transpose", "swapaxes", "moveaxis")
 """Functions that only turn an array round."""
 
+ALONG = ("sum", "mean", "max", "min", "norm")
+"""Functions along one axis of an array, or of all its numbers where none is given."""
+
 LAST = ast.parse("-1", mode="eval").body
 
 
@@ -43,6 +46,9 @@ def calls(node: Any) -> Iterator[Change]:
         kind = "left out" if len(node.args) == 1 else "instead"
         yield from ((kind, argument) for argument in node.args if not isinstance(argument, ast.Constant))
     yield from _of_method(node)
+    if called(node) in ALONG and not node.keywords and len(node.args) == _of_module(node):
+        for axis in (0, 1):
+            yield "instead", ast.Call(node.func, node.args, [ast.keyword("axis", ast.Constant(axis))])
     if called(node) == "sum":
         every = node.func.value if isinstance(node.func, ast.Attribute) else _listed(node.args[0])
         yield "last", ast.Subscript(every, LAST)
@@ -51,8 +57,18 @@ def calls(node: Any) -> Iterator[Change]:
         yield kind, ast.Call(node.func, node.args, [x for x in node.keywords if x is not keyword])
     if called(node) == "range":
         yield "instead", parsed("reversed(_)", node)
+        bound = node.args[min(1, len(node.args) - 1)]
+        for op in () if isinstance(bound, ast.Constant | ast.BinOp) else (ast.Add(), ast.Sub()):
+            one = ast.BinOp(bound, op, ast.Constant(1))
+            yield "instead", ast.Call(node.func, [one if x is bound else x for x in node.args], [])
         if len(node.args) == 2 and isinstance(start := getattr(node.args[0], "value", None), int):
             yield "instead", ast.Call(node.func, [node.args[0], ast.Constant(start + 1)], [])
+
+
+def _of_module(node: ast.Call) -> int | None:
+    """Return 1 for a function of NumPy, 0 for a method, None for what stands by itself."""
+    owner = node.func.value if isinstance(node.func, ast.Attribute) else None
+    return None if owner is None else int(ast.unparse(owner) in ("np", "np.linalg"))
 
 
 def _listed(each: ast.expr) -> ast.expr:

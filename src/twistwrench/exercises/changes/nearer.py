@@ -19,7 +19,7 @@ from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import Source
-from .plausible import turns_the_rest
+from .plausible import alike, turns_the_rest
 from .whole import Edit
 
 __all__ = ["Nearer"]
@@ -110,22 +110,25 @@ class Nearer:
         if gained.any() and (len(self.tried) > 1 or self._numbers(self.tried[0])[gained].any()):
             self.found.append((int(wrong.sum()), edit))
 
-    def second(self, chosen: Chosen, until: float) -> tuple[Edit, Edit] | None:
-        """Return two changes, one after the other, that make all right."""
+    def second(self, chosen: Chosen, until: float) -> tuple[Edit, list[Edit]] | None:
+        """Return a change and those of the likeliest kind of which each, made after it, makes all right."""
         best = sorted(self.found, key=lambda pair: pair[0])[:MOST]
         for k, (_, edit) in enumerate(best):
             now = time.process_time()
             share = now + (until - now) / (len(best) - k)
             source = self.source.after(edit) if self.source else None
+            others: list[Edit] = []
             for other in chosen(source) if source else ():
-                if time.process_time() > share:
+                if time.process_time() > share or (others and other.kind != others[0].kind):
                     break
                 if other.kind == "transposed" and edit.wrong in other.right:
                     continue  # of a product that was turned already: its factors exchanged are the shorter way
                 if turns_the_rest(edit, other):
                     continue
-                if self._mends(other):
-                    return edit, other
+                if not any(alike(other, x) for x in others) and self._mends(other):
+                    others.append(other)
+            if others:
+                return edit, others
         return None
 
     def blocks(self) -> tuple[Edit, list[Text]] | None:

@@ -11,12 +11,16 @@ from functools import lru_cache
 from typing import Any
 
 from ..exercise import Part
+from .of_wrenches import turns_into_the_other_kind
 from .whole import Edit
 
-__all__ = ["ALIKE", "alike", "anywhere", "plausible", "shuts", "turns_the_rest"]
+__all__ = ["ALIKE", "BESIDE", "alike", "anywhere", "plausible", "shuts", "turns_the_rest"]
 
 ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
 """Kinds of which one may make right what another does, and which are then the same for a student."""
+
+BESIDE = ("name", "index", "instead")
+"""Kinds of which another one, of another text, is another thing for a student."""
 
 POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
@@ -80,10 +84,10 @@ def _nobody_makes(edit: Edit, part: Part) -> bool:
     return (
         edit.kind == "diagonal"  # nobody forgets to drop what is beside the diagonal
         or (edit.kind in ("sign", "number", "exchanged") and _is_place(edit))  # a place, or how often, has no sign
-        or (edit.kind == "sign" and _is_rotation(edit.right))  # −R is not a rotation matrix
+        or (edit.kind == "sign" and _is_positive(edit.right))  # −R is not a rotation matrix, −m not a mass
         or (edit.kind == "index" and _is_written_to(edit))  # two things would be written to one place
         or _crossed_with_itself(edit.wrong)
-        or _of_the_other_kind(edit.right, edit.wrong, part)
+        or turns_into_the_other_kind(edit, part)
     )
 
 
@@ -102,9 +106,10 @@ def _is_place(edit: Edit) -> bool:
     return False
 
 
-def _is_rotation(text: str) -> bool:
-    """Whether a text is a rotation matrix by its name, or the transpose of one."""
-    return text.removesuffix(".T").rpartition(".")[2] in ("R", "rotation")
+def _is_positive(text: str) -> bool:
+    """Whether a text is a rotation matrix by its name, or the transpose of one, or a mass."""
+    name = text.removesuffix(".T").rpartition(".")[2]
+    return name in ("R", "rotation") or (name.isidentifier() and "mass" in name.lower())
 
 
 def _is_written_to(edit: Edit) -> bool:
@@ -123,14 +128,6 @@ def _crossed_with_itself(after: str) -> bool:
     return any(len({*map(ast.unparse, x.args)}) == 1 for x in products)
 
 
-def _of_the_other_kind(before: str, after: str, part: Part) -> bool:
-    """Whether a wrench that is asked for would be transformed like a twist, or a twist like a wrench."""
-    rows = [x.layout.axes[0][0][0].en for x in part.returns if x.layout.axes]
-    motion, force = (all(row in names for row in rows) for names in (("ω", "v"), ("τ", "k (angular)")))
-    right, wrong = ("force_", "motion_") if force else ("motion_", "force_")
-    return bool(rows) and motion != force and right in before and wrong in after and wrong not in before
-
-
 def turns_the_rest(edit: Edit, other: Edit) -> bool:
     """Whether two changes give a sign to something and to all that is around it: to the rest alone, that is."""
     return edit.kind == other.kind == "sign" and (edit.right in other.right or other.right in edit.right)
@@ -140,6 +137,8 @@ def alike(edit: Edit, other: Edit) -> bool:
     """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
     crossed, levers = ([f(x.right) for x in (edit, other)] for f in (_cross_text, _difference_text))
     two = edit.kind == other.kind == "exchanged" and crossed == levers[::-1] and any(crossed)
+    if edit.kind == other.kind and edit.kind in BESIDE:
+        return edit.right in other.right or other.right in edit.right or edit.everywhere != other.everywhere
     return not two and ALIKE.get(edit.kind) == ALIKE.get(other.kind)
 
 

@@ -15,6 +15,8 @@ __all__ = ["Repair"]
 
 OF_RESULT = {
     "np.roll(x, len(x) // 2, 0)": "halves of result",
+    "np.roll(x, len(x.T) // 2, 1)": "halves of columns",
+    "np.r_[x[3:6], x[:3], x[6:]]": "halves of base",
     "np.linalg.inv(x)": "inverse of result",
     "x[6:]": "first six of result",
 }
@@ -54,6 +56,12 @@ class Repair:
             self.first and self.first.wrong and self.edit.wrong and self.edit.right.count(self.first.wrong) == 1
         )
 
+    @property
+    def roundabout(self) -> bool:
+        """Whether it only undoes what is wrong, on the way in or out, and does not name that."""
+        changes = (edit for edit in (self.first, self.edit) if edit is not None)
+        return any(x.kind == "argument" or (x.kind == "result" and x.wrong not in OF_RESULT) for x in changes)
+
     def title(self) -> Text:
         """Report what must stand where."""
         edit = self.edit
@@ -70,7 +78,7 @@ class Repair:
         if shuts(edit):
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:
-            return say(OF_RESULT[edit.wrong], title=title)
+            return say(OF_RESULT[edit.wrong], right=edit.wrong)
         if edit.line:
             title = said_where(edit, title)
             title = say("in own line", line=edit.line + self.before, title=title)

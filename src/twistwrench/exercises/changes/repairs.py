@@ -22,7 +22,7 @@ from .alternatives import KINDS
 from .edits import Source
 from .meanings import meaning
 from .nearer import Nearer
-from .plausible import ALIKE, alike, anywhere, plausible
+from .plausible import ALIKE, BESIDE, alike, anywhere, plausible
 from .repair import Repair
 from .search import Remembering, by_chance, same
 from .whole import Edit, of_arguments, of_order
@@ -92,7 +92,7 @@ def repairs(
         nearer.begin(source, before, first, seconds[first])
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         for edit in _changes(part, function, source, cases[first], until, pairs, len(cases)):
-            if mended and (edit.kind not in ALIKE or pairs):
+            if mended and (pairs or edit.kind not in (*ALIKE, *({mended[0].edit.kind} & {*BESIDE}))):
                 break
             if rare and edit.kind == "inserted" and not edit.wrong.startswith("abs("):
                 continue  # a factor that is missing spoils most cases
@@ -141,7 +141,7 @@ def two_repairs(
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         both = nearer.second(chosen, until)
     if both:
-        return [Repair(both[1], nearer.before, first=both[0])]
+        return [Repair(other, nearer.before, first=both[0]) for other in both[1]]
     pieces = sorted(nearer.pieces) if nearer.bad and nearer.pieces.keys() == nearer.bad else []
     return [Repair(nearer.pieces[k], nearer.before, k) for k in pieces]
 
@@ -200,7 +200,7 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
     """Yield each change by itself; those of arguments and results after those of a sign or a term."""
     for kind in KINDS:
         yield from source.edits(kind)
-        if kind == "left out" and arguments:
+        if kind == "instead" and arguments:  # a line says more than what goes in or comes out
             yield from (edit for edit in of_arguments(source.compiled()) if not edit.wrong.startswith("0 *"))
         if kind == "index" and arguments:  # their order is given: it is seldom mistaken
             yield from of_order(source.compiled())

@@ -39,7 +39,8 @@ RESULTS = {
     for key, change in ARGUMENTS.items()
     if key not in ("0 * {}", "np.eye(len({}))", "{}.T.reshape({}.shape)")
 } | {
-    "np.r_[{}[3:6], {}[:3], {}[6:]]": lambda x: np.r_[from_pinocchio_motion(x[:6]), x[6:]],
+    "np.r_[{}[3:6], {}[:3], {}[6:]]": lambda x: np.r_[from_pinocchio_motion(x[:6]), x[6:]] if x.ndim == 1 else None,
+    "np.roll({}, len({}.T) // 2, 1)": lambda x: np.roll(x, len(x.mT) // 2, 1),
     "{}[:3]": lambda x: x[:3],
     "{}[3:]": lambda x: x[3:],
     "{}[6:]": lambda x: x[6:],

@@ -87,19 +87,22 @@ def edited(wrong: WrongAnswer) -> list[Text]:
 def titles(part: Part, found: Sequence[Found | Repair], how: str, every: int) -> list[Text]:
     """Report each change, of all that is returned or of one piece, and in how many cases it was tried: in `every`."""
     if len(found) > 1 and not any(change.piece is not None for change in found):
-        return [say("either"), *(indented(change.title()) for change in found), say("either way", all=every)]
-    lines = []
+        both = isinstance(found[0], Repair) and found[0].first is not None
+        each = say("either both" if both else "either way", all=every)
+        return [say("either"), *(indented(change.title()) for change in found), each]
+    lines, unsure = [], False
     for change in found:
+        cure = isinstance(change, Repair) and change.roundabout
+        begun, unsure = "equal" if how == "equal" else "cure" if cure else "slip", unsure or cure
         if change.piece is None:
-            lines.append(say("slip" if how != "equal" else "equal", title=change.title()))
+            lines.append(say(begun, title=change.title()))
         else:
-            name = part.returns[change.piece].title
-            lines.append(say("slip in" if how != "equal" else "equal in", name=name, title=change.title()))
+            lines.append(say(f"{begun} in", name=part.returns[change.piece].title, title=change.title()))
     if how == "equal":
         return [*lines, say("equal cases", all=every)] if every > 1 else lines
-    if any(isinstance(change, Repair) and change.first is not None and not change.one_piece for change in found):
-        return [*lines, say("mended both", all=every)]
-    return [*lines, say(how, all=every) if every > 1 else say(f"{how} once")]
+    both = any(isinstance(change, Repair) and change.first is not None and not change.one_piece for change in found)
+    lines.append(say("mended both" if both else how, all=every) if every > 1 else say(f"{how} once"))
+    return [*lines, say("perhaps")] if unsure else lines
 
 
 def nearer(wrong: WrongAnswer, near: Repair) -> list[Text]:

@@ -1,0 +1,42 @@
+"""Whether a change would transform a wrench as a twist is transformed, or a twist as a wrench."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import Any
+
+from ..exercise import Part
+from .places import put
+from .whole import Edit
+
+__all__ = ["turns_into_the_other_kind"]
+
+
+def turns_into_the_other_kind(edit: Edit, part: Part) -> bool:
+    """Whether a wrench that is asked for would be transformed like a twist, or a twist like a wrench."""
+    rows = [x.layout.axes[0][0][0].en for x in part.returns if x.layout.axes]
+    motion, force = (all(row in names for row in rows) for names in (("ω", "v"), ("τ", "k (angular)")))
+    if not rows or motion == force or not edit.places:
+        return False
+    lines = [
+        next((x for x in reversed(parents) if isinstance(x, ast.stmt)), node) for parents, _, node, _ in edit.places
+    ]
+    were = [kind for line in lines for kind in _of_forces(line)]
+    for parents, field, _, other in edit.places:
+        put(parents[-1], field, other)
+    are = [kind for line in lines for kind in _of_forces(line)]
+    for parents, field, node, _ in edit.places:
+        put(parents[-1], field, node)
+    return were.count(not force) < are.count(not force)
+
+
+def _of_forces(node: Any, force: bool = True) -> Iterator[bool]:
+    """Yield of each transform in a text whether it acts on wrenches: the transpose of one for twists does."""
+    if isinstance(node, ast.Attribute) and node.attr in ("T", "mT"):
+        yield from _of_forces(node.value, not force)
+    elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") in ("force_transform", "motion_transform"):
+        yield (getattr(node.func, "attr", "") == "force_transform") == force
+    elif node is not None:
+        for x in ast.iter_child_nodes(node):
+            yield from _of_forces(x, force)
