@@ -16,10 +16,12 @@ whole         an edit; and edits of what goes into a function and comes out of i
 edits         all small edits of a right function
 of_wrenches   whether a change would transform a wrench as a twist, or a twist as a wrench
 plausible     which changes are slips that somebody makes
+likeness      which changes are the same for a student, and which are less likely than others
 nearer        changes that make a part of an answer right
 search        the edit of the right function that gives the student's numbers
 meanings      what a change means: a condition that always holds, an argument of zeros
 repair        a change that makes the student's own function right, and how it is said
+chosen        which of the changes that make a function right are reported
 repairs       the search for it
 ============  ===================================================================
 """

@@ -83,7 +83,7 @@ def alternatives(
         for R in matrices:
             yield "inserted", ast.BinOp(R, ast.MatMult(), node)
             yield "inserted", ast.BinOp(_transposed(R), ast.MatMult(), node)
-        for scalar in scalars:
+        for scalar in (x for x in scalars if ast.unparse(x) != ast.unparse(node)):
             yield from (("inserted", ast.BinOp(node, op, scalar)) for op in (ast.Mult(), ast.Div()))
 
 

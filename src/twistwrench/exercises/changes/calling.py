@@ -19,7 +19,7 @@ __all__ = ["CONSTANT", "called", "calls", "in_modules", "names_used"]
 CONSTANT = ("zeros", "ones", "eye")
 """What these make does not lack a factor."""
 
-IN_ORDER = ("range", "clip", "max", "min", "maximum")
+IN_ORDER = ("range", "slice", "clip", "max", "min", "maximum")
 """Functions whose arguments nobody exchanges."""
 
 TURNING = ("transpose", "swapaxes", "moveaxis")
@@ -61,6 +61,8 @@ def calls(node: Any) -> Iterator[Change]:
         for op in () if isinstance(bound, ast.Constant | ast.BinOp) else (ast.Add(), ast.Sub()):
             one = ast.BinOp(bound, op, ast.Constant(1))
             yield "instead", ast.Call(node.func, [one if x is bound else x for x in node.args], [])
+        if len(node.args) == 1:
+            yield "instead", ast.Call(node.func, [ast.Constant(1), *node.args], [])
         if len(node.args) == 2 and isinstance(start := getattr(node.args[0], "value", None), int):
             yield "instead", ast.Call(node.func, [node.args[0], ast.Constant(start + 1)], [])
 
@@ -129,7 +131,8 @@ def names_used(node: Any) -> Iterator[Change]:
     if isinstance(node, ast.Name):
         yield from (("instead", ast.Name(other, node.ctx)) for other in twins(node.id))
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield from (("instead", ast.Constant(other)) for other in twins(node.value))
+        kind = "exchanged" if node.value in ("C", "F") else "instead"  # the order of rows and columns
+        yield from ((kind, ast.Constant(other)) for other in twins(node.value))
 
 
 def in_modules(name: str) -> Iterator[str]:

@@ -234,6 +234,15 @@ class Source:
             (*around,),
         )
 
+    def as_written(self, edit: Edit, mends: Callable[[Function], bool]) -> Edit:
+        """Return an edit with `.mT` in its text, if it does not mend with `.T`, as a text has it."""
+        if ".T" not in edit.wrong or not edit.places:
+            return edit
+        places = [(parents, field, node, _with_plain_transposes(other)) for parents, field, node, other in edit.places]
+        found = self.made(edit.kind, (edit.right, edit.wrong), places, everywhere=bool(edit.everywhere))
+        plain = any(mends(other.function) for other in found)
+        return edit if plain else replace(edit, wrong=edit.wrong.replace(".T", ".mT"))
+
     def compiled(self) -> Function:
         """Return the function as the tree is now."""
         name, names = self.function.__name__, dict(self.names)
@@ -250,3 +259,12 @@ class Source:
                     if self.scope.kinds[x] == self.scope.kinds[y]:
                         place = parents, field, node, crossed(node, x, y)
                         yield from self.made("exchanged", self.texts("exchanged", place), [place])
+
+
+def _with_plain_transposes(node: Any) -> Any:
+    """Return a copy of a piece of a program with `.T` for each `.mT`, which is another thing for many matrices."""
+    found = copy.deepcopy(node)
+    for x in ast.walk(found):
+        if isinstance(x, ast.Attribute) and x.attr == "mT":
+            x.attr = "T"
+    return found

@@ -21,7 +21,7 @@ def term(node: Any, other: Any) -> str:
     if any(x is node for x in ast.walk(other)):
         return text_of(node)
     if isinstance(node, ast.BinOp):
-        kept = getattr(other, "operand", getattr(other, "right", other))
+        kept = other if other is node.right else getattr(other, "operand", getattr(other, "right", other))
         gone = other is not node.left and (kept is node.right and getattr(other, "left", None) is not node.left)
         return text_of(node.left if gone else node.right)
     if isinstance(node, ast.List | ast.Tuple | ast.BoolOp):
@@ -50,7 +50,7 @@ def enclosing(parents: list[Any], node: Any) -> Any:
     for parent in reversed(parents):
         small = isinstance(node, ast.Constant | ast.Slice | ast.Name | ast.UnaryOp)
         small |= isinstance(parent, ast.Subscript) and node is parent.slice
-        if not small or not isinstance(parent, ast.expr):
+        if not small or not isinstance(parent, ast.expr | ast.keyword):
             break
         node = parent
     return node

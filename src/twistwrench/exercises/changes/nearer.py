@@ -19,7 +19,8 @@ from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import Source
-from .plausible import alike, turns_the_rest
+from .likeness import alike
+from .plausible import turns_the_rest
 from .whole import Edit
 
 __all__ = ["Nearer"]

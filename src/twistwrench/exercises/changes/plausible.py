@@ -14,13 +14,7 @@ from ..exercise import Part
 from .of_wrenches import turns_into_the_other_kind
 from .whole import Edit
 
-__all__ = ["ALIKE", "BESIDE", "alike", "anywhere", "plausible", "shuts", "turns_the_rest"]
-
-ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
-"""Kinds of which one may make right what another does, and which are then the same for a student."""
-
-BESIDE = ("name", "index", "instead")
-"""Kinds of which another one, of another text, is another thing for a student."""
+__all__ = ["cross_text", "difference_text", "plausible", "shuts", "turns_the_rest"]
 
 POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
@@ -86,6 +80,7 @@ def _nobody_makes(edit: Edit, part: Part) -> bool:
         or (edit.kind in ("sign", "number", "exchanged") and _is_place(edit))  # a place, or how often, has no sign
         or (edit.kind == "sign" and _is_positive(edit.right))  # −R is not a rotation matrix, −m not a mass
         or (edit.kind == "index" and _is_written_to(edit))  # two things would be written to one place
+        or (edit.kind == "instead" and _is_guard(edit))  # what keeps a number from zero
         or _crossed_with_itself(edit.wrong)
         or turns_into_the_other_kind(edit, part)
     )
@@ -109,7 +104,7 @@ def _is_place(edit: Edit) -> bool:
 def _is_positive(text: str) -> bool:
     """Whether a text is a rotation matrix by its name, or the transpose of one, or a mass."""
     name = text.removesuffix(".T").rpartition(".")[2]
-    return name in ("R", "rotation") or (name.isidentifier() and "mass" in name.lower())
+    return name in ("R", "rotation", "m") or (name.isidentifier() and "mass" in name.lower())
 
 
 def _is_written_to(edit: Edit) -> bool:
@@ -122,6 +117,14 @@ def _is_written_to(edit: Edit) -> bool:
     return False
 
 
+def _is_guard(edit: Edit) -> bool:
+    """Whether the larger of something and a fixed number becomes the smaller, or the other way round."""
+    node = edit.places[0][2] if edit.places else None
+    bound = isinstance(node, ast.Attribute | ast.Name) and edit.right.partition("(")[0].endswith(("max", "min", "imum"))
+    arguments = getattr(getattr(_parsed(edit.right), "value", None), "args", [])
+    return bound and any(isinstance(x, ast.Constant) for x in arguments)
+
+
 def _crossed_with_itself(after: str) -> bool:
     """Whether a cross product of something with itself is put there, which is zero."""
     products = [x for x in _nodes(after) if _is_cross(x)]
@@ -131,22 +134,6 @@ def _crossed_with_itself(after: str) -> bool:
 def turns_the_rest(edit: Edit, other: Edit) -> bool:
     """Whether two changes give a sign to something and to all that is around it: to the rest alone, that is."""
     return edit.kind == other.kind == "sign" and (edit.right in other.right or other.right in edit.right)
-
-
-def alike(edit: Edit, other: Edit) -> bool:
-    """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
-    crossed, levers = ([f(x.right) for x in (edit, other)] for f in (_cross_text, _difference_text))
-    two = edit.kind == other.kind == "exchanged" and crossed == levers[::-1] and any(crossed)
-    if edit.kind == other.kind and edit.kind in BESIDE:
-        one_text = edit.right in other.right or other.right in edit.right or edit.everywhere != other.everywhere
-        return one_text or all("np.linalg.inv(" in x.wrong for x in (edit, other))  # of one matrix, here or there
-    return not two and ALIKE.get(edit.kind) == ALIKE.get(other.kind)
-
-
-def anywhere(edit: Edit, other: Edit) -> Edit:
-    """Return a change without its place, if the same one in another place of the line does the same."""
-    same = (edit.kind, edit.right, edit.line) == (other.kind, other.right, other.line) and edit.places != other.places
-    return replace(edit, places=()) if same and not edit.everywhere and not other.everywhere else edit
 
 
 def shuts(edit: Edit) -> bool:
@@ -219,7 +206,7 @@ def _left_over(edit: Edit, text: str) -> bool:
 
 def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
     """Whether of a lever arm and its cross product, either of which gives the sign, this is the one that is turned."""
-    lever, product = _difference_text(before), _cross_text(before)
+    lever, product = difference_text(before), cross_text(before)
     if not lever and not product:
         return True
     try:
@@ -250,13 +237,13 @@ def _is_arm(node: Any) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
 
 
-def _cross_text(text: str) -> bool:
+def cross_text(text: str) -> bool:
     """Whether a text is a cross product."""
     node = _parsed(text)
     return isinstance(node, ast.Expr) and _is_cross(node.value)
 
 
-def _difference_text(text: str) -> bool:
+def difference_text(text: str) -> bool:
     """Whether a text is a difference, as a lever arm is."""
     node = _parsed(text)
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.Sub)

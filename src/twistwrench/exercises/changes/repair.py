@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from ..words.phrases import say
 from ..words.text import Text
 from .excerpts import with_operator
+from .likeness import renames
 from .plausible import shuts
 from .search import said_where
 from .whole import Edit
@@ -40,6 +41,8 @@ class Repair:
         What of the result is right by it, where that is not all.
     meaning : Text, optional
         What is said in place of what it puts there.
+    unsure : bool
+        Whether what its line computes is right, so that another line may be wrong.
     """
 
     edit: Edit
@@ -48,6 +51,7 @@ class Repair:
     first: Edit | None = None
     blocks: tuple[Text, ...] = ()
     meaning: Text | None = None
+    unsure: bool = False
 
     @property
     def one_piece(self) -> bool:
@@ -60,7 +64,9 @@ class Repair:
     def roundabout(self) -> bool:
         """Whether it only undoes what is wrong, on the way in or out, and does not name that."""
         changes = (edit for edit in (self.first, self.edit) if edit is not None)
-        return any(x.kind == "argument" or (x.kind == "result" and x.wrong not in OF_RESULT) for x in changes)
+        return self.unsure or any(
+            x.kind == "argument" or (x.kind == "result" and x.wrong not in OF_RESULT) or renames(x) for x in changes
+        )
 
     def title(self) -> Text:
         """Report what must stand where."""

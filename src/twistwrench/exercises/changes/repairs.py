@@ -9,7 +9,6 @@ import linecache
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import replace
 from types import FunctionType
 from typing import Any
 
@@ -19,12 +18,13 @@ from ..calls import copied, local_values, tried
 from ..compare import agree, copied_results
 from ..exercise import Part
 from .alternatives import KINDS
+from .chosen import Chosen
 from .edits import Source
 from .meanings import meaning
 from .nearer import Nearer
-from .plausible import ALIKE, BESIDE, alike, anywhere, plausible
+from .plausible import plausible
 from .repair import Repair
-from .search import Remembering, by_chance, same
+from .search import Remembering, by_chance, of_whole_numbers, same
 from .whole import Edit, of_arguments, of_order
 
 __all__ = ["guarded", "repair_of_blocks", "repairs", "source_of", "text_written", "two_repairs", "written"]
@@ -57,10 +57,11 @@ def repairs(
     until: float,
     pairs: bool = False,
     nearer: Nearer | None = None,
+    right_line: Callable[[int], bool] | None = None,
 ) -> list[Repair]:
     """Return the likeliest change that makes a student's function right, or one for each wrong thing of several.
 
-    Where another change of a likely kind makes it right as well, both are returned.
+    Where another change makes it right as well, and may be meant, both are returned.
 
     Parameters
     ----------
@@ -76,26 +77,28 @@ def repairs(
         Try two changes at once.
     nearer : Nearer, optional
         Is given the changes that make only a part of the answer right.
+    right_line : callable, optional
+        Whether a right solution has what a line of the function computes.
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
     rare = 2 * sum(wrong) < len(wrong)
     seconds = {k: _seconds(part, function, cases[k]) for k, bad in enumerate(wrong) if bad}
     first = min(seconds, key=lambda k: seconds[k])
     every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
+    if not cases[first] and of_whole_numbers(part, right[first]):
+        return []  # they are met by chance
     bad = {k for k in every if not same(part, answers, right, k)}
     found: dict[int, Repair] = {}
-    mended: list[Repair] = []
+    chosen = Chosen(right_line)
     source, before = source_of(part, function, cases[first])
     if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
         return []
     if nearer is not None:
         nearer.begin(source, before, first, seconds[first])
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        for edit in _changes(part, function, source, cases[first], until, pairs, len(cases)):
-            if mended and (pairs or edit.kind not in (*ALIKE, *({mended[0].edit.kind} & {*BESIDE}))):
+        for edit in _changes(part, function, source, cases[first], until, pairs, rare, len(cases)):
+            if (chosen.sure and pairs) or chosen.ended(edit.kind):
                 break
-            if rare and edit.kind == "inserted" and not edit.wrong.startswith("abs("):
-                continue  # a factor that is missing spoils most cases
             answer = tried(part, edit.function, cases[first])
             here = {k for k in bad - {*found} if same(part, [answer], [right[first]], k)}
             if not here and not agree(part, answer, right[first], cases[first]):
@@ -106,14 +109,13 @@ def repairs(
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
                 if copied_results(others, right, answers):  # what is asked for in two ways is not computed in one
                     continue
-                if not any(alike(edit, repair.edit) for repair in mended):
-                    mended.append(Repair(edit, before, meaning=meaning(source, edit, part, right, cases)))
-                mended = [replace(x, edit=anywhere(x.edit, edit)) for x in mended]
+                edit = source.as_written(edit, lambda f: _right(part, f, right[first], cases[first]))
+                chosen.add(Repair(edit, before, meaning=meaning(source, edit, part, right, cases)))
                 continue
             if edit.kind == "result" or all(
                 same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here
             ):
-                found.update((k, Repair(edit, before, k)) for k in here if same(part, others, right, k))
+                found.update((k, chosen.judged(Repair(edit, before, k))) for k in here if same(part, others, right, k))
             elif nearer is not None:
                 nearer.note(edit, answer)
                 if all(same(part, others, right, k) for k in {*every} - bad):
@@ -121,7 +123,7 @@ def repairs(
     if nearer is not None:
         nearer.pieces |= {k: repair.edit for k, repair in found.items()}
         nearer.bad = bad
-    return mended or ([found[k] for k in sorted(found)] if found.keys() == bad else [])
+    return chosen.reported or ([found[k] for k in sorted(found)] if found.keys() == bad else [])
 
 
 def two_repairs(
@@ -171,7 +173,14 @@ def source_of(part: Part, function: Function, arguments: tuple[Any, ...]) -> tup
 
 
 def _changes(
-    part: Part, function: Function, source: Source, arguments: tuple[Any, ...], until: float, pairs: bool, every: int
+    part: Part,
+    function: Function,
+    source: Source,
+    arguments: tuple[Any, ...],
+    until: float,
+    pairs: bool,
+    rare: bool,
+    every: int,
 ) -> Iterator[Edit]:
     """Yield the changes of a student's function, for as long as a search may take."""
     chance, text = by_chance(part, arguments, every), text_written(function)
@@ -179,6 +188,8 @@ def _changes(
     for edit in _pairs(source) if pairs else _single(source, whole):
         if time.process_time() > until:
             return
+        if rare and edit.kind == "inserted" and not edit.wrong.startswith("abs("):
+            continue  # a factor that is missing spoils most cases
         if (edit.kind not in chance or _off_by_one(edit)) and plausible(edit, text, part):
             yield edit
 
@@ -233,6 +244,11 @@ def written(function: Function) -> tuple[str, int] | None:
                 node.decorator_list = []
                 return "".join(lines[node.lineno - 1 : node.end_lineno]), node.lineno - 1
     return None
+
+
+def _right(part: Part, function: Function, right: Any, arguments: tuple[Any, ...]) -> bool:
+    """Whether a function gives the right answer in one case."""
+    return agree(part, tried(part, function, arguments), right, arguments)
 
 
 def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> float:

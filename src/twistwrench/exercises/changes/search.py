@@ -20,7 +20,17 @@ from .edits import edits
 from .excerpts import first_alone
 from .whole import Edit
 
-__all__ = ["Found", "Remembering", "by_chance", "exchanged_results", "found_edits", "right_where", "said_where", "same"]
+__all__ = [
+    "Found",
+    "Remembering",
+    "by_chance",
+    "exchanged_results",
+    "found_edits",
+    "of_whole_numbers",
+    "right_where",
+    "said_where",
+    "same",
+]
 
 MANY = 6
 """Numbers in an answer that are not met by chance."""
@@ -99,6 +109,12 @@ def candidates(part: Part, arguments: tuple[Any, ...], *, until: float = np.inf,
                 return
             if edit.kind not in chance:
                 yield edit
+
+
+def of_whole_numbers(part: Part, answer: Any) -> bool:
+    """Whether an answer has only whole numbers in it."""
+    arrays = [x.array for x in values(answer, part.returns) or []]
+    return all(x is not None and bool((x == np.trunc(x)).all()) for x in arrays)
 
 
 def by_chance(part: Part, arguments: tuple[Any, ...], cases: int = 1) -> tuple[str, ...]:

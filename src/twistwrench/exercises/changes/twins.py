@@ -22,6 +22,7 @@ TWINS = (
         ("zeros", "eye"),
     ),
     *(("local", "world", "local_world_aligned"), ("com", "translation"), ("neutral", "standing"), ("triu", "tril")),
+    ("C", "F"),
 )
 """Names that are taken for each other."""
 

@@ -26,14 +26,19 @@ def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: 
         return []
     text, before = found
     tree = ast.parse(text.lstrip())
-    places = [k for k, node in enumerate(ast.walk(tree)) if isinstance(node, ast.Assign) and _is_second_name(node)]
+    places = [k for k, node in enumerate(ast.walk(tree)) if isinstance(node, ast.Assign) and _is_one_array(node)]
 
     def mended(chosen: Sequence[int]) -> bool:
         source = Source(function, function, {}, {"_copied": _copied}, text)
         source.names["_copied"] = _copied
         for k, node in enumerate(ast.walk(source.tree)):
             if k in chosen and isinstance(node, ast.Assign):
-                node.value = ast.Call(ast.Name("_copied", ast.Load()), [node.value], [])
+                each: list[ast.expr] = [
+                    ast.Call(ast.Name("_copied", ast.Load()), [node.value], []) for _ in node.targets
+                ]
+                several = len(node.targets) > 1
+                node.targets = [ast.Tuple(node.targets, ast.Store())] if several else node.targets
+                node.value = ast.Tuple(each, ast.Load()) if several else each[0]
         other = source.compiled()
         return all(agree(part, tried(part, other, c), b, c) for b, c in zip(right, cases))
 
@@ -47,18 +52,29 @@ def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: 
     return [_said(node, before) for node in nodes]
 
 
-def _is_second_name(node: ast.Assign) -> bool:
-    """Whether nothing is computed: what stands on the right is a name, a part of an array, or its transpose."""
+def _is_one_array(node: ast.Assign) -> bool:
+    """Whether one array gets several names, or stands several times in a list, or gets a second name.
+
+    It does where nothing is computed: what stands on the right is a name, a part of an array, or its transpose.
+    """
     value: Any = node.value
+    if all(isinstance(x, ast.Name) for x in node.targets) and (len(node.targets) > 1 or _repeats(value)):
+        return True
     if isinstance(value, ast.Attribute):
         value = value.value if value.attr in ("T", "mT") else None
     return isinstance(node.targets[0], ast.Name) and isinstance(value, ast.Name | ast.Subscript)
 
 
+def _repeats(node: Any) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List)
+
+
 def _copied(x: Any) -> Any:
-    return x.copy() if hasattr(x, "copy") else x
+    return [*map(_copied, x)] if isinstance(x, list) else x.copy() if hasattr(x, "copy") else x
 
 
 def _said(node: ast.Assign, before: int) -> Text:
+    if len(node.targets) > 1 or _repeats(node.value):
+        return say("many names", line=node.lineno + before, text=ast.unparse(node))
     line, name, value = node.lineno + before, ast.unparse(node.targets[0]), ast.unparse(node.value)
     return say("second name", line=line, text=ast.unparse(node), name=name, value=value)

@@ -11,7 +11,7 @@ from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
 from .aliases import missing_copies
-from .matching import slips_by_piece, two_slips
+from .matching import TWISTS, slips_by_piece, two_slips
 from .messages import compared, comparison, edited, indented, mended, named, named_by_piece, nearer, titles, where
 from .neighbours import Neighbours
 from .own import borne_out, by_piece_borne_out, in_other_roles
@@ -88,7 +88,14 @@ def _slip_of_the_list(wrong: WrongAnswer) -> Explained | None:
 def _other_order(wrong: WrongAnswer) -> Explained | None:
     if wrong.exchanged is None:
         return None
-    return [], [say("slip", title=wrong.exchanged), say("exchanged"), where(wrong)]
+    if "swapped-halves" not in wrong.alike:
+        return [], [say("slip", title=wrong.exchanged), say("exchanged"), where(wrong)]
+    slip, order = wrong.slip("swapped-halves"), say("exchanged")
+    each = [
+        say("slip of several", title=wrong.exchanged, why=order),
+        say("slip of several", title=slip.title, why=slip.why),
+    ]
+    return ["swapped-halves"], [say("slips"), *each, where(wrong)]
 
 
 def _numbers_of_a_slip(wrong: WrongAnswer) -> Explained | None:
@@ -170,7 +177,8 @@ def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
         return None
     first, second = map(wrong.slip, pair)
     line = say("two slips", first=first.title, second=second.title)
-    return list(pair), [line, first.why, second.why, where(wrong, first.section)]
+    unsure = [say("perhaps")] if pair[1] in TWISTS else []  # any other slip may be the two
+    return list(pair), [line, first.why, second.why, *unsure, where(wrong, first.section)]
 
 
 def _each_result(wrong: WrongAnswer) -> Explained | None:

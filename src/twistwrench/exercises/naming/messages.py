@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ..changes.likeness import by_detour
 from ..changes.repair import Repair
 from ..changes.repairs import text_written
 from ..changes.search import Found, right_where
@@ -51,7 +52,7 @@ def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
         step = first_wrong(part, made, within, wrong.cases[0]) if made and within in part.beside else None
         lines = [say("slip", title=slips[0].title), slips[0].why, *own, *([step] if step else [])]
     else:
-        each = [Text(f"  - {s.title.en}. {s.why.en}", f"  - {s.title.zh}。{s.why.zh}") for s in slips]
+        each = [say("slip of several", title=x.title, why=x.why) for x in slips]
         lines = [say("slips"), *each, *own]
     return [*lines, where(wrong, slips[0].section)]
 
@@ -89,7 +90,8 @@ def titles(part: Part, found: Sequence[Found | Repair], how: str, every: int) ->
     if len(found) > 1 and not any(change.piece is not None for change in found):
         both = isinstance(found[0], Repair) and found[0].first is not None
         each = say("either both" if both else "either way", all=every)
-        return [say("either"), *(indented(change.title()) for change in found), each]
+        lines = [say("either"), *(indented(change.title()) for change in found), each]
+        return [*lines, say("perhaps")] if all(by_detour(change.edit) for change in found) else lines
     lines, unsure = [], False
     for change in found:
         cure = isinstance(change, Repair) and change.roundabout

@@ -29,6 +29,9 @@ TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "ind
 FORCES = ("children-overwritten", "children-dropped")
 """Slips that may give the numbers of a loop in the wrong direction."""
 
+BACKWARD = ("inverse", "wrong way")
+"""Words of the titles of slips that no sign mends, but by chance."""
+
 NO_SIGN = ("left out", "index", "name", "last", "summed", "argument")
 """Kinds of changes that do not give back a sign."""
 
@@ -107,11 +110,22 @@ def in_other_roles(function: Callable[..., Any], edit: Edit) -> bool:
 def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     """Report the line of the student's where a slip is, or the two where it may be."""
     lacking = any(SLIPS[slip].lacks for slip in found)
-    whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING]
+    whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING and _tells(x, found)]
     whole = [x for x in whole if x.edit.kind != "name" or not lacking]  # another name is not what is missing
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
     either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
     return [say("own code", title=either)] if titles else []
+
+
+def _tells(repair: Repair, found: Sequence[str]) -> bool:
+    """Whether a change of a line shows where a slip is, and is not only another one with the same effect."""
+    edit = repair.edit
+    inverse = "np.linalg.inv(" in edit.wrong
+    if edit.kind == "number":  # a term of a sum is any number's
+        return not isinstance(edit.inside, ast.BinOp) or not isinstance(edit.inside.op, ast.Add | ast.Sub)
+    if edit.kind == "sign" and any(word in SLIPS[slip].title.en for slip in found for word in BACKWARD):
+        return False
+    return inverse or not repair.roundabout
 
 
 def by_own_line(found: list[str], edits: Sequence[Edit]) -> list[str]:

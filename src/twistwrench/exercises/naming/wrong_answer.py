@@ -103,7 +103,8 @@ class WrongAnswer:
         """The changes of the student's own lines, one at a time, that make them right."""
         if not self.again:
             return []
-        return repairs(self.part, *self.given, until=self.until["mended"], nearer=self.nearer)
+        until, right_line = self.until["mended"], lambda line: self.steps.right_line(line)  # built where one is found
+        return repairs(self.part, *self.given, until=until, nearer=self.nearer, right_line=right_line)
 
     @property
     def whole_changes(self) -> list[Repair]:

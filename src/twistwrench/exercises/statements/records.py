@@ -125,12 +125,16 @@ class Known:
         """Whether all arrays of a value are known; whole numbers, which are met by chance, count as known."""
         return all(self._one(x) for x in arrays(value) if tells(x))
 
-    def _one(self, x: Array) -> bool:
+    def has_with_sign(self, x: Array) -> bool:
+        """Whether an array is known with this sign."""
+        return self._one(x, (1,))
+
+    def _one(self, x: Array, signs: tuple[int, ...] = (1, -1)) -> bool:
         if x.shape not in self._stacked:
             self._stacked[x.shape] = np.array(self._found.get(x.shape, np.zeros((0, *x.shape))))
         known, within = self._stacked[x.shape], 1e-9 * max(float(np.abs(x).max()), FLOOR)
         axes = tuple(range(1, known.ndim))
-        return any(bool((np.abs(known - sign * x) <= within).all(axes).any()) for sign in (1, -1))
+        return any(bool((np.abs(known - sign * x) <= within).all(axes).any()) for sign in signs)
 
 
 def tells(x: Array) -> bool:

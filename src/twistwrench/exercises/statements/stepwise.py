@@ -166,6 +166,17 @@ class Stepwise:
             return None
         return say("first line", line=first.statement.lineno + self.before, text=text_of(first.statement))
 
+    def right_line(self, line: int) -> bool:
+        """Whether a right solution has all that a line of the function computes, with its sign."""
+        start, set_there = self.start, ast.Assign | ast.AugAssign
+        every = [x for x in start.found if x.statement.lineno == line] if start else []
+        here = [x for x in every if isinstance(x.statement, set_there)]
+        whole = {id(x.statement.value if isinstance(x.statement, ast.Assign) else x.node) for x in here}
+        kept = [event.value for event in start.events if id(event.node) in whole] if start else []
+        telling = [x for value in kept for x in arrays(value) if tells(x)]
+        both_signs = all(self.known.has_with_sign(-x) for x in telling)  # then it may be either
+        return not both_signs and all(map(self.known.has_with_sign, telling))
+
     def _ways(self, source: Source, wrong: Sequence[int]) -> set[tuple[int, int]]:
         """Return the places where another way is gone: no right solution has what is computed and read there.
 

@@ -74,7 +74,7 @@ MENDINGS = {
     "perhaps": Text("Your slip may be another one that has the same effect.", "你的错因也可能是另一处效果相同的错误。"),
     "either": Text("One of these changes would make it right:", "下列改动任取其一，就会正确："),
     "either way": Text(
-        "With either of them alone it is right in all {all} cases.", "单独作其中任一改动，全部 {all} 组数据都正确。"
+        "With one of them alone it is right in all {all} cases.", "单独作其中任一改动，全部 {all} 组数据都正确。"
     ),
     "either both": Text(
         "With both changes of one of them, and no other, it is right in all {all} cases.",

@@ -15,6 +15,7 @@ PHRASES = {
     "slip in": Text("The slip in {name}: {title}.", "{name} 的错因：{title}。"),
     "in result": Text("In {name}:", "在 {name} 中："),
     "slips": Text("One of these, which cannot be distinguished here:", "以下几种之一（此处无法区分）："),
+    "slip of several": Text("  - {title}. {why}", "  - {title}。{why}"),
     "like slip": Text(
         "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
     ),

@@ -44,6 +44,12 @@ SAYINGS = {
         "错因：第 {line} 行，`{text}` 并没有复制：`{name}` 与 `{value}` 是内存中的同一组数，写入其一，二者都变。"
         "请写 `{name} = {value}.copy()`。",
     ),
+    "many names": Text(
+        "The slip: line {line}, `{text}` makes one array, which has several names or stands in several places: what is"
+        " added to it in one of them is added in all. Make an array for each.",
+        "错因：第 {line} 行，`{text}` 只建立了一个数组，却有几个名字或出现在几处：在一处加上的，处处都加上了。"
+        "请各建一个数组。",
+    ),
     # what is not what is asked for, though the numbers are right
     "one way": Text(
         "The numbers are right, but the two results are the same to the last bit in all cases: compute each in its own"

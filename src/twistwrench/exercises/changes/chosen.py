@@ -1,0 +1,64 @@
+"""Which of the changes that make a function right are reported: the likeliest, and others of which one may be meant."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+from .likeness import ALIKE, BESIDE, alike, anywhere, blames, by_detour, renames
+from .repair import Repair
+
+__all__ = ["Chosen"]
+
+MOST = 3
+"""Changes of which one may be meant."""
+
+LONGER = 1.0
+"""Seconds for which a better change is looked for, and as long again as the first has taken."""
+
+
+class Chosen:
+    """The changes that are found one after the other, the likeliest kinds first.
+
+    Parameters
+    ----------
+    right_line : callable, optional
+        Whether a right solution has what a line of the student's computes.
+    """
+
+    def __init__(self, right_line: Callable[[int], bool] | None) -> None:
+        self.right_line = right_line or (lambda line: False)
+        self.begun, self.until = time.process_time(), math.inf
+        self.sure: list[Repair] = []
+        self.spare: list[Repair] = []
+
+    @property
+    def reported(self) -> list[Repair]:
+        """Those that are reported; one that blames a right line only where there is no other."""
+        sure = [x for x in self.sure if not x.roundabout] or self.spare[:1] or self.sure
+        return sorted(sure, key=lambda repair: by_detour(repair.edit))
+
+    def ended(self, kind: str) -> bool:
+        """Whether the search may end before the changes of this kind."""
+        if self.sure and not by_detour(self.sure[0].edit):
+            first = self.sure[0].edit.kind
+            return kind not in ALIKE and (kind != first or kind not in BESIDE)
+        return len(self.sure) == MOST or time.process_time() > self.until
+
+    def judged(self, repair: Repair) -> Repair:
+        """Return a change with the mark whether it blames a line that is right."""
+        edit = repair.edit
+        doubtful = renames(edit) or (bool(edit.places) and blames(edit) and self.right_line(edit.line))
+        return replace(repair, unsure=doubtful)
+
+    def add(self, repair: Repair) -> None:
+        """Take in a change that makes the function right."""
+        edit, now, judged = repair.edit, time.process_time(), self.judged(repair)
+        self.until = min(self.until, 2 * now - self.begun + LONGER)
+        if judged.unsure:
+            self.spare.append(judged)
+        elif not any(alike(edit, x.edit) for x in self.sure):
+            self.sure.append(repair)
+        self.sure = [replace(x, edit=anywhere(x.edit, edit)) for x in self.sure]

@@ -1,0 +1,62 @@
+"""Which changes are the same for a student, and which are less likely to be the slip than others."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+
+from .plausible import cross_text, difference_text
+from .whole import Edit
+
+__all__ = ["ALIKE", "BESIDE", "alike", "anywhere", "blames", "by_detour", "renames"]
+
+ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
+"""Kinds of which one may make right what another does, and which are then the same for a student."""
+
+BESIDE = ("name", "index", "instead", "left out")
+"""Kinds of which another one, of another text, is another thing for a student."""
+
+
+def alike(edit: Edit, other: Edit) -> bool:
+    """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
+    nested = edit.right in other.right or other.right in edit.right
+    if edit.line == other.line and nested and (edit.kind != other.kind or edit.wrong == other.wrong):
+        return True
+    if "sign" in (ALIKE.get(edit.kind), ALIKE.get(other.kind)) or {edit.kind, other.kind} == {"transposed"}:
+        crossed, levers = ([f(x.right) for x in (edit, other)] for f in (cross_text, difference_text))
+        two = edit.kind == other.kind == "exchanged" and crossed == levers[::-1] and any(crossed)
+        return not two and ALIKE.get(edit.kind) == ALIKE.get(other.kind)
+    if edit.kind == other.kind:
+        inverse = all("np.linalg.inv(" in x.wrong for x in (edit, other))  # of one matrix, here or there
+        return nested or inverse or edit.kind not in BESIDE or edit.everywhere != other.everywhere
+    return (edit.kind not in ALIKE or other.kind not in ALIKE) and (nested or edit.line == other.line)
+
+
+def by_detour(edit: Edit) -> bool:
+    """Whether a change is less likely than one after it: an inverse, factors or a whole product turned round."""
+    node, other = edit.places[0][2:] if edit.places else (None, None)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult) and isinstance(other, ast.BinOp):
+        turned = ast.unparse(node.left) == ast.unparse(other.right)
+        return turned or edit.kind == "transposed" or _inverts(edit)
+    return _inverts(edit) or (edit.kind == "transposed" and isinstance(node, ast.BinOp))
+
+
+def blames(edit: Edit) -> bool:
+    """Whether a change says that what its line computes is wrong, and not only that it is the wrong thing here."""
+    return edit.kind in ("sign", "exchanged", "halves", "left out", "number", "inserted") or _inverts(edit)
+
+
+def renames(edit: Edit) -> bool:
+    """Whether a change exchanges the names of several results: the names may be right, and their use wrong."""
+    node = edit.places[0][2] if edit.places else None
+    return edit.kind == "exchanged" and isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple)
+
+
+def _inverts(edit: Edit) -> bool:
+    return "np.linalg.inv(" in edit.wrong and "np.linalg.inv(" not in edit.right
+
+
+def anywhere(edit: Edit, other: Edit) -> Edit:
+    """Return a change without its place, if the same one in another place of the line does the same."""
+    same = (edit.kind, edit.right, edit.line) == (other.kind, other.right, other.line) and edit.places != other.places
+    return replace(edit, places=()) if same and not edit.everywhere and not other.everywhere else edit
