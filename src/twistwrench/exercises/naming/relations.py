@@ -15,14 +15,26 @@ from ..layouts import Layout
 from ..words.phrases import say
 from ..words.text import Text
 
-__all__ = ["describe", "of_numbers", "of_structure", "of_truths"]
+__all__ = ["describe", "of_numbers", "of_sizes", "of_structure", "of_truths"]
 
 TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
 """Factors that are reported: they show the slip. Others are chance, and would give a number away."""
 
 
 NEARLY = 6e-3
-"""Part of the largest number by which one is off that is rounded to two digits."""
+"""Part of a number by which one is off that is right to two digits."""
+
+NEAR = 0.1
+"""Part of a number by which one is off that is near it."""
+
+FAR = 0.5
+"""Part of a number by which one is off that is completely different."""
+
+TINY = 1e-3
+"""Part of the largest number below which one is compared with this part, not with its own size."""
+
+ZERO = 1e-10
+"""What is left of a number that is zero but for rounding."""
 
 
 def of_numbers(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text | None:
@@ -100,6 +112,47 @@ def of_truths(pairs: Sequence[tuple[Any, Any]]) -> Text | None:
     return say(phrase, strict=strict, loose=loose)
 
 
+def of_sizes(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> list[Text]:
+    """Report of each result what holds in all cases in which it is wrong.
+
+    Of a number: that it is too large, too small or of the other sign; of all: that it is nearly right.
+    """
+    lines = []
+    split = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in zip(answers, right)]
+    for pairs in zip(*([*zip(*pair)] for pair in split)):
+        arrays = [(a.array, b.array) for a, b in pairs]
+        if not all(a is not None and b is not None and _comparable(a, b) for a, b in arrays):
+            continue
+        three = [(a, b, part.rtol * np.abs(b).max(initial=FLOOR)) for a, b in arrays]
+        wrong = [(a, b, within) for a, b, within in three if not _same(a, b, within)]
+        relation = _of_all(wrong, len(pairs)) if wrong else None
+        if relation is not None:
+            lines.append(_is(pairs[0][0].quantity.label, relation))
+    return lines
+
+
+def _comparable(a: Array, b: Array) -> bool:
+    return a.shape == b.shape and a.dtype.kind == b.dtype.kind == "f" and bool(np.isfinite([a, b]).all())
+
+
+def _of_all(wrong: Sequence[tuple[Array, Array, float]], every: int) -> Text | None:
+    """Return what holds of all wrong numbers or arrays, beside the right ones and with what counts as the same."""
+    if all(_digits(a, b) for a, b, _ in wrong):
+        return say("approximation")
+    plain = {_plain(*three, TELLING) for three in wrong}
+    if wrong[0][0].ndim or (len(plain) == 1 and plain != {None}):  # which is said of each
+        return None
+    holds = {
+        "sign": all(a * b < 0 for a, b, _ in wrong),
+        "too large": all(a * b > 0 and np.abs(a) > np.abs(b) for a, b, _ in wrong),
+        "too small": all(a * b > 0 and np.abs(a) < np.abs(b) for a, b, _ in wrong),
+    }
+    phrase = next((phrase for phrase in holds if holds[phrase]), None)
+    if phrase is None or every == 1:
+        return say(phrase) if phrase else None
+    return say("in all wrong", relation=say(phrase))
+
+
 def _is(what: Text, relation: Text) -> Text:
     return say("is", what=what, relation=relation)
 
@@ -163,11 +216,13 @@ def _square(b: Array) -> bool:
 
 def _plain(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
     """Return whether an array is right, zero, of the wrong sign, transposed or off by a factor."""
-    disguises = {"right": b, "zero": np.zeros_like(b), "sign": -b}
+    disguises = {"right": b, "sign": -b}
     if _square(b):
         disguises |= {"transposed": b.mT, "transposed sign": -b.mT}
     if _same(b, np.zeros_like(b), tolerance):
         return say("right" if _same(a, b, tolerance) else "not zero")
+    if _same(a, np.zeros_like(b), ZERO * min(np.abs(b).max(), 1)):
+        return say("zero")
     for phrase, disguise in disguises.items():
         if _same(a, disguise, tolerance):
             return say(phrase)
@@ -186,13 +241,21 @@ def _factor(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> T
 
 
 def _triangle(a: Array, b: Array, tolerance: float) -> Text | None:
-    """Return which triangle of a symmetric matrix is right."""
+    """Return which triangle of a symmetric matrix is right, where most of the other is wrong."""
     if not _square(b) or not _same(b, b.mT, tolerance):
         return None
-    for phrase, part in (("upper", np.triu), ("lower", np.tril)):
-        if _same(part(a), part(b), tolerance):
+    upper = np.triu(np.ones(b.shape[-2:], dtype=bool))
+    for phrase, side in (("upper", upper), ("lower", upper.T)):
+        if _only(a, b, side, tolerance):
             return say(phrase)
     return None
+
+
+def _only(a: Array, b: Array, part: Array, tolerance: float) -> bool:
+    """Whether a part of a matrix is right, and of the numbers beside it that are not zero most are wrong."""
+    wrong = np.abs(a - b) > tolerance
+    told = ~part & (wrong | (np.abs(b) > tolerance))
+    return not (wrong & part).any() and 2 * int((wrong & told).sum()) > int(told.sum())
 
 
 def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
@@ -200,9 +263,9 @@ def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
     if not _square(b):
         return None
     on = np.eye(b.shape[-1], dtype=bool)
-    if _same(a * ~on, b * ~on, tolerance):
+    if _only(a, b, ~on, tolerance):
         return say("off diagonal")
-    right = _same(a * on, b * on, tolerance) and not _same(b * on, np.zeros_like(b), tolerance)
+    right = _only(a, b, on, tolerance) and not _same(b * on, np.zeros_like(b), tolerance)
     return say("diagonal") if right and (np.abs(a - b) > tolerance).sum() > 3 else None
 
 
@@ -238,21 +301,61 @@ def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
 def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
     """Return where two arrays differ, or by how much, where there is no simpler relation."""
     wrong = np.abs(a - b) > tolerance
-    error = float(np.abs(a - b).max() / max(np.abs(b).max(initial=0), FLOOR))
-    if error < NEARLY:
-        return say("inexact", digits=int(-np.log10(error)))
-    if b.ndim and 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
+    if not b.ndim:
+        return say("near" if _within(a, b, NEAR) else "other")
+    if _digits(a, b):
+        return say("inexact", digits=_digits(a, b))
+    if 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
         where = np.argwhere(wrong) + origin
         signs = (np.abs(a + b)[wrong] <= tolerance).all()
         text = say("entries", entries=_places(where))
         nothing = not a[wrong].any() and np.abs(b[wrong]).min() > tolerance
         return say("is", what=text, relation=say("sign" if signs else "zero")) if signs or nothing else text
-    rows = wrong.reshape(len(b), -1).any(1) if b.ndim else np.array([True])
-    if not rows.all() and b.size > 3:
-        return say("rows", rows=", ".join(str(int(k) + (origin[0] if origin else 0)) for k in np.flatnonzero(rows)))
-    if b.size == 1:
-        return say("too large" if np.abs(a) > np.abs(b) else "too small")
-    return say("other")
+    return _lines(wrong, origin) or _by_how_much(a, b, wrong, tolerance)
+
+
+def _lines(wrong: Array, origin: list[int]) -> Text | None:
+    """Return in which rows an array is wrong, or in which columns, where it is not in all."""
+    for axis, phrase in ((0, "rows"), (-1, "columns")) if wrong.size > 3 else ():
+        bad = wrong.any(axis=tuple(k for k in range(wrong.ndim) if k != axis % wrong.ndim))
+        if not bad.all():
+            return say(phrase, lines=_runs(np.flatnonzero(bad) + origin[axis]))
+    return None
+
+
+def _runs(numbers: Array) -> Text:
+    """Write whole numbers that rise, three or more in a row as the first and the last."""
+    runs = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
+    english, chinese = (
+        ", ".join(f"{run[0]}{to}{run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs)
+        for to in (" to ", "–")
+    )
+    return Text(english, chinese)
+
+
+def _by_how_much(a: Array, b: Array, wrong: Array, tolerance: float) -> Text:
+    """Return how many of the numbers are wrong, or how near they are."""
+    told = wrong | (np.abs(b) > tolerance)
+    if _within(a, b, NEAR):
+        return say("near" if b.size == 1 else "near the largest")
+    if (told & ~wrong).any():
+        return say("some", wrong=int(wrong.sum()), all=b.size)
+    far = wrong & (np.abs(a - b) > FAR * np.abs(b))
+    return say("completely" if b.size > 1 and 2 * int(far.sum()) > int(told.sum()) else "other")
+
+
+def _within(a: Array, b: Array, part: float) -> bool:
+    """Whether all entries are off by less than a part of the largest."""
+    return bool((np.abs(a - b) <= part * np.abs(b).max(initial=FLOOR)).all())
+
+
+def _digits(a: Array, b: Array) -> int:
+    """Return to how many digits each entry is right, or all are rounded; 0 where it is less than two."""
+    largest = float(np.abs(b).max(initial=FLOOR))
+    rounded = any(_same(a, np.round(b, digits), 1e-9 * largest) for digits in range(1, 8))
+    size = largest if rounded else np.maximum(np.abs(b), TINY * largest)
+    error = float((np.abs(a - b) / size).max(initial=0))
+    return int(-np.log10(error)) if 0 < error < NEARLY else 0
 
 
 def _places(where: Array) -> str:

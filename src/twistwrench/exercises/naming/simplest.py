@@ -12,6 +12,7 @@ from ..compare import agree, values
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
+from .relations import of_sizes
 
 __all__ = ["of_words", "shared"]
 
@@ -48,9 +49,9 @@ def _apart(part: Part, again: Callable[[Case], Any], given: list[str]) -> Iterat
 
 
 def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequence[Case]) -> list[Text]:
-    """Report of answers that are True or False what all wrong ones share, and no right one."""
+    """Report what all wrong answers share; of those that are True or False, what no right one has."""
     if not all(isinstance(x, bool | np.bool_) for pair in zip(answers, right) for x in pair):
-        return []
+        return of_sizes(part, answers, right)
     wrong = [c for a, b, c in zip(answers, right, cases) if bool(a) is not bool(b)]
     fine = [c for a, b, c in zip(answers, right, cases) if bool(a) is bool(b)]
     if len(wrong) < 2:

@@ -190,7 +190,9 @@ PHRASES = {
     "diagonal": Text("only the diagonal is right", "只有对角线正确"),
     "off diagonal": Text("right except on the diagonal", "除对角线外正确"),
     "entries": Text("wrong in {entries}, right elsewhere", "错在 {entries}，其余正确"),
-    "rows": Text("wrong in rows {rows}, right in the others", "第 {rows} 行有错，其余各行正确"),
+    "rows": Text("wrong in rows {lines}, right in the others", "第 {lines} 行有错，其余各行正确"),
+    "columns": Text("wrong in columns {lines}, right in the others", "第 {lines} 列有错，其余各列正确"),
+    "some": Text("{wrong} of {all} entries are wrong", "{all} 个元素中有 {wrong} 个错误"),
     "only where": Text(
         "It is right where {name} = {value}: look at what you do with {name}.",
         "当 {name} = {value} 时结果正确：请检查你对 {name} 的处理。",
@@ -207,10 +209,17 @@ PHRASES = {
         "It is right where nothing in {name} is turned against its parent: look at what you do with the rotation.",
         "当 {name} 中没有转动时结果正确：请检查你对旋转的处理。",
     ),
-    "inexact": Text("right to {digits} digits only: an approximation?", "只有 {digits} 位正确：是不是用了近似？"),
+    "inexact": Text("right to {digits} digits only", "只有 {digits} 位正确"),
+    "approximation": Text("nearly right in all cases: an approximation?", "在所有情形中都近似正确：是不是用了近似？"),
+    "near": Text("off by less than 10 %", "偏差不到 10%"),
+    "near the largest": Text(
+        "each entry is off by less than 10 % of the largest one", "每个元素的偏差都不到最大元素的 10%"
+    ),
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),
-    "other": Text("completely different numbers", "数值完全不同"),
+    "in all wrong": Text("{relation} in all wrong cases", "在所有出错的情形中{relation}"),
+    "other": Text("different numbers", "数值不同"),
+    "completely": Text("completely different numbers", "数值完全不同"),
     "false": Text("is {got}, and must be {right}", "是 {got}，应为 {right}"),
     "too strict": Text(
         "It is too strict: it returns False in {strict} cases that are True, and never True where it must not.",

@@ -1,0 +1,104 @@
+"""What is said of numbers beside the right ones is true of each of them, and of all cases where it says so."""
+
+import numpy as np
+import pytest
+
+from twistwrench.exercises import catalogue
+from twistwrench.exercises.compare import Value
+from twistwrench.exercises.exercise import Part, Quantity
+from twistwrench.exercises.judge import judge
+from twistwrench.exercises.naming.relations import describe, of_sizes
+
+RNG = np.random.default_rng(5)
+FULL = RNG.uniform(1, 2, (6, 6))
+FULL += FULL.T
+
+
+def said(got, right, language="en"):
+    quantity = Quantity("A")
+    lines = describe(*(Value(quantity, np.asarray(x, float), x) for x in (got, right)), 1e-9)
+    return "; ".join(line.of(language) for line in lines)
+
+
+def changed(x, index, factor):
+    y = np.array(x, float)
+    y[index] *= factor
+    return y
+
+
+def test_what_is_small_beside_a_huge_number_is_not_zero():
+    assert said([1.0, 1, 1], [2.9e12, 1, 5.9e12]) == "A: wrong in [0], [2], right elsewhere"
+    assert said([1e-17, 0], [2.0, 3]) == "A: zero, and must not be"
+    assert said(1e-5, 3.0) != "A: zero, and must not be"
+
+
+def test_only_the_diagonal_is_right_where_most_of_the_rest_is_wrong():
+    off = ~np.eye(6, dtype=bool)
+    assert said(changed(FULL, off, 2), FULL) == "A: only the diagonal is right"
+    corner = np.zeros((6, 6), dtype=bool)
+    corner[:3, :3] = off[:3, :3]
+    assert said(changed(FULL, corner, 3), FULL) == "A: wrong in rows 0 to 2, right in the others"
+    assert said(changed(FULL, corner, 3), FULL, "zh") == "A：第 0–2 行有错，其余各行正确"
+    assert said(changed(FULL, (0, 0), 3), FULL) == "A: wrong in [0, 0], right elsewhere"
+    assert said(changed(FULL, ~off, 3), FULL) == "A: right except on the diagonal"
+
+
+def test_only_a_triangle_is_right_where_most_of_the_other_is_wrong():
+    below = np.tril(np.ones((6, 6), dtype=bool), -1)
+    assert said(changed(FULL, below, 3), FULL) == "A: only the upper triangle is right"
+    assert said(changed(FULL, (5, 0), 3), FULL) == "A: wrong in [5, 0], right elsewhere"
+
+
+def test_digits_are_those_of_each_entry():
+    right = [-0.722, -0.2, 150.0, 80, 70, 1]
+    assert "digits" not in said([-1.441, 0.09, 150.3, 80.1, 70.1, 1.1], right)
+    assert said(np.multiply(right, 1.002), right) == "A: right to 2 digits only"
+    assert "digits" not in said([0.019, -0.039, -9.838], [0, 0, -9.81])
+    assert said(np.round(FULL, 2), FULL) == "A: right to 2 digits only"
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda x: x * RNG.uniform(1.02, 1.04, x.shape), "each entry is off by less than 10 % of the largest one"),
+        (lambda x: x * RNG.uniform(1.2, 1.4, x.shape), "different numbers"),
+        (lambda x: x * RNG.uniform(-6, -5, x.shape), "completely different numbers"),
+        (lambda x: np.where(np.eye(6)[::-1] == 1, x, 9 + x), "30 of 36 entries are wrong"),
+        (lambda x: np.hstack([x[:, :2] + np.outer(x[:, 0], [1, 5]), x[:, 2:]]), "wrong in columns 0, 1, right in the"),
+    ],
+)
+def test_numbers_are_completely_different_only_where_most_are(change, says):
+    assert said(change(FULL), FULL).startswith(f"A: {says}")
+
+
+SIZES = Part(solution=lambda x: x, returns=(Quantity("k"),), cases=lambda rng: [], slips={})
+
+
+@pytest.mark.parametrize(
+    ("answers", "says"),
+    [
+        ([1.0, 3.0, 5.0], ["k: too large in all wrong cases"]),
+        ([1.0, 1.5, 1.0], ["k: too small in all wrong cases"]),
+        ([1.0, 3.0, 1.0], []),
+        ([1.0, -3.0, 5.0], []),
+        ([1.0, -3.0, -1.0], ["k: the sign is wrong in all wrong cases"]),
+        ([1.0, 2.002, 3.001], ["k: nearly right in all cases: an approximation?"]),
+        ([1.0, 2.002, 4.001], ["k: too large in all wrong cases"]),
+        ([1.0, 4.0, 6.0], []),  # the factor is told
+        ([1.0, -2.0, -3.0], []),  # the sign is told
+        ([1.0, 2.0, 3.0], []),
+        ([1.0, None, 4.0], []),
+    ],
+)
+def test_what_holds_in_all_wrong_cases_is_told(answers, says):
+    assert [line.en for line in of_sizes(SIZES, answers, [1.0, 2.0, 3.0])] == says
+
+
+def test_a_number_of_the_other_sign_is_not_called_too_large():
+    def growth(sizes, seconds):
+        _, _, axes = np.linalg.svd(np.column_stack([np.log(sizes), np.log(seconds)]), full_matrices=False)
+        return axes[0][1] / axes[0][0]
+
+    told = judge(*catalogue.find_part("growth"), growth).message("en")
+    assert "too large" not in told
+    assert "k: the sign is wrong in all wrong cases" in told
