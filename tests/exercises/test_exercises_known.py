@@ -73,6 +73,26 @@ def test_another_quantity_is_called_by_its_name(function, says):
     assert says in said
 
 
+def test_a_block_is_not_called_by_the_name_of_the_whole():
+    def pinocchio_inertia(m, c, I_c):
+        off = m * tw.skew(c)
+        return np.block([[m * np.eye(3), off], [off.T, I_c]])
+
+    said = message("pinocchio_inertia", pinocchio_inertia)
+    assert said.count("the right block, with the other sign.") == 2
+    assert "about the body's origin" not in said
+    assert "your I, the block of rows k (angular), columns ω: the argument `I_c`." in said
+
+
+def test_a_block_of_another_quantity_is_told_with_its_place():
+    def own_centroidal_map(model, q):
+        return np.vstack([tw.crba(model, q)[:3], tw.centroidal_map(model, q)[3:]])
+
+    exercise, part = catalogue.find_part("own_centroidal_map")
+    said = " ".join(judge(exercise, part, own_centroidal_map, search=False).message("en").split())
+    assert "columns of the joints: the entries [:3, 6:] of the mass matrix M." in said
+
+
 def test_numbers_that_are_nothing_known_get_no_name():
     assert "another quantity" not in message("act", lambda R, p, x: np.sin(R @ x) + np.cos(p) * x[::-1])
 

@@ -115,7 +115,7 @@ def test_what_stands_only_in_a_right_solution_is_not_called_the_slip():
         return np.array([[M[1, 2], M[2, 0], M[0, 1], M[0, 3], M[1, 3], M[2, 3]] for M in hats]).T
 
     said = judge(*catalogue.find_part("adjoint"), adjoint).message("en")
-    assert "the right Ad_T, with the other sign" in said
+    assert "the right block, with the other sign" in said
     assert "`R`" not in said
 
 

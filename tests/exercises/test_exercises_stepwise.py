@@ -62,7 +62,7 @@ def vertical_loads(p_G, feet, weight):
             ),
             (BY_UNITS, ["line 13, `model.neutral()` must be `q`"]),
             (RATE, ["np.cross(V[3:], h[3:])`"]),
-            (LOADS, ["Line 14, `return weight * w / w.sum()`", "first leave those of the right solutions"]),
+            (LOADS, ["Line 14, `return weight * w / w.sum()`", "first differ from those of the right solutions"]),
         ],
         1,
         several=True,

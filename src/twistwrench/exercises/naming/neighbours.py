@@ -55,6 +55,9 @@ FORMS: dict[str, Callable[[Array], Array]] = {
 }
 """What may be done to a quantity, or taken of it."""
 
+TURNED = ("turned sign", "transposed form")
+"""What a block of the right result may have become: it is told before another quantity is thought of."""
+
 
 class Neighbours:
     """The quantities that may be computed from the arguments of a function, in each case.
@@ -114,25 +117,30 @@ class Neighbours:
         return lines
 
     def _match(self, got: list[Any], right: list[Any], index: Index | None = None) -> Text | None:
-        """Return the first quantity, or form of one, that is the same in all cases."""
+        """Return the first quantity, or form of one, that is the same in all cases, or the block of it at `index`."""
         wrong = [j for j, (a, b) in enumerate(zip(got, right)) if not self._same(a, b)]
         if len({abs(float(f"{x:.6g}")) for j in wrong for x in np.ravel(got[j])} - {0.0}) < FEWEST:
             return None
         if got[0].ndim and max(len({*np.abs(got[j]).ravel()} - {0.0}) for j in wrong) < FEWEST // 2:
             return None
         order = sorted(range(len(got)), key=lambda j: j not in wrong)
+        for form in TURNED if index is not None else ():
+            if all(got[j].ndim > 1 and self._same(got[j], FORMS[form](right[j])) for j in order):
+                return say(form, title=say("right block"))
         for form, change in FORMS.items():
             for number, known in enumerate(self._all()):
-                if time.process_time() > self.until:
-                    return None
-                if all(self._is(number, known, change, j, got[j], index) for j in order):
-                    return known.title if form == "{title}" else say(form, title=known.title)
+                for taken in (None,) if index is None else (None, index):
+                    if time.process_time() > self.until:
+                        return None
+                    if all(self._is(number, known, change, j, got[j], taken) for j in order):
+                        title = known.title if form == "{title}" else say(form, title=known.title)
+                        return title if taken is None else say("entries of", entries=_written(taken), title=title)
         return None
 
     def _is(
         self, number: int, known: Known, change: Callable[[Array], Array], case: int, got: Array, index: Index | None
     ) -> bool:
-        """Whether a form of a quantity, or the block of it at the same place, is what was returned in a case."""
+        """Whether a form of a quantity, or the block of it at `index`, is what was returned in a case."""
         if (number, case) not in self._known:
             arguments = (*(self.cases[case][self.names.index(name)] for name in known.needs), case)
             self._known[number, case] = _array(known.value, arguments)
@@ -141,7 +149,7 @@ class Neighbours:
             return False
         try:
             value = change(value)
-            return self._same(got, value) or (index is not None and self._same(got, value[index]))
+            return self._same(got, value if index is None else value[index])
         except (IndexError, TypeError, ValueError):  # it has no such form
             return False
 
@@ -199,6 +207,12 @@ def _array(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Array | 
     except Exception:  # arguments of the same names, and of another kind
         return None
     return x if _telling(x) else None
+
+
+def _written(index: Index) -> str:
+    """Write the place of a block as it is written in Python."""
+    parts = (f"{part.start or ''}:{'' if part.stop is None else part.stop}" for part in index if part is not ...)
+    return f"[{', '.join(parts)}]"
 
 
 def _telling(x: Any) -> bool:

@@ -302,7 +302,7 @@ def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
     """Return where two arrays differ, or by how much, where there is no simpler relation."""
     wrong = np.abs(a - b) > tolerance
     if not b.ndim:
-        return say("near" if _within(a, b, NEAR) else "other")
+        return say("near" if _within(a, b, NEAR) else "different")
     if _digits(a, b):
         return say("inexact", digits=_digits(a, b))
     if 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
@@ -341,7 +341,7 @@ def _by_how_much(a: Array, b: Array, wrong: Array, tolerance: float) -> Text:
     if (told & ~wrong).any():
         return say("some", wrong=int(wrong.sum()), all=b.size)
     far = wrong & (np.abs(a - b) > FAR * np.abs(b))
-    return say("completely" if b.size > 1 and 2 * int(far.sum()) > int(told.sum()) else "other")
+    return say("other" if b.size > 1 and 2 * int(far.sum()) > int(told.sum()) else "different")
 
 
 def _within(a: Array, b: Array, part: float) -> bool:

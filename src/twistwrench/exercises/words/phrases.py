@@ -67,9 +67,10 @@ PHRASES = {
         "判断错误的每一组数据都有 {what} = 0，其余各组都不是这样。",
     ),
     "first line": Text(
-        "Line {line}, `{text}`: there your numbers first leave those of the right solutions. The slip is there or"
-        " before, unless it is only another way.",
-        "第 {line} 行 `{text}`：你的数值从这里开始与正确解法的不同。错误在这里或更前面，除非这只是另一种做法。",
+        "Line {line}, `{text}`: here your numbers first differ from those of the right solutions. Look at this line and"
+        " at what it uses; if it is right, and only another way, look at what follows.",
+        "第 {line} 行 `{text}`：你的数值从这里开始与各正确解法的不同。请检查这一行和它用到的量；"
+        "如果它没有错，只是另一种做法，就检查它之后的部分。",
     ),
     "it shows": Text("It shows in the result:", "反映在结果上："),
     "first wrong": Text(
@@ -218,8 +219,8 @@ PHRASES = {
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),
     "in all wrong": Text("{relation} in all wrong cases", "在所有出错的情形中{relation}"),
-    "other": Text("different numbers", "数值不同"),
-    "completely": Text("completely different numbers", "数值完全不同"),
+    "different": Text("different numbers", "数值不同"),
+    "other": Text("completely different numbers", "数值完全不同"),
     "false": Text("is {got}, and must be {right}", "是 {got}，应为 {right}"),
     "too strict": Text(
         "It is too strict: it returns False in {strict} cases that are True, and never True where it must not.",

@@ -18,6 +18,8 @@ SAYINGS = {
     "joints form": Text("the rows from 6 on of {title}", "{title} 从第 6 行起的各行"),
     "first columns form": Text("the first six columns of {title}", "{title} 的前六列"),
     "right one": Text("the right {name}", "正确的 {name}"),
+    "right block": Text("the right block", "正确的块"),
+    "entries of": Text("the entries {entries} of {title}", "{title} 的元素 {entries}"),
     "argument itself": Text("the argument `{name}`", "参数 `{name}`"),
     "asked elsewhere": Text(
         "the {name} that the function `{function}` of exercise {id} returns",
