@@ -102,3 +102,30 @@ def test_a_number_of_the_other_sign_is_not_called_too_large():
     told = judge(*catalogue.find_part("growth"), growth).message("en")
     assert "too large" not in told
     assert "k: the sign is wrong in all wrong cases" in told
+
+
+def errors(largest, scale=lambda tau: np.abs(tau).max()):
+    return lambda forward, inverse, model, q, v, tau: (
+        largest(np.abs(inverse(model, q, v, forward(model, q, v, tau)) - tau)) / scale(tau)
+    )
+
+
+def running(x):
+    worst = 0.0
+    for entry in x:
+        worst = entry if entry > worst else worst
+    return worst
+
+
+@pytest.mark.parametrize("largest", [max, running, lambda x: max(x[~np.isnan(x)], default=7.0)])
+def test_a_lost_nan_is_told_however_it_is_lost(largest):
+    verdict = judge(*catalogue.find_part("consistency_error"), errors(largest), search=False)
+    assert verdict.slips == ("nan-lost",)
+
+
+def test_a_lost_nan_is_told_beside_another_slip():
+    answer = errors(lambda x: x.max(where=x == x, initial=0.0), scale=np.max)
+    told = judge(*catalogue.find_part("consistency_error"), answer, search=False).message("en")
+    assert "error is a number in a case where nan is expected" in told
+    other = judge(*catalogue.find_part("consistency_error"), errors(np.max, scale=np.max), search=False)
+    assert "nan" not in other.message("en")

@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import Array
 from ..calls import tried
 from ..compare import agree, values
 from ..exercise import Part
+from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 from .relations import of_sizes
@@ -51,7 +53,7 @@ def _apart(part: Part, again: Callable[[Case], Any], given: list[str]) -> Iterat
 def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequence[Case]) -> list[Text]:
     """Report what all wrong answers share; of those that are True or False, what no right one has."""
     if not all(isinstance(x, bool | np.bool_) for pair in zip(answers, right) for x in pair):
-        return of_sizes(part, answers, right)
+        return [*of_sizes(part, answers, right), *_lost_nan(part, answers, right)]
     wrong = [c for a, b, c in zip(answers, right, cases) if bool(a) is not bool(b)]
     fine = [c for a, b, c in zip(answers, right, cases) if bool(a) is bool(b)]
     if len(wrong) < 2:
@@ -64,6 +66,21 @@ def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequ
     if every and not any(every <= _zeros(names, c) for c in fine):
         lines.append(say("all zero", what=" = ".join(sorted(every))))
     return lines
+
+
+def _lost_nan(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Iterator[Text]:
+    """Report of each result that it has a number somewhere where nan is expected."""
+    pairs = [zip(values(a, part.returns) or (), values(b, part.returns) or ()) for a, b in zip(answers, right)]
+    lost = [a.quantity.title for pair in pairs for a, b in pair if _finite_for_nan(a.array, b.array)]
+    for title in dict.fromkeys(lost):
+        yield say("nan lost", name=title)
+        yield SLIPS["nan-lost"].why
+
+
+def _finite_for_nan(a: Array | None, b: Array | None) -> bool:
+    if a is None or b is None or a.shape != b.shape or not a.dtype.kind == b.dtype.kind == "f":
+        return False
+    return bool(np.isfinite(a[np.isnan(b)]).any())
 
 
 def _zeros(names: Sequence[str], arguments: Case) -> set[str]:

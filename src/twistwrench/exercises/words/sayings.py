@@ -68,6 +68,10 @@ SAYINGS = {
         "在某些情形中返回了 None：函数中是不是有的路径没有 `return`？",
     ),
     "nan expected": Text("a number, where nan is expected", "给出了一个数，而应为 nan"),
+    "nan lost": Text(
+        "{name} is a number in a case where nan is expected: an entry that is nan is passed over.",
+        "有的情形中 {name} 应为 nan，却给出了一个数：漏掉了为 nan 的元素。",
+    ),
     "nothing": Text("nothing", "无"),
     "error differs": Text("{got}, and {right} is expected", "{got}，应为 {right}"),
     "no number": Text("not a finite number", "不是有限的数"),
