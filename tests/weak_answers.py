@@ -45,7 +45,7 @@ ANSWERS = [
     # 49.1
     Weak("sizes", "return 19, 19, 18, 18", "nq in place of nv"),
     Weak("sizes", "return 18", "It must return 4 things"),
-    Weak("polishing_torques", "return M @ a + h + J.T @ force", "the external force is added"),
+    Weak("polishing_torques", "return M @ a + h + J.T @ force", "the external force has the wrong sign"),
     # 49.2
     Weak(
         "foot_twist",
@@ -321,7 +321,7 @@ ANSWERS = [
         "body_twists",
         "V = np.zeros((len(parent), 6))\nfor i in range(1, len(parent)):\n"
         "    V[i] = transforms(T[i])[0] @ V[parent[i]] + V_joint[i]\nreturn V",
-        "the inverse in place of the transform",
+        "the transform goes the wrong way",
     ),
     Weak(
         "carried_wrenches",

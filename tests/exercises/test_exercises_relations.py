@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import twistwrench as tw
 from twistwrench.exercises import catalogue
 from twistwrench.exercises.compare import Value
 from twistwrench.exercises.exercise import Part, Quantity
@@ -129,3 +130,15 @@ def test_a_lost_nan_is_told_beside_another_slip():
     assert "error is a number in a case where nan is expected" in told
     other = judge(*catalogue.find_part("consistency_error"), errors(np.max, scale=np.max), search=False)
     assert "nan" not in other.message("en")
+
+
+def test_the_way_of_a_transform_is_told_whichever_way_it_is_missed():
+    def base_block(model, q):
+        """Moves the inertias by the transforms of the bodies to the base, which must be their inverses."""
+        poses = tw.forward_kinematics(model, q).placement
+        X = [(poses[1].inverse() @ pose).motion_transform() for pose in poses]
+        return sum(x.T @ body.matrix() @ x for x, body in zip(X[1:], model.inertia[1:]))
+
+    told = judge(*catalogue.find_part("base_block"), base_block, search=False).message("en")
+    assert "the transform goes the wrong way: its inverse is needed" in told
+    assert "in place of" not in told

@@ -218,8 +218,8 @@ def test_of_two_slips_with_the_same_numbers_the_source_tells_which(written):
         names[way] = message(function, "carried_wrenches")
     transposed, inverted = names.values()
     assert "Xᵀ taken for X*" in transposed
-    assert "the inverse in place of the transform" not in transposed
-    assert "the inverse in place of the transform" in inverted
+    assert "the transform goes the wrong way" not in transposed
+    assert "the transform goes the wrong way" in inverted
     assert "Xᵀ taken for X*" not in inverted
 
 
