@@ -8,7 +8,8 @@ from twistwrench.exercises import catalogue
 from twistwrench.exercises.compare import Value
 from twistwrench.exercises.exercise import Part, Quantity
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.naming.relations import describe, of_sizes
+from twistwrench.exercises.naming.relations import describe
+from twistwrench.exercises.naming.simplest import shared
 
 RNG = np.random.default_rng(5)
 FULL = RNG.uniform(1, 2, (6, 6))
@@ -92,7 +93,7 @@ SIZES = Part(solution=lambda x: x, returns=(Quantity("k"),), cases=lambda rng: [
     ],
 )
 def test_what_holds_in_all_wrong_cases_is_told(answers, says):
-    assert [line.en for line in of_sizes(SIZES, answers, [1.0, 2.0, 3.0])] == says
+    assert [line.en for line in shared(SIZES, answers, [1.0, 2.0, 3.0], [()] * 3)] == says
 
 
 def test_a_number_of_the_other_sign_is_not_called_too_large():

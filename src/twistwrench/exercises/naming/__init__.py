@@ -12,6 +12,7 @@ neighbours    a result that is another quantity with a name
 own           whether the student's code bears out a slip with the same numbers
 matching      the slips of the list that give the student's numbers
 properties    what right answers have, and this one has not
+sizes         by how much numbers are wrong
 relations     how a wrong array differs: sign, transpose, factor, zero, places
 simplest      the simplest arguments that give a wrong answer, and what all of them share
 small         what is right for small numbers only

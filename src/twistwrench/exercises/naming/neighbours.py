@@ -56,7 +56,7 @@ FORMS: dict[str, Callable[[Array], Array]] = {
 """What may be done to a quantity, or taken of it."""
 
 TURNED = ("turned sign", "transposed form")
-"""What a block of the right result may have become: it is told before another quantity is thought of."""
+"""What a block of the right result may have become: it is said before another quantity is thought of."""
 
 
 class Neighbours:

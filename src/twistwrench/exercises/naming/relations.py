@@ -14,24 +14,13 @@ from ..exercise import Part
 from ..layouts import Layout
 from ..words.phrases import say
 from ..words.text import Text
+from .sizes import by_how_much, digits, same
 
-__all__ = ["describe", "of_numbers", "of_sizes", "of_structure", "of_truths"]
+__all__ = ["TELLING", "describe", "of_numbers", "of_structure", "of_truths", "plain"]
 
 TELLING = (2, 3, 4, 6, 8, 9.81, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
 """Factors that are reported: they show the slip. Others are chance, and would give a number away."""
 
-
-NEARLY = 6e-3
-"""Part of a number by which one is off that is right to two digits."""
-
-NEAR = 0.1
-"""Part of a number by which one is off that is near it."""
-
-FAR = 0.5
-"""Part of a number by which one is off that is completely different."""
-
-TINY = 1e-3
-"""Part of the largest number below which one is compared with this part, not with its own size."""
 
 ZERO = 1e-10
 """What is left of a number that is zero but for rounding."""
@@ -83,7 +72,7 @@ def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] 
     if np.isnan(right.array).any() and np.isfinite(got.array).all():
         return [_is(name, say("nan expected"))]
     tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
-    relation = _plain(got.array, right.array, tolerance, factors) or _triangle(got.array, right.array, tolerance)
+    relation = plain(got.array, right.array, tolerance, factors) or _triangle(got.array, right.array, tolerance)
     if relation == say("right"):
         return []
     if relation is not None:
@@ -110,47 +99,6 @@ def of_truths(pairs: Sequence[tuple[Any, Any]]) -> Text | None:
     strict, loose = (sum(bool(a) is not truth and bool(b) is truth for a, b in pairs) for truth in (True, False))
     phrase = "too strict" if not loose else "too loose" if not strict else "both ways"
     return say(phrase, strict=strict, loose=loose)
-
-
-def of_sizes(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> list[Text]:
-    """Report of each result what holds in all cases in which it is wrong.
-
-    Of a number: that it is too large, too small or of the other sign; of all: that it is nearly right.
-    """
-    lines = []
-    split = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in zip(answers, right)]
-    for pairs in zip(*([*zip(*pair)] for pair in split)):
-        arrays = [(a.array, b.array) for a, b in pairs]
-        if not all(a is not None and b is not None and _comparable(a, b) for a, b in arrays):
-            continue
-        three = [(a, b, part.rtol * np.abs(b).max(initial=FLOOR)) for a, b in arrays]
-        wrong = [(a, b, within) for a, b, within in three if not _same(a, b, within)]
-        relation = _of_all(wrong, len(pairs)) if wrong else None
-        if relation is not None:
-            lines.append(_is(pairs[0][0].quantity.label, relation))
-    return lines
-
-
-def _comparable(a: Array, b: Array) -> bool:
-    return a.shape == b.shape and a.dtype.kind == b.dtype.kind == "f" and bool(np.isfinite([a, b]).all())
-
-
-def _of_all(wrong: Sequence[tuple[Array, Array, float]], every: int) -> Text | None:
-    """Return what holds of all wrong numbers or arrays, beside the right ones and with what counts as the same."""
-    if all(_digits(a, b) for a, b, _ in wrong):
-        return say("approximation")
-    plain = {_plain(*three, TELLING) for three in wrong}
-    if wrong[0][0].ndim or (len(plain) == 1 and plain != {None}):  # which is said of each
-        return None
-    holds = {
-        "sign": all(a * b < 0 for a, b, _ in wrong),
-        "too large": all(a * b > 0 and np.abs(a) > np.abs(b) for a, b, _ in wrong),
-        "too small": all(a * b > 0 and np.abs(a) < np.abs(b) for a, b, _ in wrong),
-    }
-    phrase = next((phrase for phrase in holds if holds[phrase]), None)
-    if phrase is None or every == 1:
-        return say(phrase) if phrase else None
-    return say("in all wrong", relation=say(phrase))
 
 
 def _is(what: Text, relation: Text) -> Text:
@@ -197,34 +145,30 @@ def _relation(a: Array, b: Array, tolerance: float, origin: list[int], factors: 
 
     `origin` is where the block begins, so that entries are numbered as in the whole.
     """
-    plain = _plain(a, b, tolerance, factors)
-    if plain is not None:
-        return plain
+    simple = plain(a, b, tolerance, factors)
+    if simple is not None:
+        return simple
     relation = _exchanged(a, b, tolerance, origin)
     for find in (_triangle, _diagonal, _shuffled):
         relation = relation or find(a, b, tolerance)
     return relation or _entries(a, b, tolerance, origin)
 
 
-def _same(a: Array, b: Array, tolerance: float) -> bool:
-    return bool((np.abs(a - b) <= tolerance).all())
-
-
 def _square(b: Array) -> bool:
     return b.ndim >= 2 and b.shape[-1] == b.shape[-2] > 1
 
 
-def _plain(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
+def plain(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
     """Return whether an array is right, zero, of the wrong sign, transposed or off by a factor."""
     disguises = {"right": b, "sign": -b}
     if _square(b):
         disguises |= {"transposed": b.mT, "transposed sign": -b.mT}
-    if _same(b, np.zeros_like(b), tolerance):
-        return say("right" if _same(a, b, tolerance) else "not zero")
-    if _same(a, np.zeros_like(b), ZERO * min(np.abs(b).max(), 1)):
+    if same(b, np.zeros_like(b), tolerance):
+        return say("right" if same(a, b, tolerance) else "not zero")
+    if same(a, np.zeros_like(b), ZERO * min(np.abs(b).max(), 1)):
         return say("zero")
     for phrase, disguise in disguises.items():
-        if _same(a, disguise, tolerance):
+        if same(a, disguise, tolerance):
             return say(phrase)
     return _factor(a, b, tolerance, factors)
 
@@ -242,10 +186,10 @@ def _factor(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> T
 
 def _triangle(a: Array, b: Array, tolerance: float) -> Text | None:
     """Return which triangle of a symmetric matrix is right, where most of the other is wrong."""
-    if not _square(b) or not _same(b, b.mT, tolerance):
+    if not _square(b) or not same(b, b.mT, tolerance):
         return None
     upper = np.triu(np.ones(b.shape[-2:], dtype=bool))
-    for phrase, side in (("upper", upper), ("lower", upper.T)):
+    for phrase, side in (("upper", upper), ("lower", upper.mT)):
         if _only(a, b, side, tolerance):
             return say(phrase)
     return None
@@ -254,8 +198,8 @@ def _triangle(a: Array, b: Array, tolerance: float) -> Text | None:
 def _only(a: Array, b: Array, part: Array, tolerance: float) -> bool:
     """Whether a part of a matrix is right, and of the numbers beside it that are not zero most are wrong."""
     wrong = np.abs(a - b) > tolerance
-    told = ~part & (wrong | (np.abs(b) > tolerance))
-    return not (wrong & part).any() and 2 * int((wrong & told).sum()) > int(told.sum())
+    shown = ~part & (wrong | (np.abs(b) > tolerance))
+    return not (wrong & part).any() and 2 * int((wrong & shown).sum()) > int(shown.sum())
 
 
 def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
@@ -265,7 +209,7 @@ def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:
     on = np.eye(b.shape[-1], dtype=bool)
     if _only(a, b, ~on, tolerance):
         return say("off diagonal")
-    right = _only(a, b, on, tolerance) and not _same(b * on, np.zeros_like(b), tolerance)
+    right = _only(a, b, on, tolerance) and not same(b * on, np.zeros_like(b), tolerance)
     return say("diagonal") if right and (np.abs(a - b) > tolerance).sum() > 3 else None
 
 
@@ -273,11 +217,11 @@ def _exchanged(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text 
     """Return which two entries, rows or columns are exchanged, where all others are right."""
     for axis, phrase in ((-2, "rows exchanged"), (-1, "columns exchanged")) if b.ndim == 2 else ():
         wrong = np.flatnonzero((np.abs(a - b) > tolerance).any(axis=-1 if axis == -2 else -2))
-        if len(wrong) == 2 and _same(np.take(a, wrong[::-1], axis), np.take(b, wrong, axis), tolerance):
+        if len(wrong) == 2 and same(np.take(a, wrong[::-1], axis), np.take(b, wrong, axis), tolerance):
             first, second = (int(k) + origin[axis] for k in wrong)
             return say(phrase, first=first, second=second)
     where = np.argwhere(np.abs(a - b) > tolerance)
-    if len(where) != 2 or not b.ndim or _same(np.abs(a), np.abs(b), tolerance):
+    if len(where) != 2 or not b.ndim or same(np.abs(a), np.abs(b), tolerance):
         return None
     (x, y), (x_right, y_right) = ([array[*place] for place in where] for array in (a, b))
     if np.abs(x - y_right) > tolerance or np.abs(y - x_right) > tolerance:
@@ -301,17 +245,15 @@ def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
 def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:
     """Return where two arrays differ, or by how much, where there is no simpler relation."""
     wrong = np.abs(a - b) > tolerance
-    if not b.ndim:
-        return say("near" if _within(a, b, NEAR) else "different")
-    if _digits(a, b):
-        return say("inexact", digits=_digits(a, b))
+    if b.size > 1 and digits(a, b):
+        return say("inexact", digits=digits(a, b))
     if 0 < wrong.sum() <= 3 and wrong.sum() < b.size:
         where = np.argwhere(wrong) + origin
         signs = (np.abs(a + b)[wrong] <= tolerance).all()
         text = say("entries", entries=_places(where))
         nothing = not a[wrong].any() and np.abs(b[wrong]).min() > tolerance
         return say("is", what=text, relation=say("sign" if signs else "zero")) if signs or nothing else text
-    return _lines(wrong, origin) or _by_how_much(a, b, wrong, tolerance)
+    return _lines(wrong, origin) or by_how_much(a, b, wrong, tolerance)
 
 
 def _lines(wrong: Array, origin: list[int]) -> Text | None:
@@ -331,31 +273,6 @@ def _runs(numbers: Array) -> Text:
         for to in (" to ", "–")
     )
     return Text(english, chinese)
-
-
-def _by_how_much(a: Array, b: Array, wrong: Array, tolerance: float) -> Text:
-    """Return how many of the numbers are wrong, or how near they are."""
-    told = wrong | (np.abs(b) > tolerance)
-    if _within(a, b, NEAR):
-        return say("near" if b.size == 1 else "near the largest")
-    if (told & ~wrong).any():
-        return say("some", wrong=int(wrong.sum()), all=b.size)
-    far = wrong & (np.abs(a - b) > FAR * np.abs(b))
-    return say("other" if b.size > 1 and 2 * int(far.sum()) > int(told.sum()) else "different")
-
-
-def _within(a: Array, b: Array, part: float) -> bool:
-    """Whether all entries are off by less than a part of the largest."""
-    return bool((np.abs(a - b) <= part * np.abs(b).max(initial=FLOOR)).all())
-
-
-def _digits(a: Array, b: Array) -> int:
-    """Return to how many digits each entry is right, or all are rounded; 0 where it is less than two."""
-    largest = float(np.abs(b).max(initial=FLOOR))
-    rounded = any(_same(a, np.round(b, digits), 1e-9 * largest) for digits in range(1, 8))
-    size = largest if rounded else np.maximum(np.abs(b), TINY * largest)
-    error = float((np.abs(a - b) / size).max(initial=0))
-    return int(-np.log10(error)) if 0 < error < NEARLY else 0
 
 
 def _places(where: Array) -> str:

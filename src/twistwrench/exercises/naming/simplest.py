@@ -9,12 +9,13 @@ import numpy as np
 
 from ...arrays import Array
 from ..calls import tried
-from ..compare import agree, values
+from ..compare import FLOOR, agree, values
 from ..exercise import Part
 from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
-from .relations import of_sizes
+from .relations import TELLING, plain
+from .sizes import digits, same, too_large
 
 __all__ = ["of_words", "shared"]
 
@@ -53,7 +54,7 @@ def _apart(part: Part, again: Callable[[Case], Any], given: list[str]) -> Iterat
 def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequence[Case]) -> list[Text]:
     """Report what all wrong answers share; of those that are True or False, what no right one has."""
     if not all(isinstance(x, bool | np.bool_) for pair in zip(answers, right) for x in pair):
-        return [*of_sizes(part, answers, right), *_lost_nan(part, answers, right)]
+        return [*_of_sizes(part, answers, right), *_lost_nan(part, answers, right)]
     wrong = [c for a, b, c in zip(answers, right, cases) if bool(a) is not bool(b)]
     fine = [c for a, b, c in zip(answers, right, cases) if bool(a) is bool(b)]
     if len(wrong) < 2:
@@ -66,6 +67,40 @@ def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequ
     if every and not any(every <= _zeros(names, c) for c in fine):
         lines.append(say("all zero", what=" = ".join(sorted(every))))
     return lines
+
+
+def _of_sizes(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> list[Text]:
+    """Report of each result what holds in all cases in which it is wrong.
+
+    Of a number: that it is too large, too small or of the other sign; of all: that it is nearly right.
+    """
+    lines = []
+    split = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in zip(answers, right)]
+    for pairs in zip(*([*zip(*pair)] for pair in split)):
+        arrays = [(a.array, b.array) for a, b in pairs]
+        if not all(a is not None and b is not None and _comparable(a, b) for a, b in arrays):
+            continue
+        three = [(a, b, part.rtol * np.abs(b).max(initial=FLOOR)) for a, b in arrays]
+        wrong = [(a, b, within) for a, b, within in three if not same(a, b, within)]
+        relation = _of_all(wrong, len(pairs)) if wrong else None
+        if relation is not None:
+            lines.append(say("is", what=pairs[0][0].quantity.label, relation=relation))
+    return lines
+
+
+def _comparable(a: Array, b: Array) -> bool:
+    return a.shape == b.shape and a.dtype.kind == b.dtype.kind == "f" and bool(np.isfinite([a, b]).all())
+
+
+def _of_all(wrong: Sequence[tuple[Array, Array, float]], every: int) -> Text | None:
+    """Return what holds of all wrong numbers or arrays, beside the right ones and with what counts as the same."""
+    if all(digits(a, b) for a, b, _ in wrong):
+        return say("approximation")
+    simple = {plain(*three, TELLING) for three in wrong}
+    if every == 1 or wrong[0][0].ndim or (len(simple) == 1 and simple != {None}):  # which is said of each
+        return None
+    relation = too_large([(a, b) for a, b, _ in wrong])
+    return say("in all wrong", relation=relation) if relation is not None else None
 
 
 def _lost_nan(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Iterator[Text]:

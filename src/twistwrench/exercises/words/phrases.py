@@ -218,6 +218,7 @@ PHRASES = {
     ),
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),
+    "in this case": Text("{relation} in this case", "在这一情形中{relation}"),
     "in all wrong": Text("{relation} in all wrong cases", "在所有出错的情形中{relation}"),
     "different": Text("different numbers", "数值不同"),
     "other": Text("completely different numbers", "数值完全不同"),
