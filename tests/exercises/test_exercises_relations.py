@@ -96,6 +96,13 @@ def test_what_holds_in_all_wrong_cases_is_told(answers, says):
     assert [line.en for line in shared(SIZES, answers, [1.0, 2.0, 3.0], [()] * 3)] == says
 
 
+def test_of_a_single_number_the_case_is_spoken_of():
+    assert said(3.0, 2.2) == "A: too large here"
+    assert said(2.1, 2.2) == "A: too small here, by less than 10 %"
+    assert said(-3.0, 2.2) == "A: the sign is wrong here"
+    assert said(2.1, 2.2, "zh") == "A：此处偏小，偏差不到 10%"
+
+
 def test_a_number_of_the_other_sign_is_not_called_too_large():
     def growth(sizes, seconds):
         _, _, axes = np.linalg.svd(np.column_stack([np.log(sizes), np.log(seconds)]), full_matrices=False)

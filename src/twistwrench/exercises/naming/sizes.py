@@ -33,10 +33,11 @@ def same(a: Array, b: Array, tolerance: float) -> bool:
 
 def by_how_much(a: Array, b: Array, wrong: Array, tolerance: float) -> Text:
     """Return how many of the numbers are wrong, or how near they are; whether a single number is too large."""
-    if _within(a, b, NEAR):
-        return say("near" if b.size == 1 else "near the largest")
     if b.size == 1:
-        return say("in this case", relation=too_large([(a, b)]) or say("different"))
+        near = _within(a, b, NEAR) and (a * b > 0).all()
+        return say("here, nearly" if near else "here", relation=too_large([(a, b)]) or say("different"))
+    if _within(a, b, NEAR):
+        return say("near the largest")
     shown = wrong | (np.abs(b) > tolerance)
     if (shown & ~wrong).any():
         return say("some", wrong=int(wrong.sum()), all=b.size)

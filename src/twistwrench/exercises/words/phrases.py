@@ -212,13 +212,13 @@ PHRASES = {
     ),
     "inexact": Text("right to {digits} digits only", "只有 {digits} 位正确"),
     "approximation": Text("nearly right in all cases: an approximation?", "在所有情形中都近似正确：是不是用了近似？"),
-    "near": Text("off by less than 10 %", "偏差不到 10%"),
     "near the largest": Text(
         "each entry is off by less than 10 % of the largest one", "每个元素的偏差都不到最大元素的 10%"
     ),
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),
-    "in this case": Text("{relation} in this case", "在这一情形中{relation}"),
+    "here": Text("{relation} here", "此处{relation}"),
+    "here, nearly": Text("{relation} here, by less than 10 %", "此处{relation}，偏差不到 10%"),
     "in all wrong": Text("{relation} in all wrong cases", "在所有出错的情形中{relation}"),
     "different": Text("different numbers", "数值不同"),
     "other": Text("completely different numbers", "数值完全不同"),
