@@ -125,7 +125,8 @@ def test_a_sum_that_changes_its_first_term_is_told_so():
             self.vector = super().__add__(other).vector
             return self
 
-    assert "It changes its argument" in judge(*catalogue.find_part("SpatialVector"), SpatialVector).message("en")
+    said = judge(*catalogue.find_part("SpatialVector"), SpatialVector).message("en")
+    assert "changes the first of its two terms" in said
 
 
 def test_a_property_is_said_to_fail_only_where_there_are_numbers():

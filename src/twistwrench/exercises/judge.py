@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import inspect
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -243,7 +244,8 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
         raise (_Stop if outside else _Raised)(*_stopped(error)) from None
     for name, before, after in zip(part.arguments.split(", "), arguments, given):
         if not unchanged(before, after):
-            raise _Stop(say("changed", name=name.partition("=")[0]))
+            changed = say("changed", name=name.partition("=")[0])
+            raise _Stop(say("changed term") if inspect.isclass(part.solution) else changed)
     return answer
 
 

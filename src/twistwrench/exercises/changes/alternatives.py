@@ -66,7 +66,7 @@ def alternatives(
     if isinstance(node, ast.For | ast.While):
         yield from _loops(node, parent)
     written = isinstance(getattr(parent, "ctx", None), ast.Store)
-    if isinstance(node, ast.Name) and (not written or node is getattr(parent, "value", None)):
+    if isinstance(node, ast.Name) and (not written or _is_of_a_block(node, parent)):
         yield from (("name", parsed(name)) for name in names if not _beside(name, parent))
     if written:
         return  # a term is read, and this is written to
@@ -108,6 +108,13 @@ def _is_term(node: Any, parent: Any) -> bool:
     return isinstance(
         parent, ast.BinOp | ast.UnaryOp | ast.Call | ast.List | ast.Tuple | ast.Return | ast.Assign
     ) and not (isinstance(parent, ast.Call) and node is parent.func)
+
+
+def _is_of_a_block(node: Any, parent: Any) -> bool:
+    """Whether a node is the array of which a block is written to."""
+    return (
+        isinstance(parent, ast.Subscript) and node is parent.value and isinstance(parent.slice, ast.Tuple | ast.Slice)
+    )
 
 
 def _beside(name: str, parent: Any) -> bool:

@@ -47,9 +47,15 @@ def blames(edit: Edit) -> bool:
 
 
 def renames(edit: Edit) -> bool:
-    """Whether a change exchanges the names of several results: the names may be right, and their use wrong."""
+    """Whether a change exchanges the names of several results, or turns one wherever it is used.
+
+    The names may be right, and their use wrong.
+    """
     node = edit.places[0][2] if edit.places else None
-    return edit.kind == "exchanged" and isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple)
+    names = node.targets[0] if isinstance(node, ast.Assign) else node
+    if edit.kind == "sign" and edit.everywhere:
+        return True
+    return edit.kind == "exchanged" and isinstance(names, ast.Tuple) and isinstance(names.ctx, ast.Store)
 
 
 def _inverts(edit: Edit) -> bool:

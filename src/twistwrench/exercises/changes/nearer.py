@@ -216,6 +216,7 @@ def _leaves_the_rest(edit: Edit) -> bool:
     """Whether a change leaves all other terms as they are: a slip of the list that shows then was there before."""
     words = [re.findall(r"\w+", text) for text in (edit.right, edit.wrong)]
     twin = edit.kind == "instead" and len(words[0]) == len(words[1]) and sum(map(ne, *words)) == 1
+    twin = twin and not any(word.endswith(("max", "min", "imum")) for word in words[1])  # another one is chosen
     turned = edit.kind in TURNS and not _of_an_index(edit)
     return not edit.everywhere and (turned or twin or _is_of_rounds(edit))
 

@@ -55,7 +55,7 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
         return False  # one of several things that get names is only switched off
     if _unpacked(before, after, text) or _kept(before, after, text):
         return False
-    if edit.kind == "name" and _left_over(edit, text):
+    if edit.kind == "name" and (_left_over(edit, text) or _added_up(edit, text)):
         return False
     if edit.kind == "after loop":
         return not isinstance(_parsed(before), ast.Expr)  # a call after the loop is made only once
@@ -128,12 +128,13 @@ def _is_guard(edit: Edit) -> bool:
 def _crossed_with_itself(after: str) -> bool:
     """Whether a cross product of something with itself is put there, which is zero."""
     products = [x for x in _nodes(after) if _is_cross(x)]
-    return any(len({*map(ast.unparse, x.args)}) == 1 for x in products)
+    return any(len({ast.unparse(y).lstrip("-") for y in x.args}) == 1 for x in products)
 
 
 def turns_the_rest(edit: Edit, other: Edit) -> bool:
     """Whether two changes give a sign to something and to all that is around it: to the rest alone, that is."""
-    return edit.kind == other.kind == "sign" and (edit.right in other.right or other.right in edit.right)
+    nested = edit.right in other.right or other.right in edit.right
+    return nested and edit.kind == "sign" and other.kind in ("sign", "left out")
 
 
 def shuts(edit: Edit) -> bool:
@@ -202,6 +203,14 @@ def _left_over(edit: Edit, text: str) -> bool:
     }
     loops = [x for x in _nodes(text) if isinstance(x, ast.For) and ast.unparse(x.target) in new]
     return bool(loops) and not any(x.lineno <= edit.line <= (x.end_lineno or 0) for x in loops)
+
+
+def _added_up(edit: Edit, text: str) -> bool:
+    """Whether a change puts what is added up in place of the variable of a loop."""
+    old, new = ({x.id for x in _nodes(part) if isinstance(x, ast.Name)} for part in (edit.right, edit.wrong))
+    loops = {ast.unparse(x.target) for x in _nodes(text) if isinstance(x, ast.For)}
+    sums = {ast.unparse(x.target) for x in _nodes(text) if isinstance(x, ast.AugAssign)}
+    return bool((old - new) & loops) and bool((new - old) & sums)
 
 
 def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import dataclass, replace
 
 from ..words.phrases import say
@@ -43,6 +44,8 @@ class Repair:
         What is said in place of what it puts there.
     unsure : bool
         Whether what its line computes is right, so that another line may be wrong.
+    doubted : bool
+        Whether another line is the first to go wrong, or another function may.
     """
 
     edit: Edit
@@ -52,6 +55,7 @@ class Repair:
     blocks: tuple[Text, ...] = ()
     meaning: Text | None = None
     unsure: bool = False
+    doubted: bool = False
 
     @property
     def one_piece(self) -> bool:
@@ -59,6 +63,13 @@ class Repair:
         return bool(
             self.first and self.first.wrong and self.edit.wrong and self.edit.right.count(self.first.wrong) == 1
         )
+
+    @property
+    def lines(self) -> list[int]:
+        """The line where the first of the changes makes another value; none for an argument, a result, or a target."""
+        edit = self.first or self.edit
+        target = isinstance(edit.inside, ast.Subscript) and isinstance(edit.inside.ctx, ast.Store)
+        return [edit.line] if edit.places and not target else []
 
     @property
     def roundabout(self) -> bool:

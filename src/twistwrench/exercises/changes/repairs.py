@@ -6,6 +6,7 @@ import ast
 import inspect
 import io
 import linecache
+import textwrap
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
@@ -14,7 +15,7 @@ from typing import Any
 
 import twistwrench
 
-from ..calls import copied, local_values, tried
+from ..calls import copied, local_values, quick, tried
 from ..compare import agree, copied_results
 from ..exercise import Part
 from .alternatives import KINDS
@@ -27,7 +28,16 @@ from .repair import Repair
 from .search import Remembering, by_chance, of_whole_numbers, same
 from .whole import Edit, of_arguments, of_order
 
-__all__ = ["guarded", "repair_of_blocks", "repairs", "source_of", "text_written", "two_repairs", "written"]
+__all__ = [
+    "guarded",
+    "own_helpers",
+    "repair_of_blocks",
+    "repairs",
+    "source_of",
+    "text_written",
+    "two_repairs",
+    "written",
+]
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
 """The kinds of changes of which two are tried at once."""
@@ -82,10 +92,9 @@ def repairs(
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
     rare = 2 * sum(wrong) < len(wrong)
-    seconds = {k: _seconds(part, function, cases[k]) for k, bad in enumerate(wrong) if bad}
-    first = min(seconds, key=lambda k: seconds[k])
+    first, seconds = quick(part, function, {k: cases[k] for k, bad in enumerate(wrong) if bad})
     every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
-    if not cases[first] and of_whole_numbers(part, right[first]):
+    if not cases[first] and (part.canonical is not None or of_whole_numbers(part, right[first])):
         return []  # they are met by chance
     bad = {k for k in every if not same(part, answers, right, k)}
     found: dict[int, Repair] = {}
@@ -94,7 +103,7 @@ def repairs(
     if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
         return []
     if nearer is not None:
-        nearer.begin(source, before, first, seconds[first])
+        nearer.begin(source, before, first, seconds)
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         for edit in _changes(part, function, source, cases[first], until, pairs, rare, len(cases)):
             if (chosen.sure and pairs) or chosen.ended(edit.kind):
@@ -217,6 +226,15 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
             yield from of_order(source.compiled())
 
 
+def own_helpers(function: Function) -> bool:
+    """Whether a student's function calls others of the same file, in which nothing is changed."""
+    code, text = getattr(function, "__code__", None), textwrap.dedent(text_written(function))
+    names = [x.id for x in ast.walk(ast.parse(text)) if isinstance(x, ast.Name)] if code else []
+    called = [getattr(function, "__globals__", {}).get(name) for name in names]
+    files = [x.__code__.co_filename for x in called if isinstance(x, FunctionType)]
+    return code is not None and code.co_filename in files
+
+
 def text_written(function: Function) -> str:
     """Return the source of a student's function, an empty text where it is unknown."""
     return (written(function) or ("", 0))[0]
@@ -249,10 +267,3 @@ def written(function: Function) -> tuple[str, int] | None:
 def _right(part: Part, function: Function, right: Any, arguments: tuple[Any, ...]) -> bool:
     """Whether a function gives the right answer in one case."""
     return agree(part, tried(part, function, arguments), right, arguments)
-
-
-def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> float:
-    """Return how long an answer takes."""
-    start = time.perf_counter()
-    tried(part, function, arguments)
-    return time.perf_counter() - start

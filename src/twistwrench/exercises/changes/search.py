@@ -11,7 +11,7 @@ import numpy as np
 
 import twistwrench
 
-from ..calls import copied, local_values, tried
+from ..calls import copied, local_values, quick, tried
 from ..compare import agree, close, values
 from ..exercise import Part
 from ..words.phrases import say
@@ -77,7 +77,7 @@ def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> 
     """
     right = [part.value(part.solution, copied(arguments)) for arguments in cases]
     wrong = [not agree(part, a, b, arguments) for a, b, arguments in zip(answers, right, cases)]
-    first = min((k for k, bad in enumerate(wrong) if bad), key=lambda k: _seconds(part, cases[k]))
+    first, _ = quick(part, part.solution, {k: cases[k] for k, bad in enumerate(wrong) if bad})
     several = len(part.returns) > 1 and part.canonical is None
     bad = [k for k in range(len(part.returns)) if not same(part, answers, right, k)] if several else []
     found: dict[int, Edit] = {}
@@ -123,13 +123,6 @@ def by_chance(part: Part, arguments: tuple[Any, ...], cases: int = 1) -> tuple[s
     truths = any(x.array is not None and x.array.dtype.kind == "b" for x in right)
     few = not arguments and sum(np.size(x.raw) for x in right) <= MANY
     return ("index", "number", "inserted") if truths and cases < SURE else ("number", "inserted") if few else ()
-
-
-def _seconds(part: Part, arguments: tuple[Any, ...]) -> float:
-    """Return how long the reference takes."""
-    start = time.perf_counter()
-    tried(part, part.solution, arguments)
-    return time.perf_counter() - start
 
 
 PROBES: dict[str, Callable[[Any], Any]] = {

@@ -102,7 +102,9 @@ def _numbers_of_a_slip(wrong: WrongAnswer) -> Explained | None:
     """Report the numbers of a slip that the student's lines do not have, where nothing else is found in them."""
     if not wrong.alike or wrong.changes:
         return None
-    slips = [wrong.slip(name) for name in wrong.alike]
+    slips = [wrong.slip(name) for name in borne_out(wrong.alike, wrong.function, [])]
+    if not slips:
+        return None
     lines = [say("like slip", title=x.title, why=x.why) for x in slips]
     return wrong.alike, [*lines, where(wrong, slips[0].section)]
 
@@ -122,6 +124,8 @@ def _structure(wrong: WrongAnswer) -> Explained | None:
 
 
 def _change_of_a_line(wrong: WrongAnswer) -> Explained | None:
+    if any(x.piece is not None for x in wrong.changes) and wrong.returns_another():
+        return None
     return ([], mended(wrong, wrong.changes)) if wrong.changes else None
 
 

@@ -89,12 +89,12 @@ def titles(part: Part, found: Sequence[Found | Repair], how: str, every: int) ->
     """Report each change, of all that is returned or of one piece, and in how many cases it was tried: in `every`."""
     if len(found) > 1 and not any(change.piece is not None for change in found):
         both = isinstance(found[0], Repair) and found[0].first is not None
-        each = say("either both" if both else "either way", all=every)
+        each = say("either both" if both else "either way", all=every) if every > 1 else say("either once")
         lines = [say("either"), *(indented(change.title()) for change in found), each]
         return [*lines, say("perhaps")] if all(by_detour(change.edit) for change in found) else lines
     lines, unsure = [], False
     for change in found:
-        cure = isinstance(change, Repair) and change.roundabout
+        cure = isinstance(change, Repair) and (change.roundabout or change.doubted)
         begun, unsure = "equal" if how == "equal" else "cure" if cure else "slip", unsure or cure
         if change.piece is None:
             lines.append(say(begun, title=change.title()))
@@ -103,7 +103,8 @@ def titles(part: Part, found: Sequence[Found | Repair], how: str, every: int) ->
     if how == "equal":
         return [*lines, say("equal cases", all=every)] if every > 1 else lines
     both = any(isinstance(change, Repair) and change.first is not None and not change.one_piece for change in found)
-    lines.append(say("mended both" if both else how, all=every) if every > 1 else say(f"{how} once"))
+    whole = "mended both" if both else "mended each" if how == "mended" and len(found) > 1 else how
+    lines.append(say(whole, all=every) if every > 1 else say(f"{how} once"))
     return [*lines, say("perhaps")] if unsure else lines
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import textwrap
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -58,10 +59,11 @@ def borne_out(found: list[str], function: Callable[..., Any], mended: Sequence[R
     found = by_own_line(found, edits)
     if source:
         found = [slip for slip in found if _spoken(slip, source)]
+        found = [slip for slip in found if slip != "visited-outward" or _goes_round(source)]
     if edits:
         found = [slip for slip in found if any(_fits(slip, edit) for edit in edits)]
-    if len(found) < 2 or not source:
-        return found
+    if len(found) < 2 or not source or {*found} == {*SIGNS}:
+        return found if {*found} != {*SIGNS} else []  # a sign that either would give back, and others as well
 
     def speaks(slip: str) -> int:
         words = [word for key, traces in WORDS.items() if key in slip for word in traces]
@@ -111,7 +113,7 @@ def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     """Report the line of the student's where a slip is, or the two where it may be."""
     lacking = any(SLIPS[slip].lacks for slip in found)
     whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING and _tells(x, found)]
-    whole = [x for x in whole if x.edit.kind != "name" or not lacking]  # another name is not what is missing
+    whole = [x for x in whole if x.edit.kind != "name" or not lacking or isinstance(x.edit.inside, ast.Call)]
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
     either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
     return [say("own code", title=either)] if titles else []
@@ -150,6 +152,14 @@ def _spoken(slip: str, source: str) -> bool:
     """Whether what the slip says to stand there can stand in this source: a transpose, an inverse."""
     said, meant = _halves(slip)
     return not meant or all(any(x in source for x in traces) for key, traces in TRACES.items() if key in said)
+
+
+def _goes_round(source: str) -> bool:
+    """Whether a source has a loop."""
+    try:
+        return any(isinstance(x, ast.For | ast.While) for x in ast.walk(ast.parse(textwrap.dedent(source))))
+    except SyntaxError:
+        return True
 
 
 def _halves(slip: str) -> tuple[str, str]:

@@ -12,18 +12,19 @@ import numpy as np
 
 from ..changes.nearer import Nearer
 from ..changes.repair import Repair
-from ..changes.repairs import repairs, two_repairs
+from ..changes.repairs import own_helpers, repairs, two_repairs
 from ..changes.search import Found, exchanged_results, found_edits, same
-from ..compare import agree, only_zero_is_missed
+from ..compare import agree, close, only_zero_is_missed, values
 from ..exercise import Exercise, Part
 from ..slips import SLIPS, Slip
+from ..statements.records import arrays, tells
 from ..statements.stepwise import Stepwise
 from ..words.text import Text
 from .matching import matching_slips
 
 __all__ = ["SHARES", "WrongAnswer", "changes_after_error"]
 
-SHARES = {"mended": 1.6, "stepped": 2.8, "known": 3.2, "edited": 3.8, "after": 4.3, "both": 5.6, "twice": 6.1}
+SHARES = {"mended": 2.0, "stepped": 3.2, "known": 3.6, "edited": 4.2, "after": 4.7, "both": 6.0, "twice": 6.5}
 """Seconds until which each search may go on, of the processor: a busy machine finds the same."""
 
 
@@ -88,6 +89,14 @@ class WrongAnswer:
         once = (lambda given: alone(again(given), k, len(self.part.returns))) if again else None
         return WrongAnswer(self.exercise, part, self.function, answers, self.cases, once, share)
 
+    def returns_another(self) -> bool:
+        """Whether one of several things returned is another one of them, which is right in its place."""
+        pairs = zip(self.answers, self.right)
+        split = [[values(x, self.part.returns) or [] for x in pair] for pair in pairs]
+        others = [(k, j) for k in self.wrong_results for j in range(len(self.part.returns)) if j != k]
+        telling = [(k, j) for k, j in others if any(map(tells, arrays(split[0][1][j].array)))]
+        return any(all(a and close(a[k], b[j], self.part.rtol) for a, b in split) for k, j in telling)
+
     @cached_property
     def alike(self) -> list[str]:
         """The slips of the list that give these very numbers."""
@@ -104,7 +113,13 @@ class WrongAnswer:
         if not self.again:
             return []
         until, right_line = self.until["mended"], lambda line: self.steps.right_line(line)  # built where one is found
-        return repairs(self.part, *self.given, until=until, nearer=self.nearer, right_line=right_line)
+        found = repairs(self.part, *self.given, until=until, nearer=self.nearer, right_line=right_line)
+        return self.weighed(found)
+
+    def weighed(self, found: list[Repair]) -> list[Repair]:
+        """Return changes with a mark where they may not be what was meant: another line may go wrong first."""
+        helped = own_helpers(self.function)
+        return [replace(x, doubted=helped or any(map(self.steps.blameless, x.lines))) for x in found]
 
     @property
     def whole_changes(self) -> list[Repair]:
@@ -138,7 +153,7 @@ class WrongAnswer:
         if self.by_chance:
             return []
         nearer = two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
-        return nearer or self.steps.two(self.until["both"], self.nearer.spoils)
+        return self.weighed(nearer or self.steps.two(self.until["both"], self.nearer.spoils))
 
     def slip(self, name: str) -> Slip:
         """Return a slip with the reason that this part gives for it, if it has one of its own."""

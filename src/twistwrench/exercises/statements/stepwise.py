@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import twistwrench
 
-from ..calls import tried
+from ..calls import quick, tried
 from ..changes.alternatives import KINDS
 from ..changes.edits import Source
 from ..changes.excerpts import text_of
@@ -89,7 +89,7 @@ class Stepwise:
         wrong = [k for k, given in enumerate(zip(answers, right, cases)) if not agree(part, *given)]
         self.seldom = 2 * len(wrong) < len(cases)
         self.surplus = all(only_zero_is_missed(part, answers[k], right[k]) for k in wrong)
-        self.first = min(wrong, key=lambda k: self._seconds(cases[k]))
+        self.first, _ = quick(part, part.solution, {k: cases[k] for k in wrong})
         self.start: Traced | None = None
         arguments = cases[self.first]
         if inspect.isclass(function) or not arguments:
@@ -151,7 +151,8 @@ class Stepwise:
                 for other in (other for kind in PAIRED for other in source.edits(kind)):
                     if time.process_time() > until:
                         return []
-                    if not turns_the_rest(edit, other) and self._mends(other):
+                    likely = plausible(other, self.text, self.part) and not turns_the_rest(edit, other)
+                    if likely and self._mends(other):
                         return [Repair(other, self.before, first=edit)]
         return []
 
@@ -165,6 +166,13 @@ class Stepwise:
         if not alone or bare or len(every) < 3:
             return None
         return say("first line", line=first.statement.lineno + self.before, text=text_of(first.statement))
+
+    def blameless(self, line: int) -> bool:
+        """Whether what a line of the function computes is not what goes wrong first."""
+        start = self.start
+        computed = {x.statement.lineno for x in start.found} if start else set()
+        first = {x.statement.lineno for x in start.wrong} if start else set()
+        return line in computed and bool(first) and line not in first
 
     def right_line(self, line: int) -> bool:
         """Whether a right solution has all that a line of the function computes, with its sign."""
@@ -237,11 +245,6 @@ class Stepwise:
             if not agree(self.part, given[-1], self.right[k], self.cases[k]):
                 return False
         return not copied_results(given[1:], self.right, self.answers)
-
-    def _seconds(self, arguments: tuple[Any, ...]) -> float:
-        start = time.perf_counter()
-        tried(self.part, self.part.solution, arguments)
-        return time.perf_counter() - start
 
 
 def _rewritten(kinds: set[str]) -> bool:

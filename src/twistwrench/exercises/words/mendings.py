@@ -65,6 +65,10 @@ MENDINGS = {
     "mended": Text(
         "With this change, and no other, it is right in all {all} cases.", "只作这一改动，全部 {all} 组数据就都正确。"
     ),
+    "mended each": Text(
+        "Each of these changes makes its own result right, in all {all} cases.",
+        "其中每处改动都使对应的结果在全部 {all} 组数据中正确。",
+    ),
     "mended both": Text(
         "With both changes, and no other, it is right in all {all} cases.",
         "只作这两处改动，全部 {all} 组数据就都正确。",
@@ -76,6 +80,7 @@ MENDINGS = {
     "either way": Text(
         "With one of them alone it is right in all {all} cases.", "单独作其中任一改动，全部 {all} 组数据都正确。"
     ),
+    "either once": Text("With one of them alone it is right.", "单独作其中任一改动就正确。"),
     "either both": Text(
         "With both changes of one of them, and no other, it is right in all {all} cases.",
         "只作其中任一项的两处改动，全部 {all} 组数据就都正确。",

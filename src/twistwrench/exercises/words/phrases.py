@@ -110,6 +110,10 @@ PHRASES = {
         "It changes its argument `{name}`. Work on a copy: the caller still needs it.",
         "它修改了参数 `{name}`。请在副本上运算，调用者还要用它。",
     ),
+    "changed term": Text(
+        "A sum or a difference changes the first of its two terms, which is still needed: make a new object for it.",
+        "求和或求差时改变了第一个操作数，而它之后还要用：请为结果新建一个对象。",
+    ),
     "kept": Text(
         "Called again with the same arguments, it returns something else: it keeps something from one call to the next."
         " What a call changes must be made in it; a default like `out=[]` is made only once, for all calls.",
