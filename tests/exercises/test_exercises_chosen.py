@@ -81,6 +81,31 @@ def foot_wrench(model, q, foot):
     return X.T @ np.r_[np.zeros(3), -model.mass * np.asarray(model.gravity) / 4]
 """
 
+WAY = """\
+def body_twists(parent, T, V_joint):
+    def way(i):
+        return [0] if i == 0 else [*way(parent[i]), i]
+    V = np.zeros((len(parent), 6))
+    for i in range(1, len(parent)):
+        for above, here in zip(way(i), way(i)[1:]):
+            V[i] = np.linalg.solve(mine("transforms_of")(T[above])[0], V[i]) + V_joint[here]
+    return V
+"""
+SIZES = """\
+def mass_matrix_sizes():
+    return tw.load("go2").nv, tw.load("go2").nv
+"""
+ANEW = """\
+def mass_matrix_by_rnea(model, q):
+    rest = np.zeros(model.nv)
+    M, e = np.zeros((model.nv, model.nv)), np.zeros(model.nv)
+    e = np.zeros(model.nv)
+    for k in range(model.nv):
+        e[k] = 1.0
+        M[:, k] = tw.rnea(model, q, rest, e) - tw.rnea(model, q, rest, rest)
+    return M
+"""
+
 
 @pytest.mark.parametrize(
     ("text", "says", "never"),
@@ -96,6 +121,9 @@ def foot_wrench(model, q, foot):
             (FREE, "does not belong there", "slice(6, 0)"),
             (MANY, "R.mT", "R.T"),
             (ORDER, "`np.asarray(forces).flatten('F')` must be `np.asarray(forces).flatten('C')`", "forces.T"),
+            (WAY, "not yet right", "The slip:"),
+            (SIZES, "rows (fixed): too large", "must be"),
+            (ANEW, "line 14, `e = np.zeros(model.nv)` must stand in the loop", "line 15"),
             (NAMES, "Your slip may be another one", "The slip:"),
         ],
         3,

@@ -205,7 +205,10 @@ def test_a_slip_with_a_name_is_shown_in_the_own_line_too(written):
     text = "def sole_wrench(points, forces):\n    return np.r_[np.cross(forces, points).sum(0), forces.sum(0)]\n"
     said = message(written(text), "sole_wrench")
     assert "the factors of the cross product are exchanged" in said
-    assert "In your code: line 12, `np.cross(forces, points)` must be `np.cross(points, forces)`" in said
+    assert (
+        "In your code this would mend it: line 12, `np.cross(forces, points)` must be `np.cross(points, forces)`"
+        in said
+    )
 
 
 def test_of_two_slips_with_the_same_numbers_the_source_tells_which(written):

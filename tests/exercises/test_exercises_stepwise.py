@@ -54,7 +54,7 @@ def vertical_loads(p_G, feet, weight):
         [
             (
                 FALL,
-                ["line 14, `R.T` must be `R`", "`+ np.cross(v[:3], v[3:6])` is missing after `a[3:6]`", "both changes"],
+                ["line 14, `R.T` must be `R`", "`a[3:6]` must be `(a[3:6] + np.cross(v[:3], v[3:6]))`", "both changes"],
             ),
             (
                 TWO_WAYS,

@@ -120,7 +120,7 @@ def mass_matrix_by_rnea(model, q):
             (HALF_A_LEVER, ["`model.inertia[1].mass` must be `model.mass`", "- base.translation"]),
             (FROM_THE_SECOND, ["`+ np.cross(V[:3], model.inertia[i].com)` is missing", "must be `range(1, "]),
             (ON_THE_EDGE, ["`0.0001` must be `0.0`"]),
-            (RIGID, ["`- U @ D @ U.T` is missing after `A[i]`"]),
+            (RIGID, ["`A[i]` must be `(A[i] - U @ D @ U.T)`"]),
             (NOT_CARRIED, ["`wrench = X[j].T @ first` starts from the same `first` in each round"]),
             (BY_COLUMNS, ["`forces.ravel(order='F')` must be `forces.ravel()`"]),
             (HUGE, ["`lower < -1000000000.0` must be `lower == -np.inf`", "must be `upper == np.inf`"]),

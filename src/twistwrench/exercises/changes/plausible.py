@@ -60,7 +60,7 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
     if edit.kind == "after loop":
         return not isinstance(_parsed(before), ast.Expr)  # a call after the loop is made only once
     if edit.kind == "in loop":
-        return not _read_after(_parsed(before), text, edit.line)
+        return not _read_after(_parsed(before), text, edit.places[0][2].lineno)
     if isinstance(_parsed(after), ast.AugAssign) and isinstance(_parsed(before), ast.Assign):
         return ast.unparse(_parsed(before).targets[0]) not in ast.unparse(_parsed(before).value)  # it is in it already
     if edit.kind == "inserted" and any(before in ast.unparse(x) for x in _nodes(text) if isinstance(x, ast.Compare)):
@@ -81,6 +81,7 @@ def _nobody_makes(edit: Edit, part: Part) -> bool:
         or (edit.kind == "sign" and _is_positive(edit.right))  # −R is not a rotation matrix, −m not a mass
         or (edit.kind == "index" and _is_written_to(edit))  # two things would be written to one place
         or (edit.kind == "instead" and _is_guard(edit))  # what keeps a number from zero
+        or "Error(" in edit.right  # it is raised, and nothing is computed with it
         or _crossed_with_itself(edit.wrong)
         or turns_into_the_other_kind(edit, part)
     )

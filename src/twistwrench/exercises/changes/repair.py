@@ -15,6 +15,8 @@ from .whole import Edit
 
 __all__ = ["Repair"]
 
+SUM = ast.Add | ast.Sub
+
 OF_RESULT = {
     "np.roll(x, len(x) // 2, 0)": "halves of result",
     "np.roll(x, len(x.T) // 2, 1)": "halves of columns",
@@ -67,9 +69,21 @@ class Repair:
     @property
     def lines(self) -> list[int]:
         """The line where the first of the changes makes another value; none for an argument, a result, or a target."""
-        edit = self.first or self.edit
+        edit, statement = self.first or self.edit, self._statement
         target = isinstance(edit.inside, ast.Subscript) and isinstance(edit.inside.ctx, ast.Store)
-        return [edit.line] if edit.places and not target else []
+        return [statement.lineno] if statement is not None and not target else []
+
+    @property
+    def in_header(self) -> bool:
+        """Whether it takes something out of what a loop runs over, and not a round."""
+        edit = self.first or self.edit
+        return edit.kind == "left out" and isinstance(self._statement, ast.For) and "range" not in edit.right
+
+    @property
+    def _statement(self) -> ast.stmt | None:
+        edit = self.first or self.edit
+        around = [x for x in edit.places[0][0] if isinstance(x, ast.stmt)] if edit.places else []
+        return around[-1] if around else None
 
     @property
     def roundabout(self) -> bool:
@@ -92,6 +106,8 @@ class Repair:
             )
         wrong = with_operator(edit.places[0][2], edit.right) if edit.kind == "left out" and edit.places else edit.right
         title = self.meaning or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
+        if edit.kind == "missing" and isinstance(edit.inside, ast.BinOp) and not isinstance(edit.inside.op, SUM):
+            title = say("repair instead", right=f"({wrong} {edit.wrong})", wrong=wrong)
         if shuts(edit):
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:

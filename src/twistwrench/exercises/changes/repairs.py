@@ -25,7 +25,7 @@ from .meanings import meaning
 from .nearer import Nearer
 from .plausible import plausible
 from .repair import Repair
-from .search import Remembering, by_chance, of_whole_numbers, same
+from .search import Remembering, by_chance, of_whole_numbers, of_words, same
 from .whole import Edit, of_arguments, of_order
 
 __all__ = [
@@ -96,7 +96,9 @@ def repairs(
     every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
     if not cases[first] and (part.canonical is not None or of_whole_numbers(part, right[first])):
         return []  # they are met by chance
-    bad = {k for k in every if not same(part, answers, right, k)}
+    bad, words = {k for k in every if not same(part, answers, right, k)}, of_words(part, right[first])
+    if words and len(words) == len(part.returns):
+        return []
     found: dict[int, Repair] = {}
     chosen = Chosen(right_line)
     source, before = source_of(part, function, cases[first])
@@ -109,7 +111,7 @@ def repairs(
             if (chosen.sure and pairs) or chosen.ended(edit.kind):
                 break
             answer = tried(part, edit.function, cases[first])
-            here = {k for k in bad - {*found} if same(part, [answer], [right[first]], k)}
+            here = {k for k in bad - words - {*found} if same(part, [answer], [right[first]], k)}
             if not here and not agree(part, answer, right[first], cases[first]):
                 if nearer is not None:
                     nearer.note(edit, answer)

@@ -27,6 +27,7 @@ __all__ = [
     "exchanged_results",
     "found_edits",
     "of_whole_numbers",
+    "of_words",
     "right_where",
     "said_where",
     "same",
@@ -117,6 +118,11 @@ def of_whole_numbers(part: Part, answer: Any) -> bool:
     return all(x is not None and bool((x == np.trunc(x)).all()) for x in arrays)
 
 
+def of_words(part: Part, answer: Any) -> set[int]:
+    """Return which of several things in an answer are words, as the name of an error: any slip may raise it."""
+    return {k for k, x in enumerate(values(answer, part.returns) or []) if x.array is None}
+
+
 def by_chance(part: Part, arguments: tuple[Any, ...], cases: int = 1) -> tuple[str, ...]:
     """Return the kinds of edits that say nothing here: one number, or yes and no in few cases, is met by chance."""
     right = values(part.value(part.solution, copied(arguments)), part.returns) or []
@@ -167,6 +173,8 @@ def _one(x: Any) -> Any:
 def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Cases) -> Text | None:
     """Report for which argument a simple value makes the student's function right, if there is one."""
     names = part.arguments.split(", ")
+    if any(map(callable, cases[0])):
+        return None  # what these do is not seen in a few cases
     for k, name in enumerate(names):
         for value, simple in PROBES.items():
             if value in ("0", "1") and (len(names) == 1 or name == "q"):

@@ -78,8 +78,13 @@ def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
 
 def _error(*actions: Any) -> str:
     """Return the name of the error that each of these must raise; of the first that raises another, or none."""
-    found = [x if isinstance(x, str) else "no error" for x in map(_tried, actions)]
+    found = [x if isinstance(x, str) else _returned(x) for x in map(_tried, actions)]
     return next((x for x in found if x != "TypeError"), "TypeError")
+
+
+def _returned(x: Any) -> str:
+    """Return what is said of a result where an error must be raised."""
+    return f"{type(x).__name__}, returned and not raised" if isinstance(x, BaseException) else "no error"
 
 
 def _tried(action: Any) -> Any:

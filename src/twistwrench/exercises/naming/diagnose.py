@@ -7,6 +7,7 @@ from typing import Any
 
 from ..changes.repair import Repair
 from ..changes.repairs import repair_of_blocks, text_written
+from ..changes.search import of_whole_numbers
 from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -115,7 +116,10 @@ def _slip_in_each_result(wrong: WrongAnswer) -> Explained | None:
     found = slips_by_piece(wrong.part, wrong.function, wrong.answers, wrong.cases)
     if not found or not by_piece_borne_out(wrong.part, found, wrong.function, wrong.changes):
         return None
-    return list(dict.fromkeys(name for names in found.values() for name in names)), named_by_piece(wrong, found)
+    typed = not wrong.cases[0] and of_whole_numbers(wrong.part, wrong.right[0])
+    *lines, read = named_by_piece(wrong, found)
+    unsure = [say("perhaps")] if typed else []
+    return list(dict.fromkeys(name for names in found.values() for name in names)), [*lines, *unsure, read]
 
 
 def _structure(wrong: WrongAnswer) -> Explained | None:
@@ -152,6 +156,8 @@ def _one_triangle(wrong: WrongAnswer) -> Explained | None:
 
 def _change_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report it where it is one, and explains all that is wrong."""
+    if not wrong.cases[0] and of_whole_numbers(wrong.part, wrong.right[0]):
+        return None  # one of a few whole numbers is another one by chance
     if not wrong.edits or wrong.edits[0].edit.first or any(in_other_roles(wrong.function, x.edit) for x in wrong.edits):
         return None
     if wrong.edits[0].piece is not None and len(wrong.edits) < len(wrong.wrong_results):
@@ -169,6 +175,8 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
     if not wrong.again or (found := wrong.nearer.change_and_slip()) is None:
         return None
     edit, name = found
+    if wrong.weighed([Repair(edit, wrong.nearer.before)])[0].doubted:
+        return None  # it may make the slip that shows then
     slip = wrong.slip(name)
     line = say("two changes", first=Repair(edit, wrong.nearer.before).title(), second=slip.title)
     return [name], [line, slip.why, where(wrong, slip.section)]
@@ -202,6 +210,8 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
 
 def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report two changes of a right solution, or one that does not explain all."""
+    if not wrong.cases[0] and of_whole_numbers(wrong.part, wrong.right[0]):
+        return None
     other = any(in_other_roles(wrong.function, x.edit) for x in wrong.edits)
     return ([], edited(wrong)) if wrong.edits and not other else None
 

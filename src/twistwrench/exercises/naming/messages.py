@@ -50,7 +50,9 @@ def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
         made = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers
         within = getattr(made, "within", None)
         step = first_wrong(part, made, within, wrong.cases[0]) if made and within in part.beside else None
-        lines = [say("slip", title=slips[0].title), slips[0].why, *own, *([step] if step else [])]
+        title, why = slips[0].title, slips[0].why
+        head = [say("slip", title=title), why] if own else [say("like slip", title=title, why=why)]
+        lines = [*head, *own, *([step] if step else [])]
     else:
         each = [say("slip of several", title=x.title, why=x.why) for x in slips]
         lines = [say("slips"), *each, *own]

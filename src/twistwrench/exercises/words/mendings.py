@@ -40,7 +40,7 @@ MENDINGS = {
     "branch always": Text(
         "what is done only where `{wrong}` holds must be done always", "只在 `{wrong}` 成立时才做的事应当总是做"
     ),
-    "own code": Text("In your code: {title}.", "在你的代码中：{title}。"),
+    "own code": Text("In your code this would mend it: {title}.", "在你的代码中，这样改就行：{title}。"),
     "halves of result": Text(
         "what is returned, `x`, has its two halves exchanged: `{right}` would be right",
         "返回的 `x` 前后两半互换了，正确的是 `{right}`",
