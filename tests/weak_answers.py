@@ -24,7 +24,11 @@ ANSWERS = [
     Weak("skew", "return np.array([[0, -w[2], w[1]], [w[2], 0, w[0]], [-w[1], w[0], 0]])", "wrong in [1, 2]"),
     Weak("act", "return R @ (x + p)", "translation comes before the rotation"),
     Weak("act", "return np.linalg.inv(R) @ x + p", "`np.linalg.inv` does not belong there"),
-    Weak("adjoint", "return np.array([tw.vee(np.linalg.inv(T) @ tw.hat(e) @ T) for e in np.eye(6)]).T", "the inverse"),
+    Weak(
+        "adjoint",
+        "return np.array([tw.vee(np.linalg.inv(T) @ tw.hat(e) @ T) for e in np.eye(6)]).T",
+        "the transform goes the wrong way",
+    ),
     Weak("adjoint", "return np.array([tw.vee(T @ tw.hat(e) @ np.linalg.inv(T)) for e in np.eye(6)])", "is transposed"),
     Weak(
         "count",
@@ -233,7 +237,7 @@ ANSWERS = [
         "complete_motion",
         "qdd_base = np.linalg.solve(M[:6, :6], J_c[:, :6].T @ forces - h[:6] - M[:6, 6:] @ qdd_joints)\n"
         "return np.concatenate([qdd_base, qdd_joints]), M[6:, 6:] @ qdd_joints + h[6:] - J_c[:, 6:].T @ forces",
-        "The slip: the acceleration of the base is left out",
+        "the acceleration of the base is left out",
     ),
     # 49.10
     Weak("split_map", "A_G = tw.centroidal_map(model, q)\nreturn A_G[:, :7], A_G[:, 7:]", "nq in place of nv"),
@@ -367,7 +371,7 @@ ANSWERS = [
         "p = [tw.frame_placement(model, q, foot).translation for foot in model.feet]\n"
         "F = np.concatenate([np.cross(p - tw.center_of_mass(model, q), forces).sum(0), forces.sum(0)])\n"
         "return rate(model, q, v, a), F",
-        "The slip: gravity is missing",
+        "gravity is missing",
     ),
     Weak(
         "get_dynamics",

@@ -341,7 +341,7 @@ def test_a_path_through_pytest(tmp_path):
     assert "Next:" not in pytest_in(tmp_path, "--collect-only", "ex_49_3.py").stdout
     failed = pytest_in(tmp_path, "-k", "49_3")
     assert failed.returncode == 1
-    assert "The slip: the coupling term is missing." in failed.stdout
+    assert "the coupling term is missing." in failed.stdout
     assert "Traceback" not in failed.stdout
     assert "1 failed, 5 skipped" in failed.stdout
 

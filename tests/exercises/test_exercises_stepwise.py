@@ -61,7 +61,7 @@ def vertical_loads(p_G, feet, weight):
                 ["`tw.gravity(model, q)` must be `tw.nonlinear_effects(model, q, v)`", "the sign of `h` is wrong"],
             ),
             (BY_UNITS, ["line 13, `model.neutral()` must be `q`"]),
-            (RATE, ["np.cross(V[3:], h[3:])`"]),
+            (RATE, ["`F[:3]` must be `(F[:3] + np.cross(V[3:], h[3:]))`"]),
             (LOADS, ["Line 14, `return weight * w / w.sum()`", "first differ from those of the right solutions"]),
         ],
         1,

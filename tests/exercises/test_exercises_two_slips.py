@@ -118,7 +118,7 @@ def mass_matrix_by_rnea(model, q):
             (PUSHED, ["the sign of `h[:6]` is wrong", "the sign of `push` is wrong"]),
             (HANGING, ["two slips at once", "k̇_G is added as it is", "the pendulum hangs"]),
             (HALF_A_LEVER, ["`model.inertia[1].mass` must be `model.mass`", "- base.translation"]),
-            (FROM_THE_SECOND, ["`+ np.cross(V[:3], model.inertia[i].com)` is missing", "must be `range(1, "]),
+            (FROM_THE_SECOND, ["must be `(V[3:] + np.cross(V[:3], model.inertia[i].com))`", "must be `range(1, "]),
             (ON_THE_EDGE, ["`0.0001` must be `0.0`"]),
             (RIGID, ["`A[i]` must be `(A[i] - U @ D @ U.T)`"]),
             (NOT_CARRIED, ["`wrench = X[j].T @ first` starts from the same `first` in each round"]),

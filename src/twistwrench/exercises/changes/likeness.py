@@ -20,7 +20,8 @@ BESIDE = ("name", "index", "instead", "left out")
 def alike(edit: Edit, other: Edit) -> bool:
     """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
     nested = edit.right in other.right or other.right in edit.right
-    if edit.line == other.line and nested and (edit.kind != other.kind or edit.wrong == other.wrong):
+    taken_out = "left out" in (edit.kind, other.kind)
+    if edit.line == other.line and nested and (edit.kind != other.kind or edit.wrong == other.wrong) and not taken_out:
         return True
     if "sign" in (ALIKE.get(edit.kind), ALIKE.get(other.kind)) or {edit.kind, other.kind} == {"transposed"}:
         crossed, levers = ([f(x.right) for x in (edit, other)] for f in (cross_text, difference_text))

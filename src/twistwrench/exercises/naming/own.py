@@ -62,8 +62,10 @@ def borne_out(found: list[str], function: Callable[..., Any], mended: Sequence[R
         found = [slip for slip in found if slip != "visited-outward" or _goes_round(source)]
     if edits:
         found = [slip for slip in found if any(_fits(slip, edit) for edit in edits)]
-    if len(found) < 2 or not source or {*found} == {*SIGNS}:
-        return found if {*found} != {*SIGNS} else []  # a sign that either would give back, and others as well
+    if edits and {*found} == {*SIGNS}:
+        return []  # either would give the sign back, and others as well
+    if len(found) < 2 or not source:
+        return found
 
     def speaks(slip: str) -> int:
         words = [word for key, traces in WORDS.items() if key in slip for word in traces]
