@@ -123,7 +123,7 @@ def mass_matrix_by_rnea(model, q):
             (ORDER, "`np.asarray(forces).flatten('F')` must be `np.asarray(forces).flatten('C')`", "forces.T"),
             (WAY, "not yet right", "The slip:"),
             (SIZES, "rows (fixed): too large", "must be"),
-            (ANEW, "line 14, `e = np.zeros(model.nv)` must stand in the loop", "line 15"),
+            (ANEW, "line 14, `e = np.zeros(model.nv)` must be made anew", "line 15"),
             (NAMES, "Your slip may be another one", "The slip:"),
         ],
         3,

@@ -96,7 +96,7 @@ def standing_loads():
         (TYPED, "the sign of `S` is wrong", "Xᵀ"),
         (ONLY_JOINTS, "what is done only where `i >= 6` holds must be done always", "n >= 6"),
         (ONLY_HIPS, "the branch for `i > 1 and model.parent[i] != 1` must not be taken", "i < 1"),
-        (FASTEST, "ratio", "must stand in the loop"),
+        (FASTEST, "ratio", "must be made anew"),
         (LAST, "RNEA", "must be `3 * i`"),
         (REAR_FIRST, "front and rear are exchanged", "wrong end"),
     ],

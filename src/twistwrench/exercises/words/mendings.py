@@ -11,7 +11,10 @@ MENDINGS = {
     "repair after loop": Text(
         "`{wrong}` must stand after the loop, not in it", "`{wrong}` 应放在循环之后，而不是循环内"
     ),
-    "repair in loop": Text("`{wrong}` must stand in the loop, at its beginning", "`{wrong}` 应放在循环内的开头"),
+    "repair in loop": Text(
+        "`{wrong}` must be made anew in each round, at the beginning of the loop",
+        "`{wrong}` 每一轮都要在循环开头重新执行",
+    ),
     "repair summed": Text(
         "`{wrong}` must be added up: += in place of =, from zero before the loop",
         "`{wrong}` 应当累加：用 += 而不是 =，循环前从零开始",
