@@ -150,3 +150,9 @@ def test_the_way_of_a_transform_is_told_whichever_way_it_is_missed():
     told = judge(*catalogue.find_part("base_block"), base_block, search=False).message("en")
     assert "the transform goes the wrong way: its inverse is needed" in told
     assert "in place of" not in told
+
+
+def test_numbers_that_are_not_sorted_are_called_that():
+    right = np.sort(RNG.uniform(0, 1, 6))
+    assert said(right[::-1], right) == "A: the right numbers, but not in ascending order"
+    assert "ascending" not in said(right, right[::-1])

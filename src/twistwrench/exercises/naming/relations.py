@@ -238,7 +238,7 @@ def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
         wrong = np.abs(a - b) > tolerance
         return say("signs") if wrong.sum() > 3 or b.ndim == 0 else None
     if (np.abs(np.sort(a.real.ravel()) - np.sort(b.real.ravel())) <= tolerance).all():
-        return say("permuted")
+        return say("unsorted" if b.ndim == 1 and b.size > 3 and (np.diff(b) >= -tolerance).all() else "permuted")
     return None
 
 
