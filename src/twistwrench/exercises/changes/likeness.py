@@ -22,7 +22,7 @@ def alike(edit: Edit, other: Edit) -> bool:
     nested = edit.right in other.right or other.right in edit.right
     taken_out = "left out" in (edit.kind, other.kind)
     if edit.line == other.line and nested and (edit.kind != other.kind or edit.wrong == other.wrong) and not taken_out:
-        return True
+        return True  # the sign of a piece, and the transpose of it: there it does the same
     if "sign" in (ALIKE.get(edit.kind), ALIKE.get(other.kind)) or {edit.kind, other.kind} == {"transposed"}:
         crossed, levers = ([f(x.right) for x in (edit, other)] for f in (cross_text, difference_text))
         two = edit.kind == other.kind == "exchanged" and crossed == levers[::-1] and any(crossed)

@@ -67,11 +67,11 @@ class Repair:
         )
 
     @property
-    def lines(self) -> list[int]:
-        """The line where the first of the changes makes another value; none for an argument, a result, or a target."""
+    def line(self) -> int | None:
+        """The line where the first of the changes makes another value; None for an argument, a result, or a target."""
         edit, statement = self.first or self.edit, self._statement
         target = isinstance(edit.inside, ast.Subscript) and isinstance(edit.inside.ctx, ast.Store)
-        return [statement.lineno] if statement is not None and not target else []
+        return None if statement is None or target else statement.lineno
 
     @property
     def in_header(self) -> bool:

@@ -119,7 +119,7 @@ class WrongAnswer:
     def weighed(self, found: list[Repair]) -> list[Repair]:
         """Return changes with a mark where they may not be what was meant: another line may go wrong first."""
         helped = own_helpers(self.function)
-        return [replace(x, doubted=helped or x.in_header or any(map(self.steps.blameless, x.lines))) for x in found]
+        return [replace(x, doubted=helped or x.in_header or self.steps.blameless(x.line)) for x in found]
 
     @property
     def whole_changes(self) -> list[Repair]:

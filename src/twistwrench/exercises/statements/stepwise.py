@@ -167,7 +167,7 @@ class Stepwise:
             return None
         return say("first line", line=first.statement.lineno + self.before, text=text_of(first.statement))
 
-    def blameless(self, line: int) -> bool:
+    def blameless(self, line: int | None) -> bool:
         """Whether what a line of the function computes is not what goes wrong first."""
         start = self.start
         computed = {x.statement.lineno for x in start.found} if start else set()
