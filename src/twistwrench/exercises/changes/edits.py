@@ -219,8 +219,8 @@ class Source:
             function = FunctionType(self.solution.__code__, names, closure=self.solution.__closure__)
         computed = "" if everywhere else target(places[0][0])
         node = places[0][2]
-        moved = {"after loop": lambda: node.body[-1], "in loop": lambda: places[0][3].body[0]}
-        line = moved.get(kind, lambda: node)().lineno
+        moved = node.body[-1] if kind == "after loop" else places[0][3].body[0] if kind == "in loop" else node
+        line = moved.lineno
         around = [text_of(surroundings(parents)) for parents, *_ in places] if everywhere and len(places) == 2 else []
         yield Edit(
             kind,

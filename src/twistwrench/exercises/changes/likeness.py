@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from .plausible import cross_text, difference_text
+from .plausible import cross_text, difference_text, nested
 from .whole import Edit
 
 __all__ = ["ALIKE", "BESIDE", "alike", "anywhere", "blames", "by_detour", "renames"]
@@ -19,9 +19,9 @@ BESIDE = ("name", "index", "instead", "left out")
 
 def alike(edit: Edit, other: Edit) -> bool:
     """Whether two changes are the same for a student: the factors of a cross product and its lever arm are two."""
-    nested = edit.right in other.right or other.right in edit.right
+    within = nested(edit, other)
     taken_out = "left out" in (edit.kind, other.kind)
-    if edit.line == other.line and nested and (edit.kind != other.kind or edit.wrong == other.wrong) and not taken_out:
+    if edit.line == other.line and within and (edit.kind != other.kind or edit.wrong == other.wrong) and not taken_out:
         return True  # the sign of a piece, and the transpose of it: there it does the same
     if "sign" in (ALIKE.get(edit.kind), ALIKE.get(other.kind)) or {edit.kind, other.kind} == {"transposed"}:
         crossed, levers = ([f(x.right) for x in (edit, other)] for f in (cross_text, difference_text))
@@ -29,8 +29,8 @@ def alike(edit: Edit, other: Edit) -> bool:
         return not two and ALIKE.get(edit.kind) == ALIKE.get(other.kind)
     if edit.kind == other.kind:
         inverse = all("np.linalg.inv(" in x.wrong for x in (edit, other))  # of one matrix, here or there
-        return nested or inverse or edit.kind not in BESIDE or edit.everywhere != other.everywhere
-    return (edit.kind not in ALIKE or other.kind not in ALIKE) and (nested or edit.line == other.line)
+        return within or inverse or edit.kind not in BESIDE or edit.everywhere != other.everywhere
+    return (edit.kind not in ALIKE or other.kind not in ALIKE) and (within or edit.line == other.line)
 
 
 def by_detour(edit: Edit) -> bool:

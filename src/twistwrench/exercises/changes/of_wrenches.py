@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..exercise import Part
-from .places import put
+from .places import innermost, put
 from .whole import Edit
 
 __all__ = ["turns_into_the_other_kind"]
@@ -19,9 +19,7 @@ def turns_into_the_other_kind(edit: Edit, part: Part) -> bool:
     motion, force = (all(row in names for row in rows) for names in (("ω", "v"), ("τ", "k (angular)")))
     if not rows or motion == force or not edit.places:
         return False
-    lines = [
-        next((x for x in reversed(parents) if isinstance(x, ast.stmt)), node) for parents, _, node, _ in edit.places
-    ]
+    lines = [innermost(parents) or node for parents, _, node, _ in edit.places]
     names = _named(edit.places[0][0][0])
     were = [kind for line in lines for kind in _of_forces(line, names)]
     for parents, field, _, other in edit.places:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from .excerpts import text_of
 
-__all__ = ["Place", "all_places", "mark", "may_be_argument", "put", "surroundings", "unused"]
+__all__ = ["Place", "all_places", "innermost", "mark", "may_be_argument", "put", "surroundings", "unused"]
 
 Place = tuple[list[Any], Any, Any, Any]
 """The nodes around a node, its place in the innermost, itself, and what is put there."""
@@ -30,6 +30,11 @@ def mark(texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
         right, wrong = (text_of(ast.Compare(ast.Name("x"), x.ops, [ast.Name("y")]))[2:-2] for x in (node, other))
         return right, wrong
     return texts if not texts[1] else (text_of(node), text_of(other))
+
+
+def innermost(nodes: Sequence[Any]) -> Any:
+    """Return the last statement among the nodes around a place; None where there is none."""
+    return next((x for x in reversed(nodes) if isinstance(x, ast.stmt)), None)
 
 
 def all_places(node: ast.AST, parents: tuple[Any, ...] = ()) -> Iterator[tuple[list[Any], Any, Any]]:

@@ -14,7 +14,7 @@ from ..exercise import Part
 from .of_wrenches import turns_into_the_other_kind
 from .whole import Edit
 
-__all__ = ["cross_text", "difference_text", "plausible", "shuts", "turns_the_rest"]
+__all__ = ["cross_text", "difference_text", "nested", "nodes_of", "plausible", "shuts", "turns_the_rest"]
 
 POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
@@ -63,10 +63,10 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
         return not _read_after(_parsed(before), text, edit.places[0][2].lineno)
     if isinstance(_parsed(after), ast.AugAssign) and isinstance(_parsed(before), ast.Assign):
         return ast.unparse(_parsed(before).targets[0]) not in ast.unparse(_parsed(before).value)  # it is in it already
-    if edit.kind == "inserted" and any(before in ast.unparse(x) for x in _nodes(text) if isinstance(x, ast.Compare)):
+    if edit.kind == "inserted" and any(before in ast.unparse(x) for x in nodes_of(text) if isinstance(x, ast.Compare)):
         return False  # a branch that is wrong needs no further factor in its condition
     if shuts(edit):
-        tests = [ast.unparse(x.test) for x in _nodes(text) if isinstance(x, ast.If | ast.IfExp)]
+        tests = [ast.unparse(x.test) for x in nodes_of(text) if isinstance(x, ast.If | ast.IfExp)]
         return ">" not in before and any(before in test for test in tests)
     if any(name in before and name not in after for name in POSTURES) and any(name in after for name in POSTURES):
         return False
@@ -128,19 +128,23 @@ def _is_guard(edit: Edit) -> bool:
 
 def _crossed_with_itself(after: str) -> bool:
     """Whether a cross product of something with itself is put there, which is zero."""
-    products = [x for x in _nodes(after) if _is_cross(x)]
+    products = [x for x in nodes_of(after) if _is_cross(x)]
     return any(len({ast.unparse(y).lstrip("-") for y in x.args}) == 1 for x in products)
 
 
 def turns_the_rest(edit: Edit, other: Edit) -> bool:
     """Whether two changes give a sign to something and to all that is around it: to the rest alone, that is."""
-    nested = edit.right in other.right or other.right in edit.right
-    return nested and edit.kind == "sign" and other.kind in ("sign", "left out")
+    return nested(edit, other) and edit.kind == "sign" and other.kind in ("sign", "left out")
+
+
+def nested(edit: Edit, other: Edit) -> bool:
+    """Whether what one of two changes is made to is a piece of what the other is made to."""
+    return edit.right in other.right or other.right in edit.right
 
 
 def shuts(edit: Edit) -> bool:
     """Whether a change puts a threshold below zero: then a branch is not taken any more."""
-    compared = any(isinstance(x, ast.Compare) for x in _nodes(edit.wrong))
+    compared = any(isinstance(x, ast.Compare) for x in nodes_of(edit.wrong))
     return edit.kind == "number" and compared and edit.wrong.count("-") > edit.right.count("-")
 
 
@@ -159,10 +163,10 @@ def _undoes(node: Any) -> bool:
 
 def _read_after(assigned: Any, text: str, line: int) -> bool:
     """Whether what is assigned before a loop is read after it, where it would have only what the last round made."""
-    loops = [x for x in _nodes(text) if isinstance(x, ast.For | ast.While) and x.lineno == line]
+    loops = [x for x in nodes_of(text) if isinstance(x, ast.For | ast.While) and x.lineno == line]
     end = max((x.end_lineno or 0 for x in loops), default=0)
     names = {x.id for y in getattr(assigned, "targets", ()) for x in ast.walk(y) if isinstance(x, ast.Name)}
-    return any(isinstance(x, ast.Name) and x.id in names and x.lineno > end for x in _nodes(text))
+    return any(isinstance(x, ast.Name) and x.id in names and x.lineno > end for x in nodes_of(text))
 
 
 def _unpacked(before: str, after: str, text: str) -> bool:
@@ -174,7 +178,7 @@ def _unpacked(before: str, after: str, text: str) -> bool:
 @lru_cache(maxsize=64)
 def _unpackings(text: str) -> tuple[set[str], set[str]]:
     """Return what is written where things that are computed alike get their names, and what is unpacked at all."""
-    several = [x for x in _nodes(text) if isinstance(x, ast.Assign) and isinstance(x.targets[0], ast.Tuple)]
+    several = [x for x in nodes_of(text) if isinstance(x, ast.Assign) and isinstance(x.targets[0], ast.Tuple)]
     alike = [x for x in several if isinstance(x.value, ast.GeneratorExp | ast.ListComp)]
     return {ast.unparse(y) for x in alike for y in (x, x.targets[0])}, {ast.unparse(x.value) for x in several}
 
@@ -185,11 +189,11 @@ def _kept(before: str, after: str, text: str) -> bool:
         return False
     node, other = _parsed(before), _parsed(after)
     if isinstance(node, ast.AugAssign) and isinstance(other, ast.Assign):
-        loops = [x for x in _nodes(text) if isinstance(x, ast.For)]
+        loops = [x for x in nodes_of(text) if isinstance(x, ast.For)]
         inside = [x for x in loops if before in map(ast.unparse, ast.walk(x))]
         over = {x.id for loop in inside for x in ast.walk(loop.target) if isinstance(x, ast.Name)}
         return bool(inside) and not over & {x.id for x in ast.walk(node.target) if isinstance(x, ast.Name)}
-    held = [ast.unparse(x.targets[0]) for x in _nodes(text) if isinstance(x, ast.Assign)]
+    held = [ast.unparse(x.targets[0]) for x in nodes_of(text) if isinstance(x, ast.Assign)]
     call = node.value if isinstance(node, ast.Expr) else None
     if not isinstance(call, ast.Call) or ast.unparse(call.func) not in ("max", "min"):
         return False
@@ -199,18 +203,18 @@ def _kept(before: str, after: str, text: str) -> bool:
 
 def _left_over(edit: Edit, text: str) -> bool:
     """Whether a change puts the variable of a loop, or of a comprehension, where it has only its last value."""
-    new = {x.id for x in _nodes(edit.wrong) if isinstance(x, ast.Name)} - {
-        x.id for x in _nodes(edit.right) if isinstance(x, ast.Name)
+    new = {x.id for x in nodes_of(edit.wrong) if isinstance(x, ast.Name)} - {
+        x.id for x in nodes_of(edit.right) if isinstance(x, ast.Name)
     }
-    loops = [x for x in _nodes(text) if isinstance(x, ast.For) and ast.unparse(x.target) in new]
+    loops = [x for x in nodes_of(text) if isinstance(x, ast.For) and ast.unparse(x.target) in new]
     return bool(loops) and not any(x.lineno <= edit.line <= (x.end_lineno or 0) for x in loops)
 
 
 def _added_up(edit: Edit, text: str) -> bool:
     """Whether a change puts what is added up in place of the variable of a loop."""
-    old, new = ({x.id for x in _nodes(part) if isinstance(x, ast.Name)} for part in (edit.right, edit.wrong))
-    loops = {ast.unparse(x.target) for x in _nodes(text) if isinstance(x, ast.For)}
-    sums = {ast.unparse(x.target) for x in _nodes(text) if isinstance(x, ast.AugAssign)}
+    old, new = ({x.id for x in nodes_of(part) if isinstance(x, ast.Name)} for part in (edit.right, edit.wrong))
+    loops = {ast.unparse(x.target) for x in nodes_of(text) if isinstance(x, ast.For)}
+    sums = {ast.unparse(x.target) for x in nodes_of(text) if isinstance(x, ast.AugAssign)}
     return bool((old - new) & loops) and bool((new - old) & sums)
 
 
@@ -231,7 +235,7 @@ def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
 
 def _arms(text: str) -> Iterator[int]:
     """Yield of each cross product with a lever arm in it which of its factors that is."""
-    nodes = [*_nodes(text)]
+    nodes = [*nodes_of(text)]
     named = [x for x in nodes if isinstance(x, ast.Assign) and _is_arm(x.value)]
     arms = {ast.unparse(target) for x in named for target in x.targets}
     for node in nodes:
@@ -272,7 +276,7 @@ def _parsed(text: str) -> Any:
 
 
 @lru_cache(maxsize=64)
-def _nodes(text: str) -> tuple[Any, ...]:
+def nodes_of(text: str) -> tuple[Any, ...]:
     """Return the nodes of a text; none where it is only a piece of a program."""
     node = _parsed(text)
     return () if node is None else (*ast.walk(node),)

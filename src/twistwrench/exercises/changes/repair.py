@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ..words.phrases import say
 from ..words.text import Text
 from .excerpts import with_operator
 from .likeness import renames
+from .places import innermost
 from .plausible import shuts
 from .search import said_where
 from .whole import Edit
@@ -80,10 +82,9 @@ class Repair:
         return edit.kind == "left out" and isinstance(self._statement, ast.For) and "range" not in edit.right
 
     @property
-    def _statement(self) -> ast.stmt | None:
+    def _statement(self) -> Any:
         edit = self.first or self.edit
-        around = [x for x in edit.places[0][0] if isinstance(x, ast.stmt)] if edit.places else []
-        return around[-1] if around else None
+        return innermost(edit.places[0][0]) if edit.places else None
 
     @property
     def roundabout(self) -> bool:

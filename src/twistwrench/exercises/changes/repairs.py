@@ -6,7 +6,6 @@ import ast
 import inspect
 import io
 import linecache
-import textwrap
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
@@ -15,7 +14,7 @@ from typing import Any
 
 import twistwrench
 
-from ..calls import copied, local_values, quick, tried
+from ..calls import copied, local_values, smallest, tried
 from ..compare import agree, copied_results
 from ..exercise import Part
 from .alternatives import KINDS
@@ -23,7 +22,7 @@ from .chosen import Chosen
 from .edits import Source
 from .meanings import meaning
 from .nearer import Nearer
-from .plausible import plausible
+from .plausible import nodes_of, plausible
 from .repair import Repair
 from .search import Remembering, by_chance, of_whole_numbers, of_words, same
 from .whole import Edit, of_arguments, of_order
@@ -92,7 +91,7 @@ def repairs(
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
     rare = 2 * sum(wrong) < len(wrong)
-    first, seconds = quick(part, function, {k: cases[k] for k, bad in enumerate(wrong) if bad})
+    first = smallest({k: cases[k] for k, bad in enumerate(wrong) if bad})
     every = range(len(part.returns)) if len(part.returns) > 1 and part.canonical is None else ()
     if not cases[first] and (part.canonical is not None or of_whole_numbers(part, right[first])):
         return []  # they are met by chance
@@ -105,7 +104,7 @@ def repairs(
     if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
         return []
     if nearer is not None:
-        nearer.begin(source, before, first, seconds)
+        nearer.begin(source, before, first, _seconds(part, function, cases[first]))
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         for edit in _changes(part, function, source, cases[first], until, pairs, rare, len(cases)):
             if (chosen.sure and pairs) or chosen.ended(edit.kind):
@@ -230,8 +229,8 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
 
 def own_helpers(function: Function) -> bool:
     """Whether a student's function calls others of the same file, in which nothing is changed."""
-    code, text = getattr(function, "__code__", None), textwrap.dedent(text_written(function))
-    names = [x.id for x in ast.walk(ast.parse(text)) if isinstance(x, ast.Name)] if code else []
+    code = getattr(function, "__code__", None)
+    names = [x.id for x in nodes_of(text_written(function)) if isinstance(x, ast.Name)] if code else []
     called = [getattr(function, "__globals__", {}).get(name) for name in names]
     files = [x.__code__.co_filename for x in called if isinstance(x, FunctionType)]
     return code is not None and code.co_filename in files
@@ -264,6 +263,13 @@ def written(function: Function) -> tuple[str, int] | None:
                 node.decorator_list = []
                 return "".join(lines[node.lineno - 1 : node.end_lineno]), node.lineno - 1
     return None
+
+
+def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> float:
+    """Return how long an answer takes."""
+    start = time.perf_counter()
+    tried(part, function, arguments)
+    return time.perf_counter() - start
 
 
 def _right(part: Part, function: Function, right: Any, arguments: tuple[Any, ...]) -> bool:

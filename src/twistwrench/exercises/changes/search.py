@@ -11,7 +11,7 @@ import numpy as np
 
 import twistwrench
 
-from ..calls import copied, local_values, quick, tried
+from ..calls import copied, local_values, smallest, tried
 from ..compare import agree, close, values
 from ..exercise import Part
 from ..words.phrases import say
@@ -78,7 +78,7 @@ def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> 
     """
     right = [part.value(part.solution, copied(arguments)) for arguments in cases]
     wrong = [not agree(part, a, b, arguments) for a, b, arguments in zip(answers, right, cases)]
-    first, _ = quick(part, part.solution, {k: cases[k] for k, bad in enumerate(wrong) if bad})
+    first = smallest({k: cases[k] for k, bad in enumerate(wrong) if bad})
     several = len(part.returns) > 1 and part.canonical is None
     bad = [k for k in range(len(part.returns)) if not same(part, answers, right, k)] if several else []
     found: dict[int, Edit] = {}

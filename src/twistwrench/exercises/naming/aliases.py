@@ -33,12 +33,10 @@ def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: 
         source.names["_copied"] = _copied
         for k, node in enumerate(ast.walk(source.tree)):
             if k in chosen and isinstance(node, ast.Assign):
-                each: list[ast.expr] = [
-                    ast.Call(ast.Name("_copied", ast.Load()), [node.value], []) for _ in node.targets
-                ]
-                several = len(node.targets) > 1
-                node.targets = [ast.Tuple(node.targets, ast.Store())] if several else node.targets
-                node.value = ast.Tuple(each, ast.Load()) if several else each[0]
+                node.value = ast.Call(ast.Name("_copied", ast.Load()), [node.value], [])
+                if len(node.targets) > 1:
+                    node.value = ast.Tuple([node.value] * len(node.targets), ast.Load())
+                    node.targets = [ast.Tuple(node.targets, ast.Store())]
         other = source.compiled()
         return all(agree(part, tried(part, other, c), b, c) for b, c in zip(right, cases))
 

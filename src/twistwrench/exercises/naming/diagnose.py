@@ -7,7 +7,6 @@ from typing import Any
 
 from ..changes.repair import Repair
 from ..changes.repairs import repair_of_blocks, text_written
-from ..changes.search import of_whole_numbers
 from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -99,26 +98,14 @@ def _other_order(wrong: WrongAnswer) -> Explained | None:
     return ["swapped-halves"], [say("slips"), *each, where(wrong)]
 
 
-def _numbers_of_a_slip(wrong: WrongAnswer) -> Explained | None:
-    """Report the numbers of a slip that the student's lines do not have, where nothing else is found in them."""
-    if not wrong.alike or wrong.changes:
-        return None
-    slips = [wrong.slip(name) for name in borne_out(wrong.alike, wrong.function, [])]
-    if not slips:
-        return None
-    lines = [say("like slip", title=x.title, why=x.why) for x in slips]
-    return wrong.alike, [*lines, where(wrong, slips[0].section)]
-
-
 def _slip_in_each_result(wrong: WrongAnswer) -> Explained | None:
     if wrong.alike:
         return None
     found = slips_by_piece(wrong.part, wrong.function, wrong.answers, wrong.cases)
     if not found or not by_piece_borne_out(wrong.part, found, wrong.function, wrong.changes):
         return None
-    typed = not wrong.cases[0] and of_whole_numbers(wrong.part, wrong.right[0])
     *lines, read = named_by_piece(wrong, found)
-    unsure = [say("perhaps")] if typed else []
+    unsure = [say("perhaps")] if wrong.is_typed else []
     return list(dict.fromkeys(name for names in found.values() for name in names)), [*lines, *unsure, read]
 
 
@@ -156,7 +143,7 @@ def _one_triangle(wrong: WrongAnswer) -> Explained | None:
 
 def _change_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report it where it is one, and explains all that is wrong."""
-    if not wrong.cases[0] and of_whole_numbers(wrong.part, wrong.right[0]):
+    if wrong.is_typed:
         return None  # one of a few whole numbers is another one by chance
     if not wrong.edits or wrong.edits[0].edit.first or any(in_other_roles(wrong.function, x.edit) for x in wrong.edits):
         return None
@@ -210,7 +197,7 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
 
 def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report two changes of a right solution, or one that does not explain all."""
-    if not wrong.cases[0] and of_whole_numbers(wrong.part, wrong.right[0]):
+    if wrong.is_typed:
         return None
     other = any(in_other_roles(wrong.function, x.edit) for x in wrong.edits)
     return ([], edited(wrong)) if wrong.edits and not other else None
@@ -226,7 +213,6 @@ EXPLANATIONS: tuple[Explanation, ...] = (
     _either_order,
     _slip_of_the_list,
     _other_order,
-    _numbers_of_a_slip,
     _slip_in_each_result,
     _structure,
     _change_of_a_line,

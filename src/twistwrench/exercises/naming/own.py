@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 import re
-import textwrap
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from ..changes.plausible import nodes_of
 from ..changes.repair import Repair
 from ..changes.repairs import text_written
 from ..changes.whole import Edit
@@ -157,11 +157,9 @@ def _spoken(slip: str, source: str) -> bool:
 
 
 def _goes_round(source: str) -> bool:
-    """Whether a source has a loop."""
-    try:
-        return any(isinstance(x, ast.For | ast.While) for x in ast.walk(ast.parse(textwrap.dedent(source))))
-    except SyntaxError:
-        return True
+    """Whether a source has a loop, or cannot be read."""
+    nodes = nodes_of(source)
+    return not nodes or any(isinstance(x, ast.For | ast.While) for x in nodes)
 
 
 def _halves(slip: str) -> tuple[str, str]:

@@ -13,7 +13,7 @@ import numpy as np
 from ..changes.nearer import Nearer
 from ..changes.repair import Repair
 from ..changes.repairs import own_helpers, repairs, two_repairs
-from ..changes.search import Found, exchanged_results, found_edits, same
+from ..changes.search import Found, exchanged_results, found_edits, of_whole_numbers, same
 from ..compare import agree, close, only_zero_is_missed, values
 from ..exercise import Exercise, Part
 from ..slips import SLIPS, Slip
@@ -88,6 +88,11 @@ class WrongAnswer:
         again = self.again
         once = (lambda given: alone(again(given), k, len(self.part.returns))) if again else None
         return WrongAnswer(self.exercise, part, self.function, answers, self.cases, once, share)
+
+    @property
+    def is_typed(self) -> bool:
+        """Whether a few whole numbers are asked for, without arguments: they are met by chance."""
+        return not self.cases[0] and of_whole_numbers(self.part, self.right[0])
 
     def returns_another(self) -> bool:
         """Whether one of several things returned is another one of them, which is right in its place."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..changes.edits import Source
+from ..changes.places import innermost
 from .records import Event, Known, arrays, tells
 
 __all__ = ["Output", "outputs", "suspects"]
@@ -68,7 +69,7 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
     fine = {number for number, times in when.items() if number in sure and all(right[k] for k in times)}
     found = []
     for parents, _, node in source.places:
-        statement = next((x for x in reversed([*parents, node]) if isinstance(x, ast.stmt)), None)
+        statement = innermost([*parents, node])
         if id(node) not in when or not any(node is x for x in _results(statement)):
             continue
         whole = any(id(x) in fine for x in parents if isinstance(x, ast.expr))

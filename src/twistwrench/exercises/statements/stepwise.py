@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import twistwrench
 
-from ..calls import quick, tried
+from ..calls import smallest, tried
 from ..changes.alternatives import KINDS
 from ..changes.edits import Source
 from ..changes.excerpts import text_of
@@ -89,7 +89,7 @@ class Stepwise:
         wrong = [k for k, given in enumerate(zip(answers, right, cases)) if not agree(part, *given)]
         self.seldom = 2 * len(wrong) < len(cases)
         self.surplus = all(only_zero_is_missed(part, answers[k], right[k]) for k in wrong)
-        self.first, _ = quick(part, part.solution, {k: cases[k] for k in wrong})
+        self.first = smallest({k: cases[k] for k in wrong})
         self.start: Traced | None = None
         arguments = cases[self.first]
         if inspect.isclass(function) or not arguments:
