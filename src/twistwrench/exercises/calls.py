@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
@@ -117,15 +117,20 @@ def copied(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     return tuple(copy.deepcopy(x) if isinstance(x, np.ndarray | list) else x for x in arguments)
 
 
-def local_values(function: Function, within: Function, arguments: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the values of the names in a function, or a changed one, when another one that calls it is called."""
-    found: dict[str, Any] = {}
+def local_values(function: Function, within: Iterable[Any], arguments: tuple[Any, ...]) -> dict[str, dict[str, Any]]:
+    """Return the values of the names in some functions, by their names, when one that calls them is called.
+
+    Those that stand in their place and were changed count as well.
+    """
+    codes = [f.__code__ for f in within if hasattr(f, "__code__")]
+    files = {code.co_name: (code.co_filename, CHANGED) for code in codes}
+    found: dict[str, dict[str, Any]] = {code.co_name: {} for code in codes}
 
     def note(*given: Any) -> None:
         frame, event, _ = given
-        code, own = frame.f_code, getattr(within, "__code__", None)
-        if event == "return" and own and code.co_name == own.co_name and code.co_filename in (own.co_filename, CHANGED):
-            found.update(frame.f_locals)
+        name = frame.f_code.co_name
+        if event == "return" and frame.f_code.co_filename in files.get(name, ()):
+            found[name].update(frame.f_locals)
 
     before = sys.getprofile()
     sys.setprofile(note)

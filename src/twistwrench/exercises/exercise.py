@@ -158,6 +158,11 @@ class Part:
         return {slip: as_text(entry) for slip, entry in self._prose.get("reasons", {}).items()}
 
     @cached_property
+    def titles(self) -> Mapping[str, Text]:
+        """The names of slips whose general name does not fit here."""
+        return {slip: as_text(entry) for slip, entry in self._prose.get("titles", {}).items()}
+
+    @cached_property
     def properties(self) -> tuple[Property, ...]:
         """The properties of a right answer."""
         entries = self._prose.get("properties", [])

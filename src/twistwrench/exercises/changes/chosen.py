@@ -6,11 +6,12 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
 from .likeness import ALIKE, BESIDE, alike, anywhere, blames, by_detour, renames
 from .repair import Repair
 
-__all__ = ["Chosen"]
+__all__ = ["Chosen", "Lines"]
 
 MOST = 3
 """Changes of which one may be meant."""
@@ -19,26 +20,38 @@ LONGER = 1.0
 """Seconds for which a better change is looked for, and as long again as the first has taken."""
 
 
+class Lines(NamedTuple):
+    """What is known of the lines of a student's function.
+
+    In `right`: whether a right solution has what a line computes; in `blameless`: whether another one goes wrong first.
+    """
+
+    right: Callable[[int], bool]
+    blameless: Callable[[int | None], bool]
+
+
 class Chosen:
     """The changes that are found one after the other, the likeliest kinds first.
 
     Parameters
     ----------
-    right_line : callable, optional
-        Whether a right solution has what a line of the student's computes.
+    lines : Lines, optional
+        What is known of the student's lines.
     """
 
-    def __init__(self, right_line: Callable[[int], bool] | None) -> None:
-        self.right_line = right_line or (lambda line: False)
+    def __init__(self, lines: Lines | None) -> None:
+        self.lines = lines
         self.begun, self.until = time.process_time(), math.inf
         self.sure: list[Repair] = []
+        self.later: list[Repair] = []
         self.spare: list[Repair] = []
 
     @property
     def reported(self) -> list[Repair]:
         """Those that are reported; one that blames a right line only where there is no other."""
-        sure = [x for x in self.sure if not x.roundabout] or self.spare[:1] or self.sure
-        return sorted(sure, key=lambda repair: by_detour(repair.edit))
+        straight = [x for x in self.sure if not x.roundabout]
+        likely = sorted(straight, key=lambda repair: by_detour(repair.edit)) + self.later
+        return likely[:MOST] or self.spare[:1] or self.sure
 
     def ended(self, kind: str) -> bool:
         """Whether the search may end before the changes of this kind."""
@@ -50,15 +63,16 @@ class Chosen:
     def judged(self, repair: Repair) -> Repair:
         """Return a change with the mark whether it blames a line that is right."""
         edit = repair.edit
-        doubtful = renames(edit) or (bool(edit.places) and blames(edit) and self.right_line(edit.line))
-        return replace(repair, unsure=doubtful)
+        right = self.lines is not None and bool(edit.places) and blames(edit) and self.lines.right(edit.line)
+        return replace(repair, unsure=renames(edit) or right)
 
     def add(self, repair: Repair) -> None:
         """Take in a change that makes the function right."""
         edit, now, judged = repair.edit, time.process_time(), self.judged(repair)
         self.until = min(self.until, 2 * now - self.begun + LONGER)
+        wrong_before = repair.in_header or (self.lines is not None and self.lines.blameless(repair.line))
         if judged.unsure:
             self.spare.append(judged)
-        elif not any(alike(edit, x.edit) for x in self.sure):
-            self.sure.append(repair)
+        elif not any(alike(edit, x.edit) for x in (*self.sure, *self.later)):
+            (self.later if wrong_before else self.sure).append(repair)
         self.sure = [replace(x, edit=anywhere(x.edit, edit)) for x in self.sure]

@@ -20,7 +20,7 @@ from typing import Any
 
 from ..calls import CHANGED, count
 from .alternatives import KINDS, crossed
-from .containers import parsed
+from .containers import Change, parsed
 from .excerpts import enclosing, target, term, text_of
 from .places import Place, all_places, mark, put, surroundings
 from .scope import Scope
@@ -63,7 +63,7 @@ def edits(
     >>> [edit.right for edit in edits(newton_euler) if edit.kind == "sign"][:1]
     ['np.cross(omega, I_c @ omega)']
     """
-    sources = [Source(f, solution, shown.get(f.__name__, {}), names) for f in (solution, *listings)]
+    sources = [Source(f, solution, shown, names) for f in (solution, *listings)]
     for kind in KINDS:
         for source in sources:
             yield from source.edits(kind)
@@ -96,18 +96,18 @@ class Source:
     function, solution : callable
         What is changed, and what is called: the same, or one that calls it.
     values : mapping
-        Of the names in it.
+        Of the names in it, by its name.
     names : mapping
         Put in place of what it calls by these names.
     text : str, optional
-        Its source, where Python does not find that.
+        Its source, where Python does not find that; with the helpers of a student's.
     """
 
     def __init__(
         self,
         function: Function,
         solution: Function,
-        values: Mapping[str, Any],
+        values: Mapping[str, Mapping[str, Any]],
         names: Mapping[str, Any],
         text: str | None = None,
     ) -> None:
@@ -118,8 +118,16 @@ class Source:
         for node in ast.walk(self.tree):
             if isinstance(node, ast.While):
                 node.body.insert(0, ast.parse("_one_more_round()").body[0])
-        self.places = [*all_places(self.tree.body[0])]
-        self.scope = Scope(self.tree, values, self.names)
+        self.places = self._places()
+        self.scopes = {name: Scope(x, values.get(name, {}), self.names) for x in self.tree.body for name in [_name(x)]}
+
+    def _places(self) -> list[tuple[list[Any], Any, Any]]:
+        """Return the places of the function, and of its helpers."""
+        return [place for node in self.tree.body for place in all_places(node)]
+
+    def _alternatives(self, parents: list[Any], node: Any) -> Iterator[Change]:
+        """Yield what could stand in a place."""
+        return self.scopes[_name(parents[0])].alternatives(node, parents)
 
     def after(self, edit: Edit) -> Source:
         """Return the source after one edit, to be changed further; its lines keep their numbers."""
@@ -129,15 +137,14 @@ class Source:
         found.tree = copy.deepcopy(self.tree)
         for parents, field, node, _ in edit.places:
             put(parents[-1], field, node)
-        found.places = [*all_places(ast.fix_missing_locations(found.tree).body[0])]
+        ast.fix_missing_locations(found.tree)
+        found.places = found._places()
         return found
 
     def edits(self, kind: str) -> Iterator[Edit]:
         """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
         alike: dict[tuple[str, str], list[Place]] = {}
-        made = [
-            (*place, x) for place in self.places for k, x in self.scope.alternatives(place[2], place[0]) if k == kind
-        ]
+        made = [(*place, x) for place in self.places for k, x in self._alternatives(place[0], place[2]) if k == kind]
         if kind == "sign":  # a plus for a minus before a minus more, and that as near to the result as may be
             made.sort(key=lambda place: (isinstance(place[3], ast.UnaryOp), -place[2].lineno))
         for place in made:
@@ -169,7 +176,7 @@ class Source:
     def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
         """Yield two edits at once, of the kinds that are likeliest."""
         for k, (parents, field, node) in enumerate(self.places):
-            for kind, other in self.scope.alternatives(node, parents):
+            for kind, other in self._alternatives(parents, node):
                 if kind in kinds:
                     first = kind, *self.texts(kind, (parents, field, node, other)), node.lineno
                     put(parents[-1], field, other)
@@ -180,7 +187,7 @@ class Source:
 
     def _second(self, first: tuple[str, str, str, int], where: Any, kinds: Sequence[str]) -> Iterator[Edit]:
         parents, field, node = where
-        for kind, other in self.scope.alternatives(node, parents):
+        for kind, other in self._alternatives(parents, node):
             if kind in kinds:
                 place = parents, field, node, other
                 for edit in self.made(kind, self.texts(kind, place), [place]):
@@ -255,11 +262,17 @@ class Source:
         """Yield the exchange of two names, wherever they stand in an expression."""
         for parents, field, node in self.places:
             if isinstance(node, ast.expr) and isinstance(parents[-1], ast.stmt):
-                used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in self.scope.kinds})
+                kinds = self.scopes[_name(parents[0])].kinds
+                used = sorted({x.id for x in ast.walk(node) if isinstance(x, ast.Name) and x.id in kinds})
                 for x, y in combinations(used, 2):
-                    if self.scope.kinds[x] == self.scope.kinds[y]:
+                    if kinds[x] == kinds[y]:
                         place = parents, field, node, crossed(node, x, y)
                         yield from self.made("exchanged", self.texts("exchanged", place), [place])
+
+
+def _name(node: Any) -> str:
+    """Return the name of a function or class; empty for a value beside it."""
+    return getattr(node, "name", "")
 
 
 def _with_plain_transposes(node: Any) -> Any:

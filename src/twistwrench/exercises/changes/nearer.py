@@ -69,11 +69,10 @@ class Nearer:
         self.pieces: dict[int, Edit] = {}
         self.wrong: Array | None = None
         self.bad: set[int] = set()
-        self.before = 0
 
-    def begin(self, source: Source, before: int, first: int, seconds: float) -> None:
+    def begin(self, source: Source, first: int, seconds: float) -> None:
         """Compare with the answers in one case, or in all of them where an answer is only a number or two."""
-        self.source, self.before, self.found = source, before, []
+        self.source, self.found = source, []
         wrong = self._wrong([self.answers[first]], [first])
         few = wrong is not None and wrong.size <= FEW and seconds < QUICK
         self.tried = [*range(len(self.cases))] if few else [first]

@@ -278,5 +278,7 @@ def _parsed(text: str) -> Any:
 @lru_cache(maxsize=64)
 def nodes_of(text: str) -> tuple[Any, ...]:
     """Return the nodes of a text; none where it is only a piece of a program."""
-    node = _parsed(text)
-    return () if node is None else (*ast.walk(node),)
+    try:
+        return (*ast.walk(ast.parse(textwrap.dedent(text))),)
+    except SyntaxError:
+        return ()

@@ -36,8 +36,6 @@ class Repair:
     Attributes
     ----------
     edit : Edit
-    before : int
-        Lines of the file before the function.
     piece : int, optional
         Which of the things is right by it; None for all.
     first : Edit, optional
@@ -48,18 +46,14 @@ class Repair:
         What is said in place of what it puts there.
     unsure : bool
         Whether what its line computes is right, so that another line may be wrong.
-    doubted : bool
-        Whether another line is the first to go wrong, or another function may.
     """
 
     edit: Edit
-    before: int
     piece: int | None = None
     first: Edit | None = None
     blocks: tuple[Text, ...] = ()
     meaning: Text | None = None
     unsure: bool = False
-    doubted: bool = False
 
     @property
     def one_piece(self) -> bool:
@@ -98,9 +92,7 @@ class Repair:
         """Report what must stand where."""
         edit = self.edit
         if self.first is not None and not self.one_piece:
-            return say(
-                "both edits", first=Repair(self.first, self.before).title(), second=Repair(edit, self.before).title()
-            )
+            return say("both edits", first=Repair(self.first).title(), second=Repair(edit).title())
         if self.first is not None:
             edit = replace(
                 edit, kind="instead", right=edit.right.replace(self.first.wrong, self.first.right), first=None
@@ -115,9 +107,9 @@ class Repair:
             return say(OF_RESULT[edit.wrong], right=edit.wrong)
         if edit.line:
             title = said_where(edit, title)
-            title = say("in own line", line=edit.line + self.before, title=title)
+            title = say("in own line", line=edit.line, title=title)
         if edit.first is not None:
             kind, wrong, right, line = edit.first
             other = say(f"repair {kind}", right=right, wrong=wrong)
-            return say("both edits", first=say("in own line", line=line + self.before, title=other), second=title)
+            return say("both edits", first=say("in own line", line=line, title=other), second=title)
         return title

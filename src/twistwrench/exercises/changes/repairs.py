@@ -5,11 +5,9 @@ from __future__ import annotations
 import ast
 import inspect
 import io
-import linecache
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
-from types import FunctionType
 from typing import Any
 
 import twistwrench
@@ -18,24 +16,22 @@ from ..calls import copied, local_values, smallest, tried
 from ..compare import agree, copied_results
 from ..exercise import Part
 from .alternatives import KINDS
-from .chosen import Chosen
+from .chosen import Chosen, Lines
 from .edits import Source
 from .meanings import meaning
 from .nearer import Nearer
-from .plausible import nodes_of, plausible
+from .plausible import plausible
 from .repair import Repair
 from .search import Remembering, by_chance, of_whole_numbers, of_words, same
 from .whole import Edit, of_arguments, of_order
+from .written import text_written, written
 
 __all__ = [
     "guarded",
-    "own_helpers",
     "repair_of_blocks",
     "repairs",
     "source_of",
-    "text_written",
     "two_repairs",
-    "written",
 ]
 
 PAIRED = ("sign", "transposed", "exchanged", "left out", "name")
@@ -50,10 +46,10 @@ Cases = Sequence[tuple[Any, ...]]
 
 def guarded(function: Function) -> Function:
     """Return a student's function with loops that cannot be endless; itself where its source is not at hand."""
-    found = written(function)
-    if found is None or inspect.isclass(function):
+    text = written(function)
+    if text is None or inspect.isclass(function):
         return function
-    return Source(function, function, {}, {}, found[0]).compiled()
+    return Source(function, function, {}, {}, text).compiled()
 
 
 def repairs(
@@ -66,7 +62,7 @@ def repairs(
     until: float,
     pairs: bool = False,
     nearer: Nearer | None = None,
-    right_line: Callable[[int], bool] | None = None,
+    lines: Lines | None = None,
 ) -> list[Repair]:
     """Return the likeliest change that makes a student's function right, or one for each wrong thing of several.
 
@@ -86,8 +82,8 @@ def repairs(
         Try two changes at once.
     nearer : Nearer, optional
         Is given the changes that make only a part of the answer right.
-    right_line : callable, optional
-        Whether a right solution has what a line of the function computes.
+    lines : Lines, optional
+        What is known of the lines of the function.
     """
     wrong = [not agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
     rare = 2 * sum(wrong) < len(wrong)
@@ -99,12 +95,12 @@ def repairs(
     if words and len(words) == len(part.returns):
         return []
     found: dict[int, Repair] = {}
-    chosen = Chosen(right_line)
-    source, before = source_of(part, function, cases[first])
+    chosen = Chosen(lines)
+    source = source_of(part, function, cases[first])
     if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
         return []
     if nearer is not None:
-        nearer.begin(source, before, first, _seconds(part, function, cases[first]))
+        nearer.begin(source, first, _seconds(part, function, cases[first]))
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         for edit in _changes(part, function, source, cases[first], until, pairs, rare, len(cases)):
             if (chosen.sure and pairs) or chosen.ended(edit.kind):
@@ -120,12 +116,12 @@ def repairs(
                 if copied_results(others, right, answers):  # what is asked for in two ways is not computed in one
                     continue
                 edit = source.as_written(edit, lambda f: _right(part, f, right[first], cases[first]))
-                chosen.add(Repair(edit, before, meaning=meaning(source, edit, part, right, cases)))
+                chosen.add(Repair(edit, meaning=meaning(source, edit, part, right, cases)))
                 continue
             if edit.kind == "result" or all(
                 same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here
             ):
-                found.update((k, chosen.judged(Repair(edit, before, k))) for k in here if same(part, others, right, k))
+                found.update((k, chosen.judged(Repair(edit, k))) for k in here if same(part, others, right, k))
             elif nearer is not None:
                 nearer.note(edit, answer)
                 if all(same(part, others, right, k) for k in {*every} - bad):
@@ -153,33 +149,33 @@ def two_repairs(
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         both = nearer.second(chosen, until)
     if both:
-        return [Repair(other, nearer.before, first=both[0]) for other in both[1]]
+        return [Repair(other, first=both[0]) for other in both[1]]
     pieces = sorted(nearer.pieces) if nearer.bad and nearer.pieces.keys() == nearer.bad else []
-    return [Repair(nearer.pieces[k], nearer.before, k) for k in pieces]
+    return [Repair(nearer.pieces[k], k) for k in pieces]
 
 
 def repair_of_blocks(nearer: Nearer) -> Repair | None:
     """Return the change that makes some blocks of the answer right."""
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         found = nearer.blocks()
-    return Repair(found[0], nearer.before, blocks=tuple(found[1])) if found else None
+    return Repair(found[0], blocks=tuple(found[1])) if found else None
 
 
-def source_of(part: Part, function: Function, arguments: tuple[Any, ...]) -> tuple[Source | None, int]:
-    """Return the syntax tree of a student's function, None where it is not at hand, and the lines before it."""
-    found = written(function)
-    if found is None:
-        return None, 0
-    text, before = found
+def source_of(part: Part, function: Function, arguments: tuple[Any, ...]) -> Source | None:
+    """Return the syntax tree of a student's function and its helpers, None where it is not at hand."""
+    text = written(function)
+    if text is None:
+        return None
 
     def call(*given: Any) -> Any:
         return part.value(function, given)
 
     try:
-        shown = local_values(call, function, copied(arguments))
-        return Source(function, function, shown, {"tw": Remembering(twistwrench)}, text), before
+        helpers = [getattr(function, "__globals__", {}).get(getattr(x, "name", "")) for x in ast.parse(text).body]
+        shown = local_values(call, (function, *helpers), copied(arguments))
+        return Source(function, function, shown, {"tw": Remembering(twistwrench)}, text)
     except Exception:  # it does not run again as it did
-        return None, 0
+        return None
 
 
 def _changes(
@@ -225,44 +221,6 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
             yield from (edit for edit in of_arguments(source.compiled()) if not edit.wrong.startswith("0 *"))
         if kind == "index" and arguments:  # their order is given: it is seldom mistaken
             yield from of_order(source.compiled())
-
-
-def own_helpers(function: Function) -> bool:
-    """Whether a student's function calls others of the same file, in which nothing is changed."""
-    code = getattr(function, "__code__", None)
-    names = [x.id for x in nodes_of(text_written(function)) if isinstance(x, ast.Name)] if code else []
-    called = [getattr(function, "__globals__", {}).get(name) for name in names]
-    files = [x.__code__.co_filename for x in called if isinstance(x, FunctionType)]
-    return code is not None and code.co_filename in files
-
-
-def text_written(function: Function) -> str:
-    """Return the source of a student's function, an empty text where it is unknown."""
-    return (written(function) or ("", 0))[0]
-
-
-def written(function: Function) -> tuple[str, int] | None:
-    """Return the source of a student's function or class, and how many lines are before it; None if it is unknown."""
-    code = getattr(function, "__code__", None)
-    if code is None and inspect.isclass(function):
-        code = next((x.__code__ for x in vars(function).values() if isinstance(x, FunctionType)), None)
-    if code is None or (not inspect.isclass(function) and code.co_name != function.__name__):
-        return None  # it is wrapped
-    if getattr(function, "__closure__", None) or twistwrench.__path__[0] in code.co_filename:
-        return None  # it cannot be compiled by itself, or is not of a student
-    linecache.checkcache(code.co_filename)
-    lines = linecache.getlines(code.co_filename)
-    try:
-        nodes = ast.walk(ast.parse("".join(lines)))
-    except SyntaxError:
-        return None
-    for node in nodes:
-        if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == function.__name__:
-            first = min([node.lineno, *(x.lineno for x in node.decorator_list)])
-            if first <= code.co_firstlineno <= (node.end_lineno or first):
-                node.decorator_list = []
-                return "".join(lines[node.lineno - 1 : node.end_lineno]), node.lineno - 1
-    return None
 
 
 def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> float:

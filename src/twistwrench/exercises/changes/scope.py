@@ -25,7 +25,7 @@ class Scope:
 
     Parameters
     ----------
-    tree : ast.Module
+    tree : ast.AST
         Of the function.
     values : mapping
         Of the names in it.
@@ -33,7 +33,7 @@ class Scope:
         Of its module.
     """
 
-    def __init__(self, tree: ast.Module, values: Mapping[str, Any], names: Mapping[str, Any]) -> None:
+    def __init__(self, tree: ast.AST, values: Mapping[str, Any], names: Mapping[str, Any]) -> None:
         nodes = [*ast.walk(tree)]
         self.kinds = {name: _kind(x) for name, x in values.items()}
         square = [name for name in self.kinds if self._is_square(name)]
@@ -42,8 +42,8 @@ class Scope:
         numbers = [name for name, x in values.items() if isinstance(x, int | float) and type(x) is not bool]
         self.scalars, self.matrices = [*map(parsed, (*numbers, *FACTORS))], [*map(parsed, square)]
         self.sums = {getattr(x.target, "id", "") for x in nodes if isinstance(x, ast.AugAssign)} - {""}
-        self.unused = unused(tree.body[0])
-        places = all_places(tree.body[0])
+        self.unused = unused(tree)
+        places = all_places(tree)
         self.around = [*dict.fromkeys(text for _, _, node in places for text in habits(node, self.kinds))]
         self.texts = {y for x in values.values() if isinstance(x, list | tuple) for y in x if isinstance(y, str)}
         own = {x.id for x in nodes if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}

@@ -104,7 +104,7 @@ def candidates(part: Part, arguments: tuple[Any, ...], *, until: float = np.inf,
     for way in (part.solution, *part.ways):
         listings = part.beside if way is part.solution else ()
         call = _calling(part, way)
-        shown = {f.__name__: local_values(call, f, copied(arguments)) for f in (way, *listings)}
+        shown = local_values(call, (way, *listings), copied(arguments))
         for edit in edits(way, listings, shown=shown, names=names):
             if time.process_time() > until:
                 return

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ast
+import textwrap
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..calls import tried
 from ..changes.edits import Source
-from ..changes.repairs import written
+from ..changes.written import written
 from ..compare import agree
 from ..exercise import Part
 from ..words.phrases import say
@@ -21,11 +22,10 @@ Function = Callable[..., Any]
 
 def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: Sequence[Any]) -> list[Text]:
     """Report the fewest assignments that must copy, if copies make the function right in all cases; else nothing."""
-    found = written(function)
-    if found is None:
+    text = written(function)
+    if text is None:
         return []
-    text, before = found
-    tree = ast.parse(text.lstrip())
+    tree = ast.parse(textwrap.dedent(text))
     places = [k for k, node in enumerate(ast.walk(tree)) if isinstance(node, ast.Assign) and _is_one_array(node)]
 
     def mended(chosen: Sequence[int]) -> bool:
@@ -47,7 +47,7 @@ def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: 
         if fewer and mended(fewer):
             places = fewer
     nodes = [node for k, node in enumerate(ast.walk(tree)) if k in places and isinstance(node, ast.Assign)]
-    return [_said(node, before) for node in nodes]
+    return [_said(node) for node in nodes]
 
 
 def _is_one_array(node: ast.Assign) -> bool:
@@ -56,6 +56,8 @@ def _is_one_array(node: ast.Assign) -> bool:
     It does where nothing is computed: what stands on the right is a name, a part of an array, or its transpose.
     """
     value: Any = node.value
+    if _exchanges_views(node):
+        return True
     if all(isinstance(x, ast.Name) for x in node.targets) and (len(node.targets) > 1 or _repeats(value)):
         return True
     if isinstance(value, ast.Attribute):
@@ -63,16 +65,28 @@ def _is_one_array(node: ast.Assign) -> bool:
     return isinstance(node.targets[0], ast.Name) and isinstance(value, ast.Name | ast.Subscript)
 
 
+def _exchanges_views(node: ast.Assign) -> bool:
+    """Whether two parts of an array are exchanged at once: what stands on the right are no copies."""
+    sides: Any = (node.targets[0], node.value)
+    if not all(isinstance(side, ast.Tuple) for side in sides):
+        return False
+    left, right = ([ast.unparse(x) for x in side.elts] for side in sides)
+    return left == right[::-1] and len(left) == 2 and all(":" in text for text in left)
+
+
 def _repeats(node: Any) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List)
 
 
 def _copied(x: Any) -> Any:
-    return [*map(_copied, x)] if isinstance(x, list) else x.copy() if hasattr(x, "copy") else x
+    return [*map(_copied, x)] if isinstance(x, list | tuple) else x.copy() if hasattr(x, "copy") else x
 
 
-def _said(node: ast.Assign, before: int) -> Text:
+def _said(node: ast.Assign) -> Text:
     if len(node.targets) > 1 or _repeats(node.value):
-        return say("many names", line=node.lineno + before, text=ast.unparse(node))
-    line, name, value = node.lineno + before, ast.unparse(node.targets[0]), ast.unparse(node.value)
+        return say("many names", line=node.lineno, text=ast.unparse(node))
+    if _exchanges_views(node):
+        first, second = (ast.unparse(x) for x in node.targets[0].elts)  # type: ignore[attr-defined]
+        return say("views exchanged", line=node.lineno, text=f"{first}, {second} = {second}, {first}", second=second)
+    line, name, value = node.lineno, ast.unparse(node.targets[0]), ast.unparse(node.value)
     return say("second name", line=line, text=ast.unparse(node), name=name, value=value)

@@ -6,13 +6,14 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..changes.repair import Repair
-from ..changes.repairs import repair_of_blocks, text_written
+from ..changes.repairs import repair_of_blocks
+from ..changes.written import text_written
 from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
 from .aliases import missing_copies
 from .matching import TWISTS, slips_by_piece, two_slips
-from .messages import compared, comparison, edited, indented, mended, named, named_by_piece, nearer, titles, where
+from .messages import compared, comparison, cures, edited, indented, mended, named, named_by_piece, nearer, where
 from .neighbours import Neighbours
 from .own import borne_out, by_piece_borne_out, in_other_roles
 from .properties import few_entries
@@ -58,7 +59,7 @@ def explain(
 def after_error(part: Part, function: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Text]:
     """Report which change makes a function right that raises an error; nothing where none is found."""
     found = changes_after_error(part, function, cases)
-    return titles(part, found, "mended", len(cases)) if found else []
+    return cures(part, found, len(cases)) if found else []
 
 
 def _two_names_of_one_array(wrong: WrongAnswer) -> Explained | None:
@@ -89,7 +90,7 @@ def _other_order(wrong: WrongAnswer) -> Explained | None:
     if wrong.exchanged is None:
         return None
     if "swapped-halves" not in wrong.alike:
-        return [], [say("slip", title=wrong.exchanged), say("exchanged"), where(wrong)]
+        return [], [say("like slip", title=wrong.exchanged, why=say("exchanged")), where(wrong)]
     slip, order = wrong.slip("swapped-halves"), say("exchanged")
     each = [
         say("slip of several", title=wrong.exchanged, why=order),
@@ -162,10 +163,10 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
     if not wrong.again or (found := wrong.nearer.change_and_slip()) is None:
         return None
     edit, name = found
-    if wrong.weighed([Repair(edit, wrong.nearer.before)])[0].doubted:
+    if wrong.steps.blameless(Repair(edit).line):
         return None  # it may make the slip that shows then
     slip = wrong.slip(name)
-    line = say("two changes", first=Repair(edit, wrong.nearer.before).title(), second=slip.title)
+    line = say("two changes", first=Repair(edit).title(), second=slip.title)
     return [name], [line, slip.why, where(wrong, slip.section)]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..changes.repairs import text_written
+from ..changes.written import text_written
 from ..compare import Value, agree, close, values
 from ..exercise import Part
 from ..wrong import both, swap

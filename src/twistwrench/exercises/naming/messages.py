@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..changes.likeness import by_detour
 from ..changes.repair import Repair
-from ..changes.repairs import text_written
-from ..changes.search import Found, right_where
+from ..changes.search import right_where
 from ..compare import agree, values
 from ..exercise import Part
-from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 from .independence import not_used
-from .own import own_lines, shown_in
+from .own import own_lines
 from .properties import FEW, broken_property
 from .relations import describe, of_truths
 from .simplest import of_words, shared
@@ -25,13 +22,13 @@ from .wrong_answer import WrongAnswer
 __all__ = [
     "compared",
     "comparison",
+    "cures",
     "edited",
     "indented",
     "mended",
     "named",
     "named_by_piece",
     "nearer",
-    "titles",
     "where",
 ]
 
@@ -45,14 +42,14 @@ def where(wrong: WrongAnswer, section: str | None = None) -> Text:
 def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
     """Name the slip, or those that it may be, and the line of the student's where it is."""
     part, own = wrong.part, own_lines(wrong.changes, found)
+    own += [say("perhaps")] if own else []
     slips = [wrong.slip(name) for name in found]
     if len(slips) == 1:
         made = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers
         within = getattr(made, "within", None)
         step = first_wrong(part, made, within, wrong.cases[0]) if made and within in part.beside else None
         title, why = slips[0].title, slips[0].why
-        head = [say("slip", title=title), why] if own else [say("like slip", title=title, why=why)]
-        lines = [*head, *own, *([step] if step else [])]
+        lines = [say("like slip", title=title, why=why), *own, *([step] if step else [])]
     else:
         each = [say("slip of several", title=x.title, why=x.why) for x in slips]
         lines = [say("slips"), *each, *own]
@@ -63,10 +60,10 @@ def named_by_piece(wrong: WrongAnswer, found: Mapping[str, list[str]]) -> list[T
     """Name the slip in each thing that was returned; each reason once."""
     lines, given, last = [], set(), wrong.exercise.section
     for name, slips in found.items():
-        each = [SLIPS[slip].title for slip in slips]
+        each = [wrong.slip(slip).title for slip in slips]
         title = Text(", or ".join(t.en for t in each), "，或 ".join(t.zh for t in each))
         quantity = next(q for q in wrong.part.returns if q.name == name)
-        lines.append(say("slip in", name=quantity.title, title=title))
+        lines.append(say("like slip in", name=quantity.title, title=title))
         lines += [indented(wrong.slip(slip).why) for slip in slips if slip not in given]
         given.update(slips)
         last = wrong.slip(slips[0]).section
@@ -75,44 +72,45 @@ def named_by_piece(wrong: WrongAnswer, found: Mapping[str, list[str]]) -> list[T
 
 def mended(wrong: WrongAnswer, found: list[Repair]) -> list[Text]:
     """Report which change makes the student's own function right, or each wrong thing that it returns."""
-    return [*titles(wrong.part, found, "mended", len(wrong.cases)), *_shortly(wrong), where(wrong)]
+    return [*cures(wrong.part, found, len(wrong.cases)), *_shortly(wrong), where(wrong)]
 
 
 def edited(wrong: WrongAnswer) -> list[Text]:
     """Report which change of a right solution gives the answer, or each wrong thing of it."""
-    found, part, cases = wrong.edits, wrong.part, wrong.cases
-    own = all(shown_in(text_written(wrong.function), change.edit) for change in found)
-    step = first_wrong(part, found[0].edit.function, found[0].edit.within, cases[0])
-    lines = titles(part, found, "edited" if own else "equal", len(cases))
+    found, part, every = wrong.edits, wrong.part, len(wrong.cases)
+    lines = [
+        say("equal", title=x.title())
+        if x.piece is None
+        else say("equal in", name=part.returns[x.piece].title, title=x.title())
+        for x in found
+    ]
+    lines += [say("equal cases", all=every)] if every > 1 else []
+    step = first_wrong(part, found[0].edit.function, found[0].edit.within, wrong.cases[0])
     return [*lines, *_shortly(wrong), *([step] if step else []), where(wrong)]
 
 
-def titles(part: Part, found: Sequence[Found | Repair], how: str, every: int) -> list[Text]:
-    """Report each change, of all that is returned or of one piece, and in how many cases it was tried: in `every`."""
+def cures(part: Part, found: Sequence[Repair], every: int) -> list[Text]:
+    """Report changes that make all right that is returned, or each a piece of it, in all cases: in `every`.
+
+    By their numbers the slip and what has the same effect cannot be distinguished: none is called the slip.
+    """
+    both = any(change.first is not None and not change.one_piece for change in found)
     if len(found) > 1 and not any(change.piece is not None for change in found):
-        both = isinstance(found[0], Repair) and found[0].first is not None
         each = say("either both" if both else "either way", all=every) if every > 1 else say("either once")
-        lines = [say("either"), *(indented(change.title()) for change in found), each]
-        return [*lines, say("perhaps")] if all(by_detour(change.edit) for change in found) else lines
-    lines, unsure = [], False
-    for change in found:
-        cure = isinstance(change, Repair) and (change.roundabout or change.doubted)
-        begun, unsure = "equal" if how == "equal" else "cure" if cure else "slip", unsure or cure
-        if change.piece is None:
-            lines.append(say(begun, title=change.title()))
-        else:
-            lines.append(say(f"{begun} in", name=part.returns[change.piece].title, title=change.title()))
-    if how == "equal":
-        return [*lines, say("equal cases", all=every)] if every > 1 else lines
-    both = any(isinstance(change, Repair) and change.first is not None and not change.one_piece for change in found)
-    whole = "mended both" if both else "mended each" if how == "mended" and len(found) > 1 else how
-    lines.append(say(whole, all=every) if every > 1 else say(f"{how} once"))
-    return [*lines, say("perhaps")] if unsure else lines
+        return [say("either"), *(indented(change.title()) for change in found), each, say("perhaps")]
+    lines = [
+        say("cure", title=x.title())
+        if x.piece is None
+        else say("cure in", name=part.returns[x.piece].title, title=x.title())
+        for x in found
+    ]
+    whole = "mended both" if both else "mended each" if len(found) > 1 else "mended"
+    return [*lines, say(whole, all=every) if every > 1 else say("mended once"), say("perhaps")]
 
 
 def nearer(wrong: WrongAnswer, near: Repair) -> list[Text]:
     """Report which change makes some blocks right, and what is wrong in the others."""
-    lines = [say("slip in", name=name, title=near.title()) for name in near.blocks]
+    lines = [say("cure in", name=name, title=near.title()) for name in near.blocks]
     return [*lines, say("not all"), say("it shows"), *map(indented, comparison(wrong)), where(wrong)]
 
 

@@ -9,8 +9,8 @@ from typing import Any
 
 from ..changes.plausible import nodes_of
 from ..changes.repair import Repair
-from ..changes.repairs import text_written
 from ..changes.whole import Edit
+from ..changes.written import text_written
 from ..exercise import Part
 from ..slips import SLIPS
 from ..words.phrases import say

@@ -24,7 +24,7 @@ def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ..
     """Report which quantity of which body a change within a listing makes wrong first, and which stay right."""
     bodies = _computed(within)
     right, wrong = (
-        local_values(lambda *given, f=f: part.value(f, given), within, copied(arguments))
+        local_values(lambda *given, f=f: part.value(f, given), [within], copied(arguments)).get(within.__name__, {})
         for f in (part.solution, function)
     )
     fine: list[str] = []

@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from ..changes.chosen import Lines
 from ..changes.nearer import Nearer
 from ..changes.repair import Repair
-from ..changes.repairs import own_helpers, repairs, two_repairs
+from ..changes.repairs import repairs, two_repairs
 from ..changes.search import Found, exchanged_results, found_edits, of_whole_numbers, same
 from ..compare import agree, close, only_zero_is_missed, values
 from ..exercise import Exercise, Part
@@ -117,14 +118,8 @@ class WrongAnswer:
         """The changes of the student's own lines, one at a time, that make them right."""
         if not self.again:
             return []
-        until, right_line = self.until["mended"], lambda line: self.steps.right_line(line)  # built where one is found
-        found = repairs(self.part, *self.given, until=until, nearer=self.nearer, right_line=right_line)
-        return self.weighed(found)
-
-    def weighed(self, found: list[Repair]) -> list[Repair]:
-        """Return changes with a mark where they may not be what was meant: another line may go wrong first."""
-        helped = own_helpers(self.function)
-        return [replace(x, doubted=helped or x.in_header or self.steps.blameless(x.line)) for x in found]
+        lines = Lines(lambda line: self.steps.right_line(line), lambda line: self.steps.blameless(line))  # when needed
+        return repairs(self.part, *self.given, until=self.until["mended"], nearer=self.nearer, lines=lines)
 
     @property
     def whole_changes(self) -> list[Repair]:
@@ -158,13 +153,13 @@ class WrongAnswer:
         if self.by_chance:
             return []
         nearer = two_repairs(self.part, self.function, self.nearer, self.cases[0], self.until["after"])
-        return self.weighed(nearer or self.steps.two(self.until["both"], self.nearer.spoils))
+        return nearer or self.steps.two(self.until["both"], self.nearer.spoils)
 
     def slip(self, name: str) -> Slip:
-        """Return a slip with the reason that this part gives for it, if it has one of its own."""
-        if name not in self.part.reasons:
-            return SLIPS[name]
-        return Slip(SLIPS[name].title, self.part.reasons[name], self.exercise.section)
+        """Return a slip with the name and the reason that this part has for it, if it has its own."""
+        slip, titles, reasons = SLIPS[name], self.part.titles, self.part.reasons
+        section = self.exercise.section if name in reasons else slip.section
+        return Slip(titles.get(name, slip.title), reasons.get(name, slip.why), section)
 
 
 @dataclass(frozen=True, kw_only=True)

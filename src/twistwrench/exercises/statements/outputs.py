@@ -41,8 +41,9 @@ class Value:
 
 @dataclass(frozen=True)
 class Output:
-    """What a statement computes, or one of several things: the expression, and its values."""
+    """What a statement computes, or one of several things: the expression, its values, and in which function."""
 
+    within: str
     statement: Any
     node: Any
     writes: frozenset[str]
@@ -67,13 +68,13 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
         when.setdefault(id(event.node), []).append(k)
     sure = {id(event.node) for event in events if any(map(tells, arrays(event.value)))}
     fine = {number for number, times in when.items() if number in sure and all(right[k] for k in times)}
-    found = []
+    found, helpers = [], {x.name for x in ast.walk(source.tree) if isinstance(x, ast.FunctionDef)}
     for parents, _, node in source.places:
         statement = innermost([*parents, node])
         if id(node) not in when or not any(node is x for x in _results(statement)):
             continue
         whole = any(id(x) in fine for x in parents if isinstance(x, ast.expr))
-        operands = {id(x) for x in ast.walk(node) if isinstance(x, ast.Name | ast.Subscript)}
+        operands = {id(x) for x in ast.walk(node) if isinstance(x, ast.Name | ast.Subscript) or _base(x) in helpers}
         values, before = [], -1
         for k in when[id(node)]:
             times = (j for j in range(before + 1, k + 1) if id(events[j].node) in operands and not right[j])
@@ -83,7 +84,11 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
             before = k
         if isinstance(node, ast.AugAssign) and values[-1].known:
             values = values[-1:]  # the sum, not what it is on the way
-        found.append(Output(statement, node, frozenset(_written(statement, parents)), (*values,)))
+        found.append(
+            Output(
+                getattr(parents[0], "name", ""), statement, node, frozenset(_written(statement, parents)), (*values,)
+            )
+        )
     return found
 
 
@@ -92,20 +97,20 @@ def _key(value: Any) -> bytes:
 
 
 def _base(node: Any) -> str:
-    while isinstance(node, ast.Subscript | ast.Attribute):
-        node = node.value
+    while isinstance(node, ast.Subscript | ast.Attribute | ast.Call):
+        node = node.func if isinstance(node, ast.Call) else node.value
     return str(getattr(node, "id", ""))
 
 
 def _written(statement: Any, parents: Sequence[Any]) -> Iterator[str]:
     """Yield the names that a statement sets, or an entry of; a helper's result has the helper's name."""
     if isinstance(statement, ast.Return):
-        yield from [x.name for x in parents[1:] if isinstance(x, ast.FunctionDef)][-1:]
+        yield from [x.name for x in parents if isinstance(x, ast.FunctionDef)][-1:]
     found = getattr(statement, "targets", [getattr(statement, "target", None)])
     if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
         found = [statement.value.func]  # x.append(…)
     for node in found:
-        yield from map(_base, node.elts if isinstance(node, ast.Tuple) else [node])
+        yield from filter(None, map(_base, node.elts if isinstance(node, ast.Tuple) else [node]))
 
 
 def _results(statement: Any) -> Iterator[Any]:
@@ -149,7 +154,9 @@ def suspects(found: Sequence[Output], ways: Container[tuple[int, int]] = ()) -> 
     wrong = [(x, bad) for x, bad in wrong if bad]
     first = []
     for x, bad in wrong:
-        others = {name for y, _ in wrong if y.statement is not x.statement for name in y.writes}
-        if not any(name in others and key not in fine for name, key in bad[0].read):
+        others = [(y, values) for y, values in wrong if y.statement is not x.statement]
+        names = {name for y, _ in others for name in y.writes if x.within == y.within or name == y.within}
+        given = {v.key for y, values in others if x.within != y.within for v in values}  # to a helper, by its caller
+        if not any((name in names and key not in fine) or key in given for name, key in bad[0].read):
             first.append((bad[0].when, x))
     return [x for _, x in sorted(first, key=lambda pair: pair[0])]

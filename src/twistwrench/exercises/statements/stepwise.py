@@ -20,9 +20,10 @@ from ..changes.edits import Source
 from ..changes.excerpts import text_of
 from ..changes.plausible import plausible, turns_the_rest
 from ..changes.repair import Repair
-from ..changes.repairs import PAIRED, source_of, text_written
+from ..changes.repairs import PAIRED, source_of
 from ..changes.search import Remembering, by_chance
 from ..changes.whole import Edit
+from ..changes.written import text_written
 from ..compare import agree, copied_results, only_zero_is_missed
 from ..exercise import Part
 from ..words.phrases import say
@@ -96,7 +97,7 @@ class Stepwise:
             return
         self.names = {"tw": Remembering(twistwrench)}
         self.given = dict(zip(part.arguments.split(", "), arguments))
-        source, self.before = source_of(part, function, arguments)
+        source = source_of(part, function, arguments)
         if source is not None:
             with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
                 self.ways = self._ways(source, wrong)
@@ -111,7 +112,7 @@ class Stepwise:
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
             for edit in self._edits(self.start, until, every=every) if self.start else ():
                 if self._mends(edit):
-                    return [Repair(edit, self.before)]
+                    return [Repair(edit)]
         return []
 
     def two(self, until: float, spoils: Spoils) -> list[Repair]:
@@ -139,7 +140,7 @@ class Stepwise:
             for other in self._edits(after, now + 0.4 * (until - now)):  # the likeliest may take longest
                 made_of_one = _rewritten({edit.kind, other.kind}) or turns_the_rest(edit, other)
                 if not made_of_one and self._mends(other):
-                    return [Repair(other, self.before, first=edit)]
+                    return [Repair(other, first=edit)]
         return []
 
     def _both(self, start: Traced, until: float, spoils: Spoils) -> list[Repair]:
@@ -153,7 +154,7 @@ class Stepwise:
                         return []
                     likely = plausible(other, self.text, self.part) and not turns_the_rest(edit, other)
                     if likely and self._mends(other):
-                        return [Repair(other, self.before, first=edit)]
+                        return [Repair(other, first=edit)]
         return []
 
     def line(self) -> Text | None:
@@ -165,7 +166,7 @@ class Stepwise:
         bare = isinstance(first.statement, ast.Return) and isinstance(first.node, ast.Name)
         if not alone or bare or len(every) < 3:
             return None
-        return say("first line", line=first.statement.lineno + self.before, text=text_of(first.statement))
+        return say("first line", line=first.statement.lineno, text=text_of(first.statement))
 
     def blameless(self, line: int | None) -> bool:
         """Whether what a line of the function computes is not what goes wrong first."""

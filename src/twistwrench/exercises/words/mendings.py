@@ -43,7 +43,7 @@ MENDINGS = {
     "branch always": Text(
         "what is done only where `{wrong}` holds must be done always", "只在 `{wrong}` 成立时才做的事应当总是做"
     ),
-    "own code": Text("In your code this would mend it: {title}.", "在你的代码中，这样改就行：{title}。"),
+    "own code": Text("In your code this would make it right: {title}.", "在你的代码中，这样改就会正确：{title}。"),
     "halves of result": Text(
         "what is returned, `x`, has its two halves exchanged: `{right}` would be right",
         "返回的 `x` 前后两半互换了，正确的是 `{right}`",
@@ -95,12 +95,5 @@ MENDINGS = {
     "both places": Text("{title}, in `{first}` and in `{second}`", "{title}（在 `{first}` 和 `{second}` 中）"),
     "in place": Text("{title}, in `{around}`", "{title}（在 `{around}` 中）"),
     "everywhere": Text("{title}, wherever it stands", "{title}（每一处都是）"),
-    "edited": Text(
-        "A right solution with this change, and no other, gives your numbers, in all {all} cases.",
-        "正确的解法只作这一改动，就会在全部 {all} 组数据中给出你的数值。",
-    ),
-    "edited once": Text(
-        "A right solution with this change, and no other, gives your numbers.",
-        "正确的解法只作这一改动，就会给出你的数值。",
-    ),
 }
+"""A part of the phrases that messages are made of."""

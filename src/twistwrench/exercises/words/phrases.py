@@ -11,13 +11,15 @@ PHRASES = {
     "head": Text("{id}  {name}: not yet right.", "{id}  {name}：还不对。"),
     "cases": Text("Wrong in {wrong} of {all} cases. The first:", "{all} 组数据中错了 {wrong} 组。第一组："),
     "all wrong": Text("Tried on {all} random cases. The first:", "用 {all} 组随机数据检验。第一组："),
-    "slip": Text("The slip: {title}.", "错因：{title}。"),
-    "slip in": Text("The slip in {name}: {title}.", "{name} 的错因：{title}。"),
     "in result": Text("In {name}:", "在 {name} 中："),
-    "slips": Text("One of these, which cannot be distinguished here:", "以下几种之一（此处无法区分）："),
+    "slips": Text("Your numbers are those of each of these slips:", "你的数值等于犯下以下任一错误的结果："),
     "slip of several": Text("  - {title}. {why}", "  - {title}。{why}"),
     "like slip": Text(
         "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
+    ),
+    "like slip in": Text(
+        "For {name}, this slip gives what you have: {title}.",
+        "就 {name} 而言，你的结果等于犯下这个错误的结果：{title}。",
     ),
     "equal": Text(
         "Your numbers are those of a right solution but for this: {title}.",

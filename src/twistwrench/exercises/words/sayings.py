@@ -46,6 +46,12 @@ SAYINGS = {
         "错因：第 {line} 行，`{text}` 并没有复制：`{name}` 与 `{value}` 是内存中的同一组数，写入其一，二者都变。"
         "请写 `{name} = {value}.copy()`。",
     ),
+    "views exchanged": Text(
+        "The slip: line {line}, `{text}`: what stands on the right copies nothing, so `{second}` gets what the first"
+        " assignment has just written. Write `.copy()` behind both.",
+        "错因：第 {line} 行，`{text}` 的右边并没有复制，所以 `{second}` 得到的是前一个赋值刚刚写入的内容。"
+        "请在右边两项后都加上 `.copy()`。",
+    ),
     "many names": Text(
         "The slip: line {line}, `{text}` makes one array, which has several names or stands in several places: what is"
         " added to it in one of them is added in all. Make an array for each.",
