@@ -12,7 +12,7 @@ from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
 from .aliases import missing_copies
-from .matching import TWISTS, slips_by_piece, two_slips
+from .matching import slips_by_piece, two_slips
 from .messages import compared, comparison, cures, edited, indented, mended, named, named_by_piece, nearer, where
 from .neighbours import Neighbours
 from .own import borne_out, by_piece_borne_out, in_other_roles
@@ -167,7 +167,7 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
         return None  # it may make the slip that shows then
     slip = wrong.slip(name)
     line = say("two changes", first=Repair(edit).title(), second=slip.title)
-    return [name], [line, slip.why, where(wrong, slip.section)]
+    return [name], [line, slip.why, say("perhaps"), where(wrong, slip.section)]
 
 
 def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
@@ -177,8 +177,7 @@ def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
         return None
     first, second = map(wrong.slip, pair)
     line = say("two slips", first=first.title, second=second.title)
-    unsure = [say("perhaps")] if pair[1] in TWISTS else []  # any other slip may be the two
-    return list(pair), [line, first.why, second.why, *unsure, where(wrong, first.section)]
+    return list(pair), [line, first.why, second.why, say("perhaps"), where(wrong, first.section)]
 
 
 def _each_result(wrong: WrongAnswer) -> Explained | None:

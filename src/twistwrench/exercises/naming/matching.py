@@ -15,7 +15,7 @@ from ..exercise import Part
 from ..wrong import both, swap
 from .own import traced
 
-__all__ = ["MISHAPS", "TWISTS", "matching_slips", "slips_by_piece", "two_slips"]
+__all__ = ["MISHAPS", "matching_slips", "slips_by_piece", "two_slips"]
 
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]

@@ -77,7 +77,9 @@ def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] 
         return []
     if relation is not None:
         return [_is(name, relation)]
-    return _blocks(name, got.quantity.layout, got.array, right.array, tolerance, factors)
+    lines = _blocks(name, got.quantity.layout, got.array, right.array, tolerance, factors)
+    falls = _rises(right.array, tolerance) and not _rises(got.array, tolerance)
+    return lines + [_is(name, say("falls"))] * (falls and _is(name, say("unsorted")) not in lines)
 
 
 def _text(got: str, right: str) -> Text:
@@ -238,8 +240,13 @@ def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:
         wrong = np.abs(a - b) > tolerance
         return say("signs") if wrong.sum() > 3 or b.ndim == 0 else None
     if (np.abs(np.sort(a.real.ravel()) - np.sort(b.real.ravel())) <= tolerance).all():
-        return say("unsorted" if b.ndim == 1 and b.size > 3 and (np.diff(b) >= -tolerance).all() else "permuted")
+        return say("unsorted" if _rises(b, tolerance) else "permuted")
     return None
+
+
+def _rises(x: Array, tolerance: float) -> bool:
+    """Whether the entries of a vector are in ascending order, and more than happens to be."""
+    return x.ndim == 1 and x.size > 5 and bool((np.diff(x.real) >= -tolerance).all())
 
 
 def _entries(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text:

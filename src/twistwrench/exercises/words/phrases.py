@@ -191,6 +191,7 @@ PHRASES = {
     "factor": Text("too large by a factor of {factor:.4g}", "是正确值的 {factor:.4g} 倍"),
     "divisor": Text("too small by a factor of {factor:.4g}", "只有正确值的 1/{factor:.4g}"),
     "unsorted": Text("the right numbers, but not in ascending order", "数值正确，但没有按升序排列"),
+    "falls": Text("not in ascending order", "没有按升序排列"),
     "permuted": Text("the right numbers, in the wrong places", "数值正确，位置不对"),
     "signs": Text("the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
     "upper": Text("only the upper triangle is right", "只有上三角正确"),

@@ -106,8 +106,8 @@ SAYINGS = {
         "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
     ),
     "two changes": Text(
-        "Two slips at once: {first}; and your numbers are then those of this slip: {second}.",
-        "两处错误同时出现：{first}；改过之后，数值等于犯下这个错误的结果：{second}。",
+        "With a change of your code, your numbers are those of this slip: {second}. The change: {first}.",
+        "对你的代码作一处改动之后，你的数值等于犯下这个错误的结果：{second}。改动是：{first}。",
     ),
 }
 """A part of the phrases that messages are made of."""
