@@ -84,7 +84,7 @@ def test_functions_have_names_of_their_own():
 def texts(e):
     yield from (e.title, e.text, *e.hints, *([e.answer] if e.answer else []))
     for part in e.parts:
-        yield from (part.doc, *(p.text for p in part.properties), *part.reasons.values())
+        yield from (part.doc, *(p.text for p in part.properties), *part.reasons.values(), *part.titles.values())
 
 
 @pytest.mark.parametrize("e", HERE, ids=lambda e: e.id)
@@ -97,7 +97,7 @@ def test_every_text_is_there_in_both_languages(e):
     assert e.parts
     assert e.answer is not None or e.kind in ("code", "number")
     for part in e.parts:
-        assert set(part.reasons) <= set(part.slips)
+        assert {*part.reasons, *part.titles} <= set(part.slips)
 
 
 def test_the_catalogue_of_slips():
@@ -139,7 +139,7 @@ def test_a_data_file_holds_what_is_used_and_nothing_else(file):
         for where in found:
             first, _, rest = where.partition(".")
             kind = rest.split(".")[0]
-            assert (first in own and kind in ("doc", "reasons", "properties")) or (
+            assert (first in own and kind in ("doc", "reasons", "titles", "properties")) or (
                 owners and first in ("title", "text", "answer", "hints")
             ), where
         assert all(len(part.properties) == len(part.residuals) for part in own.values())

@@ -210,7 +210,9 @@ class Source:
     def made(
         self, kind: str, texts: tuple[str, str], places: list[Place], *, everywhere: bool = False
     ) -> Iterator[Edit]:
-        """Yield the edit in some places, if it is a program."""
+        """Yield the edit in some places, if it is a program, and another one."""
+        if texts[0] == texts[1]:
+            return
         for parents, field, _, other in places:
             put(parents[-1], field, other)
         try:

@@ -63,7 +63,7 @@ class Nearer:
         self, part: Part, right: Sequence[Any], answers: Sequence[Any], cases: Sequence[tuple[Any, ...]]
     ) -> None:
         self.part, self.right, self.answers, self.cases = part, right, answers, cases
-        self.found: list[tuple[int, Edit]] = []
+        self.found: dict[bytes, tuple[int, Edit]] = {}
         self.slips: list[tuple[Edit, str]] = []
         self.source: Source | None = None
         self.pieces: dict[int, Edit] = {}
@@ -72,7 +72,7 @@ class Nearer:
 
     def begin(self, source: Source, first: int, seconds: float) -> None:
         """Compare with the answers in one case, or in all of them where an answer is only a number or two."""
-        self.source, self.found = source, []
+        self.source, self.found = source, {}
         wrong = self._wrong([self.answers[first]], [first])
         few = wrong is not None and wrong.size <= FEW and seconds < QUICK
         self.tried = [*range(len(self.cases))] if few else [first]
@@ -108,11 +108,11 @@ class Nearer:
             return
         gained = self.wrong & ~wrong
         if gained.any() and (len(self.tried) > 1 or self._numbers(self.tried[0])[gained].any()):
-            self.found.append((int(wrong.sum()), edit))
+            self.found.setdefault(self._key(given), (int(wrong.sum()), edit))  # of those with the same effect the first
 
     def second(self, chosen: Chosen, until: float) -> tuple[Edit, list[Edit]] | None:
         """Return a change and those of the likeliest kind of which each, made after it, makes all right."""
-        best = sorted(self.found, key=lambda pair: pair[0])[:MOST]
+        best = sorted(self.found.values(), key=lambda pair: pair[0])[:MOST]
         for k, (_, edit) in enumerate(best):
             now = time.process_time()
             share = now + (until - now) / (len(best) - k)
@@ -133,7 +133,7 @@ class Nearer:
 
     def blocks(self) -> tuple[Edit, list[Text]] | None:
         """Return the change that makes most blocks right, in all cases, and their names."""
-        for _, edit in sorted(self.found, key=lambda pair: pair[0])[:MOST]:
+        for _, edit in sorted(self.found.values(), key=lambda pair: pair[0])[:MOST]:
             if edit.kind not in LIKELY or len(self.tried) > 1:
                 continue
             given = [tried(self.part, edit.function, arguments) for arguments in self.cases]
@@ -192,6 +192,11 @@ class Nearer:
         found = np.concatenate([np.ravel(x) for x in arrays])
         return found if found.size > FEW and np.isfinite(found).all() else None
 
+    def _key(self, answers: Sequence[Any]) -> bytes:
+        """Return by which the same numbers are recognised."""
+        split = (x for answer in answers for x in values(answer, self.part.returns) or [])
+        return b"".join(x.array.tobytes() for x in split if x.array is not None)
+
     def _numbers(self, k: int) -> Array:
         split = values(self.right[k], self.part.returns) or []
         return np.concatenate([np.ravel(x.array) for x in split if x.array is not None])
@@ -216,13 +221,20 @@ def _leaves_the_rest(edit: Edit) -> bool:
     words = [re.findall(r"\w+", text) for text in (edit.right, edit.wrong)]
     twin = edit.kind == "instead" and len(words[0]) == len(words[1]) and sum(map(ne, *words)) == 1
     twin = twin and not any(word.endswith(("max", "min", "imum")) for word in words[1])  # another one is chosen
-    turned = edit.kind in TURNS and not _of_an_index(edit)
+    turned = edit.kind in TURNS and not _of_an_index(edit) and not _of_names(edit)
     return not edit.everywhere and (turned or twin or _is_of_rounds(edit))
 
 
 def _of_an_index(edit: Edit) -> bool:
     """Whether a change exchanges the entries of an index: a row read for a column may be zero, so a term is gone."""
     return edit.kind == "exchanged" and isinstance(edit.inside, ast.Subscript)
+
+
+def _of_names(edit: Edit) -> bool:
+    """Whether a change exchanges two names in an expression, and not its two terms or factors."""
+    node, other = edit.places[0][2:]
+    terms = isinstance(node, ast.BinOp) and isinstance(other, ast.BinOp)
+    return edit.kind == "exchanged" and terms and ast.unparse(node.left) != ast.unparse(other.right)
 
 
 def _is_of_rounds(edit: Edit) -> bool:

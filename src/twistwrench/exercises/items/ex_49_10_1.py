@@ -60,6 +60,7 @@ SPLIT = Part(
         "nq-for-nv": faulty(split_map, ("A_G[:, :6], A_G[:, 6:]", "A_G[:, :7], A_G[:, 7:]")),
         "base-last": faulty(split_map, ("A_G[:, :6], A_G[:, 6:]", "A_G[:, -6:], A_G[:, :-6]")),
         "transposed-answer": lambda model, q: tuple(block.mT for block in split_map(model, q)),
+        "split-by-rows": faulty(split_map, ("A_G[:, :6], A_G[:, 6:]", "A_G[:3], A_G[3:]")),
     },
     residuals=(lambda answer, model, q: answer[0][:3, 3:],),
 )
@@ -87,6 +88,7 @@ COLUMNS = Part(
             base_columns, ("R @ I_G, np.zeros((3, 3))", "R @ I_G - m * tw.skew(c) @ tw.skew(c) @ R, m * tw.skew(c) @ R")
         ),
         "swapped-halves": swapped(base_columns),
+        "aligned-for-local": lambda R, m, c, I_G: base_columns(R, m, c, I_G) @ np.kron(np.eye(2), R.mT),
     },
     residuals=(
         lambda answer, R, m, c, I_G: answer[:3, 3:],

@@ -38,6 +38,11 @@ def _base(model: Any, q: Any, v: Any) -> Any:
     return model.mass * tw.forward_kinematics(model, q).placement[1].rotation @ v[3:6]
 
 
+def _velocity(text: str) -> Any:
+    """Return what has another velocity of the links' centres of mass, in the axes of the world."""
+    return faulty(momentum_of_links, ("T.rotation @ velocity", f"({text})".replace("R @", "T.rotation @")))
+
+
 def _maps(rng: Any) -> Any:
     return [(tw.centroidal_map(model, q), v) for model, q, v in states(rng, vectors=1)]
 
@@ -63,6 +68,8 @@ OURS = Part(
         "angular-for-linear": faulty(linear_momentum, ("A_G[3:]", "A_G[:3]")),
         "joints-left-out": lambda A_G, v: A_G[3:, :6] @ v[:6],
         "columns-and-v": lambda A_G, v: A_G[3:] @ _other_order(v),
+        "base-for-com": lambda A_G, v: A_G[3:, 3:6] @ v[3:6],
+        "base-rotation-left-out": lambda A_G, v: A_G[3:, 3:] @ v[3:],
     },
 )
 
@@ -74,6 +81,7 @@ THEIRS = Part(
         "angular-for-linear": lambda A_G, v: A_G[3:] @ v,
         "joints-left-out": lambda A_G, v: A_G[:3, :6] @ v[:6],
         "columns-and-v": lambda A_G, v: A_G[:3] @ _other_order(v),
+        "base-for-com": lambda A_G, v: A_G[:3, :3] @ v[:3],
     },
 )
 
@@ -90,6 +98,15 @@ LINKS = Part(
         "mass-dropped": faulty(momentum_of_links, ("body.mass * ", "")),
         "unweighted-mean": faulty(momentum_of_links, ("body.mass", "model.mass / (model.nbodies - 1)")),
         "base-for-com": _base,
+        "inertia-of-body-before": faulty(
+            momentum_of_links,
+            ("motion.placement, np.array(motion.twist)", "motion.placement[1:], np.array(motion.twist)[1:]"),
+        ),
+        "omega-in-body-axes": _velocity("R @ V[3:] + np.cross(V[:3], R @ body.com)"),
+        "lever-in-body-axes": _velocity("R @ V[3:] + np.cross(R @ V[:3], body.com)"),
+        "half-rotated": _velocity("V[3:] + R @ np.cross(V[:3], body.com)"),
+        "lever-from-origin": _velocity("R @ V[3:] + np.cross(R @ V[:3], T.translation + R @ body.com)"),
+        "spatial-for-body": _velocity("V[3:] + np.cross(V[:3], T.translation + R @ body.com)"),
         "legs-left-out": faulty(
             momentum_of_links, ("in zip", "in [*zip"), ("np.array(motion.twist)):", "np.array(motion.twist))][1:2]:")
         ),

@@ -66,7 +66,9 @@ ACCELERATION = Part(
     slips={
         "rate-left-out": faulty(com_acceleration, (" - k_y / (m * z)", ""), (" + k_x / (m * z)", "")),
         "rate-sign": faulty(com_acceleration, ("- k_y", "+ k_y"), ("+ k_x", "- k_x")),
-        "rate-axes": faulty(com_acceleration, ("- k_y", "- k_x"), ("+ k_x", "- k_y")),
+        "rate-axes": faulty(com_acceleration, ("- k_y", "- k_x"), ("+ k_x / (m * z)]", "+ k_y / (m * z)]")),
+        "rate-reversed": faulty(com_acceleration, ("- k_y", "+ k_y")),
+        "rate-subtracted": faulty(com_acceleration, ("- k_y", "- k_x"), ("+ k_x", "- k_y")),
         "rate-unturned": faulty(com_acceleration, ("- k_y", "+ k_x"), ("+ k_x / (m * z)]", "+ k_y / (m * z)]")),
         "pendulum-hangs": faulty(com_acceleration, ("[g / z", "[-g / z"), (", g / z", ", -g / z")),
         "height-dropped": lambda p_G, *rest: p_G[2] * com_acceleration(p_G, *rest),
@@ -84,11 +86,14 @@ PACE = Part(
     cases=_gaits,
     slips={
         "speed-once": lambda model, q, v, a, s: s * _rate(model, q, v, a)[:3],
-        "acceleration-unscaled": lambda model, q, v, a, s: _rate(model, q, s * v, a)[:3],
-        "acceleration-scaled-once": lambda model, q, v, a, s: _rate(model, q, s * v, s * a)[:3],
-        "velocity-unscaled": lambda model, q, v, a, s: _rate(model, q, v, s**2 * a)[:3],
+        "acceleration-unscaled": faulty(rate_at_pace, ("s**2 * a", "a")),
+        "acceleration-scaled-once": faulty(rate_at_pace, ("s**2 * a", "s * a")),
+        "rate-bias-scaled-once": faulty(
+            rate_at_pace, ("tw.centroidal_momentum_rate(model, q, s * v, s**2 * a)", "s * _rate(model, q, v, s * a)")
+        ),
+        "velocity-unscaled": faulty(rate_at_pace, ("s * v", "v")),
         "pace-inverted": lambda model, q, v, a, s: _rate(model, q, v, a)[:3] / s**2,
-        "linear-for-angular": lambda model, q, v, a, s: s**2 * _rate(model, q, v, a)[3:],
+        "linear-for-angular": faulty(rate_at_pace, ("[:3]", "[3:]")),
         "rate-bias-missing": lambda model, q, v, a, s: s**2 * (tw.centroidal_map(model, q) @ a)[:3],
     },
 )

@@ -94,6 +94,8 @@ RANDOM = Part(
             ("np.isfinite(lower), lower", "np.isfinite(upper - lower), lower"),
             ("np.isfinite(upper), upper", "np.isfinite(upper - lower), upper"),
         ),
+        "limits-between": lambda lower, upper: (np.clip(lower, -1, 1), np.clip(upper, -1, 1)),
+        "limits-large": lambda lower, upper: (np.where(lower < -1e10, -1, lower), np.where(upper > 1e10, 1, upper)),
         "one-sided": faulty(finite_limits, ("np.where(np.isfinite(lower), lower, -1.0)", "lower")),
     },
 )
@@ -104,6 +106,7 @@ MATRIX = Part(
     cases=_dynamics,
     slips={
         "doubled-off-diagonal": before(by_mass_matrix, doubled, which=0),
+        "diagonal-doubled": before(by_mass_matrix, lambda M: M + np.diag(np.diag(M)), which=0),
         "one-triangle": before(by_mass_matrix, np.triu, which=0),
         "bias-for-zero": before(by_mass_matrix, lambda h: 0 * h, which=1),
         "bias-sign": before(by_mass_matrix, lambda h: -h, which=1),
@@ -130,6 +133,8 @@ CONTACTS = Part(
         "angular-for-linear": lambda J: np.vstack([J_foot[3:] for J_foot in J]),
         "transposed-answer": lambda J: contact_rows(J).mT,
         "contact-rows-all": lambda J: J.reshape(24, -1),
+        "axis-by-axis": lambda J: J[:, :3].swapaxes(0, 1).reshape(12, -1),
+        "columns-exchanged": lambda J: np.array([*map(swap, contact_rows(J))]),
     },
 )
 

@@ -52,6 +52,7 @@ COUNT = Part(
     cases=_trees,
     slips={
         "transforms-two": faulty(count_transforms, ("3 * bodies", "2 * bodies")),
+        "roots-not-counted": faulty(count_transforms, ("3 * bodies", "3 * sum(d > 1 for d in depth)")),
         "world-as-body": faulty(count_transforms, ("3 * bodies", "3 * len(parent)")),
         "world-counted": faulty(count_transforms, ("sum(depth) - bodies", "sum(depth)")),
         "quadratic-always": faulty(count_transforms, ("sum(depth) - bodies", "bodies * (bodies - 1) // 2")),
@@ -68,6 +69,9 @@ GROWTH = Part(
     cases=_times,
     slips={
         "two-points": lambda N, t: np.log(t[-1] / t[0]) / np.log(N[-1] / N[0]),
+        "fit-through-first": lambda N, t: np.log(N / N[0]) @ np.log(t / t[0]) / (np.log(N / N[0]) @ np.log(N / N[0])),
+        "slopes-averaged": lambda N, t: np.mean(np.diff(np.log(t)) / np.diff(np.log(N))),
+        "fit-rescaled": lambda N, t: growth(N, t) * np.ptp(np.log(N)) / 2,
         "fit-unlogged": lambda N, t: np.polyfit(N, t, 1)[0],
         "fit-half-logged": lambda N, t: np.polyfit(N, np.log(t), 1)[0],
         "fit-through-origin": lambda N, t: np.log(N) @ np.log(t) / (np.log(N) @ np.log(N)),

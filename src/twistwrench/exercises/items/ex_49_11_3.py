@@ -10,7 +10,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import larger, robot, small_robot
-from ..wrong import faulty, negated, times
+from ..wrong import before, faulty, negated, times
 
 __all__ = ["EXERCISE", "gravity_from_map", "standing_forces", "standing_loads"]
 
@@ -75,6 +75,7 @@ MAP = Part(
         "gravity-sign": negated(gravity_from_map),
         "angular-for-linear": lambda A_G: 9.81 * A_G[2],
         "mass-for-weight": lambda A_G: A_G[5],
+        "mass-twice": lambda A_G: np.linalg.norm(A_G[3:, 3]) * gravity_from_map(A_G),
         "g-ten": times(gravity_from_map, 10 / 9.81),
         "g-rounded": times(gravity_from_map, 9.8 / 9.81),
     },
@@ -95,6 +96,14 @@ FORCES = Part(
                 "np.tile([0, 0, 3 * np.linalg.norm(g[3:6]) / len(J_c)], len(J_c) // 3)",
             ),
         ),
+        "least-norm-of-both": faulty(
+            standing_forces, ("J_c[:, :6].mT, g[:6])[0]", "np.hstack([J_c.mT, np.eye(len(g))[:, 6:]]), g)[0][:len(J_c)]")
+        ),
+        "vertical-only": before(standing_forces, lambda J_c: J_c * np.resize([[0], [0], [1]], (len(J_c), 1)), which=1),
+        "transpose-for-inverse": faulty(
+            standing_forces, ("np.linalg.lstsq(J_c[:, :6].mT, g[:6])[0]", "J_c[:, :6] @ g[:6]")
+        ),
+        "axis-by-axis": faulty(standing_forces, ("forces.reshape(-1, 3)", "forces.reshape(3, -1).mT")),
         "contact-missing": faulty(standing_forces, (" - J_c.mT @ forces", "")),
         "external-sign": faulty(standing_forces, ("g - J_c", "g + J_c")),
         "gravity-missing": faulty(standing_forces, ("(g - J_c", "(-J_c")),
@@ -116,6 +125,7 @@ LOADS = Part(
         "equal-shares": lambda: (16.085 * 9.81 / 4, 16.085 * 9.81 / 4),
         "torques-left-out": faulty(standing_loads, ("standing_forces(", "ALL_ROWS(")),
         "lever-reversed": lambda: _loads()[::-1],
+        "two-front-feet": lambda: _loads()[:1] * 2,
         "nominal-mass": lambda: tuple(12 / 16.085 * f for f in _loads()),
         "mass-for-weight": lambda: tuple(f / 9.81 for f in _loads()),
         "pair-for-foot": lambda: tuple(2 * f for f in _loads()),

@@ -10,7 +10,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, JACOBIAN, JOINT_SPACE
 from ..robots import small_robot
-from ..wrong import faulty, swapped
+from ..wrong import after, faulty, swapped
 
 __all__ = ["EXERCISE", "acceleration_from_pinocchio", "jacobian_from_pinocchio", "map_from_pinocchio"]
 
@@ -84,6 +84,25 @@ _map, _jacobian, _acceleration = (
 )
 ROWS = ("np.ix_(order[:6], order)", "order[:6]")
 COLUMNS = ("[np.ix_(order[:6], order)]", "[:, order]")
+ROLLED = ("np.ix_(order[:6], order)", "np.ix_(order[:6], np.roll(np.arange(model.nv), 3))")
+
+_in_own_axes = _jacobian(("pin.LOCAL_WORLD_ALIGNED", "pin.LOCAL"))
+
+def _rows_of_base_only(x: Any) -> Any:
+    """Exchange the rows back in the columns of the joints."""
+    return np.hstack([x[:, :6], np.roll(x[:, 6:], 3, axis=0)])
+
+
+def _classical(sign: int) -> Any:
+    """Return what adds ω × v to the base's v̇, or subtracts it."""
+
+    def wrong(model: Any, q: Any, v: Any, tau: Any) -> Any:
+        qdd = acceleration_from_pinocchio(model, q, v, tau)
+        qdd[3:6] += sign * np.cross(v[:3], v[3:6])
+        return qdd
+
+    return wrong
+
 
 MAP = Part(
     solution=map_from_pinocchio,
@@ -93,6 +112,9 @@ MAP = Part(
         "swapped-halves": swapped(map_from_pinocchio),
         "rows-only": _map(ROWS),
         "columns-only": _map(COLUMNS),
+        "base-block-only": after(map_from_pinocchio, _rows_of_base_only),
+        "joints-moved": _map(ROLLED),
+        "reversed": _map(("3, 4, 5, 0, 1, 2", "5, 4, 3, 2, 1, 0")),
         "momentum-at-origin": lambda model, q: _about_origin(model, q, map_from_pinocchio(model, q)),
     },
     residuals=(lambda answer, model, q: answer - tw.centroidal_map(_here(model), q),),
@@ -107,7 +129,12 @@ JACOBIAN_PART = Part(
         "swapped-halves": swapped(jacobian_from_pinocchio),
         "rows-only": _jacobian(ROWS),
         "columns-only": _jacobian(COLUMNS),
-        "local-for-aligned": _jacobian(("pin.LOCAL_WORLD_ALIGNED", "pin.LOCAL")),
+        "base-block-only": after(jacobian_from_pinocchio, _rows_of_base_only),
+        "joints-moved": _jacobian(ROLLED),
+        "half-rotated": lambda model, q, frame: np.vstack(
+            [_in_own_axes(model, q, frame)[:3], jacobian_from_pinocchio(model, q, frame)[3:]]
+        ),
+        "local-for-aligned": _in_own_axes,
         "world-for-aligned": _jacobian(("pin.LOCAL_WORLD_ALIGNED", "pin.WORLD")),
     },
     residuals=(
@@ -125,7 +152,10 @@ ACCELERATION = Part(
     slips={
         "swapped-halves": _acceleration(("v[order], tau[order])[order]", "v, tau)")),
         "input-unconverted": _acceleration(("v[order], tau[order]", "v, tau")),
-        "output-unconverted": swapped(acceleration_from_pinocchio),
+        "output-unconverted": _acceleration((")[order]", ")")),
+        "forces-unconverted": _acceleration(("tau[order]", "tau")),
+        "classical-acceleration": _classical(1),
+        "classical-subtracted": _classical(-1),
         "velocity-terms-missing": _acceleration(("v[order]", "0 * v")),
         "torques-missing": _acceleration(("tau[order]", "0 * tau")),
     },

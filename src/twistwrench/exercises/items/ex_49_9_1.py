@@ -52,6 +52,23 @@ def _of_base(model: Any, q: Any, forces: Any) -> Any:
     return tw.force_transform(T.rotation, T.translation - tw.center_of_mass(model, q)) @ at_base
 
 
+def _weight_at(lever: Any) -> Any:
+    """Return what adds a moment of the weight, which acts at the end of a lever from the centre of mass."""
+
+    def wrong(model: Any, q: Any, forces: Any) -> Any:
+        moment = np.cross(lever(q, tw.center_of_mass(model, q)), model.mass * model.gravity)
+        return net_wrench(model, q, forces) + np.concatenate([moment, np.zeros(3)])
+
+    return wrong
+
+
+def _moved(lever: Any) -> Any:
+    """Return what takes the wrench about another point; the lever goes from there to the centre of mass."""
+    return lambda model, q, forces: (
+        tw.force_transform(np.eye(3), lever(q, tw.center_of_mass(model, q))) @ net_wrench(model, q, forces)
+    )
+
+
 BALANCE = Part(
     solution=out_of_balance,
     returns=(Quantity("g − Sᵀτ − J_cᵀλ", JOINT_SPACE),),
@@ -75,6 +92,9 @@ BALANCE = Part(
         ),
         "joint-for-frame": faulty(out_of_balance, ("model.feet", "CALVES")),
         "swapped-halves": swapped(out_of_balance),
+        "axis-by-axis": faulty(out_of_balance, ("forces.ravel()", "forces.T.ravel()")),
+        "contact-on-joints-only": faulty(out_of_balance, ("J_c.mT @", "(J_c * (np.arange(18) > 5)).mT @")),
+        "contact-on-base-only": faulty(out_of_balance, ("J_c.mT @", "(J_c * (np.arange(18) < 6)).mT @")),
     },
     residuals=(lambda answer, model, q, tau, forces: answer[:6] - out_of_balance(model, q, 0 * tau, forces)[:6],),
 )
@@ -96,6 +116,11 @@ NET = Part(
         "nominal-mass": faulty(net_wrench, ("model.mass", "12")),
         "averaged": lambda model, q, forces: net_wrench(model, q, forces / 4),
         "swapped-halves": swapped(net_wrench),
+        "weight-at-origin": _weight_at(lambda q, p_G: -p_G),
+        "weight-at-base": _weight_at(lambda q, p_G: q[:3] - p_G),
+        "weight-moment-added": _weight_at(lambda q, p_G: p_G),
+        "wrench-about-origin": _moved(lambda q, p_G: p_G),
+        "wrench-about-base": _moved(lambda q, p_G: p_G - q[:3]),
     },
     alike=(frozenset({"lever-reversed", "cross-order"}),),
     residuals=(lambda answer, model, q, forces: answer - _of_base(model, q, forces),),

@@ -36,6 +36,9 @@ EXERCISE = Exercise(
                 "selection-of-all": lambda nv: np.eye(nv),
                 "nq-for-nv": lambda nv: np.hstack([np.zeros((nv - 6, 7)), np.eye(nv - 6)]),
                 "base-missing": lambda nv: np.eye(nv - 6),
+                "twelve-motors": lambda nv: np.eye(nv - 6, nv, nv - 12),
+                "block-of-ones": lambda nv: np.hstack([np.zeros((nv - 6, 6)), np.ones((nv - 6, nv - 6))]),
+                "selection-square": lambda nv: np.diag(1.0 * (np.arange(nv) > 5)),
             },
             residuals=(
                 lambda answer, nv: answer[:, :6],
@@ -51,6 +54,8 @@ EXERCISE = Exercise(
                 "nq-for-nv": lambda tau: np.concatenate([np.zeros(7), tau]),
                 "base-missing": lambda tau: tau,
                 "column-vector": lambda tau: on_all_rows(tau)[:, None],
+                "zeros-at-both-ends": lambda tau: np.pad(tau, 6),
+                "whole-numbers": lambda tau: on_all_rows(tau).astype(int),
             },
             residuals=(lambda answer, tau: answer @ np.arange(len(tau) + 6.0) - tau @ np.arange(6.0, len(tau) + 6),),
         ),

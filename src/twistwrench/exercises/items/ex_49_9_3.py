@@ -41,6 +41,11 @@ def _joints_only(rng: Any) -> Any:
     return [(M, h, J_c, qdd[6:], forces) for M, h, J_c, qdd, forces in _cases(rng)]
 
 
+def _by_axis(forces: Any) -> Any:
+    """Take x of all feet to come first, then y, then z."""
+    return forces.reshape(3, 4).T.ravel()
+
+
 ROWS = Part(
     solution=base_rows,
     returns=(Quantity("M_b q̈ + h_b − J_cbᵀλ", WRENCH),),
@@ -55,6 +60,10 @@ ROWS = Part(
         "one-triangle": before(base_rows, np.tril, which=0),
         "doubled-off-diagonal": before(base_rows, doubled, which=0),
         "swapped-halves": swapped(base_rows),
+        "axis-by-axis": before(base_rows, _by_axis, which=4),
+        "forces-merely-summed": faulty(
+            base_rows, ("J_c[:, :6].mT @ forces", "np.concatenate([np.zeros(3), forces.reshape(-1, 3).sum(0)])")
+        ),
     },
 )
 
@@ -72,6 +81,8 @@ COMPLETE = Part(
         "external-sign": before(complete_motion, lambda forces: -forces, which=4),
         "one-triangle": before(complete_motion, np.triu, which=0),
         "doubled-off-diagonal": before(complete_motion, doubled, which=0),
+        "axis-by-axis": before(complete_motion, _by_axis, which=4),
+        "contact-on-joints-only": faulty(complete_motion, ("J_c[:, :6].mT @ forces - h", "-h")),
     },
     residuals=(
         lambda answer, M, h, J_c, qdd_joints, forces: (

@@ -64,6 +64,8 @@ FOOT = Part(
         "local-for-aligned": lambda J, R, r: J[3:] - tw.skew(r) @ J[:3],
         "rotation-transposed": lambda J, R, r: R.mT @ (J[3:] - tw.skew(r) @ J[:3]),
         "coupling-unrotated": lambda J, R, r: R @ J[3:] - tw.skew(r) @ J[:3],
+        "lever-of-link": lambda J, R, r: R @ J[3:] - tw.skew(r) @ R @ J[:3],
+        "swapped-halves": lambda J, R, r: R @ (J[:3] - tw.skew(r) @ J[3:]),
     },
 )
 
@@ -78,6 +80,7 @@ EQUATION = Part(
         "bias-for-zero": faulty(accelerated, (" - h", "")),
         "bias-sign": faulty(accelerated, ("- h", "+ h")),
         "selection-assumed": faulty(accelerated, ("S.mT @ tau", "np.concatenate([np.zeros(6), tau])")),
+        "selection-transposed": faulty(accelerated, ("S.mT @ tau", "np.concatenate([np.zeros(6), S[:, 6:] @ tau])")),
         "selection-first": faulty(accelerated, ("S.mT @ tau", "np.roll(S.mT @ tau, -6)")),
         "joints-missing": before(accelerated, lambda M: M * (BASE[:, None] == BASE), which=0),
         "one-triangle": before(accelerated, np.triu, which=0),

@@ -101,6 +101,10 @@ INTERFACE = Part(
         "gravity-missing": faulty(get_dynamics, ("return M, h", "return M, h - tw.gravity(model, q)")),
         "base-missing": faulty(get_dynamics, ("return M, h", "return M, h[6:]")),
         "angular-for-linear": faulty(get_dynamics, ("[3:]", "[:3]")),
+        "rows-by-axis": faulty(
+            get_dynamics, ("return M, h, J_c", "return M, h, np.concatenate([J_c[axis::3] for axis in range(3)])")
+        ),
+        "feet-of-model": faulty(get_dynamics, ("in feet]", "in model.feet]")),
         "contact-rows-all": faulty(get_dynamics, ("[3:]", "")),
         "local-for-aligned": faulty(get_dynamics, ("local_world_aligned", "local")),
         "world-for-aligned": faulty(get_dynamics, ("local_world_aligned", "world")),

@@ -43,6 +43,26 @@ def _standings(rng: Any) -> Any:
     return [*map(stand, (4, 4, 3, 5)), stand(3, np.array([0.7, -0.3, 0.6]))]
 
 
+def _by_nearness(p_G: Any, feet: Any, weight: Any) -> Any:
+    near = 1 / np.hypot(*(feet - p_G).T[:2])
+    return weight * near / near.sum()
+
+
+def _pushing(p_G: Any, feet: Any, weight: Any) -> Any:
+    return np.maximum(vertical_loads(p_G, feet, weight), 0)
+
+
+def _rescaled(p_G: Any, feet: Any, weight: Any) -> Any:
+    loads = _pushing(p_G, feet, weight)
+    return weight * loads / loads.sum()
+
+
+def _axis_by_axis(p_G: Any, feet: Any, weight: Any) -> Any:
+    """Let each axis have its own sum of squares, as if x and y were not correlated."""
+    levers, d = (feet - feet.mean(0))[:, :2], (p_G - feet.mean(0))[:2]
+    return weight * (1 / len(feet) + levers @ (d / (levers**2).sum(0)))
+
+
 LOADS = Part(
     solution=vertical_loads,
     returns=(Quantity("f_z", unit="N"),),
@@ -52,6 +72,14 @@ LOADS = Part(
         "moment-about-origin": faulty(
             vertical_loads, ("feet[:, 0] - p_G[0], feet[:, 1] - p_G[1]", "feet[:, 0], feet[:, 1]")
         ),
+        "two-origins": lambda p_G, feet, weight: vertical_loads(p_G + feet.mean(0), feet, weight),
+        "shared-by-nearness": _by_nearness,
+        "pull-dropped": _pushing,
+        "pull-rescaled": _rescaled,
+        "height-balanced": faulty(
+            vertical_loads, ("- p_G[1]])", "- p_G[1], feet[:, 2] - p_G[2]])"), ("0, 0]", "0, 0, 0]")
+        ),
+        "axes-uncoupled": _axis_by_axis,
         "moment-of-one-axis": faulty(vertical_loads, (", feet[:, 1] - p_G[1]", ""), ("[weight, 0, 0]", "[weight, 0]")),
         "force-sign": times(vertical_loads, -1),
         "mass-for-weight": times(vertical_loads, 1 / 9.81),
@@ -64,6 +92,12 @@ LOADS = Part(
 )
 
 # ---------------------------------------------------------------- consistency
+
+
+def _of_accelerations(forward: Any, inverse: Any, model: Any, q: Any, v: Any, tau: Any) -> Any:
+    a = forward(model, q, v, tau)
+    again = forward(model, q, v, inverse(model, q, v, a))
+    return np.abs(again - a).max() / np.abs(a).max()
 
 
 class Variant:
@@ -138,6 +172,13 @@ CONSISTENCY = Part(
     slips={
         "error-signed": faulty(consistency_error, ("np.abs(back - tau)", "(back - tau)")),
         "error-absolute": faulty(consistency_error, (" / np.abs(tau).max()", "")),
+        "error-by-norms": faulty(
+            consistency_error,
+            ("np.abs(back - tau).max() / np.abs(tau).max()", "np.linalg.norm(back - tau) / np.linalg.norm(tau)"),
+        ),
+        "sizes-compared": faulty(consistency_error, ("np.abs(back - tau)", "np.abs(np.abs(back) - np.abs(tau))")),
+        "scale-signed": faulty(consistency_error, ("np.abs(tau).max()", "tau.max()")),
+        "accelerations-compared": _of_accelerations,
         "error-averaged": faulty(consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).mean()")),
         "error-of-joints": faulty(consistency_error, ("np.abs(back - tau)", "np.abs(back - tau)[6:]")),
         "nan-lost": faulty(

@@ -1,5 +1,6 @@
 """Exercise 49.11.1, continued: inertia and transform in Pinocchio's order (tests 3 and 4)."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import twistwrench as tw
 from ..exercise import Part, Quantity
 from ..layouts import PINOCCHIO_INERTIA, PINOCCHIO_TRANSFORM
 from ..robots import robot
-from ..wrong import swap, swapped
+from ..wrong import before, faulty, swap, swapped
 
 __all__ = ["ACTION", "INERTIA_MATRIX", "pinocchio_action", "pinocchio_inertia"]
 
@@ -25,9 +26,7 @@ def pinocchio_action(R: Any, p: Any) -> Any:
     return np.block([[R, tw.skew(p) @ R], [np.zeros((3, 3)), R]])
 
 
-def _quarters(change: Any) -> Any:
-    """Put other things into the quarters of the inertia: m, [c]× and I_c."""
-    return lambda m, c, I_c: np.block(change(m * np.eye(3), m * tw.skew(c), I_c, tw.skew(c)))
+_inertia = partial(faulty, pinocchio_inertia)
 
 
 def _inertias(rng: Any) -> Any:
@@ -41,12 +40,16 @@ INERTIA_MATRIX = Part(
     cases=_inertias,
     slips={
         "swapped-halves": swapped(pinocchio_inertia),
-        "com-sign": _quarters(lambda m, mc, I, c: [[m, mc], [-mc, I - mc @ c]]),
-        "inertia-asymmetric": _quarters(lambda m, mc, I, c: [[m, mc], [mc, I - mc @ c]]),
-        "com-dropped": _quarters(lambda m, mc, I, c: [[m, 0 * mc], [0 * mc, I]]),
-        "parallel-axis-dropped": _quarters(lambda m, mc, I, c: [[m, -mc], [mc, I]]),
-        "parallel-axis-sign": _quarters(lambda m, mc, I, c: [[m, -mc], [mc, I + mc @ c]]),
-        "mass-dropped": _quarters(lambda m, mc, I, c: [[m, -c], [c, I - c @ c]]),
+        "rows-only": lambda m, c, I_c: np.roll(pinocchio_inertia(m, c, I_c), 3, axis=1),
+        "com-sign": _inertia(("-m * cx], [m", "m * cx], [-m")),
+        "inertia-asymmetric": _inertia(("-m * cx]", "m * cx]")),
+        "com-dropped": _inertia(("tw.skew(c)", "0 * tw.skew(c)")),
+        "parallel-axis-dropped": _inertia((" - m * cx @ cx", "")),
+        "parallel-axis-sign": _inertia(("I_c - m", "I_c + m")),
+        "parallel-axis-all": _inertia(("- m * cx @ cx", "+ m * (c @ c) * np.eye(3)")),
+        "parallel-axis-outer": _inertia(("- m * cx @ cx", "+ m * np.outer(c, c)")),
+        "products-sign": before(pinocchio_inertia, lambda I_c: 2 * np.diag(np.diag(I_c)) - I_c, which=2),
+        "mass-dropped": _inertia(("-m * cx], [m * cx, I_c - m * cx", "-cx], [cx, I_c - cx")),
     },
     residuals=(lambda answer, m, c, I_c: answer - answer.mT,),
 )
@@ -57,6 +60,8 @@ ACTION = Part(
     cases=lambda rng: [(tw.exp3(rng.standard_normal(3)), rng.standard_normal(3)) for _ in range(3)],
     slips={
         "swapped-halves": swapped(pinocchio_action),
+        "rows-only": lambda R, p: np.roll(pinocchio_action(R, p), 3, axis=1),
+        "transposed-for-reordered": lambda R, p: swap(pinocchio_action(R, p)).mT,
         "force-for-motion": lambda R, p: swap(pinocchio_action(R, p)),
         "coupling-dropped": lambda R, p: pinocchio_action(R, 0 * p),
         "coupling-sign": lambda R, p: pinocchio_action(R, -p),

@@ -44,13 +44,23 @@ ABA = Part(
     slips={
         "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),
         "gravity-sign": _changed(("-tree.gravity", "tree.gravity")),
+        "gravity-untransformed": _changed(("X[i] @ A[parent[i]]", "(X[i] @ A[parent[i]] if parent[i] else A[0])")),
+        "gravity-of-first": _changed(("X[i] @ A[parent[i]]", "(i == 1 or parent[i] > 0) * X[i] @ A[parent[i]]")),
         "coriolis-missing": _changed(("c[i] = cross", "c[i] = 0 * cross")),
         "coriolis-sign": _changed(("c[i] = cross", "c[i] = -cross")),
+        "coriolis-of-parent": _changed(("cross_motion(V[i])", "cross_motion(V[parent[i]])")),
+        "coriolis-inward-only": _changed(("A[parent[i]] + c[i]", "A[parent[i]]")),
+        "coriolis-late": _changed(("u[i] - U[i].mT @ a", "u[i] - U[i].mT @ (a - c[i])")),
         "gyroscopic-missing": _changed(("bias_wrench", "0 * bias_wrench")),
         "gyroscopic-sign": _changed(("bias_wrench", "-bias_wrench")),
+        "gyroscopic-of-rotation": _changed(
+            ("bias_wrench(I[i], V[i])", "cross_motion(V[i] * ([[1]] * 3 + [[0]] * 3)) @ I[i] @ V[i]")
+        ),
         "bias-sign": _changed(("tau[i] - S[i].mT @ pA[i]", "tau[i] + S[i].mT @ pA[i]")),
         "composite-for-articulated": _changed(("IA[i] - U[i] @ D_inv[i] @ U[i].mT", "IA[i]")),
         "articulated-bias": _changed((" + Ia[i] @ c[i]", "")),
+        "apparent-before-joint": _changed(("Ia[i] @ c[i]", "IA[i] @ c[i]")),
+        "diagonal-of-d": _changed(("inverse(D[i])", "np.diag(1 / np.diag(D[i]))")),
         "joint-force-not-passed": _changed((" + U[i] @ D_inv[i] @ u[i]", "")),
         "children-dropped": _changed((" + symmetric(X[i].mT @ Ia[i] @ X[i])", ""), (" + X[i].mT @ pa[i]", "")),
         "acceleration-not-carried": _changed(("X[i] @ A[parent[i]] + c[i]", "c[i]")),

@@ -8,7 +8,7 @@ import numpy as np
 from ...algorithms.crba import composite_rigid_body
 from ...model import composite_inertias
 from ..exercise import Part, Quantity
-from ..wrong import after, faulty
+from ..wrong import after, doubled, faulty
 from .project_rnea import tree_energy
 from .project_trees import previous, tree_of, trees
 
@@ -34,6 +34,13 @@ def _summed_outward(parent: Any, S: Any, I: Any, X: Any) -> Any:
     return _changed((CARRIED, ""))(parent, S, sums, X)
 
 
+def _blocks_doubled(parent: Any, S: Any, I: Any, X: Any) -> Any:
+    """Mirror a matrix whose blocks on the diagonal are filled already."""
+    M = tree_crba(parent, S, I, X)
+    joint = np.repeat(np.arange(len(S)), [s.shape[1] for s in S])
+    return np.where(joint[:, None] == joint, doubled(M), M)
+
+
 _changed = partial(faulty, tree_crba, of=composite_rigid_body)
 
 CARRIED = " + symmetric(X[i].mT @ IC[i] @ X[i])"
@@ -57,12 +64,16 @@ CRBA = Part(
         "motion-for-force": _changed(("X[j].mT @ F", "np.linalg.inv(X[j]) @ F")),
         "untransposed": _changed(("X[j].mT @ F", "X[j] @ F")),
         "congruence-reversed": _changed((CARRIED, " + X[i] @ IC[i] @ X[i].mT")),
-        "visited-outward": _summed_outward,
+        "own-share-only": _summed_outward,
+        "transform-of-parent": _changed(("X[j].mT @ F", "X[parent[j]].mT @ F")),
+        "transform-of-start": _changed(("X[j].mT @ F", "X[i].mT @ F")),
         "joints-missing": _changed(("parent[j] > 0", "parent[j] > 1")),
         "off-diagonal-missing": _changed(("while parent[j] > 0", "while False")),
+        "one-for-each": _changed(("while parent[j] > 0", "while j == i and parent[j] > 0")),
+        "blocks-doubled": _blocks_doubled,
         "chain-for-tree": lambda parent, *rest: tree_crba(previous(parent), *rest),
         "one-triangle": after(tree_crba, np.triu),
-        "doubled-off-diagonal": after(tree_crba, lambda M: M + M.mT - np.diag(np.diag(M))),
+        "doubled-off-diagonal": after(tree_crba, doubled),
     },
     residuals=(
         lambda answer, *lists: answer - answer.mT,

@@ -69,6 +69,20 @@ def _spin(body: Any) -> Any:
     return I
 
 
+def _point(body: Any) -> Any:
+    """Return the inertia of a body whose mass is all at its centre of mass."""
+    I = body.matrix()
+    I[:3, :3] -= body.inertia_at_com
+    return I
+
+
+def _heavier(body: Any) -> Any:
+    """Return the inertia of a body, with that about its origin taken for that about its centre of mass."""
+    I = body.matrix()
+    I[:3, :3] += I[:3, :3] - body.inertia_at_com
+    return I
+
+
 def _rows(model: Any, q: Any) -> Any:
     """Exchange the rows of A_G alone."""
     A_G = tw.centroidal_map(model, q)
@@ -99,6 +113,9 @@ MAP = Part(
             own_centroidal_map,
             ("tw.force_transform(R, p - p_G) @ model.inertia[i]", "model.inertia[i].transform(tw.SE3(R, p - p_G))"),
         ),
+        "moments-not-moved": faulty(own_centroidal_map, ("p - p_G", "0 * p")),
+        "inertia-of-origin": faulty(own_centroidal_map, ("model.inertia[i].matrix()", "_heavier(model.inertia[i])")),
+        "spin-missing": faulty(own_centroidal_map, ("model.inertia[i].matrix()", "_point(model.inertia[i])")),
         "orbital-missing": faulty(own_centroidal_map, ("model.inertia[i].matrix()", "_spin(model.inertia[i])")),
         "rows-exchanged": _rows,
     },
@@ -127,6 +144,9 @@ RATE = Part(
     slips={
         "gyroscopic-missing": faulty(momentum_rate, (" + tw.cross_force(V) @ I @ V", "")),
         "gyroscopic-sign": faulty(momentum_rate, ("+ tw.cross_force", "- tw.cross_force")),
+        "gyroscopic-of-rotation": faulty(
+            momentum_rate, ("tw.cross_force(V) @ I @ V", "tw.cross_motion(V * np.repeat([1, 0], 3)) @ I @ V")
+        ),
         "motion-cross-for-force": faulty(momentum_rate, ("tw.cross_force", "tw.cross_motion")),
         "classical-acceleration": faulty(
             momentum_rate, ("I @ A +", "I @ (A + np.concatenate([np.zeros(3), np.cross(V[:3], V[3:])])) +")
@@ -134,6 +154,7 @@ RATE = Part(
         "swapped-halves": swapped(momentum_rate),
         "rate-bias-missing": lambda model, q, v, a: tw.centroidal_map(model, q) @ a,
         "velocity-for-acceleration": lambda model, q, v, a: tw.centroidal_map(model, q) @ v,
+        "moments-not-moved": faulty(momentum_rate, ("T.translation - p_G", "0 * p_G")),
         "momentum-at-origin": faulty(momentum_rate, ("tw.center_of_mass(model, q)", "np.zeros(3)")),
         "momentum-at-base": faulty(momentum_rate, ("tw.center_of_mass(model, q)", "q[:3]")),
         "gravity-in-rate": lambda model, q, v, a: (

@@ -44,6 +44,7 @@ TRANSFORMS = Part(
         "coupling-unrotated": faulty(transforms_of, ("tw.skew(T[:3, 3]) @ R", "tw.skew(T[:3, 3])")),
         "coupling-corner": lambda T: transforms_of(T)[::-1],
         "transpose-for-dual": lambda T: (transforms_of(T)[0], transforms_of(T)[0].mT),
+        "inverse-for-dual": lambda T: (transforms_of(T)[0], np.linalg.inv(transforms_of(T)[0])),
         "motion-for-force": lambda T: (transforms_of(T)[0],) * 2,
         "inverse-transform": lambda T: transforms_of(np.linalg.inv(T)),
         "rotation-transposed": faulty(transforms_of, ("R, zero = T[:3, :3]", "R, zero = T[:3, :3].mT")),
@@ -64,6 +65,8 @@ CROSS = Part(
     slips={
         "motion-cross-for-force": lambda V: (cross_operators(V)[0],) * 2,
         "cross-transposed": lambda V: (cross_operators(V)[0], cross_operators(V)[0].mT),
+        "cross-negated": lambda V: (cross_operators(V)[0], -cross_operators(V)[0]),
+        "cross-like-dual": lambda V: (cross_operators(V)[0], np.linalg.pinv(cross_operators(V)[0]).mT),
         "coupling-corner": lambda V: cross_operators(V)[::-1],
         "coupling-dropped": lambda V: cross_operators(V * np.repeat([1, 0], 3)),
         "skew-sign": faulty(cross_operators, ("tw.skew(V[:3]), tw.skew(V[3:])", "-tw.skew(V[:3]), -tw.skew(V[3:])")),

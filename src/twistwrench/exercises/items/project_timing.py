@@ -54,6 +54,13 @@ def _trimmed(task: Any, calls: Any, clock: Any, first: int) -> Any:
     return np.mean(sorted(seconds(task, calls, clock))[first : calls - calls // 10])
 
 
+def _within_three_sigma(task: Any, calls: Any, clock: Any) -> Any:
+    """Leave out what is far from the mean."""
+    task()
+    times = np.array(seconds(task, calls, clock))
+    return times[abs(times - times.mean()) <= 3 * times.std()].mean()
+
+
 def _near(answer: Any, task: Any) -> Any:
     """Return 1 for about the right time: the median and the shortest are both right."""
     ratio = float(answer) / task.seconds
@@ -72,6 +79,10 @@ TIME = Part(
         "mean-after-warm-up": _warmed,
         "slowest-tenth": lambda task, calls, clock: _trimmed(task, calls, clock, 0),
         "tenth-at-each-end": lambda task, calls, clock: _trimmed(task, calls, clock, calls // 10),
+        "beyond-three-sigma": _within_three_sigma,
+        "blocks-compared": lambda task, calls, clock: (
+            min(_block(task, calls // 10, clock) for _ in range(10)) / (calls // 10)
+        ),
         "mean-of-blocks": lambda task, calls, clock: _block(task, calls, clock) / calls,
         "not-per-call": _block,
         "thousand": lambda task, calls, clock: 1000 * time_per_call(task, calls, clock),

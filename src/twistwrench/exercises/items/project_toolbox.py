@@ -131,6 +131,11 @@ VECTOR = Part(
             SpatialVector, ("self.kind == other.kind", '(self.kind, other.kind) != ("wrench", "twist")')
         ),
         "other-error": faulty(SpatialVector, ('TypeError(f"{', 'ValueError(f"{'), ('TypeError(f"p', 'ValueError(f"p')),
+        "error-returned": faulty(
+            SpatialVector,
+            ('raise TypeError(f"{', 'return TypeError(f"{'),
+            ('raise TypeError(f"p', 'return TypeError(f"p'),
+        ),
         "swapped-halves": faulty(SpatialVector, ("@ other.vector", "@ swap(other.vector)")),
         "difference-reversed": faulty(
             SpatialVector,
@@ -144,6 +149,13 @@ VECTOR = Part(
 )
 
 # ---------------------------------------------------------------- placements and transforms
+
+
+def _by_inner_product(q: Any) -> Any:
+    """Add |u|² to every entry, where the matrix u uᵀ belongs."""
+    T, u, w = base_pose(q), q[3:6], q[6]
+    T[:3, :3] = (w * w - u @ u) * np.eye(3) + 2 * (u @ u) + 2 * w * tw.skew(u)
+    return T
 
 
 def _configuration(rng: Any) -> Any:
@@ -161,6 +173,7 @@ POSE_OF_BASE = Part(
         "half-angle": faulty(
             base_pose, ("T[:3, 3] = q[:3]", "T[:3, :3], T[:3, 3] = tw.exp3(tw.log3(T[:3, :3]) / 2), q[:3]")
         ),
+        "inner-for-outer": _by_inner_product,
         "translation-dropped": faulty(base_pose, ("= q[:3]", "= 0")),
     },
     residuals=(lambda answer, q: answer[:3, :3].mT @ answer[:3, :3] - np.eye(3),),
@@ -181,6 +194,9 @@ POSE_OF_URDF = Part(
             ),
         ),
         "rotation-transposed": faulty(urdf_pose, ("T[:3, :3] =", "T[:3, :3].mT[:] =")),
+        "turns-of-axes": lambda xyz, rpy: urdf_pose(xyz, -rpy),
+        "pitch-sign": lambda xyz, rpy: urdf_pose(xyz, [1, -1, 1] * rpy),
+        "yaw-first": lambda xyz, rpy: urdf_pose(xyz, rpy[::-1]),
         "degrees": lambda xyz, rpy: urdf_pose(xyz, np.radians(rpy)),
         "translation-first": faulty(urdf_pose, ("= xyz", "= T[:3, :3] @ xyz")),
         "translation-dropped": faulty(urdf_pose, ("= xyz", "= 0")),

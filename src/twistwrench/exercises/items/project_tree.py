@@ -64,6 +64,13 @@ def _uncoupled(X: Any) -> Any:
     return np.block([[X[:3, :3], np.zeros((3, 3))], [np.zeros((3, 3)), X[3:, 3:]]])
 
 
+def _shifted_back(T: Any) -> Any:
+    """Return (Rᵀ, −p)."""
+    T = np.array(T)
+    T[:3, :3], T[:3, 3] = T[:3, :3].mT.copy(), -T[:3, 3]
+    return T
+
+
 def _robots(rng: Any) -> Any:
     """Return for some robots the parents, the placements in them, and the motion at the joints."""
     cases = []
@@ -95,6 +102,7 @@ PLACEMENTS = Part(
         "translation-unrotated": _changed(("T[parent[i]] @ T[i]", "_added(T[parent[i]], T[i])")),
         "translation-dropped": _changed(("T[parent[i]] @ T[i]", "_unmoved(T[parent[i]], T[i])")),
         "inverse-transform": after(body_placements, np.linalg.inv),
+        "parents-joint-only": _changed(("T[parent[i]] @ T[i]", "relative[parent[i]] @ T[i]")),
         "untransformed": lambda parent, T: T,
     },
 )
@@ -113,6 +121,10 @@ TWISTS = Part(
         ),
         "coupling-dropped": faulty(body_twists, ("X @ V", "_uncoupled(X) @ V")),
         "untransformed": faulty(body_twists, ("X @ V", "V")),
+        "inverse-unrotated": faulty(body_twists, ("np.linalg.inv(T[i])", "_shifted_back(T[i])")),
+        "transform-of-parent": faulty(body_twists, ("T[i]", "T[parent[i]]")),
+        "own-transformed": faulty(body_twists, ("X @ V[parent[i]] + V_joint[i]", "X @ (V[parent[i]] + V_joint[i])")),
+        "parents-joint-only": faulty(body_twists, ("V[parent[i]]", "V_joint[parent[i]]")),
         "twist-not-carried": lambda parent, T, V_joint: V_joint,
         "chain-for-tree": lambda parent, T, V_joint: body_twists(_previous(parent), T, V_joint),
         "swapped-halves": lambda parent, T, V_joint: _halves(body_twists(parent, T, V_joint)),
@@ -143,7 +155,8 @@ WRENCHES = Part(
         "children-overwritten": faulty(carried_wrenches, ("+=", "=")),
         "children-dropped": lambda parent, T, F: F,
         "force-sign": faulty(carried_wrenches, ("+=", "-=")),
-        "visited-outward": faulty(carried_wrenches, ("range(len(parent) - 1, 0, -1)", "range(1, len(parent))")),
+        "own-share-only": faulty(carried_wrenches, ("range(len(parent) - 1, 0, -1)", "range(1, len(parent))")),
+        "ground-left-out": after(carried_wrenches, lambda F: F * (np.arange(len(F)) > 0)[:, None]),
         "chain-for-tree": lambda parent, T, F: carried_wrenches(_previous(parent), T, F),
         "swapped-halves": lambda parent, T, F: _halves(carried_wrenches(parent, T, F)),
     },

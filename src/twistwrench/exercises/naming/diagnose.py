@@ -163,8 +163,6 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
     if not wrong.again or (found := wrong.nearer.change_and_slip()) is None:
         return None
     edit, name = found
-    if wrong.steps.blameless(Repair(edit).line):
-        return None  # it may make the slip that shows then
     slip = wrong.slip(name)
     line = say("two changes", first=Repair(edit).title(), second=slip.title)
     return [name], [line, slip.why, say("perhaps"), where(wrong, slip.section)]

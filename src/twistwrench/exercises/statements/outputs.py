@@ -9,7 +9,7 @@ from typing import Any
 
 from ..changes.edits import Source
 from ..changes.places import innermost
-from .records import Event, Known, arrays, tells
+from .records import Event, Known, arrays, numbers_of, tells
 
 __all__ = ["Output", "outputs", "suspects"]
 
@@ -78,9 +78,9 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
         values, before = [], -1
         for k in when[id(node)]:
             times = (j for j in range(before + 1, k + 1) if id(events[j].node) in operands and not right[j])
-            read = tuple((_base(events[j].node), _key(events[j].value)) for j in times)
+            read = tuple((_base(events[j].node), numbers_of(events[j].value)) for j in times)
             telling = any(tells(x) for x in arrays(events[k].value))
-            values.append(Value(k, _key(events[k].value), whole or right[k], telling, read))
+            values.append(Value(k, numbers_of(events[k].value), whole or right[k], telling, read))
             before = k
         if isinstance(node, ast.AugAssign) and values[-1].known:
             values = values[-1:]  # the sum, not what it is on the way
@@ -90,10 +90,6 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
             )
         )
     return found
-
-
-def _key(value: Any) -> bytes:
-    return b"".join(x.tobytes() for x in arrays(value))
 
 
 def _base(node: Any) -> str:

@@ -15,7 +15,7 @@ from ..changes.edits import Source
 from ..compare import FLOOR
 from ..exercise import Part
 
-__all__ = ["Event", "Known", "arrays", "known_values", "recorded", "tells"]
+__all__ = ["Event", "Known", "arrays", "known_values", "numbers_of", "recorded", "tells"]
 
 MOST = 20_000
 """Values that are kept of a run."""
@@ -157,6 +157,11 @@ def arrays(value: Any) -> Iterator[Array]:
         yield from arrays([*value.values()])
     elif hasattr(value, "rotation") and hasattr(value, "translation"):
         yield from arrays([value.rotation, value.translation])
+
+
+def numbers_of(value: Any) -> bytes:
+    """Return by which the numbers of a value are recognised."""
+    return b"".join(x.tobytes() for x in arrays(value))
 
 
 def known_values(part: Part, arguments: tuple[Any, ...], names: Mapping[str, Any]) -> tuple[Known, list[Event]]:

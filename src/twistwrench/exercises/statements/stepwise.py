@@ -31,7 +31,7 @@ from ..words.text import Text
 from .donors import given
 from .mixups import mixups
 from .outputs import Output, outputs, suspects
-from .records import Event, arrays, known_values, recorded, tells
+from .records import Event, arrays, known_values, numbers_of, recorded, tells
 
 __all__ = ["Stepwise"]
 
@@ -127,15 +127,17 @@ class Stepwise:
 
     def _after(self, start: Traced, until: float, spoils: Spoils) -> list[Repair]:
         """Return two changes, the first of them one that makes more of what is computed known."""
-        better, begin = [], time.process_time()
+        better: dict[bytes, tuple[Edit, Traced]] = {}
+        begin = time.process_time()
         for edit in self._edits(start, begin + 0.5 * (until - begin)):
             if edit.kind in LIKELY and edit.places:
                 after = self._traced(start.source.after(edit))
                 more = after.events and after.unknown < start.unknown and after.right > start.right
                 if more and not spoils(edit.function):
-                    better.append((edit, after))
-        better = sorted(better, key=lambda pair: pair[1].unknown)[:MOST]
-        for edit, after in better:
+                    better.setdefault(
+                        numbers_of(after.events[-1].value), (edit, after)
+                    )  # of those with the same effect the first
+        for edit, after in sorted(better.values(), key=lambda pair: pair[1].unknown)[:MOST]:
             now = time.process_time()
             for other in self._edits(after, now + 0.4 * (until - now)):  # the likeliest may take longest
                 made_of_one = _rewritten({edit.kind, other.kind}) or turns_the_rest(edit, other)
@@ -202,15 +204,12 @@ class Stepwise:
     def _traced(self, source: Source) -> Traced:
         events = recorded(self.part, [source], self.cases[self.first])
         found = outputs(source, events, self.known)
-        known: dict[int, bool] = {}
-        for event in events:
-            if any(tells(x) for x in arrays(event.value)):
-                known[id(event.node)] = known.get(id(event.node), True) and self.known.has(event.value)
-        right = sum(known.values())
+        telling = [event.value for event in events if any(tells(x) for x in arrays(event.value))]
+        right = sum(map(self.known.has, telling))
         sure, more = suspects(found, self.ways)[:FEW], suspects(found)[:FEW]
         in_turn = chain.from_iterable(zip_longest(sure, more))  # a right case may be right by chance
         wrong = [*{id(x): x for x in in_turn if x is not None}.values()]
-        return Traced(source, events, found, wrong, sure, right, len(known) - right)
+        return Traced(source, events, found, wrong, sure, right, len(telling) - right)
 
     def _edits(self, traced: Traced, until: float, *, every: bool = True) -> Iterator[Edit]:
         """Yield the changes of the statements that are wrong first, and what may be missing in them."""

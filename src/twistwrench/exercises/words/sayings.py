@@ -48,7 +48,7 @@ SAYINGS = {
     ),
     "views exchanged": Text(
         "The slip: line {line}, `{text}`: what stands on the right copies nothing, so `{second}` gets what the first"
-        " assignment has just written. Write `.copy()` behind both.",
+        " assignment has just written. Write `.copy()` after both.",
         "错因：第 {line} 行，`{text}` 的右边并没有复制，所以 `{second}` 得到的是前一个赋值刚刚写入的内容。"
         "请在右边两项后都加上 `.copy()`。",
     ),
@@ -106,8 +106,9 @@ SAYINGS = {
         "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
     ),
     "two changes": Text(
-        "With a change of your code, your numbers are those of this slip: {second}. The change: {first}.",
-        "对你的代码作一处改动之后，你的数值等于犯下这个错误的结果：{second}。改动是：{first}。",
+        "Perhaps two slips at once: with a change of your code, your numbers are those of this slip: {second}."
+        " The change: {first}.",
+        "可能同时有两处错误：对你的代码作一处改动之后，数值等于犯下这个错误的结果：{second}。改动是：{first}。",
     ),
 }
 """A part of the phrases that messages are made of."""
