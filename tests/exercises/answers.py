@@ -12,12 +12,12 @@ __all__ = ["said_of"]
 
 
 def said_of(tmp_path, text):
-    """Return the message on a function that stands in a file, below ten other lines, in one line."""
+    """Return the message on the last function of a file, which begins with ten other lines, in one line."""
     path = tmp_path / "answer.py"
     path.write_text("\n" * 10 + text, encoding="utf-8")
     names = {"np": np, "tw": tw, "mine": mine}
     exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
-    name = text[4 : text.index("(")]
+    name = [line[4 : line.index("(")] for line in text.split("\n") if line.startswith("def ")][-1]
     said = " ".join(judge(*catalogue.find_part(name), names[name]).message("en").split())
     linecache.clearcache()
     return said

@@ -97,7 +97,8 @@ FORCES = Part(
             ),
         ),
         "least-norm-of-both": faulty(
-            standing_forces, ("J_c[:, :6].mT, g[:6])[0]", "np.hstack([J_c.mT, np.eye(len(g))[:, 6:]]), g)[0][:len(J_c)]")
+            standing_forces,
+            ("J_c[:, :6].mT, g[:6])[0]", "np.hstack([J_c.mT, np.eye(len(g))[:, 6:]]), g)[0][:len(J_c)]"),
         ),
         "vertical-only": before(standing_forces, lambda J_c: J_c * np.resize([[0], [0], [1]], (len(J_c), 1)), which=1),
         "transpose-for-inverse": faulty(

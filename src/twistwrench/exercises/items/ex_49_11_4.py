@@ -88,6 +88,7 @@ ROLLED = ("np.ix_(order[:6], order)", "np.ix_(order[:6], np.roll(np.arange(model
 
 _in_own_axes = _jacobian(("pin.LOCAL_WORLD_ALIGNED", "pin.LOCAL"))
 
+
 def _rows_of_base_only(x: Any) -> Any:
     """Exchange the rows back in the columns of the joints."""
     return np.hstack([x[:, :6], np.roll(x[:, 6:], 3, axis=0)])

@@ -39,6 +39,7 @@ WRONG = {
     "parallel-axis-dropped": faulty(spatial_inertia, (" - m * C @ C", "")),
     "parallel-axis-all": faulty(spatial_inertia, ("- m * C @ C", "+ m * (c @ c) * np.eye(3)")),
     "parallel-axis-outer": faulty(spatial_inertia, ("- m * C @ C", "+ m * np.outer(c, c)")),
+    "scalar-for-matrix": faulty(spatial_inertia, ("- m * C @ C", "+ m * (c @ c - np.outer(c, c))")),
     "com-sign": faulty(spatial_inertia, ("skew(c)", "-skew(c)")),
     "com-dropped": faulty(spatial_inertia, ("skew(c)", "0 * skew(c)")),
     "inertia-asymmetric": faulty(spatial_inertia, ("[-m * C", "[m * C")),
@@ -62,6 +63,9 @@ BY_HAND = Part(
     rtol=5e-4,
     slips={
         **{slip: (lambda wrong=wrong: _of_link(wrong)) for slip, wrong in WRONG.items()},
+        "distance-not-squared": lambda: _of_link(
+            faulty(spatial_inertia, ("- m * C @ C", "- m * C @ C / np.linalg.norm(c)"))
+        ),
         "thousand": lambda: _of_link(spatial_inertia, m=2000.0),
         "diagonal-for-eigenvalues": lambda: (link_inertia()[0], np.sort(np.diag(link_inertia()[0]))),
     },
@@ -77,6 +81,10 @@ IN_GENERAL = Part(
     cases=lambda rng: [random_body(rng) for _ in range(5)],
     slips={
         **WRONG,
+        "parallel-axis-products": faulty(
+            spatial_inertia, ("- m * C @ C", "+ m * (np.outer(c, c) + np.diag(c @ c - 2 * c**2))")
+        ),
+        "squares-for-norm": faulty(spatial_inertia, ("- m * C @ C", "+ m * (np.diag(c**2) - np.outer(c, c))")),
         "products-sign": before(spatial_inertia, lambda I_c: 2 * np.diag(I_c.diagonal()) - I_c, which=2),
         "products-dropped": before(spatial_inertia, lambda I_c: np.diag(I_c.diagonal()), which=2),
     },

@@ -71,6 +71,10 @@ REORDERED = Part(
         "columns-only": lambda I: I @ EXCHANGE,
         "reversed": lambda I: I[::-1, ::-1],
         "diagonal-blocks-only": lambda I: np.block([[I[3:, 3:], I[:3, 3:]], [I[3:, :3], I[:3, :3]]]),
+        "off-diagonal-blocks-only": lambda I: np.block([[I[:3, :3], I[3:, :3]], [I[:3, 3:], I[3:, 3:]]]),
+        "rolled-by-six": lambda I: np.roll(I, 6),
+        "rolled-by-three": lambda I: np.roll(I, 3),
+        "diagonal-picked": lambda I: chapter_order(I).diagonal(),
     },
     residuals=(lambda answer, I: answer[3:, 3:] - I[0, 0] * np.eye(3),),
 )
@@ -82,6 +86,7 @@ OF_BASE = Part(
     cases=lambda rng: [(robot("go2"),), (robot("humanoid"),)],
     slips={
         "universe-for-base": lambda model: (0.0, np.zeros((6, 6))),
+        "heaviest-for-base": faulty(base_inertia, ("model.inertia[1]", "max(model.inertia, key=lambda x: x.mass)")),
         "welded-left-out": lambda model: (
             (LINK_BASE[0], spatial_inertia(*LINK_BASE)) if model.name == "go2" else base_inertia(model)
         ),
@@ -103,6 +108,7 @@ OF_BASE = Part(
             base_inertia, ("base.inertia_at_com", "2 * np.diag(base.inertia_at_com.diagonal()) - base.inertia_at_com")
         ),
         "inertia-at-origin": lambda model: (model.inertia[1].mass, WRONG["parallel-axis-dropped"](*_numbers(model))),
+        "parallel-axis-twice": faulty(base_inertia, ("base.inertia_at_com", "base.matrix()[:3, :3]")),
         "parallel-axis-sign": lambda model: (model.inertia[1].mass, WRONG["parallel-axis-sign"](*_numbers(model))),
     },
     residuals=(lambda answer, model: answer[1] - model.inertia[1].matrix(),),

@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, MASS_MATRIX
 from ..robots import larger, robot, small_robot
-from ..wrong import after, doubled, faulty, swapped
+from ..wrong import after, doubled, faulty, swapped, times
 
 __all__ = ["EXERCISE", "mass_matrix_by_rnea", "torques_two_ways"]
 
@@ -57,6 +57,7 @@ TWO_WAYS = Part(
         "velocity-for-acceleration": faulty(torques_two_ways, ("M @ a", "M @ v")),
         "one-triangle": faulty(torques_two_ways, ("= tw.crba(model, q)", "= np.triu(tw.crba(model, q))")),
         "doubled-off-diagonal": faulty(torques_two_ways, ("= tw.crba(model, q)", "= doubled(tw.crba(model, q))")),
+        "doubled-diagonal": faulty(torques_two_ways, ("M @ a", "M @ a + M.diagonal() * a")),
         "orders-mixed": faulty(torques_two_ways, ("= tw.crba(model, q)", "= swap(tw.crba(model, q))")),
         "swapped-halves": swapped(torques_two_ways),
         "base-missing": after(torques_two_ways, lambda tau: tau[6:]),
@@ -72,11 +73,18 @@ COLUMNS = Part(
     returns=(Quantity("M", MASS_MATRIX),),
     cases=_postures,
     slips={
+        "columns-added-up": after(mass_matrix_by_rnea, lambda M: M.cumsum(axis=1)),
         "gravity-left-in": faulty(mass_matrix_by_rnea, (" - gravity", "")),
+        "gravity-from-columns": faulty(
+            mass_matrix_by_rnea, ("columns).mT", "columns).mT + gravity[:, None] - gravity")
+        ),
+        "gravity-from-rows": faulty(mass_matrix_by_rnea, ("columns).mT", "columns).mT + gravity - gravity[:, None]")),
+        "half-missing": times(mass_matrix_by_rnea, 2),
         "swapped-halves": swapped(mass_matrix_by_rnea),
         "base-missing": after(mass_matrix_by_rnea, lambda M: M[6:, 6:]),
         "one-triangle": after(mass_matrix_by_rnea, np.triu),
         "doubled-off-diagonal": after(mass_matrix_by_rnea, doubled),
+        "doubled-diagonal": after(mass_matrix_by_rnea, lambda M: M + np.diag(M.diagonal())),
     },
     residuals=(
         lambda answer, model, q: answer - answer.mT,

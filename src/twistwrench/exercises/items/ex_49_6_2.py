@@ -52,6 +52,11 @@ WEIGHTS = Part(
     cases=_postures,
     slips={
         "moment-dropped": faulty(weight_wrenches, ("np.cross(body.com, force)", "np.zeros(3)")),
+        "moment-unturned": faulty(weight_wrenches, ("np.cross(", "placement[i].rotation @ np.cross(")),
+        "weight-unturned": faulty(weight_wrenches, ("body.com, force", "body.com, body.mass * model.gravity")),
+        "lever-from-origin": faulty(
+            weight_wrenches, ("(body.com,", "(body.com + placement[i].rotation.mT @ placement[i].translation,")
+        ),
         "untransformed": faulty(weight_wrenches, ("placement[i].rotation.mT @ ", "")),
         "aligned-for-local": faulty(
             weight_wrenches, ("placement[i].rotation.mT @ ", ""), ("np.cross(", "np.cross(placement[i].rotation @ ")
@@ -82,6 +87,7 @@ TWO_WAYS = Part(
     cases=_motions,
     slips={
         "gravity-missing": faulty(gravity_two_ways, (", f_ext=W(model, q)", "")),
+        "as-at-rest": lambda model, weightless, q, v, a: gravity_two_ways(model, weightless, q, 0 * v, 0 * a),
         "external-sign": faulty(gravity_two_ways, ("f_ext=W", "f_ext=-W")),
         "gravity-twice": lambda model, weightless, q, v, a: gravity_two_ways(model, model, q, v, a),
         "base-weightless": faulty(

@@ -54,6 +54,14 @@ BY_HAND = Part(
         "moment-dropped": faulty(base_wrench_at_rest, ("np.cross(lever, force)", "np.zeros(3)")),
         "lever-from-world": faulty(base_wrench_at_rest, (" - base.translation", "")),
         "lever-unrotated": faulty(base_wrench_at_rest, ("base.rotation.mT @ (", "(")),
+        "lever-half-turned": faulty(
+            base_wrench_at_rest,
+            ("(tw.center_of_mass(model, q) - base.translation)", "tw.center_of_mass(model, q) - base.translation"),
+        ),
+        "moment-unturned": faulty(base_wrench_at_rest, ("np.cross(", "base.rotation @ np.cross(")),
+        "force-like-point": faulty(
+            base_wrench_at_rest, ("@ model.gravity", "@ (model.gravity + base.translation / mass)")
+        ),
         "aligned-for-local": faulty(
             base_wrench_at_rest, ("base.rotation.mT @ (", "("), ("base.rotation.mT @ model", "model")
         ),
@@ -93,6 +101,7 @@ OF_GO2 = Part(
         "moment-dropped": _numbers(0, 157.794),
         "base-wrench-sign": _numbers(1.29745, -157.794),
         "cross-order": _numbers(1.29745, 157.794),
+        "standing-for-neutral": _numbers(0.272905, 157.794),
         "nominal-mass": _numbers(-1.29745 * 12 / 16.085, 117.72),
         "one-link": _numbers(-1.43342, 71.3874),
         "base-weightless": _numbers(0.13597, 86.4065),

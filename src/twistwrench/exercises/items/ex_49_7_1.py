@@ -40,12 +40,21 @@ def _aligned(model: Any, q: Any, v: Any) -> Any:
     return (tw.frame_jacobian(model, q, base, "local_world_aligned") @ a + bias)[3:]
 
 
+def _fixed_to_base(model: Any, q: Any, v: Any) -> Any:
+    """Return the two accelerations, the second of the point of the base that is at the centre of mass now."""
+    base, a = tw.forward_kinematics(model, q).placement[1], tw.aba(model, q, v, np.zeros(model.nv))
+    r = base.rotation.mT @ (tw.center_of_mass(model, q) - base.translation)
+    of_base = fall_in_motion(model, q, v)[0]
+    return of_base, of_base + base.rotation @ (np.cross(a[:3], r) + np.cross(v[:3], np.cross(v[:3], r)))
+
+
 FROM_REST = Part(
     solution=fall_from_rest,
     returns=(Quantity("q̈ by ABA", JOINT_SPACE), Quantity("q̈ as expected", JOINT_SPACE)),
     cases=lambda rng: [*states(rng, small=1)],
     slips={
         "gravity-compensated": lambda model, q: (np.zeros(model.nv), np.zeros(model.nv)),
+        "accelerometer": faulty(fall_from_rest, ("rest, rest), expected", "rest, rest), rest")),
         "base-held": lambda model, q: (
             held_acceleration(model, q, *np.zeros((2, model.nv))),
             fall_from_rest(model, q)[1],
@@ -70,6 +79,10 @@ IN_MOTION = Part(
     slips={
         "classical-acceleration": faulty(fall_in_motion, (" + np.cross(v[:3], v[3:6])", "")),
         "cross-order": faulty(fall_in_motion, ("v[:3], v[3:6]", "v[3:6], v[:3]")),
+        "coriolis-twice": faulty(fall_in_motion, ("+ np.cross", "+ 2 * np.cross")),
+        "term-unturned": faulty(
+            fall_in_motion, ("(a[3:6] + np.cross(v[:3], v[3:6]))", "a[3:6] + np.cross(v[:3], v[3:6])")
+        ),
         "acceleration-of-the-body": faulty(
             fall_in_motion, ("base.rotation @ (a[3:6] + np.cross(v[:3], v[3:6]))", "a[3:6]")
         ),
@@ -78,6 +91,8 @@ IN_MOTION = Part(
         "angular-for-linear": faulty(fall_in_motion, ("a[3:6]", "a[:3]")),
         "as-at-rest": lambda model, q, v: (model.gravity, model.gravity),
         "base-for-com": faulty(fall_in_motion, ("return of_base, of_com", "return of_base, of_base")),
+        "com-fixed-to-base": _fixed_to_base,
+        "gravity-twice": faulty(fall_in_motion, (" / mass", " / mass + model.gravity")),
         "rate-bias-missing": faulty(
             fall_in_motion, ("tw.centroidal_momentum_rate(model, q, v, a)", "(tw.centroidal_map(model, q) @ a)")
         ),

@@ -40,7 +40,26 @@ def measured_ratio() -> Any:
     return 1.1
 
 
-# ---------------------------------------------------------------- wrong ways to measure
+# ---------------------------------------------------------------- wrong ways to solve, and to measure
+
+
+def _lower_last(M: Any) -> Any:
+    """Return what is inverted where M = L Lᵀ is taken for LᵀL."""
+    L = np.linalg.cholesky(M)
+    return L.mT @ L
+
+
+def _lower_twice(M: Any) -> Any:
+    """Return what is inverted where both systems are solved with L."""
+    L = np.linalg.cholesky(M)
+    return L @ L
+
+
+def _unreduced(model: Any, q: Any, v: Any, tau: Any) -> Any:
+    """Eliminate the joints from the base's rows of M alone, not from their right side."""
+    M, r = tw.crba(model, q), tau - tw.nonlinear_effects(model, q, v)
+    r[:6] += M[:6, 6:] @ np.linalg.solve(M[6:, 6:], r[6:])
+    return tw.aba(model, q, v, tau), np.linalg.solve(M, r)
 
 
 def _in_blocks(of_times: Any) -> Any:
@@ -60,6 +79,8 @@ def _verdict(answer: Any, right: float) -> float:
     ratio = float(answer) / right
     if not np.isfinite(ratio) or ratio <= 0:
         return 1e3 if ratio > 0 else -1e3 if ratio <= 0 else 2e3
+    if abs(float(answer) - right - 1) < 0.05 * right:
+        return 0.5  # the time of both over that of the first
     return 0.0 if abs(ratio - 1) < 0.15 else float(np.sign(ratio - 1) + round(np.log10(ratio)))
 
 
@@ -84,8 +105,13 @@ def _machines(rng: Any) -> Any:
 
 
 def _plausible(answer: Any) -> Any:
-    """Return 1 for a ratio as a machine may have it, ½ for what may be the inverse, 0 for seconds in its place."""
+    """Return 1 for a ratio as a machine may have it, ½ for what may be the inverse, 0 for seconds in its place.
+
+    What is too large for a ratio is 100, but 18, which is N.
+    """
     ratio = float(answer)
+    if 10 < ratio < np.inf and ratio != 18:
+        return 100.0
     return 1.0 if 0.8 <= ratio <= 10 else 0.5 if 0.2 <= ratio < 0.8 else 0.0 if 0 <= ratio < 0.2 else ratio
 
 
@@ -103,6 +129,13 @@ TWO_WAYS = Part(
         "one-triangle": faulty(forward_dynamics_two_ways, ("tw.crba(model, q)", "np.triu(tw.crba(model, q))")),
         "doubled-off-diagonal": faulty(forward_dynamics_two_ways, ("tw.crba(model, q)", "doubled(tw.crba(model, q))")),
         "orders-mixed": faulty(forward_dynamics_two_ways, ("tw.crba(model, q)", "swap(tw.crba(model, q))")),
+        "bias-after": faulty(forward_dynamics_two_ways, ("tau - h)", "tau) - h")),
+        "cholesky-reversed": faulty(forward_dynamics_two_ways, ("tw.crba(model, q)", "_lower_last(tw.crba(model, q))")),
+        "cholesky-untransposed": faulty(
+            forward_dynamics_two_ways, ("tw.crba(model, q)", "_lower_twice(tw.crba(model, q))")
+        ),
+        "right-side-unreduced": _unreduced,
+        "base-forces-zero": faulty(forward_dynamics_two_ways, ("tau - h", "np.r_[np.zeros(6), tau[6:]] - h")),
         "inverse-missing": faulty(
             forward_dynamics_two_ways, ("np.linalg.solve(tw.crba(model, q), tau - h)", "tw.crba(model, q) @ (tau - h)")
         ),
@@ -122,6 +155,8 @@ RATIO = Part(
         "ratio-inverted": lambda first, second, calls, clock: 1 / time_ratio(first, second, calls, clock),
         "single-call": lambda first, second, calls, clock: time_ratio(first, second, 1, clock),
         "blocks-in-turn": _in_blocks(np.median),
+        "blocks-reversed": lambda first, second, *more: 1 / _in_blocks(np.median)(second, first, *more),
+        "first-in-second": lambda *arguments: time_ratio(*arguments) + 1,
         "mean-of-times": _mean_in_turn,
         "mean-of-blocks": _in_blocks(np.mean),
         "time-for-ratio": lambda first, second, calls, clock: np.median(seconds(second, 2 * calls, clock)),
@@ -134,7 +169,12 @@ MEASURED = Part(
     returns=(Quantity("ratio"),),
     cases=lambda rng: [()],
     canonical=_plausible,
-    slips={"order-for-time": lambda: 18.0, "time-for-ratio": lambda: 0.0018, "ratio-inverted": lambda: 1 / 2.3},
+    slips={
+        "order-for-time": lambda: 18.0,
+        "time-for-ratio": lambda: 0.0018,
+        "ratio-inverted": lambda: 1 / 2.3,
+        "ratio-too-large": lambda: 165.0,
+    },
 )
 
 EXERCISE = Exercise(id="49.7.2", kind="explain", parts=(TWO_WAYS, RATIO, MEASURED))

@@ -40,6 +40,12 @@ def whole_robot(block: Any) -> Any:
     return m, c, block[:3, :3] + m * tw.skew(c) @ tw.skew(c)
 
 
+def _moved(body: Any, T: Any, R: Any) -> Any:
+    """Place a body by T, but turn its inertia about the centre of mass by R."""
+    c = T.rotation @ body.com + T.translation
+    return tw.SpatialInertia(body.mass, c, R @ body.inertia_at_com @ R.mT).matrix()
+
+
 def _about_the_origin(T: Any, base: Any) -> Any:
     """Return a placement seen from a frame at the base with the axes of the world."""
     return tw.SE3(T.rotation, T.translation - base.translation)
@@ -74,6 +80,15 @@ BLOCK = Part(
         "untransformed": faulty(base_block, ("body.transform(base @ T).matrix()", "body.matrix()")),
         "world-for-local": faulty(base_block, ("base @ T", "T")),
         "aligned-for-local": faulty(base_block, ("base @ T", "_about_the_origin(T, placement[1])")),
+        "lever-unrotated": faulty(
+            base_block, ("base @ T", "tw.SE3((base @ T).rotation, T.translation - placement[1].translation)")
+        ),
+        "inertia-in-world-axes": faulty(
+            base_block, ("body.transform(base @ T).matrix()", "_moved(body, base @ T, T.rotation)")
+        ),
+        "inertia-unturned": faulty(
+            base_block, ("body.transform(base @ T).matrix()", "_moved(body, base @ T, np.eye(3))")
+        ),
         "inverse-transform": faulty(base_block, ("base @ T", "(base @ T).inverse()")),
         "inertia-like-motion": faulty(
             base_block,

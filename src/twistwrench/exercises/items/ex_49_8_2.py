@@ -47,6 +47,10 @@ EXERCISE = Exercise(
                 "nq-for-nv": lambda: (19, 12),
                 "base-missing": lambda: (12, 12),
                 "njoints-for-nv": lambda: (14, 13),
+                "base-as-one": lambda: (13, 12),
+                "world-as-body": lambda: (18, 13),
+                "base-rows-kept": lambda: (18, 18),
+                "entries-for-rows": lambda: (18**2, 12**2),
             },
         ),
         Part(

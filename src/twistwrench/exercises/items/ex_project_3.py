@@ -41,6 +41,12 @@ def _falls(rng: Any) -> Any:
     ]
 
 
+def _about_the_origin(model: Any, q: Any, v: Any, tau: Any, forces: Any) -> Any:
+    """Move the wrench to the world's origin."""
+    rate, wrench = rate_and_wrench(model, q, v, tau, forces)
+    return rate, tw.force_transform(np.eye(3), tw.center_of_mass(model, q)) @ wrench
+
+
 LAW = Part(
     solution=rate_and_wrench,
     given="""
@@ -67,6 +73,7 @@ LAW = Part(
         "gravity-missing": faulty(rate_and_wrench, (" + model.mass * model.gravity", "")),
         "weight-upward": faulty(rate_and_wrench, ("+ model.mass", "- model.mass")),
         "moment-about-origin": faulty(rate_and_wrench, (" - tw.center_of_mass(model, q)", "")),
+        "wrench-about-origin": _about_the_origin,
         "base-for-com": faulty(rate_and_wrench, ("tw.center_of_mass(model, q)", "q[:3]")),
         "lever-reversed": faulty(rate_and_wrench, ("moment = np", "moment = -np")),
         "swapped-halves": after(rate_and_wrench, swap),
@@ -101,10 +108,10 @@ INTERFACE = Part(
         "gravity-missing": faulty(get_dynamics, ("return M, h", "return M, h - tw.gravity(model, q)")),
         "base-missing": faulty(get_dynamics, ("return M, h", "return M, h[6:]")),
         "angular-for-linear": faulty(get_dynamics, ("[3:]", "[:3]")),
-        "rows-by-axis": faulty(
+        "axis-by-axis": faulty(
             get_dynamics, ("return M, h, J_c", "return M, h, np.concatenate([J_c[axis::3] for axis in range(3)])")
         ),
-        "feet-of-model": faulty(get_dynamics, ("in feet]", "in model.feet]")),
+        "feet-of-model": faulty(get_dynamics, ("in feet]", "in model.feet or feet]")),
         "contact-rows-all": faulty(get_dynamics, ("[3:]", "")),
         "local-for-aligned": faulty(get_dynamics, ("local_world_aligned", "local")),
         "world-for-aligned": faulty(get_dynamics, ("local_world_aligned", "world")),

@@ -76,9 +76,9 @@ LOADS = Part(
         "shared-by-nearness": _by_nearness,
         "pull-dropped": _pushing,
         "pull-rescaled": _rescaled,
-        "height-balanced": faulty(
-            vertical_loads, ("- p_G[1]])", "- p_G[1], feet[:, 2] - p_G[2]])"), ("0, 0]", "0, 0, 0]")
-        ),
+        "height-balanced": lambda p_G, feet, weight: np.linalg.lstsq(
+            np.vstack([np.ones(len(feet)), feet.T]), weight * np.array([1, *p_G])
+        )[0],
         "axes-uncoupled": _axis_by_axis,
         "moment-of-one-axis": faulty(vertical_loads, (", feet[:, 1] - p_G[1]", ""), ("[weight, 0, 0]", "[weight, 0]")),
         "force-sign": times(vertical_loads, -1),
@@ -96,7 +96,10 @@ LOADS = Part(
 
 def _of_accelerations(forward: Any, inverse: Any, model: Any, q: Any, v: Any, tau: Any) -> Any:
     a = forward(model, q, v, tau)
-    again = forward(model, q, v, inverse(model, q, v, a))
+    back = inverse(model, q, v, a)
+    if np.isnan(back).any():
+        return np.nan
+    again = forward(model, q, v, back)
     return np.abs(again - a).max() / np.abs(a).max()
 
 

@@ -87,5 +87,8 @@ TIME = Part(
         "not-per-call": _block,
         "thousand": lambda task, calls, clock: 1000 * time_per_call(task, calls, clock),
     },
-    alike=(frozenset({"mean-of-times", "mean-of-blocks"}),),
+    alike=(
+        frozenset({"mean-of-times", "mean-of-blocks"}),
+        frozenset({"beyond-three-sigma", "blocks-compared"}),  # what is interrupted often stays in
+    ),
 )

@@ -9,7 +9,7 @@ __all__ = ["FILES", "SLIPS", "Slip"]
 
 FILES = (
     *("order", "algebra", "contact", "inertia", "bodies", "dynamics"),
-    *("recursion", "measuring", "floating", "standing", "pipeline", "pinocchio"),
+    *("recursion", "tree", "measuring", "floating", "standing", "pipeline", "pinocchio"),
 )
 
 SLIPS = {
