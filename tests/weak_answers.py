@@ -23,7 +23,7 @@ ANSWERS = [
     ),
     Weak("skew", "return np.array([[0, -w[2], w[1]], [w[2], 0, w[0]], [-w[1], w[0], 0]])", "wrong in [1, 2]"),
     Weak("act", "return R @ (x + p)", "translation comes before the rotation"),
-    Weak("act", "return np.linalg.inv(R) @ x + p", "`np.linalg.inv` does not belong there"),
+    Weak("act", "return np.linalg.inv(R) @ x + p", "take out `np.linalg.inv`"),
     Weak(
         "adjoint",
         "return np.array([tw.vee(np.linalg.inv(T) @ tw.hat(e) @ T) for e in np.eye(6)]).T",
@@ -69,9 +69,9 @@ ANSWERS = [
     Weak(
         "translation_transforms",
         "X = np.eye(6)\nX[3:, :3] = skew(p)\nreturn X, np.linalg.inv(X), X.T",
-        "The slip: Xᵀ taken for X*",
+        "Your numbers are those of this slip: Xᵀ taken for X*",
     ),
-    Weak("rotation_transform", "return np.kron(R, np.eye(2))", "must be `np.kron(np.eye(2), R)`"),
+    Weak("rotation_transform", "return np.kron(R, np.eye(2))", "`np.kron(R, np.eye(2))` to `np.kron(np.eye(2), R)`"),
     Weak(
         "plucker",
         "X = np.block([[R, np.zeros((3, 3))], [R @ skew(p), R]])\nreturn X, np.linalg.inv(X).T",
@@ -92,7 +92,7 @@ ANSWERS = [
     Weak(
         "contact_wrench",
         "f = R @ f_c\nF = np.r_[np.cross(f, p), f]\nreturn F, plucker(R, p)[0] @ np.r_[0, 0, 0, f_c]",
-        "The slip in F by X*: X taken for X*",
+        "For F by X*, this slip gives what you have: X taken for X*",
     ),
     Weak("sole_wrench", "f = forces.sum(0)\nreturn np.r_[np.cross(points.mean(0), f), f]", "at the mean of the points"),
     Weak("center_of_pressure", "return F[:2] / F[5]", "the axes of the centre of pressure are exchanged"),
@@ -145,7 +145,7 @@ ANSWERS = [
         "torques_two_ways",
         "M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)\n"
         "M = M + M.T - np.diag(M.diagonal())\nreturn tw.rnea(model, q, v, a), M @ a + h",
-        "the entries off the diagonal are doubled",
+        "the entries of M off the diagonal are doubled",
     ),
     Weak(
         "mass_matrix_by_rnea",
@@ -168,7 +168,7 @@ ANSWERS = [
     Weak(
         "base_wrench_at_rest",
         "m = sum(body.mass for body in model.inertia)\nreturn np.array([0, 0, 0, 0, 0, m * 9.81])",
-        "two slips at once: the moment of the weight is left out",
+        "two slips at once: the moment is left out",
     ),
     # 49.7
     Weak(
@@ -197,15 +197,15 @@ ANSWERS = [
         "from timeit import timeit\nreturn timeit(second, number=calls) / timeit(first, number=calls)",
         "the clock that is passed in is not read",
     ),
-    Weak("measured_ratio", "return 18 * 18 / 18", "an order of growth is taken for a time"),
+    Weak("measured_ratio", "return 18 * 18 / 18", "the number of degrees of freedom, in place of a measured ratio"),
     # 49.8
     Weak(
         "base_block",
         "T = tw.forward_kinematics(model, q).placement\n"
         "return sum(I.transform(X).matrix() for I, X in zip(model.inertia[1:], T[1:]))",
-        "expressed in the world frame",
+        "the inertia about the world's origin, in its axes",
     ),
-    Weak("base_block", "return model.inertia[1].matrix()", "the legs are left out"),
+    Weak("base_block", "return model.inertia[1].matrix()", "the base alone: the other bodies are left out"),
     Weak("whole_robot", "return np.trace(block) / 6, tw.unskew(block[:3, 3:]), block[:3, :3]", "m [kg]: too"),
     Weak("mass_matrix_sizes", "return 19, 12", "nq in place of nv"),
     Weak("held_mass_matrix", "M = M + M.T - np.diag(np.diag(M))\nreturn M[6:, 6:]", "off the diagonal are doubled"),
@@ -216,7 +216,7 @@ ANSWERS = [
         "J = np.vstack([tw.frame_jacobian(model, q, foot)[3:] for foot in model.feet])\n"
         "S = np.hstack([np.zeros((12, 6)), np.eye(12)])\n"
         "return tw.gravity(model, q) - S.T @ tau - J.T @ forces.ravel()",
-        "the body's own axes in place of the world's",
+        "along the axes of the feet's own frames, not the world's",
     ),
     Weak("out_of_balance", "return tw.gravity(model, q) - tau - forces.ravel()", "It stopped with ValueError"),
     Weak(
@@ -224,10 +224,10 @@ ANSWERS = [
         "F = np.zeros(6)\nfor foot, f in zip(model.feet, forces):\n"
         "    p = tw.frame_placement(model, q, foot).translation\n    F += np.concatenate([np.cross(p, f), f])\n"
         "F[5] -= model.mass * 9.81\nreturn F",
-        "the moments are about the world's origin",
+        "the moments of the ground's forces are about the world's origin",
     ),
     Weak("selection", "return np.eye(nv)[:, 6:]", "S and Sᵀ are exchanged"),
-    Weak("on_all_rows", "return np.concatenate([np.zeros(7), tau])", "nq in place of nv"),
+    Weak("on_all_rows", "return np.concatenate([np.zeros(7), tau])", "seven zeros for the base in place of six"),
     Weak(
         "base_rows",
         "return M[:6, :6] @ qdd[:6] + h[:6] - J_c[:, :6].T @ forces",
@@ -240,18 +240,22 @@ ANSWERS = [
         "the acceleration of the base is left out",
     ),
     # 49.10
-    Weak("split_map", "A_G = tw.centroidal_map(model, q)\nreturn A_G[:, :7], A_G[:, 7:]", "nq in place of nv"),
+    Weak(
+        "split_map",
+        "A_G = tw.centroidal_map(model, q)\nreturn A_G[:, :7], A_G[:, 7:]",
+        "seven columns for the base in place of six",
+    ),
     Weak(
         "base_columns",
         "cx = tw.skew(c)\nreturn np.block([[R @ I_G @ R.T, np.zeros((3, 3))], [-m * cx @ R, m * R]])",
-        "ω is turned twice",
+        "R I_G Rᵀ in place of R I_G",
     ),
     Weak(
         "base_columns",
         "cx = tw.skew(c)\nreturn np.block([[R @ (I_G - m * cx @ cx), m * cx @ R], [-m * cx @ R, m * R]])",
         "the block of rows k (angular), columns v: must be zero",
     ),
-    Weak("linear_momentum", "return A_G[:3] @ v", "the angular rows in place of the linear ones"),
+    Weak("linear_momentum", "return A_G[:3] @ v", "the angular momentum in place of the linear one"),
     Weak(
         "momentum_of_links",
         "motion = tw.forward_kinematics(model, q, v)\nl = np.zeros(3)\n"
@@ -264,13 +268,17 @@ ANSWERS = [
         "a = 9.81 / p_G[2] * (p_G[:2] - p)\nreturn a + np.array([k_rate[1], -k_rate[0]]) / (m * p_G[2])",
         "k̇_G has the wrong sign",
     ),
-    Weak("rate_at_pace", "return s * tw.centroidal_momentum_rate(model, q, v, a)[:3]", "must be applied twice"),
+    Weak(
+        "rate_at_pace",
+        "return s * tw.centroidal_momentum_rate(model, q, v, a)[:3]",
+        "is multiplied by s in place of s²",
+    ),
     # 49.11
     Weak("finite_limits", "return -np.ones(len(lower)), np.ones(len(upper))", "also those that are finite"),
     Weak(
         "by_mass_matrix",
         "M = M + M.T - np.diag(M.diagonal())\nreturn M @ a + h, np.linalg.solve(M, tau - h)",
-        "the entries off the diagonal are doubled",
+        "the entries of M off the diagonal are doubled",
     ),
     Weak(
         "pinocchio_inertia",
@@ -283,11 +291,15 @@ ANSWERS = [
         "X = np.zeros((6, 6))\nX[:3, :3] = R\nX[3:, :3] = tw.skew(p) @ R\nX[3:, 3:] = R\nreturn X",
         "(ω, v) and (v, ω) are swapped",
     ),
-    Weak("com_velocity", "return h_G[3:] / m", "the angular rows in place of the linear ones"),
+    Weak("com_velocity", "return h_G[3:] / m", "the angular momentum in place of the linear momentum"),
     Weak(
         "contact_rows", "return np.concatenate([j[3:, :] for j in J])", "the angular rows in place of the linear ones"
     ),
-    Weak("count_transforms", "n = len(parent) - 1\nreturn 2 * n, n * (n - 1) // 2", "The slip in RNEA: two transforms"),
+    Weak(
+        "count_transforms",
+        "n = len(parent) - 1\nreturn 2 * n, n * (n - 1) // 2",
+        "For RNEA, this slip gives what you have: two transforms",
+    ),
     Weak(
         "growth",
         "return np.log(seconds[-1] / seconds[0]) / np.log(sizes[-1] / sizes[0])",
@@ -350,7 +362,7 @@ ANSWERS = [
     Weak(
         "tree_energy", "return sum(v @ (s.T @ i @ s) @ v for s, i, v in zip(S, I, qd)) / 2", "twist is not carried on"
     ),
-    Weak("rows_of_foot", "return R @ (J[3:] + tw.skew(r) @ J[:3])", "the sign of `tw.skew(r) @ J[:3]` is wrong"),
+    Weak("rows_of_foot", "return R @ (J[3:] + tw.skew(r) @ J[:3])", "change the sign of `tw.skew(r) @ J[:3]`"),
     Weak("accelerated", "return np.linalg.inv(M) @ (J_c.T @ forces - h)", "the motors do nothing"),
     Weak(
         "own_centroidal_map",
@@ -371,14 +383,14 @@ ANSWERS = [
         "p = [tw.frame_placement(model, q, foot).translation for foot in model.feet]\n"
         "F = np.concatenate([np.cross(p - tw.center_of_mass(model, q), forces).sum(0), forces.sum(0)])\n"
         "return rate(model, q, v, a), F",
-        "gravity is missing",
+        "the weight is missing",
     ),
     Weak(
         "get_dynamics",
         "M = tw.crba(model, q)\nM = M + M.T - np.diag(np.diag(M))\n"
         "J_c = np.vstack([tw.frame_jacobian(model, q, foot, 'local_world_aligned')[:3] for foot in feet])\n"
         "return M, tw.gravity(model, q), J_c, tw.centroidal_map(model, q)",
-        "The slip in J_c: the angular rows in place of the linear ones",
+        "For J_c, this slip gives what you have: the angular rows in place of the linear ones",
     ),
     Weak("vertical_loads", "return np.full(len(feet), weight / len(feet))", "the same share of the weight"),
     Weak(
@@ -389,6 +401,6 @@ ANSWERS = [
     Weak(
         "time_per_call",
         "start = clock()\nfor _ in range(calls):\n    task()\nreturn (clock() - start) / calls",
-        "one block of calls for each",
+        "all calls are timed as one block",
     ),
 ]

@@ -79,12 +79,12 @@ def count(kinds):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (BRACKETS, "`np.zeros(6, 6)` must be `np.zeros((6, 6))`"),
-        (NO_FUNCTION, "`R.T()` must be `R.T`"),
-        (WITHOUT_MODULE, "`skew(omega)` must be `tw.skew(omega)`"),
-        (EARLY, "`return (nq, nv)` must stand after the loop, not in it"),
-        (MISSPELT, "`kind == 'free flyer'` must be `kind == 'free_flyer'`"),
-        (OR, "must be `kind == 'revolute' or kind == 'prismatic'`"),
+        (BRACKETS, "change `np.zeros(6, 6)` to `np.zeros((6, 6))`"),
+        (NO_FUNCTION, "change `R.T()` to `R.T`"),
+        (WITHOUT_MODULE, "change `skew(omega)` to `tw.skew(omega)`"),
+        (EARLY, "put `return (nq, nv)` after the loop, not in it"),
+        (MISSPELT, "change `kind == 'free flyer'` to `kind == 'free_flyer'`"),
+        (OR, "to `kind == 'revolute' or kind == 'prismatic'`"),
     ],
 )
 def test_the_cure_of_a_newcomer_is_found(tmp_path, text, says):
@@ -92,7 +92,7 @@ def test_the_cure_of_a_newcomer_is_found(tmp_path, text, says):
 
 
 def test_a_number_that_is_written_there_is_not_added_up(tmp_path):
-    assert "must be added up" not in said_of(tmp_path, ANEW)
+    assert "+= in place of =" not in said_of(tmp_path, ANEW)
 
 
 def test_numbers_rounded_to_two_digits_are_nearly_right():

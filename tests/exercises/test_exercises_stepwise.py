@@ -54,14 +54,18 @@ def vertical_loads(p_G, feet, weight):
         [
             (
                 FALL,
-                ["line 14, `R.T` must be `R`", "`a[3:6]` must be `(a[3:6] + np.cross(v[:3], v[3:6]))`", "both changes"],
+                [
+                    "line 14, change `R.T` to `R`",
+                    "change `a[3:6]` to `(a[3:6] + np.cross(v[:3], v[3:6]))`",
+                    "both changes",
+                ],
             ),
             (
                 TWO_WAYS,
-                ["`tw.gravity(model, q)` must be `tw.nonlinear_effects(model, q, v)`", "the sign of `h` is wrong"],
+                ["change `tw.gravity(model, q)` to `tw.nonlinear_effects(model, q, v)`", "change the sign of `h`"],
             ),
-            (BY_UNITS, ["line 13, `model.neutral()` must be `q`"]),
-            (RATE, ["`F[:3]` must be `(F[:3] + np.cross(V[3:], h[3:]))`"]),
+            (BY_UNITS, ["line 13, change `model.neutral()` to `q`"]),
+            (RATE, ["change `F[:3]` to `(F[:3] + np.cross(V[3:], h[3:]))`"]),
             (LOADS, ["Line 14, `return weight * w / w.sum()`", "first differ from those of the right solutions"]),
         ],
         1,

@@ -115,20 +115,20 @@ def mass_matrix_by_rnea(model, q):
     ("text", "says"),
     sampled(
         [
-            (PUSHED, ["the sign of `h[:6]` is wrong", "the sign of `push` is wrong"]),
+            (PUSHED, ["change the sign of `h[:6]`", "change the sign of `push`"]),
             (HANGING, ["two slips at once", "k̇_G is added as it is", "the pendulum hangs"]),
-            (HALF_A_LEVER, ["`model.inertia[1].mass` must be `model.mass`", "- base.translation"]),
-            (FROM_THE_SECOND, ["must be `(V[3:] + np.cross(V[:3], model.inertia[i].com))`", "must be `range(1, "]),
-            (ON_THE_EDGE, ["`0.0001` must be `0.0`"]),
-            (RIGID, ["`A[i]` must be `(A[i] - U @ D @ U.T)`"]),
+            (HALF_A_LEVER, ["change `model.inertia[1].mass` to `model.mass`", "- base.translation"]),
+            (FROM_THE_SECOND, ["to `(V[3:] + np.cross(V[:3], model.inertia[i].com))`", "to `range(1, "]),
+            (ON_THE_EDGE, ["change `0.0001` to `0.0`"]),
+            (RIGID, ["change `A[i]` to `(A[i] - U @ D @ U.T)`"]),
             (NOT_CARRIED, ["`wrench = X[j].T @ first` starts from the same `first` in each round"]),
-            (BY_COLUMNS, ["`forces.ravel(order='F')` must be `forces.ravel()`"]),
-            (HUGE, ["`lower < -1000000000.0` must be `lower == -np.inf`", "must be `upper == np.inf`"]),
+            (BY_COLUMNS, ["change `forces.ravel(order='F')` to `forces.ravel()`"]),
+            (HUGE, ["change `lower < -1000000000.0` to `lower == -np.inf`", "to `upper == np.inf`"]),
             (
                 UNIT_SPEED,
                 ["`tw.rnea(model, q, rest, rest)`", "`tw.rnea(model, q, e, e)`", "changes of one of them"],
             ),
-            (BOTH_ENDS, ["`np.pad(tau, 6)` must be `np.pad(tau, (6, 0))`"]),
+            (BOTH_ENDS, ["change `np.pad(tau, 6)` to `np.pad(tau, (6, 0))`"]),
         ],
         3,
         several=True,
@@ -208,7 +208,7 @@ def test_two_changes_are_of_one_text():
             "    one, S = tw.aba(model, q, v, tau), tw.selection_matrix(model)\n"
             "    right = S.T @ (S @ tau) - tw.nonlinear_effects(model, q, v)\n"
             "    return one, np.linalg.solve(tw.crba(model, q), right)\n",
-            "must be `one`",
+            "to `one`",
         ),
         # −R is no rotation
         (

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Exercise, Part, Quantity
-from ..wrong import after, transposed
+from ..wrong import faulty, transposed
 
 __all__ = ["EXERCISE", "skew"]
 
@@ -23,7 +23,10 @@ EXERCISE = Exercise(
             solution=skew,
             returns=(Quantity("[w]×"),),
             cases=lambda rng: [(rng.standard_normal(3),) for _ in range(5)],
-            slips={"skew-sign": transposed(skew), "skew-symmetric": after(skew, np.abs)},
+            slips={
+                "skew-sign": transposed(skew),
+                "skew-symmetric": faulty(skew, ("-w[2]", "w[2]"), ("-w[0]", "w[0]"), ("-w[1]", "w[1]")),
+            },
             residuals=(lambda W, w: W @ w,),
         ),
     ),

@@ -4,7 +4,7 @@ from typing import Any
 
 from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
-from ..wrong import as_column
+from ..wrong import as_column, faulty
 
 __all__ = ["EXERCISE", "act"]
 
@@ -25,12 +25,13 @@ EXERCISE = Exercise(
                 (exp3(rng.standard_normal(3)), rng.standard_normal(3), rng.standard_normal(3)) for _ in range(5)
             ],
             slips={
-                "translation-dropped": lambda R, p, x: R @ x,
+                "translation-dropped": faulty(act, (" + p", "")),
                 "translation-first": lambda R, p, x: R @ (x + p),
-                "translation-sign": lambda R, p, x: R @ x - p,
-                "rotation-transposed": lambda R, p, x: R.mT @ x + p,
+                "translation-sign": faulty(act, (" + p", " - p")),
+                "rotation-transposed": faulty(act, ("R @", "R.mT @")),
                 "inverse-transform": lambda R, p, x: R.mT @ (x - p),
-                "inverse-unrotated": lambda R, p, x: R.mT @ x - p,
+                "opposite-placement": lambda R, p, x: R.mT @ x - p,
+                "elementwise-product": faulty(act, ("R @", "R *")),
                 "column-vector": as_column(act),
             },
             residuals=(lambda answer, R, p, x: ((answer - p) ** 2).sum() - (x**2).sum(),),

@@ -8,7 +8,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import MOTION_TRANSFORM
-from ..wrong import after, before, swapped, transposed
+from ..wrong import after, before, faulty, swap, swapped, transposed
 
 __all__ = ["EXERCISE", "adjoint"]
 
@@ -48,6 +48,11 @@ EXERCISE = Exercise(
                 "coupling-dropped": after(adjoint, lambda X: X * np.kron([[1, 1], [0, 1]], np.ones((3, 3)))),
                 "coupling-sign": after(adjoint, lambda X: X * np.kron([[1, 1], [-1, 1]], np.ones((3, 3)))),
                 "force-for-motion": lambda T: np.linalg.inv(adjoint(T)).mT,
+                "transpose-for-inverse": faulty(adjoint, ("np.linalg.inv(T)", "T.mT")),
+                "inverse-unrotated": faulty(
+                    adjoint, ("np.linalg.inv(T)", "np.block([[T[:3, :3].mT, -T[:3, 3:]], [T[3:]]])")
+                ),
+                "rows-exchanged": after(adjoint, lambda X: np.array([*map(swap, X.mT)]).mT),
             },
             alike=(frozenset({"swapped-halves", "force-for-motion"}),),
             residuals=(lambda answer, T: answer @ tw.log6(T) - tw.log6(T),),

@@ -20,6 +20,11 @@ def _less(kinds: Any, *, fewer: dict[str, int]) -> Any:
     return nq - sum(fewer.get(kind, 0) for kind in kinds), nv
 
 
+def _once(kinds: Any, kind: str) -> Any:
+    """Return a list of joints with one of a kind in place of several."""
+    return [k for n, k in enumerate(kinds) if k != kind or k not in kinds[:n]]
+
+
 def _cases(rng: Any) -> Any:
     others = ["revolute", "prismatic", "continuous", "spherical"]
     every = ["free_flyer", *others]
@@ -44,6 +49,11 @@ EXERCISE = Exercise(
                 "quaternion-of-three": lambda kinds: _less(kinds, fewer={"free_flyer": 1, "spherical": 1}),
                 "angle-of-one": lambda kinds: _less(kinds, fewer={"continuous": 1}),
                 "base-missing": lambda kinds: count([kind for kind in kinds if kind != "free_flyer"]),
+                "kinds-once": lambda kinds: count(set(kinds)),
+                "base-once": lambda kinds: count(_once(kinds, "free_flyer")),
+                "spherical-of-three": lambda kinds: _less(kinds, fewer={"spherical": 1}),
+                "continuous-of-two": lambda kinds: (count(kinds)[0], count(kinds)[1] + kinds.count("continuous")),
+                "one-more-than-nv": lambda kinds: (count(kinds)[1] + ("free_flyer" in kinds), count(kinds)[1]),
                 "base-assumed": lambda kinds: count(["free_flyer", *(kind for kind in kinds if kind != "free_flyer")]),
             },
             residuals=(

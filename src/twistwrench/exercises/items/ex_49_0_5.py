@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Exercise, Part, Quantity
-from ..wrong import faulty
+from ..wrong import before, faulty
 
 __all__ = ["EXERCISE", "newton_euler"]
 
@@ -39,6 +39,14 @@ EXERCISE = Exercise(
                 "gyroscopic-missing": faulty(newton_euler, (" + np.cross(omega, I_c @ omega)", "")),
                 "gyroscopic-sign": faulty(newton_euler, ("+ np.cross", "- np.cross")),
                 "cross-order": faulty(newton_euler, ("np.cross(omega, I_c @ omega)", "np.cross(I_c @ omega, omega)")),
+                "left-handed-axes": faulty(
+                    newton_euler, ("+ np.cross", "+ np.linalg.det(np.linalg.eigh(I_c)[1]) * np.cross")
+                ),
+                "products-dropped": before(newton_euler, lambda I: np.diag(np.diag(I)), which=1),
+                "elementwise-product": faulty(
+                    newton_euler, ("I_c @ alpha", "I_c * alpha"), ("I_c @ omega", "I_c * omega")
+                ),
+                "weight-added": faulty(newton_euler, ("m * a_c", "m * (a_c + np.array([0, 0, 9.81]))")),
                 "mass-dropped": faulty(newton_euler, ("m * a_c", "a_c")),
                 "swapped-halves": faulty(newton_euler, ("return moment, force", "return force, moment")),
             },

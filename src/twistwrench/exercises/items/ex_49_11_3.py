@@ -101,7 +101,7 @@ FORCES = Part(
             ("J_c[:, :6].mT, g[:6])[0]", "np.hstack([J_c.mT, np.eye(len(g))[:, 6:]]), g)[0][:len(J_c)]"),
         ),
         "vertical-only": before(standing_forces, lambda J_c: J_c * np.resize([[0], [0], [1]], (len(J_c), 1)), which=1),
-        "transpose-for-inverse": faulty(
+        "transpose-for-solution": faulty(
             standing_forces, ("np.linalg.lstsq(J_c[:, :6].mT, g[:6])[0]", "J_c[:, :6] @ g[:6]")
         ),
         "axis-by-axis": faulty(standing_forces, ("forces.reshape(-1, 3)", "forces.reshape(3, -1).mT")),

@@ -10,7 +10,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, JACOBIAN, JOINT_SPACE
 from ..robots import small_robot
-from ..wrong import after, faulty, swapped
+from ..wrong import after, faulty, swap, swapped
 
 __all__ = ["EXERCISE", "acceleration_from_pinocchio", "jacobian_from_pinocchio", "map_from_pinocchio"]
 
@@ -91,18 +91,12 @@ _in_own_axes = _jacobian(("pin.LOCAL_WORLD_ALIGNED", "pin.LOCAL"))
 
 def _rows_of_base_only(x: Any) -> Any:
     """Exchange the rows back in the columns of the joints."""
-    return np.hstack([x[:, :6], np.roll(x[:, 6:], 3, axis=0)])
+    return np.hstack([x[:, :6], swap(x)[:, 6:]])
 
 
-def _classical(sign: int) -> Any:
-    """Return what adds ω × v to the base's v̇, or subtracts it."""
-
-    def wrong(model: Any, q: Any, v: Any, tau: Any) -> Any:
-        qdd = acceleration_from_pinocchio(model, q, v, tau)
-        qdd[3:6] += sign * np.cross(v[:3], v[3:6])
-        return qdd
-
-    return wrong
+def _turning(v: Any) -> Any:
+    """Return ω × v of the base, where it stands among the accelerations."""
+    return np.concatenate([np.zeros(3), np.cross(v[:3], v[3:6]), np.zeros(len(v) - 6)])
 
 
 MAP = Part(
@@ -155,8 +149,8 @@ ACCELERATION = Part(
         "input-unconverted": _acceleration(("v[order], tau[order]", "v, tau")),
         "output-unconverted": _acceleration((")[order]", ")")),
         "forces-unconverted": _acceleration(("tau[order]", "tau")),
-        "classical-acceleration": _classical(1),
-        "classical-subtracted": _classical(-1),
+        "classical-acceleration": _acceleration(("return pin", "return _turning(v) + pin")),
+        "classical-subtracted": _acceleration(("return pin", "return -_turning(v) + pin")),
         "velocity-terms-missing": _acceleration(("v[order]", "0 * v")),
         "torques-missing": _acceleration(("tau[order]", "0 * tau")),
     },

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..exercise import Exercise, Part, Quantity
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "polishing_torques"]
 
@@ -31,11 +32,13 @@ EXERCISE = Exercise(
             returns=(Quantity("τ", unit="N m"),),
             cases=_cases,
             slips={
-                "contact-missing": lambda M, h, J, a, force: M @ a + h,
-                "external-sign": lambda M, h, J, a, force: M @ a + h + J.mT @ force,
-                "jacobian-untransposed": lambda M, h, J, a, force: M @ a + h - J @ force,
-                "bias-for-zero": lambda M, h, J, a, force: M @ a - J.mT @ force,
-                "bias-sign": lambda M, h, J, a, force: M @ a - h - J.mT @ force,
+                "contact-missing": faulty(polishing_torques, (" - J.mT @ force", "")),
+                "external-sign": faulty(polishing_torques, ("- J.mT", "+ J.mT")),
+                "jacobian-untransposed": faulty(polishing_torques, ("J.mT", "J")),
+                "bias-for-zero": faulty(polishing_torques, (" + h", "")),
+                "bias-sign": faulty(polishing_torques, (" + h", " - h")),
+                "products-dropped": faulty(polishing_torques, ("M @ a", "np.diag(M) * a")),
+                "elementwise-product": lambda M, h, J, a, force: M * a + h - J.mT * force,
             },
             residuals=(lambda answer, M, h, J, a, force: np.linalg.solve(M, answer - h + J.mT @ force) - a,),
         ),

@@ -39,6 +39,11 @@ def _by_vectors(model: Any, q: Any, omega_z: Any) -> Any:
 
 _speed = cache(foot_speed)
 
+IN_BASE_AXES = faulty(
+    foot_twist, ("return foot_base", "return tw.motion_transform(foot_base.rotation.mT, np.zeros(3)) @ foot_base")
+)
+"""At the foot's origin, but along the axes of the base."""
+
 
 def _cases(rng: Any) -> Any:
     model = robot("go2")
@@ -56,16 +61,25 @@ TWIST_OF_FOOT = Part(
         "aligned-for-local": faulty(
             foot_twist, ("return foot_base", "return tw.motion_transform(world_foot.rotation, np.zeros(3)) @ foot_base")
         ),
-        "base-for-local": faulty(
-            foot_twist,
-            ("return foot_base", "return tw.motion_transform(foot_base.rotation.mT, np.zeros(3)) @ foot_base"),
-        ),
+        "base-for-local": IN_BASE_AXES,
+        "half-rotated": lambda *given: np.concatenate([foot_twist(*given)[:3], IN_BASE_AXES(*given)[3:]]),
+        "only-v-rotated": lambda *given: np.concatenate([IN_BASE_AXES(*given)[:3], foot_twist(*given)[3:]]),
         "untransformed": faulty(foot_twist, ("foot_base.motion_transform() @ ", "")),
         "coupling-dropped": after(foot_twist, lambda V: V * np.repeat([1, 0], 3)),
         "coupling-sign": after(foot_twist, lambda V: V * np.repeat([1, -1], 3)),
         "inverse-transform": faulty(foot_twist, ("foot_base.motion", "foot_base.inverse().motion")),
         "force-for-motion": faulty(foot_twist, ("foot_base.motion", "foot_base.force")),
         "joint-for-frame": faulty(foot_twist, ('q, "FR_foot"', 'q, "FR_calf_joint"')),
+        "world-axis-for-base": faulty(
+            foot_twist,
+            ("np.array([0, 0, omega_z, 0, 0, 0])", "np.pad(world_base.rotation.mT @ [0, 0, omega_z], (0, 3))"),
+        ),
+        "spatial-for-body": faulty(foot_twist, ("return foot_base", "return world_foot.inverse()")),
+        "lever-from-world": faulty(
+            foot_twist,
+            ("return foot_base", "return world_foot.inverse()"),
+            ("np.array([0, 0, omega_z, 0, 0, 0])", "np.pad(world_base.rotation @ [0, 0, omega_z], (0, 3))"),
+        ),
         "pinocchio-velocity": faulty(foot_twist, ("[0, 0, omega_z, 0, 0, 0]", "[0, 0, 0, 0, 0, omega_z]")),
         "degrees": before(foot_twist, np.degrees, which=2),
     },
@@ -88,6 +102,7 @@ SPEED_OF_FOOT = Part(
         "degrees": lambda: np.degrees(_speed()),
         "lever-all": lambda: 0.5 * np.linalg.norm([0.1934, -0.142, -0.426]),
         "omega-dropped": lambda: 2 * _speed(),
+        "norm-of-six": lambda: np.hypot(0.5, _speed()),
     },
 )
 

@@ -42,8 +42,13 @@ MATRIX = Part(
     slips={
         "hat-one": faulty(twist_matrix, ("[0, 0, 0, 0]]", "[0, 0, 0, 1]]")),
         "skew-sign": lambda omega_z, v_x: twist_matrix(-omega_z, v_x),
-        "skew-symmetric": after(twist_matrix, np.abs),
+        "skew-symmetric": faulty(twist_matrix, ("-omega_z", "omega_z")),
         "transposed-answer": transposed(twist_matrix),
+        "hat-row": faulty(twist_matrix, ("0, v_x]", "0, 0]"), ("[0, 0, 0, 0]]", "[v_x, 0, 0, 0]]")),
+        "hat-filled": faulty(
+            twist_matrix, ("[omega_z, 0, 0, 0], [0, 0, 0, 0], [", "[omega_z, 0, 0, v_x], [0, 0, 0, v_x], [")
+        ),
+        "hat-as-operator": lambda omega_z, v_x: tw.cross_motion([0, 0, omega_z, v_x, 0, 0]),
         "swapped-halves": lambda omega_z, v_x: tw.hat([v_x, 0, 0, 0, 0, omega_z]),
     },
     residuals=(lambda answer, omega_z, v_x: answer[3],),
@@ -59,6 +64,19 @@ ARC = Part(
         "elementwise-exp": lambda *V: np.exp(twist_matrix(*V)),
         "exp-straight": faulty(arc, ("v_x * s / omega_z, v_x * (1 - c) / omega_z", "v_x, 0")),
         "exp-turned": faulty(arc, ("v_x * s / omega_z, v_x * (1 - c) / omega_z", "v_x * c, v_x * s")),
+        "arc-for-chord": faulty(
+            arc,
+            ("v_x * s / omega_z, v_x * (1 - c) / omega_z", "v_x * np.cos(omega_z / 2), v_x * np.sin(omega_z / 2)"),
+        ),
+        "screw-unscaled": faulty(arc, ("v_x * s / omega_z, v_x * (1 - c) / omega_z", "v_x * s, v_x * (1 - c)")),
+        "sinc-of-pi": faulty(arc, ("v_x * s / omega_z", "v_x * np.sinc(omega_z)")),
+        "chord-sinc-of-pi": faulty(
+            arc,
+            ("v_x * s / omega_z", "v_x * np.sinc(omega_z / 2) * np.cos(omega_z / 2)"),
+            ("v_x * (1 - c) / omega_z", "v_x * np.sinc(omega_z / 2) * np.sin(omega_z / 2)"),
+        ),
+        "translation-sign": faulty(arc, ("v_x * s /", "-v_x * s /"), ("v_x * (1", "-v_x * (1")),
+        "transposed-answer": transposed(arc),
         "exp-minus": faulty(arc, ("(1 - c)", "(c - 1)")),
         "rotation-transposed": faulty(arc, ("[c, -s, 0, x], [s, c, 0, y]", "[c, s, 0, x], [-s, c, 0, y]")),
         "inverse-transform": after(arc, np.linalg.inv),

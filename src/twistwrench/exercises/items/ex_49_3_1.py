@@ -40,20 +40,27 @@ EXERCISE = Exercise(
                 "skew-sign": before(translation_transforms, np.negative, which=0),
                 "skew-symmetric": faulty(
                     translation_transforms,
-                    ("[skew(p)", "[np.abs(skew(p))"),
-                    ("[-skew(p)", "[-np.abs(skew(p))"),
-                    ("one, skew(p)", "one, np.abs(skew(p))"),
+                    ("[skew(p)", "[skew(p) * skew([1, 1, 1])"),
+                    ("[-skew(p)", "[-skew(p) * skew([1, 1, 1])"),
+                    ("one, skew(p)", "one, skew(p) * skew([1, 1, 1])"),
                 ),
+                "inverse-transform": before(translation_transforms, np.negative, which=0),
                 "swapped-halves": swapped(translation_transforms),
                 "transpose-for-inverse": faulty(translation_transforms, ("return X, X_inverse", "return X, X.mT")),
                 "transpose-for-dual": faulty(
                     translation_transforms, ("return X, X_inverse, X_star", "return X, X_inverse, X.mT")
                 ),
+                "inverse-for-dual": faulty(
+                    translation_transforms, ("return X, X_inverse, X_star", "return X, X_inverse, X_inverse")
+                ),
+                "dual-of-transpose": faulty(
+                    translation_transforms, ("return X, X_inverse, X_star", "return X, X.mT, X")
+                ),
                 "motion-for-force": faulty(
                     translation_transforms, ("return X, X_inverse, X_star", "return X, X_inverse, X")
                 ),
             },
-            alike=(frozenset({"coupling-sign", "skew-sign"}),),
+            alike=(frozenset({"coupling-sign", "skew-sign", "inverse-transform"}),),
             residuals=(
                 lambda answer, p: answer[0] @ answer[1] - np.eye(6),
                 lambda answer, p: answer[2].mT @ answer[0] - np.eye(6),

@@ -34,6 +34,8 @@ ROTATION = Part(
     slips={
         "rotation-transposed": before(rotation_transform, lambda R: R.mT, which=0),
         "half-rotated": lambda R: np.block([[R, 0 * R], [0 * R, np.eye(3)]]),
+        "only-v-rotated": lambda R: np.block([[np.eye(3), 0 * R], [0 * R, R]]),
+        "kron-order": lambda R: np.kron(R, np.eye(2)),
     },
 )
 
@@ -46,10 +48,11 @@ BOTH = Part(
         "coupling-sign": faulty(plucker, ("skew(p) @ R", "-skew(p) @ R")),
         "coupling-order": faulty(plucker, ("skew(p) @ R", "R @ skew(p)")),
         "coupling-unrotated": faulty(plucker, ("skew(p) @ R", "skew(p)")),
-        "skew-symmetric": faulty(plucker, ("skew(p) @ R", "np.abs(skew(p)) @ R")),
+        "coupling-of-rows": faulty(plucker, ("skew(p) @ R", "-R @ skew(p)")),
+        "skew-symmetric": faulty(plucker, ("skew(p) @ R", "skew(p) * skew([1, 1, 1]) @ R")),
         "rotation-transposed": lambda R, p: plucker(R.mT, p),
         "inverse-transform": lambda R, p: plucker(R.mT, -R.mT @ p),
-        "inverse-unrotated": lambda R, p: plucker(R.mT, -p),
+        "opposite-placement": lambda R, p: plucker(R.mT, -p),
         "swapped-halves": swapped(plucker),
         "transpose-for-dual": lambda R, p: (plucker(R, p)[0], plucker(R, p)[0].mT),
         "motion-for-force": lambda R, p: (plucker(R, p)[0], plucker(R, p)[0]),

@@ -45,6 +45,12 @@ EXERCISE = Exercise(
                 ),
                 "translation-unrotated": faulty(chain_two_ways, ("p_AB + R_AB @ p_BC", "p_AB + p_BC")),
                 "rotation-transposed": faulty(chain_two_ways, ("R_AB @ p_BC", "R_AB.mT @ p_BC")),
+                "translation-turned-twice": faulty(chain_two_ways, ("R_AB @ p_BC", "R_AB @ R_BC @ p_BC")),
+                "translation-wrong-turn": faulty(chain_two_ways, ("R_AB @ p_BC", "R_BC @ p_BC")),
+                "translation-of-reverse": faulty(chain_two_ways, ("p_AB + R_AB @ p_BC", "R_BC @ p_AB + p_BC")),
+                "placements-reversed": faulty(
+                    chain_two_ways, ("R_AB @ R_BC, p_AB + R_AB @ p_BC", "R_BC @ R_AB, R_BC @ p_AB + p_BC")
+                ),
             },
             residuals=(lambda answer, R_AB, p_AB, R_BC, p_BC: answer[0] - answer[1],),
         ),

@@ -39,6 +39,12 @@ def _about(model: Any, q: Any, foot: Any, frame: str) -> Any:
     return (there @ foot_in_world).force_transform() @ foot_wrench(model, q, foot)
 
 
+def _with_moment(model: Any, q: Any, foot: Any, sign: int) -> Any:
+    """Add the moment of the force about the world's origin, in the foot's axes, or the opposite one."""
+    F, T = foot_wrench(model, q, foot), tw.frame_placement(model, q, foot)
+    return np.concatenate([sign * np.cross(T.rotation.mT @ T.translation, F[3:]), F[3:]])
+
+
 def _cases(rng: Any) -> Any:
     model = robot("go2")
     feet = rng.permutation(["FL_foot", "FR_foot", "RL_foot", "RR_foot"])
@@ -55,7 +61,10 @@ LOADS = Part(
     slips={
         "nominal-mass": lambda: _loads(12, model=12),
         "one-link": lambda: _loads(12, model=7.277),
-        "welded-left-out": lambda: _loads(12, model=16.085 - 12 * 0.089),
+        "base-weightless": lambda: _loads(12, model=16.085 - 7.277),
+        "last-left-out": lambda: _loads(12, model=16.085 - 0.194),
+        "welded-left-out": lambda: _loads(12, model=16.085 - 12 * 0.089 - 4 * 0.04),
+        "rotors-left-out": lambda: _loads(12, model=16.085 - 12 * 0.089),
         "not-shared": lambda: _loads(12, feet=1),
         "shared-by-two": lambda: _loads(12, feet=2),
         "mass-for-weight": lambda: _loads(12, g=1),
@@ -74,6 +83,8 @@ OF_FOOT = Part(
         "swapped-halves": swapped(foot_wrench),
         "aligned-for-local": faulty(foot_wrench, ("R.mT @ upward", "upward")),
         "rotation-forward": faulty(foot_wrench, ("R.mT", "R")),
+        "force-at-origin": lambda model, q, foot: _with_moment(model, q, foot, -1),
+        "moment-about-world": lambda model, q, foot: _with_moment(model, q, foot, 1),
         "wrench-about-world": lambda model, q, foot: _about(model, q, foot, ""),
         "joint-for-frame": lambda model, q, foot: _about(model, q, foot, foot[:2] + "_calf_joint"),
         "force-sign": negated(foot_wrench),

@@ -42,16 +42,21 @@ WRENCH_OF_CONTACT = Part(
     slips={
         "coupling-dropped": faulty(contact_wrench, ("np.cross(p, f)", "np.zeros(3)")),
         "cross-order": faulty(contact_wrench, ("np.cross(p, f)", "np.cross(f, p)")),
+        "lever-reversed": faulty(contact_wrench, ("np.cross(p, f)", "np.cross(-p, f)")),
         "coupling-order": faulty(contact_wrench, ("np.cross(p, f)", "R @ np.cross(p, f_c)")),
         "coupling-unrotated": faulty(contact_wrench, ("np.cross(p, f)", "np.cross(p, f_c)")),
         "rotation-transposed": lambda R, p, f_c: contact_wrench(R.mT, p, f_c),
         "untransformed": lambda R, p, f_c: (np.concatenate([np.zeros(3), f_c]),) * 2,
         "swapped-halves": swapped(contact_wrench),
+        "force-for-moment": faulty(
+            contact_wrench, ("np.concatenate([np.zeros(3), f_c])", "np.concatenate([f_c, np.zeros(3)])")
+        ),
         "motion-for-force": faulty(contact_wrench, ("_, X_star =", "X_star, _ =")),
         "transpose-for-dual": faulty(contact_wrench, ("X_star @", "plucker(R, p)[0].mT @")),
         "inverse-transform": lambda R, p, f_c: contact_wrench(R.mT, -R.mT @ p, f_c),
-        "inverse-unrotated": lambda R, p, f_c: contact_wrench(R.mT, -p, f_c),
+        "opposite-placement": lambda R, p, f_c: contact_wrench(R.mT, -p, f_c),
     },
+    alike=(frozenset({"cross-order", "lever-reversed"}),),
     residuals=(
         lambda answer, R, p, f_c: answer[0] - answer[1],
         lambda answer, R, p, f_c: answer[0][:3] @ answer[0][3:],

@@ -96,13 +96,17 @@ SUM = Part(
     cases=_sums,
     slips={
         "cross-order": faulty(sole_wrench, ("points, forces)", "forces, points)")),
+        "lever-reversed": before(sole_wrench, np.negative, which=0),
         "coupling-dropped": before(sole_wrench, np.zeros_like, which=0),
         "swapped-halves": swapped(sole_wrench),
         "averaged": faulty(sole_wrench, (".sum(0), forces.sum(0)", ".mean(0), forces.mean(0)")),
         "single-force": lambda points, forces: sole_wrench(points.mean(0)[None], forces.sum(0)[None]),
         "product-of-sums": lambda points, forces: sole_wrench(points.sum(0)[None], forces.sum(0)[None]),
+        "horizontal-moment-left-out": after(sole_wrench, lambda F: F * [1, 1, 0, 1, 1, 1]),
+        "pressure-only": before(sole_wrench, lambda forces: forces * [0, 0, 1], which=1),
         "force-sign": negated(sole_wrench),
     },
+    alike=(frozenset({"cross-order", "lever-reversed"}),),
 )
 
 PRESSURE = Part(
@@ -112,8 +116,11 @@ PRESSURE = Part(
     slips={
         "cop-sign": faulty(center_of_pressure, ("-tau_y", "tau_y")),
         "cop-axes": lambda F: F[:2] / F[5],
+        "cop-coordinates": after(center_of_pressure, lambda p: p[::-1]),
         "lever-reversed": negated(center_of_pressure),
         "cop-inverted": after(center_of_pressure, lambda p: 1 / p),
+        "cop-multiplied": lambda F: F[5] ** 2 * center_of_pressure(F),
+        "central-axis": lambda F: np.cross(F[3:], F[:3])[:2] / (F[3:] @ F[3:]),
         "cop-not-divided": lambda F: F[5] * center_of_pressure(F),
         "cop-whole-force": lambda F: center_of_pressure(F) * F[5] / np.linalg.norm(F[3:]),
         "swapped-halves": before(center_of_pressure, swap, which=0),
@@ -128,8 +135,12 @@ HOLDS = Part(
     cases=_wrenches,
     given='p = mine("center_of_pressure")',
     slips={
-        "cop-axes": lambda F, d_x, d_y: sole_holds(F, d_y, d_x),
+        "cop-axes": faulty(sole_holds, ("p_x, p_y =", "p_y, p_x =")),
         "pulling-allowed": faulty(sole_holds, ("F[5] <= 0", "F[5] == 0")),
+        "no-pressure-allowed": faulty(sole_holds, ("return False", "return bool(not F[5] and not F[:2].any())")),
+        "ellipse-for-rectangle": faulty(
+            sole_holds, ("abs(p_x) <= d_x and abs(p_y) <= d_y", "(p_x / d_x) ** 2 + (p_y / d_y) ** 2 <= 1")
+        ),
         "full-for-half": lambda F, d_x, d_y: sole_holds(F, d_x / 2, d_y / 2),
         "one-sided": faulty(sole_holds, ("abs(p_x)", "p_x"), ("abs(p_y)", "p_y")),
         "either-for-both": faulty(sole_holds, (" and ", " or ")),

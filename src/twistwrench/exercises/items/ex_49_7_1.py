@@ -64,6 +64,7 @@ FROM_REST = Part(
         "rotation-forward": faulty(fall_from_rest, ("rotation.mT", "rotation")),
         "gravity-sign": faulty(fall_from_rest, ("= base", "= -base")),
         "swapped-halves": swapped(fall_from_rest),
+        "angular-for-linear": swapped(fall_from_rest, only=(1,)),
         "base-missing": after(fall_from_rest, lambda a: a[6:]),
     },
     residuals=(

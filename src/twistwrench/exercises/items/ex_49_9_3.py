@@ -43,7 +43,7 @@ def _joints_only(rng: Any) -> Any:
 
 def _by_axis(forces: Any) -> Any:
     """Take x of all feet to come first, then y, then z."""
-    return forces.reshape(3, 4).T.ravel()
+    return forces.reshape(3, 4).mT.ravel()
 
 
 ROWS = Part(

@@ -44,7 +44,7 @@ def _standings(rng: Any) -> Any:
 
 
 def _by_nearness(p_G: Any, feet: Any, weight: Any) -> Any:
-    near = 1 / np.hypot(*(feet - p_G).T[:2])
+    near = 1 / np.hypot(*(feet - p_G).mT[:2])
     return weight * near / near.sum()
 
 
@@ -77,7 +77,7 @@ LOADS = Part(
         "pull-dropped": _pushing,
         "pull-rescaled": _rescaled,
         "height-balanced": lambda p_G, feet, weight: np.linalg.lstsq(
-            np.vstack([np.ones(len(feet)), feet.T]), weight * np.array([1, *p_G])
+            np.vstack([np.ones(len(feet)), feet.mT]), weight * np.array([1, *p_G])
         )[0],
         "axes-uncoupled": _axis_by_axis,
         "moment-of-one-axis": faulty(vertical_loads, (", feet[:, 1] - p_G[1]", ""), ("[weight, 0, 0]", "[weight, 0]")),
@@ -121,6 +121,10 @@ FLOATING = Variant(
 )
 STILL = Variant(Text("no velocity terms", "无速度项"), lambda model, q, v, tau: tw.aba(model, q, 0 * v, tau))
 
+OPPOSITE = Variant(
+    Text("forces of the opposite sign", "力的符号相反"), lambda model, q, v, tau: tw.aba(model, q, v, -tau)
+)
+
 
 def _less(part: float) -> Variant:
     """Return forward dynamics under torques of which one is too small, by a part of the largest."""
@@ -161,6 +165,7 @@ def _states(rng: Any) -> Any:
     return [
         *cases,
         (RIGHT, RESTING, *cases[0][2:]),
+        (OPPOSITE, INVERSE, *cases[0][2:]),
         *slight,
         *((RIGHT, one, *cases[0][2:]) for one in (BROKEN, PARTLY)),
     ]

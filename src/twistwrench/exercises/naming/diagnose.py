@@ -80,7 +80,7 @@ def _either_order(wrong: WrongAnswer) -> Explained | None:
 
 
 def _slip_of_the_list(wrong: WrongAnswer) -> Explained | None:
-    found = borne_out(wrong.alike, wrong.function, wrong.whole_changes) if wrong.alike else []
+    found = borne_out(wrong.part, wrong.alike, wrong.function, wrong.whole_changes) if wrong.alike else []
     if wrong.exchanged is not None and wrong.changes:
         found = [slip for slip in found if slip != "swapped-halves"]
     return (found, named(wrong, found)) if found else None

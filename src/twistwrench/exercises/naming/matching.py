@@ -115,6 +115,10 @@ def slips_by_piece(
 
 def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | None:
     """Return two slips that together give these answers on all cases."""
+    for (first, one), (second, other) in combinations(part.slips.items(), 2):
+        together = both(one, other)
+        if together is not None and _matches(part, together, answers, cases):
+            return first, second
     for second, twist in TWISTS.items():
         if second == "half-missing" and second not in part.slips:
             continue  # there is no half to be missed
@@ -126,8 +130,4 @@ def two_slips(part: Part, answers: Answers, cases: Cases) -> tuple[str, str] | N
 
             if first != second and _matches(part, twisted, answers, cases):
                 return first, second
-    for (first, one), (second, other) in combinations(part.slips.items(), 2):
-        together = both(one, other)
-        if together is not None and _matches(part, together, answers, cases):
-            return first, second
     return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import re
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -24,9 +25,6 @@ SIGNS = {"cross-order": "cross(", "lever-reversed": " - "}
 TURNED = ("sign", "wrong end", "mirrored", "factors of the cross product")
 """Words of the titles of slips that change a sign."""
 
-TELLING = ("exchanged", "halves", "sign", "transposed", "left out", "name", "index", "instead", "number")
-"""Kinds of changes of a line that say more of a slip with a name: where it is."""
-
 FORCES = ("children-overwritten", "children-dropped")
 """Slips that may give the numbers of a loop in the wrong direction."""
 
@@ -43,11 +41,12 @@ WORDS = {"transpose": TRACES["ᵀ"], "inverse": ("inv", "solve", "inverse")}
 """The same for slips that have the word in their name."""
 
 
-def borne_out(found: list[str], function: Callable[..., Any], mended: Sequence[Repair]) -> list[str]:
+def borne_out(part: Part, found: list[str], function: Callable[..., Any], mended: Sequence[Repair]) -> list[str]:
     """Return of the slips with the student's numbers those that his source and the lines found in it bear out.
 
     Parameters
     ----------
+    part : Part
     found : list of str
     function : callable
         The student's.
@@ -67,8 +66,10 @@ def borne_out(found: list[str], function: Callable[..., Any], mended: Sequence[R
     if len(found) < 2 or not source:
         return found
 
+    asked = inspect.getsource(part.solution)  # where an inverse is asked for, the word proves nothing
+
     def speaks(slip: str) -> int:
-        words = [word for key, traces in WORDS.items() if key in slip for word in traces]
+        words = [word for key, traces in WORDS.items() if key in slip and key not in asked for word in traces]
         return 1 if not words else 2 * any(word in source for word in words)
 
     return [slip for slip in found if speaks(slip) == max(map(speaks, found))]
@@ -84,7 +85,7 @@ def by_piece_borne_out(
     for k, quantity in enumerate(part.returns):
         if quantity.name in found:
             own = [repair for repair in mended if repair.piece in (None, k)]
-            found[quantity.name] = borne_out(found[quantity.name], function, own)
+            found[quantity.name] = borne_out(part, found[quantity.name], function, own)
     return all(found.values())
 
 
@@ -114,7 +115,7 @@ def in_other_roles(function: Callable[..., Any], edit: Edit) -> bool:
 def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     """Report the line of the student's where a slip is, or the two where it may be."""
     lacking = any(SLIPS[slip].lacks for slip in found)
-    whole = [x for x in mended if x.piece is None and x.edit.kind in TELLING and _tells(x, found)]
+    whole = [x for x in mended if x.piece is None and _tells(x, found)]
     whole = [x for x in whole if x.edit.kind != "name" or not lacking or isinstance(x.edit.inside, ast.Call)]
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
     either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))

@@ -8,7 +8,7 @@ from .slip import Slip
 __all__ = ["FILES", "SLIPS", "Slip"]
 
 FILES = (
-    *("order", "algebra", "contact", "inertia", "bodies", "dynamics"),
+    *("basics", "order", "algebra", "frames", "contact", "inertia", "bodies", "dynamics"),
     *("recursion", "tree", "measuring", "floating", "standing", "pipeline", "pinocchio"),
 )
 

@@ -6,42 +6,36 @@ __all__ = ["MENDINGS"]
 
 MENDINGS = {
     # what would make the student's own line right
-    "repair sign": Text("the sign of `{wrong}` is wrong", "`{wrong}` 的符号错了"),
-    "repair left out": Text("`{wrong}` does not belong there", "不应有 `{wrong}`"),
-    "repair after loop": Text(
-        "`{wrong}` must stand after the loop, not in it", "`{wrong}` 应放在循环之后，而不是循环内"
-    ),
+    "repair sign": Text("change the sign of `{wrong}`", "改变 `{wrong}` 的符号"),
+    "repair left out": Text("take out `{wrong}`", "去掉 `{wrong}`"),
+    "repair after loop": Text("put `{wrong}` after the loop, not in it", "把 `{wrong}` 放在循环之后，而不是循环内"),
     "repair in loop": Text(
-        "`{wrong}` must be made anew in each round, at the beginning of the loop",
-        "`{wrong}` 每一轮都要在循环开头重新执行",
+        "make `{wrong}` anew in each round, at the beginning of the loop", "每一轮都在循环开头重新执行 `{wrong}`"
     ),
     "repair summed": Text(
-        "`{wrong}` must be added up: += in place of =, from zero before the loop",
-        "`{wrong}` 应当累加：用 += 而不是 =，循环前从零开始",
+        "add `{wrong}` up: += in place of =, from zero before the loop",
+        "累加 `{wrong}`：用 += 而不是 =，循环前从零开始",
     ),
     "repair carried": Text(
-        "`{wrong}` starts from the same `{right}` in each round: what the round before has computed must be carried on",
-        "`{wrong}` 每一轮都从同一个 `{right}` 开始：应接着用上一轮算出的结果",
+        "let `{wrong}` carry on what the round before has computed: it starts from the same `{right}` in each round",
+        "让 `{wrong}` 接着用上一轮算出的结果：它每一轮都从同一个 `{right}` 开始",
     ),
-    "repair last": Text("`{wrong}` must not be a sum", "`{wrong}` 不应求和"),
-    "repair transposed": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
-    "repair exchanged": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
-    "repair halves": Text("`{wrong}` and `{right}` are exchanged", "`{wrong}` 与 `{right}` 互换了"),
-    "repair name": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
-    "repair instead": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
-    "repair inserted": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
-    "repair index": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
-    "repair number": Text("`{wrong}` must be `{right}`", "`{wrong}` 应为 `{right}`"),
-    "must be zero": Text("`{name}` must be zero in `{around}`", "`{around}` 中的 `{name}` 应为零"),
-    "repair missing": Text("`{right}` is missing after `{wrong}`", "`{wrong}` 之后缺少 `{right}`"),
-    "repair argument": Text(
-        "with `{right}` in place of the argument `{wrong}` the function is right",
-        "把参数 `{wrong}` 换成 `{right}`，函数就正确了",
-    ),
+    "repair last": Text("do not add up `{wrong}`", "不要对 `{wrong}` 求和"),
+    "repair transposed": Text("change `{wrong}` to `{right}`", "把 `{wrong}` 改为 `{right}`"),
+    "repair exchanged": Text("change `{wrong}` to `{right}`", "把 `{wrong}` 改为 `{right}`"),
+    "repair halves": Text("exchange `{wrong}` and `{right}`", "互换 `{wrong}` 与 `{right}`"),
+    "repair name": Text("change `{wrong}` to `{right}`", "把 `{wrong}` 改为 `{right}`"),
+    "repair instead": Text("change `{wrong}` to `{right}`", "把 `{wrong}` 改为 `{right}`"),
+    "repair inserted": Text("change `{wrong}` to `{right}`", "把 `{wrong}` 改为 `{right}`"),
+    "repair index": Text("change `{wrong}` to `{right}`", "把 `{wrong}` 改为 `{right}`"),
+    "repair number": Text("change `{wrong}` to `{right}`", "把 `{wrong}` 改为 `{right}`"),
+    "must be zero": Text("set `{name}` to zero in `{around}`", "令 `{around}` 中的 `{name}` 为零"),
+    "repair missing": Text("add `{right}` after `{wrong}`", "在 `{wrong}` 之后加上 `{right}`"),
+    "repair argument": Text("use `{right}` in place of the argument `{wrong}`", "用 `{right}` 代替参数 `{wrong}`"),
     "repair result": Text("return `{right}` where `{wrong}` is returned", "在返回 `{wrong}` 的地方返回 `{right}`"),
-    "branch": Text("the branch for `{wrong}` must not be taken", "不应进入 `{wrong}` 的分支"),
+    "branch": Text("do not take the branch for `{wrong}`", "不要进入 `{wrong}` 的分支"),
     "branch always": Text(
-        "what is done only where `{wrong}` holds must be done always", "只在 `{wrong}` 成立时才做的事应当总是做"
+        "do always what is done only where `{wrong}` holds", "只在 `{wrong}` 成立时才做的事，总是要做"
     ),
     "own code": Text("In your code this would make it right: {title}.", "在你的代码中，这样改就会正确：{title}。"),
     "halves of result": Text(

@@ -97,8 +97,8 @@ SAYINGS = {
         "{name} 只对很小的 {what} 正确，到 {power} 次为止：误差按 {next} 次方增长。是不是级数截断了，或漏了该次的项？",
     ),
     "branch otherwise": Text(
-        "what is done where `{wrong}` holds must be done in all other cases",
-        "`{wrong}` 成立时所做的，在其余所有情形中都应当做",
+        "do in all other cases what is done where `{wrong}` holds",
+        "把 `{wrong}` 成立时所做的，改在其余所有情形中做",
     ),
     # two slips at once
     "two slips": Text(
