@@ -605,7 +605,7 @@ def test_an_explanation_does_not_tell_to_do_what_was_done():
     slips = {name: catalogue.find_part(name)[1].slips for name in ("whole_robot", "pinocchio_inertia")}
     assert "the sign is a plus" in message("whole_robot", slips["whole_robot"]["parallel-axis-sign"])
     assert "top right block is +m [c]×" in message("whole_robot", slips["whole_robot"]["com-sign"])
-    assert "minus is in the top right" in message("pinocchio_inertia", slips["pinocchio_inertia"]["com-sign"])
+    assert "−m [c]× is top right" in message("pinocchio_inertia", slips["pinocchio_inertia"]["com-sign"])
     said = message("pinocchio_linear_momentum", lambda A_G, v: A_G[:3] @ np.r_[v[3:6], v[:3], v[6:]])
     assert "Pinocchio's (v, ω): take both as they are" in said
 

@@ -74,13 +74,6 @@ def out_of_balance(model, q, tau, forces):
     S, J = tw.selection_matrix(model), tw.contact_jacobian(model, q, model.feet)
     return tw.gravity(model, q) - S.T @ tau - J.T @ np.asarray(forces).flatten("F")
 """
-NAMES = """\
-def foot_wrench(model, q, foot):
-    T = tw.frame_placement(model, q, foot)
-    X, X_star = mine("plucker")(T.rotation, T.translation)
-    return X.T @ np.r_[np.zeros(3), -model.mass * np.asarray(model.gravity) / 4]
-"""
-
 WAY = """\
 def body_twists(parent, T, V_joint):
     def way(i):
@@ -124,7 +117,6 @@ def mass_matrix_by_rnea(model, q):
             (WAY, "not yet right", "The slip:"),
             (SIZES, "rows (fixed): too large", "change `"),
             (ANEW, "line 14, make `e = np.zeros(model.nv)` anew", "line 15"),
-            (NAMES, "Your slip may be another one", "The slip:"),
         ],
         3,
         several=True,

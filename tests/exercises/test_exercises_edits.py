@@ -36,7 +36,7 @@ def changed(name, *pairs):
             [("cross_motion(V[i]) @ vJ", "cross_motion(V[p]) @ vJ")],
             "A[2]. These are right for every body: V.",
         ),
-        ("tree_crba", [("X[j].mT @ F", "X[i].mT @ F")], "`X[i]` in place of `X[j]`, where `F[parent[j], i]`"),
+        ("tree_crba", [("S[j].mT @ F", "S[i].mT @ F")], "`S[i]` in place of `S[j]`, where `M[j, i]`"),
         ("tree_aba", [("X[i].mT @ Ia[i] @ X[i]", "X[i] @ Ia[i] @ X[i].mT")], "in place of `X[i].T @ Ia[i] @ X[i]`"),
     ],
 )

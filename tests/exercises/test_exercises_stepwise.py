@@ -99,7 +99,7 @@ def inside(F, d_x, d_y):
 
 
 def multiplied_out(F, d_x, d_y):
-    return bool(abs(F[0]) <= d_y * F[5] and abs(F[1]) <= d_x * F[5])
+    return not F.any() or bool(F[5] > 0 and abs(F[0]) <= d_y * F[5] and abs(F[1]) <= d_x * F[5])
 
 
 @pytest.mark.parametrize(
@@ -107,7 +107,7 @@ def multiplied_out(F, d_x, d_y):
     [
         ("count", counted, "With kinds = ['free_flyer'], nq is 12, and must be 7."),
         ("sole_holds", inside, "lies exactly on an edge"),
-        ("sole_holds", multiplied_out, "has F[0] = F[1] = F[5] = 0, and no other case has"),
+        ("sole_holds", multiplied_out, "has F[0] = F[1] = F[2] = F[3] = F[4] = F[5] = 0, and no other case has"),
     ],
 )
 def test_what_wrong_cases_share_is_said(name, answer, says):

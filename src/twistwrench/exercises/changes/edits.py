@@ -149,6 +149,8 @@ class Source:
             made.sort(key=lambda place: (isinstance(place[3], ast.UnaryOp), -place[2].lineno))
         for place in made:
             texts = self.texts(kind, place)
+            if texts[0] == texts[1]:
+                continue  # two names that are one, exchanged
             alike.setdefault(mark(texts, *place[2:]), []).append(place)
             yield from self.made(kind, texts, [place])
         yield from self._halves() if kind == "halves" else self._crossed() if kind == "exchanged" else ()
@@ -210,9 +212,7 @@ class Source:
     def made(
         self, kind: str, texts: tuple[str, str], places: list[Place], *, everywhere: bool = False
     ) -> Iterator[Edit]:
-        """Yield the edit in some places, if it is a program, and another one."""
-        if texts[0] == texts[1]:
-            return
+        """Yield the edit in some places, if it is a program."""
         for parents, field, _, other in places:
             put(parents[-1], field, other)
         try:
