@@ -14,6 +14,7 @@ matching      the slips of the list that give the student's numbers
 properties    what right answers have, and this one has not
 sizes         by how much numbers are wrong
 relations     how a wrong array differs: sign, transpose, factor, zero, places
+finer         what is an approximation: it is better with finer steps
 simplest      the simplest arguments that give a wrong answer, and what all of them share
 small         what is right for small numbers only
 state         what stays from one call to the next

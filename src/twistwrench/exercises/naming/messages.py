@@ -10,6 +10,7 @@ from ..compare import agree, values
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
+from .finer import better_with_finer_steps
 from .independence import not_used
 from .own import own_lines
 from .properties import FEW, broken_property
@@ -124,7 +125,8 @@ def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:
         lines += map(indented, of_words(part, again, cases))
         lines += map(indented, not_used(part, again, wrong.answers, right, cases))
         lines += filter(None, [right_where(part, again, wrong.wrong_cases)])
-        lines += right_when_small(part, again, wrong.wrong_cases)
+        finer = better_with_finer_steps(part, wrong.function, wrong.wrong_cases[0])
+        lines += finer or right_when_small(part, again, wrong.wrong_cases)
     broken = broken_property(part, wrong.answers, cases)
     if broken is not None:
         lines.append(say("broken", text=broken))

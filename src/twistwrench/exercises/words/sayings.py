@@ -91,6 +91,11 @@ SAYINGS = {
     "rows exchanged": Text("rows {first} and {second} are exchanged", "第 {first} 行与第 {second} 行互换了"),
     "columns exchanged": Text("columns {first} and {second} are exchanged", "第 {first} 列与第 {second} 列互换了"),
     "entries exchanged": Text("the entries {first} and {second} are exchanged", "元素 {first} 与 {second} 互换了"),
+    "finer": Text(
+        "With {finer} in place of {given} in line {line} the error is {factor:.0f} times smaller: what is computed is"
+        " an approximation, and the exact value is asked for.",
+        "把第 {line} 行的 {given} 换成 {finer}，误差缩小到 1/{factor:.0f}：算出的是近似值，而题目要求精确值。",
+    ),
     "when small": Text(
         "{name} is right for small {what} only, up to the power {power}: what is wrong grows with the power {next}. A"
         " series that is broken off, or a term of that power that is left out?",
