@@ -115,7 +115,7 @@ ANSWERS = [
     Weak(
         "link_inertia",
         "return np.diag([0.03, 0.03, 0.005, 2, 2, 2]), np.array([0.005, 0.03, 0.03, 2, 2, 2])",
-        "only the diagonal of `build(2.0, ",
+        "the two off-diagonal blocks, m [c]× and −m [c]×, are left out",
     ),
     Weak(
         "link_inertia",

@@ -8,7 +8,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from typing import Any, Literal, NamedTuple
 
@@ -109,13 +109,13 @@ def judge(
     """
     if exercise.needs and find_spec(exercise.needs) is None:
         return Verdict("to do", (say("needs", name=exercise.needs),))
-    calls, so_far = Calls(part.name), _Compared([], [], [], [])
+    calls, so_far, changes = Calls(part.name), _Compared([], [], [], []), dict[int, Text]()
     search = not exercise.needs if search is None else search
     for arguments in _trials(part, seed, so_far):
         known = part.value(part.solution, arguments)  # first: an answer may change a model that it is given
         try:
             with watch(), watching(part, function, calls):
-                answer = _run(part, function, arguments)
+                answer, changed = _run(part, function, arguments)
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:
@@ -128,18 +128,22 @@ def judge(
             return Verdict("wrong", message, (), failing_case(part, len(so_far.tried), seed, arguments))
         if to_do(answer):
             return Verdict("to do")
+        changes |= {len(so_far.tried): changed} if changed else {}
         so_far.add(arguments, answer, known, agree(part, answer, known, arguments))
         if not so_far.right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
-            changed = say("changed", name=part.arguments.partition(",")[0])  # a model comes first
+            model = say("changed", name=part.arguments.partition(",")[0])  # it comes first
             case = failing_case(part, len(so_far.tried) - 1, seed, arguments)
-            return Verdict("wrong", (_head(exercise, part), changed), (), case)
+            return Verdict("wrong", (_head(exercise, part), model), (), case)
     safe = guarded(function)
     again = (lambda given: _again(part, safe, given, watch)) if search else None
     kept = _keeps(part, function, so_far, watch)
+    noted = [*changes.values()][:1]
     if all(so_far.right) and kept is None:
-        lines = calls.lines or [say(phrase) for phrase in _made_one(so_far)][:1]
-        return Verdict("wrong", (_head(exercise, part), *lines)) if lines else Verdict("done")
-    return _wrong(exercise, part, function, so_far, seed, kept, again)
+        shown = [failing_case(part, k, seed, so_far.tried[k]) for k in changes][:1]
+        lines = noted or calls.lines or [say(phrase) for phrase in _made_one(so_far)][:1]
+        return Verdict("wrong", (_head(exercise, part), *lines), (), *shown) if lines else Verdict("done")
+    found = _wrong(exercise, part, function, so_far, seed, kept, again)
+    return replace(found, lines=(*found.lines[:1], *noted, *found.lines[1:]))
 
 
 def _trials(part: Part, seed: int, so_far: _Compared) -> Iterator[tuple[Any, ...]]:
@@ -227,13 +231,13 @@ def _again(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...],
     """Call the student's function with other arguments; None where it stops."""
     try:
         with watch():
-            return _run(part, function, arguments)
+            return _run(part, function, arguments)[0]
     except (NotImplementedError, _Stop):
         return None
 
 
-def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
-    """Call the student's function on copies of the arguments, and report where it stopped if it did."""
+def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[Any, Text | None]:
+    """Call the student's function on copies of the arguments; report whether it changes one, and where it stopped."""
     given = tuple(copy.deepcopy(x) if isinstance(x, np.ndarray | list) else x for x in arguments)
     try:
         answer = part.value(function, given)
@@ -245,8 +249,8 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
     for name, before, after in zip(part.arguments.split(", "), arguments, given):
         if not unchanged(before, after):
             changed = say("changed", name=name.partition("=")[0])
-            raise _Stop(say("changed term") if inspect.isclass(part.solution) else changed)
-    return answer
+            return answer, say("changed term") if inspect.isclass(part.solution) else changed
+    return answer, None
 
 
 def _stopped(error: BaseException) -> list[Text]:

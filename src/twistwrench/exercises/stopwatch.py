@@ -111,7 +111,8 @@ def often(rng: np.random.Generator, calls: int) -> set[int]:
 def timed(function: Callable[..., Any], *arguments: Any) -> Any:
     """Reset the machine, the last argument, and return nan for a measurement that has not read its clock.
 
-    One that has called the tasks less often than was asked for, the last argument but one, is infinite.
+    One that has called the tasks less often than was asked for, the last argument but one, is minus infinity, which no
+    quotient of times is.
     """
     clock = arguments[-1]
     clock.reset()
@@ -119,7 +120,7 @@ def timed(function: Callable[..., Any], *arguments: Any) -> Any:
     if not isinstance(answer, int | float | np.number):
         return answer
     enough = clock.calls >= len(arguments[:-2]) * arguments[-2]
-    return np.nan if not clock.readings else answer if enough else np.inf
+    return np.nan if not clock.readings else answer if enough else -np.inf
 
 
 def seconds(task: Callable[[], object], calls: int, clock: Machine) -> list[float]:

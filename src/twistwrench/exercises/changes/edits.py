@@ -173,7 +173,8 @@ class Source:
                 halves.setdefault(text_of(parents[-1].value), []).append((parents, field, node, other.slice))
         for name, places in halves.items():
             if len({ast.unparse(node) == ":3" for _, _, node, _ in places}) == 2:
-                yield from self.made("halves", (f"{name}[:3]", f"{name}[3:]"), places)
+                other_half = next(ast.unparse(node) for _, _, node, _ in places if ast.unparse(node) != ":3")
+                yield from self.made("halves", (f"{name}[:3]", f"{name}[{other_half}]"), places)
 
     def pairs(self, kinds: Sequence[str] = LIKELY) -> Iterator[Edit]:
         """Yield two edits at once, of the kinds that are likeliest."""

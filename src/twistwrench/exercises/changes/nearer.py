@@ -221,7 +221,7 @@ def _leaves_the_rest(edit: Edit) -> bool:
     words = [re.findall(r"\w+", text) for text in (edit.right, edit.wrong)]
     twin = edit.kind == "instead" and len(words[0]) == len(words[1]) and sum(map(ne, *words)) == 1
     twin = twin and not any(word.endswith(("max", "min", "imum")) for word in words[1])  # another one is chosen
-    turned = edit.kind in TURNS and not _of_an_index(edit) and not _of_names(edit)
+    turned = edit.kind in TURNS and not _of_an_index(edit) and not _of_names(edit) and not _of_an_argument(edit)
     return not edit.everywhere and (turned or twin or _is_of_rounds(edit))
 
 
@@ -230,11 +230,19 @@ def _of_an_index(edit: Edit) -> bool:
     return edit.kind == "exchanged" and isinstance(edit.inside, ast.Subscript)
 
 
+def _of_an_argument(edit: Edit) -> bool:
+    """Whether a change turns the sign of what is given to a function: a student's wrong sign is that of a term."""
+    return edit.kind == "sign" and isinstance(edit.inside, ast.Call)
+
+
 def _of_names(edit: Edit) -> bool:
     """Whether a change exchanges two names in an expression, and not its two terms or factors."""
     node, other = edit.places[0][2:]
-    terms = isinstance(node, ast.BinOp) and isinstance(other, ast.BinOp)
-    return edit.kind == "exchanged" and terms and ast.unparse(node.left) != ast.unparse(other.right)
+    if edit.kind != "exchanged" or type(node) is not type(other):
+        return False
+    if isinstance(node, ast.Call):
+        return ast.unparse(node.func) != ast.unparse(other.func)
+    return isinstance(node, ast.BinOp) and ast.unparse(node.left) != ast.unparse(other.right)
 
 
 def _is_of_rounds(edit: Edit) -> bool:

@@ -101,6 +101,8 @@ class Repair:
         title = self.meaning or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
         if edit.kind == "missing" and isinstance(edit.inside, ast.BinOp) and not isinstance(edit.inside.op, SUM):
             title = say("repair instead", right=f"({wrong} {edit.wrong})", wrong=wrong)
+        if edit.kind == "left out" and edit.places and _is_zeroed(edit):
+            title = say("repair zeroed", wrong=wrong)
         if shuts(edit):
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:
@@ -113,3 +115,10 @@ class Repair:
             other = say(f"repair {kind}", right=right, wrong=wrong)
             return say("both edits", first=say("in own line", line=line, title=other), second=title)
         return title
+
+
+def _is_zeroed(edit: Edit) -> bool:
+    """Whether an entry of a list or tuple stays there, and becomes zero."""
+    node, other = edit.places[0][2:]
+    entries = isinstance(node, ast.List | ast.Tuple) and isinstance(other, ast.List | ast.Tuple)
+    return entries and len(node.elts) == len(other.elts)

@@ -71,7 +71,7 @@ ACCELERATION = Part(
         "rate-subtracted": faulty(com_acceleration, ("- k_y", "- k_x"), ("+ k_x", "- k_y")),
         "rate-unturned": faulty(com_acceleration, ("- k_y", "+ k_x"), ("+ k_x / (m * z)]", "+ k_y / (m * z)]")),
         "pendulum-hangs": faulty(com_acceleration, ("[g / z", "[-g / z"), (", g / z", ", -g / z")),
-        "height-dropped": lambda p_G, *rest: p_G[2] * com_acceleration(p_G, *rest),
+        "height-dropped": faulty(com_acceleration, ("k_y / (m * z)", "k_y / m"), ("k_x / (m * z)", "k_x / m")),
         "mass-dropped": faulty(com_acceleration, ("k_y / (m * z)", "k_y / z"), ("k_x / (m * z)", "k_x / z")),
         "g-ten": faulty(com_acceleration, ("g = 9.81", "g = 10")),
         "g-rounded": faulty(com_acceleration, ("g = 9.81", "g = 9.8")),

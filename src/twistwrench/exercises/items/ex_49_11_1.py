@@ -88,6 +88,11 @@ RANDOM = Part(
             ("np.isfinite(lower)", "np.arange(len(lower)) > 2"),
             ("np.isfinite(upper)", "np.arange(len(upper)) > 2"),
         ),
+        "limits-first-three": faulty(
+            finite_limits,
+            ("np.isfinite(lower)", "np.isfinite(lower) | (np.arange(len(lower)) > 2)"),
+            ("np.isfinite(upper)", "np.isfinite(upper) | (np.arange(len(upper)) > 2)"),
+        ),
         "limits-clipped": lambda lower, upper: (np.maximum(lower, -1.0), np.minimum(upper, 1.0)),
         "limits-together": faulty(
             finite_limits,

@@ -74,6 +74,7 @@ GROWTH = Part(
         "fit-rescaled": lambda N, t: growth(N, t) * np.ptp(np.log(N)) / 2,
         "fit-unlogged": lambda N, t: np.polyfit(N, t, 1)[0],
         "fit-half-logged": lambda N, t: np.polyfit(N, np.log(t), 1)[0],
+        "fit-times-unlogged": lambda N, t: np.polyfit(np.log(N), t, 1)[0],
         "fit-through-origin": lambda N, t: np.log(N) @ np.log(t) / (np.log(N) @ np.log(N)),
         "fit-intercept": lambda N, t: np.polyfit(np.log(N), np.log(t), 1)[1],
         "fit-inverted": lambda N, t: np.polyfit(np.log(t), np.log(N), 1)[0],

@@ -42,8 +42,11 @@ WRONG = {
     "scalar-for-matrix": faulty(spatial_inertia, ("- m * C @ C", "+ m * (c @ c - np.outer(c, c))")),
     "com-sign": faulty(spatial_inertia, ("skew(c)", "-skew(c)")),
     "com-dropped": faulty(spatial_inertia, ("skew(c)", "0 * skew(c)")),
+    "coupling-dropped": faulty(spatial_inertia, ("m * C], [-m * C,", "0 * C], [0 * C,")),
     "inertia-asymmetric": faulty(spatial_inertia, ("[-m * C", "[m * C")),
     "mass-dropped": faulty(spatial_inertia, ("m * C @ C, m * C], [-m * C", "C @ C, C], [-C")),
+    "parallel-axis-massless": faulty(spatial_inertia, ("- m * C @ C", "- C @ C")),
+    "coupling-massless": faulty(spatial_inertia, ("m * C], [-m * C,", "C], [-C,")),
     "swapped-halves": swapped(spatial_inertia),
 }
 """The slips of the matrix, for any body."""

@@ -72,8 +72,8 @@ AT_COM = Part(
     slips={
         "translation-sign": lambda m, c, I_c: moved_inertia(spatial_inertia(m, c, I_c), np.eye(3), c),
         "untransformed": spatial_inertia,
-        "steiner-from-any-point": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - 2 * m * skew(c) @ skew(c)),
-        "parallel-axis-dropped": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - m * skew(c) @ skew(c)),
+        "parallel-axis-twice": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - 2 * m * skew(c) @ skew(c)),
+        "parallel-axis-kept": lambda m, c, I_c: spatial_inertia(m, 0 * c, I_c - m * skew(c) @ skew(c)),
         "mass-dropped": lambda m, c, I_c: spatial_inertia(1.0, 0 * c, I_c),
         "swapped-halves": lambda m, c, I_c: swapped(spatial_inertia)(m, 0 * c, I_c),
     },

@@ -78,7 +78,7 @@ def _verdict(answer: Any, right: float) -> float:
     """Return 0 for about the right ratio, and other numbers for others that are far from it and from each other."""
     ratio = float(answer) / right
     if not np.isfinite(ratio) or ratio <= 0:
-        return 1e3 if ratio > 0 else -1e3 if ratio <= 0 else 2e3
+        return ratio if np.isinf(ratio) else -1e3 if ratio <= 0 else 2e3
     if abs(float(answer) - right - 1) < 0.05 * right:
         return 0.5  # the time of both over that of the first
     return 0.0 if abs(ratio - 1) < 0.15 else float(np.sign(ratio - 1) + round(np.log10(ratio)))
@@ -107,10 +107,10 @@ def _machines(rng: Any) -> Any:
 def _plausible(answer: Any) -> Any:
     """Return 1 for a ratio as a machine may have it, ½ for what may be the inverse, 0 for seconds in its place.
 
-    What is too large for a ratio is 100, but 18, which is N.
+    What is too large for a ratio is 100, but 18 and 324, which are N and N².
     """
     ratio = float(answer)
-    if 10 < ratio < np.inf and ratio != 18:
+    if 10 < ratio < np.inf and ratio not in (18, 324):
         return 100.0
     return 1.0 if 0.8 <= ratio <= 10 else 0.5 if 0.2 <= ratio < 0.8 else 0.0 if 0 <= ratio < 0.2 else ratio
 
@@ -171,6 +171,7 @@ MEASURED = Part(
     canonical=_plausible,
     slips={
         "order-for-time": lambda: 18.0,
+        "orders-divided": lambda: 324.0,
         "time-for-ratio": lambda: 0.0018,
         "ratio-inverted": lambda: 1 / 2.3,
         "ratio-too-large": lambda: 165.0,

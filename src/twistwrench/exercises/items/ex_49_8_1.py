@@ -46,6 +46,13 @@ def _moved(body: Any, T: Any, R: Any) -> Any:
     return tw.SpatialInertia(body.mass, c, R @ body.inertia_at_com @ R.mT).matrix()
 
 
+def _without_term(body: Any) -> Any:
+    """Leave the parallel-axis term out of the inertia of a body."""
+    matrix = body.matrix()
+    matrix[:3, :3] = body.inertia_at_com
+    return matrix
+
+
 def _about_the_origin(T: Any, base: Any) -> Any:
     """Return a placement seen from a frame at the base with the axes of the world."""
     return tw.SE3(T.rotation, T.translation - base.translation)
@@ -103,7 +110,11 @@ BLOCK = Part(
         "parallel-axis-dropped": _parts(
             lambda I, mc, m: [[I + mc @ mc / m[0, 0], mc], [-mc, m]],
         ),
-        "com-dropped": _parts(lambda I, mc, m: [[I, 0 * mc], [0 * mc, m]]),
+        "parallel-axis-of-bodies": faulty(
+            base_block, ("body.transform(base @ T).matrix()", "_without_term(body.transform(base @ T))")
+        ),
+        "coupling-dropped": _parts(lambda I, mc, m: [[I, 0 * mc], [0 * mc, m]]),
+        "com-dropped": _parts(lambda I, mc, m: [[I + mc @ mc / m[0, 0], 0 * mc], [0 * mc, m]]),
         "com-sign": _parts(lambda I, mc, m: [[I, -mc], [mc, m]]),
         "inertia-asymmetric": _parts(lambda I, mc, m: [[I, mc], [mc, m]]),
         "swapped-halves": swapped(base_block),
@@ -126,7 +137,7 @@ WHOLE = Part(
     returns=(Quantity("m", unit="kg"), Quantity("c", unit="m"), Quantity("I_c", unit="kg m²")),
     cases=lambda rng: [(base_block(*case),) for case in _cases(rng)],
     slips={
-        "mass-dropped": lambda block: (block[3, 3], tw.unskew(block[:3, 3:]), whole_robot(block)[2]),
+        "mass-dropped": faulty(whole_robot, (" / m", "")),
         "com-sign": lambda block: (block[3, 3], -whole_robot(block)[1], whole_robot(block)[2]),
         "parallel-axis-sign": faulty(whole_robot, ("+ m", "- m")),
         "parallel-axis-dropped": faulty(whole_robot, (" + m * tw.skew(c) @ tw.skew(c)", "")),

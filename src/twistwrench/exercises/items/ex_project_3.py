@@ -111,7 +111,7 @@ INTERFACE = Part(
         "axis-by-axis": faulty(
             get_dynamics, ("return M, h, J_c", "return M, h, np.concatenate([J_c[axis::3] for axis in range(3)])")
         ),
-        "feet-of-model": faulty(get_dynamics, ("in feet]", "in model.feet or feet]")),
+        "feet-of-model": faulty(get_dynamics, ("h, J_c,", "h, tw.contact_jacobian(model, q, model.feet),")),
         "contact-rows-all": faulty(get_dynamics, ("[3:]", "")),
         "local-for-aligned": faulty(get_dynamics, ("local_world_aligned", "local")),
         "world-for-aligned": faulty(get_dynamics, ("local_world_aligned", "world")),

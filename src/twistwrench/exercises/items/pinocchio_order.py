@@ -43,6 +43,7 @@ INERTIA_MATRIX = Part(
         "rows-only": lambda m, c, I_c: np.array([*map(swap, pinocchio_inertia(m, c, I_c))]),
         "com-sign": _inertia(("-m * cx], [m", "m * cx], [-m")),
         "inertia-asymmetric": _inertia(("-m * cx]", "m * cx]")),
+        "both-blocks-negative": _inertia(("[m * cx", "[-m * cx")),
         "com-dropped": _inertia(("tw.skew(c)", "0 * tw.skew(c)")),
         "parallel-axis-dropped": _inertia((" - m * cx @ cx", "")),
         "parallel-axis-sign": _inertia(("I_c - m", "I_c + m")),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from ..changes.likeness import blames
 from ..changes.repair import Repair
 from ..changes.repairs import repair_of_blocks
 from ..changes.written import text_written
@@ -144,7 +145,7 @@ def _one_triangle(wrong: WrongAnswer) -> Explained | None:
 
 def _change_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report it where it is one, and explains all that is wrong."""
-    if wrong.is_typed:
+    if wrong.is_typed or wrong.by_chance:
         return None  # one of a few whole numbers is another one by chance
     if not wrong.edits or wrong.edits[0].edit.first or any(in_other_roles(wrong.function, x.edit) for x in wrong.edits):
         return None
@@ -163,6 +164,8 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
     if not wrong.again or (found := wrong.nearer.change_and_slip()) is None:
         return None
     edit, name = found
+    if blames(edit) and wrong.steps.right_line(edit.line):
+        return None  # it makes the slip that shows then
     slip = wrong.slip(name)
     line = say("two changes", first=Repair(edit).title(), second=slip.title)
     return [name], [line, slip.why, say("perhaps"), where(wrong, slip.section)]
@@ -170,7 +173,7 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
 
 def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
     few = few_entries(wrong.part, wrong.answers, wrong.cases)
-    pair = None if few else two_slips(wrong.part, wrong.answers, wrong.cases)
+    pair = None if few or wrong.by_chance else two_slips(wrong.part, wrong.answers, wrong.cases)
     if pair is None:
         return None
     first, second = map(wrong.slip, pair)
@@ -195,7 +198,7 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
 
 def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     """Report two changes of a right solution, or one that does not explain all."""
-    if wrong.is_typed:
+    if wrong.is_typed or wrong.by_chance:
         return None
     other = any(in_other_roles(wrong.function, x.edit) for x in wrong.edits)
     return ([], edited(wrong)) if wrong.edits and not other else None

@@ -103,13 +103,16 @@ def shown_in(source: str, edit: Edit) -> bool:
 
 
 def in_other_roles(function: Callable[..., Any], edit: Edit) -> bool:
-    """Whether a student's code has both names of which an edit of a right solution puts one for the other.
+    """Whether an edit of a right solution puts one thing for another, and a student's code has the right one, or both.
 
     They may mean other things there, and he would look for the slip where there is none.
     """
     source = text_written(function)
+    if edit.kind not in ("name", "index", "instead") or shown_in(source, edit):
+        return False
     names = {*re.findall(r"\w+", source)}
-    return edit.kind == "name" and {edit.right, edit.wrong} <= names and not shown_in(source, edit)
+    both = {edit.right, edit.wrong} <= names
+    return both or (len(edit.right) > 2 and edit.right in source and edit.wrong not in source)
 
 
 def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:

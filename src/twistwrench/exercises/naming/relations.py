@@ -187,7 +187,7 @@ def _factor(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> T
 
 
 def _triangle(a: Array, b: Array, tolerance: float) -> Text | None:
-    """Return which triangle of a symmetric matrix is right, where most of the other is wrong."""
+    """Return which triangle of a symmetric matrix is right, where all of the other is wrong."""
     if not _square(b) or not same(b, b.mT, tolerance):
         return None
     upper = np.triu(np.ones(b.shape[-2:], dtype=bool))
@@ -198,10 +198,10 @@ def _triangle(a: Array, b: Array, tolerance: float) -> Text | None:
 
 
 def _only(a: Array, b: Array, part: Array, tolerance: float) -> bool:
-    """Whether a part of a matrix is right, and of the numbers beside it that are not zero most are wrong."""
+    """Whether a part of a matrix is right, and of the numbers beside it none but zeros."""
     wrong = np.abs(a - b) > tolerance
-    shown = ~part & (wrong | (np.abs(b) > tolerance))
-    return not (wrong & part).any() and 2 * int((wrong & shown).sum()) > int(shown.sum())
+    beside = ~part & (np.abs(b) > tolerance)
+    return not (wrong & part).any() and bool((wrong & ~part).any() and wrong[beside].all())
 
 
 def _diagonal(a: Array, b: Array, tolerance: float) -> Text | None:

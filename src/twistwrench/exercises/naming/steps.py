@@ -29,9 +29,11 @@ def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ..
     )
     fine: list[str] = []
     for name in (name for name in bodies if name in right and name in wrong):
-        bad = [key for key, x in _entries(right[name]).items() if not _same(x, _entries(wrong[name]).get(key))]
+        inward = bodies[name]  # then what arrives at the world is of no use to anyone
+        entries = {key: x for key, x in _entries(right[name]).items() if key != 0 or not inward}
+        bad = [key for key, x in entries.items() if not _same(x, _entries(wrong[name]).get(key))]
         if bad:
-            first = max(bad) if bodies[name] else min(bad)
+            first = max(bad) if inward else min(bad)
             place = f"{name}[{', '.join(map(str, first)) if isinstance(first, tuple) else first}]"
             return say("first wrong", right=", ".join(fine), wrong=place) if fine else say("wrong first", wrong=place)
         if _entries(right[name]):

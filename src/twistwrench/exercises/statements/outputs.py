@@ -41,9 +41,13 @@ class Value:
 
 @dataclass(frozen=True)
 class Output:
-    """What a statement computes, or one of several things: the expression, its values, and in which function."""
+    """What a statement computes, or one of several things: the expression, and its values.
+
+    It stands `within` a function, which is `given` things by its caller where it is a helper.
+    """
 
     within: str
+    given: frozenset[str]
     statement: Any
     node: Any
     writes: frozenset[str]
@@ -68,7 +72,11 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
         when.setdefault(id(event.node), []).append(k)
     sure = {id(event.node) for event in events if any(map(tells, arrays(event.value)))}
     fine = {number for number, times in when.items() if number in sure and all(right[k] for k in times)}
-    found, helpers = [], {x.name for x in ast.walk(source.tree) if isinstance(x, ast.FunctionDef)}
+    found, main, helpers = (
+        [],
+        source.function.__name__,
+        {x.name for x in ast.walk(source.tree) if isinstance(x, ast.FunctionDef)},
+    )
     for parents, _, node in source.places:
         statement = innermost([*parents, node])
         if id(node) not in when or not any(node is x for x in _results(statement)):
@@ -84,12 +92,15 @@ def outputs(source: Source, events: Sequence[Event], known: Known) -> list[Outpu
             before = k
         if isinstance(node, ast.AugAssign) and values[-1].known:
             values = values[-1:]  # the sum, not what it is on the way
-        found.append(
-            Output(
-                getattr(parents[0], "name", ""), statement, node, frozenset(_written(statement, parents)), (*values,)
-            )
-        )
+        within = getattr(parents[0], "name", "")
+        given = frozenset(name for x in parents for name in _arguments(x) if x.name != main)
+        found.append(Output(within, given, statement, node, frozenset(_written(statement, parents)), (*values,)))
     return found
+
+
+def _arguments(function: Any) -> list[str]:
+    """Return the names of the arguments of a function, none of anything else."""
+    return [x.arg for x in function.args.args] if isinstance(function, ast.FunctionDef) else []
 
 
 def _base(node: Any) -> str:
@@ -150,9 +161,8 @@ def suspects(found: Sequence[Output], ways: Container[tuple[int, int]] = ()) -> 
     wrong = [(x, bad) for x, bad in wrong if bad]
     first = []
     for x, bad in wrong:
-        others = [(y, values) for y, values in wrong if y.statement is not x.statement]
-        names = {name for y, _ in others for name in y.writes if x.within == y.within or name == y.within}
-        given = {v.key for y, values in others if x.within != y.within for v in values}  # to a helper, by its caller
-        if not any((name in names and key not in fine) or key in given for name, key in bad[0].read):
+        others = [y for y, _ in wrong if y.statement is not x.statement]
+        names = {name for y in others for name in y.writes if x.within == y.within or name == y.within}
+        if not any((name in names and key not in fine) or name in x.given for name, key in bad[0].read):
             first.append((bad[0].when, x))
     return [x for _, x in sorted(first, key=lambda pair: pair[0])]

@@ -76,10 +76,14 @@ PHRASES = {
     ),
     "it shows": Text("It shows in the result:", "反映在结果上："),
     "first wrong": Text(
-        "The first quantity that it makes wrong is {wrong}. These are right for every body: {right}.",
-        "这一改动使 {wrong} 最先出错。对每个刚体都正确的有：{right}。",
+        "In a right solution the first quantity that it makes wrong is {wrong}. These stay right for every body:"
+        " {right}.",
+        "在正确解法中，它使 {wrong} 最先出错。对每个刚体仍都正确的有：{right}。",
     ),
-    "wrong first": Text("The first quantity that it makes wrong is {wrong}.", "这一改动使 {wrong} 最先出错。"),
+    "wrong first": Text(
+        "In a right solution the first quantity that it makes wrong is {wrong}.",
+        "在正确解法中，它使 {wrong} 最先出错。",
+    ),
     "in line": Text("{title}, where `{target}` is computed", "计算 `{target}` 时，{title}"),
     "results exchanged": Text("{first} and {second} are exchanged", "{first} 与 {second} 互换了"),
     "exchanged": Text("Each of them is right: return them in the other order.", "二者都正确，只是返回的顺序反了。"),
