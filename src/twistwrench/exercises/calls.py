@@ -10,8 +10,8 @@ import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import wraps
 from typing import Any
-from unittest.mock import patch
 
 import numpy as np
 
@@ -65,30 +65,36 @@ def limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, before)
 
 
-def _finite(a: Any, b: Any, *others: Any, **named: Any) -> Any:
-    """Solve least squares of finite numbers: of others LAPACK may never come back, and no alarm reaches it."""
-    if not (np.isfinite(a).all() and np.isfinite(b).all()):
-        raise np.linalg.LinAlgError("least squares of numbers that are not finite")
-    return _lstsq(a, b, *others, **named)
+def _finite(function: Function) -> Function:
+    """Return a function of linear algebra for finite numbers: of others LAPACK may never come back from it."""
+
+    @wraps(function)
+    def solved(*given: Any, **named: Any) -> Any:
+        if not all(np.isfinite(x).all() for x in given[:2] if isinstance(x, np.ndarray | list) and np.size(x)):
+            raise np.linalg.LinAlgError("numbers that are not finite")
+        return function(*given, **named)
+
+    return solved
 
 
-_lstsq = np.linalg.lstsq
+SOLVERS = {name: getattr(np.linalg, name) for name in ("lstsq", "pinv", "svd", "matrix_rank", "cond", "eigh")}
+"""Those that do not look at their numbers first, and to which no alarm reaches."""
+
+FINITE = {name: _finite(function) for name, function in SOLVERS.items()}
 
 
 def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
     """Return what a function that may be faulty gives; None where it raises an error or does not end."""
     _rounds[0] = 0
+    vars(np.linalg).update(FINITE)
     try:
-        with (
-            limited(LONGEST),
-            patch.object(np.linalg, "lstsq", _finite),
-            warnings.catch_warnings(),
-            np.errstate(all="ignore"),
-        ):
+        with limited(LONGEST), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             return part.value(function, copied(arguments))
     except (Exception, SystemExit, _TooLong):  # whatever an edit leads to
         return None
+    finally:
+        vars(np.linalg).update(SOLVERS)
 
 
 @contextmanager
