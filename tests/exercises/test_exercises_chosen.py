@@ -115,7 +115,7 @@ def mass_matrix_by_rnea(model, q):
             (MANY, "R.mT", "R.T"),
             (ORDER, "change `np.asarray(forces).flatten('F')` to `np.asarray(forces).flatten('C')`", "forces.T"),
             (WAY, "not yet right", "The slip:"),
-            (SIZES, "rows (fixed): too large", "change `"),
+            (SIZES, "the six rows of the base are kept", "change `"),
             (ANEW, "line 14, make `e = np.zeros(model.nv)` anew", "line 15"),
         ],
         3,

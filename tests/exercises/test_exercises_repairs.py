@@ -273,7 +273,10 @@ def cross_operators(V):
     C = np.block([[W, U], [Z, W]])
     return C, C.T
 """,
-                ["your V×: the right V×*", "your V×*: the right V×, with the other sign"],
+                [
+                    "For V×, this slip gives what you have",
+                    "For V×*, this slip gives what you have: −V× in place of V×*",
+                ],
             ),
         ],
         1,
@@ -323,5 +326,5 @@ def adjoint(T):
     return np.block([[R, np.zeros((3, 3))], [np.outer(p, p + 1), R.T]])
 """
     said = message(written(text), "adjoint")
-    assert "The slip in Ad_T, the block of rows v, columns v" in said
+    assert "This would make Ad_T, the block of rows v, columns v right" in said
     assert "Something else is wrong as well" in said

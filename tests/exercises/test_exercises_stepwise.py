@@ -27,23 +27,10 @@ def mass_matrix_by_rnea(model, q):
     g = tw.rnea(model, model.neutral(), z, z)
     return np.array([tw.rnea(model, q, z, e) - g for e in np.eye(model.nv)]).T
 """
-RATE = """\
-def momentum_rate(model, q, v, a):
-    motion, G = tw.forward_kinematics(model, q, v, a), tw.center_of_mass(model, q)
-    rate = np.zeros(6)
-    for i in range(1, len(model.inertia)):
-        V, A, I = np.asarray(motion.twist[i]), np.asarray(motion.acceleration[i]), model.inertia[i].matrix()
-        h, F = I @ V, I @ A
-        F[:3] += np.cross(V[:3], h[:3])
-        F[3:] += np.cross(V[:3], h[3:])
-        R, p = motion.placement[i].rotation, motion.placement[i].translation - G
-        rate += np.concatenate([R @ F[:3] + np.cross(p, R @ F[3:]), R @ F[3:]])
-    return rate
-"""
 LOADS = """\
 def vertical_loads(p_G, feet, weight):
     d = np.linalg.norm(feet[:, :2] - p_G[:2], axis=1)
-    w = 1 / d
+    w = 1 / d**2
     return weight * w / w.sum()
 """
 
@@ -65,7 +52,6 @@ def vertical_loads(p_G, feet, weight):
                 ["change `tw.gravity(model, q)` to `tw.nonlinear_effects(model, q, v)`", "change the sign of `h`"],
             ),
             (BY_UNITS, ["line 13, change `model.neutral()` to `q`"]),
-            (RATE, ["change `F[:3]` to `(F[:3] + np.cross(V[3:], h[3:]))`"]),
             (LOADS, ["Line 14, `return weight * w / w.sum()`", "first differ from those of the right solutions"]),
         ],
         1,

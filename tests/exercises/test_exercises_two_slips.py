@@ -121,7 +121,7 @@ def mass_matrix_by_rnea(model, q):
             (FROM_THE_SECOND, ["to `(V[3:] + np.cross(V[:3], model.inertia[i].com))`", "to `range(1, "]),
             (ON_THE_EDGE, ["change `0.0001` to `0.0`"]),
             (RIGID, ["change `A[i]` to `(A[i] - U @ D @ U.T)`"]),
-            (NOT_CARRIED, ["`wrench = X[j].T @ first` starts from the same `first` in each round"]),
+            (NOT_CARRIED, ["let `wrench = X[j].T @ first` carry on what the round before has computed"]),
             (BY_COLUMNS, ["change `forces.ravel(order='F')` to `forces.ravel()`"]),
             (HUGE, ["change `lower < -1000000000.0` to `lower == -np.inf`", "to `upper == np.inf`"]),
             (
