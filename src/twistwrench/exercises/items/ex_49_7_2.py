@@ -142,7 +142,7 @@ TWO_WAYS = Part(
         "base-held": lambda *state: (tw.aba(*state), held_acceleration(*state)),
         "swapped-halves": swapped(forward_dynamics_two_ways),
     },
-    residuals=(lambda answer, model, q, v, tau: tw.rnea(model, q, v, answer[1]) - tau,),
+    residuals=(lambda answer, model, q, v, tau: [tw.rnea(model, q, v, a) - tau for a in answer],),
 )
 
 RATIO = Part(
