@@ -12,6 +12,10 @@ from .words.text import Text
 __all__ = ["Machine", "Task", "often", "seconds", "timed"]
 
 
+UP = 2.0**16
+"""Seconds since which a machine runs: its clock does not begin at zero, as no real one does."""
+
+
 class Machine:
     """A clock on a machine that has one of the faults of real ones, the same each time.
 
@@ -59,7 +63,7 @@ class Machine:
 
     def reset(self) -> None:
         """Start again."""
-        self._now, self.readings, self.calls, self._before = 0.0, 0, 0, 0
+        self._now, self.readings, self.calls, self._before = UP, 0, 0, 0
         self._met: set[Task] = set()
 
     def __call__(self) -> float:
