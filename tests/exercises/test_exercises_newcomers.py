@@ -149,3 +149,12 @@ def test_a_folder_without_answers_is_among_those_of_a_class(tmp_path):
     (tmp_path / "empty").mkdir()
     start(tmp_path / "zoe" / "deeper")
     assert [path.name for path in students([tmp_path])] == ["anna", "empty", "zoe"]
+
+
+@pytest.mark.parametrize("first", ["", "from __future__ import annotations\n"])
+def test_a_file_may_hold_a_dataclass(tmp_path, first):
+    start(tmp_path)
+    file = tmp_path / "ex_49_0.py"
+    point = "\nfrom dataclasses import dataclass\n\n@dataclass\nclass Point:\n    x: float\n    y: float = 0\n"
+    file.write_text(first + file.read_text(encoding="utf-8") + point, encoding="utf-8")
+    assert Workbook(tmp_path).module("49.0").Point(1.0).y == 0

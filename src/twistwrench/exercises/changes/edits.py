@@ -257,7 +257,7 @@ class Source:
     def compiled(self) -> Function:
         """Return the function as the tree is now."""
         name, names = self.function.__name__, dict(self.names)
-        exec(compile(ast.fix_missing_locations(self.tree), CHANGED, "exec"), names)
+        exec(compile(ast.fix_missing_locations(self.tree), CHANGED, "exec", dont_inherit=True), names)
         found: Function = names[name]
         return found
 

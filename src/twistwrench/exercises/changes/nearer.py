@@ -246,8 +246,12 @@ def _of_names(edit: Edit) -> bool:
 
 
 def _is_of_rounds(edit: Edit) -> bool:
-    """Whether a change lets a loop begin or end one round earlier or later."""
-    return edit.by_one and isinstance(edit.inside, ast.Call) and ast.unparse(edit.inside.func) == "range"
+    """Whether a change lets a loop begin or end elsewhere."""
+    return (
+        edit.kind in ("number", "index", "instead")
+        and isinstance(edit.inside, ast.Call)
+        and ast.unparse(edit.inside.func) == "range"
+    )
 
 
 def _near(x: Array, y: Array) -> bool:

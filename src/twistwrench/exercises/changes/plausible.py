@@ -98,7 +98,7 @@ def _is_place(edit: Edit) -> bool:
         if any(isinstance(x, ast.Subscript) and x.slice in chain for x in chain):
             return True
         if any(isinstance(x, ast.Call) and ast.unparse(x.func) == "range" for x in parents):
-            return True
+            return not edit.by_one  # a loop downward ends at -1
     return False
 
 

@@ -58,9 +58,9 @@ class Repair:
     @property
     def one_piece(self) -> bool:
         """Whether the second of two changes is one of what the first puts there: then they are one."""
-        return bool(
-            self.first and self.first.wrong and self.edit.wrong and self.edit.right.count(self.first.wrong) == 1
-        )
+        first, edit = self.first, self.edit
+        here = first is not None and first.line == edit.line
+        return bool(first and here and first.wrong and edit.wrong and edit.right.count(first.wrong) == 1)
 
     @property
     def line(self) -> int | None:

@@ -131,8 +131,9 @@ class Workbook:
         kept = {name: (x, dict(vars(x))) for name, x in SHARED.items()}
         try:
             with _importable(self.folder), self.watch(path.name):
+                sys.modules.setdefault(path.stem, module)  # in which a dataclass looks for its names
                 # compiled anew each time: a cached file can be older than the last change
-                exec(compile(source, path, "exec"), module.__dict__)
+                exec(compile(source, path, "exec", dont_inherit=True), module.__dict__)
         except (Exception, SystemExit) as error:  # whatever the student's file raises becomes a message
             said = f"{type(error).__name__}: {getattr(error, 'msg', error)}"
             if (line := _line(error, path)) is not None:

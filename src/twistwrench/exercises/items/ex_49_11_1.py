@@ -103,6 +103,7 @@ RANDOM = Part(
         "limits-large": lambda lower, upper: (np.where(lower < -1e10, -1, lower), np.where(upper > 1e10, 1, upper)),
         "one-sided": faulty(finite_limits, ("np.where(np.isfinite(lower), lower, -1.0)", "lower")),
     },
+    residuals=(lambda answer, *limits: np.hstack([(a - x)[np.isfinite(x)] for a, x in zip(answer, limits)]),),
 )
 
 MATRIX = Part(

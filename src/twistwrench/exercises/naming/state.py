@@ -58,7 +58,7 @@ def _fresh(source: str, names: dict[str, Any]) -> dict[str, Any]:
     fresh = {name: x for name, x in names.items() if name.startswith("__")}
     try:
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-            exec(compile(source, str(names.get("__file__", "")), "exec"), fresh)
+            exec(compile(source, str(names.get("__file__", "")), "exec", dont_inherit=True), fresh)
     except (Exception, SystemExit):  # it was read before: what is missing now is not the student's
         return {}
     return fresh

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..calls import tried
 from ..changes.chosen import Lines
 from ..changes.nearer import Nearer
 from ..changes.repair import Repair
@@ -63,6 +64,7 @@ class WrongAnswer:
         self.right = right_values(part, cases)
         self.until = deadlines(share)
         self.nearer = Nearer(part, self.right, answers, cases)
+        self.whole: WrongAnswer | None = None
 
     @property
     def given(self) -> tuple[Callable[..., Any], Sequence[Any], Sequence[Any], Sequence[tuple[Any, ...]]]:
@@ -88,7 +90,18 @@ class WrongAnswer:
         part = replace(part, returns=self.part.returns[k : k + 1], residuals=(), k=k, of=len(self.part.returns))
         again = self.again
         once = (lambda given: alone(again(given), k, len(self.part.returns))) if again else None
-        return WrongAnswer(self.exercise, part, self.function, answers, self.cases, once, share)
+        found = WrongAnswer(self.exercise, part, self.function, answers, self.cases, once, share)
+        found.whole = self
+        return found
+
+    def _spoils_another(self, found: Repair) -> bool:
+        """Whether a change that makes this result right makes another one wrong that was right."""
+        if self.whole is None:
+            return False
+        whole = self.whole
+        answers = [tried(whole.part, found.edit.function, arguments) for arguments in self.cases]
+        right = {*range(len(whole.part.returns))} - {*whole.wrong_results}
+        return not all(same(whole.part, answers, whole.right, k) for k in right)
 
     @property
     def is_typed(self) -> bool:
@@ -119,7 +132,8 @@ class WrongAnswer:
         if not self.again:
             return []
         lines = Lines(lambda line: self.steps.right_line(line), lambda line: self.steps.blameless(line))  # when needed
-        return repairs(self.part, *self.given, until=self.until["mended"], nearer=self.nearer, lines=lines)
+        found = repairs(self.part, *self.given, until=self.until["mended"], nearer=self.nearer, lines=lines)
+        return [x for x in found if not self._spoils_another(x)]
 
     @property
     def whole_changes(self) -> list[Repair]:
@@ -134,7 +148,8 @@ class WrongAnswer:
     @cached_property
     def first_statement(self) -> list[Repair]:
         """What must stand in place of the first statement that is wrong."""
-        return self.steps.one(self.until["stepped"], every=time.process_time() > self.until["mended"])
+        found = self.steps.one(self.until["stepped"], every=time.process_time() > self.until["mended"])
+        return [x for x in found if not self._spoils_another(x)]
 
     @cached_property
     def edits(self) -> list[Found]:

@@ -74,7 +74,7 @@ PHRASES = {
         "第 {line} 行 `{text}`：你的数值从这里开始与各正确解法的不同。请检查这一行和它用到的量；"
         "如果它没有错，只是另一种做法，就检查它之后的部分。",
     ),
-    "it shows": Text("It shows in the result:", "反映在结果上："),
+    "it shows": Text("In this case it shows in the result:", "在这组数据中反映为："),
     "first wrong": Text(
         "In a right solution the first quantity that it makes wrong is {wrong}. These stay right for every body:"
         " {right}.",
@@ -94,7 +94,10 @@ PHRASES = {
     ),
     "arrays": Text("list of {n} arrays", "{n} 个数组的列表"),
     "project": Text("the project at the end of the chapter", "章末的累积项目"),
-    "no slip": Text("It is not one of the known slips. What the comparison shows:", "不属于已知的典型错误。比较结果："),
+    "no slip": Text(
+        "It is not one of the known slips. In this case the comparison shows:",
+        "不属于已知的典型错误。这组数据的比较结果：",
+    ),
     "broken": Text(
         "This holds for every right answer, but not for yours: {text}", "正确答案都满足而你的不满足：{text}"
     ),
@@ -117,8 +120,10 @@ PHRASES = {
         "它修改了参数 `{name}`。请在副本上运算，调用者还要用它。",
     ),
     "changed term": Text(
-        "A sum or a difference changes the first of its two terms, which is still needed: make a new object for it.",
-        "求和或求差时改变了第一个操作数，而它之后还要用：请为结果新建一个对象。",
+        "A sum or a difference changes the first of its two terms, which is still needed: it has the array of that"
+        " term. Make a new one: `a + b` is one, `a += b` is not.",
+        "求和或求差时改变了第一个操作数，而它之后还要用：结果用的就是那个操作数的数组。请新建一个数组：`a + b` 会新建，"
+        "`a += b` 不会。",
     ),
     "kept": Text(
         "Called again with the same arguments, it returns something else: it keeps something from one call to the next."
@@ -172,9 +177,8 @@ PHRASES = {
     **MENDINGS,
     # what shows in all cases together
     "fixed size": Text(
-        "{name} always has the shape {shape}, whatever the arguments are: the sizes of one robot are written into the"
-        " function.",
-        "无论参数是什么，{name} 的形状总是 {shape}：函数里写死了某个机器人的尺寸。",
+        "{name} has the shape {shape} in all cases: the sizes of one robot are written into the function.",
+        "在所有情形中 {name} 的形状都是 {shape}：函数里写死了某个机器人的尺寸。",
     ),
     "cut off": Text(
         "{name} has lost the digits after the point: it is written into an array of whole numbers."
@@ -211,8 +215,8 @@ PHRASES = {
         "当 {name} = {value} 时结果正确：请检查你对 {name} 的处理。",
     ),
     "not used": Text(
-        "{name} does not change with {what}, and must: `{what}` does not come into it.",
-        "{what} 改变时 {name} 不变，而它应当改变：计算中没有用到 `{what}`。",
+        "In this case {name} does not change with {what}, and must.",
+        "在这组数据中，{what} 改变时 {name} 不变，而它应当改变。",
     ),
     "diagonal only": Text(
         "It is right where {name} is diagonal: what stands beside the diagonal is not used as it must be.",
