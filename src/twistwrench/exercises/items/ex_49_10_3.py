@@ -96,6 +96,7 @@ PACE = Part(
         "linear-for-angular": faulty(rate_at_pace, ("[:3]", "[3:]")),
         "rate-bias-missing": lambda model, q, v, a, s: s**2 * (tw.centroidal_map(model, q) @ a)[:3],
     },
+    residuals=(lambda answer, model, q, v, a, s: answer - s**2 * _rate(model, q, v, a)[:3],),
 )
 
 EXERCISE = Exercise(id="49.10.3", kind="explain", parts=(ACCELERATION, PACE))

@@ -129,6 +129,7 @@ VELOCITY = Part(
         "angular-for-linear": lambda h_G, m: h_G[3:] / m,
         "mass-dropped": lambda h_G, m: h_G[:3],
     },
+    residuals=(lambda answer, h_G, m: m * answer - h_G[:3],),
 )
 
 CONTACTS = Part(
@@ -142,6 +143,7 @@ CONTACTS = Part(
         "axis-by-axis": lambda J: J[:, :3].swapaxes(0, 1).reshape(12, -1),
         "columns-exchanged": lambda J: np.array([*map(swap, contact_rows(J))]),
     },
+    residuals=(lambda answer, J: answer[:3] - J[0][:3],),
 )
 
 EXERCISE = Exercise(id="49.11.1", kind="explain", parts=(RANDOM, MATRIX, INERTIA_MATRIX, ACTION, VELOCITY, CONTACTS))

@@ -37,6 +37,7 @@ ROTATION = Part(
         "only-v-rotated": lambda R: np.block([[np.eye(3), 0 * R], [0 * R, R]]),
         "kron-order": lambda R: np.kron(R, np.eye(2)),
     },
+    residuals=(lambda answer, R: answer @ answer.mT - np.eye(6), lambda answer, R: answer[:3, :3] - R),
 )
 
 BOTH = Part(

@@ -107,6 +107,10 @@ SUM = Part(
         "force-sign": negated(sole_wrench),
     },
     alike=(frozenset({"cross-order", "lever-reversed"}),),
+    residuals=(
+        lambda answer, points, forces: answer[3:] - forces.sum(0),
+        lambda answer, points, forces: answer[2] - np.cross(points, forces)[:, 2].sum(),
+    ),
 )
 
 PRESSURE = Part(

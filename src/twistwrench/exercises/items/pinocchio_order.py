@@ -71,4 +71,5 @@ ACTION = Part(
         "rotation-transposed": lambda R, p: pinocchio_action(R.mT, p),
     },
     alike=(frozenset({"swapped-halves", "force-for-motion"}),),  # X* has [p]× R where X in the other order has it
+    residuals=(lambda answer, R, p: answer[:3, :3] - R, lambda answer, R, p: answer[3:, :3]),
 )

@@ -180,6 +180,13 @@ POSE_OF_BASE = Part(
 )
 
 
+def _first_axis(answer: Any, xyz: Any, rpy: Any) -> Any:
+    """Return by how much the x axis is another one."""
+    _, pitch, yaw = rpy
+    right = np.array([np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), -np.sin(pitch)])
+    return answer[:3, 0] - right
+
+
 POSE_OF_URDF = Part(
     solution=urdf_pose,
     returns=(Quantity("T", POSE),),
@@ -201,4 +208,5 @@ POSE_OF_URDF = Part(
         "translation-first": faulty(urdf_pose, ("= xyz", "= T[:3, :3] @ xyz")),
         "translation-dropped": faulty(urdf_pose, ("= xyz", "= 0")),
     },
+    residuals=(lambda answer, xyz, rpy: answer[:3, 3] - xyz, _first_axis),
 )

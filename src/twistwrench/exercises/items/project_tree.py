@@ -8,6 +8,7 @@ import numpy as np
 from ...algorithms.kinematics import placements
 from ...model import joint_placements, random_tree
 from ...model.tree import split
+from ...spatial import motion_transform
 from ..exercise import Part, Quantity
 from ..folder.workbook import mine
 from ..robots import robot
@@ -44,6 +45,12 @@ def carried_wrenches(parent: Any, T: Any, F: Any) -> Any:
 def _previous(parent: Any) -> Any:
     """Return the parents that a chain would have."""
     return tuple(range(-1, len(parent) - 1))
+
+
+def _steps_of_twists(answer: Any, parent: Any, T: Any, V_joint: Any) -> Any:
+    """Return what the step from the parent to each body does not explain."""
+    seen = [np.linalg.inv(motion_transform(x[:3, :3], x[:3, 3])) @ answer[p] for p, x in zip(parent[1:], T[1:])]
+    return answer[1:] - seen - V_joint[1:]
 
 
 def _unmoved(before: Any, T: Any) -> Any:
@@ -105,6 +112,7 @@ PLACEMENTS = Part(
         "parents-joint-only": _changed(("T[parent[i]] @ T[i]", "relative[parent[i]] @ T[i]")),
         "untransformed": lambda parent, T: T,
     },
+    residuals=(lambda answer, parent, T: [answer[i] - answer[parent[i]] @ T[i] for i in range(1, len(parent))],),
 )
 
 TWISTS = Part(
@@ -130,6 +138,7 @@ TWISTS = Part(
         "swapped-halves": lambda parent, T, V_joint: _halves(body_twists(parent, T, V_joint)),
     },
     alike=(frozenset({"force-for-motion", "transpose-for-inverse"}),),  # X*(T⁻¹) is X(T)ᵀ
+    residuals=(_steps_of_twists,),
 )
 
 
