@@ -17,7 +17,7 @@ import numpy as np
 
 from .exercise import Part
 
-__all__ = ["CHANGED", "copied", "count", "limited", "local_values", "silent", "smallest", "tried"]
+__all__ = ["CHANGED", "begin", "copied", "count", "limited", "local_values", "silent", "smallest", "tried"]
 
 Function = Callable[..., Any]
 
@@ -29,13 +29,18 @@ MOST_ROUNDS = 1000
 LONGEST = 1.0
 """Seconds of CPU time that one call of a changed function may take."""
 
-_rounds = [0]
+_rounds = [0, MOST_ROUNDS]
+
+
+def begin(arguments: tuple[Any, ...]) -> None:
+    """Count the rounds of loops from nought, and allow two loops, one in the other, over the longest argument."""
+    _rounds[:] = 0, max([MOST_ROUNDS, *(len(x) ** 2 for x in arguments if isinstance(x, tuple | list))])
 
 
 def count() -> None:
     """Stop a loop that an edit has made endless."""
     _rounds[0] += 1
-    if _rounds[0] > MOST_ROUNDS:
+    if _rounds[0] > _rounds[1]:
         raise RuntimeError("an endless loop")
 
 
@@ -85,7 +90,7 @@ FINITE = {name: _finite(function) for name, function in SOLVERS.items()}
 
 def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
     """Return what a function that may be faulty gives; None where it raises an error or does not end."""
-    _rounds[0] = 0
+    begin(arguments)
     vars(np.linalg).update(FINITE)
     try:
         with limited(LONGEST), warnings.catch_warnings(), np.errstate(all="ignore"):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import inspect
 import time
 import traceback
@@ -14,7 +13,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .calls import silent
+from .calls import begin, copied, silent
 from .cases import cases, further_cases
 from .changes.repairs import guarded
 from .compare import agree, copied_results, is_one_array, to_do, unchanged
@@ -238,7 +237,8 @@ def _again(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...],
 
 def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[Any, Text | None]:
     """Call the student's function on copies of the arguments; report whether it changes one, and where it stopped."""
-    given = tuple(copy.deepcopy(x) if isinstance(x, np.ndarray | list) else x for x in arguments)
+    given = copied(arguments)
+    begin(arguments)
     try:
         answer = part.value(function, given)
     except NotImplementedError:

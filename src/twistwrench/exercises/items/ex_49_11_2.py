@@ -36,6 +36,7 @@ def _trees(rng: Any) -> Any:
         (small_robot(rng).parent,),
         (star,),
         (random,),
+        (tuple(range(-1, 300)),),  # deeper than a byte counts
     ]
 
 
