@@ -74,6 +74,14 @@ def out_of_balance(model, q, tau, forces):
     S, J = tw.selection_matrix(model), tw.contact_jacobian(model, q, model.feet)
     return tw.gravity(model, q) - S.T @ tau - J.T @ np.asarray(forces).flatten("F")
 """
+APPENDED = """\
+def mass_matrix_by_rnea(model, q):
+    z, e, columns, column = np.zeros(model.nv), np.eye(model.nv), [], np.zeros(model.nv)
+    for k in range(model.nv):
+        column[:] = tw.rnea(model, q, z, e[k]) - tw.rnea(model, q, z, z)
+        columns.append(column)
+    return np.array(columns).T
+"""
 WAY = """\
 def body_twists(parent, T, V_joint):
     def way(i):
@@ -111,6 +119,7 @@ def mass_matrix_by_rnea(model, q):
             (LEVER, "the sign of `tw.skew(r)", "wrong end"),
             (ONE_ARRAY, "line 12, `tau = f = np.zeros(3)` makes one array", "change `"),
             (IN_A_LIST, "line 12, `V = [np.zeros(6)] * len(parent)` makes one array", "change `"),
+            (APPENDED, "line 15, `columns.append(column)` puts the same array into the list", "change `"),
             (FREE, "take out `", "slice(6, 0)"),
             (MANY, "R.mT", "R.T"),
             (ORDER, "change `np.asarray(forces).flatten('F')` to `np.asarray(forces).flatten('C')`", "forces.T"),

@@ -26,13 +26,15 @@ def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: 
     if text is None:
         return []
     tree = ast.parse(textwrap.dedent(text))
-    places = [k for k, node in enumerate(ast.walk(tree)) if isinstance(node, ast.Assign) and _is_one_array(node)]
+    places = [k for k, node in enumerate(ast.walk(tree)) if _is_one_array(node)]
 
     def mended(chosen: Sequence[int]) -> bool:
         source = Source(function, function, {}, {"_copied": _copied}, text)
         source.names["_copied"] = _copied
         for k, node in enumerate(ast.walk(source.tree)):
-            if k in chosen and isinstance(node, ast.Assign):
+            if k in chosen and isinstance(node, ast.Call):
+                node.args = [ast.Call(ast.Name("_copied", ast.Load()), node.args, [])]
+            elif k in chosen and isinstance(node, ast.Assign):
                 node.value = ast.Call(ast.Name("_copied", ast.Load()), [node.value], [])
                 if len(node.targets) > 1:
                     node.value = ast.Tuple([node.value] * len(node.targets), ast.Load())
@@ -46,15 +48,18 @@ def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: 
         fewer = [other for other in places if other != k]
         if fewer and mended(fewer):
             places = fewer
-    nodes = [node for k, node in enumerate(ast.walk(tree)) if k in places and isinstance(node, ast.Assign)]
-    return [_said(node) for node in nodes]
+    return [_said(node) for k, node in enumerate(ast.walk(tree)) if k in places]
 
 
-def _is_one_array(node: ast.Assign) -> bool:
-    """Whether one array gets several names, or stands several times in a list, or gets a second name.
+def _is_one_array(node: Any) -> bool:
+    """Whether one array gets several names, or stands several times in a list, or gets a second name, or is appended.
 
     It does where nothing is computed: what stands on the right is a name, a part of an array, or its transpose.
     """
+    if isinstance(node, ast.Call):
+        return getattr(node.func, "attr", "") == "append" and all(isinstance(x, ast.Name) for x in node.args)
+    if not isinstance(node, ast.Assign):
+        return False
     value: Any = node.value
     if _exchanges_views(node):
         return True
@@ -82,11 +87,13 @@ def _copied(x: Any) -> Any:
     return [*map(_copied, x)] if isinstance(x, list | tuple) else x.copy() if hasattr(x, "copy") else x
 
 
-def _said(node: ast.Assign) -> Text:
+def _said(node: Any) -> Text:
+    if isinstance(node, ast.Call):
+        return say("same appended", line=node.lineno, text=ast.unparse(node), name=ast.unparse(node.args[0]))
     if len(node.targets) > 1 or _repeats(node.value):
         return say("many names", line=node.lineno, text=ast.unparse(node))
     if _exchanges_views(node):
-        first, second = (ast.unparse(x) for x in node.targets[0].elts)  # type: ignore[attr-defined]
+        first, second = (ast.unparse(x) for x in node.targets[0].elts)
         return say("views exchanged", line=node.lineno, text=f"{first}, {second} = {second}, {first}", second=second)
     line, name, value = node.lineno, ast.unparse(node.targets[0]), ast.unparse(node.value)
     return say("second name", line=line, text=ast.unparse(node), name=name, value=value)

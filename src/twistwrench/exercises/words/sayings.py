@@ -52,6 +52,12 @@ SAYINGS = {
         "错因：第 {line} 行，`{text}` 的右边并没有复制，所以 `{second}` 得到的是前一个赋值刚刚写入的内容。"
         "请在右边两项后都加上 `.copy()`。",
     ),
+    "same appended": Text(
+        "The slip: line {line}, `{text}` puts the same array into the list each time, and what is written into it later"
+        " changes all entries. Append `{name}.copy()`, or make a new array in each round.",
+        "错因：第 {line} 行，`{text}` 每次放进列表的都是同一个数组，之后写入它的内容会改变所有元素。"
+        "请 append `{name}.copy()`，或每一轮新建一个数组。",
+    ),
     "many names": Text(
         "The slip: line {line}, `{text}` makes one array, which has several names or stands in several places: what is"
         " added to it in one of them is added in all. Make an array for each.",
