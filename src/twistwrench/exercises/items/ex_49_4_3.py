@@ -60,7 +60,7 @@ def _wrenches(rng: Any) -> Any:
     """Return wrenches in the middle, outside each edge and near it, and one with a twist; then the limits."""
     near, far = rng.uniform(0.6, 0.9), rng.uniform(1.2, 2.0)
     places = [(0.3, 0.3), (near, 0.2), (0.2, -near), (far, 0.3), (-far, 0.2), (0.3, far), (0.2, -far), (-0.2, 0.3)]
-    places += [(0.75, 0.1), (0.1, 0.75), (0.9, 1.9), (1.9, 0.9), (0.9, 0.9)]
+    places += [(0.75, 0.1), (0.1, 0.75), (0.9, 1.9), (1.9, 0.9), (0.9, 0.9), (0.05, 0.1), (-0.1, -0.05)]
     twist = np.array([0, -0.2 * 100, 3.0, 0.01, 0.01, 100]), 0.1, 0.04
     pushes = [_at(0.1 * x, 0.04 * y, rng.uniform(100, 400), rng) for x, y in places]
     return [
@@ -144,6 +144,9 @@ HOLDS = Part(
         "no-pressure-allowed": faulty(sole_holds, ("return False", "return bool(not F[5] and not F[:2].any())")),
         "ellipse-for-rectangle": faulty(
             sole_holds, ("abs(p_x) <= d_x and abs(p_y) <= d_y", "(p_x / d_x) ** 2 + (p_y / d_y) ** 2 <= 1")
+        ),
+        "kern-for-sole": faulty(
+            sole_holds, ("abs(p_x) <= d_x and abs(p_y) <= d_y", "3 * (abs(p_x / d_x) + abs(p_y / d_y)) <= 1")
         ),
         "full-for-half": lambda F, d_x, d_y: sole_holds(F, d_x / 2, d_y / 2),
         "one-sided": faulty(sole_holds, ("abs(p_x)", "p_x"), ("abs(p_y)", "p_y")),

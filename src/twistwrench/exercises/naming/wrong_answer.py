@@ -161,7 +161,11 @@ class WrongAnswer:
         """Whether two changes may be right by chance: a single number of few digits, or a term that must be zero."""
         few = self.part.canonical is not None and len(self.part.returns) == 1 and np.ndim(self.right[0]) == 0
         wrong = [(a, b) for a, b, c in zip(self.answers, self.right, self.cases) if not agree(self.part, a, b, c)]
-        return few or all(only_zero_is_missed(self.part, a, b) for a, b in wrong)
+        return (
+            few
+            or len({*map(repr, self.answers)}) == 1 < len(self.cases)
+            or all(only_zero_is_missed(self.part, a, b) for a, b in wrong)
+        )
 
     def two_changes(self) -> list[Repair]:
         """Return two changes of the student's own lines that together make them right, each of them a part."""
