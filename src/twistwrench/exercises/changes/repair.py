@@ -59,7 +59,7 @@ class Repair:
     def one_piece(self) -> bool:
         """Whether the second of two changes is one of what the first puts there: then they are one."""
         first, edit = self.first, self.edit
-        here = first is not None and first.line == edit.line
+        here = first is not None and first.line == edit.line and not first.everywhere and not edit.everywhere
         return bool(first and here and first.wrong and edit.wrong and edit.right.count(first.wrong) == 1)
 
     @property
