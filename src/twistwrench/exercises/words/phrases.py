@@ -120,10 +120,9 @@ PHRASES = {
         "它修改了参数 `{name}`。请在副本上运算，调用者还要用它。",
     ),
     "changed term": Text(
-        "A sum or a difference changes the first of its two terms, which is still needed: it has the array of that"
-        " term. Make a new one: `a + b` is one, `a += b` is not.",
-        "求和或求差时改变了第一个操作数，而它之后还要用：结果用的就是那个操作数的数组。请新建一个数组：`a + b` 会新建，"
-        "`a += b` 不会。",
+        "A sum or a difference changes one of its two terms, which is still needed. Compute with new arrays: `a + b` is"
+        " one, `a += b` changes `a`.",
+        "求和或求差时改变了其中一个操作数，而它之后还要用。请用新的数组计算：`a + b` 会新建数组，`a += b` 则改变 `a`。",
     ),
     "kept": Text(
         "Called again with the same arguments, it returns something else: it keeps something from one call to the next."
