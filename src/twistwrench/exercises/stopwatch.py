@@ -9,7 +9,7 @@ import numpy as np
 
 from .words.text import Text
 
-__all__ = ["Machine", "Task", "often", "seconds", "timed"]
+__all__ = ["UP", "Machine", "Task", "often", "seconds", "timed"]
 
 
 UP = 2.0**16

@@ -180,11 +180,10 @@ POSE_OF_BASE = Part(
 )
 
 
-def _first_axis(answer: Any, xyz: Any, rpy: Any) -> Any:
-    """Return by how much the x axis is another one."""
+def _first_axis(rpy: Any) -> Any:
+    """Return the x axis of a placement with these angles."""
     _, pitch, yaw = rpy
-    right = np.array([np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), -np.sin(pitch)])
-    return answer[:3, 0] - right
+    return np.array([np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), -np.sin(pitch)])
 
 
 POSE_OF_URDF = Part(
@@ -208,5 +207,5 @@ POSE_OF_URDF = Part(
         "translation-first": faulty(urdf_pose, ("= xyz", "= T[:3, :3] @ xyz")),
         "translation-dropped": faulty(urdf_pose, ("= xyz", "= 0")),
     },
-    residuals=(lambda answer, xyz, rpy: answer[:3, 3] - xyz, _first_axis),
+    residuals=(lambda answer, xyz, rpy: answer[:3, 3] - xyz, lambda answer, xyz, rpy: answer[:3, 0] - _first_axis(rpy)),
 )
