@@ -43,7 +43,7 @@ def where(wrong: WrongAnswer, section: str | None = None) -> Text:
 def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
     """Name the slip, or those that it may be, and the line of the student's where it is."""
     part, own = wrong.part, own_lines(wrong.changes, found)
-    own += [say("perhaps")] if own else []
+    own += [say("perhaps")] if own or not wrong.cases[0] else []  # a number alone is met by chance
     slips = [wrong.slip(name) for name in found]
     if len(slips) == 1:
         made = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers
