@@ -315,7 +315,7 @@ def arc(omega_z, v_x):
 def test_in_which_two_of_several_places_is_reported(written):
     six = "def base_rows(M, h, J_c, qdd, forces):\n    return M[:6, :6] @ qdd[:6] + M[:6, 6:12] @ qdd[6:12]"
     said = message(written(six + " + h[:6] - J_c[:, :6].T @ forces\n"), "base_rows")
-    assert "change `6:12` to `6:`, in `M[:6, 6:12]` and in `qdd[6:12]`" in said
+    assert "line 12, change `M[:6, 6:12]` to `M[:6, 6:]`; and line 12, change `qdd[6:12]` to `qdd[6:]`" in said
 
 
 @pytest.mark.slow

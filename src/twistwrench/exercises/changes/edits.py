@@ -218,6 +218,7 @@ class Source:
             put(parents[-1], field, other)
         try:
             changed = self.compiled()
+            became = tuple(text_of(surroundings(parents)) for parents, *_ in places)
         except Exception:  # no program; and the body of a class is run
             return
         finally:
@@ -243,6 +244,7 @@ class Source:
             line,
             (*places,),
             (*around,),
+            became,
         )
 
     def as_written(self, edit: Edit, mends: Callable[[Function], bool]) -> Edit:

@@ -83,6 +83,8 @@ class Edit:
         Where it is made in the syntax tree; empty for an argument or a result.
     around : tuple of str
         What stands around it in each of two places, where there are more.
+    became : tuple of str
+        What stands around it after it.
     """
 
     kind: str
@@ -96,6 +98,7 @@ class Edit:
     line: int = 0
     places: tuple[Any, ...] = ()
     around: tuple[str, ...] = ()
+    became: tuple[str, ...] = ()
 
     @property
     def inside(self) -> Any:
