@@ -478,7 +478,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
     [
         ("skew", lambda w: None, "It returned None. Is the `return` missing?"),
         ("skew", lambda w: np.zeros((4, 4)), "has the shape (4, 4); it must be (3, 3)"),
-        ("skew", lambda w: np.full((3, 3), np.nan), "entries that are not numbers: [0, 0], [0, 1], [0, 2], ..."),
+        ("skew", lambda w: np.full((3, 3), np.nan), "entries that are not finite numbers: [0, 0], [0, 1], [0, 2], ..."),
         ("skew", lambda w: "a matrix", "must be numbers, not str"),
         ("skew", lambda w: [[1], [2, 3]], "must be numbers, not list"),
         ("sole_holds", lambda *arguments: 1.0, "must be True or False, not float"),

@@ -62,7 +62,7 @@ def test_a_formula_that_divides_by_the_angle_is_met():
         T[:3, 3] = q[:3]
         return T
 
-    assert "entries that are not numbers" in message("base_pose", base_pose)
+    assert "entries that are not finite numbers" in message("base_pose", base_pose)
 
 
 def test_a_function_that_keeps_a_buffer_is_met():

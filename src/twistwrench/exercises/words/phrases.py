@@ -114,7 +114,7 @@ PHRASES = {
     "truth values": Text("True or False", "True 或 False"),
     "words": Text("a string", "字符串"),
     "shape": Text("{name} has the shape {got}; it must be {expected}.", "{name} 的形状是 {got}，应为 {expected}。"),
-    "nan": Text("{name} has entries that are not numbers: {where}.", "{name} 含有非数值的元素：{where}。"),
+    "nan": Text("{name} has entries that are not finite numbers: {where}.", "{name} 含有不是有限数的元素：{where}。"),
     "changed": Text(
         "It changes its argument `{name}`. Work on a copy: the caller still needs it.",
         "它修改了参数 `{name}`。请在副本上运算，调用者还要用它。",
