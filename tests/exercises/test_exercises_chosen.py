@@ -82,6 +82,15 @@ def mass_matrix_by_rnea(model, q):
         columns.append(column)
     return np.array(columns).T
 """
+ROUNDS = """\
+def weight_wrenches(model, q):
+    placement, N = tw.forward_kinematics(model, q).placement, model.nbodies - 1
+    W = np.zeros((N + 1, 6))
+    for i in range(1, N):
+        f = placement[i].rotation.T @ model.gravity * model.inertia[i].mass
+        W[i] = np.r_[np.cross(model.inertia[i].com, f), f]
+    return W
+"""
 WAY = """\
 def body_twists(parent, T, V_joint):
     def way(i):
@@ -120,6 +129,7 @@ def mass_matrix_by_rnea(model, q):
             (ONE_ARRAY, "line 12, `tau = f = np.zeros(3)` makes one array", "change `"),
             (IN_A_LIST, "line 12, `V = [np.zeros(6)] * len(parent)` makes one array", "change `"),
             (APPENDED, "line 15, `columns.append(column)` puts the same array into the list", "change `"),
+            (ROUNDS, "line 14, change `range(1, N)` to `range(1, N + 1)`", "take out `- 1`"),
             (FREE, "take out `", "slice(6, 0)"),
             (MANY, "R.mT", "R.T"),
             (ORDER, "change `np.asarray(forces).flatten('F')` to `np.asarray(forces).flatten('C')`", "forces.T"),

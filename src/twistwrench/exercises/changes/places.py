@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from .excerpts import text_of
+from .excerpts import text_of, with_operator
 
 __all__ = ["Place", "all_places", "innermost", "mark", "may_be_argument", "put", "surroundings", "unused"]
 
@@ -29,7 +29,7 @@ def mark(texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
     if isinstance(node, ast.Compare) and isinstance(other, ast.Compare) and node.left is other.left:
         right, wrong = (text_of(ast.Compare(ast.Name("x"), x.ops, [ast.Name("y")]))[2:-2] for x in (node, other))
         return right, wrong
-    return texts if not texts[1] else (text_of(node), text_of(other))
+    return (with_operator(node, texts[0]), "") if not texts[1] else (text_of(node), text_of(other))
 
 
 def innermost(nodes: Sequence[Any]) -> Any:
