@@ -40,7 +40,7 @@ class Chosen:
     """
 
     def __init__(self, lines: Lines | None) -> None:
-        self.lines = lines
+        self.lines = lines or Lines(lambda line: False, lambda line: False)
         self.begun, self.until = time.process_time(), math.inf
         self.sure: list[Repair] = []
         self.later: list[Repair] = []
@@ -63,14 +63,14 @@ class Chosen:
     def judged(self, repair: Repair) -> Repair:
         """Return a change with the mark whether it blames a line that is right."""
         edit = repair.edit
-        right = self.lines is not None and bool(edit.places) and blames(edit) and self.lines.right(edit.line)
+        right = bool(edit.places) and blames(edit) and self.lines.right(edit.line)
         return replace(repair, unsure=renames(edit) or right)
 
     def add(self, repair: Repair) -> None:
         """Take in a change that makes the function right."""
         edit, now, judged = repair.edit, time.process_time(), self.judged(repair)
         self.until = min(self.until, 2 * now - self.begun + LONGER)
-        wrong_before = repair.in_header or (self.lines is not None and self.lines.blameless(repair.line))
+        wrong_before = repair.in_header or self.lines.blameless(repair.line)
         if judged.unsure:
             self.spare.append(judged)
         elif not any(alike(edit, x.edit) for x in (*self.sure, *self.later)):

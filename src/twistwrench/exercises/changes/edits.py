@@ -119,7 +119,7 @@ class Source:
             if isinstance(node, ast.While):
                 node.body.insert(0, ast.parse("_one_more_round()").body[0])
         self.places = self._places()
-        self.scopes = {name: Scope(x, values.get(name, {}), self.names) for x in self.tree.body for name in [_name(x)]}
+        self.scopes = {_name(x): Scope(x, values.get(_name(x), {}), self.names) for x in self.tree.body}
 
     def _places(self) -> list[tuple[list[Any], Any, Any]]:
         """Return the places of the function, and of its helpers."""

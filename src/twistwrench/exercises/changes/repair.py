@@ -22,8 +22,6 @@ SUM = ast.Add | ast.Sub
 WRITTEN = ("transposed", "exchanged", "name", "instead", "inserted", "index", "number")
 """Kinds of changes that are printed as what stands there and what must."""
 
-ORDER = ("first", "second")
-
 OF_RESULT = {
     "np.roll(x, len(x) // 2, 0)": "halves of result",
     "np.roll(x, len(x.T) // 2, 1)": "halves of columns",
@@ -115,7 +113,8 @@ class Repair:
         if len({*edit.around}) == 2 and edit.kind in WRITTEN:
             changes = zip(edit.places, edit.around, edit.became)
             each = [(place[2].lineno, say("repair instead", wrong=a, right=b)) for place, a, b in changes]
-            return say("both edits", **{k: say("in own line", line=n, title=x) for k, (n, x) in zip(ORDER, each)})
+            first, second = (say("in own line", line=line, title=title) for line, title in each)
+            return say("both edits", first=first, second=second)
         if edit.line:
             title = said_where(edit, title)
             title = say("in own line", line=edit.line, title=title)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ..changes.repair import Repair
-from ..changes.search import right_where
+from ..changes.search import Found, right_where
 from ..compare import agree, values
 from ..exercise import Part
 from ..words.phrases import say
@@ -79,12 +79,7 @@ def mended(wrong: WrongAnswer, found: list[Repair]) -> list[Text]:
 def edited(wrong: WrongAnswer) -> list[Text]:
     """Report which change of a right solution gives the answer, or each wrong thing of it."""
     found, part, every = wrong.edits, wrong.part, len(wrong.cases)
-    lines = [
-        say("equal", title=x.title())
-        if x.piece is None
-        else say("equal in", name=part.returns[x.piece].title, title=x.title())
-        for x in found
-    ]
+    lines = _each(part, found, "equal")
     lines += [say("equal cases", all=every)] if every > 1 else []
     step = first_wrong(part, found[0].edit.function, found[0].edit.within, wrong.cases[0])
     return [*lines, *_shortly(wrong), *([step] if step else []), where(wrong)]
@@ -99,14 +94,19 @@ def cures(part: Part, found: Sequence[Repair], every: int) -> list[Text]:
     if len(found) > 1 and not any(change.piece is not None for change in found):
         each = say("either both" if both else "either way", all=every) if every > 1 else say("either once")
         return [say("either"), *(indented(change.title()) for change in found), each, say("perhaps")]
-    lines = [
-        say("cure", title=x.title())
-        if x.piece is None
-        else say("cure in", name=part.returns[x.piece].title, title=x.title())
-        for x in found
-    ]
+    lines = _each(part, found, "cure")
     whole = "mended both" if both else "mended each" if len(found) > 1 else "mended"
     return [*lines, say(whole, all=every) if every > 1 else say("mended once"), say("perhaps")]
+
+
+def _each(part: Part, found: Sequence[Found | Repair], phrase: str) -> list[Text]:
+    """Report each change with a phrase, of all that is returned or of one piece of it."""
+    return [
+        say(phrase, title=x.title())
+        if x.piece is None
+        else say(f"{phrase} in", name=part.returns[x.piece].title, title=x.title())
+        for x in found
+    ]
 
 
 def nearer(wrong: WrongAnswer, near: Repair) -> list[Text]:
