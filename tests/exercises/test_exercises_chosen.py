@@ -121,7 +121,7 @@ def mass_matrix_by_rnea(model, q):
     ("text", "says", "never"),
     sampled(
         [
-            (CLASSICAL, "take out `np.cross(turned, base.translation)`", "`turned` does"),
+            (CLASSICAL, "take out `- np.cross(turned, base.translation)`", "`turned` does"),
             (BY_COLUMNS, "line 13, change `axis=0` to `axis=1`", "The slip:"),
             (INVERSE_PLACEMENT, "line 13, change `-p` to `R.T @ -p`", "The slip:"),
             (FROM_THE_WORLD, "line 15, take out `T.translation`", "`T.rotation @ body.com` does not"),

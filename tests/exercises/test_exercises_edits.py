@@ -30,11 +30,11 @@ def changed(name, *pairs):
         ("newton_euler", [("I_c @ alpha", "I_c @ omega")], "`I_c @ omega` in place of `I_c @ alpha`"),
         ("act", [("R @ x + p", "R @ (x - p)")], "`R @ (x - p)` in place of `R @ x + p`"),
         ("polishing_torques", [("J.mT", "np.linalg.inv(J)")], "`np.linalg.inv(J)` in place of `J.T`"),
-        ("tree_rnea", [("X[i] @ V[p]", "X[i].mT @ V[p]")], "the first quantity that it makes wrong is V[2]."),
+        ("tree_rnea", [("X[i] @ V[p]", "X[i].mT @ V[p]")], "this slip makes V[2] wrong first."),
         (
             "tree_rnea",
             [("cross_motion(V[i]) @ vJ", "cross_motion(V[p]) @ vJ")],
-            "A[2]. These stay right for every body: V.",
+            "A[2] wrong first. These stay right for every body: V.",
         ),
         ("tree_crba", [("S[j].mT @ F", "S[i].mT @ F")], "`S[i]` in place of `S[j]`, where `M[j, i]`"),
         ("tree_aba", [("X[i].mT @ Ia[i] @ X[i]", "X[i] @ Ia[i] @ X[i].mT")], "in place of `X[i].T @ Ia[i] @ X[i]`"),
@@ -47,7 +47,7 @@ def test_the_edit_that_gives_the_numbers_is_found(name, pairs, says):
 def test_a_slip_of_the_list_tells_where_a_recursion_goes_wrong_as_well():
     said = message("tree_rnea", changed("tree_rnea", (" + cross_motion(V[i]) @ vJ", "")))
     assert "the Coriolis term V × S q̇ is missing." in said
-    assert "the first quantity that it makes wrong is A[2]. These stay right for every body: V." in said
+    assert "this slip makes A[2] wrong first. These stay right for every body: V." in said
 
 
 def test_results_that_are_exchanged_are_told_as_that():

@@ -89,7 +89,7 @@ def standing_loads():
 @pytest.mark.parametrize(
     ("text", "says", "never"),
     [
-        (TWICE, "take out `m * S @ S`", "missing"),
+        (TWICE, "take out `- m * S @ S`", "missing"),
         (LEVER, "the lever arm is taken from the wrong end", "factors of the cross"),
         (EULER, "change `Rx @ Ry @ Rz` to `Rz @ Ry @ Rx`", "Rx, Ry, Rz = "),
         (DUAL, "X* taken for X", "Xᵀ"),

@@ -110,7 +110,7 @@ def pinocchio_inertia(m, c, I_c):
     ("text", "says", "never"),
     sampled(
         [
-            (SKEW, "take out `n`", "norm(w)` is wrong"),
+            (SKEW, "take out `/ n`", "norm(w)` is wrong"),
             (SOLE, "line 12, take out `abs(F[2]) > 1e-09`", " and abs"),
             (ARC, "do not take the branch for `abs(omega_z) < 0.02`", "< -0.02"),
             (RATIO, "line 17, change `np.mean` to `np.median`", "loop"),

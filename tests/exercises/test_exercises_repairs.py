@@ -309,7 +309,7 @@ def arc(omega_z, v_x):
 """
     said = message(written(turned), "arc")
     assert "One of these changes would make it right" in said
-    assert "take out `R`" in said
+    assert "take out `R @`" in said
 
 
 def test_in_which_two_of_several_places_is_reported(written):

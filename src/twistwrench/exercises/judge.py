@@ -123,16 +123,15 @@ def judge(
             with silent():
                 drawn = [*cases(part, seed), *further_cases(part, seed)]
                 more = after_error(part, function, drawn) if search and isinstance(stop, _Raised) else []
-            message = _head(exercise, part), *stop.args, *more
-            return Verdict("wrong", message, (), failing_case(part, len(so_far.tried), seed, arguments))
+            case = failing_case(part, len(so_far.tried), seed, arguments)
+            return Verdict("wrong", (_head(exercise, part), *stop.args, *more), (), case)
         if to_do(answer):
             return Verdict("to do")
         changes |= {len(so_far.tried): changed} if changed else {}
         so_far.add(arguments, answer, known, agree(part, answer, known, arguments))
         if not so_far.right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
-            model = say("changed", name=part.arguments.partition(",")[0])  # it comes first
-            case = failing_case(part, len(so_far.tried) - 1, seed, arguments)
-            return Verdict("wrong", (_head(exercise, part), model), (), case)
+            model = _head(exercise, part), say("changed", name=part.arguments.partition(",")[0])  # it comes first
+            return Verdict("wrong", model, (), failing_case(part, len(so_far.tried) - 1, seed, arguments))
     safe = guarded(function)
     again = (lambda given: _again(part, safe, given, watch)) if search else None
     kept = _keeps(part, function, so_far, watch)
@@ -142,7 +141,8 @@ def judge(
         lines = noted or calls.lines or [say(phrase) for phrase in _made_one(so_far)][:1]
         return Verdict("wrong", (_head(exercise, part), *lines), (), *shown) if lines else Verdict("done")
     found = _wrong(exercise, part, function, so_far, seed, kept, again)
-    return replace(found, lines=(*found.lines[:1], *noted, *found.lines[1:]))
+    alone = noted and inspect.isclass(part.solution) and not found.slips  # other numbers come of it
+    return replace(found, lines=(*found.lines[:1], *noted, *(() if alone else found.lines[1:])))
 
 
 def _trials(part: Part, seed: int, so_far: _Compared) -> Iterator[tuple[Any, ...]]:

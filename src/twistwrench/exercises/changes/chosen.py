@@ -10,11 +10,15 @@ from typing import NamedTuple
 
 from .likeness import ALIKE, BESIDE, alike, anywhere, blames, by_detour, renames
 from .repair import Repair
+from .whole import Edit
 
 __all__ = ["Chosen", "Lines"]
 
 MOST = 3
 """Changes of which one may be meant."""
+
+SIGNS = frozenset(("sign", "exchanged"))
+"""Kinds of changes that turn a sign."""
 
 LONGER = 1.0
 """Seconds for which a better change is looked for, and as long again as the first has taken."""
@@ -37,9 +41,12 @@ class Chosen:
     ----------
     lines : Lines, optional
         What is known of the student's lines.
+    few : bool
+        Whether there is one case only, in which a zero may hide that two signs are two things.
     """
 
-    def __init__(self, lines: Lines | None) -> None:
+    def __init__(self, lines: Lines | None, *, few: bool = False) -> None:
+        self.few = few
         self.lines = lines or Lines(lambda line: False, lambda line: False)
         self.begun, self.until = time.process_time(), math.inf
         self.sure: list[Repair] = []
@@ -73,6 +80,10 @@ class Chosen:
         wrong_before = repair.in_header or self.lines.blameless(repair.line)
         if judged.unsure:
             self.spare.append(judged)
-        elif not any(alike(edit, x.edit) for x in (*self.sure, *self.later)):
+        elif not any(alike(edit, x.edit) and not self._two(edit, x.edit) for x in (*self.sure, *self.later)):
             (self.later if wrong_before else self.sure).append(repair)
         self.sure = [replace(x, edit=anywhere(x.edit, edit)) for x in self.sure]
+
+    def _two(self, edit: Edit, other: Edit) -> bool:
+        """Whether two signs of other lines may be two things."""
+        return self.few and edit.line != other.line and {edit.kind, other.kind} <= SIGNS

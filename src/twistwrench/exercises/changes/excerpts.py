@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-__all__ = ["enclosing", "first_alone", "target", "term", "text_of", "with_operator"]
+__all__ = ["enclosing", "first_alone", "taken_out", "target", "term", "text_of", "with_operator"]
 
 
 def term(node: Any, other: Any) -> str:
@@ -56,6 +56,15 @@ def enclosing(parents: list[Any], node: Any) -> Any:
     return node
 
 
+def taken_out(node: Any, other: Any, text: str) -> str:
+    """Return what is taken out of a sum or product with the operator beside it, which must not be left over."""
+    if not isinstance(node, ast.BinOp) or (other is not node.left and other is not node.right):
+        return with_operator(node, text)
+    rest = ast.Name("_")
+    kept = ast.BinOp(rest, node.op, node.right) if other is node.left else ast.BinOp(node.left, node.op, rest)
+    return text_of(kept).removeprefix("_ ").removesuffix(" _")
+
+
 def with_operator(node: Any, text: str) -> str:
     """Return a number that is taken out of a sum or product with the operator beside it: 2 alone may be anywhere."""
     if not isinstance(node, ast.BinOp) or not text.replace(".", "").isdigit():
@@ -64,7 +73,7 @@ def with_operator(node: Any, text: str) -> str:
     return f"{text} {sign}" if text_of(node.left) == text else f"{sign} {text}"
 
 
-def first_alone(parents: list[Any], text: str) -> str:
+def first_alone(parents: list[Any], node: Any, text: str) -> str:
     """Return what is around a piece of a statement, as far as it stands there once; nothing where the piece does."""
     inside = [x for x in parents if isinstance(x, ast.stmt)][-1:]
     whole = text_of(inside[0]) if inside else ""
@@ -72,8 +81,8 @@ def first_alone(parents: list[Any], text: str) -> str:
         return ""
     if whole.count(text) < 2:
         return ""
-    pieces = (text_of(x) for x in reversed(parents[parents.index(inside[0]) + 1 :]) if isinstance(x, ast.expr))
-    return next((piece for piece in pieces if text in piece and whole.count(piece) == 1), "")
+    pieces = (text_of(x) for x in (node, *reversed(parents[parents.index(inside[0]) + 1 :])) if isinstance(x, ast.expr))
+    return next((piece for piece in pieces if text in piece != text and whole.count(piece) == 1), "")
 
 
 def text_of(node: ast.AST) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...arrays import Array
 from ..calls import tried
-from ..compare import FLOOR, Value, agree, values
+from ..compare import FLOOR, Value, agree, copied_results, values
 from ..exercise import Part
 from ..slips import SLIPS
 from ..words.phrases import say
@@ -79,6 +79,7 @@ class Nearer:
         self.tried.remove(first)
         self.tried.insert(0, first)
         self.wrong = self._wrong([self.answers[k] for k in self.tried], self.tried)
+        self.own = self._flat(self.answers[first])
         self.slipped = dict(self._slipped(first))
 
     def _slipped(self, k: int) -> Iterator[tuple[str, Array]]:
@@ -98,8 +99,8 @@ class Nearer:
         """Keep a change, if less is wrong with it than without it, or if what is wrong then is a slip of the list."""
         numbers = self._flat(answer) if edit.places and _leaves_the_rest(edit) else None
         for name, slipped in self.slipped.items():
-            if numbers is not None and numbers.shape == slipped.shape and _near(numbers, slipped):
-                self.slips.append((edit, name))
+            if numbers is not None and _near(numbers, slipped):
+                self.slips += [] if _near(numbers, self.own) else [(edit, name)]  # it must change something
         if self.wrong is None or self.wrong.sum() < 2 or not edit.places:
             return
         given = [answer, *(tried(self.part, edit.function, self.cases[k]) for k in self.tried[1:])]
@@ -158,11 +159,12 @@ class Nearer:
                     yield say("block", name=c.quantity.title, block=block), not bad[index].any()
 
     def _mends(self, edit: Edit) -> bool:
-        every = [self.tried[0], *range(len(self.cases))] if self.tried else []
-        return bool(every) and all(
-            agree(self.part, tried(self.part, edit.function, self.cases[k]), self.right[k], self.cases[k])
-            for k in every
-        )
+        given: list[Any] = []
+        for k in [self.tried[0], *range(len(self.cases))] if self.tried else ():
+            given.append(tried(self.part, edit.function, self.cases[k]))
+            if not agree(self.part, given[-1], self.right[k], self.cases[k]):
+                return False
+        return bool(given) and not copied_results(given[1:], self.right, self.answers)
 
     def spoils(self, function: Callable[..., Any]) -> bool:
         """Whether a changed function gives wrong numbers where the answer has right ones."""
@@ -254,7 +256,9 @@ def _is_of_rounds(edit: Edit) -> bool:
     )
 
 
-def _near(x: Array, y: Array) -> bool:
+def _near(x: Array, y: Array | None) -> bool:
+    if y is None or x.shape != y.shape:
+        return False
     return bool(np.abs(x - y).max(initial=0) <= 1e-9 * np.abs(y).max(initial=FLOOR))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -80,6 +81,7 @@ def _nobody_makes(edit: Edit, part: Part) -> bool:
         or (edit.kind in ("sign", "number", "exchanged") and _is_place(edit))  # a place, or how often, has no sign
         or (edit.kind == "sign" and _is_positive(edit.right))  # −R is not a rotation matrix, −m not a mass
         or (edit.kind == "index" and _is_written_to(edit))  # two things would be written to one place
+        or bool(re.search(r"(?<!\w)-\d+:\d", edit.wrong))  # nothing is in such a slice
         or (edit.kind == "instead" and _is_guard(edit))  # what keeps a number from zero
         or "Error(" in edit.right  # it is raised, and nothing is computed with it
         or _crossed_with_itself(edit.wrong)

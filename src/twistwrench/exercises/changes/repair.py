@@ -8,7 +8,7 @@ from typing import Any
 
 from ..words.phrases import say
 from ..words.text import Text
-from .excerpts import with_operator
+from .excerpts import taken_out
 from .likeness import renames
 from .places import innermost
 from .plausible import shuts
@@ -100,7 +100,9 @@ class Repair:
             edit = replace(
                 edit, kind="instead", right=edit.right.replace(self.first.wrong, self.first.right), first=None
             )
-        wrong = with_operator(edit.places[0][2], edit.right) if edit.kind == "left out" and edit.places else edit.right
+        wrong = edit.right
+        if edit.kind == "left out" and edit.places:
+            wrong = taken_out(edit.places[0][2], edit.places[0][3], wrong)
         title = self.meaning or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
         if edit.kind == "missing" and isinstance(edit.inside, ast.BinOp) and not isinstance(edit.inside.op, SUM):
             title = say("repair instead", right=f"({wrong} {edit.wrong})", wrong=wrong)
@@ -110,10 +112,12 @@ class Repair:
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:
             return say(OF_RESULT[edit.wrong], right=edit.wrong)
+        lines = [place[2].lineno for place in edit.places]
+        each = [title, title]
         if len({*edit.around}) == 2 and edit.kind in WRITTEN:
-            changes = zip(edit.places, edit.around, edit.became)
-            each = [(place[2].lineno, say("repair instead", wrong=a, right=b)) for place, a, b in changes]
-            first, second = (say("in own line", line=line, title=title) for line, title in each)
+            each = [say("repair instead", wrong=a, right=b) for a, b in zip(edit.around, edit.became)]
+        if edit.everywhere == 2 and (each[0] != each[1] or lines[0] != lines[1]):
+            first, second = (say("in own line", line=line, title=title) for line, title in zip(lines, each))
             return say("both edits", first=first, second=second)
         if edit.line:
             title = said_where(edit, title)

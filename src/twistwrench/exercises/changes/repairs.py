@@ -95,7 +95,7 @@ def repairs(
     if words and len(words) == len(part.returns):
         return []
     found: dict[int, Repair] = {}
-    chosen = Chosen(lines)
+    chosen = Chosen(lines, few=not cases[first])
     source = source_of(part, function, cases[first])
     if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
         return []

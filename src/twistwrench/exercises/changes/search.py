@@ -40,6 +40,9 @@ Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
 
+ROUNDING = 1e-9
+"""Numbers below this are zeros."""
+
 SURE = 64
 """Times that yes or no is not right by chance."""
 
@@ -64,7 +67,7 @@ class Found(NamedTuple):
 def said_where(edit: Edit, title: Text) -> Text:
     """Add to a title in how many places an edit is made."""
     if not edit.everywhere:
-        around = first_alone(edit.places[0][0], edit.right) if edit.places else ""
+        around = first_alone(edit.places[0][0], edit.places[0][2], edit.right) if edit.places else ""
         return say("in place", title=title, around=around) if around else title
     if edit.everywhere == 2 and len({*edit.around}) == 2:
         return say("both places", title=title, first=edit.around[0], second=edit.around[1])
@@ -81,6 +84,9 @@ def found_edits(part: Part, answers: Answers, cases: Cases, *, until: float) -> 
     first = smallest({k: cases[k] for k, bad in enumerate(wrong) if bad})
     several = len(part.returns) > 1 and part.canonical is None
     bad = [k for k in range(len(part.returns)) if not same(part, answers, right, k)] if several else []
+    if len(part.returns) == 1 and _is_zero(part, answers, 0):
+        return []  # which anything may be
+    bad = [k for k in bad if not _is_zero(part, answers, k)]
     found: dict[int, Edit] = {}
     for edit in candidates(part, cases[first], until=until, every=len(cases)):
         answer = tried(part, edit.function, cases[first])
@@ -208,6 +214,13 @@ def same(part: Part, first: Answers, second: Answers, k: int) -> bool:
         if x is None or y is None or not close(x[k], y[k], part.rtol):
             return False
     return True
+
+
+def _is_zero(part: Part, answers: Answers, k: int) -> bool:
+    """Whether the k-th thing in all answers is zero, but for rounding."""
+    arrays = [x[k].array for answer in answers if (x := values(answer, part.returns))]
+    zeros = (x is not None and x.dtype.kind == "f" and not (np.abs(x) > ROUNDING).any() for x in arrays)
+    return bool(arrays) and all(zeros)
 
 
 def exchanged_results(part: Part, answers: Answers, cases: Cases) -> Text | None:

@@ -117,7 +117,7 @@ def _structure(wrong: WrongAnswer) -> Explained | None:
 
 
 def _change_of_a_line(wrong: WrongAnswer) -> Explained | None:
-    if any(x.piece is not None for x in wrong.changes) and wrong.returns_another():
+    if any(x.piece is not None for x in wrong.changes) and wrong.returned_elsewhere:
         return None
     return ([], mended(wrong, wrong.changes)) if wrong.changes else None
 
@@ -188,7 +188,11 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
     lines, names, found = [], [], []
     for k in wrong.wrong_results:
         alone = wrong.of_result(k, OF_RESULTS / len(wrong.wrong_results))
-        explained = next(filter(None, (explanation(alone) for explanation in OF_ONE_RESULT)), None)
+        twin = wrong.same_as(k)
+        if twin is not None:
+            explained: Explained | None = [], [say("the same", other=twin), where(alone)]
+        else:
+            explained = next(filter(None, (explanation(alone) for explanation in OF_ONE_RESULT)), None)
         found.append(explained is not None)
         slips, shown = explained or ([], [*comparison(alone), where(alone)])
         names += slips

@@ -25,6 +25,9 @@ __all__ = ["Neighbours"]
 FEWEST = 6
 """Different numbers that are not met by chance, in all cases together; half of them in one, unless that is a number."""
 
+ROUNDING = 1e-9
+"""Numbers below this are zeros, and zeros are met by chance."""
+
 LARGEST = 2000
 """Entries of what is compared."""
 
@@ -119,9 +122,8 @@ class Neighbours:
     def _match(self, got: list[Any], right: list[Any], index: Index | None = None) -> Text | None:
         """Return the first quantity, or form of one, that is the same in all cases, or the block of it at `index`."""
         wrong = [j for j, (a, b) in enumerate(zip(got, right)) if not self._same(a, b)]
-        if len({abs(float(f"{x:.6g}")) for j in wrong for x in np.ravel(got[j])} - {0.0}) < FEWEST:
-            return None
-        if got[0].ndim and max(len({*np.abs(got[j]).ravel()} - {0.0}) for j in wrong) < FEWEST // 2:
+        sizes = [{abs(float(f"{x:.6g}")) for x in np.ravel(got[j]) if abs(x) > ROUNDING} for j in wrong]
+        if len(set[float].union(*sizes)) < FEWEST or (got[0].ndim and max(map(len, sizes)) < FEWEST // 2):
             return None
         order = sorted(range(len(got)), key=lambda j: j not in wrong)
         for form in TURNED if index is not None else ():

@@ -61,6 +61,8 @@ def borne_out(part: Part, found: list[str], function: Callable[..., Any], mended
         found = [slip for slip in found if slip != "visited-outward" or _goes_round(source)]
     if edits:
         found = [slip for slip in found if any(_fits(slip, edit) for edit in edits)]
+    if len({edit.line for edit in edits if edit.kind in ("sign", "exchanged")}) > 1:
+        found = [slip for slip in found if slip not in SIGNS]  # by its numbers it may be any of these lines
     if edits and {*found} == {*SIGNS}:
         return []  # either would give the sign back, and others as well
     if len(found) < 2 or not source:
@@ -157,6 +159,7 @@ def traced(slip: str, source: str) -> bool:
 def _spoken(slip: str, source: str) -> bool:
     """Whether what the slip says to stand there can stand in this source: a transpose, an inverse."""
     said, meant = _halves(slip)
+    said = re.sub(r"(\w) \1ᵀ", "", said)  # an outer product, which needs no transpose
     return not meant or all(any(x in source for x in traces) for key, traces in TRACES.items() if key in said)
 
 

@@ -22,8 +22,8 @@ __all__ = ["of_words", "shared"]
 SHOWN = 3
 """Of the simplest arguments."""
 
-NEAR = 1e-6
-"""Part of a number by which it is changed: who is on an edge is then not on it any more."""
+EXACT, NEAR = 2.0**-50, 2e-6
+"""Parts of a number by which it is changed: who is on an edge, or near it, is then not any more."""
 
 Case = tuple[Any, ...]
 
@@ -60,8 +60,10 @@ def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequ
     if len(wrong) < 2:
         return []
     lines = []
-    if all(_on_edge(part, c) for c in wrong):
+    if all(_on_edge(part, c, EXACT) for c in wrong):
         lines.append(say("on edge"))
+    elif all(_on_edge(part, c, NEAR) for c in wrong):
+        lines.append(say("near edge"))
     names = [name.partition("=")[0] for name in part.arguments.split(", ")]
     every = set[str].intersection(*(_zeros(names, c) for c in wrong))
     if every and not any(every <= _zeros(names, c) for c in fine):
@@ -124,14 +126,14 @@ def _zeros(names: Sequence[str], arguments: Case) -> set[str]:
     return {f"{name}[{k}]" for name, x in arrays for k in range(x.size) if x[k] == 0}
 
 
-def _on_edge(part: Part, arguments: Case) -> bool:
-    """Whether the right answer changes with a very small change of a number."""
+def _on_edge(part: Part, arguments: Case, share: float) -> bool:
+    """Whether the right answer changes where a number changes by a very small share of it."""
     known = tried(part, part.solution, arguments)
     for k, x in enumerate(arguments):
         if not isinstance(x, float | np.ndarray) or np.asarray(x).dtype.kind != "f":
             continue
         for entry in range(np.size(x)):
-            for factor in (1 - NEAR, 1 + NEAR):
+            for factor in (1 - share, 1 + share):
                 y = np.array(x)
                 y.flat[entry] *= factor
                 other = (*arguments[:k], y if isinstance(x, np.ndarray) else float(y), *arguments[k + 1 :])

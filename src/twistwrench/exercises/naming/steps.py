@@ -21,10 +21,14 @@ INWARD = ("inward", "reversed", "-1")
 
 
 def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ...]) -> Text | None:
-    """Report which quantity of which body a change within a listing makes wrong first, and which stay right."""
-    bodies = _computed(within)
+    """Report which quantity of which body a change within a listing makes wrong first, and which stay right.
+
+    A quantity with the name of an argument is not spoken of: to the student that is the argument.
+    """
+    given = {name.partition("=")[0] for name in part.arguments.split(", ")}
+    bodies = {name: inward for name, inward in _computed(within).items() if name not in given}
     right, wrong = (
-        local_values(lambda *given, f=f: part.value(f, given), [within], copied(arguments)).get(within.__name__, {})
+        local_values(lambda *taken, f=f: part.value(f, taken), [within], copied(arguments)).get(within.__name__, {})
         for f in (part.solution, function)
     )
     fine: list[str] = []

@@ -108,13 +108,22 @@ class WrongAnswer:
         """Whether a few whole numbers are asked for, without arguments: they are met by chance."""
         return not self.cases[0] and of_whole_numbers(self.part, self.right[0])
 
-    def returns_another(self) -> bool:
-        """Whether one of several things returned is another one of them, which is right in its place."""
+    @cached_property
+    def returned_elsewhere(self) -> list[tuple[int, int]]:
+        """Which of several things returned are what another one of them must be: the two numbers of each."""
         pairs = zip(self.answers, self.right)
         split = [[values(x, self.part.returns) or [] for x in pair] for pair in pairs]
         others = [(k, j) for k in self.wrong_results for j in range(len(self.part.returns)) if j != k]
         telling = [(k, j) for k, j in others if any(map(tells, arrays(split[0][1][j].array)))]
-        return any(all(a and close(a[k], b[j], self.part.rtol) for a, b in split) for k, j in telling)
+        return [(k, j) for k, j in telling if all(a and close(a[k], b[j], self.part.rtol) for a, b in split)]
+
+    def same_as(self, k: int) -> Text | None:
+        """Return which of the results before the k-th has its numbers in all cases, and must have others."""
+        split = [[values(x, self.part.returns) or [] for x in pair] for pair in zip(self.answers, self.right)]
+        for j in range(k):
+            if all(a and close(a[k], a[j], 0) for a, _ in split) and not all(close(b[k], b[j], 1e-6) for _, b in split):
+                return self.part.returns[j].title
+        return None
 
     @cached_property
     def alike(self) -> list[str]:

@@ -64,6 +64,10 @@ PHRASES = {
         "Every case that it judges wrongly lies exactly on an edge: `<` and `<=` differ only there.",
         "判断错误的每一组数据都恰好在边界上：`<` 与 `<=` 只在那里有区别。",
     ),
+    "near edge": Text(
+        "Every case that it judges wrongly lies very near an edge: a tolerance, where the edge itself is asked for?",
+        "判断错误的每一组数据都离边界极近：是不是加了容差，而题目要求以边界本身为准？",
+    ),
     "all zero": Text(
         "Every case that it judges wrongly has {what} = 0, and no other case has.",
         "判断错误的每一组数据都有 {what} = 0，其余各组都不是这样。",
@@ -76,13 +80,12 @@ PHRASES = {
     ),
     "it shows": Text("In this case it shows in the result:", "在这组数据中反映为："),
     "first wrong": Text(
-        "In a right solution the first quantity that it makes wrong is {wrong}. These stay right for every body:"
-        " {right}.",
-        "在正确解法中，它使 {wrong} 最先出错。对每个刚体仍都正确的有：{right}。",
+        "In the package's own solution this slip makes {wrong} wrong first. These stay right for every body: {right}.",
+        "在本包的参考解答中犯这个错误，最先出错的是 {wrong}。对每个刚体仍都正确的有：{right}。",
     ),
     "wrong first": Text(
-        "In a right solution the first quantity that it makes wrong is {wrong}.",
-        "在正确解法中，它使 {wrong} 最先出错。",
+        "In the package's own solution this slip makes {wrong} wrong first.",
+        "在本包的参考解答中犯这个错误，最先出错的是 {wrong}。",
     ),
     "in line": Text("{title}, where `{target}` is computed", "计算 `{target}` 时，{title}"),
     "results exchanged": Text("{first} and {second} are exchanged", "{first} 与 {second} 互换了"),
