@@ -22,6 +22,7 @@ cases       the cases that an answer is tried on
 slips       a room: the list of slips with a name
 changes     a room: small changes of a function
 failing     the failing case, with its numbers
+context     in how many cases an answer is wrong, and the first
 rules       calls that an exercise forbids
 statements  a room: the student's function statement by statement
 stopwatch   a machine whose clock is known

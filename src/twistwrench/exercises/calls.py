@@ -17,7 +17,19 @@ import numpy as np
 
 from .exercise import Part
 
-__all__ = ["CHANGED", "begin", "copied", "count", "limited", "local_values", "silent", "smallest", "tried"]
+__all__ = [
+    "CHANGED",
+    "LONGEST",
+    "TooLong",
+    "begin",
+    "copied",
+    "count",
+    "limited",
+    "local_values",
+    "silent",
+    "smallest",
+    "tried",
+]
 
 Function = Callable[..., Any]
 
@@ -44,7 +56,7 @@ def count() -> None:
         raise RuntimeError("an endless loop")
 
 
-class _TooLong(BaseException):
+class TooLong(BaseException):
     """Raised in a call that does not end; no `except Exception` of a student holds it."""
 
 
@@ -59,7 +71,7 @@ def limited(seconds: float) -> Iterator[None]:
         return
 
     def stop(*given: object) -> None:
-        raise _TooLong(*given)
+        raise TooLong(*given)
 
     before = signal.signal(signal.SIGVTALRM, stop)
     signal.setitimer(signal.ITIMER_VIRTUAL, seconds, seconds)  # again, should something hold the first
@@ -96,7 +108,7 @@ def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) 
         with limited(LONGEST), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             return part.value(function, copied(arguments))
-    except (Exception, SystemExit, _TooLong):  # whatever an edit leads to
+    except (Exception, SystemExit, TooLong):  # whatever an edit leads to
         return None
     finally:
         vars(np.linalg).update(SOLVERS)

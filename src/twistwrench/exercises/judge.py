@@ -17,22 +17,21 @@ from .calls import begin, copied, silent
 from .cases import cases, further_cases
 from .changes.repairs import guarded
 from .compare import agree, copied_results, is_one_array, to_do, unchanged
+from .context import context_of
 from .exercise import Exercise, Part
 from .failing import Case, failing_case
+from .naming.changing import changing_line
 from .naming.diagnose import after_error, explain
 from .naming.state import kept_in_module
 from .rules import Calls, file_or_cell, is_ours, watching
 from .words.phrases import say
-from .words.text import Language, Text
+from .words.text import Text
 from .words.wrapping import hanging
 
 __all__ = ["State", "Verdict", "judge"]
 
 SLOW = 0.3
 """Seconds, of the processor, after which no more cases are tried of what is wrong."""
-
-ROOM = 96
-"""Columns for the arguments of a case."""
 
 Watch = Callable[[], AbstractContextManager[object]]
 State = Literal["to do", "done", "wrong"]
@@ -136,6 +135,8 @@ def judge(
     again = (lambda given: _again(part, safe, given, watch)) if search else None
     kept = _keeps(part, function, so_far, watch)
     noted = [*changes.values()][:1]
+    for k in [*changes][:1]:
+        noted += changing_line(part, function, so_far.tried[k])
     if all(so_far.right) and kept is None:
         shown = [failing_case(part, k, seed, so_far.tried[k]) for k in changes][:1]
         lines = noted or calls.lines or [say(phrase) for phrase in _made_one(so_far)][:1]
@@ -190,7 +191,7 @@ def _wrong(
     with silent():
         slips, lines = explain(exercise, part, function, found.answers, found.tried, again)
     case = failing_case(part, k, seed, found.tried[k], (found.expected[k], found.answers[k]))
-    context = _context(part, found.tried, found.right)
+    context = context_of(part, found.tried, found.right)
     return Verdict("wrong", (_head(exercise, part), *context, Text("", ""), *lines), tuple(slips), case)
 
 
@@ -266,35 +267,3 @@ def _stopped(error: BaseException) -> list[Text]:
 
 def _head(exercise: Exercise, part: Part) -> Text:
     return say("head", id=exercise.id, name=part.name)
-
-
-def _context(part: Part, tried: Sequence[tuple[Any, ...]], right: list[bool]) -> list[Text]:
-    """Report in how many cases the answer is wrong, and show the first."""
-    arguments = tried[right.index(False)]
-    if not arguments:
-        return []
-    wrong = right.count(False)
-    names = [name.partition("=")[0] for name in part.arguments.split(", ")]
-    first = say("all wrong", all=len(tried)) if wrong == len(tried) else say("cases", wrong=wrong, all=len(tried))
-    return [first, Text(_shown(names, arguments, "en"), _shown(names, arguments, "zh"))]
-
-
-def _shown(names: Sequence[str], arguments: tuple[Any, ...], language: Language) -> str:
-    """Write the arguments of a case on one line."""
-    line = "    " + ", ".join(f"{name} = {_short(x, language)}" for name, x in zip(names, arguments))
-    return line if len(line) <= ROOM else line[:ROOM] + " ..."
-
-
-def _short(x: Any, language: Language) -> str:
-    """Write an argument in short."""
-    if isinstance(x, np.ndarray):
-        if x.ndim > 1 or x.size > 6:
-            return f"array {x.shape}"
-        return "[" + ", ".join(f"{entry:.3g}" for entry in x) + "]"
-    if isinstance(x, list) and any(isinstance(entry, np.ndarray) for entry in x):
-        return say("arrays", n=len(x)).of(language)
-    if isinstance(x, float):
-        return f"{x:.4g}"
-    name = getattr(x, "name", x)
-    text = " ".join((name.of(language) if isinstance(name, Text) else str(name)).split())
-    return text if len(text) <= ROOM or isinstance(x, list) else type(x).__name__
