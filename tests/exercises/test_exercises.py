@@ -249,7 +249,8 @@ def test_a_slip_is_named(e, part, slip, seed):
 def test_slips_can_be_told_apart(e, part):
     """Two that give the same answer must be declared, and what is declared must be so."""
     cases = list(part.cases(np.random.default_rng(7)))
-    answers = {slip: [part.value(wrong, c) for c in cases] for slip, wrong in part.slips.items()}
+    with np.errstate(all="ignore"):  # a wrong way may divide by zero where the right one does not
+        answers = {slip: [part.value(wrong, c) for c in cases] for slip, wrong in part.slips.items()}
     for one, other in combinations(answers, 2):
         same = all(agree(part, a, b, c) for a, b, c in zip(answers[one], answers[other], cases, strict=True))
         assert same == any({one, other} <= group for group in part.alike), (one, other)
@@ -564,7 +565,7 @@ def test_a_class_is_judged_by_what_it_does():
         "For the error of V + F, this slip gives what you have: a twist and a wrench can be added, or subtracted."
         in said
     )
-    assert "this slip gives what you have: the power of two quantities of the same kind is computed." in said
+    assert "this slip gives what you have: the power of two quantities of the same kind raises no error." in said
 
     class Unfinished(SpatialVector):
         def __add__(self, other):

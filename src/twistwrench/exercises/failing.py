@@ -56,10 +56,9 @@ class Block:
         """Yield the rows, expected and got, each number as text; where they differ, it is in brackets."""
         shape = (-1, self.expected.shape[-1] if self.expected.ndim else 1)
         for a, b, bad in zip(*(x.reshape(shape) for x in (self.expected, self.got, self.wrong))):
-            yield (
-                [f" {_number(x)} " for x in a],
-                [f"[{_number(y)}]" if no else f" {_number(y)} " for y, no in zip(b, bad)],
-            )
+            near = any(no and _number(x) == _number(y) for x, y, no in zip(a, b, bad))
+            write = _exactly if near else _number
+            yield [f" {write(x)} " for x in a], [f"[{write(y)}]" if no else f" {write(y)} " for y, no in zip(b, bad)]
 
     @property
     def places(self) -> list[tuple[int, ...]]:
@@ -194,15 +193,25 @@ def _number(x: Any) -> str:
     return f"{0.0 if abs(x) <= NOISE else x:>9.4g}"  # nan stays nan
 
 
+def _exactly(x: Any) -> str:
+    """Write a number with all its digits, where two that differ would look alike."""
+    return _number(x) if isinstance(x, bool | np.bool_ | complex) else f"{x:>22.16g}"
+
+
 def _assigned(name: str, value: Any) -> list[str]:
     """Write an argument as Python would: an array that is not large with all its numbers."""
     if isinstance(value, np.ndarray) and value.size > FULL:
         return [f"    {name} = array {value.shape}"]
     if not isinstance(value, np.ndarray):
         return [f"    {name} = {value}"]
-    shown = np.array2string(value, separator=", ", precision=6, suppress_small=True, max_line_width=88)
+    shown = np.array2string(value, separator=", ", precision=6, suppress_small=not _tiny(value), max_line_width=88)
     first, *others = shown.split("\n")
     return [f"    {name} = {first}", *(" " * (len(name) + 7) + line for line in others)]
+
+
+def _tiny(value: Any) -> bool:
+    """Whether an array has a number that would be shown as zero, and is more than rounding."""
+    return bool(((np.abs(value) < 1e-6) & (np.abs(value) > NOISE / 10)).any())
 
 
 def _beside(compared: Compared, language: Language) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import time
 import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
@@ -134,7 +134,7 @@ def judge(
     safe = guarded(function)
     again = (lambda given: _again(part, safe, given, watch)) if search else None
     kept = _keeps(part, function, so_far, watch)
-    noted = [*changes.values()][:1]
+    noted: list[Text] = [*changes.values()][:1]
     for k in [*changes][:1]:
         noted += changing_line(part, function, so_far.tried[k])
     if all(so_far.right) and kept is None:
@@ -142,8 +142,10 @@ def judge(
         lines = noted or calls.lines or [say(phrase) for phrase in _made_one(so_far)][:1]
         return Verdict("wrong", (_head(exercise, part), *lines), (), *shown) if lines else Verdict("done")
     found = _wrong(exercise, part, function, so_far, seed, kept, again)
-    alone = noted and inspect.isclass(part.solution) and not found.slips  # other numbers come of it
-    return replace(found, lines=(*found.lines[:1], *noted, *(() if alone else found.lines[1:])))
+    if noted and inspect.isclass(part.solution) and not found.slips:  # what is wrong comes of it
+        case = found.case and replace(found.case, compared=())
+        return replace(found, lines=(*found.lines[:1], *noted), case=case)
+    return replace(found, lines=(*found.lines[:1], *noted, *found.lines[1:]))
 
 
 def _trials(part: Part, seed: int, so_far: _Compared) -> Iterator[tuple[Any, ...]]:

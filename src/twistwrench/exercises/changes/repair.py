@@ -23,6 +23,7 @@ WRITTEN = ("transposed", "exchanged", "name", "instead", "inserted", "index", "n
 """Kinds of changes that are printed as what stands there and what must."""
 
 OF_RESULT = {
+    "-x": "sign of result",
     "np.roll(x, len(x) // 2, 0)": "halves of result",
     "np.roll(x, len(x.T) // 2, 1)": "halves of columns",
     "np.r_[x[3:6], x[:3], x[6:]]": "halves of base",
@@ -64,6 +65,17 @@ class Repair:
         first, edit = self.first, self.edit
         here = first is not None and first.line == edit.line and not first.everywhere and not edit.everywhere
         return bool(first and here and first.wrong and edit.wrong and edit.right.count(first.wrong) == 1)
+
+    @property
+    def is_two(self) -> bool:
+        """Whether two changes are printed."""
+        written = self.edit.kind in WRITTEN and len({*self.edit.around}) == 2
+        apart = self.edit.everywhere == 2 and (written or len({*self._lines}) == 2)
+        return (self.first is not None and not self.one_piece) or self.edit.first is not None or apart
+
+    @property
+    def _lines(self) -> list[int]:
+        return [place[2].lineno for place in self.edit.places]
 
     @property
     def line(self) -> int | None:
@@ -112,12 +124,11 @@ class Repair:
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:
             return say(OF_RESULT[edit.wrong], right=edit.wrong)
-        lines = [place[2].lineno for place in edit.places]
-        each = [title, title]
-        if len({*edit.around}) == 2 and edit.kind in WRITTEN:
-            each = [say("repair instead", wrong=a, right=b) for a, b in zip(edit.around, edit.became)]
-        if edit.everywhere == 2 and (each[0] != each[1] or lines[0] != lines[1]):
-            first, second = (say("in own line", line=line, title=title) for line, title in zip(lines, each))
+        if edit.everywhere == 2 and self.is_two:
+            written = len({*edit.around}) == 2 and edit.kind in WRITTEN
+            pairs = zip(edit.around, edit.became) if written else ()
+            each = [say("repair instead", wrong=a, right=b) for a, b in pairs] or [title, title]
+            first, second = (say("in own line", line=line, title=x) for line, x in zip(self._lines, each))
             return say("both edits", first=first, second=second)
         if edit.line:
             title = said_where(edit, title)

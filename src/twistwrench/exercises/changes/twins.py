@@ -39,7 +39,9 @@ def is_copy(node: Any) -> bool:
 
 
 def has_no_sign(node: Any) -> bool:
-    """Whether a node is a size or a bound, before which nobody forgets a sign."""
+    """Whether a node is a size or a bound, before which nobody forgets a sign, or no number at all."""
+    if getattr(node, "id", "") == "NotImplemented":
+        return True
     called = getattr(node, "func", None)
     name = getattr(called, "attr", getattr(called, "id", ""))
     return name in ("norm", "abs", "max", "min", "clip", "sqrt", "hypot", "len", "median", "arange", "linspace")

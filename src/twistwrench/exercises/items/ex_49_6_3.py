@@ -101,6 +101,7 @@ OF_GO2 = Part(
         "as-printed": _numbers(0, -157.794),
         "moment-dropped": _numbers(0, 157.794),
         "base-wrench-sign": _numbers(1.29745, -157.794),
+        "qwxyz": _numbers(1.29745, -157.794),
         "cross-order": _numbers(1.29745, 157.794),
         "standing-for-neutral": _numbers(0.272905, 157.794),
         "nominal-mass": _numbers(-1.29745 * 12 / 16.085, 117.72),
@@ -110,6 +111,7 @@ OF_GO2 = Part(
         "mass-for-weight": _numbers(-1.29745 / 9.81, 16.085),
         "swapped-halves": lambda: np.array([0, 0, 157.794, 0, -1.29745, 0]),
     },
+    alike=(frozenset({"base-wrench-sign", "qwxyz"}),),
 )
 
 EXERCISE = Exercise(id="49.6.3", kind="explain", parts=(OF_GO2, BY_HAND))

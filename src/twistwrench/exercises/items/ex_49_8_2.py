@@ -45,6 +45,7 @@ EXERCISE = Exercise(
             cases=lambda rng: [()],
             slips={
                 "nq-for-nv": lambda: (19, 12),
+                "base-twice": lambda: (19, 12),
                 "base-missing": lambda: (12, 12),
                 "njoints-for-nv": lambda: (14, 13),
                 "base-as-one": lambda: (13, 12),
@@ -52,6 +53,7 @@ EXERCISE = Exercise(
                 "base-rows-kept": lambda: (18, 18),
                 "entries-for-rows": lambda: (18**2, 12**2),
             },
+            alike=(frozenset({"nq-for-nv", "base-twice"}),),
         ),
         Part(
             solution=held_mass_matrix,

@@ -5,6 +5,7 @@ Each file imports only from those above it in this table.
 ============  ===========================================================================
 file          what it holds
 ============  ===========================================================================
+changing      the line that changes an argument
 aliases       arrays with two names
 independence  what a result does not depend on, and should
 known         quantities with a name, to be compared with

@@ -22,8 +22,9 @@ def changing_line(part: Part, function: Callable[..., Any], arguments: tuple[Any
     given, found = copied(arguments), list[Any]()
     done: Any = None  # the file and the line that run until the next event
 
-    def note(frame: Any, event: str, _: object) -> Any:
+    def note(*traced: Any) -> Any:
         nonlocal done
+        frame, event, _ = traced
         file = frame.f_code.co_filename
         if found or is_ours(file):
             return None

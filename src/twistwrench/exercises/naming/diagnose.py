@@ -194,7 +194,7 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
         else:
             explained = next(filter(None, (explanation(alone) for explanation in OF_ONE_RESULT)), None)
         found.append(explained is not None)
-        slips, shown = explained or ([], [*comparison(alone), where(alone)])
+        slips, shown = explained or ([], [say("it shows"), *map(indented, comparison(alone)), where(alone)])
         names += slips
         lines += [say("in result", name=wrong.part.returns[k].title), *map(indented, shown[:-1])]
     return ([*dict.fromkeys(names)], [*lines, where(wrong)]) if any(found) else None

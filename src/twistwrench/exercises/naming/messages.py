@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ..changes.repair import Repair
 from ..changes.search import Found, right_where
+from ..changes.written import text_written
 from ..compare import agree, values
 from ..exercise import Part
 from ..words.phrases import say
@@ -48,7 +49,9 @@ def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
     if len(slips) == 1:
         made = part.slips.get(found[0])  # None where the student's line tells it from a slip with the same numbers
         within = getattr(made, "within", None)
-        step = first_wrong(part, made, within, wrong.cases[0]) if made and within in part.beside else None
+        step = None
+        if made and within in part.beside:
+            step = first_wrong(part, made, within, wrong.cases[0], text_written(wrong.function))
         title, why = slips[0].title, slips[0].why
         lines = [say("like slip", title=title, why=why), *own, *([step] if step else [])]
     else:
@@ -92,7 +95,7 @@ def cures(part: Part, found: Sequence[Repair], every: int) -> list[Text]:
 
     By their numbers the slip and what has the same effect cannot be distinguished: none is called the slip.
     """
-    both = any(change.first is not None and not change.one_piece for change in found)
+    both = any(change.is_two for change in found)
     if len(found) > 1 and not any(change.piece is not None for change in found):
         each = say("either both" if both else "either way", all=every) if every > 1 else say("either once")
         return [say("either"), *(indented(change.title()) for change in found), each, say("perhaps")]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import textwrap
 from collections.abc import Mapping
 from typing import Any
@@ -20,10 +21,11 @@ __all__ = ["first_wrong"]
 INWARD = ("inward", "reversed", "-1")
 
 
-def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ...]) -> Text | None:
+def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ...], source: str = "") -> Text | None:
     """Report which quantity of which body a change within a listing makes wrong first, and which stay right.
 
-    A quantity with the name of an argument is not spoken of: to the student that is the argument.
+    A quantity with the name of an argument is not spoken of: to the student that is the argument. Nor are names that
+    the student's source does not have, where it is given.
     """
     given = {name.partition("=")[0] for name in part.arguments.split(", ")}
     bodies = {name: inward for name, inward in _computed(within).items() if name not in given}
@@ -36,6 +38,8 @@ def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ..
         inward = bodies[name]  # then what arrives at the world is of no use to anyone
         entries = {key: x for key, x in _entries(right[name]).items() if key != 0 or not inward}
         bad = [key for key, x in entries.items() if not _same(x, _entries(wrong[name]).get(key))]
+        if bad and source and not {name, *fine} <= {*re.findall(r"\w+", source)}:
+            return None
         if bad:
             first = max(bad) if inward else min(bad)
             place = f"{name}[{', '.join(map(str, first)) if isinstance(first, tuple) else first}]"

@@ -39,6 +39,10 @@ MENDINGS = {
         "do always what is done only where `{wrong}` holds", "只在 `{wrong}` 成立时才做的事，总是要做"
     ),
     "own code": Text("In your code this would make it right: {title}.", "在你的代码中，这样改就会正确：{title}。"),
+    "sign of result": Text(
+        "change the sign of all that is returned: `{right}` in place of `x`",
+        "改变所有返回值的符号：返回 `{right}` 而不是 `x`",
+    ),
     "halves of result": Text(
         "what is returned, `x`, has its two halves exchanged: `{right}` would be right",
         "返回的 `x` 前后两半互换了，正确的是 `{right}`",

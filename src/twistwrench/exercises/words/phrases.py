@@ -123,9 +123,10 @@ PHRASES = {
         "它修改了参数 `{name}`。请在副本上运算，调用者还要用它。",
     ),
     "changed term": Text(
-        "A sum or a difference changes one of its two terms, which is still needed. Compute with new arrays: `a + b` is"
-        " one, `a += b` changes `a`.",
-        "求和或求差时改变了其中一个操作数，而它之后还要用。请用新的数组计算：`a + b` 会新建数组，`a += b` 则改变 `a`。",
+        "A sum or a difference changes one of its two terms, which is still needed. Make a new object with a new array:"
+        " `a + b` is one; `a += b` changes the array of `a`, and `c = a` is only another name for it.",
+        "求和或求差时改变了其中一个操作数，而它之后还要用。请新建一个对象和它的数组：`a + b` 会新建数组，"
+        "`a += b` 改变的是 `a` 的数组，而 `c = a` 只是同一个对象的另一个名称。",
     ),
     "kept": Text(
         "Called again with the same arguments, it returns something else: it keeps something from one call to the next."

@@ -103,9 +103,8 @@ SAYINGS = {
         "把第 {line} 行的 {given} 换成 {finer}，误差缩小到 1/{factor:.0f}：算出的是近似值，而题目要求精确值。",
     ),
     "when small": Text(
-        "{name} is right for small {what} only, up to the power {power}: what is wrong grows with the power {next}. A"
-        " series that is broken off, or a term of that power that is left out?",
-        "{name} 只对很小的 {what} 正确，到 {power} 次为止：误差按 {next} 次方增长。是不是级数截断了，或漏了该次的项？",
+        "{name} is right for small {what} only, up to the power {power}: what is wrong grows with the power {next}.",
+        "{name} 只对很小的 {what} 正确，到 {power} 次为止：误差按 {next} 次方增长。",
     ),
     "branch otherwise": Text(
         "do in all other cases what is done where `{wrong}` holds",
