@@ -134,7 +134,7 @@ def judge(
     safe = guarded(function)
     again = (lambda given: _again(part, safe, given, watch)) if search else None
     kept = _keeps(part, function, so_far, watch)
-    noted: list[Text] = [*changes.values()][:1]
+    noted = [*changes.values()][:1]
     for k in [*changes][:1]:
         noted += changing_line(part, function, so_far.tried[k])
     if all(so_far.right) and kept is None:
@@ -143,8 +143,8 @@ def judge(
         return Verdict("wrong", (_head(exercise, part), *lines), (), *shown) if lines else Verdict("done")
     found = _wrong(exercise, part, function, so_far, seed, kept, again)
     if noted and inspect.isclass(part.solution) and not found.slips:  # what is wrong comes of it
-        case = found.case and replace(found.case, compared=())
-        return replace(found, lines=(*found.lines[:1], *noted), case=case)
+        k = so_far.first_wrong
+        return Verdict("wrong", (*found.lines[:1], *noted), (), failing_case(part, k, seed, so_far.tried[k]))
     return replace(found, lines=(*found.lines[:1], *noted, *found.lines[1:]))
 
 
