@@ -62,6 +62,7 @@ class Scope:
         yield from alternatives(node, parents[-1], self._alike(name, parents[-1]), self.matrices, self.scalars)
         yield from (("name", parsed(text)) for text in self._other_names(node, parents))
         yield from (("instead", ast.Constant(text)) for text in self._other_texts(node))
+        yield from _outer(node)
         begins = isinstance(parents[-1], ast.Assign) and getattr(parents[-1].targets[0], "id", "") in self.sums
         if begins and not isinstance(node, ast.Constant):
             yield "instead", parsed("np.zeros_like(_)", node)  # from which a sum begins
@@ -121,6 +122,14 @@ class Scope:
         if isinstance(node.op, ast.Mult) and getattr(left, "id", 0) == getattr(right, "id", 1):
             alike = [name for name, kind in self.kinds.items() if kind == self.kinds.get(text_of(left))]
             yield from (f"{name} * {name}" for name in alike)
+
+
+def _outer(node: Any) -> Iterator[Change]:
+    """Yield the outer product of a vector with itself in place of c * c or c @ c.T, where these are not."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.MatMult):
+        left, right = (ast.unparse(x).removesuffix(".T") for x in (node.left, node.right))
+        if left == right and isinstance(node.left, ast.Name | ast.Subscript | ast.Attribute):
+            yield "instead", parsed(f"np.outer({left}, {left})")
 
 
 def _kind(value: Any) -> Any:

@@ -63,7 +63,7 @@ def _is_one_array(node: Any) -> bool:
     value: Any = node.value
     if _exchanges_views(node):
         return True
-    if all(isinstance(x, ast.Name) for x in node.targets) and (len(node.targets) > 1 or _repeats(value)):
+    if _repeats(value) or (len(node.targets) > 1 and all(isinstance(x, ast.Name) for x in node.targets)):
         return True
     if isinstance(value, ast.Attribute):
         value = value.value if value.attr in ("T", "mT") else None
@@ -80,7 +80,7 @@ def _exchanges_views(node: ast.Assign) -> bool:
 
 
 def _repeats(node: Any) -> bool:
-    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List)
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List | ast.Tuple)
 
 
 def _copied(x: Any) -> Any:

@@ -53,7 +53,8 @@ def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
         if made and within in part.beside:
             step = first_wrong(part, made, within, wrong.cases[0], text_written(wrong.function))
         title, why = slips[0].title, slips[0].why
-        lines = [say("like slip", title=title, why=why), *own, *([step] if step else [])]
+        like = say("like slip" if wrong.cases[0] else "like number", title=title, why=why)
+        lines = [like, *own, *([step] if step else [])]
     else:
         each = [say("slip of several", title=x.title, why=x.why) for x in slips]
         lines = [say("slips"), *each, *own]

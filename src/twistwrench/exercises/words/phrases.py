@@ -17,6 +17,7 @@ PHRASES = {
     "like slip": Text(
         "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
     ),
+    "like number": Text("A slip that gives just this: {title}. {why}", "有一个错误恰好得到这样的结果：{title}。{why}"),
     "like slip in": Text(
         "For {name}, this slip gives what you have: {title}.",
         "就 {name} 而言，你的结果等于犯下这个错误的结果：{title}。",

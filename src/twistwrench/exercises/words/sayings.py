@@ -60,8 +60,8 @@ SAYINGS = {
     ),
     "many names": Text(
         "The slip: line {line}, `{text}` makes one array, which has several names or stands in several places: what is"
-        " added to it in one of them is added in all. Make an array for each.",
-        "错因：第 {line} 行，`{text}` 只建立了一个数组，却有几个名字或出现在几处：在一处加上的，处处都加上了。"
+        " written into one of them, or added to it, is in all. Make an array for each.",
+        "错因：第 {line} 行，`{text}` 只建立了一个数组，却有几个名字或出现在几处：在一处写入或加上的，处处都有。"
         "请各建一个数组。",
     ),
     # what is not what is asked for, though the numbers are right
