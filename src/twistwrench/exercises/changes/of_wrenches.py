@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..exercise import Part
-from .places import innermost, put
+from .excerpts import put
+from .places import innermost
 from .whole import Edit
 
 __all__ = ["turns_into_the_other_kind"]

@@ -8,7 +8,7 @@ from typing import Any
 
 from .excerpts import text_of, with_operator
 
-__all__ = ["Place", "all_places", "innermost", "mark", "may_be_argument", "put", "surroundings", "unused"]
+__all__ = ["Place", "all_places", "innermost", "mark", "may_be_argument", "surroundings", "unused"]
 
 Place = tuple[list[Any], Any, Any, Any]
 """The nodes around a node, its place in the innermost, itself, and what is put there."""
@@ -74,11 +74,3 @@ def surroundings(parents: list[Any]) -> Any:
             break
         found = parent
     return found
-
-
-def put(parent: Any, field: Any, node: Any) -> None:
-    """Put a node in its place."""
-    if isinstance(field, tuple):
-        getattr(parent, field[0])[field[1]] = node
-    else:
-        setattr(parent, field, node)

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..words.phrases import say
 from ..words.text import Text
-from .excerpts import taken_out
+from .excerpts import changed_around, taken_out
 from .likeness import renames
 from .places import innermost
 from .plausible import shuts
@@ -131,7 +131,11 @@ class Repair:
             first, second = (say("in own line", line=line, title=x) for line, x in zip(self._lines, each))
             return say("both edits", first=first, second=second)
         if edit.line:
-            title = said_where(edit, title)
+            around, became = changed_around(edit.places[0], edit.right) if edit.places else ("", "")
+            if around.count(edit.right) > 1 and not edit.everywhere:  # which of them is seen in the whole only
+                title = say("repair instead", wrong=around, right=became)
+            else:
+                title = said_where(edit, title)
             title = say("in own line", line=edit.line, title=title)
         if edit.first is not None:
             kind, wrong, right, line = edit.first

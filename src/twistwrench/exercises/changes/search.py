@@ -17,7 +17,7 @@ from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import edits
-from .excerpts import first_alone
+from .excerpts import changed_around
 from .whole import Edit
 
 __all__ = [
@@ -67,7 +67,7 @@ class Found(NamedTuple):
 def said_where(edit: Edit, title: Text) -> Text:
     """Add to a title in how many places an edit is made."""
     if not edit.everywhere:
-        around = first_alone(edit.places[0][0], edit.places[0][2], edit.right) if edit.places else ""
+        around = changed_around(edit.places[0], edit.right)[0] if edit.places else ""
         return say("in place", title=title, around=around) if around else title
     if edit.everywhere == 2 and len({*edit.around}) == 2:
         return say("both places", title=title, first=edit.around[0], second=edit.around[1])

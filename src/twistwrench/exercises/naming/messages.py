@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ..calls import tried
 from ..changes.repair import Repair
 from ..changes.search import Found, right_where
 from ..changes.written import text_written
@@ -102,7 +103,8 @@ def cures(part: Part, found: Sequence[Repair], every: int) -> list[Text]:
         return [say("either"), *(indented(change.title()) for change in found), each, say("perhaps")]
     lines = _each(part, found, "cure")
     whole = "mended both" if both else "mended each" if len(found) > 1 else "mended"
-    return [*lines, say(whole, all=every) if every > 1 else say("mended once"), say("perhaps")]
+    once = "mended both once" if both else "mended once"
+    return [*lines, say(whole, all=every) if every > 1 else say(once), say("perhaps")]
 
 
 def _each(part: Part, found: Sequence[Found | Repair], phrase: str) -> list[Text]:
@@ -116,9 +118,11 @@ def _each(part: Part, found: Sequence[Found | Repair], phrase: str) -> list[Text
 
 
 def nearer(wrong: WrongAnswer, near: Repair) -> list[Text]:
-    """Report which change makes some blocks right, and what is wrong in the others."""
+    """Report which change makes some blocks right, and what is wrong after it."""
     lines = [say("cure in", name=name, title=near.title()) for name in near.blocks]
-    return [*lines, say("not all"), say("it shows"), *map(indented, comparison(wrong)), where(wrong)]
+    answers = [tried(wrong.part, near.edit.function, arguments) for arguments in wrong.cases]
+    rest = WrongAnswer(wrong.exercise, wrong.part, near.edit.function, answers, wrong.cases, None)
+    return [*lines, say("not all"), *map(indented, comparison(rest)), where(wrong)]
 
 
 def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:

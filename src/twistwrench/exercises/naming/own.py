@@ -37,6 +37,9 @@ NO_SIGN = ("left out", "index", "name", "last", "summed", "argument")
 TRACES = {"ᵀ": (".T", ".mT", "transpose", "swapaxes", "einsum"), "⁻¹": ("inv", "solve", ".T", ".mT")}
 """By what it is seen in a program that something is transposed, or inverted."""
 
+WRITTEN = {"qwxyz": r"quat|qw|1(\.0?)?, *0(\.0?)?, *0|\[(3|6|3:7?|-4:)\]"}
+"""What is written where a slip can be made, by its name."""
+
 WORDS = {"transpose": TRACES["ᵀ"], "inverse": ("inv", "solve", "inverse")}
 """The same for slips that have the word in their name."""
 
@@ -157,7 +160,9 @@ def traced(slip: str, source: str) -> bool:
 
 
 def _spoken(slip: str, source: str) -> bool:
-    """Whether what the slip says to stand there can stand in this source: a transpose, an inverse."""
+    """Whether what the slip says to stand there can stand in this source: a transpose, an inverse, a quaternion."""
+    if slip in WRITTEN and not re.search(WRITTEN[slip], source):
+        return False
     said, meant = _halves(slip)
     said = re.sub(r"(\w) \1ᵀ", "", said)  # an outer product, which needs no transpose
     return not meant or all(any(x in source for x in traces) for key, traces in TRACES.items() if key in said)

@@ -165,8 +165,7 @@ class Stepwise:
             return None
         first, every = self.start.sure[0], {id(x.statement) for x in self.start.found}
         alone = len({id(x.statement) for x in self.start.sure}) == 1
-        bare = isinstance(first.statement, ast.Return) and isinstance(first.node, ast.Name)
-        if not alone or bare or len(every) < 3:
+        if not alone or _is_taken(first.node) or len(every) < 3:
             return None
         return say("first line", line=first.statement.lineno, text=text_of(first.statement))
 
@@ -275,3 +274,10 @@ def _all(within: Source, more: Iterator[Edit]) -> Iterator[Edit]:
         yield from within.edits(kind)
         if kind == "left out":
             yield from more
+
+
+def _is_taken(node: Any) -> bool:
+    """Whether a value is only taken out of something, and nothing is computed."""
+    while isinstance(node, ast.Subscript | ast.Attribute):
+        node = node.value
+    return isinstance(node, ast.Name)

@@ -65,30 +65,38 @@ MENDINGS = {
     ),
     "in own line": Text("line {line}, {title}", "第 {line} 行，{title}"),
     "mended": Text(
-        "With this change, and no other, it is right in all {all} cases.", "只作这一改动，全部 {all} 组数据就都正确。"
+        "With this change, and no other, the numbers are right in all {all} cases.",
+        "只作这一改动，全部 {all} 组数据的数值就都正确。",
     ),
     "mended each": Text(
         "Each of these changes makes its own result right, in all {all} cases.",
         "其中每处改动都使对应的结果在全部 {all} 组数据中正确。",
     ),
     "mended both": Text(
-        "With both changes, and no other, it is right in all {all} cases.",
-        "只作这两处改动，全部 {all} 组数据就都正确。",
+        "With both changes, and no other, the numbers are right in all {all} cases.",
+        "只作这两处改动，全部 {all} 组数据的数值就都正确。",
     ),
     "cure": Text("This would make it right: {title}.", "这样改就会正确：{title}。"),
     "cure in": Text("This would make {name} right: {title}.", "这样改，{name} 就会正确：{title}。"),
     "perhaps": Text("Your slip may be another one that has the same effect.", "你的错因也可能是另一处效果相同的错误。"),
     "either": Text("One of these changes would make it right:", "下列改动任取其一，就会正确："),
     "either way": Text(
-        "With one of them alone it is right in all {all} cases.", "单独作其中任一改动，全部 {all} 组数据都正确。"
+        "With one of them alone the numbers are right in all {all} cases.",
+        "单独作其中任一改动，全部 {all} 组数据的数值都正确。",
     ),
-    "either once": Text("With one of them alone it is right.", "单独作其中任一改动就正确。"),
+    "either once": Text("With one of them alone the numbers are right.", "单独作其中任一改动，数值就正确。"),
     "either both": Text(
-        "With both changes of one of them, and no other, it is right in all {all} cases.",
-        "只作其中任一项的两处改动，全部 {all} 组数据就都正确。",
+        "With both changes of one of them, and no other, the numbers are right in all {all} cases.",
+        "只作其中任一项的两处改动，全部 {all} 组数据的数值就都正确。",
     ),
-    "not all": Text("Something else is wrong as well.", "还有别处也错了。"),
-    "mended once": Text("With this change, and no other, it is right.", "只作这一改动，就正确了。"),
+    "not all": Text(
+        "Something else is wrong as well. With this change there remains, in the first case that is wrong then:",
+        "还有别处也错了。作此改动后，在第一组仍然出错的数据中还有：",
+    ),
+    "mended both once": Text(
+        "With both changes, and no other, the numbers are right.", "只作这两处改动，数值就正确了。"
+    ),
+    "mended once": Text("With this change, and no other, the numbers are right.", "只作这一改动，数值就正确了。"),
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
     "twice": Text("{title}, in two places", "{title}（两处都是）"),
     "both places": Text("{title}, in `{first}` and in `{second}`", "{title}（在 `{first}` 和 `{second}` 中）"),
