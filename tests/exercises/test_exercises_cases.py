@@ -1,6 +1,7 @@
 """The cases of an answer: no turn and half a turn, negative arguments, a second call, and a change that ends Python."""
 
 import os
+import sys
 from functools import partial
 
 import numpy as np
@@ -10,7 +11,9 @@ import twistwrench as tw
 from twistwrench.exercises import catalogue
 from twistwrench.exercises.cases import case, cases, further_cases
 from twistwrench.exercises.judge import judge
+from twistwrench.exercises.processes import forking
 from twistwrench.exercises.processes.forking import judged
+from twistwrench.exercises.processes.isolation import CheckFailed
 from twistwrench.exercises.stopwatch import seconds
 
 PARTS = {p.name: p for e in map(catalogue.exercise, catalogue.available()) for p in e.parts if not e.needs}
@@ -184,6 +187,44 @@ def test_a_change_that_ends_the_process_is_not_taken_for_the_answer():
 
     found = judged(*catalogue.find_part("act"), act, seed=0, time_limit=10)
     assert "ended the whole Python process" not in found.message("en")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a copy of the process is made on Linux only")
+def test_an_error_of_the_check_is_not_the_students(monkeypatch):
+    def broken(*arguments, **options):
+        raise ZeroDivisionError("of ours")
+
+    monkeypatch.setattr(forking, "judge", broken)
+    with pytest.raises(CheckFailed, match="the check itself failed, and not the answer"):
+        judged(*catalogue.find_part("act"), lambda R, p, x: R @ x + p, seed=0, time_limit=10)
+
+
+def test_what_is_right_but_in_a_special_case_is_refused():
+    """Every further kind of case catches an answer that is right in all others."""
+
+    def whole(R, p, x):
+        moved = np.zeros_like(x)
+        moved[:] = R @ x + p
+        return moved
+
+    def near(p):
+        X = tw.motion_transform(np.eye(3), p if np.abs(p).max() > 1e-8 else np.zeros(3))
+        return X, np.linalg.inv(X), np.linalg.inv(X).mT
+
+    def at_rest(m, I_c, omega, alpha, a_c):
+        tau, f = PARTS["newton_euler"].solution(m, I_c, omega, alpha, a_c)
+        return (tau if alpha.any() else 0 * tau), f
+
+    def joints(model, q, v, a):
+        M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)
+        return tw.rnea(model, q, v, a), np.zeros(len(q) - 1) + M @ a + h
+
+    said = message("act", whole)
+    assert "wrong only where arguments are whole numbers" in said
+    assert "numbers are right" not in said
+    assert "Wrong in 1 of" in message("translation_transforms", near)
+    assert judge(*catalogue.find_part("newton_euler"), at_rest).state == "wrong"
+    assert judge(*catalogue.find_part("torques_two_ways"), joints).state == "wrong"
 
 
 def test_one_array_does_not_count_twice():

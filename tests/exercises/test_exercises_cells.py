@@ -9,8 +9,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.exercises import catalogue, check
-from twistwrench.exercises.cases import cases as drawn
-from twistwrench.exercises.cases import further_cases
+from twistwrench.exercises.cases import every_case
 from twistwrench.exercises.failing import Block, Compared
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.notebook.markup import case_html
@@ -138,7 +137,7 @@ def test_what_ends_python_does_not_end_the_notebook(capsys):
 
     assert "It ended the whole Python process" in repr(check("49.0.2", ended, language="en"))
     part = catalogue.find_part("act")[1]
-    cases = len(drawn(part, 0)) + len(further_cases(part, 0))
+    cases = len(every_case(part, 0))
     assert check("49.0.2", loud).right
     assert capsys.readouterr().out.count("here") == 1 + cases  # the first is run once more
     assert check("49.0.2", right, time_limit=0).right

@@ -251,7 +251,8 @@ def arc(omega_z, v_x):
     return np.array([[c, s, 0, r * s], [-s, c, 0, r * (1 - c)], [0, 0, 1, 0], [0, 0, 0, 1]])
 """,
                 [
-                    "change the sign of `s`",
+                    "change `-s` to `s`",
+                    "change `[c, s, 0, r * s]` to `[c, -s, 0, r * s]`",
                     "and line 13, change `v_x * omega_z` to `v_x / omega_z`",
                     "With both changes",
                 ],

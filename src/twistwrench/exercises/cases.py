@@ -9,17 +9,25 @@ from typing import Any
 import numpy as np
 
 from ..errors import ModelError
+from ..model import Model
 from . import catalogue
 from .compare import values
 from .exercise import Part
+from .robots import ball_robots, bare_robot
 
-__all__ = ["case", "cases", "further_cases"]
+__all__ = ["case", "cases", "every_case", "further_cases", "special_cases"]
 
 ANGLES = (0, np.pi, 8e-2, 1e-3, 1e-6, np.pi - 1e-2, np.pi - 1e-6)
 """Turns at which a formula may have a case of its own, and turns just beside them."""
 
 SCALES = (0.0, 1e-6, 1e-3, 3.0)
 """Factors of vectors: nothing at all, small numbers, and large ones. A robot that races would cost digits."""
+
+TINY = (4e-9, 2e-11)
+"""Factors that leave nothing which `np.allclose` would see beside zero, and more than rounding."""
+
+QUARTER = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+"""A rotation in whole numbers."""
 
 SCALED = frozenset(
     (
@@ -56,6 +64,53 @@ def further_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
     ]
 
 
+def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
+    """Return the cases after those, for an answer that is right in all of them.
+
+    One argument is zero and the others are not, or one rotation turns nothing; all sizes are tiny; and what may be a
+    whole number is one, so that an array made after its pattern has no digits after the point.
+    """
+    drawn = cases(part, seed)[0]
+    names = part.arguments.split(", ")
+    if not drawn:
+        return []
+    edges = part.edges(_generator(part, seed, 2))
+    found = [tuple(_scaled(*x, factor) for x in zip(names, drawn)) for factor in TINY]
+    for k, (name, x) in enumerate(zip(names, drawn)):
+        if name not in ("m", "q", "T") and len(names) > 1:
+            alone = (_scaled(name, x, 0.0), _turned(name, x, _quaternion(0)))
+            found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in alone if other is not x]
+    largest = 5 if "model" in names else 99
+    found.append(tuple(_whole(*x, largest) for x in zip(names, drawn)))
+    found.append(
+        tuple(QUARTER if name.startswith("R") and np.shape(x) == (3, 3) else x for name, x in zip(names, drawn))
+    )
+    if names[:2] == ["model", "q"] and {*names} <= {"model", "q", "v", "a", "tau"} and isinstance(drawn[0], Model):
+        found += [_moving(robot, names, _generator(part, seed, 3)) for robot in (bare_robot(), *ball_robots())]
+    return [*edges, *(new for new in found if any(a is not b for a, b in zip(new, drawn)) and _answered(part, new))]
+
+
+def _moving(model: Model, names: list[str], rng: np.random.Generator) -> tuple[Any, ...]:
+    """Return a robot with a configuration, and as many numbers as it has velocities for each other name."""
+    return model, model.random_configuration(rng=rng), *rng.standard_normal((len(names) - 2, model.nv))
+
+
+def every_case(part: Part, seed: int) -> list[tuple[Any, ...]]:
+    """Return all cases of a function, in the order in which they are tried."""
+    return [*cases(part, seed), *further_cases(part, seed), *special_cases(part, seed)]
+
+
+def _whole(name: str, value: Any, largest: int) -> Any:
+    """Return an argument that may have any size, or a mass, in whole numbers; others as is."""
+    if name not in SCALED | {"m"}:
+        return value
+    if isinstance(value, float):
+        return round(value) or 1
+    if not isinstance(value, np.ndarray) or value.dtype.kind != "f" or not value.any():
+        return value
+    return np.rint(largest * value / np.abs(value).max()).astype(int)
+
+
 def _quaternion(angle: float) -> Any:
     """Return the quaternion (x, y, z, w) of a turn about an axis between those of the frame; exact for 0 and π."""
     axis, exact = np.array([1.0, 2.0, 2.0]) / 3, {0: (0.0, 1.0), np.pi: (1.0, 0.0)}
@@ -84,7 +139,7 @@ def _answered(part: Part, arguments: tuple[Any, ...]) -> bool:
     try:
         with np.errstate(all="ignore"):
             found = values(part.value(part.solution, arguments), part.returns)
-    except (ArithmeticError, ValueError):
+    except (ArithmeticError, LookupError, ValueError):
         return False
     return found is not None and all(x.array is None or np.isfinite(x.array).all() for x in found)
 
@@ -148,7 +203,7 @@ def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:
     (3,)
     """
     part = catalogue.find_part(name)[1]
-    found = [*cases(part, seed), *further_cases(part, seed)]
+    found = every_case(part, seed)
     if not 0 <= number < len(found):
         raise ModelError(f"number: {name} has the cases 0 to {len(found) - 1}, got {number}")
     return found[number]

@@ -103,6 +103,9 @@ class Part:
         What it returns; a tuple of several where there are several.
     cases : callable
         From a random generator to a list of argument tuples. Numbers that need none: ``[()]``.
+    edges : callable
+        As `cases`: further arguments, tried of an answer that is right in all others. Degenerate ones: a single
+        foot, a point of mass, a singular matrix.
     slips : mapping
         Name of a slip of `slips.SLIPS` to a wrong implementation with the same signature.
     alike : tuple
@@ -129,6 +132,7 @@ class Part:
     slips: Mapping[str, Callable[..., Any]]
     beside: tuple[Callable[..., Any], ...] = ()
     alike: tuple[frozenset[str], ...] = ()
+    edges: Cases = lambda rng: ()
     ways: tuple[Callable[..., Any], ...] = ()
     residuals: tuple[Callable[..., Any], ...] = ()
     canonical: Callable[..., Any] | None = None

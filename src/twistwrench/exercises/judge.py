@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from .calls import begin, copied, silent
-from .cases import cases, further_cases
+from .cases import cases, every_case, further_cases, special_cases
 from .changes.repairs import guarded
 from .compare import agree, copied_results, is_one_array, to_do, unchanged
 from .context import context_of
@@ -120,8 +120,9 @@ def judge(
             if not all(so_far.right):
                 break  # what is wrong without an error comes first
             with silent():
-                drawn = [*cases(part, seed), *further_cases(part, seed)]
-                more = after_error(part, function, drawn) if search and isinstance(stop, _Raised) else []
+                more = (
+                    after_error(part, function, every_case(part, seed)) if search and isinstance(stop, _Raised) else []
+                )
             case = failing_case(part, len(so_far.tried), seed, arguments)
             return Verdict("wrong", (_head(exercise, part), *stop.args, *more), (), case)
         if to_do(answer):
@@ -149,11 +150,13 @@ def judge(
 
 
 def _trials(part: Part, seed: int, so_far: _Compared) -> Iterator[tuple[Any, ...]]:
-    """Yield the cases: those that are drawn first, and further ones unless the answer is wrong already, and slow."""
+    """Yield the cases: those that are drawn first, further ones unless the answer is wrong and slow, special ones."""
     start = time.process_time()
     yield from cases(part, seed)
     if all(so_far.right) or time.process_time() - start < SLOW:
         yield from further_cases(part, seed)
+    if all(so_far.right):
+        yield from special_cases(part, seed)
 
 
 class _Compared(NamedTuple):

@@ -13,7 +13,7 @@ from ..arrays import Array
 from ..loading import load
 from ..model import Model, random_tree
 
-__all__ = ["held_acceleration", "larger", "robot", "small_robot", "states", "weightless"]
+__all__ = ["ball_robots", "bare_robot", "held_acceleration", "larger", "robot", "small_robot", "states", "weightless"]
 
 
 @cache
@@ -37,6 +37,31 @@ def small_robot(rng: np.random.Generator) -> Model:
     9
     """
     return random_tree(4, rng=rng, base="floating", kinds=("revolute", "prismatic"))
+
+
+@cache
+def bare_robot() -> Model:
+    """Return a floating base without joints.
+
+    Examples
+    --------
+    >>> bare_robot().nv
+    6
+    """
+    return random_tree(1, rng=1, base="floating")
+
+
+@cache
+def ball_robots() -> tuple[Model, ...]:
+    """Return a robot with ball joints and joints that turn without end, and one of them whose gravity is another's.
+
+    Examples
+    --------
+    >>> [(model.nq - model.nv, float(model.gravity[2])) for model in ball_robots()]
+    [(4, -9.81), (4, -1.62)]
+    """
+    model = random_tree(4, rng=2, base="floating", kinds=("spherical", "continuous"))
+    return model, replace(model, gravity=np.array([0.3, 0.2, -1.62]))
 
 
 def states(rng: np.random.Generator, *, vectors: int = 0, small: int = 2) -> Iterator[Any]:

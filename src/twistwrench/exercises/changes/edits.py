@@ -131,7 +131,11 @@ class Source:
 
     def after(self, edit: Edit) -> Source:
         """Return the source after one edit, to be changed further; its lines keep their numbers."""
-        for parents, field, _, other in edit.places:
+        for parents, field, node, other in edit.places:
+            old = {id(x) for x in ast.walk(node)}
+            for x in ast.walk(other):
+                if id(x) not in old and hasattr(x, "lineno"):
+                    vars(x).update(lineno=node.lineno, end_lineno=node.lineno)  # those of what it replaces
             put(parents[-1], field, other)
         found = copy.copy(self)
         found.tree = copy.deepcopy(self.tree)

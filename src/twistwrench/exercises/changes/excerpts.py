@@ -5,7 +5,16 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-__all__ = ["changed_around", "enclosing", "put", "taken_out", "target", "term", "text_of", "with_operator"]
+__all__ = [
+    "changed_around",
+    "enclosing",
+    "put",
+    "taken_out",
+    "target",
+    "term",
+    "text_of",
+    "with_operator",
+]
 
 
 def term(node: Any, other: Any) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..words.phrases import say
 from ..words.text import Text
-from .excerpts import changed_around, taken_out
+from .excerpts import changed_around, taken_out, text_of
 from .likeness import renames
 from .places import innermost
 from .plausible import shuts
@@ -69,9 +69,21 @@ class Repair:
     @property
     def is_two(self) -> bool:
         """Whether two changes are printed."""
-        written = self.edit.kind in WRITTEN and len({*self.edit.around}) == 2
-        apart = self.edit.everywhere == 2 and (written or len({*self._lines}) == 2)
-        return (self.first is not None and not self.one_piece) or self.edit.first is not None or apart
+        return (self.first is not None and not self.one_piece) or self.edit.first is not None or bool(self._apart)
+
+    @property
+    def _apart(self) -> list[tuple[str, str]]:
+        """What stands in each of two places before and after, where one text does not tell both; or that twice."""
+        edit = self.edit
+        if edit.everywhere != 2:
+            return []
+        if len({*edit.around}) == 2 and edit.kind in WRITTEN:
+            return [*zip(edit.around, edit.became)]
+        if len({*self._lines}) == 2:
+            return [("", ""), ("", "")]
+        pairs = [changed_around(place, edit.right) for place in edit.places]
+        more = self._statement is not None and text_of(self._statement).count(edit.right) > 2
+        return pairs if more and len({*edit.around}) < 2 and all(a for a, _ in pairs) else []
 
     @property
     def _lines(self) -> list[int]:
@@ -124,10 +136,8 @@ class Repair:
             title = say("branch", wrong=edit.right)
         if edit.kind == "result" and edit.wrong in OF_RESULT:
             return say(OF_RESULT[edit.wrong], right=edit.wrong)
-        if edit.everywhere == 2 and self.is_two:
-            written = len({*edit.around}) == 2 and edit.kind in WRITTEN
-            pairs = zip(edit.around, edit.became) if written else ()
-            each = [say("repair instead", wrong=a, right=b) for a, b in pairs] or [title, title]
+        if self._apart and edit is self.edit:
+            each = [say("repair instead", wrong=a, right=b) if a else title for a, b in self._apart]
             first, second = (say("in own line", line=line, title=x) for line, x in zip(self._lines, each))
             return say("both edits", first=first, second=second)
         if edit.line:

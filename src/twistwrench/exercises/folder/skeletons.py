@@ -26,8 +26,8 @@ HEAD = {
     "en": '''"""{title}.
 
 Replace each `...` by your answer and run `python -m pytest {file}` in this folder. Twists are (ω, v),
-wrenches (τ, f), units SI. A function must not change its arguments: work on copies. It may call what the package
-has, unless the text rules it out.
+wrenches (τ, f), units SI. A function must not change its arguments: work on copies. They may be whole numbers, as
+in `np.array([1, 0, 0])`. It may call what the package has, unless the text rules it out.
 `twistwrench exercises hint {first}` gives a hint, and the next one when asked again.
 
 After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
@@ -36,7 +36,8 @@ After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY
     "zh": '''"""{title}。
 
 把每个 `...` 换成你的答案，然后在本目录运行 `python -m pytest {file}`。twist 为 (ω, v)，wrench 为 (τ, f)，
-使用国际单位。函数不得修改传入的参数，请在副本上计算。除题目禁止的以外，可以调用本包的函数。
+使用国际单位。函数不得修改传入的参数，请在副本上计算；参数可能是整数，例如 `np.array([1, 0, 0])`。
+除题目禁止的以外，可以调用本包的函数。
 `twistwrench exercises hint {first}` 给出一条提示，再次运行给出下一条。
 
 改写自 Robotics Tutorial 第 49 章的练习，作者 Pengfei Guo(CC BY 4.0)。

@@ -43,6 +43,7 @@ EXERCISE = Exercise(
             solution=count,
             returns=(Quantity("nq"), Quantity("nv")),
             cases=_cases,
+            edges=lambda rng: [([kind],) for kind in ("free_flyer", "revolute", "continuous", "spherical")],
             slips={
                 "nq-for-nv": lambda kinds: (count(kinds)[0],) * 2,
                 "nq-nv-exchanged": lambda kinds: count(kinds)[::-1],

@@ -27,6 +27,10 @@ def _cases(rng: Any) -> Any:
     return [(float(rng.uniform(1, 5)), _inertia(rng), *rng.standard_normal((3, 3))) for _ in range(5)]
 
 
+def _along_its_axes(rng: Any) -> Any:
+    return [(1.0, np.diag(rng.uniform(2, 3, 3)), *rng.standard_normal((3, 3)))]
+
+
 EXERCISE = Exercise(
     id="49.0.5",
     kind="code",
@@ -35,6 +39,7 @@ EXERCISE = Exercise(
             solution=newton_euler,
             returns=(Quantity("τ", unit="N m"), Quantity("f", unit="N")),
             cases=_cases,
+            edges=_along_its_axes,
             slips={
                 "gyroscopic-missing": faulty(newton_euler, (" + np.cross(omega, I_c @ omega)", "")),
                 "gyroscopic-sign": faulty(newton_euler, ("+ np.cross", "- np.cross")),

@@ -23,6 +23,11 @@ def _cases(rng: Any) -> Any:
     return [(*one(), *rng.standard_normal((2, 3))) for _ in range(5)]
 
 
+def _singular(rng: Any) -> Any:
+    """Return an arm that cannot push upward, with a joint that does not accelerate."""
+    return [(M, h, J * [[1], [1], [0]], a * [1, 0, 1], force) for M, h, J, a, force in _cases(rng)[:1]]
+
+
 EXERCISE = Exercise(
     id="49.1.2",
     kind="explain",
@@ -31,6 +36,7 @@ EXERCISE = Exercise(
             solution=polishing_torques,
             returns=(Quantity("τ", unit="N m"),),
             cases=_cases,
+            edges=_singular,
             slips={
                 "contact-missing": faulty(polishing_torques, (" - J.mT @ force", "")),
                 "external-sign": faulty(polishing_torques, ("- J.mT", "+ J.mT")),

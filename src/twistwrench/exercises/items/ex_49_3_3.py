@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import numpy as np
+
 from ...spatial import exp3
 from ..exercise import Exercise, Part, Quantity
 from ..folder.workbook import mine
@@ -27,6 +29,12 @@ def _cases(rng: Any) -> Any:
     return [(*placement(), *placement()) for _ in range(5)]
 
 
+def _upright(rng: Any) -> Any:
+    """Return a pitch of 90°, at which roll and yaw are one."""
+    R = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
+    return [(R, *rng.standard_normal((1, 3)), exp3([0.7, 0, 0]), *rng.standard_normal((1, 3)))]
+
+
 EXERCISE = Exercise(
     id="49.3.3",
     kind="prove",
@@ -39,6 +47,7 @@ EXERCISE = Exercise(
                 Quantity("X_AB X_BC", MOTION_TRANSFORM),
             ),
             cases=_cases,
+            edges=_upright,
             slips={
                 "composition-order": faulty(
                     chain_two_ways, ("X(R_AB, p_AB)[0] @ X(R_BC, p_BC)[0]", "X(R_BC, p_BC)[0] @ X(R_AB, p_AB)[0]")

@@ -79,6 +79,7 @@ OF_FOOT = Part(
     solution=foot_wrench,
     returns=(Quantity("F", WRENCH),),
     cases=_cases,
+    edges=lambda rng: [(robot("go2"), robot("go2").neutral(), "RL_foot")],
     slips={
         "swapped-halves": swapped(foot_wrench),
         "aligned-for-local": faulty(foot_wrench, ("R.mT @ upward", "upward")),

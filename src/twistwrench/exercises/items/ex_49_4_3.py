@@ -44,6 +44,12 @@ def _sums(rng: Any) -> Any:
     return [*(_forces_of(rng, n) for n in (4, 4, 3, 7, 1)), (points, forces * [1, 1, -1])]
 
 
+def _in_few_points(rng: Any) -> Any:
+    """Return two forces, three of which two are at one point, and one at the centre."""
+    points, forces = _forces_of(rng, 3)
+    return [(points[:2], forces[:2]), (points[[0, 0, 1]], forces), (points * [[1], [1], [0]], forces)]
+
+
 def _of_any_size(rng: Any) -> Any:
     """Return wrenches that push, one that pulls, and some with little force for their moment."""
     wrenches = [sign * sole_wrench(*_forces_of(rng)) for sign in (1, 1, 1, -1)]
@@ -95,6 +101,7 @@ SUM = Part(
     solution=sole_wrench,
     returns=(Quantity("F", WRENCH),),
     cases=_sums,
+    edges=_in_few_points,
     slips={
         "cross-order": faulty(sole_wrench, ("points, forces)", "forces, points)")),
         "lever-reversed": before(sole_wrench, np.negative, which=0),

@@ -9,7 +9,7 @@ import twistwrench as tw
 from ..exercise import Exercise, Part, Quantity
 from ..folder.workbook import mine
 from ..layouts import INERTIA
-from ..robots import robot
+from ..robots import robot, small_robot
 from ..wrong import faulty, swapped
 from .ex_49_5_1 import WRONG, random_body, spatial_inertia
 
@@ -61,10 +61,17 @@ def _linear_first(rng: Any) -> Any:
     return [(swapped(spatial_inertia)(*random_body(rng)),) for _ in range(4)]
 
 
+def _of_the_universe(rng: Any) -> Any:
+    """Return the inertia of the universe, and of a body whose frame is at its centre of mass."""
+    m, c, I_c = random_body(rng)
+    return [(np.zeros((6, 6)),), (swapped(spatial_inertia)(m, 0 * c, I_c),)]
+
+
 REORDERED = Part(
     solution=chapter_order,
     returns=(Quantity("I", INERTIA),),
     cases=_linear_first,
+    edges=_of_the_universe,
     slips={
         "swapped-halves": lambda I: I,
         "rows-only": lambda I: EXCHANGE @ I,
@@ -84,6 +91,7 @@ OF_BASE = Part(
     given='build = mine("spatial_inertia")',
     returns=(Quantity("m", unit="kg"), Quantity("I", INERTIA)),
     cases=lambda rng: [(robot("go2"),), (robot("humanoid"),)],
+    edges=lambda rng: [(small_robot(rng),)],
     slips={
         "universe-for-base": lambda model: (0.0, np.zeros((6, 6))),
         "heaviest-for-base": faulty(base_inertia, ("model.inertia[1]", "max(model.inertia, key=lambda x: x.mass)")),

@@ -42,10 +42,20 @@ def _cases(rng: Any) -> Any:
     ]
 
 
+def _points(rng: Any) -> Any:
+    """Return mass, centre of mass and inertia about it of a point."""
+    return [(1.5, rng.standard_normal(3), np.zeros((3, 3)))]
+
+
+def _moved_points(rng: Any) -> Any:
+    return [(spatial_inertia(*body), exp3(rng.standard_normal(3)), rng.standard_normal(3)) for body in _points(rng)]
+
+
 MOVED = Part(
     solution=moved_inertia,
     returns=(Quantity("I_A", INERTIA),),
     cases=_cases,
+    edges=_moved_points,
     slips={
         "inertia-half-rotated": faulty(moved_inertia, ("X_star @ I @ X_inverse", "X_star @ I")),
         "inertia-like-motion": lambda I, R, p: plucker(R, p)[0] @ I @ np.linalg.inv(plucker(R, p)[0]),
@@ -69,6 +79,7 @@ AT_COM = Part(
     given='build, moved = mine("spatial_inertia"), mine("moved_inertia")',
     returns=(Quantity("I", INERTIA),),
     cases=lambda rng: [random_body(rng) for _ in range(4)],
+    edges=_points,
     slips={
         "translation-sign": lambda m, c, I_c: moved_inertia(spatial_inertia(m, c, I_c), np.eye(3), c),
         "untransformed": spatial_inertia,

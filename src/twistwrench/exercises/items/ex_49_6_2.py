@@ -1,5 +1,6 @@
 """Exercise 49.6.2: gravity as an acceleration, and as forces."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -46,10 +47,20 @@ def _postures(rng: Any) -> Any:
     return [*states(rng, small=1), (fixed, fixed.random_configuration(rng=rng))]
 
 
+def _centred(rng: Any) -> Any:
+    """Return a robot with a body whose centre of mass is at its origin."""
+    model = random_tree(4, rng=rng)
+    body = model.inertia[2]
+    centred = tw.SpatialInertia(body.mass, np.zeros(3), body.inertia_at_com)
+    inertia = (*model.inertia[:2], centred, *model.inertia[3:])
+    return [(replace(model, inertia=inertia), model.random_configuration(rng=rng))]
+
+
 WEIGHTS = Part(
     solution=weight_wrenches,
     returns=(Quantity("W", WRENCH),),
     cases=_postures,
+    edges=_centred,
     slips={
         "moment-dropped": faulty(weight_wrenches, ("np.cross(body.com, force)", "np.zeros(3)")),
         "moment-unturned": faulty(weight_wrenches, ("np.cross(", "placement[i].rotation @ np.cross(")),

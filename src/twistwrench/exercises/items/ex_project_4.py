@@ -32,10 +32,7 @@ def consistency_error(forward: Any, inverse: Any, model: Any, q: Any, v: Any, ta
 
 
 def _standings(rng: Any) -> Any:
-    """Return centres of mass over one to five feet, and one beside them: a foot must pull.
-
-    Of feet in a line two of the three equations are one: their numbers have few digits, so that they are exactly that.
-    """
+    """Return centres of mass over three to five feet, and one beside them: a foot must pull."""
 
     def stand(n: int, shares: Any = None) -> Any:
         angles = np.sort(rng.uniform(0, 2 * np.pi, n))
@@ -43,13 +40,18 @@ def _standings(rng: Any) -> Any:
         p_G = (rng.dirichlet(np.ones(n)) if shares is None else shares) @ feet + [0, 0, 0.3]
         return p_G, feet, float(rng.uniform(100, 300))
 
-    def line(*shares: float) -> Any:
+    return [*map(stand, (4, 4, 3, 5)), stand(3, np.array([0.7, -0.3, 0.6]))]
+
+
+def _in_line(rng: Any) -> Any:
+    """Return centres of mass over one to three feet in a line, with numbers of few digits: exactly in a line."""
+
+    def stand(*shares: float) -> Any:
         first, along = rng.integers(-32, 32, (2, 2)) / 32
         feet = np.array([[*first + k * along, 0.0] for k in range(len(shares))])
         return np.array(shares) @ feet + [0, 0, 0.25], feet, float(rng.uniform(100, 300))
 
-    several = [*map(stand, (4, 4, 3, 5)), stand(3, np.array([0.7, -0.3, 0.6]))]
-    return [*several, line(0.25, 0.75), line(0.5, 0.25, 0.25), line(1.0)]
+    return [stand(0.25, 0.75), stand(0.5, 0.25, 0.25), stand(1.0)]
 
 
 def _by_nearness(p_G: Any, feet: Any, weight: Any) -> Any:
@@ -76,6 +78,7 @@ LOADS = Part(
     solution=vertical_loads,
     returns=(Quantity("f_z", unit="N"),),
     cases=_standings,
+    edges=_in_line,
     slips={
         "equal-shares": lambda p_G, feet, weight: np.full(len(feet), weight / len(feet)),
         "moment-about-origin": faulty(

@@ -35,7 +35,7 @@ def body_twists(parent: Any, T: Any, V_joint: Any) -> Any:
 def carried_wrenches(parent: Any, T: Any, F: Any) -> Any:
     """Wrenches that the joints pass on, out of those that the bodies need."""
     transforms = mine("transforms_of")
-    carried = F.copy()
+    carried = np.array(F, float)
     for i in range(len(parent) - 1, 0, -1):
         _, X_star = transforms(T[i])
         carried[parent[i]] += X_star @ carried[i]

@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
 from ..changes.likeness import blames
 from ..changes.repair import Repair
 from ..changes.repairs import repair_of_blocks
 from ..changes.written import text_written
+from ..compare import agree
 from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
 from .aliases import missing_copies
-from .matching import slips_by_piece, two_slips
+from .matching import matching_slips, slips_by_piece, two_slips
 from .messages import compared, comparison, cures, edited, indented, mended, named, named_by_piece, nearer, where
 from .neighbours import Neighbours
 from .own import borne_out, by_piece_borne_out, in_other_roles
@@ -68,6 +71,15 @@ def _two_names_of_one_array(wrong: WrongAnswer) -> Explained | None:
     return ([], [*copies, where(wrong)]) if copies else None
 
 
+def _whole_numbers(wrong: WrongAnswer) -> Explained | None:
+    """Report that it is wrong where arguments are whole numbers, and only there."""
+    whole = [any(isinstance(x, np.ndarray | int) and np.asarray(x).dtype.kind == "i" for x in c) for c in wrong.cases]
+    right = [agree(wrong.part, *three) for three in zip(wrong.answers, wrong.right, wrong.cases)]
+    if all(whole) or not all(x for x, fine in zip(whole, right) if not fine):
+        return None
+    return [], [say("whole numbers"), where(wrong)]
+
+
 def _either_order(wrong: WrongAnswer) -> Explained | None:
     """Report two results exchanged, or the line above them that has the same numbers the other way round."""
     if wrong.exchanged is None:
@@ -98,6 +110,18 @@ def _other_order(wrong: WrongAnswer) -> Explained | None:
         say("slip of several", title=slip.title, why=slip.why),
     ]
     return ["swapped-halves"], [say("slips"), *each, where(wrong)]
+
+
+def _exchanged_and_slip(wrong: WrongAnswer) -> Explained | None:
+    """Report two results exchanged, and a slip of the list that gives them all in the other order."""
+    for exchange, answers, right in wrong.other_orders() if not wrong.alike else ():
+        if matching_slips(wrong.part, right, wrong.cases):
+            continue  # the exchange is another slip as well
+        for name in matching_slips(wrong.part, answers, wrong.cases):
+            slip = wrong.slip(name)
+            line = say("two slips", first=exchange, second=slip.title)
+            return [name], [line, slip.why, say("perhaps"), where(wrong, slip.section)]
+    return None
 
 
 def _slip_in_each_result(wrong: WrongAnswer) -> Explained | None:
@@ -214,10 +238,12 @@ def _change_of_a_block(wrong: WrongAnswer) -> Explained | None:
 
 
 EXPLANATIONS: tuple[Explanation, ...] = (
+    _whole_numbers,
     _two_names_of_one_array,
     _either_order,
     _slip_of_the_list,
     _other_order,
+    _exchanged_and_slip,
     _slip_in_each_result,
     _structure,
     _change_of_a_line,

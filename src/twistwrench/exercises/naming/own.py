@@ -37,7 +37,10 @@ NO_SIGN = ("left out", "index", "name", "last", "summed", "argument")
 TRACES = {"ᵀ": (".T", ".mT", "transpose", "swapaxes", "einsum"), "⁻¹": ("inv", "solve", ".T", ".mT")}
 """By what it is seen in a program that something is transposed, or inverted."""
 
-WRITTEN = {"qwxyz": r"quat|qw|1(\.0?)?, *0(\.0?)?, *0|\[(3|6|3:7?|-4:)\]"}
+WRITTEN = {
+    "base-twice": r"(?s)bod(y|ies)|links?\b|\.inertia|\A(?!.*tw\.)",
+    "qwxyz": r"quat|qw|1(\.0?)?, *0(\.0?)?, *0|\[(3|6|3:7?|-4:)\]",
+}
 """What is written where a slip can be made, by its name."""
 
 WORDS = {"transpose": TRACES["ᵀ"], "inverse": ("inv", "solve", "inverse")}

@@ -54,7 +54,8 @@ def _apart(part: Part, again: Callable[[Case], Any], given: list[str]) -> Iterat
 def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequence[Case]) -> list[Text]:
     """Report what all wrong answers share; of those that are True or False, what no right one has."""
     if not all(isinstance(x, bool | np.bool_) for pair in zip(answers, right) for x in pair):
-        return [*_of_sizes(part, answers, right), *_lost_nan(part, answers, right)]
+        zero = _of_zeros(part, answers, right, cases)
+        return [*_of_sizes(part, answers, right), *_lost_nan(part, answers, right), *zero]
     wrong = [c for a, b, c in zip(answers, right, cases) if bool(a) is not bool(b)]
     fine = [c for a, b, c in zip(answers, right, cases) if bool(a) is bool(b)]
     if len(wrong) < 2:
@@ -69,6 +70,27 @@ def shared(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequ
     if every and not any(every <= _zeros(names, c) for c in fine):
         lines.append(say("all zero", what=" = ".join(sorted(every))))
     return lines
+
+
+def _of_zeros(part: Part, answers: Sequence[Any], right: Sequence[Any], cases: Sequence[Case]) -> Iterator[Text]:
+    """Report an argument that is zero in all wrong cases and few right ones, and joints that are in all right ones."""
+    names = [name.partition("=")[0] for name in part.arguments.split(", ")]
+    zeros = [{name for name, x in _numbers(names, c) if not x.any()} for c in cases]
+    good = [agree(part, a, b, c) for a, b, c in zip(answers, right, cases)]
+    wrong, fine = ([x for x, yes in zip(zeros, good) if yes is chosen] for chosen in (False, True))
+    for name in sorted(set[str].intersection(*wrong) if wrong else ()):
+        if 2 * sum(name in x for x in fine) < len(fine):
+            yield say("zero wrong", what=name)
+    if fine and all("q[7:]" in x for x in fine) and not any("q[7:]" in x for x in wrong):
+        yield say("zero right", what="q[7:]")
+
+
+def _numbers(names: Sequence[str], arguments: Case) -> Iterator[tuple[str, Array]]:
+    """Yield the arguments that are numbers, and of a configuration the joints', with the names of them."""
+    for name, x in zip(names, arguments):
+        if isinstance(x, float | np.ndarray):
+            x = np.asarray(x)
+            yield ("q[7:]", x[7:]) if name == "q" and x.ndim == 1 and x.size > 7 else (name, x)
 
 
 def _of_sizes(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> list[Text]:

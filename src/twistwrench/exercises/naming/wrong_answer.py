@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from ..exercise import Exercise, Part
 from ..slips import SLIPS, Slip
 from ..statements.records import arrays, tells
 from ..statements.stepwise import Stepwise
+from ..words.phrases import say
 from ..words.text import Text
 from .matching import matching_slips
 
@@ -117,6 +119,18 @@ class WrongAnswer:
         telling = [(k, j) for k, j in others if any(map(tells, arrays(split[0][1][j].array)))]
         return [(k, j) for k, j in telling if all(a and close(a[k], b[j], self.part.rtol) for a, b in split)]
 
+    def other_orders(self) -> Iterator[tuple[Text, list[Any], list[Any]]]:
+        """Yield the results with two wrong ones exchanged: how that is called, the answers, and the right values."""
+        titles = [x.title for x in self.part.returns]
+        for j, k in combinations(self.wrong_results, 2):
+            order = [k if n == j else j if n == k else n for n in range(len(titles))]
+            name = say("results exchanged", first=titles[j], second=titles[k])
+            given, right = (
+                [tuple(x[n] for n in order) if _is_of(x, len(order)) else x for x in many]
+                for many in (self.answers, self.right)
+            )
+            yield name, given, right
+
     def same_as(self, k: int) -> Text | None:
         """Return which of the results before the k-th has its numbers in all cases, and must have others."""
         split = [[values(x, self.part.returns) or [] for x in pair] for pair in zip(self.answers, self.right)]
@@ -204,7 +218,11 @@ class _Result(Part):
 
 def alone(answer: Any, k: int, several: int) -> Any:
     """Return one of several results; None where there are not as many."""
-    return answer[k] if isinstance(answer, tuple | list) and len(answer) == several else None
+    return answer[k] if _is_of(answer, several) else None
+
+
+def _is_of(answer: Any, several: int) -> bool:
+    return isinstance(answer, tuple | list) and len(answer) == several
 
 
 def changes_after_error(part: Part, function: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Repair]:

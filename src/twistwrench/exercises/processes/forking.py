@@ -13,6 +13,7 @@ import signal
 import sys
 import tempfile
 import threading
+import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
@@ -25,6 +26,7 @@ from ..judge import Verdict, judge
 from ..rules import file_or_cell, is_ours
 from ..words.phrases import say
 from ..words.text import Text
+from .isolation import CheckFailed
 from .limits import contained
 
 __all__ = ["judged"]
@@ -99,6 +101,8 @@ def _in_a_copy(exercise: Exercise, part: Part, function: Function, seed: int, li
                         calls += 1
                     else:
                         found, printed = message
+                        if found is None:
+                            raise CheckFailed(printed)
         finally:
             with suppress(ProcessLookupError):
                 os.killpg(pid, signal.SIGKILL)
@@ -139,8 +143,10 @@ def _copy(
 
     replies: BinaryIO
     with open(writing, "wb") as replies, redirect_stdout(printed), redirect_stderr(printed), contained():
-        verdict = judge(exercise, part, function, seed=seed, watch=watch, search=search)
-        tell((verdict, printed.getvalue()))
+        try:
+            tell((judge(exercise, part, function, seed=seed, watch=watch, search=search), printed.getvalue()))
+        except Exception:
+            tell((None, traceback.format_exc()))
 
 
 def _interrupted(exercise: Exercise, part: Part, function: Function, seed: int, limit: float, search: bool) -> Outcome:

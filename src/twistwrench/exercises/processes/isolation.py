@@ -27,7 +27,7 @@ from ..judge import Verdict
 from ..words.phrases import say
 from ..words.text import Language, Text
 
-__all__ = ["TIME_LIMIT", "IsolatedWorkbook", "drawn", "opened"]
+__all__ = ["TIME_LIMIT", "CheckFailed", "IsolatedWorkbook", "drawn", "opened"]
 
 TIME_LIMIT = 10.0
 """Seconds for one call of a function, and for reading a file. The longest of the references takes 0.1 s."""
@@ -171,6 +171,13 @@ def _wrong(exercise: Exercise, name: str, lines: list[Text], case: Case | None =
     return Verdict("wrong", (say("head", id=exercise.id, name=name), *lines), (), case)
 
 
+class CheckFailed(Exception):
+    """The check itself raised an error, which is not the student's."""
+
+    def __init__(self, trace: str) -> None:
+        super().__init__(f"the check itself failed, and not the answer:\n{trace}")
+
+
 class _Died(Exception):
     """The other process ended: what it was running, in which of its cases, and where its threads were."""
 
@@ -213,6 +220,8 @@ class _Worker:
                 kind, said = pickle.load(self._replies)
                 if kind == "answer":
                     return said
+                if kind == "failed":
+                    raise CheckFailed(said)
                 if kind == "begin":
                     begun.append(said)
                     calls[said] += 1

@@ -8,6 +8,7 @@ from __future__ import annotations
 import faulthandler
 import os
 import pickle
+import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, BinaryIO
@@ -74,7 +75,10 @@ def main() -> None:
                 what, name = pickle.load(requests)
             except EOFError:
                 return
-            book.tell("answer", (_answer(book, what, name), book.borrowed))
+            try:
+                book.tell("answer", (_answer(book, what, name), book.borrowed))
+            except Exception:
+                book.tell("failed", traceback.format_exc())
 
 
 def _answer(book: Workbook, what: str, name: str) -> Any:

@@ -73,11 +73,23 @@ PHRASES = {
         "Every case that it judges wrongly has {what} = 0, and no other case has.",
         "判断错误的每一组数据都有 {what} = 0，其余各组都不是这样。",
     ),
+    "zero wrong": Text("Every case in which it is wrong has {what} = 0.", "每一组出错的数据都有 {what} = 0。"),
+    "zero right": Text(
+        "It is right in the cases with {what} = 0, and in no other.", "只有 {what} = 0 的各组数据正确，其余各组都出错。"
+    ),
+    "whole numbers": Text(
+        "It is wrong only where arguments are whole numbers. An array made of them, or after their pattern (`x.copy()`,"
+        " `np.zeros_like(x)`, `np.array([0, 0, m])`), holds whole numbers and loses the digits after the point. Make"
+        " arrays of floats: `np.array(x, float)`, `np.zeros(3)`.",
+        "只有参数是整数时才出错。由整数建立或按其样式建立的数组"
+        "（`x.copy()`、`np.zeros_like(x)`、`np.array([0, 0, m])`）只能存放整数，小数部分会丢失。"
+        "请用浮点数组：`np.array(x, float)`、`np.zeros(3)`。",
+    ),
     "first line": Text(
-        "Line {line}, `{text}`: here your numbers first differ from those of the right solutions. Look at this line and"
-        " at what it uses; if it is right, and only another way, look at what follows.",
-        "第 {line} 行 `{text}`：你的数值从这里开始与各正确解法的不同。请检查这一行和它用到的量；"
-        "如果它没有错，只是另一种做法，就检查它之后的部分。",
+        "Line {line}, `{text}`, is the first to compute what no right solution known here has: it may only be another"
+        " way, or be wrong. Look at it, at what it uses and at what follows.",
+        "第 {line} 行 `{text}` 最先算出在这里已知的各正确解法中都找不到的值：也许只是另一种做法，也许错了。"
+        "请检查它、它用到的量以及它之后的部分。",
     ),
     "it shows": Text("In this case it shows in the result:", "在这组数据中反映为："),
     "first wrong": Text(
