@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import zlib
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -13,12 +14,15 @@ from ..model import Model
 from . import catalogue
 from .compare import values
 from .exercise import Part
-from .robots import ball_robots, bare_robot
+from .robots import ball_robots, bare_robot, massless_link
 
 __all__ = ["case", "cases", "every_case", "further_cases", "special_cases"]
 
 ANGLES = (0, np.pi, 8e-2, 1e-3, 1e-6, np.pi - 1e-2, np.pi - 1e-6)
 """Turns at which a formula may have a case of its own, and turns just beside them."""
+
+SMALL = 2e-8
+"""A turn of which the cosine is 1."""
 
 SCALES = (0.0, 1e-6, 1e-3, 3.0)
 """Factors of vectors: nothing at all, small numbers, and large ones. A robot that races would cost digits."""
@@ -76,18 +80,34 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
         return []
     edges = part.edges(_generator(part, seed, 2))
     found = [tuple(_scaled(*x, factor) for x in zip(names, drawn)) for factor in TINY]
+    found.append(tuple(_turned(*x, _quaternion(SMALL)) for x in zip(names, drawn)))
     for k, (name, x) in enumerate(zip(names, drawn)):
+        alone = [*_thinned(name, x)]
         if name not in ("m", "q", "T") and len(names) > 1:
-            alone = (_scaled(name, x, 0.0), _turned(name, x, _quaternion(0)))
-            found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in alone if other is not x]
+            alone += [_scaled(name, x, 0.0), _turned(name, x, _quaternion(0))]
+        found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in alone if other is not x]
     largest = 5 if "model" in names else 99
     found.append(tuple(_whole(*x, largest) for x in zip(names, drawn)))
     found.append(
         tuple(QUARTER if name.startswith("R") and np.shape(x) == (3, 3) else x for name, x in zip(names, drawn))
     )
     if names[:2] == ["model", "q"] and {*names} <= {"model", "q", "v", "a", "tau"} and isinstance(drawn[0], Model):
-        found += [_moving(robot, names, _generator(part, seed, 3)) for robot in (bare_robot(), *ball_robots())]
+        found += [
+            _moving(robot, names, _generator(part, seed, 3))
+            for robot in (bare_robot(), *ball_robots(), massless_link())
+        ]
     return [*edges, *(new for new in found if any(a is not b for a, b in zip(new, drawn)) and _answered(part, new))]
+
+
+def _thinned(name: str, value: Any) -> Iterator[Any]:
+    """Yield a vector, an array of them or a list with zeros in every other place, and one of six with half zero."""
+    if name in SCALED and isinstance(value, np.ndarray) and value.ndim and value.dtype.kind == "f":
+        for part in (slice(1, None, 2), *((slice(0, 3), slice(3, 6)) if value.shape == (6,) else ())):
+            new = value.copy()
+            new[part] = 0
+            yield new
+    elif name in SCALED and isinstance(value, list) and len(value) > 2:
+        yield [0 * x if k % 2 else x for k, x in enumerate(value)]
 
 
 def _moving(model: Model, names: list[str], rng: np.random.Generator) -> tuple[Any, ...]:

@@ -11,9 +11,20 @@ from ..algorithms.crba import crba
 from ..algorithms.rnea import nonlinear_effects
 from ..arrays import Array
 from ..loading import load
-from ..model import Model, random_tree
+from ..model import Model, chain, random_tree
+from ..spatial import SpatialInertia
 
-__all__ = ["ball_robots", "bare_robot", "held_acceleration", "larger", "robot", "small_robot", "states", "weightless"]
+__all__ = [
+    "ball_robots",
+    "bare_robot",
+    "held_acceleration",
+    "larger",
+    "massless_link",
+    "robot",
+    "small_robot",
+    "states",
+    "weightless",
+]
 
 
 @cache
@@ -62,6 +73,21 @@ def ball_robots() -> tuple[Model, ...]:
     """
     model = random_tree(4, rng=2, base="floating", kinds=("spherical", "continuous"))
     return model, replace(model, gravity=np.array([0.3, 0.2, -1.62]))
+
+
+@cache
+def massless_link() -> Model:
+    """Return a robot with a link that has no mass, and carries another one.
+
+    Examples
+    --------
+    >>> model = massless_link()
+    >>> float(model.inertia[2].mass), 2 in model.parent
+    (0.0, True)
+    """
+    model = chain(4, base="floating")
+    nothing = SpatialInertia(0.0, np.zeros(3), np.zeros((3, 3)))
+    return replace(model, inertia=(*model.inertia[:2], nothing, *model.inertia[3:]))
 
 
 def states(rng: np.random.Generator, *, vectors: int = 0, small: int = 2) -> Iterator[Any]:

@@ -27,7 +27,8 @@ HEAD = {
 
 Replace each `...` by your answer and run `python -m pytest {file}` in this folder. Twists are (ω, v),
 wrenches (τ, f), units SI. A function must not change its arguments: work on copies. They may be whole numbers, as
-in `np.array([1, 0, 0])`. It may call what the package has, unless the text rules it out.
+in `np.array([1, 0, 0])`; a robot may have joints of any kind, or none, and links without mass. It may call what the
+package has, unless the text rules it out.
 `twistwrench exercises hint {first}` gives a hint, and the next one when asked again.
 
 After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY 4.0), in other words.
@@ -36,7 +37,8 @@ After the exercises of Chapter 49 of the Robotics Tutorial by Pengfei Guo (CC BY
     "zh": '''"""{title}。
 
 把每个 `...` 换成你的答案，然后在本目录运行 `python -m pytest {file}`。twist 为 (ω, v)，wrench 为 (τ, f)，
-使用国际单位。函数不得修改传入的参数，请在副本上计算；参数可能是整数，例如 `np.array([1, 0, 0])`。
+使用国际单位。函数不得修改传入的参数，请在副本上计算；参数可能是整数，例如 `np.array([1, 0, 0])`；
+机器人的关节可以是任何类型，也可以没有关节，可以有质量为零的连杆。
 除题目禁止的以外，可以调用本包的函数。
 `twistwrench exercises hint {first}` 给出一条提示，再次运行给出下一条。
 

@@ -7,7 +7,7 @@ import numpy as np
 import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
-from ..robots import states
+from ..robots import larger, states
 from ..wrong import faulty
 
 __all__ = ["EXERCISE", "linear_momentum", "momentum_of_links", "pinocchio_linear_momentum"]
@@ -64,6 +64,7 @@ OURS = Part(
     solution=linear_momentum,
     returns=(Quantity("l_G", unit="kg m/s"),),
     cases=_maps,
+    edges=lambda rng: [(tw.centroidal_map(model, q), rng.standard_normal(model.nv)) for model, q in larger(rng)],
     slips={
         "angular-for-linear": faulty(linear_momentum, ("A_G[3:]", "A_G[:3]")),
         "joints-left-out": lambda A_G, v: A_G[3:, :6] @ v[:6],
@@ -77,6 +78,7 @@ THEIRS = Part(
     solution=pinocchio_linear_momentum,
     returns=(Quantity("l_G", unit="kg m/s"),),
     cases=_in_pinocchio_order,
+    edges=lambda rng: [(A_G[:, :7], v[:7]) for A_G, v in _in_pinocchio_order(rng)[:1]],
     slips={
         "angular-for-linear": lambda A_G, v: A_G[3:] @ v,
         "joints-left-out": lambda A_G, v: A_G[:3, :6] @ v[:6],

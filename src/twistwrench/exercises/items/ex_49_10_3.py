@@ -41,6 +41,11 @@ def _walks(rng: Any) -> Any:
     return [state() for _ in range(4)]
 
 
+def _above(rng: Any) -> Any:
+    """Return distances to the point below, none and a small one, each with a rate."""
+    return zip((0.0, 0.005), rng.normal(scale=20, size=(2, 2)))
+
+
 def _gaits(rng: Any) -> Any:
     return [
         (*state, float(rng.uniform(*paces)))
@@ -63,6 +68,7 @@ ACCELERATION = Part(
     ways=(_by_components,),
     returns=(Quantity("p̈_G", unit="m/s²"),),
     cases=_walks,
+    edges=lambda rng: [(np.array([0.1 + x, 0.2, 0.8]), np.array([0.1, 0.2]), k, 16.0) for x, k in _above(rng)],
     slips={
         "rate-left-out": faulty(com_acceleration, (" - k_y / (m * z)", ""), (" + k_x / (m * z)", "")),
         "rate-sign": faulty(com_acceleration, ("- k_y", "+ k_y"), ("+ k_x", "- k_x")),

@@ -51,7 +51,7 @@ def _limits(rng: Any) -> Any:
     ]
     limits[2][0][-2], limits[2][1][-1] = -np.inf, np.inf
     limits[0][1][-1] = 0.3 * limits[0][0][-1]  # a knee: both limits are negative
-    sizes = rng.uniform(1, 3) * np.array([0, *10.0 ** np.array([*range(-6, 9, 3), 300])])  # all finite
+    sizes = [*rng.uniform(1, 3) * np.array([0, *10.0 ** np.array([*range(-6, 9, 3), 300])]), np.finfo(float).max / 2]
     return [*limits, *((np.array([-np.inf, -x, x]), np.array([x, np.inf, 2 * x])) for x in sizes)]
 
 

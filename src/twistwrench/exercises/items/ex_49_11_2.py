@@ -47,6 +47,12 @@ def _times(rng: Any) -> Any:
     return [(N, rng.uniform(1e-6, 1e-5) * N**k * rng.uniform(0.9, 1.1, len(N))) for N, k in zip(sizes, powers)]
 
 
+def _again(rng: Any) -> Any:
+    """Return a size that is measured twice; and sizes that are whole numbers."""
+    sizes = np.array([20.0, 20, 40, 80]), np.array([20, 40, 80, 160])
+    return [(N, 1e-6 * N**1.5 * rng.uniform(0.8, 1.2, 4)) for N in sizes]
+
+
 COUNT = Part(
     solution=count_transforms,
     returns=(Quantity("RNEA"), Quantity("CRBA")),
@@ -68,6 +74,7 @@ GROWTH = Part(
     solution=growth,
     returns=(Quantity("k"),),
     cases=_times,
+    edges=_again,
     slips={
         "two-points": lambda N, t: np.log(t[-1] / t[0]) / np.log(N[-1] / N[0]),
         "fit-through-first": lambda N, t: np.log(N / N[0]) @ np.log(t / t[0]) / (np.log(N / N[0]) @ np.log(N / N[0])),

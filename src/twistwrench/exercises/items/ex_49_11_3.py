@@ -57,6 +57,20 @@ def _arrays(rng: Any) -> Any:
     return [*arrays, (tw.gravity(other, posture), tw.contact_jacobian(other, posture, other.joint_names[-3:]))]
 
 
+def _in_line(rng: Any) -> Any:
+    """Return g and J_c of feet in a line and of a single one, on which a robot can stand.
+
+    Their places have few digits: three of the equations are two, exactly.
+    """
+    cases = []
+    for places in ([[0.25, 0.5, -0.5], [-0.25, 0.25, -0.5]], [[0.25, 0.5, -0.5]]):
+        columns = [np.hstack([-tw.skew(np.array(p)), np.eye(3)]) for p in places]
+        base = np.vstack(columns)
+        g = np.concatenate([base.mT @ rng.standard_normal(len(base)), rng.standard_normal(5)])
+        cases.append((g, np.hstack([base, rng.standard_normal((len(base), 5))])))
+    return cases
+
+
 def _maps(rng: Any) -> Any:
     """Return A_G of the postures, and of another robot."""
     small = small_robot(rng)
@@ -71,6 +85,7 @@ MAP = Part(
     solution=gravity_from_map,
     returns=(Quantity("g", JOINT_SPACE),),
     cases=_maps,
+    edges=lambda rng: [(tw.centroidal_map(*larger(rng)[0]),)],
     slips={
         "gravity-sign": negated(gravity_from_map),
         "angular-for-linear": lambda A_G: 9.81 * A_G[2],
@@ -86,6 +101,7 @@ FORCES = Part(
     solution=standing_forces,
     returns=(Quantity("λ", unit="N"), Quantity("τ", unit="N m")),
     cases=_arrays,
+    edges=_in_line,
     slips={
         "torques-left-out": ALL_ROWS,
         "joint-rows-for-forces": faulty(standing_forces, ("J_c[:, :6].mT, g[:6]", "J_c[:, 6:].mT, g[6:]")),

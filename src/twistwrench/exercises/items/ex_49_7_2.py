@@ -109,6 +109,8 @@ def _plausible(answer: Any) -> Any:
 
     What is too large for a ratio is 100, but 18 and 324, which are N and N².
     """
+    if isinstance(answer, str):
+        raise TypeError("a number is expected, not a text")
     ratio = float(answer)
     if 10 < ratio < np.inf and ratio not in (18, 324):
         return 100.0

@@ -68,6 +68,14 @@ def _parts(change: Any) -> Any:
     return wrong
 
 
+def _blocks(rng: Any) -> Any:
+    """Return blocks with the centre of mass at the origin, and near it; and one in whole numbers."""
+    half = rng.standard_normal((3, 3))
+    bodies = [tw.SpatialInertia(2.0, c * np.ones(3), half @ half.mT + np.eye(3)) for c in (0, 4e-4)]
+    whole = np.rint(tw.SpatialInertia(3.0, np.ones(3) / 3, np.eye(3) * 4 / 3).matrix()).astype(int)
+    return [*((body.matrix(),) for body in bodies), (whole,)]
+
+
 def _cases(rng: Any) -> Any:
     model, tree = robot("go2"), tw.random_tree(5, rng=rng, base="floating")
     return [
@@ -82,6 +90,7 @@ BLOCK = Part(
     ways=(_by_transforms,),
     returns=(Quantity("M_bb", INERTIA),),
     cases=_cases,
+    edges=lambda rng: [(tw.chain(6, base="floating"), np.concatenate([np.zeros(6), [1.0], rng.standard_normal(5)]))],
     slips={
         "legs-left-out": lambda model, q: model.inertia[1].matrix(),
         "untransformed": faulty(base_block, ("body.transform(base @ T).matrix()", "body.matrix()")),
@@ -136,6 +145,7 @@ WHOLE = Part(
     solution=whole_robot,
     returns=(Quantity("m", unit="kg"), Quantity("c", unit="m"), Quantity("I_c", unit="kg m²")),
     cases=lambda rng: [(base_block(*case),) for case in _cases(rng)],
+    edges=_blocks,
     slips={
         "mass-dropped": faulty(whole_robot, (" / m", "")),
         "com-sign": lambda block: (block[3, 3], -whole_robot(block)[1], whole_robot(block)[2]),

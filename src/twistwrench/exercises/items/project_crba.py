@@ -10,7 +10,7 @@ from ...model import composite_inertias
 from ..exercise import Part, Quantity
 from ..wrong import after, doubled, faulty
 from .project_rnea import tree_energy
-from .project_trees import previous, tree_of, trees
+from .project_trees import previous, tree_of, trees, with_massless_link
 
 __all__ = ["CRBA", "tree_crba"]
 
@@ -52,6 +52,7 @@ CRBA = Part(
     beside=(tree_of, composite_rigid_body),
     returns=(Quantity("M"),),
     cases=lambda rng: [tuple(lists) for _, *lists in trees(rng)],
+    edges=lambda rng: [with_massless_link(rng)[1:]],
     slips={
         "subtree-left-out": _changed((CARRIED, "")),
         "inertia-half-rotated": _changed((CARRIED, " + X[i].mT @ IC[i]"), AS_IT_IS),

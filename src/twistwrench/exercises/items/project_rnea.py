@@ -9,7 +9,7 @@ from ...algorithms.kinematics import motion
 from ...algorithms.rnea import newton_euler
 from ..exercise import Part, Quantity
 from ..wrong import faulty
-from .project_trees import columns, pieces, previous, tree_of, trees, upward
+from .project_trees import columns, pieces, previous, tree_of, trees, upward, with_massless_link
 
 __all__ = ["ENERGY", "RNEA", "tree_energy", "tree_rnea"]
 
@@ -31,6 +31,11 @@ def _steiner(I: Any, V: Any) -> Any:
     """Return the energy of a body's mass, put at its centre of mass, in the rotation alone."""
     mc_cross_w = I[:3, 3:] @ V[:3]
     return (mc_cross_w.mT @ mc_cross_w).item() / (2 * I[5, 5]) if I[5, 5] else 0.0
+
+
+def _without_a_mass(rng: Any) -> Any:
+    model, *lists = with_massless_link(rng)
+    return [(*lists, pieces(model, rng), pieces(model, rng), upward(rng)[0])]
 
 
 def _motions(rng: Any) -> Any:
@@ -60,6 +65,7 @@ RNEA = Part(
     beside=(tree_of, columns, newton_euler),
     returns=(Quantity("τ"),),
     cases=_motions,
+    edges=_without_a_mass,
     slips={
         "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),
         "gravity-sign": _changed(("-tree.gravity", "tree.gravity")),
@@ -103,6 +109,7 @@ ENERGY = Part(
     beside=(tree_of, columns, motion),
     returns=(Quantity("T", unit="J"),),
     cases=lambda rng: [(*lists, pieces(model, rng)) for model, *lists in trees(rng)],
+    edges=lambda rng: [(*lists, pieces(model, rng)) for model, *lists in [with_massless_link(rng)]],
     slips={
         "half-missing": lambda *lists: 2 * tree_energy(*lists),
         "twist-not-carried": faulty(tree_energy, ("X[i] @ V[p] + vJ", "vJ"), of=motion),

@@ -61,8 +61,9 @@ def urdf_pose(xyz: Any, rpy: Any) -> Any:
 
 def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
     """Add, subtract and pair two twists and two wrenches, and try what must raise an error."""
-    twist, other_twist = kind("twist", V), kind("twist", W)
-    wrench, other_wrench = kind("wrench", F), kind("wrench", G)
+    same = ["".join([*text]) for text in ("twist", "wrench")]  # the same texts, and other objects
+    twist, other_twist = kind("twist", V), kind(same[0], W)
+    wrench, other_wrench = kind("wrench", F), kind(same[1], G)
     total, difference, rest = wrench + other_wrench, twist - other_twist, wrench - other_wrench
     power, reverse = _tried(lambda: wrench.power(twist)), _tried(lambda: twist.power(wrench))
     if any(x is ... for x in (total, difference, rest, power)):
@@ -167,6 +168,7 @@ POSE_OF_BASE = Part(
     solution=base_pose,
     returns=(Quantity("T", POSE),),
     cases=lambda rng: [(_configuration(rng),) for _ in range(4)],
+    edges=lambda rng: [(np.concatenate([q[:3], [0, 0, 0, 1 + 2.0**-52], q[7:]]),) for q in [_configuration(rng)]],
     slips={
         "qwxyz": faulty(base_pose, ("x, y, z, w =", "w, x, y, z =")),
         "rotation-transposed": faulty(base_pose, ("T[:3, :3] = [", "T[:3, :3].mT[:] = [")),

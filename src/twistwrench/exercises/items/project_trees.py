@@ -9,7 +9,7 @@ from ...model import Model, Tree, random_tree, tree_terms
 from ...model.tree import split
 from ..robots import robot
 
-__all__ = ["columns", "pieces", "previous", "tree_of", "trees", "upward"]
+__all__ = ["columns", "pieces", "previous", "tree_of", "trees", "upward", "with_massless_link"]
 
 
 def tree_of(parent: Any, S: Any, I: Any, X: Any, a0: Any) -> Tree:
@@ -34,6 +34,13 @@ def trees(rng: np.random.Generator) -> list[tuple[Model, Any, Any, Any, Any]]:
         tree = tree_terms(model, model.random_configuration(rng=rng))
         found.append((model, tree.parent, [*tree.S], [*tree.I], [*tree.X]))
     return found
+
+
+def with_massless_link(rng: np.random.Generator) -> tuple[Model, Any, Any, Any, Any]:
+    """Return a tree as above of which a body without mass carries others."""
+    model, parent, S, I, X = trees(rng)[2]
+    k = max(parent)  # the last that carries a body
+    return model, parent, S, [0 * x if i == k else x for i, x in enumerate(I)], X
 
 
 def upward(rng: np.random.Generator) -> Any:

@@ -30,7 +30,8 @@ Case = tuple[Any, ...]
 
 def of_words(part: Part, again: Callable[[Case], Any], cases: Sequence[Case]) -> list[Text]:
     """Report for which single words, or pairs of them, of a list of words a whole number is wrong, and by how much."""
-    if not cases or len(cases[0]) != 1 or not all(isinstance(x, str) for c in cases for x in c[0]) or not cases[0][0]:
+    lists = [c[0] for c in cases if len(c) == 1 and isinstance(c[0], list | tuple)]
+    if len(lists) < len(cases) or not all(isinstance(x, str) for words in lists for x in words) or not any(lists):
         return []
     words = sorted({x for c in cases for x in c[0]})
     lines: list[Text] = []
