@@ -193,7 +193,7 @@ def _wrong(
     k = found.first_wrong
     if kept is not None:
         return Verdict("wrong", (_head(exercise, part), kept), (), failing_case(part, k, seed, found.tried[k]))
-    with silent():
+    with silent(), np.errstate(over="ignore"):  # a limit may be the largest number there is
         slips, lines = explain(exercise, part, function, found.answers, found.tried, again)
     case = failing_case(part, k, seed, found.tried[k], (found.expected[k], found.answers[k]))
     context = context_of(part, found.tried, found.right)

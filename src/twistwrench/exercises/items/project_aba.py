@@ -9,7 +9,7 @@ from ...algorithms.aba import articulated_body
 from ..exercise import Part, Quantity
 from ..wrong import faulty
 from .project_rnea import tree_rnea
-from .project_trees import columns, pieces, previous, tree_of, trees, upward, with_massless_link
+from .project_trees import columns, pieces, previous, tree_of, trees, upward
 
 __all__ = ["ABA", "tree_aba"]
 
@@ -18,11 +18,6 @@ def tree_aba(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) ->
     """Accelerations under joint forces."""
     no_wrench = [np.zeros((6, 1))] * len(parent)
     return articulated_body(tree_of(parent, S, I, X, a0), columns(qd), columns(tau), no_wrench).qdd
-
-
-def _without_a_mass(rng: Any) -> Any:
-    model, *lists = with_massless_link(rng)
-    return [(*lists, pieces(model, rng), pieces(model, rng), upward(rng)[0])]
 
 
 def _loads(rng: Any) -> Any:
@@ -46,7 +41,6 @@ ABA = Part(
     rtol=1e-8,
     returns=(Quantity("q̈"),),
     cases=_loads,
-    edges=_without_a_mass,
     slips={
         "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),
         "gravity-sign": _changed(("-tree.gravity", "tree.gravity")),

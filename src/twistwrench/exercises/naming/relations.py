@@ -177,13 +177,12 @@ def plain(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Tex
 
 def _factor(a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> Text | None:
     """Return the factor, of those reported, by which an array is too large or too small."""
-    with np.errstate(over="ignore"):  # the largest number there is, times 2
-        for factor in factors:
-            for sign, said in ((1, ""), (-1, "opposite ")):
-                if (np.abs(a - sign * factor * b) <= factor * tolerance).all():
-                    return say(f"{said}factor", factor=factor)
-                if (np.abs(sign * factor * a - b) <= tolerance).all():
-                    return say(f"{said}divisor", factor=factor)
+    for factor in factors:
+        for sign, said in ((1, ""), (-1, "opposite ")):
+            if (np.abs(a - sign * factor * b) <= factor * tolerance).all():
+                return say(f"{said}factor", factor=factor)
+            if (np.abs(sign * factor * a - b) <= tolerance).all():
+                return say(f"{said}divisor", factor=factor)
     return None
 
 
