@@ -30,8 +30,8 @@ SCALES = (0.0, 1e-6, 1e-3, 3.0)
 TINY = (4e-9, 2e-11)
 """Factors that leave nothing which `np.allclose` would see beside zero, and more than rounding."""
 
-QUARTER = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
-"""A rotation in whole numbers."""
+MATRICES = {"R": np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]), "I": np.diag([2, 3, 4])}
+"""A rotation and an inertia in whole numbers, by the first letter of their names."""
 
 SCALED = frozenset(
     (
@@ -89,7 +89,7 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
     largest = 5 if "model" in names else 99
     found.append(tuple(_whole(*x, largest) for x in zip(names, drawn)))
     found.append(
-        tuple(QUARTER if name.startswith("R") and np.shape(x) == (3, 3) else x for name, x in zip(names, drawn))
+        tuple(MATRICES.get(name[:1], x) if getattr(x, "shape", 0) == (3, 3) else x for name, x in zip(names, drawn))
     )
     if names[:2] == ["model", "q"] and {*names} <= {"model", "q", "v", "a", "tau"} and isinstance(drawn[0], Model):
         found += [

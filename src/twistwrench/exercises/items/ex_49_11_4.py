@@ -9,7 +9,7 @@ import twistwrench as tw
 
 from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, JACOBIAN, JOINT_SPACE
-from ..robots import small_robot
+from ..robots import ball_robots, small_robot
 from ..wrong import after, faulty, swap, swapped
 
 __all__ = ["EXERCISE", "acceleration_from_pinocchio", "jacobian_from_pinocchio", "map_from_pinocchio"]
@@ -48,6 +48,13 @@ def _robots(rng: Any, *, vectors: int = 0) -> Any:
         (tw.bridge.to_pinocchio_model(model), model.random_configuration(rng=rng), *rng.standard_normal((vectors, 9)))
         for model in robots
     ]
+
+
+def _with_balls(rng: Any, *, vectors: int = 0) -> Any:
+    """Return a robot with ball joints and joints that turn without end, where nq is not nv + 1."""
+    model = ball_robots()[0]
+    q, more = model.random_configuration(rng=rng), rng.standard_normal((vectors, model.nv))
+    return [(tw.bridge.to_pinocchio_model(model), q, *more)]
 
 
 def _frames(rng: Any) -> Any:
@@ -103,6 +110,7 @@ MAP = Part(
     solution=map_from_pinocchio,
     returns=(Quantity("A_G", CENTROIDAL_MAP),),
     cases=_robots,
+    edges=_with_balls,
     slips={
         "swapped-halves": swapped(map_from_pinocchio),
         "rows-only": _map(ROWS),
@@ -120,6 +128,7 @@ JACOBIAN_PART = Part(
     solution=jacobian_from_pinocchio,
     returns=(Quantity("J", JACOBIAN),),
     cases=_frames,
+    edges=lambda rng: [(model, q, model.names[-1]) for model, q in _with_balls(rng)],
     slips={
         "swapped-halves": swapped(jacobian_from_pinocchio),
         "rows-only": _jacobian(ROWS),
@@ -143,6 +152,7 @@ ACCELERATION = Part(
     solution=acceleration_from_pinocchio,
     returns=(Quantity("q̈", JOINT_SPACE),),
     cases=partial(_robots, vectors=2),
+    edges=partial(_with_balls, vectors=2),
     rtol=1e-8,
     slips={
         "swapped-halves": _acceleration(("v[order], tau[order])[order]", "v, tau)")),

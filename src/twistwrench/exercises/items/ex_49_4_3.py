@@ -45,9 +45,15 @@ def _sums(rng: Any) -> Any:
 
 
 def _in_few_points(rng: Any) -> Any:
-    """Return two forces, three of which two are at one point, and one at the centre."""
+    """Return forces at opposite points, at two, at three of which two are one, and at one that is the centre."""
     points, forces = _forces_of(rng, 3)
-    return [(points[:2], forces[:2]), (points[[0, 0, 1]], forces), (points * [[1], [1], [0]], forces)]
+    opposite = np.array([points[0], -points[0]])
+    return [
+        (opposite, forces[:2]),
+        (points[:2], forces[:2]),
+        (points[[0, 0, 1]], forces),
+        (points * [[1], [1], [0]], forces),
+    ]
 
 
 def _of_any_size(rng: Any) -> Any:

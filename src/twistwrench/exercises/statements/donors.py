@@ -119,11 +119,15 @@ def _typed(source: Source, here: set[int], own: Atoms) -> Iterator[Edit]:
 def _put(source: Source, place: Sequence[Any], kind: str, text: str) -> Iterator[Edit]:
     """Yield the source with a text in place of a node, or added to it or taken from it."""
     parents, field, node = place
+    try:
+        new = ast.parse(text, mode="eval").body
+    except SyntaxError:  # a right solution has it in a statement, `+=`
+        return
     if kind in "+-":
-        other = ast.BinOp(node, ast.Add() if kind == "+" else ast.Sub(), ast.parse(text, mode="eval").body)
+        other = ast.BinOp(node, ast.Add() if kind == "+" else ast.Sub(), new)
         yield from source.made("missing", (text_of(node), f"{kind} {text}"), [(parents, field, node, other)])
     else:
-        put = parents, field, node, ast.parse(text, mode="eval").body
+        put = parents, field, node, new
         yield from source.made(kind, source.texts(kind, put), [put])
 
 
