@@ -124,7 +124,7 @@ def mass_matrix_by_rnea(model, q):
             (CLASSICAL, "take out `- np.cross(turned, base.translation)`", "`turned` does"),
             (BY_COLUMNS, "line 13, change `axis=0` to `axis=1`", "The slip:"),
             (INVERSE_PLACEMENT, "line 13, change `-p` to `R.T @ -p`", "The slip:"),
-            (FROM_THE_WORLD, "line 15, take out `T.translation`", "`T.rotation @ body.com` does not"),
+            (FROM_THE_WORLD, "line 15, take out `T.translation +`", "`T.rotation @ body.com` does not"),
             (LEVER, "the sign of `tw.skew(r)", "wrong end"),
             (ONE_ARRAY, "line 12, `tau = f = np.zeros(3)` makes one array", "change `"),
             (IN_A_LIST, "line 12, `V = [np.zeros(6)] * len(parent)` makes one array", "change `"),

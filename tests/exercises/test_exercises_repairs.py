@@ -254,7 +254,7 @@ def arc(omega_z, v_x):
                     "change `-s` to `s`",
                     "change `[c, s, 0, r * s]` to `[c, -s, 0, r * s]`",
                     "and line 13, change `v_x * omega_z` to `v_x / omega_z`",
-                    "With both changes",
+                    "With these changes",
                 ],
             ),
             (

@@ -52,7 +52,13 @@ def vertical_loads(p_G, feet, weight):
                 ["change `tw.gravity(model, q)` to `tw.nonlinear_effects(model, q, v)`", "change the sign of `h`"],
             ),
             (BY_UNITS, ["line 13, change `model.neutral()` to `q`"]),
-            (LOADS, ["Line 14, `return weight * w / w.sum()`", "first differ from those of the right solutions"]),
+            (
+                LOADS,
+                [
+                    "Line 14, `return weight * w / w.sum()`",
+                    "is the first to compute what no right solution known here has",
+                ],
+            ),
         ],
         1,
         several=True,

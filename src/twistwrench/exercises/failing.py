@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,9 @@ SAY = {
     "shell": Text("In a shell:  {line}", "在终端中：  {line}"),
     "cell": Text("In a cell:   {line}", "在单元格中：{line}"),
 }
+
+DIGITS = (4, 7, 10, 16)
+"""Of a number: as few as tell it from the right one."""
 
 FULL = 36
 """Entries of an array that is shown whole."""
@@ -56,8 +60,9 @@ class Block:
         """Yield the rows, expected and got, each number as text; where they differ, it is in brackets."""
         shape = (-1, self.expected.shape[-1] if self.expected.ndim else 1)
         for a, b, bad in zip(*(x.reshape(shape) for x in (self.expected, self.got, self.wrong))):
-            near = any(no and _number(x) == _number(y) for x, y, no in zip(a, b, bad))
-            write = _exactly if near else _number
+            differ = [(x, y) for x, y, no in zip(a, b, bad) if no]
+            digits = next((d for d in DIGITS if all(_number(x, d) != _number(y, d) for x, y in differ)), DIGITS[-1])
+            write = partial(_number, digits=digits)
             yield [f" {write(x)} " for x in a], [f"[{write(y)}]" if no else f" {write(y)} " for y, no in zip(b, bad)]
 
     @property
@@ -184,18 +189,13 @@ def _compared(right: Value, got: Value, part: Part) -> Compared:
 # ---------------------------------------------------------------- as text
 
 
-def _number(x: Any) -> str:
-    """Write a number in a fixed width."""
+def _number(x: Any, digits: int = DIGITS[0]) -> str:
+    """Write a number in a fixed width, with so many digits."""
     if isinstance(x, bool | np.bool_):
         return f"{x!s:>9}"
     if isinstance(x, complex):
         return f"{x:.3g}"
-    return f"{0.0 if abs(x) <= NOISE else x:>9.4g}"  # nan stays nan
-
-
-def _exactly(x: Any) -> str:
-    """Write a number with all its digits, where two that differ would look alike."""
-    return _number(x) if isinstance(x, bool | np.bool_ | complex) else f"{x:>22.16g}"
+    return f"{0.0 if abs(x) <= NOISE else x:>{digits + 5}.{digits}g}"  # nan stays nan
 
 
 def _assigned(name: str, value: Any) -> list[str]:

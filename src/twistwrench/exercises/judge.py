@@ -117,7 +117,7 @@ def judge(
         except NotImplementedError:
             return Verdict("to do")
         except _Stop as stop:
-            if not all(so_far.right):
+            if changes or not all(so_far.right):
                 break  # what is wrong without an error comes first
             with silent():
                 more = (

@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from typing import Any
 
+import numpy as np
+
 import twistwrench
 
 from ..calls import copied, local_values, smallest, tried
@@ -114,6 +116,8 @@ def repairs(
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
                 if copied_results(others, right, answers):  # what is asked for in two ways is not computed in one
+                    continue
+                if not _right_beyond(part, function, edit.function):
                     continue
                 edit = source.as_written(edit, lambda f: _right(part, f, right[first], cases[first]))
                 chosen.add(Repair(edit, meaning=meaning(source, edit, part, right, cases)))
@@ -228,6 +232,13 @@ def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> floa
     start = time.perf_counter()
     tried(part, function, arguments)
     return time.perf_counter() - start
+
+
+def _right_beyond(part: Part, function: Function, changed: Function) -> bool:
+    """Whether a changed function is right in the degenerate cases, too, in which it gave an answer before."""
+    edges = part.edges(np.random.default_rng(0))
+    able = [arguments for arguments in edges if tried(part, function, arguments) is not None]
+    return all(agree(part, tried(part, changed, c), part.value(part.solution, copied(c)), c) for c in able)
 
 
 def _right(part: Part, function: Function, right: Any, arguments: tuple[Any, ...]) -> bool:

@@ -39,9 +39,9 @@ def few_entries(part: Part, answers: Answers, cases: Cases) -> bool:
 
 
 def broken_property(part: Part, answers: Answers, cases: Cases) -> Text | None:
-    """Return the first property of right answers that one of these lacks, in a case where it says something."""
-    for item in part.properties:
-        for answer, arguments in zip(answers, cases):
+    """Return the first property of right answers that one of these lacks, in the first case in which any is lacking."""
+    for answer, arguments in zip(answers, cases):
+        for item in part.properties:
             try:
                 both = [item.residual(x, *arguments) for x in (answer, part.value(part.solution, arguments))]
                 residual, of_right = (np.abs(np.asarray(x, complex)) for x in both)

@@ -73,8 +73,8 @@ MENDINGS = {
         "其中每处改动都使对应的结果在全部 {all} 组数据中正确。",
     ),
     "mended both": Text(
-        "With both changes, and no other, the numbers are right in all {all} cases.",
-        "只作这两处改动，全部 {all} 组数据的数值就都正确。",
+        "With these changes, and no other, the numbers are right in all {all} cases.",
+        "只作这几处改动，全部 {all} 组数据的数值就都正确。",
     ),
     "cure": Text("This would make it right: {title}.", "这样改就会正确：{title}。"),
     "cure in": Text("This would make {name} right: {title}.", "这样改，{name} 就会正确：{title}。"),
@@ -86,15 +86,15 @@ MENDINGS = {
     ),
     "either once": Text("With one of them alone the numbers are right.", "单独作其中任一改动，数值就正确。"),
     "either both": Text(
-        "With both changes of one of them, and no other, the numbers are right in all {all} cases.",
-        "只作其中任一项的两处改动，全部 {all} 组数据的数值就都正确。",
+        "With the changes of one of them, and no other, the numbers are right in all {all} cases.",
+        "只作其中任一项的改动，全部 {all} 组数据的数值就都正确。",
     ),
     "not all": Text(
         "Something else is wrong as well. With this change there remains, in the first case that is wrong then:",
         "还有别处也错了。作此改动后，在第一组仍然出错的数据中还有：",
     ),
     "mended both once": Text(
-        "With both changes, and no other, the numbers are right.", "只作这两处改动，数值就正确了。"
+        "With these changes, and no other, the numbers are right.", "只作这几处改动，数值就正确了。"
     ),
     "mended once": Text("With this change, and no other, the numbers are right.", "只作这一改动，数值就正确了。"),
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),

@@ -117,7 +117,7 @@ SAYINGS = {
     "the same": Text("It is the same as your {other}, and must not be.", "它与你的 {other} 相同，而二者不应相同。"),
     # two slips at once
     "two slips": Text(
-        "These are the numbers of two slips at once: {first}; and {second}.",
+        "Two slips at once would give just these numbers: {first}; and {second}.",
         "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
     ),
     "two changes": Text(
