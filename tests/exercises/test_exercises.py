@@ -611,7 +611,7 @@ def test_two_slips_at_once_are_both_named():
     plucker = catalogue.find_part("plucker")[1]
     swapped_too = after(plucker.slips["coupling-order"], swap)
     said = message("plucker", swapped_too)
-    assert "numbers of two slips at once: R [p]× in place of [p]× R; and (ω, v) and (v, ω) are swapped." in said
+    assert "just these numbers: R [p]× in place of [p]× R; and (ω, v) and (v, ω) are swapped." in said
 
 
 def test_different_slips_in_different_things_are_told_apart():

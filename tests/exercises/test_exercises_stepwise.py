@@ -44,7 +44,7 @@ def vertical_loads(p_G, feet, weight):
                 [
                     "line 14, change `R.T` to `R`",
                     "change `a[3:6]` to `(a[3:6] + np.cross(v[:3], v[3:6]))`",
-                    "both changes",
+                    "these changes",
                 ],
             ),
             (

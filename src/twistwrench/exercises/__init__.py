@@ -15,9 +15,9 @@ words       a room: the sentences of the messages
 layouts     how the numbers of an answer are arranged
 prose       the texts of the exercises
 exercise    `Exercise`, `Part`, `Quantity`: what an exercise is
+compare     right or wrong, entry by entry
 calls       calls of functions that may be wrong: they end, and change no argument
 catalogue   numbers, sections, names of files
-compare     right or wrong, entry by entry
 cases       the cases that an answer is tried on
 slips       a room: the list of slips with a name
 changes     a room: small changes of a function

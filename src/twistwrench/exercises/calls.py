@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from .compare import unchanged
 from .exercise import Part
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "begin",
     "copied",
     "count",
+    "keeps_arguments",
     "limited",
     "local_values",
     "silent",
@@ -138,6 +140,18 @@ def silent() -> Iterator[None]:
 def copied(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return the arguments with copies of the arrays and lists."""
     return tuple(copy.deepcopy(x) if isinstance(x, np.ndarray | list) else x for x in arguments)
+
+
+def keeps_arguments(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> bool:
+    """Whether a function leaves its arguments as they are; yes where it raises an error."""
+    given: list[Any] = []
+
+    def noted(*taken: Any) -> Any:
+        given.extend(taken)
+        return function(*taken)
+
+    tried(part, noted, arguments)
+    return all(map(unchanged, arguments, given)) if part.call is None else True
 
 
 def local_values(function: Function, within: Iterable[Any], arguments: tuple[Any, ...]) -> dict[str, dict[str, Any]]:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Array
-from ..calls import tried
+from ..calls import copied, keeps_arguments, tried
 from ..compare import FLOOR, Value, agree, copied_results, values
 from ..exercise import Part
 from ..slips import SLIPS
@@ -23,7 +23,7 @@ from .likeness import alike
 from .plausible import turns_the_rest
 from .whole import Edit
 
-__all__ = ["Nearer"]
+__all__ = ["Nearer", "sound"]
 
 MOST = 10
 """First changes after which a second one is looked for."""
@@ -128,9 +128,17 @@ class Nearer:
                     continue
                 if not any(alike(other, x) for x in others) and self._mends(other):
                     others.append(other)
-            if others:
-                return edit, others
+            if others and self.source is not None and source is not None:
+                return self._written(self.source, edit), [self._written(source, x) for x in others]
         return None
+
+    def _written(self, source: Source, edit: Edit) -> Edit:
+        """Return an edit with `.mT` in its text where `.T` would not do the same."""
+        k = self.tried[0]
+        same = tried(self.part, edit.function, self.cases[k])
+        return source.as_written(
+            edit, lambda f: agree(self.part, tried(self.part, f, self.cases[k]), same, self.cases[k])
+        )
 
     def blocks(self) -> tuple[Edit, list[Text]] | None:
         """Return the change that makes most blocks right, in all cases, and their names."""
@@ -164,7 +172,8 @@ class Nearer:
             given.append(tried(self.part, edit.function, self.cases[k]))
             if not agree(self.part, given[-1], self.right[k], self.cases[k]):
                 return False
-        return bool(given) and not copied_results(given[1:], self.right, self.answers)
+        once = bool(given) and not copied_results(given[1:], self.right, self.answers)
+        return once and self.source is not None and sound(self.part, self.source.solution, edit.function, self.cases[0])
 
     def spoils(self, function: Callable[..., Any]) -> bool:
         """Whether a changed function gives wrong numbers where the answer has right ones."""
@@ -182,7 +191,7 @@ class Nearer:
             if all(
                 agree(self.part, tried(self.part, edit.function, c), tried(self.part, slip, c), c) for c in self.cases
             ):
-                return edit, name
+                return (self._written(self.source, edit) if self.source else edit), name
         return None
 
     def _flat(self, answer: Any) -> Array | None:
@@ -254,6 +263,16 @@ def _is_of_rounds(edit: Edit) -> bool:
         and isinstance(edit.inside, ast.Call)
         and ast.unparse(edit.inside.func) == "range"
     )
+
+
+def sound(part: Part, function: Callable[..., Any], changed: Callable[..., Any], arguments: tuple[Any, ...]) -> bool:
+    """Whether a changed function is right in the degenerate cases in which it gave an answer before.
+
+    Nor may it change an argument that it left as it was.
+    """
+    edges = [c for c in part.edges(np.random.default_rng(0)) if tried(part, function, c) is not None]
+    right = all(agree(part, tried(part, changed, c), part.value(part.solution, copied(c)), c) for c in edges)
+    return right and (keeps_arguments(part, changed, arguments) or not keeps_arguments(part, function, arguments))
 
 
 def _near(x: Array, y: Array | None) -> bool:

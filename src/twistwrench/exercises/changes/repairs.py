@@ -10,8 +10,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from typing import Any
 
-import numpy as np
-
 import twistwrench
 
 from ..calls import copied, local_values, smallest, tried
@@ -21,7 +19,7 @@ from .alternatives import KINDS
 from .chosen import Chosen, Lines
 from .edits import Source
 from .meanings import meaning
-from .nearer import Nearer
+from .nearer import Nearer, sound
 from .plausible import plausible
 from .repair import Repair
 from .search import Remembering, by_chance, of_whole_numbers, of_words, same
@@ -115,10 +113,8 @@ def repairs(
                 continue
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
-                if copied_results(others, right, answers):  # what is asked for in two ways is not computed in one
-                    continue
-                if not _right_beyond(part, function, edit.function):
-                    continue
+                if copied_results(others, right, answers) or not sound(part, function, edit.function, cases[first]):
+                    continue  # what is asked for in two ways is not computed in one
                 edit = source.as_written(edit, lambda f: _right(part, f, right[first], cases[first]))
                 chosen.add(Repair(edit, meaning=meaning(source, edit, part, right, cases)))
                 continue
@@ -232,13 +228,6 @@ def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> floa
     start = time.perf_counter()
     tried(part, function, arguments)
     return time.perf_counter() - start
-
-
-def _right_beyond(part: Part, function: Function, changed: Function) -> bool:
-    """Whether a changed function is right in the degenerate cases, too, in which it gave an answer before."""
-    edges = part.edges(np.random.default_rng(0))
-    able = [arguments for arguments in edges if tried(part, function, arguments) is not None]
-    return all(agree(part, tried(part, changed, c), part.value(part.solution, copied(c)), c) for c in able)
 
 
 def _right(part: Part, function: Function, right: Any, arguments: tuple[Any, ...]) -> bool:
