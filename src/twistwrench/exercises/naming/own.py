@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..changes.plausible import nodes_of
+from ..changes.plausible import cross_text, difference_text, nodes_of
 from ..changes.repair import Repair
 from ..changes.whole import Edit
 from ..changes.written import text_written
@@ -147,7 +147,7 @@ def _tells(repair: Repair, found: Sequence[str]) -> bool:
 def by_own_line(found: list[str], edits: Sequence[Edit]) -> list[str]:
     """Return of a cross product and its lever arm, which give one sign, those that the student's lines reverse."""
     turned = [edit.right for edit in edits if edit.kind == "exchanged"]
-    own = [next((slip for slip, mark in SIGNS.items() if mark in text), "") for text in turned]
+    own = ["cross-order" if cross_text(x) else "lever-reversed" if difference_text(x) else "" for x in turned]
     if not {*found} & {*SIGNS} or not any(own):
         return found
     first = min(k for k, slip in enumerate(found) if slip in SIGNS)
