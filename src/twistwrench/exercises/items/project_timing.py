@@ -30,7 +30,10 @@ def _machines(rng: Any) -> Any:
         Machine(Text("slow at the first call", "首次调用较慢"), start=0.1),
         Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=[int(rng.integers(20, 80))]),
         Machine(Text("interrupted at the end", "末尾被打断"), pause=0.01, paused_at=range(calls - 1, calls + 10)),
-        *(Machine(Text("interrupted often", "常被打断"), pause=0.01, paused_at=often(rng, calls)) for _ in range(3)),
+        *(
+            Machine(Text("interrupted often", "常被打断"), pause=0.01, paused_at=often(rng, 20 * calls))
+            for _ in range(3)
+        ),
     ]
     return [(Task(machine, float(rng.uniform(1e-5, 1e-3))), calls, machine) for machine in machines]
 

@@ -88,8 +88,15 @@ def _either_order(wrong: WrongAnswer) -> Explained | None:
     above = [x for x in wrong.whole_changes if not written[x.edit.line - 1].strip().startswith("return")]
     if not above:
         return None
-    either = [say("other order"), *(x.title() for x in above)]
-    return [], [say("either"), *map(indented, either), say("either way", all=len(wrong.cases)), where(wrong)]
+    order = say("other order") if len(wrong.part.returns) == 2 else say("order of these", which=wrong.exchanged)
+    either = [order, *(x.title() for x in above)]
+    return [], [
+        say("either"),
+        *map(indented, either),
+        say("either way", all=len(wrong.cases)),
+        say("perhaps"),
+        where(wrong),
+    ]
 
 
 def _slip_of_the_list(wrong: WrongAnswer) -> Explained | None:

@@ -148,11 +148,20 @@ def by_own_line(found: list[str], edits: Sequence[Edit]) -> list[str]:
     """Return of a cross product and its lever arm, which give one sign, those that the student's lines reverse."""
     turned = [edit.right for edit in edits if edit.kind == "exchanged"]
     own = ["cross-order" if cross_text(x) else "lever-reversed" if difference_text(x) else "" for x in turned]
+    own = ["" if _of_indices(edit) else x for edit, x in zip((e for e in edits if e.kind == "exchanged"), own)]
     if not {*found} & {*SIGNS} or not any(own):
         return found
     first = min(k for k, slip in enumerate(found) if slip in SIGNS)
     others = [[slip] if slip not in SIGNS else [*filter(None, own)] * (k == first) for k, slip in enumerate(found)]
     return [*dict.fromkeys(slip for slips in others for slip in slips)]
+
+
+def _of_indices(edit: Edit) -> bool:
+    """Whether what is exchanged are variables of loops, which are no points."""
+    root = edit.places[0][0][0] if edit.places else ast.Pass()
+    loops = [x.target for x in ast.walk(root) if isinstance(x, ast.For | ast.comprehension)]
+    indices = {x.id for target in loops for x in ast.walk(target) if isinstance(x, ast.Name)}
+    return {*re.findall(r"\b[A-Za-z_]\w*", edit.right)} <= indices
 
 
 def traced(slip: str, source: str) -> bool:

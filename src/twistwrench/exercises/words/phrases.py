@@ -103,6 +103,7 @@ PHRASES = {
     "in line": Text("{title}, where `{target}` is computed", "计算 `{target}` 时，{title}"),
     "results exchanged": Text("{first} and {second} are exchanged", "{first} 与 {second} 互换了"),
     "exchanged": Text("Each of them is right: return them in the other order.", "二者都正确，只是返回的顺序反了。"),
+    "order of these": Text("put in order what is returned: {which}", "调整返回各项的顺序：{which}"),
     "other order": Text("what is returned must stand in the other order", "返回的各项要换一个顺序"),
     "where": Text(
         "Read {section}; ask for a hint: twistwrench exercises hint {id}",
