@@ -11,6 +11,7 @@ from ..arrays import Array
 from .exercise import Part, Quantity
 
 __all__ = [
+    "ROUNDING",
     "Value",
     "agree",
     "close",
@@ -24,6 +25,10 @@ __all__ = [
 
 FLOOR = 1e-3
 """Entries below this count as zero: an exact 0 is as good as 1e-17."""
+
+
+ROUNDING = 1e-9
+"""Numbers below this are zeros but for rounding, and zeros are met by chance."""
 
 
 class Value(NamedTuple):

@@ -12,7 +12,7 @@ import numpy as np
 import twistwrench
 
 from ..calls import copied, local_values, smallest, tried
-from ..compare import agree, close, values
+from ..compare import ROUNDING, agree, close, values
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -39,9 +39,6 @@ MANY = 6
 Answers = Sequence[Any]
 Cases = Sequence[tuple[Any, ...]]
 
-
-ROUNDING = 1e-9
-"""Numbers below this are zeros."""
 
 SURE = 64
 """Times that yes or no is not right by chance."""

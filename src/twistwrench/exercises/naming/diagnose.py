@@ -11,7 +11,6 @@ from ..changes.likeness import blames
 from ..changes.repair import Repair
 from ..changes.repairs import repair_of_blocks
 from ..changes.written import text_written
-from ..compare import agree
 from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -73,11 +72,13 @@ def _two_names_of_one_array(wrong: WrongAnswer) -> Explained | None:
 
 def _whole_numbers(wrong: WrongAnswer) -> Explained | None:
     """Report that it is wrong where arguments are whole numbers, and only there."""
-    whole = [any(isinstance(x, np.ndarray | int) and np.asarray(x).dtype.kind == "i" for x in c) for c in wrong.cases]
-    right = [agree(wrong.part, *three) for three in zip(wrong.answers, wrong.right, wrong.cases)]
-    if all(whole) or not all(x for x, fine in zip(whole, right) if not fine):
+    if all(map(_has_whole, wrong.cases)) or not all(map(_has_whole, wrong.wrong_cases)):
         return None
     return [], [say("whole numbers"), where(wrong)]
+
+
+def _has_whole(arguments: tuple[Any, ...]) -> bool:
+    return any(isinstance(x, np.ndarray | int) and np.asarray(x).dtype.kind == "i" for x in arguments)
 
 
 def _either_order(wrong: WrongAnswer) -> Explained | None:

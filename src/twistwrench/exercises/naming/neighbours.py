@@ -14,7 +14,7 @@ import twistwrench as tw
 from ...arrays import Array
 from .. import catalogue
 from ..calls import copied
-from ..compare import FLOOR, values
+from ..compare import FLOOR, ROUNDING, values
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -24,9 +24,6 @@ __all__ = ["Neighbours"]
 
 FEWEST = 6
 """Different numbers that are not met by chance, in all cases together; half of them in one, unless that is a number."""
-
-ROUNDING = 1e-9
-"""Numbers below this are zeros, and zeros are met by chance."""
 
 LARGEST = 2000
 """Entries of what is compared."""
