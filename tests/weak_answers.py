@@ -168,7 +168,7 @@ ANSWERS = [
     Weak(
         "base_wrench_at_rest",
         "m = sum(body.mass for body in model.inertia)\nreturn np.array([0, 0, 0, 0, 0, m * 9.81])",
-        "two slips at once: the moment is left out",
+        "Two slips at once would give just these numbers: the moment is left out",
     ),
     # 49.7
     Weak(

@@ -116,7 +116,7 @@ def mass_matrix_by_rnea(model, q):
     sampled(
         [
             (PUSHED, ["change the sign of `h[:6]`", "change the sign of `push`"]),
-            (HANGING, ["two slips at once", "k̇_G is added as it is", "the pendulum hangs"]),
+            (HANGING, ["Two slips at once", "k̇_G is added as it is", "the pendulum hangs"]),
             (HALF_A_LEVER, ["change `model.inertia[1].mass` to `model.mass`", "- base.translation"]),
             (FROM_THE_SECOND, ["to `(V[3:] + np.cross(V[:3], model.inertia[i].com))`", "to `range(1, "]),
             (ON_THE_EDGE, ["change `0.0001` to `0.0`"]),
