@@ -11,7 +11,7 @@ from ..algorithms.crba import crba
 from ..algorithms.rnea import nonlinear_effects
 from ..arrays import Array
 from ..loading import load
-from ..model import Model, chain, random_tree
+from ..model import Model, chain, random_tree, replace_inertia
 from ..spatial import SpatialInertia
 
 __all__ = [
@@ -87,7 +87,7 @@ def massless_link() -> Model:
     """
     model = chain(4, base="floating")
     nothing = SpatialInertia(0.0, np.zeros(3), np.zeros((3, 3)))
-    return replace(model, inertia=(*model.inertia[:2], nothing, *model.inertia[3:]))
+    return replace_inertia(model, model.joint_names[2], nothing, physical=False)
 
 
 def states(rng: np.random.Generator, *, vectors: int = 0, small: int = 2) -> Iterator[Any]:

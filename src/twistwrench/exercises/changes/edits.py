@@ -21,8 +21,8 @@ from typing import Any
 from ..calls import CHANGED, count
 from .alternatives import KINDS, crossed
 from .containers import Change, parsed
-from .excerpts import enclosing, put, target, term, text_of
-from .places import Place, all_places, mark, surroundings
+from .excerpts import enclosing, target, term, text_of
+from .places import Place, all_places, mark, put, surroundings
 from .scope import Scope
 from .whole import Edit, of_arguments, of_order
 

@@ -5,16 +5,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-__all__ = [
-    "changed_around",
-    "enclosing",
-    "put",
-    "taken_out",
-    "target",
-    "term",
-    "text_of",
-    "with_operator",
-]
+__all__ = ["enclosing", "taken_out", "target", "term", "text_of", "with_operator"]
 
 
 def term(node: Any, other: Any) -> str:
@@ -80,40 +71,6 @@ def with_operator(node: Any, text: str) -> str:
         return text
     sign = text_of(ast.BinOp(ast.Name("x"), node.op, ast.Name("y")))[1:-1].strip()
     return f"{text} {sign}" if text_of(node.left) == text else f"{sign} {text}"
-
-
-def first_alone(parents: list[Any], node: Any, text: str) -> Any:
-    """Return the expression around a piece of a statement that stands there once; None where the piece does."""
-    inside = [x for x in parents if isinstance(x, ast.stmt)][-1:]
-    if not inside or not isinstance(inside[0], ast.Assign | ast.AugAssign | ast.Return | ast.Expr):
-        return None
-    whole = text_of(inside[0])
-    around = [x for x in (node, *reversed(parents[parents.index(inside[0]) + 1 :])) if isinstance(x, ast.expr)]
-    longer = (x for x in around if text in text_of(x) != text and whole.count(text_of(x)) == 1)
-    return next(longer, None) if whole.count(text) > 1 else None
-
-
-def changed_around(place: Any, text: str) -> tuple[str, str]:
-    """Return the text of what is around a change where the piece alone could be another one, before and after it."""
-    parents, field, node, other = place
-    around = first_alone(parents, node, text)
-    if around is None:
-        return "", ""
-    before = text_of(around)
-    if around is node:
-        return before, text_of(other)
-    put(parents[-1], field, other)
-    after = text_of(around)
-    put(parents[-1], field, node)
-    return before, after
-
-
-def put(parent: Any, field: Any, node: Any) -> None:
-    """Put a node in its place."""
-    if isinstance(field, tuple):
-        getattr(parent, field[0])[field[1]] = node
-    else:
-        setattr(parent, field, node)
 
 
 def text_of(node: ast.AST) -> str:

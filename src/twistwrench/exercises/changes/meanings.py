@@ -13,7 +13,8 @@ from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import Source
-from .excerpts import put, text_of
+from .excerpts import text_of
+from .places import put
 from .whole import Edit
 
 __all__ = ["meaning"]

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..exercise import Part
-from .excerpts import put
-from .places import innermost
+from .places import innermost, put
 from .whole import Edit
 
 __all__ = ["turns_into_the_other_kind"]

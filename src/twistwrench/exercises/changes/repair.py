@@ -8,9 +8,9 @@ from typing import Any
 
 from ..words.phrases import say
 from ..words.text import Text
-from .excerpts import changed_around, taken_out, text_of
+from .excerpts import taken_out, text_of
 from .likeness import renames
-from .places import innermost
+from .places import changed_around, innermost
 from .plausible import shuts
 from .search import said_where
 from .whole import Edit

@@ -41,8 +41,8 @@ class Scope:
         square += sorted({ast.unparse(x) for x in nodes if getattr(x, "attr", "") == "rotation"} - {*square})
         slices = [x.slice for x in nodes if isinstance(x, ast.Subscript)]
         indices = {x.id for each in slices for x in ast.walk(each) if isinstance(x, ast.Name)}  # no factors
-        numbers = [name for name, x in values.items() if isinstance(x, int | float) and type(x) is not bool]
-        numbers = [name for name in numbers if name not in indices]
+        scalars = {name for name, x in values.items() if isinstance(x, int | float) and type(x) is not bool}
+        numbers = [name for name in values if name in scalars - indices]
         self.scalars, self.matrices = [*map(parsed, (*numbers, *FACTORS))], [*map(parsed, square)]
         self.sums = {getattr(x.target, "id", "") for x in nodes if isinstance(x, ast.AugAssign)} - {""}
         self.unused = unused(tree)

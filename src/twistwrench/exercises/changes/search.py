@@ -17,13 +17,14 @@ from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import edits
-from .excerpts import changed_around
+from .places import changed_around
 from .whole import Edit
 
 __all__ = [
     "Found",
     "Remembering",
     "by_chance",
+    "exchanged",
     "exchanged_results",
     "found_edits",
     "of_whole_numbers",
@@ -225,14 +226,14 @@ def exchanged_results(part: Part, answers: Answers, cases: Cases) -> Text | None
     for i in range(len(part.returns)) if part.canonical is None else ():
         for j in range(i):
             if all(
-                agree(part, _exchanged(a, i, j), part.value(part.solution, copied(c)), c)
-                for a, c in zip(answers, cases)
+                agree(part, exchanged(a, i, j), part.value(part.solution, copied(c)), c) for a, c in zip(answers, cases)
             ):
                 return say("results exchanged", first=part.returns[j].title, second=part.returns[i].title)
     return None
 
 
-def _exchanged(answer: Any, i: int, j: int) -> Any:
+def exchanged(answer: Any, i: int, j: int) -> Any:
+    """Return an answer with two of its things exchanged; None where it has not as many."""
     if not isinstance(answer, tuple | list) or len(answer) <= max(i, j):
         return None
     return tuple(answer[j if k == i else i if k == j else k] for k in range(len(answer)))

@@ -1,6 +1,5 @@
 """Exercise 49.5.2: the inertia of Go2's base."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -67,7 +66,7 @@ def _light_base(rng: Any) -> Any:
     model = small_robot(rng)
     base = model.inertia[1]
     light = tw.SpatialInertia(0.1 * base.mass, base.com, 0.1 * base.inertia_at_com)
-    return [(replace(model, inertia=(model.inertia[0], light, *model.inertia[2:])),)]
+    return [(tw.replace_inertia(model, model.joint_names[1], light),)]
 
 
 def _of_the_universe(rng: Any) -> Any:

@@ -1,6 +1,5 @@
 """Exercise 49.6.2: gravity as an acceleration, and as forces."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -52,8 +51,8 @@ def _centred(rng: Any) -> Any:
     model = random_tree(4, rng=rng)
     body = model.inertia[2]
     centred = tw.SpatialInertia(body.mass, np.zeros(3), body.inertia_at_com)
-    inertia = (*model.inertia[:2], centred, *model.inertia[3:])
-    return [(replace(model, inertia=inertia), model.random_configuration(rng=rng))]
+    other = tw.replace_inertia(model, model.joint_names[2], centred)
+    return [(other, model.random_configuration(rng=rng))]
 
 
 WEIGHTS = Part(

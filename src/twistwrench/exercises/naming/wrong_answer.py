@@ -16,7 +16,7 @@ from ..changes.chosen import Lines
 from ..changes.nearer import Nearer
 from ..changes.repair import Repair
 from ..changes.repairs import repairs, two_repairs
-from ..changes.search import Found, exchanged_results, found_edits, of_whole_numbers, same
+from ..changes.search import Found, exchanged, exchanged_results, found_edits, of_whole_numbers, same
 from ..compare import agree, close, only_zero_is_missed, values
 from ..exercise import Exercise, Part
 from ..slips import SLIPS, Slip
@@ -123,12 +123,8 @@ class WrongAnswer:
         """Yield the results with two wrong ones exchanged: how that is called, the answers, and the right values."""
         titles = [x.title for x in self.part.returns]
         for j, k in combinations(self.wrong_results, 2):
-            order = [k if n == j else j if n == k else n for n in range(len(titles))]
             name = say("results exchanged", first=titles[j], second=titles[k])
-            given, right = (
-                [tuple(x[n] for n in order) if _is_of(x, len(order)) else x for x in many]
-                for many in (self.answers, self.right)
-            )
+            given, right = ([exchanged(x, j, k) for x in many] for many in (self.answers, self.right))
             yield name, given, right
 
     def same_as(self, k: int) -> Text | None:
@@ -218,11 +214,7 @@ class _Result(Part):
 
 def alone(answer: Any, k: int, several: int) -> Any:
     """Return one of several results; None where there are not as many."""
-    return answer[k] if _is_of(answer, several) else None
-
-
-def _is_of(answer: Any, several: int) -> bool:
-    return isinstance(answer, tuple | list) and len(answer) == several
+    return answer[k] if isinstance(answer, tuple | list) and len(answer) == several else None
 
 
 def changes_after_error(part: Part, function: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Repair]:
