@@ -315,7 +315,8 @@ def test_start_touches_nothing_that_is_there(tmp_path):
     assert len(kept) == len(new) + 1
 
 
-@pytest.mark.parametrize("language", sampled(["en", "zh"], 1))
+@pytest.mark.slow
+@pytest.mark.parametrize("language", ["en", "zh"])
 def test_the_solutions_give_everything(tmp_path, language):
     start(tmp_path, language=language)
     write_solutions(tmp_path, language)
@@ -593,7 +594,7 @@ def test_power_is_asked_for_both_ways_and_the_error_is_the_one_that_was_asked_fo
             return super().power(other)
 
     assert "only one of wrench.power(twist) and twist.power(wrench) works" in message("SpatialVector", OneWay)
-    assert "F.power(V) must be numbers, not str" in message("SpatialVector", OtherWay)
+    assert "F.power(V) raises TypeError, and must be numbers" in message("SpatialVector", OtherWay)
     assert "an error other than the TypeError" in message("SpatialVector", OtherError)
 
 

@@ -65,7 +65,8 @@ def test_a_formula_that_divides_by_the_angle_is_met():
         T[:3, 3] = q[:3]
         return T
 
-    assert "entries that are not finite numbers" in message("base_pose", base_pose)
+    said = judge(*catalogue.find_part("base_pose"), base_pose, search=False).message("en")
+    assert "entries that are not finite numbers" in " ".join(said.split())
 
 
 def test_a_function_that_keeps_a_buffer_is_met():
@@ -219,12 +220,29 @@ def test_what_is_right_but_in_a_special_case_is_refused():
         M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)
         return tw.rnea(model, q, v, a), np.zeros(len(q) - 1) + M @ a + h
 
+    def of_the_last(tau):
+        out = np.zeros(6 + len(tau))
+        out[-len(tau) :] = tau
+        return out
+
+    def after_its_pattern(A_G):
+        w = np.zeros_like(A_G[:, 0])
+        w[5] = 9.81
+        return A_G.mT @ w
+
+    def with_mass(I, R, p):
+        X = np.linalg.inv(tw.motion_transform(R, p))
+        return X.mT @ (I * I[3, 3] / I[3, 3]) @ X
+
     said = message("act", whole)
     assert "wrong only where arguments are whole numbers" in said
     assert "numbers are right" not in said
-    assert "Wrong in 1 of" in message("translation_transforms", near)
-    assert judge(*catalogue.find_part("newton_euler"), at_rest).state == "wrong"
-    assert judge(*catalogue.find_part("torques_two_ways"), joints).state == "wrong"
+    assert "Wrong in 1 of" in judge(*catalogue.find_part("translation_transforms"), near, search=False).message("en")
+    for function in (of_the_last, after_its_pattern, with_mass):
+        name = {after_its_pattern: "gravity_from_map", with_mass: "moved_inertia"}.get(function, "on_all_rows")
+        assert judge(*catalogue.find_part(name), function, search=False).state == "wrong"
+    assert judge(*catalogue.find_part("newton_euler"), at_rest, search=False).state == "wrong"
+    assert judge(*catalogue.find_part("torques_two_ways"), joints, search=False).state == "wrong"
 
 
 def test_one_array_does_not_count_twice():

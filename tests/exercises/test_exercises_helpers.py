@@ -83,7 +83,7 @@ def momentum_of_links(model, q, v):
         (RELATIVE, "line 12, take out `[::-1]`"),
         (LAMBDA, "Your numbers are those of this slip"),
         (CONSTANT, "line 11, change `9.80665` to `9.81`"),
-        (TWO, "line 23, change the sign of `crm(V[i]).T @ I[i] @ V[i]`"),
+        pytest.param(TWO, "line 23, change the sign of `crm(V[i]).T @ I[i] @ V[i]`", marks=pytest.mark.slow),
         (LOCAL, "line 15, change `np.cross(c, V[:3])` to `np.cross(V[:3], c)`"),
     ],
 )

@@ -30,8 +30,18 @@ SCALES = (0.0, 1e-6, 1e-3, 3.0)
 TINY = (4e-9, 2e-11)
 """Factors that leave nothing which `np.allclose` would see beside zero, and more than rounding."""
 
-MATRICES = {"R": np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]), "I": np.diag([2, 3, 4])}
-"""A rotation and an inertia in whole numbers, by the first letter of their names."""
+CROSS_Z = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]])
+"""The cross product with an axis z."""
+
+MATRICES: dict[tuple[str, Any], Any] = {
+    ("R", (3, 3)): np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]),
+    ("I", (3, 3)): np.diag([2, 3, 4]),
+    ("I", (6, 6)): np.block([[np.diag([4, 5, 4]), 2 * CROSS_Z], [-2 * CROSS_Z, 2 * np.eye(3, dtype=int)]]),
+}
+"""A rotation, and the inertia of a body of 2 kg, in whole numbers, by the first letter of the name and the shape."""
+
+VELOCITIES = frozenset(("M", "J", "J_c", "A_G", "v", "g"))
+"""Arguments that may have a row or a column for each velocity of a robot."""
 
 SCALED = frozenset(
     (
@@ -82,15 +92,14 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
     found = [tuple(_scaled(*x, factor) for x in zip(names, drawn)) for factor in TINY]
     found.append(tuple(_turned(*x, _quaternion(SMALL)) for x in zip(names, drawn)))
     for k, (name, x) in enumerate(zip(names, drawn)):
-        alone = [*_thinned(name, x)]
+        alone = [*_thinned(name, x), *([0 * x] if name == "I" and getattr(x, "shape", 0) == (6, 6) else [])]
         if name not in ("m", "q", "T") and len(names) > 1:
             alone += [_scaled(name, x, 0.0), _turned(name, x, _quaternion(0))]
         found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in alone if other is not x]
     largest = 5 if "model" in names else 99
     found.append(tuple(_whole(*x, largest) for x in zip(names, drawn)))
-    found.append(
-        tuple(MATRICES.get(name[:1], x) if getattr(x, "shape", 0) == (3, 3) else x for name, x in zip(names, drawn))
-    )
+    found.append(tuple(MATRICES.get((name[:1], getattr(x, "shape", ())), x) for name, x in zip(names, drawn)))
+    found.append(_of_the_base(names, drawn))
     if names[:2] == ["model", "q"] and {*names} <= {"model", "q", "v", "a", "tau"} and isinstance(drawn[0], Model):
         found += [
             _moving(robot, names, _generator(part, seed, 3))
@@ -110,6 +119,17 @@ def _thinned(name: str, value: Any) -> Iterator[Any]:
         yield [0 * x if k % 2 else x for k, x in enumerate(value)]
 
 
+def _of_the_base(names: list[str], drawn: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return matrices and vectors of a robot as they are of one without joints; others, and all of Go2's, as is."""
+    nv = max((n for x in drawn for n in getattr(x, "shape", ())), default=0)
+    if nv <= 6 or {"model", "h"} & {*names}:
+        return drawn
+    return tuple(
+        x[tuple(slice(6 if n == nv else n) for n in x.shape)] if name in VELOCITIES and x.ndim < 3 else x
+        for name, x in zip(names, drawn)
+    )
+
+
 def _moving(model: Model, names: list[str], rng: np.random.Generator) -> tuple[Any, ...]:
     """Return a robot with a configuration, and as many numbers as it has velocities for each other name."""
     return model, model.random_configuration(rng=rng), *rng.standard_normal((len(names) - 2, model.nv))
@@ -121,8 +141,8 @@ def every_case(part: Part, seed: int) -> list[tuple[Any, ...]]:
 
 
 def _whole(name: str, value: Any, largest: int) -> Any:
-    """Return an argument that may have any size, or a mass, in whole numbers; others as is."""
-    if name not in SCALED | {"m"}:
+    """Return an argument that may have any size, a mass, or a Jacobian or A_G, in whole numbers."""
+    if name not in SCALED | {"m", "J", "A_G"}:
         return value
     if isinstance(value, float):
         return round(value) or 1

@@ -22,7 +22,7 @@ from ..calls import CHANGED, count
 from .alternatives import KINDS, crossed
 from .containers import Change, parsed
 from .excerpts import enclosing, target, term, text_of
-from .places import Place, all_places, mark, put, surroundings
+from .places import Place, all_places, mark, put, put_in, surroundings
 from .scope import Scope
 from .whole import Edit, of_arguments, of_order
 
@@ -186,7 +186,7 @@ class Source:
             for kind, other in self._alternatives(parents, node):
                 if kind in kinds:
                     first = kind, *self.texts(kind, (parents, field, node, other)), node.lineno
-                    put(parents[-1], field, other)
+                    put_in((parents, field, node, other))
                     for place in self.places[k + 1 :]:
                         if not any(parent is node for parent in place[0]):
                             yield from self._second(first, place, kinds)
@@ -218,10 +218,10 @@ class Source:
         self, kind: str, texts: tuple[str, str], places: list[Place], *, everywhere: bool = False
     ) -> Iterator[Edit]:
         """Yield the edit in some places, if it is a program."""
-        for parents, field, _, other in places:
-            put(parents[-1], field, other)
+        for place in places:
+            put_in(place)
         try:
-            changed = self.compiled()
+            changed = self.compiled(located=True)
             became = tuple(text_of(surroundings(parents)) for parents, *_ in places)
         except Exception:  # no program; and the body of a class is run
             return
@@ -260,10 +260,12 @@ class Source:
         plain = any(mends(other.function) for other in found)
         return edit if plain else replace(edit, wrong=edit.wrong.replace(".T", ".mT"))
 
-    def compiled(self) -> Function:
-        """Return the function as the tree is now."""
+    def compiled(self, *, located: bool = False) -> Function:
+        """Return the function as the tree is now, if need be with lines for its nodes."""
         name, names = self.function.__name__, dict(self.names)
-        exec(compile(ast.fix_missing_locations(self.tree), CHANGED, "exec", dont_inherit=True), names)
+        if not located:
+            ast.fix_missing_locations(self.tree)
+        exec(compile(self.tree, CHANGED, "exec", dont_inherit=True), names)
         found: Function = names[name]
         return found
 

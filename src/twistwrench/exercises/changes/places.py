@@ -16,6 +16,7 @@ __all__ = [
     "mark",
     "may_be_argument",
     "put",
+    "put_in",
     "surroundings",
     "unused",
 ]
@@ -110,6 +111,16 @@ def changed_around(place: Any, text: str) -> tuple[str, str]:
     after = text_of(around)
     put(parents[-1], field, node)
     return before, after
+
+
+def put_in(place: Place) -> None:
+    """Put what a place has for it in place of a node, and on its line where it has none."""
+    parents, field, node, other = place
+    for name in node._attributes:
+        if getattr(other, name, None) is None:
+            setattr(other, name, getattr(node, name))
+    ast.fix_missing_locations(other)
+    put(parents[-1], field, other)
 
 
 def put(parent: Any, field: Any, node: Any) -> None:

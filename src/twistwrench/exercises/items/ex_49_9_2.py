@@ -40,6 +40,7 @@ EXERCISE = Exercise(
                 "block-of-ones": lambda nv: np.hstack([np.zeros((nv - 6, 6)), np.ones((nv - 6, nv - 6))]),
                 "selection-square": lambda nv: np.diag(1.0 * (np.arange(nv) > 5)),
             },
+            edges=lambda rng: [(6,)],
             residuals=(
                 lambda answer, nv: answer[:, :6],
                 lambda answer, nv: answer @ answer.mT - np.eye(nv - 6),
@@ -57,6 +58,7 @@ EXERCISE = Exercise(
                 "zeros-at-both-ends": lambda tau: np.pad(tau, 6),
                 "whole-numbers": lambda tau: on_all_rows(tau).astype(int),
             },
+            edges=lambda rng: [(np.zeros(0),)],
             residuals=(lambda answer, tau: answer @ np.arange(len(tau) + 6.0) - tau @ np.arange(6.0, len(tau) + 6),),
         ),
     ),

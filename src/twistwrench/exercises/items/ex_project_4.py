@@ -138,12 +138,12 @@ OPPOSITE = Variant(
 )
 
 
-def _less(part: float) -> Variant:
+def _less(part: float, row: int = 4) -> Variant:
     """Return forward dynamics under torques of which one is too small, by a part of the largest."""
 
     def forward(model: Any, q: Any, v: Any, tau: Any) -> Any:
         short = np.array(tau)
-        short[4] -= part * np.abs(tau).max()
+        short[row] -= part * np.abs(tau).max()
         return tw.aba(model, q, v, short)
 
     return Variant(Text(f"off by {part:.0e}", f"相差 {part:.0e}"), forward)
@@ -174,6 +174,7 @@ def _states(rng: Any) -> Any:
         tau = np.concatenate([np.zeros(6), 10 * rng.standard_normal(model.nv - 6)])
         cases.append((forward, INVERSE, model, model.random_configuration(rng=rng), rng.standard_normal(model.nv), tau))
     slight = [(_less(part), INVERSE, *cases[0][2:]) for part in (1e4, 1e-2, 1e-4, 1e-6, 1e-8)]
+    slight.append((_less(1e-8, -1), INVERSE, *cases[0][2:]))
     return [
         *cases,
         (RIGHT, RESTING, *cases[0][2:]),

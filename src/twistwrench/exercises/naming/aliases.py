@@ -7,6 +7,8 @@ import textwrap
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
 from ..calls import tried
 from ..changes.edits import Source
 from ..changes.written import written
@@ -48,7 +50,8 @@ def missing_copies(part: Part, function: Function, right: Sequence[Any], cases: 
         fewer = [other for other in places if other != k]
         if fewer and mended(fewer):
             places = fewer
-    return [_said(node) for k, node in enumerate(ast.walk(tree)) if k in places]
+    arrays = {name for name, x in zip(part.arguments.split(", "), cases[0]) if isinstance(x, np.ndarray)}
+    return [_said(node, arrays) for k, node in enumerate(ast.walk(tree)) if k in places]
 
 
 def _is_one_array(node: Any) -> bool:
@@ -87,7 +90,8 @@ def _copied(x: Any) -> Any:
     return [*map(_copied, x)] if isinstance(x, list | tuple) else x.copy() if hasattr(x, "copy") else x
 
 
-def _said(node: Any) -> Text:
+def _said(node: Any, arrays: set[str]) -> Text:
+    """Report an assignment that copies nothing; an argument may be of whole numbers, and is copied as floats."""
     if isinstance(node, ast.Call):
         return say("same appended", line=node.lineno, text=ast.unparse(node), name=ast.unparse(node.args[0]))
     if len(node.targets) > 1 or _repeats(node.value):
@@ -96,4 +100,5 @@ def _said(node: Any) -> Text:
         first, second = (ast.unparse(x) for x in node.targets[0].elts)
         return say("views exchanged", line=node.lineno, text=f"{first}, {second} = {second}, {first}", second=second)
     line, name, value = node.lineno, ast.unparse(node.targets[0]), ast.unparse(node.value)
-    return say("second name", line=line, text=ast.unparse(node), name=name, value=value)
+    cure = f"np.array({value}, float)" if value in arrays else f"{value}.copy()"
+    return say("second name", line=line, text=ast.unparse(node), name=name, value=value, cure=cure)

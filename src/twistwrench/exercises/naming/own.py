@@ -146,14 +146,29 @@ def _tells(repair: Repair, found: Sequence[str]) -> bool:
 
 def by_own_line(found: list[str], edits: Sequence[Edit]) -> list[str]:
     """Return of a cross product and its lever arm, which give one sign, those that the student's lines reverse."""
-    turned = [edit.right for edit in edits if edit.kind == "exchanged"]
-    own = ["cross-order" if cross_text(x) else "lever-reversed" if difference_text(x) else "" for x in turned]
-    own = ["" if _of_indices(edit) else x for edit, x in zip((e for e in edits if e.kind == "exchanged"), own)]
+    turned = [edit for edit in edits if edit.kind == "exchanged"]
+    own = ["" if _of_indices(edit) else _exchanged(edit) for edit in turned]
     if not {*found} & {*SIGNS} or not any(own):
         return found
     first = min(k for k, slip in enumerate(found) if slip in SIGNS)
     others = [[slip] if slip not in SIGNS else [*filter(None, own)] * (k == first) for k, slip in enumerate(found)]
     return [*dict.fromkeys(slip for slips in others for slip in slips)]
+
+
+def _exchanged(edit: Edit) -> str:
+    """Return what an exchange turns round: the factors of a cross product, or the two ends of a lever arm."""
+    if cross_text(edit.right):
+        return "cross-order"
+    ends = _ends(edit.right)
+    return "lever-reversed" if ends and ends == _ends(edit.wrong)[::-1] else ""
+
+
+def _ends(text: str) -> tuple[str, ...]:
+    """Return the two ends of a lever arm; none where it is the difference of two products, or of nothing."""
+    if not difference_text(text) or re.search(r"\b(cross|outer|skew|hat|einsum)\(", text):
+        return ()
+    (difference,) = (x for x in nodes_of(text)[:3] if isinstance(x, ast.BinOp))
+    return ast.unparse(difference.left), ast.unparse(difference.right)
 
 
 def _of_indices(edit: Edit) -> bool:
@@ -196,7 +211,8 @@ def _fits(slip: str, edit: Edit) -> bool:
     """Whether the change that mends the student's line undoes this slip, and not another with the same numbers."""
     title, (said, meant) = SLIPS[slip].title.en, _halves(slip)
     if slip in SIGNS:  # a sign alone is neither
-        return edit.kind == "exchanged" and (SIGNS[slip] in edit.right or "(" not in edit.right)
+        turned = edit.kind == "exchanged" and (SIGNS[slip] in edit.right or "(" not in edit.right)
+        return turned and (" - " not in edit.right or slip == _exchanged(edit))
     backward = any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
     if slip == "visited-outward" or (slip in FORCES and backward):
         return slip == "visited-outward" and backward

@@ -124,7 +124,10 @@ def _not_comparable(got: Value, right: Value) -> Text | None:
 
 
 def _type(got: Value, expected: str) -> Text:
-    return say("not numbers", name=got.quantity.title, what=say(expected), got=type(got.raw).__name__)
+    name, raw = got.quantity.title, got.raw
+    if isinstance(raw, str) and raw.endswith("Error"):  # it stands for a result that there is none of
+        return say("raises", name=name, error=raw, what=say(expected))
+    return say("not numbers", name=name, what=say(expected), got=type(raw).__name__)
 
 
 def _blocks(name: Text, layout: Layout, a: Array, b: Array, tolerance: float, factors: Sequence[float]) -> list[Text]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import Array
-from ..compare import FLOOR
+from ..compare import FLOOR, ROUNDING
 from ..words.phrases import say
 from ..words.text import Text
 
@@ -53,6 +53,8 @@ def _within(a: Array, b: Array, part: float) -> bool:
 def digits(a: Array, b: Array) -> int:
     """Return to how many digits each entry is right, or all are rounded; 0 where it is less than two."""
     largest = float(np.abs(b).max(initial=FLOOR))
+    if ((a == 0) & (np.abs(b) > ROUNDING * largest)).any():
+        return 0  # what is left out has no digits
     rounded = any(same(a, np.round(b, digits), 1e-9 * largest) for digits in range(1, 8))
     size = largest if rounded else np.maximum(np.abs(b), TINY * largest)
     error = float((np.abs(a - b) / size).max(initial=0))

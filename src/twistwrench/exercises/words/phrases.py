@@ -127,6 +127,7 @@ PHRASES = {
         "应按顺序返回 {n} 个量：{names}。实际返回 {got}。",
     ),
     "not numbers": Text("{name} must be {what}, not {got}.", "{name} 应为{what}，而不是 {got}。"),
+    "raises": Text("{name} raises {error}, and must be {what}.", "{name} 引发了 {error}，而它应为{what}。"),
     "numbers": Text("numbers", "数值"),
     "truth values": Text("True or False", "True 或 False"),
     "words": Text("a string", "字符串"),
@@ -236,7 +237,7 @@ PHRASES = {
         "在这组数据中，{what} 改变时 {name} 不变，而它应当改变。",
     ),
     "diagonal only": Text(
-        "It is right where {name} is diagonal: what stands beside the diagonal is not used as it must be.",
+        "It is right where {name} is diagonal: look at what you do with what stands beside the diagonal.",
         "当 {name} 为对角矩阵时结果正确：请检查你对非对角元素的处理。",
     ),
     "unturned only": Text(

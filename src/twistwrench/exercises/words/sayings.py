@@ -42,9 +42,9 @@ SAYINGS = {
     # a second name for one array
     "second name": Text(
         "The slip: line {line}, `{text}` copies nothing: `{name}` and `{value}` are the same numbers in memory,"
-        " and what is written into one of them changes both. Write `{name} = {value}.copy()`.",
+        " and what is written into one of them changes both. Write `{name} = {cure}`.",
         "错因：第 {line} 行，`{text}` 并没有复制：`{name}` 与 `{value}` 是内存中的同一组数，写入其一，二者都变。"
-        "请写 `{name} = {value}.copy()`。",
+        "请写 `{name} = {cure}`。",
     ),
     "views exchanged": Text(
         "The slip: line {line}, `{text}`: what stands on the right copies nothing, so `{second}` gets what the first"
