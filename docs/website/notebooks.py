@@ -56,7 +56,7 @@ def key(notebook: nbformat.NotebookNode, common: str) -> str:
     return hashlib.sha256("\0".join([common, *code]).encode()).hexdigest()[:32]
 
 
-def execute(path: Path, kept: Path) -> Path:
+def execute(path: Path, result: Path) -> Path:
     """Run a notebook in an empty folder and keep the outputs of its code cells."""
     import tempfile
 
@@ -66,8 +66,15 @@ def execute(path: Path, kept: Path) -> Path:
     with tempfile.TemporaryDirectory() as folder:
         place = {"metadata": {"path": folder}}
         NotebookClient(notebook, timeout=SLOWEST, resources=place, extra_arguments=["--log-level=40"]).execute()
-    nbformat.write(notebook, kept)
-    return kept
+    whole = result.with_name(f"{path.parent.name}-{result.name}")
+    nbformat.write(notebook, whole)
+    whole.replace(result)  # a reader finds all of it or nothing
+    return result
+
+
+def kept(path: Path, cache: Path, common: str) -> Path:
+    """Return where the result of a notebook is kept, or will be."""
+    return cache / f"{path.stem}-{key(nbformat.read(path, as_version=4), common)}.ipynb"
 
 
 def write_notebooks(out: dict[str, Path], cache: Path) -> None:
@@ -77,13 +84,13 @@ def write_notebooks(out: dict[str, Path], cache: Path) -> None:
     waiting, results = {}, {}
     for language, name in itertools.product(LANGUAGES, names()):
         path = ROOT / "notebooks" / language / f"{name}.ipynb"
-        results[path] = cache / f"{name}-{key(nbformat.read(path, as_version=4), common)}.ipynb"
+        results[path] = kept(path, cache, common)
         if not results[path].exists():
             waiting[path] = results[path]
     with ProcessPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
         list(pool.map(execute, waiting, waiting.values()))
-    for path, kept in results.items():
-        done = with_outputs(nbformat.read(path, as_version=4), nbformat.read(kept, as_version=4))
+    for path, result in results.items():
+        done = with_outputs(nbformat.read(path, as_version=4), nbformat.read(result, as_version=4))
         write(out[path.parent.name] / "chapter" / path.name, nbformat.writes(done))
 
 

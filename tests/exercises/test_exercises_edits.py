@@ -8,6 +8,7 @@ import pytest
 from twistwrench.exercises import catalogue
 from twistwrench.exercises.calls import copied, tried
 from twistwrench.exercises.cases import every_case
+from twistwrench.exercises.changes.edits import Source
 from twistwrench.exercises.changes.search import candidates
 from twistwrench.exercises.compare import agree
 from twistwrench.exercises.judge import judge
@@ -110,3 +111,21 @@ def test_no_edit_of_a_reference_passes(name):
             missed.append(f"{edit.right} -> {edit.wrong}")
     assert number > 10
     assert missed == []
+
+
+def test_a_change_of_several_lines_can_be_changed_once_more():
+    """What is put in place of lines gets one line, and no columns of two lines."""
+    text = (
+        "def newton_euler(m, I_c, omega, alpha, a_c):\n"
+        "    moment = np.array([\n"
+        "        I_c[0][0] * alpha[0],\n"
+        "        I_c[1][1] * alpha[1],\n"
+        "    ])\n"
+        "    return moment, m * a_c\n"
+    )
+    names = {"np": np}
+    exec(text, names)
+    source = Source(names["newton_euler"], names["newton_euler"], {}, {}, text)
+    kinds = ("exchanged", "sign", "transposed")
+    changed = [source.after(edit).compiled() for kind in kinds for edit in source.edits(kind)]
+    assert len(changed) > 10

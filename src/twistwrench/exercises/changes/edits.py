@@ -136,6 +136,7 @@ class Source:
             for x in ast.walk(other):
                 if id(x) not in old and hasattr(x, "lineno"):
                     vars(x).update(lineno=node.lineno, end_lineno=node.lineno)  # those of what it replaces
+                    vars(x).update(col_offset=0, end_col_offset=0)
             put(parents[-1], field, other)
         found = copy.copy(self)
         found.tree = copy.deepcopy(self.tree)

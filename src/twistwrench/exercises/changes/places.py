@@ -116,9 +116,8 @@ def changed_around(place: Any, text: str) -> tuple[str, str]:
 def put_in(place: Place) -> None:
     """Put what a place has for it in place of a node, and on its line where it has none."""
     parents, field, node, other = place
-    for name in node._attributes:
-        if getattr(other, name, None) is None:
-            setattr(other, name, getattr(node, name))
+    if getattr(other, "end_lineno", None) is None:
+        ast.copy_location(other, node)
     ast.fix_missing_locations(other)
     put(parents[-1], field, other)
 
