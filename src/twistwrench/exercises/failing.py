@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import Array
 from .compare import FLOOR, Value, values
 from .exercise import Part, Quantity
+from .stopwatch import timed
 from .words.text import Language, Text
 
 __all__ = ["Block", "Case", "Compared", "failing_case", "whole"]
@@ -151,7 +152,7 @@ def failing_case(part: Part, number: int, seed: int, arguments: tuple[Any, ...],
     compared: list[Compared] = []
     if arguments and answers:
         right, got = (values(answer, part.returns) for answer in answers)
-        compared = [_compared(a, b, part) for a, b in zip(right or [], got or []) if _comparable(a, b)]
+        compared = [_compared(a, b, part) for a, b in zip(right or [], got or []) if _comparable(a, b, part)]
     return Case(part.name, number, seed, inputs, tuple(compared))
 
 
@@ -165,8 +166,11 @@ def _plain(value: Any) -> Any:
     return name if isinstance(name, Text) else Text(*(" ".join(str(name).split()),) * 2)
 
 
-def _comparable(right: Value, got: Value) -> bool:
-    return right.array is not None and got.array is not None and right.array.shape == got.array.shape
+def _comparable(right: Value, got: Value, part: Part) -> bool:
+    """Whether two values can be shown beside each other: what stands for a measurement that is none cannot."""
+    if right.array is None or got.array is None or right.array.shape != got.array.shape:
+        return False
+    return part.call is not timed or bool(np.isfinite(got.array).all())
 
 
 def _compared(right: Value, got: Value, part: Part) -> Compared:

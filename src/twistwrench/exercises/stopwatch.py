@@ -16,6 +16,10 @@ UP = 2.0**16
 """Seconds since which a machine runs: its clock does not begin at zero, as no real one does."""
 
 
+GOLDEN = (5**0.5 - 1) / 2
+"""Its multiples, without their whole parts, are spread evenly."""
+
+
 class Machine:
     """A clock on a machine that has one of the faults of real ones, the same each time.
 
@@ -36,6 +40,8 @@ class Machine:
         From which call on everything takes three times as long.
     drift : float
         By which part of the first call's time each call takes longer than the one before.
+    wobble : float
+        By which part of their time calls differ at most.
 
     Examples
     --------
@@ -56,8 +62,9 @@ class Machine:
         paused_at: Collection[int] = (),
         slow_from: int | None = None,
         drift: float = 0,
+        wobble: float = 0,
     ) -> None:
-        self.name, self._drift = name, drift
+        self.name, self._drift, self._wobble = name, drift, wobble
         self._start, self._pause, self._paused_at, self._slow_from = start, pause, paused_at, slow_from
         self.reset()
 
@@ -76,7 +83,8 @@ class Machine:
         """Let the time of a task pass."""
         k = self.calls - self._before if self.readings else 0
         late = self._slow_from is not None and k >= self._slow_from
-        self._now += (3 if late else 1) * (1 + self._drift * k) * task.seconds
+        longer = self._drift * k + self._wobble * (k * GOLDEN % 1)
+        self._now += (3 if late else 1) * (1 + longer) * task.seconds
         self._now += 0 if task in self._met else self._start
         self._now += self._pause if self.readings and k in self._paused_at else 0
         self._met.add(task)

@@ -70,8 +70,8 @@ def edits(
         if kind == "sign" and not inspect.isclass(solution):
             yield from of_arguments(_guarded(sources))
             yield from of_order(_guarded(sources))
-    for source in sources[:1]:
-        yield from source.pairs()
+    if not inspect.isclass(solution):  # two slips in two methods may make up for each other
+        yield from sources[0].pairs()
 
 
 def _guarded(sources: list[Source]) -> Function:
@@ -148,7 +148,7 @@ class Source:
 
     def edits(self, kind: str) -> Iterator[Edit]:
         """Yield the edits of one kind: each by itself, then those that are the same in several places together."""
-        alike: dict[tuple[str, str], list[Place]] = {}
+        alike: dict[tuple[Any, tuple[str, str]], list[Place]] = {}
         made = [(*place, x) for place in self.places for k, x in self._alternatives(place[0], place[2]) if k == kind]
         if kind == "sign":  # a plus for a minus before a minus more, and that as near to the result as may be
             made.sort(key=lambda place: (isinstance(place[3], ast.UnaryOp), -place[2].lineno))
@@ -156,10 +156,11 @@ class Source:
             texts = self.texts(kind, place)
             if texts[0] == texts[1]:
                 continue  # two names that are one, exchanged
-            alike.setdefault(mark(texts, *place[2:]), []).append(place)
+            method = next((id(x) for x in place[0] if isinstance(x, ast.FunctionDef)), None)  # in two it is two
+            alike.setdefault((method, mark(texts, *place[2:])), []).append(place)
             yield from self.made(kind, texts, [place])
         yield from self._halves() if kind == "halves" else self._crossed() if kind == "exchanged" else ()
-        for (right, wrong), places in alike.items():
+        for (_, (right, wrong)), places in alike.items():
             if kind == "number" and len({field for _, field, *_ in places}) > 1:
                 continue  # where a slice begins and where another ends are two things
             if len(places) > 1:

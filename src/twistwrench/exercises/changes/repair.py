@@ -142,7 +142,9 @@ class Repair:
             return say("both edits", first=first, second=second)
         if edit.line:
             around, became = changed_around(edit.places[0], edit.right) if edit.places else ("", "")
-            if around.count(edit.right) > 1 and not edit.everywhere:  # which of them is seen in the whole only
+            if not edit.places and edit.kind != "argument":  # it may be any of them
+                title = say("one place", title=title)
+            elif around.count(edit.right) > 1 and not edit.everywhere:  # which of them is seen in the whole only
                 title = say("repair instead", wrong=around, right=became)
             else:
                 title = said_where(edit, title)

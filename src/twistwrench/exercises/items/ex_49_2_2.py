@@ -84,7 +84,7 @@ ARC = Part(
     },
     residuals=(
         lambda answer, omega_z, v_x: answer[:3, :3].mT @ answer[:3, :3] - np.eye(3),
-        lambda answer, omega_z, v_x: tw.log6(answer) - [0, 0, omega_z, v_x, 0, 0],
+        lambda answer, omega_z, v_x: (tw.log6(answer) - [0, 0, omega_z, v_x, 0, 0]) * (abs(omega_z) < np.pi),
     ),
 )
 

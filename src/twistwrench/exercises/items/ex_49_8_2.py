@@ -50,6 +50,7 @@ EXERCISE = Exercise(
                 "njoints-for-nv": lambda: (14, 13),
                 "base-as-one": lambda: (13, 12),
                 "world-as-body": lambda: (18, 13),
+                "joint-too-many": lambda: (19, 13),
                 "base-rows-kept": lambda: (18, 18),
                 "entries-for-rows": lambda: (18**2, 12**2),
             },

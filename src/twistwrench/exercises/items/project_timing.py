@@ -38,6 +38,16 @@ def _machines(rng: Any) -> Any:
     return [(Task(machine, float(rng.uniform(1e-5, 1e-3))), calls, machine) for machine in machines]
 
 
+def _unsteady(rng: Any) -> Any:
+    """Return a task of which each call takes up to 1 % longer, on a machine that is interrupted often, or never."""
+    often_too = Text("each call up to 1 % longer, interrupted often", "每次调用长短相差不到 1 %，且常被打断")
+    machines = [
+        Machine(Text("each call up to 1 % longer", "每次调用长短相差不到 1 %"), wobble=0.01),
+        Machine(often_too, pause=0.01, paused_at=often(rng, 2000), wobble=0.01),
+    ]
+    return [(Task(machine, float(rng.uniform(1e-5, 1e-3))), 100, machine) for machine in machines]
+
+
 def _block(task: Any, calls: Any, clock: Any) -> Any:
     """Time all calls at once."""
     start = clock()
@@ -74,6 +84,7 @@ TIME = Part(
     solution=time_per_call,
     returns=(Quantity("time", unit="s"),),
     cases=_machines,
+    edges=_unsteady,
     call=timed,
     canonical=lambda answer, task, calls, clock: _near(answer, task),
     slips={

@@ -41,12 +41,20 @@ def few_entries(part: Part, answers: Answers, cases: Cases) -> bool:
 def broken_property(part: Part, answers: Answers, cases: Cases) -> Text | None:
     """Return the first property of right answers that one of these lacks, in the first case in which any is lacking."""
     for answer, arguments in zip(answers, cases):
+        right = part.value(part.solution, arguments)
+        if _shapes(part, answer) != _shapes(part, right):
+            return None  # rows and columns would be others
         for item in part.properties:
             try:
-                both = [item.residual(x, *arguments) for x in (answer, part.value(part.solution, arguments))]
+                both = [item.residual(x, *arguments) for x in (answer, right)]
                 residual, of_right = (np.abs(np.asarray(x, complex)) for x in both)
             except MISHAPS:
                 return None
             if np.isfinite(residual).all() and (residual > NOTICEABLE).any() and (of_right <= NOTICEABLE).all():
                 return item.text
     return None
+
+
+def _shapes(part: Part, answer: Any) -> list[Any]:
+    """Return the shape of each thing that is returned."""
+    return [None if x.array is None else x.array.shape for x in values(answer, part.returns) or []]

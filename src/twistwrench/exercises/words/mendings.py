@@ -100,6 +100,7 @@ MENDINGS = {
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
     "twice": Text("{title}, in two places", "{title}（两处都是）"),
     "both places": Text("{title}, in `{first}` and in `{second}`", "{title}（在 `{first}` 和 `{second}` 中）"),
+    "one place": Text("{title}, in one of its places there", "{title}（该行中改一处即可）"),
     "in place": Text("{title}, in `{around}`", "{title}（在 `{around}` 中）"),
     "everywhere": Text("{title}, wherever it stands", "{title}（每一处都是）"),
 }
