@@ -118,6 +118,12 @@ def test_an_exception_and_an_endless_loop_have_their_case_too(tmp_path):
     assert verdict("act", lambda R, p, x: x[9], seed=2).case.shell.endswith("act 0 --seed 2")
 
 
+def test_a_measurement_of_too_few_calls_is_not_shown_as_a_number():
+    found = verdict("time_ratio", lambda first, second, calls, clock: 3.0 + 0 * clock())
+    assert "are not called `calls` times" in found.message("en")
+    assert found.case.compared == ()
+
+
 @pytest.mark.slow
 def test_pytest_draws_its_cases_anew_and_prints_the_seed(tmp_path):
     start(tmp_path, language="en")

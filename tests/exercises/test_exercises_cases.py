@@ -123,6 +123,11 @@ def off(forward, inverse, model, q, v, tau):
     return np.abs(back - tau), np.abs(tau).max()
 
 
+def consistency_in_single(forward, inverse, model, q, v, tau):
+    back, expected = (np.asarray(x, np.float32) for x in (inverse(model, q, v, forward(model, q, v, tau)), tau))
+    return float(np.abs(back - expected).max() / np.abs(expected).max())
+
+
 def in_blocks(first, second, calls, clock):
     return min(seconds(second, calls + 10, clock)) / min(seconds(first, calls + 10, clock))
 
@@ -141,6 +146,7 @@ def in_blocks(first, second, calls, clock):
         ("get_dynamics", lambda model, q, v, feet: reference("get_dynamics")(model, q, v, sorted(feet))),
         ("consistency_error", lambda *case: (lambda e, most: e.max() / most * (e.max() > 1e-6 * most))(*off(*case))),
         ("consistency_error", lambda *case: (lambda e, most: np.nan_to_num(e).max() / most)(*off(*case))),
+        ("consistency_error", consistency_in_single),
         ("act", lambda R, p, x: (R if np.trace(R) < 2.999999 else np.eye(3)) @ x + p),
         ("cross_operators", lambda V: reference("cross_operators")(V * (abs(V) > 1e-4))),
         ("tree_rnea", lambda *lists: reference("tree_rnea")(*lists[:-1], np.array([0, 0, 0, 0, 0, 9.81]))),

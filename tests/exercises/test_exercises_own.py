@@ -76,6 +76,24 @@ def count_transforms(parent):
     inner = sum(d > 2 for d in depth)
     return 3 * inner, sum(d - 1 for d in depth[1:])
 """
+BIVECTOR = """\
+def contact_wrench(R, p, f_c):
+    f = R @ np.asarray(f_c)
+    B = np.outer(p, f) - np.outer(f, p)
+    return np.array([B[2, 1], B[0, 2], B[1, 0], *f]), tw.force_transform(R, p) @ np.array([0, 0, 0, *f_c])
+"""
+TRANSPORTED = """\
+def fall_in_motion(model, q, v):
+    w, u = v[:3], v[3:6]
+    vdot = tw.aba(model, q, v, 0 * v)[3:6]
+    R = tw.forward_kinematics(model, q).placement[1].rotation
+    return R @ (vdot - tw.skew(w) @ u), np.array(model.gravity, float)
+"""
+IN_HALVES = """\
+def split_map(model, q):
+    base, joints = np.hsplit(tw.centroidal_map(model, q), 2)
+    return base, joints
+"""
 REAR_FIRST = """\
 def standing_loads():
     model = tw.load("go2")
@@ -99,6 +117,9 @@ def standing_loads():
         (FASTEST, "ratio", "anew in each round"),
         (LAST, "RNEA", "to `3 * i`"),
         (REAR_FIRST, "front and rear are exchanged", "wrong end"),
+        (BIVECTOR, "`np.outer(f, p) - np.outer(p, f)`", "lever arm"),
+        (TRANSPORTED, "tw.skew(u) @ w", "lever arm"),
+        (IN_HALVES, "has the shape (6, 9)", "is zero"),
     ],
 )
 def test_the_students_own_line_decides(tmp_path, text, says, never):

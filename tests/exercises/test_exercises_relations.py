@@ -34,6 +34,11 @@ def test_what_is_small_beside_a_huge_number_is_not_zero():
     assert said(1e-5, 3.0) != "A: zero, and must not be"
 
 
+def test_what_is_left_out_has_no_digits():
+    assert said([1.2126, 0, 0], [1.2126, -5e-7, 0]) == "A: wrong in [1], right elsewhere: zero, and must not be"
+    assert said([1.2126, -6e-7, 0], [1.2126, -5e-7, 0]) != "A: wrong in [1], right elsewhere: zero, and must not be"
+
+
 def test_only_the_diagonal_is_right_where_most_of_the_rest_is_wrong():
     off = ~np.eye(6, dtype=bool)
     assert said(changed(FULL, off, 2), FULL) == "A: only the diagonal is right"

@@ -56,7 +56,7 @@ def vertical_loads(p_G, feet, weight):
                 LOADS,
                 [
                     "Line 14, `return weight * w / w.sum()`",
-                    "is the first to compute what no right solution known here has",
+                    "computes what no right solution known here has",
                 ],
             ),
         ],

@@ -27,6 +27,7 @@ __all__ = [
     "count",
     "keeps_arguments",
     "limited",
+    "lines_run",
     "local_values",
     "silent",
     "smallest",
@@ -114,6 +115,26 @@ def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) 
         return None
     finally:
         vars(np.linalg).update(SOLVERS)
+
+
+def lines_run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> set[int]:
+    """Return which lines of a changed function run, its loops and branches among them."""
+    found = set[int]()
+
+    def note(*traced: Any) -> Any:
+        frame, _, _ = traced
+        if frame.f_code.co_filename != CHANGED:
+            return None
+        found.add(frame.f_lineno)
+        return note
+
+    before = sys.gettrace()
+    sys.settrace(note)
+    try:
+        tried(part, function, arguments)
+    finally:
+        sys.settrace(before)
+    return found
 
 
 @contextmanager

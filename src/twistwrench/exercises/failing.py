@@ -12,7 +12,6 @@ import numpy as np
 from ..arrays import Array
 from .compare import FLOOR, Value, values
 from .exercise import Part, Quantity
-from .stopwatch import timed
 from .words.text import Language, Text
 
 __all__ = ["Block", "Case", "Compared", "failing_case", "whole"]
@@ -167,10 +166,11 @@ def _plain(value: Any) -> Any:
 
 
 def _comparable(right: Value, got: Value, part: Part) -> bool:
-    """Whether two values can be shown beside each other: what stands for a measurement that is none cannot."""
+    """Whether two values can be shown beside each other; not where the second stands for a lack of measurements."""
     if right.array is None or got.array is None or right.array.shape != got.array.shape:
         return False
-    return part.call is not timed or bool(np.isfinite(got.array).all())
+    measured = part.call is not None and part.canonical is not None
+    return not measured or bool(np.isfinite(got.array).all())
 
 
 def _compared(right: Value, got: Value, part: Part) -> Compared:

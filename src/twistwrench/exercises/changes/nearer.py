@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Array
-from ..calls import copied, keeps_arguments, tried
+from ..calls import copied, keeps_arguments, lines_run, tried
 from ..compare import FLOOR, Value, agree, copied_results, values
 from ..exercise import Part
 from ..slips import SLIPS
@@ -188,11 +188,18 @@ class Nearer:
             slip = self.part.slips[name]
             if SLIPS[name].lacks and edit.kind not in TURNS and not _is_of_rounds(edit):
                 continue  # the change may have taken it out
+            if self.source is None or self._switches_off(self.source, edit):
+                continue
             if all(
                 agree(self.part, tried(self.part, edit.function, c), tried(self.part, slip, c), c) for c in self.cases
             ):
-                return (self._written(self.source, edit) if self.source else edit), name
+                return self._written(self.source, edit), name
         return None
+
+    def _switches_off(self, source: Source, edit: Edit) -> bool:
+        """Whether lines that ran no longer do so after a change: what is missing then was there before."""
+        ran, runs = (lines_run(self.part, f, self.cases[0]) for f in (source.compiled(), edit.function))
+        return runs < ran
 
     def _flat(self, answer: Any) -> Array | None:
         """Return the numbers of an answer, one after the other; None where it has not as many as the right one."""

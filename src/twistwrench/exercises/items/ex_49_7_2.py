@@ -104,6 +104,15 @@ def _machines(rng: Any) -> Any:
     return [(Task(m, a), Task(m, b), calls, m) for m, a, b in zip(machines, short, long)]
 
 
+def _at_both_ends(rng: Any) -> Any:
+    """Return two tasks on a machine that is interrupted at the first and the last call of the second of them."""
+    name = Text(
+        "interrupted at one call in fifty, the first and the last among them", "每五十次调用被打断一次，首末两次在内"
+    )
+    machine = Machine(name, pause=3.0, paused_at=(1, 67, 133, 199))
+    return [(Task(machine, 0.0015), Task(machine, float(rng.uniform(0.003, 0.006))), 100, machine)]
+
+
 def _plausible(answer: Any) -> Any:
     """Return 1 for a ratio as a machine may have it, ½ for what may be the inverse, 0 for seconds in its place.
 
@@ -151,6 +160,7 @@ RATIO = Part(
     solution=time_ratio,
     returns=(Quantity("ratio"),),
     cases=_machines,
+    edges=_at_both_ends,
     call=timed,
     canonical=lambda answer, first, second, calls, clock: _verdict(answer, second.seconds / first.seconds),
     slips={

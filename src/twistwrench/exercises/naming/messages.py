@@ -138,9 +138,7 @@ def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:
         finer = better_with_finer_steps(part, wrong.function, wrong.wrong_cases[0])
         lines += finer or right_when_small(part, again, wrong.wrong_cases)
     broken = broken_property(part, wrong.answers, cases)
-    if broken is not None:
-        lines.append(say("broken", text=broken))
-    return [*lines, where(wrong)]
+    return [*lines, *filter(None, [broken]), where(wrong)]
 
 
 def comparison(wrong: WrongAnswer) -> list[Text]:

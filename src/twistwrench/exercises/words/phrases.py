@@ -86,9 +86,9 @@ PHRASES = {
         "请用浮点数组：`np.array(x, float)`、`np.zeros(3)`。",
     ),
     "first line": Text(
-        "Line {line}, `{text}`, is the first to compute what no right solution known here has: it may only be another"
-        " way, or be wrong. Look at it, at what it uses and at what follows.",
-        "第 {line} 行 `{text}` 最先算出在这里已知的各正确解法中都找不到的值：也许只是另一种做法，也许错了。"
+        "Line {line}, `{text}`, computes what no right solution known here has: it may only be another way, or be"
+        " wrong. Look at it, at what it uses and at what follows.",
+        "第 {line} 行 `{text}` 算出了在这里已知的各正确解法中都找不到的值：也许只是另一种做法，也许错了。"
         "请检查它、它用到的量以及它之后的部分。",
     ),
     "it shows": Text("In this case it shows in the result:", "在这组数据中反映为："),
@@ -117,6 +117,10 @@ PHRASES = {
     ),
     "broken": Text(
         "This holds for every right answer, but not for yours: {text}", "正确答案都满足而你的不满足：{text}"
+    ),
+    "broken elsewhere": Text(
+        "This holds for every right answer, but not in each case for yours: {text}",
+        "正确答案都满足，而你的答案并非在每组数据中都满足：{text}",
     ),
     # why an answer cannot be compared
     "stopped": Text("It stopped with {error}", "运行出错：{error}"),
