@@ -106,7 +106,7 @@ def test_so_they_are_without_machine_code(recipe):
 @pytest.mark.slow
 @given(recipes(25), st.sampled_from([np.float64, np.float32, np.longdouble]))
 @example(BIG_TREE, np.float64)
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=3, deadline=None)
 def test_errors_are_within_twice_those_of_the_textbook_at_length(recipe, dtype):
     assert_as_good(recipe.model, recipe.state(dtype=dtype), [recipe.frame(), recipe.model.frame_names[-1]])
 

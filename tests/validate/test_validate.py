@@ -503,8 +503,7 @@ def test_every_robot_of_the_catalogue_is_on_both_bases():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("base", ["fixed", "floating"])
-@pytest.mark.parametrize("robot", ["romeo", "icub", "iris"])
+@pytest.mark.parametrize(("robot", "base"), [("romeo", "floating"), ("icub", "fixed"), ("iris", "floating")])
 def test_robots_of_example_robot_data_pass(robot, base):
     if not any(name == robot for name, _ in sweep.every_robot()):
         pytest.skip("example-robot-data is not installed")
