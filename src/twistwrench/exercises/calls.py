@@ -10,7 +10,7 @@ import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import wraps
+from functools import partial, wraps
 from typing import Any
 
 import numpy as np
@@ -27,10 +27,10 @@ __all__ = [
     "count",
     "keeps_arguments",
     "limited",
-    "lines_run",
     "local_values",
     "silent",
     "smallest",
+    "switches_off",
     "tried",
 ]
 
@@ -117,7 +117,24 @@ def tried(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) 
         vars(np.linalg).update(SOLVERS)
 
 
-def lines_run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> set[int]:
+def switches_off(part: Part, before: Function, after: Function, arguments: tuple[Any, ...]) -> bool:
+    """Whether a change makes lines that ran run no longer, or makes zero what was not, by its name."""
+    ran, runs = (_lines_run(part, f, arguments) for f in (before, after))
+    were, are = (
+        next(iter(local_values(partial(tried, part, f), (f,), (arguments,)).values()), {}) for f in (before, after)
+    )
+    return runs < ran or any(_counts(x) and _is_zero(are.get(name)) for name, x in were.items())
+
+
+def _counts(x: Any) -> bool:
+    return isinstance(x, np.ndarray) and x.dtype.kind == "f" and bool(x.any())
+
+
+def _is_zero(x: Any) -> bool:
+    return isinstance(x, np.ndarray) and x.size > 0 and not x.any()
+
+
+def _lines_run(part: Part, function: Function, arguments: tuple[Any, ...]) -> set[int]:
     """Return which lines of a changed function run, its loops and branches among them."""
     found = set[int]()
 

@@ -18,6 +18,7 @@ written       the source of a student's function, with the helpers that it calls
 of_wrenches   whether a change would transform a wrench as a twist, or a twist as a wrench
 plausible     which changes are slips that somebody makes
 likeness      which changes are the same for a student, and which are less likely than others
+sound         whether a change that makes a function right holds in special cases too
 nearer        changes that make a part of an answer right
 search        the edit of the right function that gives the student's numbers
 meanings      what a change means: a condition that always holds, an argument of zeros

@@ -52,13 +52,14 @@ class Chosen:
         self.sure: list[Repair] = []
         self.later: list[Repair] = []
         self.spare: list[Repair] = []
+        self.narrow: list[Repair] = []
 
     @property
     def reported(self) -> list[Repair]:
-        """Those that are reported; one that blames a right line only where there is no other."""
+        """Those that are reported; one that blames a right line, or is wrong elsewhere, only if there is no other."""
         straight = [x for x in self.sure if not x.roundabout]
         likely = sorted(straight, key=lambda repair: by_detour(repair.edit)) + self.later
-        return likely[:MOST] or self.spare[:1] or self.sure
+        return likely[:MOST] or self.spare[:1] or self.sure or self.narrow[:1]
 
     def ended(self, kind: str) -> bool:
         """Whether the search may end before the changes of this kind."""
@@ -76,6 +77,9 @@ class Chosen:
     def add(self, repair: Repair) -> None:
         """Take in a change that makes the function right."""
         edit, now, judged = repair.edit, time.process_time(), self.judged(repair)
+        if repair.narrow:
+            self.narrow += [] if judged.roundabout else [judged]
+            return
         self.until = min(self.until, 2 * now - self.begun + LONGER)
         wrong_before = repair.in_header or self.lines.blameless(repair.line)
         if judged.unsure:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Array
-from ..calls import copied, keeps_arguments, lines_run, tried
+from ..calls import switches_off, tried
 from ..compare import FLOOR, Value, agree, copied_results, values
 from ..exercise import Part
 from ..slips import SLIPS
@@ -21,9 +21,10 @@ from ..words.text import Text
 from .edits import Source
 from .likeness import alike
 from .plausible import turns_the_rest
+from .sound import Sound
 from .whole import Edit
 
-__all__ = ["Nearer", "sound"]
+__all__ = ["Nearer"]
 
 MOST = 10
 """First changes after which a second one is looked for."""
@@ -173,7 +174,10 @@ class Nearer:
             if not agree(self.part, given[-1], self.right[k], self.cases[k]):
                 return False
         once = bool(given) and not copied_results(given[1:], self.right, self.answers)
-        return once and self.source is not None and sound(self.part, self.source.solution, edit.function, self.cases[0])
+        if not once or self.source is None:
+            return False
+        sound = Sound(self.part, self.source.solution)
+        return sound.good(edit.function, self.cases[0]) and sound.everywhere(edit.function)
 
     def spoils(self, function: Callable[..., Any]) -> bool:
         """Whether a changed function gives wrong numbers where the answer has right ones."""
@@ -188,18 +192,13 @@ class Nearer:
             slip = self.part.slips[name]
             if SLIPS[name].lacks and edit.kind not in TURNS and not _is_of_rounds(edit):
                 continue  # the change may have taken it out
-            if self.source is None or self._switches_off(self.source, edit):
-                continue
+            if self.source is None or switches_off(self.part, self.source.compiled(), edit.function, self.cases[0]):
+                continue  # what is missing then was there before
             if all(
                 agree(self.part, tried(self.part, edit.function, c), tried(self.part, slip, c), c) for c in self.cases
             ):
                 return self._written(self.source, edit), name
         return None
-
-    def _switches_off(self, source: Source, edit: Edit) -> bool:
-        """Whether lines that ran no longer do so after a change: what is missing then was there before."""
-        ran, runs = (lines_run(self.part, f, self.cases[0]) for f in (source.compiled(), edit.function))
-        return runs < ran
 
     def _flat(self, answer: Any) -> Array | None:
         """Return the numbers of an answer, one after the other; None where it has not as many as the right one."""
@@ -270,16 +269,6 @@ def _is_of_rounds(edit: Edit) -> bool:
         and isinstance(edit.inside, ast.Call)
         and ast.unparse(edit.inside.func) == "range"
     )
-
-
-def sound(part: Part, function: Callable[..., Any], changed: Callable[..., Any], arguments: tuple[Any, ...]) -> bool:
-    """Whether a changed function is right in the degenerate cases in which it gave an answer before.
-
-    Nor may it change an argument that it left as it was.
-    """
-    edges = [c for c in part.edges(np.random.default_rng(0)) if tried(part, function, c) is not None]
-    right = all(agree(part, tried(part, changed, c), part.value(part.solution, copied(c)), c) for c in edges)
-    return right and (keeps_arguments(part, changed, arguments) or not keeps_arguments(part, function, arguments))
 
 
 def _near(x: Array, y: Array | None) -> bool:

@@ -51,9 +51,9 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
     if edit.kind == "number" and " != 0" in before and " != 0" not in after:
         return False  # nobody takes another number for the zero that must not be divided by
     if edit.kind == "left out" and any(
-        isinstance(x, ast.Tuple) and isinstance(y[-1], ast.Assign) for y, _, x, _ in edit.places
+        isinstance(x, ast.Tuple) and isinstance(y[-1], ast.Assign | ast.Subscript) for y, _, x, _ in edit.places
     ):
-        return False  # one of several things that get names is only switched off
+        return False  # one of several things that get names, or an index, is only switched off
     if _unpacked(before, after, text) or _kept(before, after, text):
         return False
     if edit.kind == "name" and (_left_over(edit, text) or _added_up(edit, text)):

@@ -50,6 +50,8 @@ class Repair:
         What is said in place of what it puts there.
     unsure : bool
         Whether what its line computes is right, so that another line may be wrong.
+    narrow : bool
+        Whether the function is then still wrong in special cases.
     """
 
     edit: Edit
@@ -58,6 +60,7 @@ class Repair:
     blocks: tuple[Text, ...] = ()
     meaning: Text | None = None
     unsure: bool = False
+    narrow: bool = False
 
     @property
     def one_piece(self) -> bool:

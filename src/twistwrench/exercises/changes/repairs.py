@@ -8,6 +8,7 @@ import io
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import replace
 from typing import Any
 
 import twistwrench
@@ -19,10 +20,11 @@ from .alternatives import KINDS
 from .chosen import Chosen, Lines
 from .edits import Source
 from .meanings import meaning
-from .nearer import Nearer, sound
+from .nearer import Nearer
 from .plausible import plausible
 from .repair import Repair
 from .search import Remembering, by_chance, of_whole_numbers, of_words, same
+from .sound import Sound
 from .whole import Edit, of_arguments, of_order
 from .written import text_written, written
 
@@ -95,7 +97,7 @@ def repairs(
     if words and len(words) == len(part.returns):
         return []
     found: dict[int, Repair] = {}
-    chosen = Chosen(lines, few=not cases[first])
+    chosen, sound = Chosen(lines, few=not cases[first]), Sound(part, function)
     source = source_of(part, function, cases[first])
     if source is None or (pairs and rare):  # two slips that make up for each other in most cases are not made
         return []
@@ -113,10 +115,11 @@ def repairs(
                 continue
             others = [tried(part, edit.function, arguments) for arguments in cases]
             if all(agree(part, a, b, c) for a, b, c in zip(others, right, cases)):
-                if copied_results(others, right, answers) or not sound(part, function, edit.function, cases[first]):
+                if copied_results(others, right, answers) or not sound.good(edit.function, cases[first]):
                     continue  # what is asked for in two ways is not computed in one
                 edit = source.as_written(edit, lambda f: _right(part, f, right[first], cases[first]))
-                chosen.add(Repair(edit, meaning=meaning(source, edit, part, right, cases)))
+                repair = Repair(edit, meaning=meaning(source, edit, part, right, cases))
+                chosen.add(replace(repair, narrow=not sound.everywhere(edit.function)))
                 continue
             if edit.kind == "result" or all(
                 same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here

@@ -48,9 +48,9 @@ def _times(rng: Any) -> Any:
 
 
 def _again(rng: Any) -> Any:
-    """Return a size that is measured twice; and sizes that are whole numbers."""
-    sizes = np.array([20.0, 20, 40, 80]), np.array([20, 40, 80, 160])
-    return [(N, 1e-6 * N**1.5 * rng.uniform(0.8, 1.2, 4)) for N in sizes]
+    """Return a size that is measured twice; sizes that are whole numbers; and times of hours."""
+    sizes = np.array([20.0, 20, 40, 80]), np.array([20, 40, 80, 160]), np.array([20.0, 40, 80, 160])
+    return [(N, unit * N**1.5 * rng.uniform(0.8, 1.2, 4)) for N, unit in zip(sizes, (1e-6, 1e-6, 60))]
 
 
 COUNT = Part(

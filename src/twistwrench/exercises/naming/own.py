@@ -130,6 +130,8 @@ def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     whole = [x for x in whole if x.edit.kind != "name" or not lacking or isinstance(x.edit.inside, ast.Call)]
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
     either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
+    if whole and whole[0].narrow:
+        return [say("own code once", title=either), say("narrow")]
     return [say("own code", title=either)] if titles else []
 
 
@@ -165,7 +167,7 @@ def _exchanged(edit: Edit) -> str:
 
 def _ends(text: str) -> tuple[str, ...]:
     """Return the two ends of a lever arm; none where it is the difference of two products, or of nothing."""
-    if not difference_text(text) or re.search(r"\b(cross|outer|skew|hat|einsum)\(", text):
+    if not difference_text(text) or re.search(r"[@*]|\b(cross|outer|skew|hat|einsum)\(", text):
         return ()
     (difference,) = (x for x in nodes_of(text)[:3] if isinstance(x, ast.BinOp))
     return ast.unparse(difference.left), ast.unparse(difference.right)

@@ -22,6 +22,7 @@ from ..changes.plausible import plausible, turns_the_rest
 from ..changes.repair import Repair
 from ..changes.repairs import PAIRED, source_of
 from ..changes.search import Remembering, by_chance
+from ..changes.sound import Sound
 from ..changes.whole import Edit
 from ..changes.written import text_written
 from ..compare import agree, copied_results, only_zero_is_missed
@@ -86,7 +87,7 @@ class Stepwise:
         cases: Sequence[tuple[Any, ...]],
     ) -> None:
         self.part, self.right, self.answers, self.cases = part, right, answers, cases
-        self.text = text_written(function)
+        self.sound, self.text = Sound(part, function), text_written(function)
         wrong = [k for k, given in enumerate(zip(answers, right, cases)) if not agree(part, *given)]
         self.seldom = 2 * len(wrong) < len(cases)
         self.surplus = all(only_zero_is_missed(part, answers[k], right[k]) for k in wrong)
@@ -243,7 +244,8 @@ class Stepwise:
             given.append(tried(self.part, edit.function, self.cases[k]))
             if not agree(self.part, given[-1], self.right[k], self.cases[k]):
                 return False
-        return not copied_results(given[1:], self.right, self.answers)
+        good = self.sound.good(edit.function, self.cases[self.first]) and self.sound.everywhere(edit.function)
+        return good and not copied_results(given[1:], self.right, self.answers)
 
 
 def _rewritten(kinds: set[str]) -> bool:

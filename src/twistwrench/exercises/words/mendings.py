@@ -39,6 +39,14 @@ MENDINGS = {
         "do always what is done only where `{wrong}` holds", "只在 `{wrong}` 成立时才做的事，总是要做"
     ),
     "own code": Text("In your code this would make it right: {title}.", "在你的代码中，这样改就会正确：{title}。"),
+    "own code once": Text(
+        "In your code this would make it right in the cases tried so far: {title}.",
+        "在你的代码中，这样改后，目前试过的各组数据都会正确：{title}。",
+    ),
+    "narrow": Text(
+        "In special cases it is then still wrong: something else is wrong as well, or your slip is another one.",
+        "改后在一些特殊数据中仍然不对：还有别处出错，或者你的错因是另一处。",
+    ),
     "sign of result": Text(
         "change the sign of all that is returned: `{right}` in place of `x`",
         "改变所有返回值的符号：返回 `{right}` 而不是 `x`",

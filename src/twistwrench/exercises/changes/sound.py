@@ -1,0 +1,51 @@
+"""Whether a change that makes a function right is a cure: it leaves the arguments alone, and holds in special cases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..calls import copied, keeps_arguments, tried
+from ..cases import special_cases
+from ..compare import agree
+from ..exercise import Part
+
+__all__ = ["Sound"]
+
+Function = Callable[..., Any]
+
+
+class Sound:
+    """What is asked of a change of a function beyond the cases in which the answer was wrong.
+
+    Parameters
+    ----------
+    part : Part
+    function : callable
+        The student's, as it is.
+    """
+
+    def __init__(self, part: Part, function: Function) -> None:
+        self.part, self.function = part, function
+
+    def good(self, changed: Function, arguments: tuple[Any, ...]) -> bool:
+        """Whether a changed function is right in the degenerate cases in which it gave an answer before.
+
+        Nor may it change an argument that it left as it was.
+        """
+        part = self.part
+        edges = [c for c in part.edges(np.random.default_rng(0)) if tried(part, self.function, c) is not None]
+        right = all(agree(part, tried(part, changed, c), part.value(part.solution, copied(c)), c) for c in edges)
+        kept = keeps_arguments(part, changed, arguments) or not keeps_arguments(part, self.function, arguments)
+        return right and kept
+
+    def everywhere(self, changed: Function) -> bool:
+        """Whether a changed function is right in all special cases: what only happens to be right is not."""
+        return all(agree(self.part, tried(self.part, changed, c), right, c) for c, right in self._special)
+
+    @cached_property
+    def _special(self) -> list[tuple[tuple[Any, ...], Any]]:
+        return [(c, self.part.value(self.part.solution, copied(c))) for c in special_cases(self.part, 0)]
