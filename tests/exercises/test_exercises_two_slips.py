@@ -262,3 +262,54 @@ def test_no_mending_is_offered_that_nobody_would_make(tmp_path, text, never):
 )
 def test_an_approximation_is_reported_by_what_makes_it_better(tmp_path, text, says):
     assert says in said_of(tmp_path, text)
+
+
+def test_a_change_that_leaves_special_cases_wrong_says_so(tmp_path):
+    """Two slips: the second, 9.81 in place of the model's gravity, is seen on another planet only."""
+    said = said_of(
+        tmp_path,
+        "def base_wrench_at_rest(model, q):\n"
+        "    R, p = tw.forward_kinematics(model, q).placement[1].rotation, q[:3]\n"
+        "    f = R.T @ np.array([0, 0, 9.81 * sum(body.mass for body in model.inertia)])\n"
+        "    return np.r_[np.cross(R.T @ tw.center_of_mass(model, q) - p, f), f]\n",
+    )
+    assert "right in the cases tried so far: line 14, change `R.T @ tw.center_of_mass(model, q) - p`" in said
+    assert "In special cases it is then still wrong" in said
+
+
+@pytest.mark.parametrize(
+    ("text", "never"),
+    [
+        (  # the larger of slope and intercept
+            "def growth(sizes, seconds):\n"
+            "    x, y = np.log(sizes), np.log(seconds)\n"
+            "    slopes = np.diff(y) / np.diff(x)\n"
+            "    return float(np.mean(slopes))\n",
+            "max",
+        ),
+        (  # an index of zeros, so that the loop does nothing
+            "def gravity_two_ways(model, weightless, q, v, a):\n"
+            "    local = mine('weight_wrenches')(model, q)\n"
+            "    world = np.array(local)\n"
+            "    for i, T in enumerate(tw.forward_kinematics(model, q).placement):\n"
+            "        world[i, :3] = T.rotation @ local[i, :3]\n"
+            "        world[i, 3:] = T.rotation @ local[i, 3:]\n"
+            "    return tw.rnea(model, q, v, a), tw.rnea(weightless, q, v, a, f_ext=world)\n",
+            "zeros",
+        ),
+        pytest.param(  # h(q, v) = Ṁ v − ½ ∂(vᵀM v)/∂q + g with the base's twist for velocities: Ṁ is not missing
+            "def forward_dynamics_two_ways(model, q, v, tau):\n"
+            "    steps = 1e-5 * np.eye(model.nv)\n"
+            "    D = [\n"
+            "        (tw.crba(model, model.integrate(q, e)) - tw.crba(model, model.integrate(q, -e))) / 2e-5\n"
+            "        for e in steps\n"
+            "    ]\n"
+            "    h = np.einsum('kij,k,j->i', D, v, v) - 0.5 * np.einsum('kij,i,j->k', D, v, v) + tw.gravity(model, q)\n"
+            "    return tw.aba(model, q, v, tau), np.linalg.solve(tw.crba(model, q), tau - h)\n",
+            "only its gravity",
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
+def test_what_is_switched_off_is_no_cure(tmp_path, text, never):
+    assert never not in said_of(tmp_path, text)

@@ -130,8 +130,7 @@ def repairs(
                 if all(same(part, others, right, k) for k in {*every} - bad):
                     nearer.pieces |= {k: edit for k in here - {*nearer.pieces} if same(part, others, right, k)}
     if nearer is not None:
-        nearer.pieces |= {k: repair.edit for k, repair in found.items()}
-        nearer.bad = bad
+        nearer.pieces, nearer.bad = nearer.pieces | {k: repair.edit for k, repair in found.items()}, bad
     return chosen.reported or ([found[k] for k in sorted(found)] if found.keys() == bad else [])
 
 
