@@ -89,6 +89,33 @@ def fall_in_motion(model, q, v):
     R = tw.forward_kinematics(model, q).placement[1].rotation
     return R @ (vdot - tw.skew(w) @ u), np.array(model.gravity, float)
 """
+BOTH_TRANSPOSED = """\
+def plucker(R, p):
+    X = np.block([[R, np.zeros((3, 3))], [R @ tw.skew(p), R]])
+    return X, X.T
+"""
+READ_TOO_EARLY = """\
+def tree_rnea(parent, S, I, X, qd, qdd, a0):
+    V, A = [np.zeros(6)], [np.asarray(a0, float)]
+    for p, s, x, u, du in list(zip(parent, S, X, qd, qdd))[1:]:
+        V.append(x @ V[p] + s @ u)
+        A.append(x @ A[p] + s @ du + tw.cross_motion(V[-1]) @ s @ u)
+    F = [i @ a + tw.cross_force(v) @ (i @ v) for i, a, v in zip(I, A, V)]
+    tau = [s.T @ f for s, f in zip(S, F)]
+    for i, p in reversed(list(enumerate(parent))[1:]):
+        F[p] = F[p] + X[i].T @ F[i]
+    return np.concatenate(tau[1:])
+"""
+NORMAL = """\
+def center_of_pressure(F):
+    n = np.array([0.0, 0, 1])
+    return (np.cross(F[:3], n) / (F[3:] @ n))[:2]
+"""
+WORLD_COUNTED = """\
+def mass_matrix_sizes():
+    bodies, joints = tw.load("go2").nbodies, 12
+    return 6 * bodies - 5 * joints, 6 * (bodies - 1) - 5 * joints
+"""
 IN_HALVES = """\
 def split_map(model, q):
     base, joints = np.hsplit(tw.centroidal_map(model, q), 2)
@@ -120,6 +147,10 @@ def standing_loads():
         (BIVECTOR, "`np.outer(f, p) - np.outer(p, f)`", "lever arm"),
         (TRANSPORTED, "tw.skew(u) @ w", "lever arm"),
         (IN_HALVES, "has the shape (6, 9)", "is zero"),
+        (BOTH_TRANSPOSED, "Your X* is your X transposed", "−p"),
+        (READ_TOO_EARLY, "are added too late", "visited outward"),
+        (NORMAL, "the order of the factors is the sign", "velocity"),
+        (WORLD_COUNTED, "rows (fixed): too large", "are kept"),
     ],
 )
 def test_the_students_own_line_decides(tmp_path, text, says, never):

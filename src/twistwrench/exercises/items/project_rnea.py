@@ -86,6 +86,7 @@ RNEA = Part(
         "motion-cross-for-force": _changed(("bias_wrench(I[i], V[i])", "cross_motion(V[i]) @ I[i] @ V[i]")),
         "force-outward": _changed(("X[i].mT @ F[i]", "np.linalg.inv(X[i]).mT @ F[i]")),
         "motion-for-force": _changed(("X[i].mT @ F[i]", "np.linalg.inv(X[i]) @ F[i]")),
+        "children-lost": _changed((" + X[i].mT @ F[i]", "")),
         "children-overwritten": _changed(("tau[i] = S", "F[i] = B[i]; tau[i] = S")),
         "children-dropped": _changed((" + X[i].mT @ F[i]", "")),
         "force-sign": _changed(("+ X[i].mT @ F[i]", "- X[i].mT @ F[i]")),
@@ -100,7 +101,7 @@ RNEA = Part(
             parent, S, I, X, [0 * rate for rate in qd], qdd, a0
         ),
     },
-    alike=(frozenset({"children-overwritten", "children-dropped", "visited-outward"}),),  # lost in any case
+    alike=(frozenset({"children-lost", "children-overwritten", "children-dropped", "visited-outward"}),),
     residuals=(_power,),
 )
 

@@ -229,7 +229,8 @@ def _each_result(wrong: WrongAnswer) -> Explained | None:
         slips, shown = explained or ([], [say("it shows"), *map(indented, comparison(alone)), where(alone)])
         names += slips
         lines += [say("in result", name=wrong.part.returns[k].title), *map(indented, shown[:-1])]
-    return ([*dict.fromkeys(names)], [*lines, where(wrong)]) if any(found) else None
+    enough = all(found) if wrong.is_typed else any(found)  # one of two numbers alone is met by chance
+    return ([*dict.fromkeys(names)], [*lines, where(wrong)]) if enough else None
 
 
 def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:

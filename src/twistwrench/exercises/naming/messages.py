@@ -65,9 +65,15 @@ def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
 
 def named_by_piece(wrong: WrongAnswer, found: Mapping[str, list[str]]) -> list[Text]:
     """Name the slip in each thing that was returned; each reason once."""
-    lines, given, last = [], set(), wrong.exercise.section
+    lines: list[Text] = []
+    given, last = set[str](), wrong.exercise.section
     for name, slips in found.items():
         each = [wrong.slip(slip).title for slip in slips]
+        k = [q.name for q in wrong.part.returns].index(name)
+        other = wrong.transpose_of(k)
+        if other is not None and lines:  # it comes from the one before
+            lines.append(say("transposed as well", name=wrong.part.returns[k].title, other=other))
+            continue
         title = Text(", or ".join(t.en for t in each), "，或 ".join(t.zh for t in each))
         quantity = next(q for q in wrong.part.returns if q.name == name)
         lines.append(say("like slip in", name=quantity.title, title=title))

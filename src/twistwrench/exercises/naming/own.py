@@ -28,6 +28,9 @@ TURNED = ("sign", "wrong end", "mirrored", "factors of the cross product")
 FORCES = ("children-overwritten", "children-dropped")
 """Slips that may give the numbers of a loop in the wrong direction."""
 
+LOST = ("children-lost", *FORCES, "visited-outward")
+"""The first is said where a student's code does not tell which of the others it is."""
+
 BACKWARD = ("inverse", "wrong way")
 """Words of the titles of slips that no sign mends, but by chance."""
 
@@ -71,6 +74,9 @@ def borne_out(part: Part, found: list[str], function: Callable[..., Any], mended
         found = [slip for slip in found if slip not in SIGNS]  # by its numbers it may be any of these lines
     if edits and {*found} == {*SIGNS}:
         return []  # either would give the sign back, and others as well
+    if LOST[0] in found:
+        rest = [slip for slip in found if slip in LOST[1:]] if edits else []
+        found = rest if len(rest) == 1 else [LOST[0]]
     if len(found) < 2 or not source:
         return found
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import Array
 from ..calls import tried
 from ..changes.chosen import Lines
 from ..changes.nearer import Nearer
@@ -119,6 +120,15 @@ class WrongAnswer:
         telling = [(k, j) for k, j in others if any(map(tells, arrays(split[0][1][j].array)))]
         return [(k, j) for k, j in telling if all(a and close(a[k], b[j], self.part.rtol) for a, b in split)]
 
+    def transpose_of(self, k: int) -> Text | None:
+        """Return the name of another wrong result of which one is the transpose, where the right ones are not."""
+        split = [[values(x, self.part.returns) or [] for x in pair] for pair in zip(self.answers, self.right)]
+        for j in self.wrong_results:
+            both = [[(x[k].array, x[j].array) if x else (None, None) for x in pair] for pair in split]
+            if j != k and all(_turned(*own) for own, _ in both) and not all(_turned(*right) for _, right in both):
+                return self.part.returns[j].title
+        return None
+
     def other_orders(self) -> Iterator[tuple[Text, list[Any], list[Any]]]:
         """Yield the results with two wrong ones exchanged: how that is called, the answers, and the right values."""
         titles = [x.title for x in self.part.returns]
@@ -196,8 +206,16 @@ class WrongAnswer:
     def slip(self, name: str) -> Slip:
         """Return a slip with the name and the reason that this part has for it, if it has its own."""
         slip, titles, reasons = SLIPS[name], self.part.titles, self.part.reasons
-        section = self.exercise.section if name in reasons else slip.section
+        own = name in reasons or name not in self.part.slips
+        section = self.exercise.section if own else slip.section
         return Slip(titles.get(name, slip.title), reasons.get(name, slip.why), section)
+
+
+def _turned(a: Array | None, b: Array | None) -> bool:
+    """Whether a matrix is another one transposed."""
+    if a is None or b is None or a.ndim < 2 or a.shape != b.mT.shape:
+        return False
+    return bool(np.allclose(a, b.mT, rtol=1e-9, atol=1e-9))
 
 
 @dataclass(frozen=True, kw_only=True)

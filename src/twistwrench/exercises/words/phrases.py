@@ -22,6 +22,10 @@ PHRASES = {
         "For {name}, this slip gives what you have: {title}.",
         "就 {name} 而言，你的结果等于犯下这个错误的结果：{title}。",
     ),
+    "transposed as well": Text(
+        "Your {name} is your {other} transposed. Of the right ones neither is the other transposed.",
+        "你的 {name} 是你的 {other} 的转置，而正确的两者并不互为转置。",
+    ),
     "equal": Text(
         "Your numbers are those of a right solution but for this: {title}.",
         "你的数值等于正确解法只作如下改动的结果：{title}。",
