@@ -213,7 +213,7 @@ class WrongAnswer:
 
 def _turned(a: Array | None, b: Array | None) -> bool:
     """Whether a matrix is another one transposed."""
-    if a is None or b is None or a.ndim < 2 or a.shape != b.mT.shape:
+    if a is None or b is None or a.ndim != 2 or a.shape != b.shape[::-1]:
         return False
     return bool(np.allclose(a, b.mT, rtol=1e-9, atol=1e-9))
 
