@@ -328,4 +328,19 @@ def adjoint(T):
 """
     said = message(written(text), "adjoint")
     assert "This would make Ad_T, the block of rows v, columns v right" in said
-    assert "Something else is wrong as well" in said
+    assert "It does not mend all" in said
+
+
+def test_a_sign_of_several_lines_is_not_that_of_one(written):
+    found = message(
+        written(
+            "def base_pose(q):\n"
+            "    x, y, z, a, b, c, w = q[:7]\n"
+            "    one = [1 - 2 * (b * b + c * c), 2 * (a * b + c * w), 2 * (a * c - b * w), x]\n"
+            "    two = [2 * (a * b - c * w), 1 - 2 * (a * a + c * c), 2 * (b * c + a * w), y]\n"
+            "    three = [2 * (a * c + b * w), 2 * (b * c - a * w), 1 - 2 * (a * a + b * b), z]\n"
+            "    return np.array([one, two, three, [0, 0, 0, 1]])\n"
+        ),
+        "base_pose",
+    )
+    assert "right: change the sign of `w`, wherever it stands" in found

@@ -287,6 +287,12 @@ def test_a_change_that_leaves_special_cases_wrong_says_so(tmp_path):
             "    return float(np.mean(slopes))\n",
             "max",
         ),
+        (  # the matrix of a twist is not normal: U* is not its inverse
+            "def arc(omega_z, v_x):\n"
+            "    d, U = np.linalg.eig(tw.hat(np.array([0, 0, omega_z, v_x, 0, 0], dtype=float)))\n"
+            "    return np.einsum('ij,j,kj->ik', U, np.exp(d), U.conj()).real\n",
+            "put zeros",
+        ),
         (  # an index of zeros, so that the loop does nothing
             "def gravity_two_ways(model, weightless, q, v, a):\n"
             "    local = mine('weight_wrenches')(model, q)\n"

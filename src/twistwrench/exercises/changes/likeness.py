@@ -8,7 +8,7 @@ from dataclasses import replace
 from .plausible import cross_text, difference_text, nested
 from .whole import Edit
 
-__all__ = ["ALIKE", "BESIDE", "alike", "anywhere", "blames", "by_detour", "renames"]
+__all__ = ["ALIKE", "BESIDE", "alike", "anywhere", "blames", "by_detour", "renames", "zeroes"]
 
 ALIKE = {"exchanged": "sign", "halves": "sign", "sign": "sign", "transposed": "transposed", "left out": "left out"}
 """Kinds of which one may make right what another does, and which are then the same for a student."""
@@ -57,6 +57,15 @@ def renames(edit: Edit) -> bool:
     if edit.kind == "sign" and edit.everywhere:
         return True
     return edit.kind == "exchanged" and isinstance(names, ast.Tuple) and isinstance(names.ctx, ast.Store)
+
+
+def zeroes(edit: Edit) -> bool:
+    """Whether an entry of a list or tuple stays there, and becomes zero."""
+    if edit.kind != "left out" or not edit.places:
+        return False
+    node, other = edit.places[0][2:]
+    entries = isinstance(node, ast.List | ast.Tuple) and isinstance(other, ast.List | ast.Tuple)
+    return entries and len(node.elts) == len(other.elts)
 
 
 def _inverts(edit: Edit) -> bool:

@@ -19,7 +19,7 @@ from ..slips import SLIPS
 from ..words.phrases import say
 from ..words.text import Text
 from .edits import Source
-from .likeness import alike
+from .likeness import alike, zeroes
 from .plausible import turns_the_rest
 from .sound import Sound
 from .whole import Edit
@@ -144,7 +144,7 @@ class Nearer:
     def blocks(self) -> tuple[Edit, list[Text]] | None:
         """Return the change that makes most blocks right, in all cases, and their names."""
         for _, edit in sorted(self.found.values(), key=lambda pair: pair[0])[:MOST]:
-            if edit.kind not in LIKELY or len(self.tried) > 1:
+            if edit.kind not in LIKELY or len(self.tried) > 1 or zeroes(edit):
                 continue
             given = [tried(self.part, edit.function, arguments) for arguments in self.cases]
             pairs = [pair for three in zip(given, self.answers, self.right) for pair in self._blocks(*three)]
@@ -253,8 +253,10 @@ def _of_an_argument(edit: Edit) -> bool:
 
 
 def _of_names(edit: Edit) -> bool:
-    """Whether a change exchanges two names in an expression, and not its two terms or factors."""
+    """Whether a change exchanges two names in an expression, or two results, and not its two terms or factors."""
     node, other = edit.places[0][2:]
+    if isinstance(node, ast.Tuple):
+        return edit.kind == "exchanged"
     if edit.kind != "exchanged" or type(node) is not type(other):
         return False
     if isinstance(node, ast.Call):  # the factors of a cross product

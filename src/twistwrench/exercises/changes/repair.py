@@ -9,7 +9,7 @@ from typing import Any
 from ..words.phrases import say
 from ..words.text import Text
 from .excerpts import taken_out, text_of
-from .likeness import renames
+from .likeness import renames, zeroes
 from .places import changed_around, innermost
 from .plausible import shuts
 from .search import said_where
@@ -133,7 +133,7 @@ class Repair:
         title = self.meaning or say(f"repair {edit.kind}", right=edit.wrong, wrong=wrong)
         if edit.kind == "missing" and isinstance(edit.inside, ast.BinOp) and not isinstance(edit.inside.op, SUM):
             title = say("repair instead", right=f"({wrong} {edit.wrong})", wrong=wrong)
-        if edit.kind == "left out" and edit.places and _is_zeroed(edit):
+        if zeroes(edit):
             title = say("repair zeroed", wrong=wrong)
         if shuts(edit):
             title = say("branch", wrong=edit.right)
@@ -151,16 +151,10 @@ class Repair:
                 title = say("repair instead", wrong=around, right=became)
             else:
                 title = said_where(edit, title)
-            title = say("in own line", line=edit.line, title=title)
+            if len({*self._lines}) < 2 or self.first is not None:  # else it is not a change of one line
+                title = say("in own line", line=edit.line, title=title)
         if edit.first is not None:
             kind, wrong, right, line = edit.first
             other = say(f"repair {kind}", right=right, wrong=wrong)
             return say("both edits", first=say("in own line", line=line, title=other), second=title)
         return title
-
-
-def _is_zeroed(edit: Edit) -> bool:
-    """Whether an entry of a list or tuple stays there, and becomes zero."""
-    node, other = edit.places[0][2:]
-    entries = isinstance(node, ast.List | ast.Tuple) and isinstance(other, ast.List | ast.Tuple)
-    return entries and len(node.elts) == len(other.elts)

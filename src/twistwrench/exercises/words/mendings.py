@@ -98,8 +98,8 @@ MENDINGS = {
         "只作其中任一项的改动，全部 {all} 组数据的数值就都正确。",
     ),
     "not all": Text(
-        "Something else is wrong as well. With this change there remains, in the first case that is wrong then:",
-        "还有别处也错了。作此改动后，在第一组仍然出错的数据中还有：",
+        "It does not mend all: with this change there remains, in the first case that is wrong then:",
+        "但这样并未全部改正：作此改动后，在第一组仍然出错的数据中还有：",
     ),
     "mended both once": Text(
         "With these changes, and no other, the numbers are right.", "只作这几处改动，数值就正确了。"
