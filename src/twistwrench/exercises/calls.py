@@ -31,6 +31,7 @@ __all__ = [
     "silent",
     "smallest",
     "switches_off",
+    "traced",
     "tried",
 ]
 
@@ -145,13 +146,20 @@ def _lines_run(part: Part, function: Function, arguments: tuple[Any, ...]) -> se
         found.add(frame.f_lineno)
         return note
 
+    with traced(note):
+        tried(part, function, arguments)
+    return found
+
+
+@contextmanager
+def traced(note: Callable[..., Any]) -> Iterator[None]:
+    """Call a function at each line that runs, as Python traces it."""
     before = sys.gettrace()
     sys.settrace(note)
     try:
-        tried(part, function, arguments)
+        yield
     finally:
         sys.settrace(before)
-    return found
 
 
 @contextmanager

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import linecache
-import sys
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
-from ..calls import LONGEST, TooLong, copied, limited
+from ..calls import LONGEST, TooLong, copied, limited, traced
 from ..compare import unchanged
 from ..exercise import Part
 from ..rules import file_or_cell, is_ours
@@ -34,15 +34,8 @@ def changing_line(part: Part, function: Callable[..., Any], arguments: tuple[Any
         done = None if back is None else (back.f_code.co_filename, back.f_lineno)
         return note
 
-    before = sys.gettrace()
-    sys.settrace(note)
-    try:
-        with limited(LONGEST):
-            part.value(function, given)
-    except (Exception, TooLong):  # it ran before, untraced
-        pass
-    finally:
-        sys.settrace(before)
+    with suppress(Exception, TooLong), traced(note), limited(LONGEST):  # it ran before, untraced
+        part.value(function, given)
     if not found or is_ours(found[0][0]):
         return []
     file, line = found[0]
