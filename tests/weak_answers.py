@@ -311,7 +311,7 @@ ANSWERS = [
         "Sᵀτ is left out",
     ),
     Weak("standing_forces", "f = np.linalg.lstsq(J_c.T, g, rcond=None)[0]\nreturn f, g[6:]", "the shape (12,)"),
-    Weak("standing_loads", "w = 16.085 * 9.81\nreturn w / 4, w / 4", "the same share"),
+    Weak("standing_loads", "w = 16.085 * 9.81\nreturn w / 4, w / 4", "carry the same"),
     # the project
     Weak(
         "base_pose",
@@ -351,7 +351,7 @@ ANSWERS = [
         "    A[i] = X[i] @ A[parent[i]] + S[i] @ qdd[i] + tw.cross_motion(V[i]) @ S[i] @ qd[i]\n"
         "for i in range(n - 1, 0, -1):\n    F[i] = I[i] @ A[i] + tw.cross_force(V[i]) @ I[i] @ V[i]\n"
         "    tau[i] = S[i].T @ F[i]\n    F[parent[i]] = F[parent[i]] + X[i].T @ F[i]\nreturn np.concatenate(tau[1:])",
-        "the forces of the children are overwritten",
+        "the forces of the children are missing in τ",
     ),
     Weak(
         "tree_crba",

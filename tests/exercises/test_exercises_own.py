@@ -148,7 +148,7 @@ def standing_loads():
         (TRANSPORTED, "tw.skew(u) @ w", "lever arm"),
         (IN_HALVES, "has the shape (6, 9)", "is zero"),
         (BOTH_TRANSPOSED, "Your X* is your X transposed", "−p"),
-        (READ_TOO_EARLY, "are added too late", "visited outward"),
+        (READ_TOO_EARLY, "are added too late", "each of these"),
         (NORMAL, "the order of the factors is the sign", "velocity"),
         (WORLD_COUNTED, "rows (fixed): too large", "are kept"),
     ],

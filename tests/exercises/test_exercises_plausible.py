@@ -116,7 +116,7 @@ def pinocchio_inertia(m, c, I_c):
             (RATIO, "line 17, change `np.mean` to `np.median`", "loop"),
             (NET.format(f"{FOOT} - com", "f, r"), "change `np.cross(f, r)` to `np.cross(r, f)`", "wrong end"),
             (NET.format(f"com - {FOOT}", "r, f"), f"change `com - {FOOT}` to `{FOOT} - com`", "factors of the cross"),
-            (CARRIED, "line 14, change `F[i]` to `out[i]`", "visited outward"),
+            (CARRIED, "line 14, change `F[i]` to `out[i]`", "missing in τ"),
             (PLUCKER, "have the same numbers: return X first", "transposed"),
             (CARRIED_OVER, "a point contact has no moment about itself", "change `"),
             (HELD, "change the sign of `np.concatenate([np.cross(c, f), f])`", "body.mass"),

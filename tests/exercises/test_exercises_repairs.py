@@ -276,7 +276,7 @@ def cross_operators(V):
 """,
                 [
                     "For V×, this slip gives what you have",
-                    "For V×*, this slip gives what you have: −V× in place of V×*",
+                    "Your V×* is your V× transposed",
                 ],
             ),
         ],

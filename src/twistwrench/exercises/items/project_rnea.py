@@ -87,21 +87,17 @@ RNEA = Part(
         "force-outward": _changed(("X[i].mT @ F[i]", "np.linalg.inv(X[i]).mT @ F[i]")),
         "motion-for-force": _changed(("X[i].mT @ F[i]", "np.linalg.inv(X[i]) @ F[i]")),
         "children-lost": _changed((" + X[i].mT @ F[i]", "")),
-        "children-overwritten": _changed(("tau[i] = S", "F[i] = B[i]; tau[i] = S")),
-        "children-dropped": _changed((" + X[i].mT @ F[i]", "")),
         "force-sign": _changed(("+ X[i].mT @ F[i]", "- X[i].mT @ F[i]")),
         "untransposed": _changed(("X[i].mT @ F[i]", "X[i] @ F[i]")),
         "own-overwritten": _changed(("F[p] + X[i].mT", "X[i].mT")),
         "own-share-only": _changed(("F[p] + X[i].mT @ F[i]", "F[p] + X[i].mT @ B[i]")),
         "joints-backward": _backward,
         "twist-not-carried": _changed(("X[i] @ V[p] + vJ", "vJ")),
-        "visited-outward": _changed(("tree.inward", "tree.outward")),
         "chain-for-tree": lambda parent, *rest: tree_rnea(previous(parent), *rest),
         "velocity-terms-missing": lambda parent, S, I, X, qd, qdd, a0: tree_rnea(
             parent, S, I, X, [0 * rate for rate in qd], qdd, a0
         ),
     },
-    alike=(frozenset({"children-lost", "children-overwritten", "children-dropped", "visited-outward"}),),
     residuals=(_power,),
 )
 

@@ -28,9 +28,6 @@ TURNED = ("sign", "wrong end", "mirrored", "factors of the cross product")
 FORCES = ("children-overwritten", "children-dropped")
 """Slips that may give the numbers of a loop in the wrong direction."""
 
-LOST = ("children-lost", *FORCES, "visited-outward")
-"""The first is said where a student's code does not tell which of the others it is."""
-
 BACKWARD = ("inverse", "wrong way")
 """Words of the titles of slips that no sign mends, but by chance."""
 
@@ -67,16 +64,12 @@ def borne_out(part: Part, found: list[str], function: Callable[..., Any], mended
     found = by_own_line(found, edits)
     if source:
         found = [slip for slip in found if _spoken(slip, source)]
-        found = [slip for slip in found if slip != "visited-outward" or _goes_round(source)]
     if edits:
         found = [slip for slip in found if any(_fits(slip, edit) for edit in edits)]
     if len({edit.line for edit in edits if edit.kind in ("sign", "exchanged")}) > 1:
         found = [slip for slip in found if slip not in SIGNS]  # by its numbers it may be any of these lines
     if edits and {*found} == {*SIGNS}:
         return []  # either would give the sign back, and others as well
-    if LOST[0] in found:
-        rest = [slip for slip in found if slip in LOST[1:]] if edits else []
-        found = rest if len(rest) == 1 else [LOST[0]]
     if len(found) < 2 or not source:
         return found
 
@@ -203,12 +196,6 @@ def _spoken(slip: str, source: str) -> bool:
     return not meant or all(any(x in source for x in traces) for key, traces in TRACES.items() if key in said)
 
 
-def _goes_round(source: str) -> bool:
-    """Whether a source has a loop, or cannot be read."""
-    nodes = nodes_of(source)
-    return not nodes or any(isinstance(x, ast.For | ast.While) for x in nodes)
-
-
 def _halves(slip: str) -> tuple[str, str]:
     """Return what the title of a slip says to stand there, and in place of what, where it has both."""
     said, *meant = re.split(" taken for | in place of ", SLIPS[slip].title.en, maxsplit=1)
@@ -222,8 +209,8 @@ def _fits(slip: str, edit: Edit) -> bool:
         turned = edit.kind == "exchanged" and (SIGNS[slip] in edit.right or "(" not in edit.right)
         return turned and (" - " not in edit.right or slip == _exchanged(edit))
     backward = any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
-    if slip == "visited-outward" or (slip in FORCES and backward):
-        return slip == "visited-outward" and backward
+    if slip in FORCES and backward:
+        return False
     if slip == "children-dropped" and edit.wrong.replace("+=", "=") == edit.right:
         return False  # they are added, and then overwritten
     if _is_term(edit):
