@@ -67,13 +67,14 @@ class Nearer:
         self.found: dict[bytes, tuple[int, Edit]] = {}
         self.slips: list[tuple[Edit, str]] = []
         self.source: Source | None = None
+        self.sound: Sound | None = None
         self.pieces: dict[int, Edit] = {}
         self.wrong: Array | None = None
         self.bad: set[int] = set()
 
     def begin(self, source: Source, first: int, seconds: float) -> None:
         """Compare with the answers in one case, or in all of them where an answer is only a number or two."""
-        self.source, self.found = source, {}
+        self.source, self.sound, self.found = source, Sound(self.part, source.solution), {}
         wrong = self._wrong([self.answers[first]], [first])
         few = wrong is not None and wrong.size <= FEW and seconds < QUICK
         self.tried = [*range(len(self.cases))] if few else [first]
@@ -174,10 +175,9 @@ class Nearer:
             if not agree(self.part, given[-1], self.right[k], self.cases[k]):
                 return False
         once = bool(given) and not copied_results(given[1:], self.right, self.answers)
-        if not once or self.source is None:
+        if not once or self.sound is None:
             return False
-        sound = Sound(self.part, self.source.solution)
-        return sound.good(edit.function, self.cases[0]) and sound.everywhere(edit.function)
+        return self.sound.good(edit.function, self.cases[0]) and self.sound.everywhere(edit.function)
 
     def spoils(self, function: Callable[..., Any]) -> bool:
         """Whether a changed function gives wrong numbers where the answer has right ones."""
