@@ -16,10 +16,8 @@ from ..calls import switches_off, tried
 from ..compare import FLOOR, Value, agree, copied_results, values
 from ..exercise import Part
 from ..slips import SLIPS
-from ..words.phrases import say
-from ..words.text import Text
 from .edits import Source
-from .likeness import alike, zeroes
+from .likeness import alike
 from .plausible import turns_the_rest
 from .sound import Sound
 from .whole import Edit
@@ -34,9 +32,6 @@ FEW = 2
 
 QUICK = 0.004
 """Seconds that a case may take where all of them are tried with each change."""
-
-LIKELY = ("exchanged", "halves", "sign", "transposed", "left out", "last", "name", "index", "instead")
-"""Kinds of changes that are reported where they make only a block right."""
 
 TURNS = ("sign", "transposed", "halves", "exchanged")
 """Kinds of changes that take nothing out."""
@@ -141,32 +136,6 @@ class Nearer:
         return source.as_written(
             edit, lambda f: agree(self.part, tried(self.part, f, self.cases[k]), same, self.cases[k])
         )
-
-    def blocks(self) -> tuple[Edit, list[Text]] | None:
-        """Return the change that makes most blocks right, in all cases, and their names."""
-        for _, edit in sorted(self.found.values(), key=lambda pair: pair[0])[:MOST]:
-            if edit.kind not in LIKELY or len(self.tried) > 1 or zeroes(edit):
-                continue
-            given = [tried(self.part, edit.function, arguments) for arguments in self.cases]
-            pairs = [pair for three in zip(given, self.answers, self.right) for pair in self._blocks(*three)]
-            failed = [name for name, gained in pairs if not gained]
-            names = [name for name in dict.fromkeys(name for name, _ in pairs) if name not in failed]
-            if names:
-                return edit, names
-        return None
-
-    def _blocks(self, answer: Any, before: Any, right: Any) -> Iterator[tuple[Text, bool]]:
-        """Yield the blocks that were wrong, and whether a change has made them right without making another wrong."""
-        split = [values(x, self.part.returns) for x in (answer, before, right)]
-        for a, b, c in zip(*(x or [] for x in split)):
-            bad, was = _differ(a, c), _differ(b, c)
-            if bad is None or was is None or c.array is None:
-                continue
-            for block, index in c.quantity.layout.blocks(c.array.shape):
-                if (bad & ~was).any():  # what was right would be wrong by it
-                    yield say("block", name=c.quantity.title, block=block), False
-                elif was[index].any() and np.abs(c.array[index]).max(initial=0) > FLOOR:
-                    yield say("block", name=c.quantity.title, block=block), not bad[index].any()
 
     def _mends(self, edit: Edit) -> bool:
         given: list[Any] = []

@@ -44,8 +44,6 @@ class Repair:
         Which of the things is right by it; None for all.
     first : Edit, optional
         Another change that is made before it.
-    blocks : tuple of Text
-        What of the result is right by it, where that is not all.
     meaning : Text, optional
         What is said in place of what it puts there.
     unsure : bool
@@ -57,7 +55,6 @@ class Repair:
     edit: Edit
     piece: int | None = None
     first: Edit | None = None
-    blocks: tuple[Text, ...] = ()
     meaning: Text | None = None
     unsure: bool = False
     narrow: bool = False

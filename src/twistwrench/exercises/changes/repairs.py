@@ -30,7 +30,6 @@ from .written import text_written, written
 
 __all__ = [
     "guarded",
-    "repair_of_blocks",
     "repairs",
     "source_of",
     "two_repairs",
@@ -154,13 +153,6 @@ def two_repairs(
         return [Repair(other, first=both[0]) for other in both[1]]
     pieces = sorted(nearer.pieces) if nearer.bad and nearer.pieces.keys() == nearer.bad else []
     return [Repair(nearer.pieces[k], k) for k in pieces]
-
-
-def repair_of_blocks(nearer: Nearer) -> Repair | None:
-    """Return the change that makes some blocks of the answer right."""
-    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        found = nearer.blocks()
-    return Repair(found[0], blocks=tuple(found[1])) if found else None
 
 
 def source_of(part: Part, function: Function, arguments: tuple[Any, ...]) -> Source | None:

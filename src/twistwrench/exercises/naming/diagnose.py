@@ -9,14 +9,13 @@ import numpy as np
 
 from ..changes.likeness import blames
 from ..changes.repair import Repair
-from ..changes.repairs import repair_of_blocks
 from ..changes.written import text_written
 from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
 from .aliases import missing_copies
 from .matching import matching_slips, slips_by_piece, two_slips
-from .messages import compared, comparison, cures, edited, indented, mended, named, named_by_piece, nearer, where
+from .messages import compared, comparison, cures, edited, indented, mended, named, named_by_piece, where
 from .neighbours import Neighbours
 from .own import borne_out, by_piece_borne_out, in_other_roles
 from .properties import few_entries
@@ -241,11 +240,6 @@ def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:
     return ([], edited(wrong)) if wrong.edits and not other else None
 
 
-def _change_of_a_block(wrong: WrongAnswer) -> Explained | None:
-    near = repair_of_blocks(wrong.nearer)
-    return ([], nearer(wrong, near)) if near is not None else None
-
-
 EXPLANATIONS: tuple[Explanation, ...] = (
     _whole_numbers,
     _two_names_of_one_array,
@@ -270,7 +264,6 @@ OF_CODE: tuple[Explanation, ...] = (
     _two_slips_of_the_list,
     _each_result,
     _rest_of_the_solution,
-    _change_of_a_block,
 )
 """What is tried where the student's function may be called again."""
 

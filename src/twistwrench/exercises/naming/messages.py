@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..calls import tried
 from ..changes.repair import Repair
 from ..changes.search import Found, right_where
 from ..changes.written import text_written
@@ -31,7 +30,6 @@ __all__ = [
     "mended",
     "named",
     "named_by_piece",
-    "nearer",
     "where",
 ]
 
@@ -123,14 +121,6 @@ def _each(part: Part, found: Sequence[Found | Repair], phrase: str) -> list[Text
         else say(f"{phrase} in", name=part.returns[x.piece].title, title=x.title())
         for x in found
     ]
-
-
-def nearer(wrong: WrongAnswer, near: Repair) -> list[Text]:
-    """Report which change makes some blocks right, and what is wrong after it."""
-    lines = [say("cure in", name=name, title=near.title()) for name in near.blocks]
-    answers = [tried(wrong.part, near.edit.function, arguments) for arguments in wrong.cases]
-    rest = WrongAnswer(wrong.exercise, wrong.part, near.edit.function, answers, wrong.cases, None)
-    return [*lines, say("not all"), *map(indented, comparison(rest)), where(wrong)]
 
 
 def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:

@@ -97,10 +97,6 @@ MENDINGS = {
         "With the changes of one of them, and no other, the numbers are right in all {all} cases.",
         "只作其中任一项的改动，全部 {all} 组数据的数值就都正确。",
     ),
-    "not all": Text(
-        "It does not mend all: with this change there remains, in the first case that is wrong then:",
-        "但这样并未全部改正：作此改动后，在第一组仍然出错的数据中还有：",
-    ),
     "mended both once": Text(
         "With these changes, and no other, the numbers are right.", "只作这几处改动，数值就正确了。"
     ),

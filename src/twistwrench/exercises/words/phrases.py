@@ -12,7 +12,7 @@ PHRASES = {
     "cases": Text("Wrong in {wrong} of {all} cases. The first:", "{all} 组数据中错了 {wrong} 组。第一组："),
     "all wrong": Text("Tried on {all} random cases. The first:", "用 {all} 组随机数据检验。第一组："),
     "in result": Text("In {name}:", "在 {name} 中："),
-    "slips": Text("Your numbers are those of each of these slips:", "你的数值等于犯下以下任一错误的结果："),
+    "slips": Text("Any one of these slips gives your numbers:", "你的数值等于犯下以下任一错误的结果："),
     "slip of several": Text("  - {title}. {why}", "  - {title}。{why}"),
     "like slip": Text(
         "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
