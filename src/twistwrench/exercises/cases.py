@@ -82,7 +82,7 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
     """Return the cases after those, for an answer that is right in all of them.
 
     One argument is zero and the others are not, or one rotation turns nothing; all sizes are tiny; and what may be a
-    whole number is one, so that an array made after its pattern has no digits after the point.
+    whole number is one, in all arguments or in one: an array made after its pattern has no digits after the point.
     """
     drawn = cases(part, seed)[0]
     names = part.arguments.split(", ")
@@ -97,7 +97,8 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
             alone += [_scaled(name, x, 0.0), _turned(name, x, _quaternion(0))]
         found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in alone if other is not x]
     largest = 5 if "model" in names else 99
-    found.append(tuple(_whole(*x, largest) for x in zip(names, drawn)))
+    whole = [_whole(*x, largest) for x in zip(names, drawn)]
+    found += [tuple(whole), *((*drawn[:k], x, *drawn[k + 1 :]) for k, x in enumerate(whole))]
     found.append(tuple(MATRICES.get((name[:1], getattr(x, "shape", ())), x) for name, x in zip(names, drawn)))
     found.append(_of_the_base(names, drawn))
     if names[:2] == ["model", "q"] and {*names} <= {"model", "q", "v", "a", "tau"} and isinstance(drawn[0], Model):

@@ -96,7 +96,8 @@ def _edges(rng: Any) -> Any:
 
 def _pressures(rng: Any) -> Any:
     """Return wrenches that hardly push or pull, in the middle and beside the sole, and those that do neither."""
-    pushes = [_at(*place, f_z, rng) for f_z in (0.3, 1e-3, 1e-6, 1e-12) for place in ((0.05, 0.02), (0.15, 0.06))]
+    little, places = (0.3, 1e-3, 1e-6, 1e-12, 1e-300), ((0.05, 0.02), (0.15, 0.06))
+    pushes = [_at(*place, f_z, rng) for f_z in little for place in places]
     pulls = [_at(0.01, 0.01, f_z, rng) for f_z in (-rng.uniform(100, 400), -1e-3, -1e-6)]
     moments = ((0, 0), (1, 2), (1, 0), (0, -1))
     nothing = np.zeros(6), *(np.array([*moment, 1, 2, 3, 0.0]) for moment in moments)
