@@ -37,7 +37,7 @@ def changed(name, *pairs):
             [("cross_motion(V[i]) @ vJ", "cross_motion(V[p]) @ vJ")],
             "A[2] wrong first. These stay right for every body: V.",
         ),
-        ("tree_crba", [("S[j].mT @ F", "S[i].mT @ F")], "`S[i]` in place of `S[j]`, where `M[j, i]`"),
+        ("tree_crba", [("S[j].mT @ F", "S[i].mT @ F")], "`S[i]` in place of `S[j]`, in its line `M[j, i]"),
         ("tree_aba", [("X[i].mT @ Ia[i] @ X[i]", "X[i] @ Ia[i] @ X[i].mT")], "in place of `X[i].T @ Ia[i] @ X[i]`"),
     ],
 )

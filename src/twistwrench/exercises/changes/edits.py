@@ -21,7 +21,7 @@ from typing import Any
 from ..calls import CHANGED, count
 from .alternatives import KINDS, crossed
 from .containers import Change, parsed
-from .excerpts import enclosing, target, term, text_of
+from .excerpts import assignment, enclosing, term, text_of
 from .places import Place, all_places, mark, put, put_in, surroundings
 from .scope import Scope
 from .whole import Edit, of_arguments, of_order
@@ -234,7 +234,7 @@ class Source:
         if self.function is not self.solution:
             names = {**self.solution.__globals__, self.function.__name__: changed}
             function = FunctionType(self.solution.__code__, names, closure=self.solution.__closure__)
-        computed = "" if everywhere else target(places[0][0])
+        statement = "" if everywhere else assignment(places[0][0])
         node = places[0][2]
         moved = node.body[-1] if kind == "after loop" else places[0][3].body[0] if kind == "in loop" else node
         line = moved.lineno
@@ -245,7 +245,7 @@ class Source:
             self.function,
             function,
             len(places) * everywhere,
-            computed,
+            statement,
             None,
             line,
             (*places,),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-__all__ = ["enclosing", "taken_out", "target", "term", "text_of", "with_operator"]
+__all__ = ["assignment", "enclosing", "taken_out", "term", "text_of", "with_operator"]
 
 
 def term(node: Any, other: Any) -> str:
@@ -37,12 +37,9 @@ def term(node: Any, other: Any) -> str:
     return text_of(node.operand if isinstance(node, ast.UnaryOp) else node)
 
 
-def target(parents: list[Any]) -> str:
-    """Return what the statement around a node computes; nothing for a result."""
-    for parent in reversed(parents):
-        if isinstance(parent, ast.Assign | ast.AugAssign):
-            return text_of(parent.targets[0] if isinstance(parent, ast.Assign) else parent.target)
-    return ""
+def assignment(parents: list[Any]) -> str:
+    """Return the statement around a node that gives something a name; nothing for a result."""
+    return next((text_of(x) for x in reversed(parents) if isinstance(x, ast.Assign | ast.AugAssign)), "")
 
 
 def enclosing(parents: list[Any], node: Any) -> Any:

@@ -74,7 +74,10 @@ def _inverts(edit: Edit) -> bool:
 
 def anywhere(edit: Edit, other: Edit) -> Edit:
     """Return a change without its place, if the same one in another place of the line does the same."""
-    same = (edit.kind, edit.right, edit.line) == (other.kind, other.right, other.line) and edit.places != other.places
-    if edit.places and other.places and any(x is edit.places[0][2] for x in (*other.places[0][0], other.places[0][2])):
-        return edit  # it is the same, or within the first
+    texts = ((x.kind, x.right, x.wrong, x.line) for x in (edit, other))
+    same = len({*texts}) == 1 and edit.places != other.places
+    if edit.places and other.places:
+        (around, _, node, *_), (others, _, within, *_) = edit.places[0], other.places[0]
+        if any(x is node for x in (*others, within)) or any(x is within for x in around):
+            return edit  # it is the same, or one is within the other
     return replace(edit, places=()) if same and not edit.everywhere and not other.everywhere else edit

@@ -77,7 +77,7 @@ class Repair:
         edit = self.edit
         if edit.everywhere != 2:
             return []
-        if len({*edit.around}) == 2 and edit.kind in WRITTEN:
+        if len({*edit.around}) == 2 and edit.kind in WRITTEN and edit.around[1] not in edit.around[0]:
             return [*zip(edit.around, edit.became)]
         if len({*self._lines}) == 2:
             return [("", ""), ("", "")]

@@ -54,8 +54,8 @@ class Found(NamedTuple):
     def title(self) -> Text:
         """Report what is done in place of what."""
         title = say(f"edit {self.edit.kind}", right=self.edit.right, wrong=self.edit.wrong)
-        if self.edit.target and self.edit.target not in title.en:
-            title = say("in line", title=title, target=self.edit.target)
+        if self.edit.statement and self.edit.statement.partition("= ")[2] != self.edit.right:
+            title = say("in line", title=title, statement=self.edit.statement)
         if self.edit.first is not None:
             kind, right, wrong, _ = self.edit.first
             return say("both edits", first=say(f"edit {kind}", right=right, wrong=wrong), second=title)

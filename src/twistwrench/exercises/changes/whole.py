@@ -73,8 +73,8 @@ class Edit:
         With the arguments of the reference.
     everywhere : int
         In how many places it is made at once; 0 for one by itself.
-    target : str
-        What is computed there, if it has a name.
+    statement : str
+        The one in which it is made, where that gives something a name.
     first : tuple of str, optional
         Kind, right, wrong and line of another edit that is made as well.
     line : int
@@ -93,7 +93,7 @@ class Edit:
     within: Function
     function: Function
     everywhere: int = 0
-    target: str = ""
+    statement: str = ""
     first: tuple[str, str, str, int] | None = None
     line: int = 0
     places: tuple[Any, ...] = ()

@@ -154,7 +154,7 @@ def comparison(wrong: WrongAnswer) -> list[Text]:
 def _shortly(wrong: WrongAnswer) -> list[Text]:
     """Report what the comparison shows, where that is short and telling."""
     shown = comparison(wrong)
-    if len(shown) > FEW or all(line.en.endswith(say("other").en) for line in shown):
+    if len(shown) > FEW or all(line.en.endswith(say("different").en) for line in shown):
         return []
     return [say("it shows"), *map(indented, shown)]
 

@@ -72,7 +72,8 @@ def describe(got: Value, right: Value, rtol: float, *, factors: Sequence[float] 
     if np.isnan(right.array).any() and np.isfinite(got.array).all():
         return [_is(name, say("nan expected"))]
     tolerance = rtol * np.abs(right.array).max(initial=FLOOR)
-    relation = plain(got.array, right.array, tolerance, factors) or _triangle(got.array, right.array, tolerance)
+    relation = plain(got.array, right.array, tolerance, factors)
+    relation = relation or _triangle(got.array, right.array, tolerance) or _moved(got.array, right.array, tolerance)
     if relation == say("right"):
         return []
     if relation is not None:
@@ -233,6 +234,14 @@ def _exchanged(a: Array, b: Array, tolerance: float, origin: list[int]) -> Text 
         return None
     one, other = (_places(place[None]) for place in where + origin)
     return say("entries exchanged", first=one, second=other)
+
+
+def _moved(a: Array, b: Array, tolerance: float) -> Text | None:
+    """Return whether the numbers of a vector stand one place too early, or too late."""
+    if b.ndim != 1 or len({*np.round(b / tolerance)}) < 4:
+        return None
+    early = same(a[:-1], b[1:], tolerance)
+    return say("early" if early else "late") if early or same(a[1:], b[:-1], tolerance) else None
 
 
 def _shuffled(a: Array, b: Array, tolerance: float) -> Text | None:

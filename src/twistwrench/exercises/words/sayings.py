@@ -121,9 +121,9 @@ SAYINGS = {
         "你的数值等于同时犯下两处错误的结果：{first}；并且 {second}。",
     ),
     "two changes": Text(
-        "Perhaps two slips at once: with a change of your code, your numbers are those of this slip: {second}."
-        " The change: {first}.",
-        "可能同时有两处错误：对你的代码作一处改动之后，数值等于犯下这个错误的结果：{second}。改动是：{first}。",
+        "Perhaps two slips at once. One of them: {first}. With this change your numbers are those of the other:"
+        " {second}.",
+        "可能同时有两处错误。其一：{first}。作此改动之后，数值等于犯下另一个错误的结果：{second}。",
     ),
 }
 """A part of the phrases that messages are made of."""
