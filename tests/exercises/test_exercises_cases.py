@@ -132,9 +132,24 @@ def in_blocks(first, second, calls, clock):
     return min(seconds(second, calls + 10, clock)) / min(seconds(first, calls + 10, clock))
 
 
+def after_the_pattern_of_omega(omega_z, v_x):
+    A = np.zeros((4, 4), type(omega_z))
+    A[1, 0], A[0, 1], A[0, 3] = omega_z, -omega_z, v_x
+    return A
+
+
+def in_place(R, p, x):
+    moved = R @ x
+    moved += p
+    return moved
+
+
 @pytest.mark.parametrize(
     ("name", "function"),
     [
+        ("twist_matrix", after_the_pattern_of_omega),
+        ("act", in_place),
+        ("sole_holds", partial(of_pressure, least=1e-16)),
         *(("arc", lambda w, v, least=least: straight_below(w, least)) for least in (0.3, 1e-2, 1e-4, 1e-6)),
         ("sole_holds", lambda F, d_x, d_y: bool(abs(F[1]) <= d_x * F[5] and abs(F[0]) <= d_y * F[5])),
         *(("sole_holds", partial(of_pressure, beyond=beyond)) for beyond in (1e-3, 1e-6, -1e-7)),

@@ -100,3 +100,19 @@ def test_an_answer_that_changes_the_model_is_met():
         return solution(model, q, v, tau)
 
     assert "It changes its argument `model`" in verdict("acceleration_from_pinocchio", weightless).message("en")
+
+
+def test_a_result_that_is_written_down_is_not_computed():
+    def about_center_of_mass(m, com, I_c):
+        return np.block([[I_c, 0 * I_c], [0 * I_c, m * np.eye(3)]])
+
+    found = verdict("about_center_of_mass", about_center_of_mass)
+    assert "com is not used: the exercise asks to compute them" in " ".join(found.message("en").split())
+
+    def about_center_of_mass(m, com, I_c):
+        I, S = np.zeros((6, 6)), tw.skew(com)
+        I[:3, :3] = I_c - m * S @ S + m * S @ S
+        I[3:, 3:] = m * np.eye(3)
+        return I
+
+    assert verdict("about_center_of_mass", about_center_of_mass).state == "done"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import zlib
 from collections.abc import Iterator
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -39,6 +40,9 @@ MATRICES: dict[tuple[str, Any], Any] = {
     ("I", (6, 6)): np.block([[np.diag([4, 5, 4]), 2 * CROSS_Z], [-2 * CROSS_Z, 2 * np.eye(3, dtype=int)]]),
 }
 """A rotation, and the inertia of a body of 2 kg, in whole numbers, by the first letter of the name and the shape."""
+
+WHOLE = frozenset(("J", "J_c", "A_G", "M"))
+"""Other arguments that may be in whole numbers; a mass matrix remains positive definite."""
 
 VELOCITIES = frozenset(("M", "J", "J_c", "A_G", "v", "g"))
 """Arguments that may have a row or a column for each velocity of a robot."""
@@ -82,7 +86,7 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
     """Return the cases after those, for an answer that is right in all of them.
 
     One argument is zero and the others are not, or one rotation turns nothing; all sizes are tiny; and what may be a
-    whole number is one, in all arguments or in one: an array made after its pattern has no digits after the point.
+    whole number is one, in all arguments, one or two: an array made after its pattern has no digits after the point.
     """
     drawn = cases(part, seed)[0]
     names = part.arguments.split(", ")
@@ -96,10 +100,7 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
         if name not in ("m", "q", "T") and len(names) > 1:
             alone += [_scaled(name, x, 0.0), _turned(name, x, _quaternion(0))]
         found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in alone if other is not x]
-    largest = 5 if "model" in names else 99
-    whole = [_whole(*x, largest) for x in zip(names, drawn)]
-    found += [tuple(whole), *((*drawn[:k], x, *drawn[k + 1 :]) for k, x in enumerate(whole))]
-    found.append(tuple(MATRICES.get((name[:1], getattr(x, "shape", ())), x) for name, x in zip(names, drawn)))
+    found += _in_whole_numbers(names, drawn)
     found.append(_of_the_base(names, drawn))
     if names[:2] == ["model", "q"] and {*names} <= {"model", "q", "v", "a", "tau"} and isinstance(drawn[0], Model):
         found += [
@@ -141,15 +142,32 @@ def every_case(part: Part, seed: int) -> list[tuple[Any, ...]]:
     return [*cases(part, seed), *further_cases(part, seed), *special_cases(part, seed)]
 
 
+def _in_whole_numbers(names: list[str], drawn: tuple[Any, ...]) -> Iterator[tuple[Any, ...]]:
+    """Yield the arguments with all that may be in whole numbers, and with one or two of them."""
+    whole = [_whole(*x, 5 if "model" in names else 99) for x in zip(names, drawn)]
+    others = [k for k, (a, b) in enumerate(zip(whole, drawn)) if a is not b]
+    for chosen in (others, *combinations(others, 1), *combinations(others, 2)):
+        yield tuple(whole[k] if k in chosen else x for k, x in enumerate(drawn))
+
+
 def _whole(name: str, value: Any, largest: int) -> Any:
-    """Return an argument that may have any size, a mass, or a Jacobian or A_G, in whole numbers."""
-    if name not in SCALED | {"m", "J", "A_G"}:
-        return value
-    if isinstance(value, float):
+    """Return an argument that may have any size, a mass, or a matrix, in whole numbers; each entry of a list."""
+    if isinstance(value, list):
+        new = [_whole(name, x, largest) for x in value]
+        return new if any(a is not b for a, b in zip(new, value)) else value
+    found = MATRICES.get((name[:1], getattr(value, "shape", ())))
+    if found is not None:
+        return found
+    if isinstance(value, float) and name in SCALED | {"m"}:
         return round(value) or 1
     if not isinstance(value, np.ndarray) or value.dtype.kind != "f" or not value.any():
         return value
-    return np.rint(largest * value / np.abs(value).max()).astype(int)
+    if name == "S" and (value == np.rint(value)).all():
+        return value.astype(int)
+    if name not in SCALED | WHOLE:
+        return value
+    numbers = np.rint(largest * value / np.abs(value).max()).astype(int)
+    return numbers + len(numbers) * np.eye(len(numbers), dtype=int) if name == "M" else numbers
 
 
 def _quaternion(angle: float) -> Any:

@@ -23,7 +23,7 @@ from .failing import Case, failing_case
 from .naming.changing import changing_line
 from .naming.diagnose import after_error, explain
 from .naming.state import kept_in_module
-from .rules import Calls, file_or_cell, is_ours, watching
+from .rules import Calls, file_or_cell, is_ours, watching, written_down
 from .words.phrases import say
 from .words.text import Text
 from .words.wrapping import hanging
@@ -140,7 +140,9 @@ def judge(
         noted += changing_line(part, function, so_far.tried[k])
     if all(so_far.right) and kept is None:
         shown = [failing_case(part, k, seed, so_far.tried[k]) for k in changes][:1]
-        lines = noted or calls.lines or [say(phrase) for phrase in _made_one(so_far)][:1]
+        lines = (
+            noted or calls.lines or written_down(part, function) or [say(phrase) for phrase in _made_one(so_far)][:1]
+        )
         return Verdict("wrong", (_head(exercise, part), *lines), (), *shown) if lines else Verdict("done")
     found = _wrong(exercise, part, function, so_far, seed, kept, again)
     if noted and inspect.isclass(part.solution) and not found.slips:  # what is wrong comes of it

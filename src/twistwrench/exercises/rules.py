@@ -1,7 +1,8 @@
-"""The ways that an exercise rules out: calls that it forbids, and the reference itself."""
+"""The ways that an exercise rules out: calls that it forbids, the reference itself, a result that is written down."""
 
 from __future__ import annotations
 
+import ast
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -11,10 +12,13 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
+from .changes.places import unused
+from .changes.plausible import nodes_of
+from .changes.written import text_written
 from .exercise import Part
 from .words.text import Text
 
-__all__ = ["FORBIDDEN", "Calls", "file_or_cell", "is_ours", "watching"]
+__all__ = ["FORBIDDEN", "Calls", "file_or_cell", "is_ours", "watching", "written_down"]
 
 FORBIDDEN: dict[str, tuple[str, ...]] = {
     "base_wrench_at_rest": ("rnea", "rnea_terms", "gravity", "nonlinear_effects", "dynamics"),
@@ -29,7 +33,14 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
 }
 """What the text of an exercise forbids, by the function that the student writes: names of the package."""
 
+COMPUTED = {"about_center_of_mass": 1}
+"""Which argument a result is computed from, though its value does not depend on it, by the name of the function."""
+
 SAY = {
+    "written down": Text(
+        "The numbers are right, but {name} is not used: the exercise asks to compute them, not to write them down.",
+        "数值正确，但没有用到 {name}：题目要求算出结果，而不是直接写出。",
+    ),
     "forbidden": Text(
         "The numbers are right, but line {line} calls {name}, and the exercise asks to do without it.",
         "数值正确，但第 {line} 行调用了 {name}，而题目要求不用它。",
@@ -54,6 +65,14 @@ class Calls:
         if self.name in self.found:
             return [SAY["reference"].fill(name=self.name)]
         return [SAY["forbidden"].fill(name=name, line=line) for name, line in self.found.items()][:1]
+
+
+def written_down(part: Part, function: Callable[..., Any]) -> list[Text]:
+    """Report that a student's function does not use the argument that its result is to be computed from."""
+    defined = [x for x in nodes_of(text_written(function)) if isinstance(x, ast.FunctionDef)]
+    mine = [x for x in defined if x.name == part.name] if part.name in COMPUTED else []
+    names = [x.args.args[COMPUTED[part.name]].arg for x in mine if len(x.args.args) > COMPUTED[part.name]]
+    return [SAY["written down"].fill(name=name) for x, name in zip(mine, names) if name in unused(x)]
 
 
 def is_ours(file: str) -> bool:
