@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import zlib
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
@@ -30,6 +31,9 @@ SCALES = (0.0, 1e-6, 1e-3, 3.0)
 
 TINY = (4e-9, 2e-11)
 """Factors that leave nothing which `np.allclose` would see beside zero, and more than rounding."""
+
+MOON = np.array([0, 0, -1.62])
+"""Gravity that is not the earth's, in m/s²."""
 
 CROSS_Z = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]])
 """The cross product with an axis z."""
@@ -85,8 +89,9 @@ def further_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
 def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
     """Return the cases after those, for an answer that is right in all of them.
 
-    One argument is zero and the others are not, or one rotation turns nothing; all sizes are tiny; and what may be a
-    whole number is one, in all arguments, one or two: an array made after its pattern has no digits after the point.
+    One argument is zero and the others are not, or one rotation turns nothing; all sizes are tiny; what may be a
+    whole number is one, in some arguments or all: an array made after its pattern has no digits after the point; and
+    the robot is on the moon.
     """
     drawn = cases(part, seed)[0]
     names = part.arguments.split(", ")
@@ -102,11 +107,11 @@ def special_cases(part: Part, seed: int) -> list[tuple[Any, ...]]:
         found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in alone if other is not x]
     found += _in_whole_numbers(names, drawn)
     found.append(_of_the_base(names, drawn))
-    if names[:2] == ["model", "q"] and {*names} <= {"model", "q", "v", "a", "tau"} and isinstance(drawn[0], Model):
-        found += [
-            _moving(robot, names, _generator(part, seed, 3))
-            for robot in (bare_robot(), *ball_robots(), massless_link())
-        ]
+    if names[:2] == ["model", "q"] and isinstance(drawn[0], Model):
+        model, _, *rest = drawn
+        robots = (bare_robot(), *ball_robots(), massless_link()) if {*names[2:]} <= {"v", "a", "tau"} else ()
+        found += [_moving(robot, names, _generator(part, seed, 3)) for robot in robots]
+        found += [(model, model.neutral().astype(int), *rest), (replace(model, gravity=MOON), *drawn[1:])]
     return [*edges, *(new for new in found if any(a is not b for a, b in zip(new, drawn)) and _answered(part, new))]
 
 
@@ -143,11 +148,12 @@ def every_case(part: Part, seed: int) -> list[tuple[Any, ...]]:
 
 
 def _in_whole_numbers(names: list[str], drawn: tuple[Any, ...]) -> Iterator[tuple[Any, ...]]:
-    """Yield the arguments with all that may be in whole numbers, and with one or two of them."""
+    """Yield the arguments with all that may be in whole numbers, with one or two of them, and with all but one."""
     whole = [_whole(*x, 5 if "model" in names else 99) for x in zip(names, drawn)]
     others = [k for k, (a, b) in enumerate(zip(whole, drawn)) if a is not b]
-    for chosen in (others, *combinations(others, 1), *combinations(others, 2)):
-        yield tuple(whole[k] if k in chosen else x for k, x in enumerate(drawn))
+    for n in sorted({1, 2, len(others) - 1, len(others)} - {0, -1}):
+        for chosen in combinations(others, n):
+            yield tuple(whole[k] if k in chosen else x for k, x in enumerate(drawn))
 
 
 def _whole(name: str, value: Any, largest: int) -> Any:

@@ -77,7 +77,7 @@ def ball_robots() -> tuple[Model, ...]:
 
 @cache
 def massless_link() -> Model:
-    """Return a robot with a link that has no mass, and carries another one.
+    """Return a robot with a link that has no mass but an inertia, as a rotor is given, and carries another one.
 
     Examples
     --------
@@ -86,8 +86,8 @@ def massless_link() -> Model:
     (0.0, True)
     """
     model = chain(4, base="floating")
-    nothing = SpatialInertia(0.0, np.zeros(3), np.zeros((3, 3)))
-    return replace_inertia(model, model.joint_names[2], nothing, physical=False)
+    rotor = SpatialInertia(0.0, np.zeros(3), np.diag([0.01, 0.02, 0.03]))
+    return replace_inertia(model, model.joint_names[2], rotor, physical=False)
 
 
 def states(rng: np.random.Generator, *, vectors: int = 0, small: int = 2) -> Iterator[Any]:

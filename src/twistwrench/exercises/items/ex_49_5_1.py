@@ -82,7 +82,7 @@ IN_GENERAL = Part(
     solution=spatial_inertia,
     returns=(Quantity("I", INERTIA),),
     cases=lambda rng: [random_body(rng) for _ in range(5)],
-    edges=lambda rng: [(1.5, rng.standard_normal(3), np.zeros((3, 3))), (0.0, np.zeros(3), np.zeros((3, 3)))],
+    edges=lambda rng: [(1.5, rng.standard_normal(3), np.zeros((3, 3))), (0.0, np.zeros(3), np.diag([1.0, 2, 3]))],
     slips={
         **WRONG,
         "parallel-axis-products": faulty(

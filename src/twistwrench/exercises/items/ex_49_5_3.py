@@ -43,8 +43,8 @@ def _cases(rng: Any) -> Any:
 
 
 def _points(rng: Any) -> Any:
-    """Return mass, centre of mass and inertia about it of a point."""
-    return [(1.5, rng.standard_normal(3), np.zeros((3, 3)))]
+    """Return mass, centre of mass and inertia about it of a point, and of a rotor without mass."""
+    return [(1.5, rng.standard_normal(3), np.zeros((3, 3))), (0.0, rng.standard_normal(3), np.diag([1.0, 2, 3]))]
 
 
 def _moved_points(rng: Any) -> Any:

@@ -39,13 +39,19 @@ def _machines(rng: Any) -> Any:
 
 
 def _unsteady(rng: Any) -> Any:
-    """Return a task of which each call takes up to 1 % longer, on a machine that is interrupted often, or never."""
+    """Return a task of which each call takes up to 1 % longer, on a machine that is interrupted often, or never.
+
+    The last machine is interrupted for less time than a call takes.
+    """
     often_too = Text("each call up to 1 % longer, interrupted often", "每次调用长短相差不到 1 %，且常被打断")
     machines = [
         Machine(Text("each call up to 1 % longer", "每次调用长短相差不到 1 %"), wobble=0.01),
         Machine(often_too, pause=0.01, paused_at=often(rng, 2000), wobble=0.01),
     ]
-    return [(Task(machine, float(rng.uniform(1e-5, 1e-3))), 100, machine) for machine in machines]
+    short = Text("often interrupted for a short time", "常被短暂打断")
+    shortly = Machine(short, pause=6e-4, paused_at=often(rng, 2000))
+    times = [(machine, float(rng.uniform(1e-5, 1e-3))) for machine in machines]
+    return [(Task(machine, seconds), 100, machine) for machine, seconds in (*times, (shortly, 1e-3))]
 
 
 def _block(task: Any, calls: Any, clock: Any) -> Any:
