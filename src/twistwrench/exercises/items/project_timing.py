@@ -43,10 +43,12 @@ def _unsteady(rng: Any) -> Any:
 
     The last machine is interrupted for less time than a call takes.
     """
-    often_too = Text("each call up to 1 % longer, interrupted often", "每次调用长短相差不到 1 %，且常被打断")
+    often_too = Text(
+        "slow at first, each call up to 1 % longer, interrupted often", "首次较慢，各次相差不到 1 %，常被打断"
+    )
     machines = [
         Machine(Text("each call up to 1 % longer", "每次调用长短相差不到 1 %"), wobble=0.01),
-        Machine(often_too, pause=0.01, paused_at=often(rng, 2000), wobble=0.01),
+        Machine(often_too, start=0.1, pause=0.01, paused_at=often(rng, 2000), wobble=0.01),
     ]
     short = Text("often interrupted for a short time", "常被短暂打断")
     shortly = Machine(short, pause=6e-4, paused_at=often(rng, 2000))
