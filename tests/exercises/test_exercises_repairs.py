@@ -319,18 +319,6 @@ def test_in_which_two_of_several_places_is_reported(written):
     assert "line 12, change `M[:6, 6:12]` to `M[:6, 6:]`; and line 12, change `qdd[6:12]` to `qdd[6:]`" in said
 
 
-@pytest.mark.slow
-def test_a_part_that_a_change_makes_right_is_reported_with_it(written):
-    text = """\
-def adjoint(T):
-    R, p = T[:3, :3], T[:3, 3]
-    return np.block([[R, np.zeros((3, 3))], [np.outer(p, p + 1), R.T]])
-"""
-    said = message(written(text), "adjoint")
-    assert "This would make Ad_T, the block of rows v, columns v right" in said
-    assert "It does not mend all" in said
-
-
 def test_a_sign_of_several_lines_is_not_that_of_one(written):
     found = message(
         written(
