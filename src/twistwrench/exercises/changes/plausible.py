@@ -71,7 +71,7 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
         return ">" not in before and any(before in test for test in tests)
     if any(name in before and name not in after for name in POSTURES) and any(name in after for name in POSTURES):
         return False
-    return edit.kind != "exchanged" or _turned(before, text, part.solution)
+    return edit.kind != "exchanged" or (_turned(before, text, part.solution) and not _of_a_minus(before, text))
 
 
 def _nobody_makes(edit: Edit, part: Part) -> bool:
@@ -233,6 +233,16 @@ def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
     if len(own) != 1 or len(expected) != 1:
         return True
     return (own == expected) == lever
+
+
+def _of_a_minus(before: str, text: str) -> bool:
+    """Whether a factor of a cross product has a minus, or the line that gives it a name for this product only."""
+    given = {ast.unparse(x.targets[0]): x.value for x in nodes_of(text) if isinstance(x, ast.Assign)}
+    names = [x.id for x in nodes_of(text) if isinstance(x, ast.Name)]
+    factors = [x for node in nodes_of(before) if _is_cross(node) for x in node.args]
+    alone = [given.get(x.id, x) if isinstance(x, ast.Name) and names.count(x.id) == 2 else x for x in factors]
+    minus = [x for x in alone if isinstance(x, ast.UnaryOp) and isinstance(x.op, ast.USub)]
+    return any(isinstance(x.operand, ast.Name) for x in minus)
 
 
 def _arms(text: str) -> Iterator[int]:

@@ -208,6 +208,8 @@ def _fits(slip: str, edit: Edit) -> bool:
     if slip in SIGNS:  # a sign alone is neither
         turned = edit.kind == "exchanged" and (SIGNS[slip] in edit.right or "(" not in edit.right)
         return turned and (" - " not in edit.right or slip == _exchanged(edit))
+    if "ᵀ" in said and "⁻¹" in meant and edit.kind == "exchanged":
+        return False  # nothing is inverted by it that was not
     backward = any(word in edit.right + edit.wrong for word in ("range", "reversed", "[::-1]"))
     if slip in FORCES and backward:
         return False

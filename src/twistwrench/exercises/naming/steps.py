@@ -25,7 +25,7 @@ def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ..
     """Report which quantity of which body a change within a listing makes wrong first, and which stay right.
 
     A quantity with the name of an argument is not spoken of: to the student that is the argument. Nor are names that
-    the student's source does not have, where it is given.
+    the student's source does not have, where it is given; nor the body of an inward pass, which he may begin elsewhere.
     """
     given = {name.partition("=")[0] for name in part.arguments.split(", ")}
     bodies = {name: inward for name, inward in _computed(within).items() if name not in given}
@@ -41,8 +41,8 @@ def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ..
         if bad and source and not {name, *fine} <= {*re.findall(r"\w+", source)}:
             return None
         if bad:
-            first = max(bad) if inward else min(bad)
-            place = f"{name}[{', '.join(map(str, first)) if isinstance(first, tuple) else first}]"
+            first = min(bad)
+            place = name if inward else f"{name}[{', '.join(map(str, first)) if isinstance(first, tuple) else first}]"
             return say("first wrong", right=", ".join(fine), wrong=place) if fine else say("wrong first", wrong=place)
         if _entries(right[name]):
             fine.append(name)

@@ -7,11 +7,16 @@ from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from ..calls import tried
 from ..changes.edits import Source
 from ..changes.places import innermost
+from ..compare import values
+from ..exercise import Part
 from .records import Event, Known, arrays, numbers_of, tells
 
-__all__ = ["Output", "outputs", "suspects"]
+__all__ = ["Output", "feeds", "outputs", "suspects"]
 
 BUILT = ("block", "array", "concatenate", "vstack", "hstack", "stack", "column_stack", "asarray")
 """What is given to these is looked at by itself."""
@@ -166,3 +171,27 @@ def suspects(found: Sequence[Output], ways: Container[tuple[int, int]] = ()) -> 
         if not any((name in names and key not in fine) or name in x.given for name, key in bad[0].read):
             first.append((bad[0].when, x))
     return [x for _, x in sorted(first, key=lambda pair: pair[0])]
+
+
+def feeds(part: Part, source: Source, statement: Any, arguments: tuple[Any, ...], answer: Any, right: Any) -> bool:
+    """Whether numbers that are wrong are others where what a statement computes is half as large again."""
+    node = getattr(statement, "value", None)
+    places = [place for place in source.places if place[2] is node]
+    for edit in source.made("number", ("", ""), [(*x, _half_more(node)) for x in places[:1]]) if places else ():
+        other = tried(part, edit.function, arguments)
+        three = [values(x, part.returns) for x in (answer, right, other)]
+        arrays = [[x.array for x in split or ()] for split in three]
+        if other is None or any(x is None for split in arrays for x in split):
+            return True
+        return any(len({x.shape for x in xs}) > 1 or _moves(*xs) for xs in zip(*arrays))
+    return True
+
+
+def _half_more(node: Any) -> Any:
+    times = ast.Attribute(ast.Name("np", ast.Load()), "multiply", ast.Load())
+    return ast.Call(times, [ast.Constant(1.5), node], [])
+
+
+def _moves(answer: Any, right: Any, other: Any) -> bool:
+    """Whether an entry that is wrong is another one in the other answer."""
+    return bool((~np.isclose(answer, right) & ~np.isclose(answer, other)).any())

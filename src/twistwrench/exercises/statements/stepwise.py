@@ -31,7 +31,7 @@ from ..words.phrases import say
 from ..words.text import Text
 from .donors import given
 from .mixups import mixups
-from .outputs import Output, outputs, suspects
+from .outputs import Output, feeds, outputs, suspects
 from .records import Event, arrays, known_values, numbers_of, recorded, tells
 
 __all__ = ["Stepwise"]
@@ -167,6 +167,9 @@ class Stepwise:
         first, every = self.start.sure[0], {id(x.statement) for x in self.start.found}
         alone = len({id(x.statement) for x in self.start.sure}) == 1
         if not alone or _is_taken(first.node) or len(every) < 3:
+            return None
+        case, answer, right = (x[self.first] for x in (self.cases, self.answers, self.right))
+        if not feeds(self.part, self.start.source, first.statement, case, answer, right):
             return None
         return say("first line", line=first.statement.lineno, text=text_of(first.statement))
 
