@@ -194,4 +194,4 @@ def _half_more(node: Any) -> Any:
 
 def _moves(answer: Any, right: Any, other: Any) -> bool:
     """Whether an entry that is wrong is another one in the other answer."""
-    return bool((~np.isclose(answer, right) & ~np.isclose(answer, other)).any())
+    return bool((~np.isclose(answer, right, 1e-9, 0) & ~np.isclose(answer, other, 1e-9, 0)).any())
