@@ -49,14 +49,15 @@ class Layout:
         for parts in product(*self.axes):
             if all(part.start < size for (_, part), size in zip(parts, sizes)):
                 names = [name for name, _ in parts]
-                yield _joined(names), (..., *(part for _, part in parts))
+                yield _joined(names, len(shape)), (..., *(part for _, part in parts))
 
 
-def _joined(names: list[Text]) -> Text:
-    """Name a block: the rows of a vector, or rows and columns of a matrix."""
+def _joined(names: list[Text], axes: int) -> Text:
+    """Name a block: rows of a vector, columns of several that are rows, or rows and columns of a matrix."""
     if len(names) == 1:
-        english = f"the rows {names[0].en}" if names[0].en.startswith("of ") else f"the {names[0].en} rows"
-        return Text(english, f"{names[0].zh} 各行")
+        lines, zh = ("rows", "行") if axes == 1 else ("columns", "列")
+        english = f"the {lines} {names[0].en}" if names[0].en.startswith("of ") else f"the {names[0].en} {lines}"
+        return Text(english, f"{names[0].zh} 各{zh}")
     rows, columns = names
     column = "column" if columns.en.startswith("3 ") else "columns"
     return Text(f"the block of rows {rows.en}, {column} {columns.en}", f"{rows.zh} 行 {columns.zh} 列的块")

@@ -8,7 +8,7 @@ MENDINGS = {
     # what would make the student's own line right
     "repair sign": Text("change the sign of `{wrong}`", "改变 `{wrong}` 的符号"),
     "repair left out": Text("take out `{wrong}`", "去掉 `{wrong}`"),
-    "repair zeroed": Text("put zeros in place of `{wrong}`", "用零代替 `{wrong}`"),
+    "repair zeroed": Text("put zero in place of `{wrong}`", "用零代替 `{wrong}`"),
     "repair after loop": Text("put `{wrong}` after the loop, not in it", "把 `{wrong}` 放在循环之后，而不是循环内"),
     "repair in loop": Text(
         "make `{wrong}` anew in each round, at the beginning of the loop", "每一轮都在循环开头重新执行 `{wrong}`"

@@ -31,7 +31,7 @@ PHRASES = {
         "你的数值等于正确解法只作如下改动的结果：{title}。",
     ),
     "equal in": Text(
-        "Your {name} is that of a right solution but for this: {title}.",
+        "Your result for {name} is that of a right solution but for this: {title}.",
         "你的 {name} 等于正确解法只作如下改动的结果：{title}。",
     ),
     "equal cases": Text(
