@@ -206,6 +206,7 @@ def _leaves_the_rest(edit: Edit) -> bool:
     """Whether a change leaves all other terms as they are: a slip of the list that shows then was there before."""
     words = [re.findall(r"\w+", text) for text in (edit.right, edit.wrong)]
     twin = edit.kind == "instead" and len(words[0]) == len(words[1]) and sum(map(ne, *words)) == 1
+    twin = twin and not any(x != y and (y + x).isdigit() for x, y in zip(*words))
     twin = twin and not any(word.endswith(("max", "min", "imum")) for word in words[1])  # another one is chosen
     turned = edit.kind in TURNS and not _of_an_index(edit) and not _of_names(edit) and not _of_an_argument(edit)
     return not edit.everywhere and (turned or twin or _is_of_rounds(edit))
@@ -234,12 +235,10 @@ def _of_names(edit: Edit) -> bool:
 
 
 def _is_of_rounds(edit: Edit) -> bool:
-    """Whether a change lets a loop begin or end elsewhere."""
-    return (
-        edit.kind in ("number", "index", "instead")
-        and isinstance(edit.inside, ast.Call)
-        and ast.unparse(edit.inside.func) == "range"
-    )
+    """Whether a change lets a loop begin earlier, or a downward one end later: fewer rounds would make a slip."""
+    ends = [re.fullmatch(r"range\((\d+), .*\)|range\(.*, (\d+), -1\)", x) for x in (edit.right, edit.wrong)]
+    before, after = (int(x[1] or x[2]) if x else 0 for x in ends)
+    return edit.kind in ("number", "index", "instead") and after < before and None not in ends
 
 
 def _near(x: Array, y: Array | None) -> bool:

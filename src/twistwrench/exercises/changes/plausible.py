@@ -106,7 +106,7 @@ def _is_place(edit: Edit) -> bool:
 
 def _is_positive(text: str) -> bool:
     """Whether a text is a rotation matrix by its name, or the transpose of one, or a mass."""
-    name = text.removesuffix(".T").rpartition(".")[2]
+    name = text.removesuffix(".T").removeprefix("float(").removesuffix(")").rpartition(".")[2]
     return name in ("R", "rotation", "m") or (name.isidentifier() and "mass" in name.lower())
 
 

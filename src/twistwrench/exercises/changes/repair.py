@@ -138,6 +138,9 @@ class Repair:
             return say(OF_RESULT[edit.wrong], right=edit.wrong)
         if self._apart and edit is self.edit:
             each = [say("repair instead", wrong=a, right=b) if a else title for a, b in self._apart]
+            if title == say("repair left out", right=edit.wrong, wrong=wrong):  # with the operator of each
+                taken = [taken_out(node, other, edit.right) for _, _, node, other in edit.places]
+                each = [say("repair left out", right="", wrong=text) for text in taken]
             first, second = (say("in own line", line=line, title=x) for line, x in zip(self._lines, each))
             return say("both edits", first=first, second=second)
         if edit.line:

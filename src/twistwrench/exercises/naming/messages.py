@@ -78,8 +78,6 @@ def named_by_piece(wrong: WrongAnswer, found: Mapping[str, list[str]]) -> list[T
         lines += [indented(wrong.slip(slip).why) for slip in slips if slip not in given]
         given.update(slips)
         last = wrong.slip(slips[0]).section
-    titles = [x.title for x in wrong.part.returns]
-    lines += [say("returned there", name=titles[k], other=titles[j]) for k, j in wrong.returned_elsewhere[:1]]
     return [*lines, where(wrong, last)]
 
 
