@@ -1,9 +1,11 @@
 """Two slips in one answer, and what only the numbers show: small arguments, exchanged entries, tolerances."""
 
+import re
+
 import numpy as np
 import pytest
 
-from twistwrench.exercises import catalogue
+from twistwrench.exercises import case, catalogue
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.wrong import both, faulty, negated
 
@@ -275,6 +277,9 @@ def test_a_change_that_leaves_special_cases_wrong_says_so(tmp_path):
     )
     assert "right in the cases tried so far: line 14, change `R.T @ tw.center_of_mass(model, q) - p`" in said
     assert "In special cases it is then still wrong" in said
+    number = re.search(r"twistwrench exercises case base_wrench_at_rest (\d+) --seed 0", said)
+    model, _ = case("base_wrench_at_rest", int(number[1]), seed=0)
+    assert model.gravity[2] != -9.81
 
 
 @pytest.mark.parametrize(

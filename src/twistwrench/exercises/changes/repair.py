@@ -48,8 +48,8 @@ class Repair:
         What is said in place of what it puts there.
     unsure : bool
         Whether what its line computes is right, so that another line may be wrong.
-    narrow : bool
-        Whether the function is then still wrong in special cases.
+    narrow : str
+        A special case in which the function is then still wrong, as `case` takes it.
     """
 
     edit: Edit
@@ -57,7 +57,7 @@ class Repair:
     first: Edit | None = None
     meaning: Text | None = None
     unsure: bool = False
-    narrow: bool = False
+    narrow: str = ""
 
     @property
     def one_piece(self) -> bool:

@@ -118,7 +118,7 @@ def repairs(
                     continue  # what is asked for in two ways is not computed in one
                 edit = source.as_written(edit, lambda f: _right(part, f, right[first], cases[first]))
                 repair = Repair(edit, meaning=meaning(source, edit, part, right, cases))
-                chosen.add(replace(repair, narrow=not sound.everywhere(edit.function)))
+                chosen.add(replace(repair, narrow=sound.fails(edit.function)))
                 continue
             if edit.kind == "result" or all(
                 same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here

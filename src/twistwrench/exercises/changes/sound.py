@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..calls import copied, keeps_arguments, tried
-from ..cases import special_cases
+from ..cases import every_case, special_cases
 from ..compare import agree
 from ..exercise import Part
 
@@ -44,7 +44,16 @@ class Sound:
 
     def everywhere(self, changed: Function) -> bool:
         """Whether a changed function is right in all special cases: what only happens to be right is not."""
-        return all(agree(self.part, tried(self.part, changed, c), right, c) for c, right in self._special)
+        return not self.fails(changed)
+
+    def fails(self, changed: Function) -> str:
+        """Return the first special case in which a changed function is wrong, as `case` takes it; empty for none."""
+        wrong = (k for k, (c, right) in enumerate(self._special) if not self._agrees(changed, c, right))
+        before = len(every_case(self.part, 0)) - len(self._special)
+        return next((f"{self.part.name} {before + k}" for k in wrong), "")
+
+    def _agrees(self, changed: Function, arguments: tuple[Any, ...], right: Any) -> bool:
+        return agree(self.part, tried(self.part, changed, arguments), right, arguments)
 
     @cached_property
     def _special(self) -> list[tuple[tuple[Any, ...], Any]]:

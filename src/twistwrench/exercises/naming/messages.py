@@ -43,7 +43,7 @@ def where(wrong: WrongAnswer, section: str | None = None) -> Text:
 def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
     """Name the slip, or those that it may be, and the line of the student's where it is."""
     part, own = wrong.part, own_lines(wrong.changes, found)
-    if (own or not wrong.cases[0]) and say("narrow") not in own:  # a number alone is met by chance
+    if len(own) == 1 or not wrong.cases[0]:  # a number alone is met by chance
         own.append(say("perhaps"))
     slips = [wrong.slip(name) for name in found]
     if len(slips) == 1:
@@ -107,7 +107,8 @@ def cures(part: Part, found: Sequence[Repair], every: int) -> list[Text]:
     lines = _each(part, found, "cure")
     whole = "mended both" if both else "mended each" if len(found) > 1 else "mended"
     once = "mended both once" if both else "mended once"
-    last = say("narrow" if any(change.narrow for change in found) else "perhaps")
+    narrow = [say("narrow", case=change.narrow) for change in found if change.narrow]
+    last = narrow[0] if narrow else say("perhaps")
     return [*lines, say(whole, all=every) if every > 1 else say(once), last]
 
 

@@ -130,7 +130,7 @@ def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
     either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
     if whole and whole[0].narrow:
-        return [say("own code once", title=either), say("narrow")]
+        return [say("own code once", title=either), say("narrow", case=whole[0].narrow)]
     return [say("own code", title=either)] if titles else []
 
 

@@ -44,8 +44,10 @@ MENDINGS = {
         "在你的代码中，这样改后，目前试过的各组数据都会正确：{title}。",
     ),
     "narrow": Text(
-        "In special cases it is then still wrong: something else is wrong as well, or your slip is another one.",
-        "改后在一些特殊数据中仍然不对：还有别处出错，或者你的错因是另一处。",
+        "In special cases it is then still wrong: something else is wrong as well, or your slip is another one."
+        " One of them: twistwrench exercises case {case} --seed 0",
+        "改后在一些特殊数据中仍然不对：还有别处出错，或者你的错因是另一处。"
+        "其中一组：twistwrench exercises case {case} --seed 0",
     ),
     "sign of result": Text(
         "change the sign of all that is returned: `{right}` in place of `x`",
