@@ -84,7 +84,7 @@ def _nobody_makes(edit: Edit, part: Part) -> bool:
         or bool(re.search(r"(?<!\w)-\d+:\d", edit.wrong))  # nothing is in such a slice
         or (edit.kind == "instead" and _is_guard(edit))  # what keeps a number from zero
         or "Error(" in edit.right  # it is raised, and nothing is computed with it
-        or _crossed_with_itself(edit.wrong)
+        or _of_itself(edit)
         or turns_into_the_other_kind(edit, part)
     )
 
@@ -128,10 +128,13 @@ def _is_guard(edit: Edit) -> bool:
     return bound and any(isinstance(x, ast.Constant) for x in arguments)
 
 
-def _crossed_with_itself(after: str) -> bool:
-    """Whether a cross product of something with itself is put there, which is zero."""
-    products = [x for x in nodes_of(after) if _is_cross(x)]
-    return any(len({ast.unparse(y).lstrip("-") for y in x.args}) == 1 for x in products)
+def _of_itself(edit: Edit) -> bool:
+    """Whether a cross product or a difference of something with itself would be there, which is zero."""
+    nodes, around = nodes_of(edit.wrong), edit.places[0][0] if edit.places else []
+    ends = [{ast.unparse(x.left), ast.unparse(x.right)} for x in around if _is_difference(x)]
+    pairs = [x.args for x in nodes if _is_cross(x)] + [[x.left, x.right] for x in nodes if _is_difference(x)]
+    nothing = any(len({ast.unparse(y).lstrip("-") for y in pair}) == 1 for pair in pairs)
+    return nothing or any({edit.right, edit.wrong} == both for both in ends)
 
 
 def turns_the_rest(edit: Edit, other: Edit) -> bool:
@@ -258,21 +261,22 @@ def _arms(text: str) -> Iterator[int]:
 
 def _is_arm(node: Any) -> bool:
     """Whether a node is a difference of two points, or one that is turned."""
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult):
-        return _is_arm(node.left) or _is_arm(node.right)
+    turned = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
+    return _is_arm(node.left) or _is_arm(node.right) if turned else _is_difference(node)
+
+
+def _is_difference(node: Any) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
 
 
 def cross_text(text: str) -> bool:
     """Whether a text is a cross product."""
-    node = _parsed(text)
-    return isinstance(node, ast.Expr) and _is_cross(node.value)
+    return isinstance(node := _parsed(text), ast.Expr) and _is_cross(node.value)
 
 
 def difference_text(text: str) -> bool:
     """Whether a text is a difference, as a lever arm is."""
-    node = _parsed(text)
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.Sub)
+    return isinstance(node := _parsed(text), ast.Expr) and _is_difference(node.value)
 
 
 def _is_cross(node: Any) -> bool:
