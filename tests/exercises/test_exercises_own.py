@@ -282,3 +282,18 @@ def forward_dynamics_two_ways(model, q, v, tau):
     return tw.aba(model, q, v, tau), np.linalg.solve(M, tau) - h
 """
     assert "to `np.linalg.solve(M, tau - h)`" in said_of(tmp_path, text)
+
+
+def test_a_slip_with_the_same_numbers_is_not_made_two(tmp_path):
+    text = (
+        "def base_pose(q):\n"
+        "    px, py, pz, w, x, y, z = q[:7]\n"
+        "    T = np.eye(4)\n"
+        "    T[0] = [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), px]\n"
+        "    T[1] = [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), py]\n"
+        "    T[2] = [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), pz]\n"
+        "    return T\n"
+    )
+    said = said_of(tmp_path, text)
+    assert "the quaternion is read as (qw, qx, qy, qz)" in said
+    assert "Two slips" not in said

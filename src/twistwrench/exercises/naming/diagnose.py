@@ -204,7 +204,8 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
 
 def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
     few = few_entries(wrong.part, wrong.answers, wrong.cases)
-    pair = None if few or wrong.by_chance else two_slips(wrong.part, wrong.answers, wrong.cases)
+    one = few or wrong.by_chance or wrong.alike
+    pair = None if one else two_slips(wrong.part, wrong.answers, wrong.cases)
     if pair is None:
         return None
     first, second = map(wrong.slip, pair)

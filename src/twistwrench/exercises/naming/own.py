@@ -39,7 +39,7 @@ TRACES = {"ᵀ": (".T", ".mT", "transpose", "swapaxes", "einsum"), "⁻¹": ("in
 
 WRITTEN = {
     "base-twice": r"(?s)bod(y|ies)|links?\b|\.inertia|\A(?!.*tw\.)",
-    "qwxyz": r"quat|qw|1(\.0?)?, *0(\.0?)?, *0|\[(3:7|-4:)\]|\bq\w*\[(3|6|3:)\]",
+    "qwxyz": r"quat|qw|1(\.0?)?, *0(\.0?)?, *0|\[(3:7|-4:)\]|\bq\w*\[",
 }
 """What is written where a slip can be made, by its name."""
 
