@@ -12,8 +12,8 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
+from .changes.crosses import nodes_of
 from .changes.places import unused
-from .changes.plausible import nodes_of
 from .changes.written import text_written
 from .exercise import Part
 from .words.text import Text

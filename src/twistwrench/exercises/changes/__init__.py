@@ -15,6 +15,7 @@ scope         what the names in a function stand for, and may be taken for
 whole         an edit; and edits of what goes into a function and comes out of it
 edits         all small edits of a right function
 written       the source of a student's function, with the helpers that it calls
+crosses       cross products and differences in a text, and which of the two is turned
 of_wrenches   whether a change would transform a wrench as a twist, or a twist as a wrench
 plausible     which changes are slips that somebody makes
 likeness      which changes are the same for a student, and which are less likely than others

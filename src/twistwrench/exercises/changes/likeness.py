@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from .plausible import cross_text, difference_text, nested
+from .crosses import cross_text, difference_text
+from .plausible import nested
 from .whole import Edit
 
 __all__ = ["ALIKE", "BESIDE", "alike", "anywhere", "blames", "by_detour", "renames", "zeroes"]

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import ast
-import inspect
 import re
-import textwrap
-from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 from ..exercise import Part
+from .crosses import is_cross, is_difference, nodes_of, of_a_minus, parsed, turned
 from .of_wrenches import turns_into_the_other_kind
 from .whole import Edit
 
-__all__ = ["cross_text", "difference_text", "nested", "nodes_of", "plausible", "shuts", "turns_the_rest"]
+__all__ = ["nested", "plausible", "shuts", "turns_the_rest"]
 
 POSTURES = ("neutral", "standing")
 """Either may be meant: which of them stands there is not why numbers are wrong."""
@@ -46,7 +44,7 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
         return False  # it is switched off, or nothing
     if _nobody_makes(edit, part):
         return False
-    if edit.kind == "inserted" and _undoes(_parsed(after)):
+    if edit.kind == "inserted" and _undoes(parsed(after)):
         return False  # what is divided by does not belong there
     if edit.kind == "number" and " != 0" in before and " != 0" not in after:
         return False  # nobody takes another number for the zero that must not be divided by
@@ -59,11 +57,11 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
     if edit.kind == "name" and (_left_over(edit, text) or _added_up(edit, text)):
         return False
     if edit.kind == "after loop":
-        return not isinstance(_parsed(before), ast.Expr)  # a call after the loop is made only once
+        return not isinstance(parsed(before), ast.Expr)  # a call after the loop is made only once
     if edit.kind == "in loop":
-        return not _read_after(_parsed(before), text, edit.places[0][2].lineno)
-    if isinstance(_parsed(after), ast.AugAssign) and isinstance(_parsed(before), ast.Assign):
-        return ast.unparse(_parsed(before).targets[0]) not in ast.unparse(_parsed(before).value)  # it is in it already
+        return not _read_after(parsed(before), text, edit.places[0][2].lineno)
+    if isinstance(parsed(after), ast.AugAssign) and isinstance(parsed(before), ast.Assign):
+        return ast.unparse(parsed(before).targets[0]) not in ast.unparse(parsed(before).value)  # it is in it already
     if edit.kind == "inserted" and any(before in ast.unparse(x) for x in nodes_of(text) if isinstance(x, ast.Compare)):
         return False  # a branch that is wrong needs no further factor in its condition
     if shuts(edit):
@@ -71,7 +69,7 @@ def plausible(edit: Edit, text: str, part: Part) -> bool:
         return ">" not in before and any(before in test for test in tests)
     if any(name in before and name not in after for name in POSTURES) and any(name in after for name in POSTURES):
         return False
-    return edit.kind != "exchanged" or (_turned(before, text, part.solution) and not _of_a_minus(before, text))
+    return edit.kind != "exchanged" or (turned(before, text, part.solution) and not of_a_minus(edit, text))
 
 
 def _nobody_makes(edit: Edit, part: Part) -> bool:
@@ -124,17 +122,18 @@ def _is_guard(edit: Edit) -> bool:
     """Whether the larger of something and a fixed number becomes the smaller, or the other way round."""
     node = edit.places[0][2] if edit.places else None
     bound = isinstance(node, ast.Attribute | ast.Name) and edit.right.partition("(")[0].endswith(("max", "min", "imum"))
-    arguments = getattr(getattr(_parsed(edit.right), "value", None), "args", [])
+    arguments = getattr(getattr(parsed(edit.right), "value", None), "args", [])
     return bound and any(isinstance(x, ast.Constant) for x in arguments)
 
 
 def _of_itself(edit: Edit) -> bool:
-    """Whether a cross product or a difference of something with itself would be there, which is zero."""
+    """Whether a thing would be crossed with itself, or subtracted from it or added to it: zero, or twice that."""
     nodes, around = nodes_of(edit.wrong), edit.places[0][0] if edit.places else []
-    ends = [{ast.unparse(x.left), ast.unparse(x.right)} for x in around if _is_difference(x)]
-    pairs = [x.args for x in nodes if _is_cross(x)] + [[x.left, x.right] for x in nodes if _is_difference(x)]
+    sums = [x for x in around if isinstance(x, ast.BinOp) and isinstance(x.op, ast.Add | ast.Sub)]
+    ends = [{ast.unparse(x.left), ast.unparse(x.right)} for x in sums]
+    pairs = [x.args for x in nodes if is_cross(x)] + [[x.left, x.right] for x in nodes if is_difference(x)]
     nothing = any(len({ast.unparse(y).lstrip("-") for y in pair}) == 1 for pair in pairs)
-    return nothing or any({edit.right, edit.wrong} == both for both in ends)
+    return nothing or any({edit.right, edit.wrong.replace(".T.T", "")} == both for both in ends)
 
 
 def turns_the_rest(edit: Edit, other: Edit) -> bool:
@@ -192,7 +191,7 @@ def _kept(before: str, after: str, text: str) -> bool:
     """Whether of a sum over a loop, or of its largest, only the last would be kept: that is not why it is there."""
     if not any(word in before for word in ("+=", "max(", "min(")):
         return False
-    node, other = _parsed(before), _parsed(after)
+    node, other = parsed(before), parsed(after)
     if isinstance(node, ast.AugAssign) and isinstance(other, ast.Assign):
         loops = [x for x in nodes_of(text) if isinstance(x, ast.For)]
         inside = [x for x in loops if before in map(ast.unparse, ast.walk(x))]
@@ -221,80 +220,3 @@ def _added_up(edit: Edit, text: str) -> bool:
     loops = {ast.unparse(x.target) for x in nodes_of(text) if isinstance(x, ast.For)}
     sums = {ast.unparse(x.target) for x in nodes_of(text) if isinstance(x, ast.AugAssign)}
     return bool((old - new) & loops) and bool((new - old) & sums)
-
-
-def _turned(before: str, text: str, reference: Callable[..., Any]) -> bool:
-    """Whether of a lever arm and its cross product, either of which gives the sign, this is the one that is turned."""
-    lever, product = difference_text(before), cross_text(before)
-    if not lever and not product:
-        return True
-    try:
-        expected = {*_arms(inspect.getsource(reference))}
-    except (OSError, TypeError):  # no source
-        return True
-    own = {*_arms(text)}
-    if len(own) != 1 or len(expected) != 1:
-        return True
-    return (own == expected) == lever
-
-
-def _of_a_minus(before: str, text: str) -> bool:
-    """Whether a factor of a cross product has a minus, or the line that gives it a name for this product only."""
-    given = {ast.unparse(x.targets[0]): x.value for x in nodes_of(text) if isinstance(x, ast.Assign)}
-    names = [x.id for x in nodes_of(text) if isinstance(x, ast.Name)]
-    factors = [x for node in nodes_of(before) if _is_cross(node) for x in node.args]
-    alone = [given.get(x.id, x) if isinstance(x, ast.Name) and names.count(x.id) == 2 else x for x in factors]
-    minus = [x for x in alone if isinstance(x, ast.UnaryOp) and isinstance(x.op, ast.USub)]
-    return any(isinstance(x.operand, ast.Name) for x in minus)
-
-
-def _arms(text: str) -> Iterator[int]:
-    """Yield of each cross product with a lever arm in it which of its factors that is."""
-    nodes = [*nodes_of(text)]
-    named = [x for x in nodes if isinstance(x, ast.Assign) and _is_arm(x.value)]
-    arms = {ast.unparse(target) for x in named for target in x.targets}
-    for node in nodes:
-        if _is_cross(node):
-            found = [k for k, x in enumerate(node.args) if _is_arm(x) or ast.unparse(x) in arms]
-            yield from found if len(found) == 1 else ()
-
-
-def _is_arm(node: Any) -> bool:
-    """Whether a node is a difference of two points, or one that is turned."""
-    turned = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
-    return _is_arm(node.left) or _is_arm(node.right) if turned else _is_difference(node)
-
-
-def _is_difference(node: Any) -> bool:
-    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
-
-
-def cross_text(text: str) -> bool:
-    """Whether a text is a cross product."""
-    return isinstance(node := _parsed(text), ast.Expr) and _is_cross(node.value)
-
-
-def difference_text(text: str) -> bool:
-    """Whether a text is a difference, as a lever arm is."""
-    return isinstance(node := _parsed(text), ast.Expr) and _is_difference(node.value)
-
-
-def _is_cross(node: Any) -> bool:
-    return isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "cross" and len(node.args) == 2
-
-
-def _parsed(text: str) -> Any:
-    """Return the statement that a text is; None where it is only a piece of one."""
-    try:
-        return ast.parse(textwrap.dedent(text)).body[0]
-    except (SyntaxError, IndexError):
-        return None
-
-
-@lru_cache(maxsize=64)
-def nodes_of(text: str) -> tuple[Any, ...]:
-    """Return the nodes of a text; none where it is only a piece of a program."""
-    try:
-        return (*ast.walk(ast.parse(textwrap.dedent(text))),)
-    except SyntaxError:
-        return ()

@@ -75,6 +75,7 @@ COLUMNS = Part(
     slips={
         "columns-added-up": after(mass_matrix_by_rnea, lambda M: M.cumsum(axis=1)),
         "gravity-left-in": faulty(mass_matrix_by_rnea, (" - gravity", "")),
+        "gravity-averaged": after(faulty(mass_matrix_by_rnea, (" - gravity", "")), lambda M: (M + M.mT) / 2),
         "gravity-from-columns": faulty(
             mass_matrix_by_rnea, ("columns).mT", "columns).mT + gravity[:, None] - gravity")
         ),

@@ -96,7 +96,7 @@ OF_GO2 = Part(
     solution=go2_base_wrench,
     returns=(Quantity("F", WRENCH),),
     cases=lambda rng: [()],
-    rtol=5e-4,
+    rtol=1e-4,  # the moment is 1.297 beside a force of 157.8
     slips={
         "as-printed": _numbers(0, -157.794),
         "moment-dropped": _numbers(0, 157.794),

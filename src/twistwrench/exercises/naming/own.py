@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..changes.plausible import cross_text, difference_text, nodes_of
+from ..changes.crosses import cross_text, difference_text, nodes_of
 from ..changes.repair import Repair
 from ..changes.whole import Edit
 from ..changes.written import text_written
