@@ -10,6 +10,7 @@ import numpy as np
 from ..changes.likeness import blames
 from ..changes.repair import Repair
 from ..changes.written import text_written
+from ..compare import values
 from ..exercise import Exercise, Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -109,8 +110,10 @@ def _slip_of_the_list(wrong: WrongAnswer) -> Explained | None:
 def _other_order(wrong: WrongAnswer) -> Explained | None:
     if wrong.exchanged is None:
         return None
-    if "swapped-halves" not in wrong.alike:
-        return [], [say("like slip", title=wrong.exchanged, why=say("exchanged")), where(wrong)]
+    halves = any(n >= 6 for x in values(wrong.right[0], wrong.part.returns) or [] for n in getattr(x.array, "shape", ()))
+    if "swapped-halves" not in wrong.alike or not halves:  # of results without halves it is the same
+        same = [slip for slip in wrong.alike if slip == "swapped-halves"]
+        return same, [say("like slip", title=wrong.exchanged, why=say("exchanged")), where(wrong)]
     slip, order = wrong.slip("swapped-halves"), say("exchanged")
     each = [
         say("slip of several", title=wrong.exchanged, why=order),
