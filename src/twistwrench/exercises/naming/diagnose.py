@@ -110,7 +110,9 @@ def _slip_of_the_list(wrong: WrongAnswer) -> Explained | None:
 def _other_order(wrong: WrongAnswer) -> Explained | None:
     if wrong.exchanged is None:
         return None
-    halves = any(n >= 6 for x in values(wrong.right[0], wrong.part.returns) or [] for n in getattr(x.array, "shape", ()))
+    halves = any(
+        n >= 6 for x in values(wrong.right[0], wrong.part.returns) or [] for n in getattr(x.array, "shape", ())
+    )
     if "swapped-halves" not in wrong.alike or not halves:  # of results without halves it is the same
         same = [slip for slip in wrong.alike if slip == "swapped-halves"]
         return same, [say("like slip", title=wrong.exchanged, why=say("exchanged")), where(wrong)]
