@@ -170,6 +170,7 @@ def scale(name: str, model, s: State, true: dict[str, np.ndarray]) -> float:
         "C": largest(true["M"]) * v,
         "g": weight,
         "h": weight + largest(true["M"]) * v**2,
+        "dh_G": largest(true["h_G"]) * v,
         **{f"dJ v {r}": largest(true[f"J {r}"]) * v**2 for r in REFERENCES},
     }
     return max(largest(true[name]), terms.get(name, 0.0))

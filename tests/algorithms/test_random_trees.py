@@ -13,6 +13,8 @@ from ..truth import assert_agree, check_against_the_truth, pinocchio, textbook
 
 LONG_CHAIN = Recipe(40, seed=7, base="floating", kinds=("revolute",), branching=0.0)
 BIG_TREE = Recipe(40, seed=3, base="fixed")
+UNPUSHED = Recipe(1, seed=5602, base="fixed", kinds=("prismatic",))
+"""A slide that hardly accelerates: what its momentum is changed by is small beside the terms of its velocity."""
 
 
 @given(recipes(8))
@@ -49,6 +51,7 @@ def check_against_pinocchio(recipe: Recipe) -> None:
 @given(recipes(40))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
+@example(UNPUSHED)
 @examples(20)
 def test_every_quantity_is_pinocchios(recipe):
     check_against_pinocchio(recipe)
