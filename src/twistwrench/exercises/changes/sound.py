@@ -48,12 +48,11 @@ class Sound:
 
     def fails(self, changed: Function) -> str:
         """Return the first special case in which a changed function is wrong, as `case` takes it; empty for none."""
-        wrong = (k for k, (c, right) in enumerate(self._special) if not self._agrees(changed, c, right))
-        before = len(every_case(self.part, 0)) - len(self._special)
-        return next((f"{self.part.name} {before + k}" for k in wrong), "")
-
-    def _agrees(self, changed: Function, arguments: tuple[Any, ...], right: Any) -> bool:
-        return agree(self.part, tried(self.part, changed, arguments), right, arguments)
+        part = self.part
+        for k, (arguments, right) in enumerate(self._special):
+            if not agree(part, tried(part, changed, arguments), right, arguments):
+                return f"{part.name} {len(every_case(part, 0)) - len(self._special) + k}"
+        return ""
 
     @cached_property
     def _special(self) -> list[tuple[tuple[Any, ...], Any]]:

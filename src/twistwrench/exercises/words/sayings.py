@@ -110,10 +110,6 @@ SAYINGS = {
         "do in all other cases what is done where `{wrong}` holds",
         "把 `{wrong}` 成立时所做的，改在其余所有情形中做",
     ),
-    "returned there": Text(
-        "Your {name} is what {other} must be: are the two returned in the wrong order?",
-        "你的 {name} 正是 {other} 应有的结果：是不是二者返回的顺序反了？",
-    ),
     "the same": Text("It is the same as your {other}, and must not be.", "它与你的 {other} 相同，而二者不应相同。"),
     # two slips at once
     "two slips": Text(
