@@ -69,10 +69,11 @@ class Calls:
 
 def written_down(part: Part, function: Callable[..., Any]) -> list[Text]:
     """Report that a student's function does not use the argument that its result is to be computed from."""
-    defined = [x for x in nodes_of(text_written(function)) if isinstance(x, ast.FunctionDef)]
-    mine = [x for x in defined if x.name == part.name] if part.name in COMPUTED else []
-    names = [x.args.args[COMPUTED[part.name]].arg for x in mine if len(x.args.args) > COMPUTED[part.name]]
-    return [SAY["written down"].fill(name=name) for x, name in zip(mine, names) if name in unused(x)]
+    if part.name not in COMPUTED:
+        return []
+    defined = [x for x in nodes_of(text_written(function)) if isinstance(x, ast.FunctionDef) and x.name == part.name]
+    given = [(x, argument.arg) for x in defined for argument in x.args.args[COMPUTED[part.name] :][:1]]
+    return [SAY["written down"].fill(name=name) for x, name in given if name in unused(x)]
 
 
 def is_ours(file: str) -> bool:

@@ -57,8 +57,8 @@ def _arms(text: str) -> Iterator[int]:
 
 def _is_arm(node: Any) -> bool:
     """Whether a node is a difference of two points, or one that is turned."""
-    turned = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
-    return _is_arm(node.left) or _is_arm(node.right) if turned else is_difference(node)
+    product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
+    return _is_arm(node.left) or _is_arm(node.right) if product else is_difference(node)
 
 
 def is_difference(node: Any) -> bool:

@@ -110,9 +110,8 @@ def _slip_of_the_list(wrong: WrongAnswer) -> Explained | None:
 def _other_order(wrong: WrongAnswer) -> Explained | None:
     if wrong.exchanged is None:
         return None
-    halves = any(
-        n >= 6 for x in values(wrong.right[0], wrong.part.returns) or [] for n in getattr(x.array, "shape", ())
-    )
+    right = values(wrong.right[0], wrong.part.returns) or []
+    halves = any(n >= 6 for x in right for n in getattr(x.array, "shape", ()))
     if "swapped-halves" not in wrong.alike or not halves:  # of results without halves it is the same
         same = [slip for slip in wrong.alike if slip == "swapped-halves"]
         return same, [say("like slip", title=wrong.exchanged, why=say("exchanged")), where(wrong)]
@@ -208,10 +207,8 @@ def _change_and_slip(wrong: WrongAnswer) -> Explained | None:
 
 
 def _two_slips_of_the_list(wrong: WrongAnswer) -> Explained | None:
-    few = few_entries(wrong.part, wrong.answers, wrong.cases)
-    one = few or wrong.by_chance or wrong.alike
-    pair = None if one else two_slips(wrong.part, wrong.answers, wrong.cases)
-    if pair is None:
+    given = wrong.part, wrong.answers, wrong.cases
+    if wrong.alike or wrong.by_chance or few_entries(*given) or (pair := two_slips(*given)) is None:
         return None
     first, second = map(wrong.slip, pair)
     line = say("two slips", first=first.title, second=second.title)

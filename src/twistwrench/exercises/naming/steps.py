@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 import inspect
 import re
-import textwrap
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from ..calls import copied, local_values
+from ..changes.crosses import nodes_of
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -52,7 +52,7 @@ def first_wrong(part: Part, function: Any, within: Any, arguments: tuple[Any, ..
 def _computed(function: Any) -> dict[str, bool]:
     """Return the names of which a loop sets one entry after the other, in order, and whether it goes inward."""
     found: dict[str, bool] = {}
-    for loop in ast.walk(ast.parse(textwrap.dedent(inspect.getsource(function)))):
+    for loop in nodes_of(inspect.getsource(function)):
         if isinstance(loop, ast.For):
             inward = any(word in ast.unparse(loop.iter) for word in INWARD)
             for node in ast.walk(loop):

@@ -176,15 +176,13 @@ def suspects(found: Sequence[Output], ways: Container[tuple[int, int]] = ()) -> 
 def feeds(part: Part, source: Source, statement: Any, arguments: tuple[Any, ...], answer: Any, right: Any) -> bool:
     """Whether numbers that are wrong are others where what a statement computes is half as large again."""
     node = getattr(statement, "value", None)
-    places = [place for place in source.places if place[2] is node]
-    for edit in source.made("number", ("", ""), [(*x, _half_more(node)) for x in places[:1]]) if places else ():
-        other = tried(part, edit.function, arguments)
-        three = [values(x, part.returns) for x in (answer, right, other)]
-        arrays = [[x.array for x in split or ()] for split in three]
-        if other is None or any(x is None for split in arrays for x in split):
-            return True
-        return any(len({x.shape for x in xs}) > 1 or _moves(*xs) for xs in zip(*arrays))
-    return True
+    places = [(*place, _half_more(node)) for place in source.places if place[2] is node][:1]
+    edit = next(source.made("number", ("", ""), places), None) if places else None
+    other = tried(part, edit.function, arguments) if edit else None
+    split = [values(x, part.returns) for x in (answer, right, other)]
+    if other is None or None in split:
+        return True  # they cannot be compared
+    return any(_moves(*(x.array for x in xs)) for xs in zip(*split))
 
 
 def _half_more(node: Any) -> Any:
@@ -193,5 +191,7 @@ def _half_more(node: Any) -> Any:
 
 
 def _moves(answer: Any, right: Any, other: Any) -> bool:
-    """Whether an entry that is wrong is another one in the other answer."""
+    """Whether an entry that is wrong is another one in the other answer, or they cannot be compared."""
+    if any(x is None or x.shape != right.shape for x in (right, answer, other)):
+        return True
     return bool((~np.isclose(answer, right, 1e-9, 0) & ~np.isclose(answer, other, 1e-9, 0)).any())

@@ -169,8 +169,9 @@ class Stepwise:
         if not alone or _is_taken(first.node) or len(every) < 3:
             return None
         case, answer, right = (x[self.first] for x in (self.cases, self.answers, self.right))
-        if not feeds(self.part, self.start.source, first.statement, case, answer, right):
-            return None
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+            if not feeds(self.part, self.start.source, first.statement, case, answer, right):
+                return None
         return say("first line", line=first.statement.lineno, text=text_of(first.statement))
 
     def blameless(self, line: int | None) -> bool:
