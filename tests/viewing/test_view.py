@@ -547,7 +547,7 @@ def test_a_real_browser_draws_the_page(tmp_path, browser):
     where = [f"--user-data-dir={tmp_path}", f"--screenshot={shot}", (tmp_path / "go2.html").as_uri()]
     quick = ["--window-size=500,400", "--virtual-time-budget=3000"]
     try:
-        subprocess.run([chromium, *flags.split(), *quick, *where], capture_output=True, timeout=60, check=True)
+        subprocess.run([chromium, *flags.split(), *quick, *where], capture_output=True, timeout=25, check=True)
     except subprocess.TimeoutExpired:  # a browser that waits for itself does so rarely, and not twice
         subprocess.run([chromium, *flags.split(), *quick, *where], capture_output=True, timeout=120, check=True)
     pixels = np.asarray(image.open(shot).convert("RGB")).reshape(-1, 3).astype(int)

@@ -43,7 +43,7 @@ def calls(node: Any) -> Iterator[Change]:
         return
     yield from _with_other_arguments(node)
     if len(node.args) <= 2 and not is_copy(node) and called(node) not in ("array", "asarray"):
-        kind = "left out" if len(node.args) == 1 else "instead"
+        kind = "left out" if len(node.args) == 1 and not node.keywords else "instead"
         yield from ((kind, argument) for argument in node.args if not isinstance(argument, ast.Constant))
     yield from _of_method(node)
     if called(node) in ALONG and not node.keywords and len(node.args) == _of_module(node):

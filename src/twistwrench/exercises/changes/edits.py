@@ -22,7 +22,7 @@ from ..calls import CHANGED, count
 from .alternatives import KINDS, crossed
 from .containers import Change, parsed
 from .excerpts import assignment, enclosing, term, text_of
-from .places import Place, all_places, mark, put, put_in, surroundings
+from .places import Place, all_places, is_empty, mark, put, put_in, stands_elsewhere, surroundings
 from .scope import Scope
 from .whole import Edit, of_arguments, of_order
 
@@ -163,7 +163,7 @@ class Source:
         for (_, (right, wrong)), places in alike.items():
             if kind == "number" and len({field for _, field, *_ in places}) > 1:
                 continue  # where a slice begins and where another ends are two things
-            if len(places) > 1:
+            if len(places) > 1 and (len(places) == 2 or not stands_elsewhere(right, places)):
                 yield from self.made(kind, (right, wrong), places, everywhere=True)
             if 2 < len(places) <= MOST_PLACES:
                 for two in combinations(places, 2):
@@ -223,6 +223,8 @@ class Source:
         for place in places:
             put_in(place)
         try:
+            if any(is_empty(parents[-1]) for parents, *_ in places):
+                return
             changed = self.compiled(located=True)
             became = tuple(text_of(surroundings(parents)) for parents, *_ in places)
         except Exception:  # no program; and the body of a class is run

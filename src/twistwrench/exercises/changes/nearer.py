@@ -159,7 +159,8 @@ class Nearer:
         """Return a change after which it has the numbers of a slip of the list in all cases, and the slip's name."""
         for edit, name in self.slips[:MOST]:
             slip = self.part.slips[name]
-            if SLIPS[name].lacks and edit.kind not in TURNS and not _is_of_rounds(edit):
+            lacks = SLIPS[name]._replace(title=self.part.titles.get(name, SLIPS[name].title)).lacks
+            if lacks and edit.kind not in TURNS and not _is_of_rounds(edit):
                 continue  # the change may have taken it out
             if self.source is None or switches_off(self.part, self.source.compiled(), edit.function, self.cases[0]):
                 continue  # what is missing then was there before

@@ -13,10 +13,12 @@ __all__ = [
     "all_places",
     "changed_around",
     "innermost",
+    "is_empty",
     "mark",
     "may_be_argument",
     "put",
     "put_in",
+    "stands_elsewhere",
     "surroundings",
     "unused",
 ]
@@ -41,6 +43,21 @@ def mark(texts: tuple[str, str], node: Any, other: Any) -> tuple[str, str]:
         right, wrong = (text_of(ast.Compare(ast.Name("x"), x.ops, [ast.Name("y")]))[2:-2] for x in (node, other))
         return right, wrong
     return (with_operator(node, texts[0]), "") if not texts[1] else (text_of(node), text_of(other))
+
+
+def is_empty(node: Any) -> bool:
+    """Whether a slice ends where it begins, or before."""
+    match node:
+        case ast.Slice(lower=ast.Constant(value=int(begin)), upper=ast.Constant(value=int(end))):
+            return begin >= end
+    return False
+
+
+def stands_elsewhere(name: str, places: Sequence[Any]) -> bool:
+    """Whether a name is read in other places, too, of the function or method in which these places are."""
+    around = next((x for x in reversed(places[0][0]) if isinstance(x, ast.FunctionDef)), places[0][0][0])
+    read = [x for x in ast.walk(around) if isinstance(x, ast.Name) and x.id == name and isinstance(x.ctx, ast.Load)]
+    return len(read) > len(places)
 
 
 def innermost(nodes: Sequence[Any]) -> Any:

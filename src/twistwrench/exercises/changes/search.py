@@ -12,6 +12,7 @@ import numpy as np
 import twistwrench
 
 from ..calls import copied, local_values, smallest, tried
+from ..cases import every_case, special_cases
 from ..compare import ROUNDING, agree, close, values
 from ..exercise import Part
 from ..words.phrases import say
@@ -176,7 +177,7 @@ def _one(x: Any) -> Any:
 
 def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Cases) -> Text | None:
     """Report for which argument a simple value makes the student's function right, if there is one."""
-    names = part.arguments.split(", ")
+    names, special = part.arguments.split(", "), special_cases(part, 0)
     if any(map(callable, cases[0])):
         return None  # what these do is not seen in a few cases
     for k, name in enumerate(names):
@@ -186,13 +187,24 @@ def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Case
             if value == "0" and _matrices([c[k] for c in cases]):
                 continue
             try:
-                tests = [(*c[:k], simple(c[k]), *c[k + 1 :]) for c in cases]
+                tests, rare = ([(*c[:k], simple(c[k]), *c[k + 1 :]) for c in some] for some in (cases, special))
             except (IndexError, TypeError):  # no such value
                 continue
             pairs = [(test, right) for test in tests if _telling(right := tried(part, part.solution, test))]
             if pairs and all(agree(part, again(test), right, test) for test, right in pairs):
-                return say(SHAPES.get(value, "only where"), name=name, value=value)
+                found = say(SHAPES.get(value, "only where"), name=name, value=value)
+                return _but_for(part, again, rare, found)
     return None
+
+
+def _but_for(part: Part, again: Callable[[tuple[Any, ...]], Any], rare: Cases, found: Text) -> Text:
+    """Add to when a function is right the first special case in which it is then wrong, as `case` takes it."""
+    for k, test in enumerate(rare):
+        right = tried(part, part.solution, test)
+        if right is not None and not agree(part, again(test), right, test):
+            case = f"{part.name} {len(every_case(part, 0)) - len(rare) + k}"
+            return say("but for", found=found, case=case)
+    return found
 
 
 def _telling(answer: Any) -> bool:

@@ -94,7 +94,7 @@ def _either_order(wrong: WrongAnswer) -> Explained | None:
     return [], [
         say("either"),
         *map(indented, either),
-        say("either way", all=len(wrong.cases)),
+        say("either way", all=len(wrong.cases), what=say("numbers are")),
         say("perhaps"),
         where(wrong),
     ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from operator import is_
 from typing import Any
 
 import numpy as np
@@ -48,7 +49,7 @@ def not_used(
                 _unmoved(part, again, a, b, [(*c[:k], x, *c[k + 1 :]) for x in _others(c[k], entry, cases, k)])
                 for a, b, c in wrong
             ]
-            what = name if entry is None else f"{name}[{entry}]"
+            what = _differing(name, wrong[0][2][k], cases, k) if entry is None else f"{name}[{entry}]"
             common = sorted(set[int].intersection(*unmoved))
             for a, c in good if common else ():  # where it is right, it may come into it
                 others = [(*c[:k], x, *c[k + 1 :]) for x in _others(c[k], entry, cases, k)]
@@ -68,6 +69,13 @@ def _unmoved(part: Part, again: Callable[[Case], Any], answer: Any, right: Any, 
             wanted |= _changed(part, expected, right)
             moved |= _changed(part, again(other), answer)
     return wrong & wanted - moved - {k for k, x in enumerate(values(right, part.returns) or []) if _truth(x)}
+
+
+def _differing(name: str, x: Any, cases: Sequence[Case], k: int) -> str:
+    """Return the name of an argument, and of its gravity where models differ in nothing else."""
+    inertias = [getattr(c[k], "inertia", None) for c in cases]
+    alike = all(x is not None and all(map(is_, x, inertias[0] or ())) for x in inertias)
+    return f"{name}.gravity" if alike and hasattr(x, "gravity") else name
 
 
 def _truth(x: Value) -> bool:

@@ -83,7 +83,8 @@ def named_by_piece(wrong: WrongAnswer, found: Mapping[str, list[str]]) -> list[T
 
 def mended(wrong: WrongAnswer, found: list[Repair]) -> list[Text]:
     """Report which change makes the student's own function right, or each wrong thing that it returns."""
-    return [*cures(wrong.part, found, len(wrong.cases)), *_shortly(wrong), where(wrong)]
+    lines = cures(wrong.part, found, len(wrong.cases), of_one=wrong.whole is not None)
+    return [*lines, *_shortly(wrong), where(wrong)]
 
 
 def edited(wrong: WrongAnswer) -> list[Text]:
@@ -95,21 +96,25 @@ def edited(wrong: WrongAnswer) -> list[Text]:
     return [*lines, *_shortly(wrong), *([step] if step else []), where(wrong)]
 
 
-def cures(part: Part, found: Sequence[Repair], every: int) -> list[Text]:
+def cures(part: Part, found: Sequence[Repair], every: int, *, of_one: bool = False) -> list[Text]:
     """Report changes that make all right that is returned, or each a piece of it, in all cases: in `every`.
 
     By their numbers the slip and what has the same effect cannot be distinguished: none is called the slip.
+    `of_one`: of several things that are returned, only the one that is looked at.
     """
-    both = any(change.is_two for change in found)
-    if len(found) > 1 and not any(change.piece is not None for change in found):
-        each = say("either both" if both else "either way", all=every) if every > 1 else say("either once")
+    both, pieces = any(change.is_two for change in found), {change.piece for change in found}
+    (piece,) = pieces if len(pieces) == 1 else (None,)
+    here = say("is then", name=part.returns[piece or 0].title) if of_one or piece is not None else say("numbers are")
+    if len(found) > 1 and pieces == {None}:
+        each = say("either both" if both else "either way", all=every, what=here)
+        each = each if every > 1 else say("either once", what=here)
         return [say("either"), *(indented(change.title()) for change in found), each, say("perhaps")]
     lines = _each(part, found, "cure")
     whole = "mended both" if both else "mended each" if len(found) > 1 else "mended"
     once = "mended both once" if both else "mended once"
     narrow = [say("narrow", case=change.narrow) for change in found if change.narrow]
     last = narrow[0] if narrow else say("perhaps")
-    return [*lines, say(whole, all=every) if every > 1 else say(once), last]
+    return [*lines, say(whole, all=every, what=here) if every > 1 else say(once, what=here), last]
 
 
 def _each(part: Part, found: Sequence[Found | Repair], phrase: str) -> list[Text]:

@@ -49,6 +49,10 @@ MENDINGS = {
         "改后在一些特殊数据中仍然不对：还有别处出错，或者你的错因是另一处。"
         "其中一组：twistwrench exercises case {case} --seed 0",
     ),
+    "but for": Text(
+        "{found} In special cases it is wrong even then. One of them: twistwrench exercises case {case} --seed 0",
+        "{found}在一些特殊数据中即便如此仍然不对。其中一组：twistwrench exercises case {case} --seed 0",
+    ),
     "sign of result": Text(
         "change the sign of all that is returned: `{right}` in place of `x`",
         "改变所有返回值的符号：返回 `{right}` 而不是 `x`",
@@ -75,34 +79,34 @@ MENDINGS = {
     ),
     "in own line": Text("line {line}, {title}", "第 {line} 行，{title}"),
     "mended": Text(
-        "With this change, and no other, the numbers are right in all {all} cases.",
-        "只作这一改动，全部 {all} 组数据的数值就都正确。",
+        "With this change, and no other, {what} right in all {all} cases.",
+        "只作这一改动，全部 {all} 组数据的{what}就都正确。",
     ),
     "mended each": Text(
         "Each of these changes makes its own result right, in all {all} cases.",
         "其中每处改动都使对应的结果在全部 {all} 组数据中正确。",
     ),
     "mended both": Text(
-        "With these changes, and no other, the numbers are right in all {all} cases.",
-        "只作这几处改动，全部 {all} 组数据的数值就都正确。",
+        "With these changes, and no other, {what} right in all {all} cases.",
+        "只作这几处改动，全部 {all} 组数据的{what}就都正确。",
     ),
     "cure": Text("This would make it right: {title}.", "这样改就会正确：{title}。"),
     "cure in": Text("This would make {name} right: {title}.", "这样改，{name} 就会正确：{title}。"),
     "perhaps": Text("Your slip may be another one that has the same effect.", "你的错因也可能是另一处效果相同的错误。"),
     "either": Text("One of these changes would make it right:", "下列改动任取其一，就会正确："),
     "either way": Text(
-        "With one of them alone the numbers are right in all {all} cases.",
-        "单独作其中任一改动，全部 {all} 组数据的数值都正确。",
+        "With one of them alone {what} right in all {all} cases.",
+        "单独作其中任一改动，全部 {all} 组数据的{what}都正确。",
     ),
-    "either once": Text("With one of them alone the numbers are right.", "单独作其中任一改动，数值就正确。"),
+    "either once": Text("With one of them alone {what} right.", "单独作其中任一改动，{what}就正确。"),
     "either both": Text(
-        "With the changes of one of them, and no other, the numbers are right in all {all} cases.",
-        "只作其中任一项的改动，全部 {all} 组数据的数值就都正确。",
+        "With the changes of one of them, and no other, {what} right in all {all} cases.",
+        "只作其中任一项的改动，全部 {all} 组数据的{what}就都正确。",
     ),
-    "mended both once": Text(
-        "With these changes, and no other, the numbers are right.", "只作这几处改动，数值就正确了。"
-    ),
-    "mended once": Text("With this change, and no other, the numbers are right.", "只作这一改动，数值就正确了。"),
+    "mended both once": Text("With these changes, and no other, {what} right.", "只作这几处改动，{what}就正确了。"),
+    "mended once": Text("With this change, and no other, {what} right.", "只作这一改动，{what}就正确了。"),
+    "numbers are": Text("the numbers are", "数值"),
+    "is then": Text("{name} is", " {name} "),
     "both edits": Text("{first}; and {second}", "{first}；并且{second}"),
     "twice": Text("{title}, in two places", "{title}（两处都是）"),
     "both places": Text("{title}, in `{first}` and in `{second}`", "{title}（在 `{first}` 和 `{second}` 中）"),
