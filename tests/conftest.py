@@ -18,4 +18,5 @@ os.environ.setdefault(DRAWN_BY, str(random.randrange(1000)))  # before pytest-xd
 
 def pytest_report_header():
     """Print by what a long list of slow tests is drawn, so that it can be drawn again."""
-    return f"of the longest lists of slow tests a part is drawn: {DRAWN_BY}={os.environ[DRAWN_BY]} (all: {DRAWN_BY}=all)"
+    seed = os.environ[DRAWN_BY]
+    return f"of the longest lists of slow tests a part is drawn: {DRAWN_BY}={seed} (all: {DRAWN_BY}=all)"

@@ -19,6 +19,7 @@ crosses       cross products and differences in a text, and which of the two is 
 of_wrenches   whether a change would transform a wrench as a twist, or a twist as a wrench
 plausible     which changes are slips that somebody makes
 likeness      which changes are the same for a student, and which are less likely than others
+planets       whether a function takes the gravity of the earth, whatever its robot's is
 sound         whether a change that makes a function right holds in special cases too
 nearer        changes that make a part of an answer right
 search        the edit of the right function that gives the student's numbers

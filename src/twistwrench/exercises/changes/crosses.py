@@ -41,7 +41,15 @@ def of_a_minus(edit: Edit, text: str) -> bool:
     minus = [x for x in alone if isinstance(x, ast.UnaryOp) and isinstance(x.op, ast.USub)]
     around = edit.places[0][0] if edit.places else []
     subtracted = any(isinstance(x, ast.AugAssign) and isinstance(x.op, ast.Sub) for x in around)
-    return (subtracted and cross_text(edit.right)) or any(isinstance(x.operand, ast.Name) for x in minus)
+    subtracted |= any(is_difference(x) and x.right is node for x in around[-1:] for _, _, node, _ in edit.places[:1])
+    products = [x.right for x in nodes_of(edit.right) if is_difference(x) and is_cross(x.right)]
+    subtracted = (subtracted and cross_text(edit.right)) or any(_reversed(x) in edit.wrong for x in products)
+    return subtracted or any(isinstance(x.operand, ast.Name) for x in minus)
+
+
+def _reversed(product: ast.Call) -> str:
+    """Return the text of a cross product with its factors exchanged."""
+    return ast.unparse(ast.Call(product.func, product.args[::-1], product.keywords))
 
 
 def _arms(text: str) -> Iterator[int]:

@@ -50,6 +50,8 @@ class Repair:
         Whether what its line computes is right, so that another line may be wrong.
     narrow : str
         A special case in which the function is then still wrong, as `case` takes it.
+    earthbound : bool
+        Whether it then takes the gravity of the earth, whatever the robot's is, and nothing else is wrong.
     """
 
     edit: Edit
@@ -58,6 +60,7 @@ class Repair:
     meaning: Text | None = None
     unsure: bool = False
     narrow: str = ""
+    earthbound: bool = False
 
     @property
     def one_piece(self) -> bool:
@@ -95,6 +98,11 @@ class Repair:
         edit, statement = self.first or self.edit, self._statement
         target = isinstance(edit.inside, ast.Subscript) and isinstance(edit.inside.ctx, ast.Store)
         return None if statement is None or target else statement.lineno
+
+    @property
+    def remark(self) -> Text | None:
+        """What is still wrong after it, if anything is."""
+        return say("narrow", case=self.narrow) if self.narrow else say("earthbound then") if self.earthbound else None
 
     @property
     def in_header(self) -> bool:

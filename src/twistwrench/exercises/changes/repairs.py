@@ -118,7 +118,7 @@ def repairs(
                     continue  # what is asked for in two ways is not computed in one
                 edit = source.as_written(edit, lambda f: _right(part, f, right[first], cases[first]))
                 repair = Repair(edit, meaning=meaning(source, edit, part, right, cases))
-                chosen.add(replace(repair, narrow=sound.fails(edit.function)))
+                chosen.add(_marked(repair, sound))
                 continue
             if edit.kind == "result" or all(
                 same(part, others, answers, k) or same(part, others, right, k) for k in {*every} - here
@@ -215,6 +215,13 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
             yield from (edit for edit in of_arguments(source.compiled()) if not edit.wrong.startswith("0 *"))
         if kind == "index" and arguments:  # their order is given: it is seldom mistaken
             yield from of_order(source.compiled())
+
+
+def _marked(repair: Repair, sound: Sound) -> Repair:
+    """Return a change with the mark what is wrong after it in special cases."""
+    narrow = sound.fails(repair.edit.function)
+    earthbound = bool(narrow) and sound.earthbound(repair.edit.function)
+    return replace(repair, narrow="" if earthbound else narrow, earthbound=earthbound)
 
 
 def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> float:

@@ -19,6 +19,7 @@ from ..words.phrases import say
 from ..words.text import Text
 from .edits import edits
 from .places import changed_around
+from .planets import on_earth
 from .whole import Edit
 
 __all__ = [
@@ -198,13 +199,14 @@ def right_where(part: Part, again: Callable[[tuple[Any, ...]], Any], cases: Case
 
 
 def _but_for(part: Part, again: Callable[[tuple[Any, ...]], Any], rare: Cases, found: Text) -> Text:
-    """Add to when a function is right the first special case in which it is then wrong, as `case` takes it."""
-    for k, test in enumerate(rare):
-        right = tried(part, part.solution, test)
-        if right is not None and not agree(part, again(test), right, test):
-            case = f"{part.name} {len(every_case(part, 0)) - len(rare) + k}"
-            return say("but for", found=found, case=case)
-    return found
+    """Add to when a function is right the special cases in which it is then wrong."""
+    expected = [tried(part, part.solution, test) for test in rare]
+    pairs = enumerate(zip(rare, expected))
+    bad = [k for k, (test, x) in pairs if x is not None and not agree(part, again(test), x, test)]
+    if bad and all(on_earth(rare[k]) is not None for k in bad):
+        return say("but elsewhere", found=found)
+    case = f"{part.name} {len(every_case(part, 0)) - len(rare) + bad[0]}" if bad else ""
+    return say("but for", found=found, case=case) if bad else found
 
 
 def _telling(answer: Any) -> bool:

@@ -12,6 +12,7 @@ from ..calls import copied, keeps_arguments, tried
 from ..cases import every_case, special_cases
 from ..compare import agree
 from ..exercise import Part
+from .planets import earthbound, on_earth
 
 __all__ = ["Sound"]
 
@@ -46,13 +47,21 @@ class Sound:
         """Whether a changed function is right in all special cases: what only happens to be right is not."""
         return not self.fails(changed)
 
-    def fails(self, changed: Function) -> str:
-        """Return the first special case in which a changed function is wrong, as `case` takes it; empty for none."""
+    def fails(self, changed: Function, *, away: bool = True) -> str:
+        """Return the first special case in which a changed function is wrong, as `case` takes it; empty for none.
+
+        `away`: on other planets too.
+        """
         part = self.part
         for k, (arguments, right) in enumerate(self._special):
-            if not agree(part, tried(part, changed, arguments), right, arguments):
+            asked = away or on_earth(arguments) is None
+            if asked and not agree(part, tried(part, changed, arguments), right, arguments):
                 return f"{part.name} {len(every_case(part, 0)) - len(self._special) + k}"
         return ""
+
+    def earthbound(self, changed: Function) -> bool:
+        """Whether a changed function is wrong on other planets only, where it takes the gravity of the earth."""
+        return not self.fails(changed, away=False) and earthbound(self.part, changed, self.part.solution)
 
     @cached_property
     def _special(self) -> list[tuple[tuple[Any, ...], Any]]:

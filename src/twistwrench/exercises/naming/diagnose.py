@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..changes.likeness import blames
+from ..changes.planets import earthbound, on_earth
 from ..changes.repair import Repair
 from ..changes.written import text_written
 from ..compare import values
@@ -75,6 +76,14 @@ def _whole_numbers(wrong: WrongAnswer) -> Explained | None:
     if all(map(_has_whole, wrong.cases)) or not all(map(_has_whole, wrong.wrong_cases)):
         return None
     return [], [say("whole numbers"), where(wrong)]
+
+
+def _gravity_of_the_earth(wrong: WrongAnswer) -> Explained | None:
+    """Report that gravity is 9.81 m/s², whatever the robot's is, where nothing else is wrong."""
+    if not wrong.again or any(on_earth(c) is None for c in wrong.wrong_cases):
+        return None
+    found = earthbound(wrong.part, wrong.function, wrong.part.solution)
+    return ([], [say("earthbound"), where(wrong)]) if found else None
 
 
 def _has_whole(arguments: tuple[Any, ...]) -> bool:
@@ -245,6 +254,7 @@ def _rest_of_the_solution(wrong: WrongAnswer) -> Explained | None:
 
 EXPLANATIONS: tuple[Explanation, ...] = (
     _whole_numbers,
+    _gravity_of_the_earth,
     _two_names_of_one_array,
     _either_order,
     _slip_of_the_list,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ..changes.planets import earthbound, earthly_results
 from ..changes.repair import Repair
 from ..changes.search import Found, right_where
 from ..changes.written import text_written
@@ -54,7 +55,9 @@ def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
             step = first_wrong(part, made, within, wrong.cases[0], text_written(wrong.function))
         title, why = slips[0].title, slips[0].why
         like = say("like slip" if wrong.cases[0] else "like number", title=title, why=why)
-        lines = [like, *own, *([step] if step else [])]
+        unsaid = wrong.again and not any(x.earthbound for x in wrong.changes)
+        too = [say("earthbound too")] if unsaid and made and earthbound(part, wrong.function, made) else []
+        lines = [like, *too, *own, *([step] if step else [])]
     else:
         each = [say("slip of several", title=x.title, why=x.why) for x in slips]
         lines = [say("slips"), *each, *own]
@@ -78,7 +81,13 @@ def named_by_piece(wrong: WrongAnswer, found: Mapping[str, list[str]]) -> list[T
         lines += [indented(wrong.slip(slip).why) for slip in slips if slip not in given]
         given.update(slips)
         last = wrong.slip(slips[0]).section
-    return [*lines, where(wrong, last)]
+    return [*lines, *_earthly(wrong), where(wrong, last)]
+
+
+def _earthly(wrong: WrongAnswer) -> list[Text]:
+    """Report each thing returned that is right on the earth, and on other planets the same."""
+    found = earthly_results(wrong.part, wrong.function) if wrong.again else []
+    return [say("earthbound in", name=wrong.part.returns[k].title) for k in found]
 
 
 def mended(wrong: WrongAnswer, found: list[Repair]) -> list[Text]:
@@ -112,8 +121,8 @@ def cures(part: Part, found: Sequence[Repair], every: int, *, of_one: bool = Fal
     lines = _each(part, found, "cure")
     whole = "mended both" if both else "mended each" if len(found) > 1 else "mended"
     once = "mended both once" if both else "mended once"
-    narrow = [say("narrow", case=change.narrow) for change in found if change.narrow]
-    last = narrow[0] if narrow else say("perhaps")
+    remarks = [change.remark for change in found if change.remark is not None]
+    last = remarks[0] if remarks else say("perhaps")
     return [*lines, say(whole, all=every, what=here) if every > 1 else say(once, what=here), last]
 
 
@@ -140,7 +149,7 @@ def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:
         finer = better_with_finer_steps(part, wrong.function, wrong.wrong_cases[0])
         lines += finer or right_when_small(part, again, wrong.wrong_cases)
     broken = broken_property(part, wrong.answers, cases)
-    return [*lines, *filter(None, [broken]), where(wrong)]
+    return [*lines, *_earthly(wrong), *filter(None, [broken]), where(wrong)]
 
 
 def comparison(wrong: WrongAnswer) -> list[Text]:

@@ -129,8 +129,9 @@ def own_lines(mended: Sequence[Repair], found: Sequence[str]) -> list[Text]:
     whole = [x for x in whole if x.edit.kind != "name" or not lacking or isinstance(x.edit.inside, ast.Call)]
     titles = [x.title() for x in whole[:2] if x.edit.kind == whole[0].edit.kind]
     either = Text("; or ".join(x.en for x in titles), "；或 ".join(x.zh for x in titles))
-    if whole and whole[0].narrow:
-        return [say("own code once", title=either), say("narrow", case=whole[0].narrow)]
+    remark = whole[0].remark if whole else None
+    if remark is not None:
+        return [say("own code once", title=either), remark]
     return [say("own code", title=either)] if titles else []
 
 

@@ -49,6 +49,26 @@ MENDINGS = {
         "改后在一些特殊数据中仍然不对：还有别处出错，或者你的错因是另一处。"
         "其中一组：twistwrench exercises case {case} --seed 0",
     ),
+    "earthbound": Text(
+        "Gravity is 9.81 m/s² in your answer on every planet: `model.gravity` holds that of the robot's own.",
+        "你的结果在任何星球上都用 9.81 m/s²；机器人所在星球的重力加速度由 `model.gravity` 给出。",
+    ),
+    "earthbound too": Text(
+        "Besides, gravity is 9.81 m/s² in your answer on every planet: `model.gravity` holds that of the robot's own.",
+        "此外，你的结果在任何星球上都用 9.81 m/s²；机器人所在星球的重力加速度由 `model.gravity` 给出。",
+    ),
+    "earthbound then": Text(
+        "On other planets it is then still wrong: gravity is 9.81 m/s² in your answer, whatever `model.gravity` is.",
+        "改后在别的星球上仍然不对：无论 `model.gravity` 是多少，你的结果都用 9.81 m/s²。",
+    ),
+    "earthbound in": Text(
+        "In {name} gravity is 9.81 m/s² on every planet: `model.gravity` holds that of the robot's own.",
+        "{name} 在任何星球上都用了 9.81 m/s²；机器人所在星球的重力加速度由 `model.gravity` 给出。",
+    ),
+    "but elsewhere": Text(
+        "{found} On other planets it is wrong even then: is gravity taken from `model.gravity`?",
+        "{found}在别的星球上即便如此仍然不对：重力加速度取自 `model.gravity` 吗？",
+    ),
     "but for": Text(
         "{found} In special cases it is wrong even then. One of them: twistwrench exercises case {case} --seed 0",
         "{found}在一些特殊数据中即便如此仍然不对。其中一组：twistwrench exercises case {case} --seed 0",
