@@ -167,3 +167,19 @@ def test_numbers_that_stand_one_place_beside_their_own():
     assert said([*right[1:], 7.0], right) == "A: the right numbers, one place too early"
     assert said([7.0, *right[:-1]], right) == "A: the right numbers, one place too late"
     assert "place" not in said(np.arange(1.0, 7), np.ones(6))
+
+
+def test_a_factor_of_numbers_that_are_not_exact_is_told():
+    """By central differences the momentum has some digits only; divided by h, not by 2 h, it is twice as large."""
+
+    def momentum_of_links(model, q, v, h=1e-5):
+        def moment(t):
+            poses = tw.forward_kinematics(model, model.integrate(q, t * v)).placement
+            return sum(
+                body.mass * (T.rotation @ body.com + T.translation) for T, body in zip(poses[1:], model.inertia[1:])
+            )
+
+        return (moment(h) - moment(-h)) / h
+
+    told = judge(*catalogue.find_part("momentum_of_links"), momentum_of_links, search=False).message("en")
+    assert "m v_G [kg m/s]: too large by a factor of 2, to about 5 digits" in told

@@ -8,7 +8,7 @@ from ..changes.planets import earthbound, earthly_results
 from ..changes.repair import Repair
 from ..changes.search import Found, right_where
 from ..changes.written import text_written
-from ..compare import agree, values
+from ..compare import Value, agree, values
 from ..exercise import Part
 from ..words.phrases import say
 from ..words.text import Text
@@ -33,6 +33,10 @@ __all__ = [
     "named_by_piece",
     "where",
 ]
+
+
+ROUGH = 1e-5
+"""Part of the largest number to which a factor is looked for where numbers are not exact."""
 
 
 def where(wrong: WrongAnswer, section: str | None = None) -> Text:
@@ -158,10 +162,25 @@ def comparison(wrong: WrongAnswer) -> list[Text]:
     bad = [(a, b) for a, b, c in zip(wrong.answers, wrong.right, wrong.cases) if not agree(part, a, b, c)]
     pairs = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in bad]
     for got, right, *others in zip(*(x for pair in pairs for x in pair)):
+        pairs = [*zip(others[::2], others[1::2])]
         shown = describe(got, right, part.rtol)
-        elsewhere = [describe(a, b, part.rtol) for a, b in zip(others[::2], others[1::2])]
-        lines += shown if _same_factors(shown, elsewhere) else describe(got, right, part.rtol, factors=())
+        elsewhere = [describe(a, b, part.rtol) for a, b in pairs]
+        if not _same_factors(shown, elsewhere):
+            shown = describe(got, right, part.rtol, factors=())
+        different = bool(shown) and all(x.en.endswith(say("different").en) for x in shown)
+        lines += (_rough_factors([(got, right), *pairs]) if different else []) or shown
     return lines
+
+
+def _rough_factors(pairs: Sequence[tuple[Value, Value]]) -> list[Text]:
+    """Report a factor that numbers are nearly off by, in most cases and the first, as differences of small steps are.
+
+    Pairs have what a function returned and what is right.
+    """
+    nearly = [tuple(describe(a, b, ROUGH)) for a, b in pairs]
+    factors = {x for x in nearly if any(" by a factor of " in line.en for line in x)}
+    alone = len(factors) == 1 and all(" by a factor of " in line.en for line in nearly[0])
+    return [say("nearly", found=x) for x in nearly[0]] if alone and 2 * nearly.count(nearly[0]) > len(nearly) else []
 
 
 def _shortly(wrong: WrongAnswer) -> list[Text]:

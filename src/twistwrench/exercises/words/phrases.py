@@ -257,6 +257,7 @@ PHRASES = {
     "inexact": Text("right to {digits} digits only", "只有 {digits} 位正确"),
     "approximation": Text("nearly right in all cases: an approximation?", "在所有情形中都近似正确：是不是用了近似？"),
     "near the largest": Text("off by less than 10 % of the largest entry", "偏差不到最大元素的 10%"),
+    "nearly": Text("{found}, to about 5 digits", "{found}（约准到 5 位）"),
     "too large": Text("too large", "偏大"),
     "too small": Text("too small", "偏小"),
     "here": Text("{relation} here", "此处{relation}"),
