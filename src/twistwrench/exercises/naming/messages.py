@@ -162,13 +162,13 @@ def comparison(wrong: WrongAnswer) -> list[Text]:
     bad = [(a, b) for a, b, c in zip(wrong.answers, wrong.right, wrong.cases) if not agree(part, a, b, c)]
     pairs = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in bad]
     for got, right, *others in zip(*(x for pair in pairs for x in pair)):
-        pairs = [*zip(others[::2], others[1::2])]
+        beside = [*zip(others[::2], others[1::2])]
         shown = describe(got, right, part.rtol)
-        elsewhere = [describe(a, b, part.rtol) for a, b in pairs]
+        elsewhere = [describe(a, b, part.rtol) for a, b in beside]
         if not _same_factors(shown, elsewhere):
             shown = describe(got, right, part.rtol, factors=())
         different = bool(shown) and all(x.en.endswith(say("different").en) for x in shown)
-        lines += (_rough_factors([(got, right), *pairs]) if different else []) or shown
+        lines += (_rough_factors([(got, right), *beside]) if different else []) or shown
     return lines
 
 
