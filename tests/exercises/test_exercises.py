@@ -562,7 +562,7 @@ def test_a_class_is_judged_by_what_it_does():
 
     said = message("SpatialVector", SpatialVector)
     assert (
-        "For the error of V + F, this slip gives what you have: a twist and a wrench can be added, or subtracted."
+        "For the error of V ± F, this slip gives what you have: a twist and a wrench can be added, or subtracted."
         in said
     )
     assert "this slip gives what you have: the power of two quantities of the same kind raises no error." in said

@@ -137,7 +137,7 @@ def standing_loads():
         (TWICE, "take out `- m * S @ S`", "missing"),
         (LEVER, "the lever arm is taken from the wrong end", "factors of the cross"),
         (EULER, "change `Rx @ Ry @ Rz` to `Rz @ Ry @ Rx`", "Rx, Ry, Rz = "),
-        (DUAL, "X* taken for X", "Xᵀ"),
+        (DUAL, "a twist is transformed like a wrench", "Xᵀ"),
         (TYPED, "change the sign of `S`", "Xᵀ"),
         (ONLY_JOINTS, "do always what is done only where `i >= 6` holds", "n >= 6"),
         (ONLY_HIPS, "do not take the branch for `i > 1 and model.parent[i] != 1`", "i < 1"),

@@ -45,7 +45,7 @@ CHINESE = {
     "rows (floating)": "行数（浮动基座）",
     "rows of J_c": "J_c 的各行",
     "eigenvalues": "特征值",
-    "the error of V + F": "V + F 的异常",
+    "the error of V ± F": "V ± F 的异常",
     "the error of V.power(W)": "V.power(W) 的异常",
     "time": "时间",
     "lower": "下限 lower",

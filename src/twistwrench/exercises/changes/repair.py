@@ -50,8 +50,8 @@ class Repair:
         Whether what its line computes is right, so that another line may be wrong.
     narrow : str
         A special case in which the function is then still wrong, as `case` takes it.
-    earthbound : bool
-        Whether it then takes the gravity of the earth, whatever the robot's is, and nothing else is wrong.
+    only : str
+        What else is wrong then, where that is known: "earthbound" or "whole", as `Sound.only` has it.
     """
 
     edit: Edit
@@ -60,7 +60,7 @@ class Repair:
     meaning: Text | None = None
     unsure: bool = False
     narrow: str = ""
-    earthbound: bool = False
+    only: str = ""
 
     @property
     def one_piece(self) -> bool:
@@ -102,7 +102,7 @@ class Repair:
     @property
     def remark(self) -> Text | None:
         """What is still wrong after it, if anything is."""
-        return say("narrow", case=self.narrow) if self.narrow else say("earthbound then") if self.earthbound else None
+        return say("narrow", case=self.narrow) if self.narrow else say(f"{self.only} then") if self.only else None
 
     @property
     def in_header(self) -> bool:

@@ -220,8 +220,8 @@ def _single(source: Source, arguments: bool) -> Iterator[Edit]:
 def _marked(repair: Repair, sound: Sound) -> Repair:
     """Return a change with the mark what is wrong after it in special cases."""
     narrow = sound.fails(repair.edit.function)
-    earthbound = bool(narrow) and sound.earthbound(repair.edit.function)
-    return replace(repair, narrow="" if earthbound else narrow, earthbound=earthbound)
+    only = sound.only(repair.edit.function) if narrow else ""
+    return replace(repair, narrow="" if only else narrow, only=only)
 
 
 def _seconds(part: Part, function: Function, arguments: tuple[Any, ...]) -> float:

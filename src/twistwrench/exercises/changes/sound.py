@@ -14,7 +14,7 @@ from ..compare import agree
 from ..exercise import Part
 from .planets import earthbound, on_earth
 
-__all__ = ["Sound"]
+__all__ = ["Sound", "has_whole"]
 
 Function = Callable[..., Any]
 
@@ -47,22 +47,29 @@ class Sound:
         """Whether a changed function is right in all special cases: what only happens to be right is not."""
         return not self.fails(changed)
 
-    def fails(self, changed: Function, *, away: bool = True) -> str:
+    def fails(self, changed: Function, beside: Callable[[tuple[Any, ...]], Any] | None = None) -> str:
         """Return the first special case in which a changed function is wrong, as `case` takes it; empty for none.
 
-        `away`: on other planets too.
+        Those of which `beside` is true are left out.
         """
         part = self.part
         for k, (arguments, right) in enumerate(self._special):
-            asked = away or on_earth(arguments) is None
+            asked = beside is None or not beside(arguments)
             if asked and not agree(part, tried(part, changed, arguments), right, arguments):
                 return f"{part.name} {len(every_case(part, 0)) - len(self._special) + k}"
         return ""
 
-    def earthbound(self, changed: Function) -> bool:
-        """Whether a changed function is wrong on other planets only, where it takes the gravity of the earth."""
-        return not self.fails(changed, away=False) and earthbound(self.part, changed, self.part.solution)
+    def only(self, changed: Function) -> str:
+        """Return what all special cases have in which a function is wrong: "earthbound", "whole", or nothing."""
+        if not self.fails(changed, on_earth) and earthbound(self.part, changed, self.part.solution):
+            return "earthbound"
+        return "" if self.fails(changed, has_whole) else "whole"
 
     @cached_property
     def _special(self) -> list[tuple[tuple[Any, ...], Any]]:
         return [(c, self.part.value(self.part.solution, copied(c))) for c in special_cases(self.part, 0)]
+
+
+def has_whole(arguments: tuple[Any, ...]) -> bool:
+    """Whether one of the arguments is a whole number, or an array of them."""
+    return any(isinstance(x, np.ndarray | int) and np.asarray(x).dtype.kind == "i" for x in arguments)

@@ -121,7 +121,7 @@ VECTOR = Part(
         Quantity("V − W"),
         Quantity("F.power(V)", unit="W"),
         Quantity("V.power(F)", unit="W"),
-        Quantity("the error of V + F"),
+        Quantity("the error of V ± F"),
         Quantity("the error of V.power(W)"),
     ),
     cases=lambda rng: [tuple(rng.standard_normal((4, 6))) for _ in range(3)],

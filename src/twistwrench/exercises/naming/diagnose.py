@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-
 from ..changes.likeness import blames
 from ..changes.planets import earthbound, on_earth
 from ..changes.repair import Repair
+from ..changes.sound import has_whole
 from ..changes.written import text_written
 from ..compare import values
 from ..exercise import Exercise, Part
@@ -73,7 +72,7 @@ def _two_names_of_one_array(wrong: WrongAnswer) -> Explained | None:
 
 def _whole_numbers(wrong: WrongAnswer) -> Explained | None:
     """Report that it is wrong where arguments are whole numbers, and only there."""
-    if all(map(_has_whole, wrong.cases)) or not all(map(_has_whole, wrong.wrong_cases)):
+    if all(map(has_whole, wrong.cases)) or not all(map(has_whole, wrong.wrong_cases)):
         return None
     return [], [say("whole numbers"), where(wrong)]
 
@@ -86,10 +85,6 @@ def _gravity_of_the_earth(wrong: WrongAnswer) -> Explained | None:
     return ([], [say("earthbound"), where(wrong)]) if found else None
 
 
-def _has_whole(arguments: tuple[Any, ...]) -> bool:
-    return any(isinstance(x, np.ndarray | int) and np.asarray(x).dtype.kind == "i" for x in arguments)
-
-
 def _either_order(wrong: WrongAnswer) -> Explained | None:
     """Report two results exchanged, or the line above them that has the same numbers the other way round."""
     if wrong.exchanged is None:
@@ -99,11 +94,11 @@ def _either_order(wrong: WrongAnswer) -> Explained | None:
     if not above:
         return None
     order = say("other order") if len(wrong.part.returns) == 2 else say("order of these", which=wrong.exchanged)
-    either = [order, *(x.title() for x in above)]
+    either, every, here = [order, *(x.title() for x in above)], len(wrong.cases), say("numbers are")
     return [], [
         say("either"),
         *map(indented, either),
-        say("either way", all=len(wrong.cases), what=say("numbers are")),
+        say("either way", all=every, what=here) if every > 1 else say("either once", what=here),
         say("perhaps"),
         where(wrong),
     ]

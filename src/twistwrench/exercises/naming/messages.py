@@ -59,7 +59,7 @@ def named(wrong: WrongAnswer, found: list[str]) -> list[Text]:
             step = first_wrong(part, made, within, wrong.cases[0], text_written(wrong.function))
         title, why = slips[0].title, slips[0].why
         like = say("like slip" if wrong.cases[0] else "like number", title=title, why=why)
-        unsaid = wrong.again and not any(x.earthbound for x in wrong.changes)
+        unsaid = wrong.again and not any(x.only == "earthbound" for x in wrong.changes)
         too = [say("earthbound too")] if unsaid and made and earthbound(part, wrong.function, made) else []
         lines = [like, *too, *own, *([step] if step else [])]
     else:

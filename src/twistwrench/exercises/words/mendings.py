@@ -61,6 +61,12 @@ MENDINGS = {
         "On other planets it is then still wrong: gravity is 9.81 m/s² in your answer, whatever `model.gravity` is.",
         "改后在别的星球上仍然不对：无论 `model.gravity` 是多少，你的结果都用 9.81 m/s²。",
     ),
+    "whole then": Text(
+        "Where arguments are whole numbers it is then still wrong: an array made of them, or after their pattern, holds"
+        " whole numbers. Make arrays of floats: `np.array(x, float)`, `np.zeros(3)`.",
+        "改后在参数为整数时仍然不对：由整数建立或按其样式建立的数组只能存放整数。"
+        "请用浮点数组：`np.array(x, float)`、`np.zeros(3)`。",
+    ),
     "earthbound in": Text(
         "In {name} gravity is 9.81 m/s² on every planet: `model.gravity` holds that of the robot's own.",
         "{name} 在任何星球上都用了 9.81 m/s²；机器人所在星球的重力加速度由 `model.gravity` 给出。",
@@ -73,10 +79,7 @@ MENDINGS = {
         "{found} In special cases it is wrong even then. One of them: twistwrench exercises case {case} --seed 0",
         "{found}在一些特殊数据中即便如此仍然不对。其中一组：twistwrench exercises case {case} --seed 0",
     ),
-    "sign of result": Text(
-        "change the sign of all that is returned: `{right}` in place of `x`",
-        "改变所有返回值的符号：返回 `{right}` 而不是 `x`",
-    ),
+    "sign of result": Text("change the sign of all that is returned", "改变所有返回值的符号"),
     "halves of result": Text(
         "what is returned, `x`, has its two halves exchanged: `{right}` would be right",
         "返回的 `x` 前后两半互换了，正确的是 `{right}`",
