@@ -61,6 +61,8 @@ def test_it_is_named_beside_a_change_and_beside_a_slip():
 def test_of_two_results_it_is_named_in_the_one_that_has_it():
     said = message("fall_in_motion", fall_in_motion)
     assert "In a of the centre of mass gravity is 9.81 m/s² on every planet" in said
+    assert "right where v = 0: look at what you do with v. On other planets it is wrong even then" in said
+    assert "no right solution known here" not in said  # of a line, which may be right: what to look at is known
     part = catalogue.find_part("fall_in_motion")[1]
     assert earthly_results(part, fall_in_motion) == [1]
     assert earthly_results(part, part.solution) == []

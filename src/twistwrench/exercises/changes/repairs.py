@@ -221,6 +221,8 @@ def _marked(repair: Repair, sound: Sound) -> Repair:
     """Return a change with the mark what is wrong after it in special cases."""
     narrow = sound.fails(repair.edit.function)
     only = sound.only(repair.edit.function) if narrow else ""
+    if only == "whole" and "+= " in repair.edit.wrong and "+= " not in repair.edit.right:
+        return repair  # it is the `+=` that is put there
     return replace(repair, narrow="" if only else narrow, only=only)
 
 

@@ -144,14 +144,17 @@ def compared(wrong: WrongAnswer, place: Text | None = None) -> list[Text]:
     """Report what the comparison shows, from which place on, and on which arguments the answer depends wrongly."""
     part, right, cases, again = wrong.part, wrong.right, wrong.cases, wrong.again
     lines = [say("no slip"), *map(indented, comparison(wrong))]
-    lines += filter(None, [of_truths([*zip(wrong.answers, right)]), place])
-    lines += shared(part, wrong.answers, right, cases)
+    lines += filter(None, [of_truths([*zip(wrong.answers, right)])])
+    telling: list[Text] = []
     if again:
-        lines += map(indented, of_words(part, again, cases))
-        lines += map(indented, not_used(part, again, wrong.answers, right, cases))
-        lines += filter(None, [right_where(part, again, wrong.wrong_cases)])
+        telling = [*map(indented, not_used(part, again, wrong.answers, right, cases))]
+        telling += filter(None, [right_where(part, again, wrong.wrong_cases)])
         finer = better_with_finer_steps(part, wrong.function, wrong.wrong_cases[0])
-        lines += finer or right_when_small(part, again, wrong.wrong_cases)
+        telling += finer or right_when_small(part, again, wrong.wrong_cases)
+    lines += [place] if place is not None and not telling else []
+    lines += shared(part, wrong.answers, right, cases)
+    lines += map(indented, of_words(part, again, cases)) if again else []
+    lines += telling
     broken = broken_property(part, wrong.answers, cases)
     return [*lines, *_earthly(wrong), *filter(None, [broken]), where(wrong)]
 

@@ -57,7 +57,16 @@ def right_when_small(part: Part, again: Callable[[Case], Any], cases: Sequence[C
             powers = {_power(part, again, piece, chosen, case) for case in cases[:TRIED]}
             if len(powers) == 1 and (power := powers.pop()):
                 what = ", ".join(names[k] for k in chosen)
-                lines.append(say("when small", name=quantity.title, what=what, power=power, next=power + 1))
+                lines.append(
+                    say(
+                        "when small",
+                        name=quantity.title,
+                        what=what,
+                        power=power,
+                        next=power + 1,
+                        times=2 ** (power + 1),
+                    )
+                )
                 break
     return lines
 

@@ -103,8 +103,9 @@ SAYINGS = {
         "把第 {line} 行的 {given} 换成 {finer}，误差缩小到 1/{factor:.0f}：算出的是近似值，而题目要求精确值。",
     ),
     "when small": Text(
-        "{name} is right for small {what} only, up to the power {power}: what is wrong grows with the power {next}.",
-        "{name} 只对很小的 {what} 正确，到 {power} 次为止：误差按 {next} 次方增长。",
+        "In {name} terms up to order {power} in {what} are right, those of order {next} are not:"
+        " made half as large, {what} leaves an error {times} times smaller.",
+        "{name} 中关于 {what} 的项到 {power} 阶为止正确，{next} 阶项有错：把 {what} 减半，误差缩小到原来的 1/{times}。",
     ),
     "branch otherwise": Text(
         "do in all other cases what is done where `{wrong}` holds",
