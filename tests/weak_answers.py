@@ -22,7 +22,7 @@ ANSWERS = [
         "skew-symmetric matrix is transposed",
     ),
     Weak("skew", "return np.array([[0, -w[2], w[1]], [w[2], 0, w[0]], [-w[1], w[0], 0]])", "wrong in [1, 2]"),
-    Weak("act", "return R @ (x + p)", "translation comes before the rotation"),
+    Weak("act", "return R @ (x + p)", "p is rotated as well"),
     Weak("act", "return np.linalg.inv(R) @ x + p", "take out `np.linalg.inv`"),
     Weak(
         "adjoint",

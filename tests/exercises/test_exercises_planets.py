@@ -68,6 +68,14 @@ def test_of_two_results_it_is_named_in_the_one_that_has_it():
     assert earthly_results(part, part.solution) == []
 
 
+def test_a_robot_without_gravity_is_on_no_other_planet():
+    """One of the two robots is weightless: on the earth it is weightless as well."""
+    part = catalogue.find_part("gravity_two_ways")[1]
+    assert not earthbound(part, part.slips["gravity-twice"], part.solution)
+    for arguments in special_cases(part, 0):
+        assert not (on_earth(arguments) or arguments)[1].gravity.any()
+
+
 @pytest.mark.parametrize("name", ["foot_wrench", "net_wrench", "fall_in_motion", "weight_wrenches"])
 def test_a_solution_is_not_bound_to_the_earth(name):
     part = catalogue.find_part(name)[1]

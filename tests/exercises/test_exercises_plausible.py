@@ -117,7 +117,7 @@ def pinocchio_inertia(m, c, I_c):
             (NET.format(f"{FOOT} - com", "f, r"), "change `np.cross(f, r)` to `np.cross(r, f)`", "wrong end"),
             (NET.format(f"com - {FOOT}", "r, f"), f"change `com - {FOOT}` to `{FOOT} - com`", "factors of the cross"),
             (CARRIED, "line 14, change `F[i]` to `out[i]`", "missing in τ"),
-            (PLUCKER, "have the same numbers: return X first", "transposed"),
+            (PLUCKER, "X is returned first", "transposed"),
             (CARRIED_OVER, "a point contact has no moment about itself", "change `"),
             (HELD, "change the sign of `np.concatenate([np.cross(c, f), f])`", "body.mass"),
             (WRITTEN_TO, "line 15, change `X[:3, 3:]` to `Y[:3, 3:]`", "another quantity"),

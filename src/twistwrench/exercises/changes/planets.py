@@ -10,7 +10,7 @@ import numpy as np
 
 from ...model import Model
 from ..calls import tried
-from ..cases import special_cases
+from ..cases import cases, special_cases
 from ..compare import agree, close, values
 from ..exercise import Part
 
@@ -31,7 +31,7 @@ def earthbound(part: Part, function: Callable[..., Any], made: Callable[..., Any
 
     Of several things that are returned, one at least.
     """
-    pairs = [(c, here) for c in special_cases(part, 0) if (here := on_earth(c)) is not None]
+    pairs = [(c, here) for c in (*cases(part, 0), *special_cases(part, 0)) if (here := on_earth(c)) is not None]
     for away, here in pairs:
         answer, there, expected = tried(part, function, away), tried(part, made, away), tried(part, made, here)
         if agree(part, answer, there, away):
@@ -56,5 +56,5 @@ def earthly_results(part: Part, function: Callable[..., Any]) -> list[int]:
 
 
 def _is_elsewhere(x: Any) -> bool:
-    """Whether an argument is a robot on another planet."""
-    return isinstance(x, Model) and not np.array_equal(x.gravity, EARTH)
+    """Whether an argument is a robot on another planet, and not without gravity."""
+    return isinstance(x, Model) and bool(x.gravity.any()) and not np.array_equal(x.gravity, EARTH)
