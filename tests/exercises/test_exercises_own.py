@@ -171,14 +171,19 @@ def test_what_stands_only_in_a_right_solution_is_not_called_the_slip():
     assert "`R`" not in said
 
 
-def test_a_sum_that_changes_its_first_term_is_told_so():
-    class SpatialVector(catalogue.find_part("SpatialVector")[1].solution):
+def test_a_sum_or_a_difference_that_changes_one_of_its_terms_is_told_so():
+    class First(catalogue.find_part("SpatialVector")[1].solution):
         def __add__(self, other):
             self.vector = super().__add__(other).vector
             return self
 
-    said = judge(*catalogue.find_part("SpatialVector"), SpatialVector).message("en")
-    assert "changes one of its two terms" in said
+    class Second(catalogue.find_part("SpatialVector")[1].solution):
+        def __sub__(self, other):
+            other.vector = -other.vector
+            return self + other
+
+    for answer in (First, Second):
+        assert "changes one of its two terms" in judge(*catalogue.find_part("SpatialVector"), answer).message("en")
 
 
 def test_a_property_is_said_to_fail_only_where_there_are_numbers():

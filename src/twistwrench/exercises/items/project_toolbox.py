@@ -68,8 +68,8 @@ def _use(kind: Any, V: Any, W: Any, F: Any, G: Any) -> Any:
     power, reverse = _tried(lambda: wrench.power(twist)), _tried(lambda: twist.power(wrench))
     if any(x is ... for x in (total, difference, rest, power)):
         return ...
-    for given, vector in ((V, twist), (F, wrench)):
-        given[:] = vector.vector  # a sum that changes its first term changes an argument
+    for given, vector in ((V, twist), (W, other_twist), (F, wrench), (G, other_wrench)):
+        given[:] = vector.vector  # a sum or a difference that changes one of its terms changes an argument
     mixed = _error(lambda: twist + wrench, lambda: wrench - twist, lambda: wrench + twist, lambda: twist - wrench)
     paired = _error(lambda: twist.power(other_twist), lambda: wrench.power(other_wrench))
     of_twists = {str(difference.kind), str((twist + other_twist).kind)}
