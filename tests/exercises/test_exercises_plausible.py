@@ -186,3 +186,24 @@ def test_of_true_or_false_it_is_not_said():
         return bool(abs(F[0]) <= d_x * abs(F[5]) and abs(F[1]) <= d_y * abs(F[5]))
 
     assert "does not change" not in judge(*catalogue.find_part("sole_holds"), holds).message("en")
+
+
+def test_a_small_bound_is_not_given_a_minus(tmp_path):
+    told = said_of(
+        tmp_path,
+        "def sole_holds(F, d_x, d_y):\n"
+        "    p = mine('center_of_pressure')\n"
+        "    eps = np.finfo(float).eps\n"
+        "    if not F[5] > eps:\n"
+        "        return False\n"
+        "    return all(-d <= x <= d for x, d in zip(p(F), (d_x, d_y)))\n",
+    )
+    assert "too strict" in told
+    assert "change the sign" not in told
+
+
+def test_a_slip_of_all_numbers_is_not_said_of_one(tmp_path):
+    """Thirteen joints would make all four one too large; here the pose of the base has eight numbers."""
+    told = said_of(tmp_path, "def sizes():\n    return 8 + 12, 6 + 12, 6 + 12, 6 + 12\n")
+    assert "too large" in told
+    assert "joints are counted" not in told

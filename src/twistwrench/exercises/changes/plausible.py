@@ -103,9 +103,9 @@ def _is_place(edit: Edit) -> bool:
 
 
 def _is_positive(text: str) -> bool:
-    """Whether a text is a rotation matrix by its name, or the transpose of one, or a mass."""
+    """Whether a text is a rotation matrix by its name, or the transpose of one, or a mass, or a small bound."""
     name = text.removesuffix(".T").removeprefix("float(").removesuffix(")").rpartition(".")[2]
-    return name in ("R", "rotation", "m") or (name.isidentifier() and "mass" in name.lower())
+    return name in ("R", "rotation", "m", "eps", "tiny", "tol") or (name.isidentifier() and "mass" in name.lower())
 
 
 def _is_written_to(edit: Edit) -> bool:

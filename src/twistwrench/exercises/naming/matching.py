@@ -109,7 +109,8 @@ def slips_by_piece(
         fitting = [slip for slip, other in made.items() if k in touched[slip] and same(split, other, k)]
         alone = [slip for slip in fitting if touched[slip] <= wrong]  # it spoils nothing else
         alone = [slip for slip in alone if all(same(split, made[slip], j) for j in touched[slip])] or alone
-        fitting = alone or (fitting if typed or k in words else [])  # numbers one by one, or one error of several
+        often = [slip for slip in fitting if 2 * len(touched[slip] & wrong) >= len(touched[slip])]
+        fitting = alone or (often if typed else fitting if k in words else [])  # some numbers, or one error of several
         found[part.returns[k].name] = [slip for slip in fitting if traced(slip, source)]
     return found if all(found.values()) else None
 

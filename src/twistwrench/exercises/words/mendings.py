@@ -78,7 +78,8 @@ MENDINGS = {
     "but for": Text(
         "{found} In special cases it is wrong even then, for one where this is put into the arguments of:"
         " twistwrench exercises case {case} --seed 0",
-        "{found}在一些特殊数据中即便如此仍然不对，例如把它代入下面这组数据时：twistwrench exercises case {case} --seed 0",
+        "{found}在一些特殊数据中即便如此仍然不对，例如把它代入下面这组数据时："
+        "twistwrench exercises case {case} --seed 0",
     ),
     "sign of result": Text("change the sign of all that is returned", "改变所有返回值的符号"),
     "halves of result": Text(
