@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 from ...model import Model
 from ..calls import tried
 from ..cases import cases, special_cases
-from ..compare import agree, close, values
+from ..compare import close, values
 from ..exercise import Part
 
 __all__ = ["earthbound", "earthly_results", "on_earth"]
@@ -31,28 +31,28 @@ def earthbound(part: Part, function: Callable[..., Any], made: Callable[..., Any
 
     Of several things that are returned, one at least.
     """
-    pairs = [(c, here) for c in (*cases(part, 0), *special_cases(part, 0)) if (here := on_earth(c)) is not None]
-    for away, here in pairs:
-        answer, there, expected = tried(part, function, away), tried(part, made, away), tried(part, made, here)
-        if agree(part, answer, there, away):
-            return False
-        split = [values(x, part.returns) or [] for x in (answer, there, expected)]
-        near = [close(x, y, part.rtol) or close(x, z, part.rtol) for x, y, z in zip(*split)]
-        if len(near) < len(part.returns) or not all(near):
-            return False
-    return bool(pairs)
+    found = False
+    for each in _elsewhere(part, function, made):
+        found = len(each) == len(part.returns) and all(map(any, each)) and not all(there for there, _ in each)
+        if not found:
+            break
+    return found
 
 
 def earthly_results(part: Part, function: Callable[..., Any]) -> list[int]:
     """Return which of several things that a function returns are right on the earth and the same elsewhere."""
-    found: list[set[int]] = []
-    for away in special_cases(part, 0) if len(part.returns) > 1 else ():
+    every = [*_elsewhere(part, function, part.solution)] if len(part.returns) > 1 else []
+    found = [{k for k, (there, here) in enumerate(each) if here and not there} for each in every]
+    return sorted(set[int].intersection(*found)) if found else []
+
+
+def _elsewhere(part: Part, function: Callable[..., Any], made: Callable[..., Any]) -> Iterator[list[tuple[bool, bool]]]:
+    """Yield for each case on another planet, of each thing returned, whether `made` gives it there and on the earth."""
+    for away in (*cases(part, 0), *special_cases(part, 0)):
         if (here := on_earth(away)) is not None:
-            answers = tried(part, function, away), tried(part, part.solution, away), tried(part, part.solution, here)
+            answers = tried(part, function, away), tried(part, made, away), tried(part, made, here)
             split = zip(*(values(x, part.returns) or [] for x in answers))
-            same = [(close(x, y, part.rtol), close(x, z, part.rtol)) for x, y, z in split]
-            found.append({k for k, (there, expected) in enumerate(same) if expected and not there})
-    return sorted(set.intersection(*found)) if found else []
+            yield [(close(x, y, part.rtol), close(x, z, part.rtol)) for x, y, z in split]
 
 
 def _is_elsewhere(x: Any) -> bool:
