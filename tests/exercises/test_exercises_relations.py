@@ -83,21 +83,22 @@ SIZES = Part(solution=lambda x: x, returns=(Quantity("k"),), cases=lambda rng: [
 @pytest.mark.parametrize(
     ("answers", "says"),
     [
-        ([1.0, 3.0, 5.0], ["k: too large in all wrong cases"]),
-        ([1.0, 1.5, 1.0], ["k: too small in all wrong cases"]),
-        ([1.0, 3.0, 1.0], []),
-        ([1.0, -3.0, 5.0], []),
-        ([1.0, -3.0, -1.0], ["k: the sign is wrong in all wrong cases"]),
-        ([1.0, 2.002, 3.001], ["k: nearly right in all cases: an approximation?"]),
-        ([1.0, 2.002, 4.001], ["k: too large in all wrong cases"]),
-        ([1.0, 4.0, 6.0], []),  # the factor is told
-        ([1.0, -2.0, -3.0], []),  # the sign is told
-        ([1.0, 2.0, 3.0], []),
-        ([1.0, None, 4.0], []),
+        ([1.0, 3.0, 5.0, 7.0], ["k: too large in all cases in which it is wrong"]),
+        ([1.0, 3.0, 5.0, 4.0], []),  # two are few
+        ([1.0, 1.5, 1.0, 3.0], ["k: too small in all cases in which it is wrong"]),
+        ([1.0, 3.0, 1.0, 5.0], []),
+        ([1.0, -3.0, 5.0, 6.0], []),
+        ([1.0, -3.0, -1.0, -2.0], ["k: the sign is wrong in all cases in which it is wrong"]),
+        ([1.0, 2.002, 3.001, 4.0], ["k: nearly right in all cases: an approximation?"]),
+        ([1.0, 2.002, 4.001, 5.0], ["k: too large in all cases in which it is wrong"]),
+        ([1.0, 4.0, 6.0, 8.0], []),  # the factor is told
+        ([1.0, -2.0, -3.0, -4.0], []),  # the sign is told
+        ([1.0, 2.0, 3.0, 4.0], []),
+        ([1.0, None, 4.0, 5.0], []),
     ],
 )
 def test_what_holds_in_all_wrong_cases_is_told(answers, says):
-    assert [line.en for line in shared(SIZES, answers, [1.0, 2.0, 3.0], [()] * 3)] == says
+    assert [line.en for line in shared(SIZES, answers, [1.0, 2.0, 3.0, 4.0], [()] * 4)] == says
 
 
 def test_of_a_single_number_the_case_is_spoken_of():
@@ -114,7 +115,7 @@ def test_a_number_of_the_other_sign_is_not_called_too_large():
 
     told = judge(*catalogue.find_part("growth"), growth).message("en")
     assert "too large" not in told
-    assert "k: the sign is wrong in all wrong cases" in told
+    assert "k: the sign is wrong in all cases in which it is wrong" in " ".join(told.split())
 
 
 def errors(largest, scale=lambda tau: np.abs(tau).max()):

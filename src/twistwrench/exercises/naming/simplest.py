@@ -22,6 +22,9 @@ __all__ = ["of_words", "shared"]
 SHOWN = 3
 """Of the simplest arguments."""
 
+FEW = 3
+"""Cases in which a number has to be wrong, for what is said of them all."""
+
 EXACT, NEAR = 2.0**-50, 2e-6
 """Parts of a number by which it is changed: who is on an edge, or near it, is then not any more."""
 
@@ -107,7 +110,7 @@ def _of_sizes(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> list[
             continue
         three = [(a, b, part.rtol * np.abs(b).max(initial=FLOOR)) for a, b in arrays]
         wrong = [(a, b, within) for a, b, within in three if not same(a, b, within)]
-        relation = _of_all(wrong, len(pairs)) if wrong else None
+        relation = _of_all(wrong) if wrong else None
         if relation is not None:
             lines.append(say("is", what=pairs[0][0].quantity.label, relation=relation))
     return lines
@@ -117,12 +120,12 @@ def _comparable(a: Array, b: Array) -> bool:
     return a.shape == b.shape and a.dtype.kind == b.dtype.kind == "f" and bool(np.isfinite([a, b]).all())
 
 
-def _of_all(wrong: Sequence[tuple[Array, Array, float]], every: int) -> Text | None:
+def _of_all(wrong: Sequence[tuple[Array, Array, float]]) -> Text | None:
     """Return what holds of all wrong numbers or arrays, beside the right ones and with what counts as the same."""
     if all(digits(a, b) for a, b, _ in wrong):
         return say("approximation")
     simple = {plain(*three, TELLING) for three in wrong}
-    if every == 1 or wrong[0][0].ndim or (len(simple) == 1 and simple != {None}):  # which is said of each
+    if len(wrong) < FEW or wrong[0][0].ndim or (len(simple) == 1 and simple != {None}):  # which is said of each
         return None
     relation = too_large([(a, b) for a, b, _ in wrong])
     return say("in all wrong", relation=relation) if relation is not None else None

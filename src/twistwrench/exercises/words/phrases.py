@@ -262,7 +262,7 @@ PHRASES = {
     "too small": Text("too small", "偏小"),
     "here": Text("{relation} here", "此处{relation}"),
     "here, nearly": Text("{relation} here, by less than 10 %", "此处{relation}，偏差不到 10%"),
-    "in all wrong": Text("{relation} in all wrong cases", "在所有出错的情形中{relation}"),
+    "in all wrong": Text("{relation} in all cases in which it is wrong", "在它出错的各组数据中都{relation}"),
     "different": Text("different numbers", "数值不同"),
     "false": Text("is {got}, and must be {right}", "是 {got}，应为 {right}"),
     "too strict": Text(
