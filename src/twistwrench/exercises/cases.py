@@ -18,7 +18,7 @@ from .compare import values
 from .exercise import Part
 from .robots import ball_robots, bare_robot, massless_link
 
-__all__ = ["case", "cases", "every_case", "further_cases", "special_cases"]
+__all__ = ["case", "cases", "every_case", "further_cases", "special_cases", "special_name"]
 
 ANGLES = (0, np.pi, 8e-2, 1e-3, 1e-6, np.pi - 1e-2, np.pi - 1e-6)
 """Turns at which a formula may have a case of its own, and turns just beside them."""
@@ -145,6 +145,11 @@ def _moving(model: Model, names: list[str], rng: np.random.Generator) -> tuple[A
 def every_case(part: Part, seed: int) -> list[tuple[Any, ...]]:
     """Return all cases of a function, in the order in which they are tried."""
     return [*cases(part, seed), *further_cases(part, seed), *special_cases(part, seed)]
+
+
+def special_name(part: Part, k: int) -> str:
+    """Return the k-th special case for the seed 0 as `twistwrench exercises case` takes it."""
+    return f"{part.name} {len(cases(part, 0)) + len(further_cases(part, 0)) + k}"
 
 
 def _in_whole_numbers(names: list[str], drawn: tuple[Any, ...]) -> Iterator[tuple[Any, ...]]:

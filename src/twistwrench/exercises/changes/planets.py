@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...model import Model
+from ...model.builder import GRAVITY
 from ..calls import tried
 from ..cases import cases, special_cases
 from ..compare import close, values
@@ -16,7 +17,7 @@ from ..exercise import Part
 
 __all__ = ["earthbound", "earthly_results", "on_earth"]
 
-EARTH = np.array([0, 0, -9.81])
+EARTH = np.array(GRAVITY)
 """Gravity that a student writes down, in m/s²."""
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import twistwrench
 
 from ..calls import copied, local_values, smallest, tried
-from ..cases import every_case, special_cases
+from ..cases import special_cases, special_name
 from ..compare import ROUNDING, agree, close, values
 from ..exercise import Part
 from ..words.phrases import say
@@ -205,8 +205,7 @@ def _but_for(part: Part, again: Callable[[tuple[Any, ...]], Any], rare: Cases, f
     bad = [k for k, (test, x) in pairs if x is not None and not agree(part, again(test), x, test)]
     if bad and all(on_earth(rare[k]) is not None for k in bad):
         return say("but elsewhere", found=found)
-    case = f"{part.name} {len(every_case(part, 0)) - len(rare) + bad[0]}" if bad else ""
-    return say("but for", found=found, case=case) if bad else found
+    return say("but for", found=found, case=special_name(part, bad[0])) if bad else found
 
 
 def _telling(answer: Any) -> bool:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ..calls import copied, keeps_arguments, tried
-from ..cases import every_case, special_cases
+from ..cases import special_cases, special_name
 from ..compare import agree
 from ..exercise import Part
 from .planets import earthbound, on_earth
@@ -47,23 +47,22 @@ class Sound:
         """Whether a changed function is right in all special cases: what only happens to be right is not."""
         return not self.fails(changed)
 
-    def fails(self, changed: Function, beside: Callable[[tuple[Any, ...]], Any] | None = None) -> str:
-        """Return the first special case in which a changed function is wrong, as `case` takes it; empty for none.
-
-        Those of which `beside` is true are left out.
-        """
-        part = self.part
-        for k, (arguments, right) in enumerate(self._special):
-            asked = beside is None or not beside(arguments)
-            if asked and not agree(part, tried(part, changed, arguments), right, arguments):
-                return f"{part.name} {len(every_case(part, 0)) - len(self._special) + k}"
-        return ""
+    def fails(self, changed: Function) -> str:
+        """Return the first special case in which a changed function is wrong, as `case` takes it; empty for none."""
+        return next((special_name(self.part, k) for k in self._failing(changed)), "")
 
     def only(self, changed: Function) -> str:
         """Return what all special cases have in which a function is wrong: "earthbound", "whole", or nothing."""
-        if not self.fails(changed, on_earth) and earthbound(self.part, changed, self.part.solution):
+        bad = [self._special[k][0] for k in self._failing(changed)]
+        if all(on_earth(c) is not None for c in bad) and earthbound(self.part, changed, self.part.solution):
             return "earthbound"
-        return "" if self.fails(changed, has_whole) else "whole"
+        return "whole" if all(map(has_whole, bad)) else ""
+
+    def _failing(self, changed: Function) -> Iterator[int]:
+        """Yield which special cases a changed function gets wrong."""
+        for k, (arguments, right) in enumerate(self._special):
+            if not agree(self.part, tried(self.part, changed, arguments), right, arguments):
+                yield k
 
     @cached_property
     def _special(self) -> list[tuple[tuple[Any, ...], Any]]:
