@@ -1,13 +1,14 @@
-"""The single numbers of docs/extremes.md, and its tables.
+r"""The single numbers of docs/extremes.md, and its tables.
 
 python benchmarks/extremes.py            # some minutes; results/extremes.json, the tables
 python benchmarks/extremes.py --tables   # only make the tables anew from results/
 
 The tables of the whole grid, of programs and of bounds are made from what these commands write:
 
-twistwrench study extremes --full --longest 300 --angles 0 --json benchmarks/results/extremes_grid.json  # an hour
-twistwrench study extremes --programs --json benchmarks/results/extremes_programs.json  # ten minutes
-twistwrench study extremes --bounds --json benchmarks/results/bounds.json  # half an hour
+python -m benchmarks.study extremes --full --longest 300 --angles 0 \
+    --json benchmarks/results/extremes_grid.json  # an hour
+python -m benchmarks.study extremes --programs --json benchmarks/results/extremes_programs.json  # ten minutes
+python -m benchmarks.study extremes --bounds --json benchmarks/results/bounds.json  # half an hour
 """
 
 from __future__ import annotations
@@ -23,15 +24,15 @@ from typing import Any
 
 import mpmath
 import numpy as np
+from study.extremes.cell import measure
+from study.extremes.robots import Recipe
+from study.extremes.rotations import rotations
+from study.extremes.truth import truth
 from tables import fill, table
 
 import twistwrench as tw
 from twistwrench import bridge
 from twistwrench import newton_euler_3d as ne
-from twistwrench.study.extremes.cell import measure
-from twistwrench.study.extremes.robots import Recipe
-from twistwrench.study.extremes.rotations import rotations
-from twistwrench.study.extremes.truth import truth
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results" / "extremes.json"

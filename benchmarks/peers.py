@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from study.cases import States
 
 import twistwrench as tw
-from twistwrench.study.cases import States
 
 JOINTS = slice(6, None)
 

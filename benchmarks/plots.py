@@ -12,9 +12,8 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
+from study.cases import QUANTITIES
 from tables import RANGES, Row, growth, rows
-
-from twistwrench.study.cases import QUANTITIES
 
 RESULTS = Path(__file__).parent / "results"
 BLUE, ORANGE, GREEN, GREY, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#7F7F7F", "#CC79A7", "#56B4E9"

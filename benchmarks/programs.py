@@ -24,13 +24,13 @@ from unittest.mock import patch
 
 import numpy as np
 from speed import environment
+from study.cases import random_states
 from tables import fill, table
 
 import twistwrench as tw
 from twistwrench.compiler import recording
 from twistwrench.compiler.line import LEAVES, Line
 from twistwrench.compiler.number import Node, Number, Tape
-from twistwrench.study.cases import random_states
 from twistwrench.timing import round_robin
 
 HERE = Path(__file__).parent

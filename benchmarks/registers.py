@@ -19,11 +19,11 @@ import sys
 from unittest.mock import patch
 
 import numpy as np
+from study.speed import speed
 from tables import HERE
 
 import twistwrench as tw
 from twistwrench.compiler import llvm as ours
-from twistwrench.study.speed import speed
 
 WIDTHS = (512, 256)
 TURNS = 5

@@ -23,10 +23,10 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+from study.cases import QUANTITIES, ours, pinocchio, random_states
 from tables import rows
 
 import twistwrench as tw
-from twistwrench.study.cases import QUANTITIES, ours, pinocchio, random_states
 from twistwrench.timing import Race, race, round_robin
 
 RESULTS = Path(__file__).parent / "results"

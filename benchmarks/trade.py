@@ -1,4 +1,4 @@
-"""What docs/trade.md shows: two runs of ``twistwrench study trade``, their pictures, and its tables.
+"""What docs/trade.md shows: two runs of ``python -m benchmarks.study trade``, their pictures, and its tables.
 
 python benchmarks/trade.py            # run both studies, ten minutes; writes to results/ and docs/pictures/
 python benchmarks/trade.py --tables   # only make the tables anew from results/
@@ -17,14 +17,15 @@ from pathlib import Path
 
 import numpy as np
 from speed import environment
+from study.trade import Point, weigh
+from study.trade.choice import TARGETS, best
+from study.trade.picture import draw
 from tables import fill, table
 
 import twistwrench as tw
+from twistwrench.advise import USES, Advice, advise
 from twistwrench.plot.style import COLOURS
-from twistwrench.study.trade import Point, weigh
-from twistwrench.study.trade.choice import TARGETS, best, duration
-from twistwrench.study.trade.picture import draw
-from twistwrench.study.uses import USES, Advice, advise
+from twistwrench.timing import duration
 from twistwrench.validate.report import number
 
 HERE = Path(__file__).parent

@@ -5,12 +5,12 @@ import time
 import mpmath
 import numpy as np
 import pytest
+from study.extremes.candidates import ALGORITHMS, candidates
+from study.extremes.robots import Recipe, State
+from study.extremes.truth import truth
 
 import twistwrench as tw
 from twistwrench import error_bounds
-from twistwrench.study.extremes.candidates import ALGORITHMS, candidates
-from twistwrench.study.extremes.robots import Recipe, State
-from twistwrench.study.extremes.truth import truth
 
 from .sampling import sampled
 

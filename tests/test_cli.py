@@ -126,10 +126,6 @@ def test_json_goes_to_a_file_beside_the_table(tmp_path, capsys):
 def test_a_file_that_cannot_be_written_is_noticed_before_the_work(tmp_path, capsys):
     for command, option in [
         (["validate", "pendulum", *QUICK], "--json"),
-        (["study", "trade", "pendulum", "--short"], "--json"),
-        (["study", "trade", "pendulum", "--short"], "--plot"),
-        (["study", "templates", "go2"], "--plot"),
-        (["study", "extremes"], "--json"),
         (["view", "pendulum"], "--output"),
     ]:
         folder = tmp_path / f"folder{'.json' if option == '--json' else '.png'}"

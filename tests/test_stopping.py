@@ -9,11 +9,7 @@ import time
 
 import pytest
 
-from twistwrench.cli import main
 from twistwrench.stopping import Stopped, heeded, without_interrupts
-from twistwrench.study.trade import run
-
-from .sampling import sampled
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and processes are those of POSIX")
 
@@ -112,40 +108,6 @@ def test_a_sweep_that_meets_the_closed_pipe_while_it_prints_is_quiet():
     assert process.wait(30) == 141
     assert process.stderr.read() == ""
     process.stderr.close()
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    sampled([["study", "speed"], ["study", "extremes"], ["study", "trade", "go2"], ["study", "templates"]], 1),
-    ids=lambda arguments: arguments[1],
-)
-def test_a_study_is_stopped(tmp_path, arguments):
-    process = started(*arguments)
-    time.sleep(3)
-    os.killpg(process.pid, signal.SIGINT)
-    code, error = is_stopped(process)
-    assert code == 130
-    assert "Traceback" not in error
-
-
-def test_a_trade_that_is_stopped_keeps_what_was_measured(tmp_path, monkeypatch, capsys):
-    pytest.importorskip("mpmath", reason="mpmath is not installed: the study has no truth")
-    whole, calls = run.measure, []
-
-    def interrupted(*given):
-        calls.append(given)
-        if len(calls) > 1:
-            raise KeyboardInterrupt
-        return whole(*given)
-
-    monkeypatch.setattr(run, "measure", interrupted)
-    path = tmp_path / "trade.json"
-    command = ["study", "trade", "pendulum", "--short", "--only", "ID", "--only", "M", "--json", str(path)]
-    assert main(command) == 130
-    found = json.loads((tmp_path / "trade.json.part").read_text(encoding="utf-8"))
-    assert {point["quantity"] for point in found["points"]} == set(found["names"]) == {"ID"}
-    assert not path.exists()
-    assert "the other quantities were not measured" in capsys.readouterr().out
 
 
 def test_a_signal_ends_the_work_and_is_as_before_afterwards():

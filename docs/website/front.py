@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import twistwrench as tw
+from twistwrench.motions.needs import needs
 from twistwrench.plot.robot import sticks
 from twistwrench.plot.stride import sides
-from twistwrench.study.budget.needs import needs
 
 from .film import NEWTONS, film, millimetres
 

@@ -212,7 +212,7 @@ print("the point mass reads", known.shape, "and its law multiplies by the mass")
 law = TEMPLATES["point_mass"].of(go2, go2.standing()).law(known)
 assert np.allclose(law[:, 3:], exact.of(go2, go2.standing()).rate(jump.q, jump.v, jump.a)[:, 3:], rtol=0, atol=1e-11)
 # %% [markdown] lang="en"
-# `docs/templates.md` has the table for Go2, Solo12, Talos and G1, with times; `twistwrench study templates` computes it
+# `docs/templates.md` has the table for Go2, Solo12, Talos and G1, with times; `python -m benchmarks.study templates` computes it
 # again.
 # %% [markdown] lang="zh"
-# Go2、Solo12、Talos、G1 的表格和时间见 `docs/templates.zh-CN.md`;`twistwrench study templates` 可以重新生成。
+# Go2、Solo12、Talos、G1 的表格和时间见 `docs/templates.zh-CN.md`;`python -m benchmarks.study templates` 可以重新生成。

@@ -1,4 +1,4 @@
-"""The command line: ``twistwrench validate``, ``robots``, ``view``, ``study``, ``advise``, ``exercises``.
+"""The command line: ``twistwrench validate``, ``robots``, ``view``, ``advise``, ``exercises``.
 
 A command is a function that adds its parser; it names in ``set_defaults(run=...)`` what does the work
 and returns the exit status. It imports there what it needs, so that ``--help`` is quick.
@@ -21,13 +21,12 @@ from typing import TYPE_CHECKING, Any
 
 import twistwrench as tw
 
+from .advise import add_advise
 from .errors import ModelError, NameNotFound, SingularError
 from .exercises.commands import register as add_exercises
 from .files import write_text
 from .options import at_least, check_writable
 from .stopping import INTERRUPTED, UNREAD, Stopped, heeded
-from .study.commands import register as add_study
-from .study.uses import add_advise
 from .viewing.commands import register as add_view
 
 if TYPE_CHECKING:
@@ -42,13 +41,22 @@ Commands = Any
 FAILED, MISUSED = 1, 2
 
 
-def main(argv: Sequence[str] | None = None) -> int:
+def main(
+    argv: Sequence[str] | None = None,
+    *,
+    program: str = "twistwrench",
+    commands: Sequence[Callable[[Commands], None]] | None = None,
+) -> int:
     """Run the command line.
 
     Parameters
     ----------
     argv : sequence of str, optional
         The arguments; those of the process unless given.
+    program : str
+        Its name in the help.
+    commands : sequence of callable, optional
+        Each adds the parser of a command; `COMMANDS` unless given.
 
     Returns
     -------
@@ -64,11 +72,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     ...
     0
     """
-    parser = argparse.ArgumentParser(prog="twistwrench", description="Spatial vector algebra and robot dynamics.")
+    parser = argparse.ArgumentParser(prog=program, description="Spatial vector algebra and robot dynamics.")
     parser.add_argument("--version", action="version", version=f"%(prog)s {tw.__version__}")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for add in COMMANDS:
-        add(commands)
+    parsers = parser.add_subparsers(required=True, metavar="COMMAND")
+    for add in COMMANDS if commands is None else commands:
+        add(parsers)
     if not (sys.argv[1:] if argv is None else argv):
         parser.print_help(sys.stderr)
         parser.exit(MISUSED)
@@ -111,7 +119,7 @@ def _said(error: Exception) -> str:
 
         return NO_MATPLOTLIB
     if isinstance(error, ModuleNotFoundError) and error.name == "mpmath":
-        from .study.trade.run import NO_MPMATH
+        from .advise import NO_MPMATH
 
         return NO_MPMATH
     return str(error)
@@ -254,7 +262,6 @@ COMMANDS: tuple[Callable[[Commands], None], ...] = (
     add_validate,
     add_robots,
     add_view,
-    add_study,
     add_advise,
     add_exercises,
 )

@@ -16,7 +16,7 @@ __all__ = ["Accuracy", "accuracy"]
 
 SUMMED, DIVIDED = 24, 4
 """Safety factors on the bare formulas, of inverse and of forward dynamics. Less would do for the textbook; with these
-the errors of `twistwrench.fast` stay below too, in ``twistwrench study extremes`` and in random trees."""
+the errors of `twistwrench.fast` stay below too, in ``python -m benchmarks.study extremes`` and in random trees."""
 
 SHARE = 0.05
 """A joint with a smaller share of a motion's energy than this is not named."""

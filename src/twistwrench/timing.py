@@ -11,7 +11,7 @@ import numpy as np
 
 from .arrays import Array
 
-__all__ = ["Lap", "Race", "race", "round_robin"]
+__all__ = ["Lap", "Race", "duration", "race", "round_robin"]
 
 Call = Callable[[], object]
 
@@ -160,3 +160,17 @@ def _repeats(call: Call, least: float) -> int:
         call()
         times.append(time.perf_counter() - start)
     return max(1, round(least / min(times)))
+
+
+def duration(seconds: float) -> str:
+    """Write a time in three digits.
+
+    Examples
+    --------
+    >>> duration(1.234e-6), duration(0.05), duration(2.5)
+    ('1.23 µs', '50 ms', '2.5 s')
+    """
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / 1e-9:.3g} ns"

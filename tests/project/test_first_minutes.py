@@ -7,12 +7,13 @@ import sys
 
 import numpy as np
 import pytest
+from study.__main__ import main as study_main
+from study.cases import QUANTITIES
+from study.speed import Speed, table
+from study.trade import SHORT, weigh
 
 import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.study.cases import QUANTITIES
-from twistwrench.study.speed import Speed, table
-from twistwrench.study.trade import SHORT, weigh
 
 GO2 = tw.load("go2")
 PENDULUM = tw.load("pendulum")
@@ -139,7 +140,7 @@ def test_without_pinocchio_and_mpmath_the_commands_say_how_to_get_them(monkeypat
         'twistwrench: nothing to compare with: pip install "twistwrench[validate]" brings Pinocchio and mpmath\n',
     )
     for study in ("trade", "extremes"):
-        assert main(["study", study]) == 2
+        assert study_main([study]) == 2
         assert 'twistwrench: the truth needs mpmath: pip install "twistwrench[validate]"\n' in capsys.readouterr().err
 
 

@@ -1,4 +1,4 @@
-"""`twistwrench study budget`: what a motion needs, what each source of error makes of it, and docs/budget.md."""
+"""`python -m benchmarks.study budget`: what a motion needs, the effect of each source of error, docs/budget.md."""
 
 import importlib
 import json
@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from study.__main__ import main as study_main
+from study.budget import budget
+from study.budget.sources import SOURCES, differentiated, template
 
 import twistwrench as tw
-from twistwrench.cli import main
-from twistwrench.study.budget import budget
-from twistwrench.study.budget.needs import needs
-from twistwrench.study.budget.sources import SOURCES, differentiated, template
+from twistwrench.motions.needs import needs
 
 from ..pages import page
 
@@ -124,7 +124,7 @@ def test_a_template_of_the_whole_body_leaves_out_the_legs_alone():
 def test_the_command_prints_and_writes(tmp_path, capsys):
     picture, file = tmp_path / "b.svg", tmp_path / "b.json"
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: the picture is not drawn")
-    assert main(["study", "budget", "go2", "--plot", str(picture), "--json", str(file)]) == 0
+    assert study_main(["budget", "go2", "--plot", str(picture), "--json", str(file)]) == 0
     assert "base pitched by 1°" in capsys.readouterr().out
     assert picture.stat().st_size > 10_000
     assert [source["name"] for source in json.loads(file.read_text(encoding="utf-8"))["sources"]] == list(SOURCES)

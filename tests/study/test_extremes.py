@@ -10,18 +10,18 @@ from functools import lru_cache
 import mpmath
 import numpy as np
 import pytest
+from study.__main__ import main as study_main
+from study.extremes import candidates, grid, picture, report, run
+from study.extremes.cell import Outcome, measure
+from study.extremes.grid import DIMENSIONS, ENDS, cells, of_pair, of_value
+from study.extremes.robots import Recipe
+from study.extremes.rotations import rotations
+from study.extremes.run import Cell, read
+from study.extremes.truth import accelerations, truth
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as ne
-from twistwrench.cli import main
 from twistwrench.plot.style import COLOURS
-from twistwrench.study.extremes import candidates, grid, picture, report, run
-from twistwrench.study.extremes.cell import Outcome, measure
-from twistwrench.study.extremes.grid import DIMENSIONS, ENDS, cells, of_pair, of_value
-from twistwrench.study.extremes.robots import Recipe
-from twistwrench.study.extremes.rotations import rotations
-from twistwrench.study.extremes.run import Cell, read
-from twistwrench.study.extremes.truth import accelerations, truth
 
 from ..pages import DOCS, numbered, page
 from ..pages import run as run_page
@@ -110,7 +110,7 @@ def test_a_robot_at_rest_in_free_space_stays_there():
 def test_of_a_long_robot_some_columns_of_the_mass_matrix_are_judged(monkeypatch):
     recipe = Recipe()
     whole = truth(recipe.model, recipe.state)
-    monkeypatch.setattr("twistwrench.study.extremes.truth.WHOLE", recipe.bodies)
+    monkeypatch.setattr("study.extremes.truth.WHOLE", recipe.bodies)
     some, M = truth(recipe.model, recipe.state), whole.right["M"]
     assert (abs(some.right["M"] - M[:, [0, 5, 6, -1]]) <= 1e-45 * abs(M).max()).all()
     wrong = M.astype(float)
@@ -288,7 +288,7 @@ def test_a_study_that_was_stopped_goes_on_where_it_stopped(tmp_path, monkeypatch
 def test_a_file_that_holds_something_else_is_left_as_it_is(text, tmp_path, capsys):
     path = tmp_path / "notes.txt"
     path.write_bytes(text.encode("latin-1"))
-    assert main(["study", "extremes", "--cells", str(path)]) == 2
+    assert study_main(["extremes", "--cells", str(path)]) == 2
     assert "notes.txt, line 1: expected a cell of this study; the file was left as it is" in capsys.readouterr().err
     assert path.read_bytes() == text.encode("latin-1")
 
@@ -328,7 +328,7 @@ def test_the_command_prints_writes_and_draws(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(grid, "cells", lambda *, full: FEW)
     monkeypatch.setattr(picture, "NAMES", {"aba, pushed": "aba_pushed"})
     kept, counted, maps = (str(tmp_path / name) for name in ("cells.jsonl", "counted.json", "maps"))
-    status = main(["study", "extremes", "--cells", kept, "--json", counted, "--pictures", maps, "--angles", "20"])
+    status = study_main(["extremes", "--cells", kept, "--json", counted, "--pictures", maps, "--angles", "20"])
     said = capsys.readouterr()
     assert status == 0
     for text in (
@@ -348,7 +348,7 @@ def test_the_command_fails_where_a_cell_is_bad(monkeypatch, capsys):
     bad = [Outcome("aba, pushed", "fast", bad="NaN")]
     monkeypatch.setattr(grid, "cells", lambda *, full: FEW[:1])
     monkeypatch.setattr(run, "measure", lambda recipe, **how: bad)
-    assert main(["study", "extremes", "--angles", "0"]) == 1
+    assert study_main(["extremes", "--angles", "0"]) == 1
     assert "aba, pushed by fast: NaN" in capsys.readouterr().err
 
 
@@ -380,7 +380,7 @@ def test_the_command_does_without_pinocchio_and_scipy(monkeypatch, capsys):
     for name in ("pinocchio", "scipy", "scipy.spatial.transform"):
         monkeypatch.setitem(sys.modules, name, None)
     monkeypatch.setattr(grid, "cells", lambda *, full: FEW[2:])
-    assert main(["study", "extremes", "--angles", "4"]) == 0
+    assert study_main(["extremes", "--angles", "4"]) == 0
     said = capsys.readouterr()
     assert "Pinocchio" in said.err
     assert "it has no column" in said.err
@@ -392,7 +392,7 @@ def test_the_command_does_without_pinocchio_and_scipy(monkeypatch, capsys):
 @pytest.mark.parametrize("angles", ["1", "-5", "2.5", "many"])
 def test_a_number_of_angles_that_is_none_is_refused(angles, capsys):
     with pytest.raises(SystemExit):
-        main(["study", "extremes", "--angles", angles])
+        study_main(["extremes", "--angles", angles])
     assert f"got '{angles}'" in capsys.readouterr().err
 
 
@@ -406,7 +406,7 @@ def test_exp_and_log_are_good_to_2e_15_for_every_angle():
 
 
 def test_the_truth_of_a_quarter_turn_is_a_closed_form():
-    from twistwrench.study.extremes.rotations import _exp, _log
+    from study.extremes.rotations import _exp, _log
 
     half_pi = mpmath.pi / 2
     V = np.array([[0 * half_pi, 0 * half_pi, half_pi, half_pi, 0 * half_pi, mpmath.mpf(1)]])
@@ -423,7 +423,9 @@ PAGES = [page("extremes", language) for language in ("", ".zh-CN")]
 
 @pytest.mark.parametrize("language", ["", ".zh-CN"])
 def test_the_page_counts_the_robots_of_the_grid(language):
-    said = re.findall(r"twistwrench study extremes.* # (\d+)", page("extremes", language).read_text(encoding="utf-8"))
+    said = re.findall(
+        r"python -m benchmarks.study extremes.* # (\d+)", page("extremes", language).read_text(encoding="utf-8")
+    )
     assert [int(number) for number in said] == [len(cells(full=full)) for full in (False, True)]
 
 

@@ -4,11 +4,10 @@ import json
 
 import numpy as np
 import pytest
-
-from twistwrench.cli import main
-from twistwrench.study.extremes import grid
-from twistwrench.study.extremes.bounds import Measured, bounds, measured, table
-from twistwrench.study.extremes.robots import Recipe
+from study.__main__ import main as study_main
+from study.extremes import grid
+from study.extremes.bounds import Measured, bounds, measured, table
+from study.extremes.robots import Recipe
 
 pytest.importorskip("mpmath")
 
@@ -31,7 +30,7 @@ def test_a_bound_below_an_error_is_found():
 def test_bounds_hold_in_a_few_cells(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(grid, "cells", lambda full: FEW)
     path = tmp_path / "bounds.json"
-    assert main(["study", "extremes", "--bounds", "--json", str(path)]) == 0
+    assert study_main(["extremes", "--bounds", "--json", str(path)]) == 0
     found = json.loads(path.read_text(encoding="utf-8"))
     assert found["cells"] == len(FEW)
     assert len(found["bounds"]) == 8

@@ -5,13 +5,13 @@ import json
 import mpmath
 import numpy as np
 import pytest
+from study.__main__ import main as study_main
+from study.extremes import command, grid
+from study.extremes.programs import Compared, compared, counts, medians, table
+from study.extremes.robots import Recipe
+from study.extremes.truth import truth
 
 import twistwrench as tw
-from twistwrench.cli import main
-from twistwrench.study.extremes import command, grid
-from twistwrench.study.extremes.programs import Compared, compared, counts, medians, table
-from twistwrench.study.extremes.robots import Recipe
-from twistwrench.study.extremes.truth import truth
 
 SYMBOLS = {"rnea": "tau", "crba": "M", "centroidal map": "A_G", "aba, steered": "steered", "aba, pushed": "pushed"}
 
@@ -66,7 +66,7 @@ def test_the_command_counts_and_writes(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(grid, "cells", lambda full: [Recipe(bodies=2), Recipe(bodies=100)])
     monkeypatch.setattr(command, "STATES", 20)
     path = tmp_path / "programs.json"
-    assert main(["study", "extremes", "--programs", "--json", str(path)]) == 0
+    assert study_main(["extremes", "--programs", "--json", str(path)]) == 0
     found = json.loads(path.read_text(encoding="utf-8"))
     assert found["states"] == 20
     assert [one["cells"] for one in found["counts"]] == [1] * 5

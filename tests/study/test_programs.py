@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.advise import USES, advise
 from twistwrench.cli import main
-from twistwrench.study.uses import USES, advise
 
 from ..pages import blocks, page, run
 

@@ -1,4 +1,4 @@
-"""`twistwrench study speed`: what it times is what it says, and what it prints."""
+"""`python -m benchmarks.study speed`: what it times is what it says, and what it prints."""
 
 import importlib
 import re
@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from study.__main__ import main as study_main
+from study.cases import QUANTITIES, ours, random_states
+from study.speed import Speed, speed, table
 
 import twistwrench as tw
-from twistwrench.cli import main
-from twistwrench.study.cases import QUANTITIES, ours, random_states
-from twistwrench.study.speed import Speed, speed, table
 from twistwrench.timing import round_robin
 
 from ..sampling import sampled
@@ -57,8 +57,8 @@ def test_without_pinocchio_times_stand_alone(monkeypatch):
     assert "~12.3" in text
     assert "other things to do" in text
     assert "other things to do" not in table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, False)])
-    monkeypatch.setattr("twistwrench.study.speed.find_spec", lambda name: None)
-    monkeypatch.setattr("twistwrench.study.speed.round_robin", partial(round_robin, least=0, most=0))
+    monkeypatch.setattr("study.speed.find_spec", lambda name: None)
+    monkeypatch.setattr("study.speed.round_robin", partial(round_robin, least=0, most=0))
     found = list(speed(tw.load("pendulum"), rounds=1, states=2))
     assert len(found) == 4 * len(QUANTITIES)
     assert {row.ratio for row in found} == {None}
@@ -66,14 +66,14 @@ def test_without_pinocchio_times_stand_alone(monkeypatch):
 
 @pytest.mark.slow
 def test_the_command_has_a_row_for_every_quantity_of_a_robot_with_feet(monkeypatch, capsys):
-    monkeypatch.setattr("twistwrench.study.speed.round_robin", partial(round_robin, least=0, most=0))
-    assert main(["study", "speed", "go2"]) == 0
+    monkeypatch.setattr("study.speed.round_robin", partial(round_robin, least=0, most=0))
+    assert study_main(["speed", "go2"]) == 0
     out, err = capsys.readouterr()
     assert out.startswith("go2, nv = 18: microseconds for one state")
     rows = {line[:26].strip(): re.findall(r"\d[\d.]*(?= \(|$|  )", line[26:]) for line in out.splitlines()}
     assert all(len(rows[meaning]) > 3 for meaning in QUANTITIES.values())
     assert err == ""
-    assert main(["study", "speed", "pendulum", "--base", "floating"]) == 2
+    assert study_main(["speed", "pendulum", "--base", "floating"]) == 2
     assert "joint 'root_joint': with its outboard joints free it moves no inertia" in capsys.readouterr().err
 
 

@@ -1,4 +1,4 @@
-"""``twistwrench study trade``: fronts of made-up points, errors of every way, words that name what is there."""
+"""``python -m benchmarks.study trade``: fronts of made-up points, errors of every way, words."""
 
 import importlib
 import json
@@ -13,17 +13,19 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import timing as clock
-from twistwrench.cli import main
 
 from ..pages import blocks, page, run
 
 pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
 
-from twistwrench.study.trade import KEYS, SHORT, Effort, LeftOut, Point, Trade, picture, weigh
-from twistwrench.study.trade.choice import advice, front
-from twistwrench.study.trade.measure import relative_error
-from twistwrench.study.trade.numbers import convert, epsilon, sum_of_pair
-from twistwrench.study.trade.run import DRAWN, _versions
+from study.__main__ import main as study_main
+from study.trade import KEYS, SHORT, Effort, LeftOut, Point, Trade, picture, weigh
+from study.trade import run as trade_run
+from study.trade.choice import advice, front
+from study.trade.measure import relative_error
+from study.trade.numbers import convert, epsilon, sum_of_pair
+from study.trade.run import DRAWN, _versions
+
 from twistwrench.validate.states import random_states
 
 from ..sampling import sampled
@@ -339,7 +341,7 @@ def test_the_versions_are_of_what_is_installed(monkeypatch):
             raise PackageNotFoundError(name)
         return "1.0"
 
-    monkeypatch.setattr("twistwrench.study.trade.run.version", version)
+    monkeypatch.setattr("study.trade.run.version", version)
     assert set(_versions()) == {"python", "twistwrench", "numpy", "mpmath", "gmpy2", "pin"}
 
 
@@ -348,7 +350,6 @@ def test_the_command_prints_writes_and_draws(tmp_path, capsys):
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: nothing is drawn")
     files = tmp_path / "found.json", tmp_path / "found.png"
     command = [
-        "study",
         "trade",
         "pendulum",
         "--short",
@@ -361,7 +362,7 @@ def test_the_command_prints_writes_and_draws(tmp_path, capsys):
         "--seed",
         "1",
     ]
-    assert main(command) == 0
+    assert study_main(command) == 0
     out, err = capsys.readouterr()
     assert out.startswith("pendulum: fixed base, 1 moving body")
     assert "inverse dynamics τ:" in out
@@ -384,7 +385,7 @@ def test_what_is_below_the_picture_is_said(errors, said):
 
 
 def test_the_command_shows_a_bar_if_told_to(capsys):
-    assert main(["study", "trade", "pendulum", "--short", "--only", "M", "--progress"]) == 0
+    assert study_main(["trade", "pendulum", "--short", "--only", "M", "--progress"]) == 0
     assert "M: " in capsys.readouterr().err
 
 
@@ -400,7 +401,7 @@ def test_the_command_shows_a_bar_if_told_to(capsys):
     ],
 )
 def test_what_cannot_be_done_is_said_before_anything_is_measured(wrong, said, capsys):
-    assert main(["study", "trade", *wrong]) == 2
+    assert study_main(["trade", *wrong]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert said in err
@@ -409,7 +410,7 @@ def test_what_cannot_be_done_is_said_before_anything_is_measured(wrong, said, ca
 @pytest.mark.parametrize("wrong", [["--seed", "-1"], ["--seed", "x"], ["--base", "flying"], ["--fast"]])
 def test_misuse_has_status_2(wrong, capsys):
     with pytest.raises(SystemExit) as stop:
-        main(["study", "trade", "pendulum", *wrong])
+        study_main(["trade", "pendulum", *wrong])
     assert stop.value.code == 2
     assert wrong[-1] in capsys.readouterr().err
 
@@ -454,7 +455,7 @@ def test_without_pinocchio_and_scipy_their_ways_are_left_out_and_a_line_says_so(
 
 def test_without_mpmath_there_is_no_truth(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "mpmath", None)
-    assert main(["study", "trade", "pendulum", "--short"]) == 2
+    assert study_main(["trade", "pendulum", "--short"]) == 2
     assert 'pip install "twistwrench[validate]"' in capsys.readouterr().err
 
 
@@ -604,3 +605,23 @@ def test_the_code_of_the_page_runs(language):
     assert re.findall(r"^```\w+\n.*?^```", text, re.MULTILINE | re.DOTALL) == re.findall(
         r"^```\w+\n.*?^```", page("trade").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
     )
+
+
+def test_a_trade_that_is_stopped_keeps_what_was_measured(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("mpmath", reason="mpmath is not installed: the study has no truth")
+    whole, calls = trade_run.measure, []
+
+    def interrupted(*given):
+        calls.append(given)
+        if len(calls) > 1:
+            raise KeyboardInterrupt
+        return whole(*given)
+
+    monkeypatch.setattr(trade_run, "measure", interrupted)
+    path = tmp_path / "trade.json"
+    command = ["trade", "pendulum", "--short", "--only", "ID", "--only", "M", "--json", str(path)]
+    assert study_main(command) == 130
+    found = json.loads((tmp_path / "trade.json.part").read_text(encoding="utf-8"))
+    assert {point["quantity"] for point in found["points"]} == set(found["names"]) == {"ID"}
+    assert not path.exists()
+    assert "the other quantities were not measured" in capsys.readouterr().out

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from study.__main__ import main as study_main
+from study.templates import _table
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
-from twistwrench.cli import main
-from twistwrench.study.templates import _table
 from twistwrench.templates import (
     TEMPLATES,
     Centroidal,
@@ -429,9 +429,9 @@ def in_a_millisecond(calls, *, rounds, after_round):
 
 @pytest.mark.slow
 def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("twistwrench.study.templates.round_robin", in_a_millisecond)
+    monkeypatch.setattr("study.templates.round_robin", in_a_millisecond)
     picture = tmp_path / "templates.png"
-    assert main(["study", "templates", "go2", "--samples", "20", "--plot", str(picture)]) == 0
+    assert study_main(["templates", "go2", "--samples", "20", "--plot", str(picture)]) == 0
     printed = capsys.readouterr().out
     rows = re.findall(r"^(walk|trot|jump) +(\w+) +([\d.e-]+) \(", printed, re.MULTILINE)
     assert [row[:2] for row in rows] == [(kind, name) for kind in ("walk", "trot", "jump") for name in TEMPLATES]
@@ -446,7 +446,7 @@ def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
 @pytest.mark.slow
 def test_the_picture_of_the_study_draws_the_values_that_it_has():
     figure = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed: the picture is not made")
-    from twistwrench.study.templates_picture import residuals
+    from study.templates_picture import residuals
 
     jump, ax = tw.motions.jump(GO2, samples=20), figure.Figure().add_subplot()
     residuals(GO2, jump, ax)
@@ -458,17 +458,17 @@ def test_the_picture_of_the_study_draws_the_values_that_it_has():
 
 
 def test_the_study_has_a_table_for_every_robot(monkeypatch, capsys):
-    monkeypatch.setattr("twistwrench.study.templates.round_robin", in_a_millisecond)
-    monkeypatch.setattr("twistwrench.study.templates.MOTIONS", {"walk": tw.motions.walk})
-    assert main(["study", "templates", "go2", "humanoid", "--samples", "4"]) == 0
+    monkeypatch.setattr("study.templates.round_robin", in_a_millisecond)
+    monkeypatch.setattr("study.templates.MOTIONS", {"walk": tw.motions.walk})
+    assert study_main(["templates", "go2", "humanoid", "--samples", "4"]) == 0
     printed = capsys.readouterr().out
     assert re.findall(r"^(\w+), nv = (\d+)", printed, re.MULTILINE) == [("go2", "18"), ("humanoid", "27")]
     assert len(re.findall("^walk ", printed, re.MULTILINE)) == 2 * len(TEMPLATES)
 
 
 def test_a_robot_of_the_study_that_is_not_installed_is_left_out(monkeypatch, capsys):
-    monkeypatch.setattr("twistwrench.study.templates.ROBOTS", ("nobody",))
-    assert main(["study", "templates", "nobody"]) == 0
+    monkeypatch.setattr("study.templates.ROBOTS", ("nobody",))
+    assert study_main(["templates", "nobody"]) == 0
     assert capsys.readouterr().out == "nobody: not installed, left out (example-robot-data)\n\n"
 
 
@@ -479,11 +479,11 @@ def test_a_table_of_calls_that_nothing_disturbed_says_nothing_of_it():
 @pytest.mark.parametrize("samples", ["1", "-5", "few"])
 def test_the_study_takes_no_fewer_than_two_samples(samples, capsys):
     with pytest.raises(SystemExit) as stop:
-        main(["study", "templates", "go2", "--samples", samples])
+        study_main(["templates", "go2", "--samples", samples])
     assert stop.value.code == 2
     assert f"--samples: expected a whole number, 2 or more, got '{samples}'" in capsys.readouterr().err
 
 
 def test_the_study_says_which_robot_is_not_known(capsys):
-    assert main(["study", "templates", "go3"]) == 2
+    assert study_main(["templates", "go3"]) == 2
     assert "unknown robot 'go3'" in capsys.readouterr().err
