@@ -451,25 +451,25 @@ FAULTS = [
     # templates, motions
     Fault(
         "parallel axes added to an inertia taken to the centre of mass",
-        "templates/com_motion.py",
+        "templates/template.py",
         "composite[..., :3, :3] + mass[..., None, None] * C @ C",
         "composite[..., :3, :3] - mass[..., None, None] * C @ C",
     ),
     Fault(
         "Euler's equation: sign of ω × I ω",
-        "templates/rigid_body.py",
+        "templates/reduced.py",
         "np.matvec(I, w_dot) + np.cross(w, np.matvec(I, w))",
         "np.matvec(I, w_dot) - np.cross(w, np.matvec(I, w))",
     ),
     Fault(
         "pendulum: pressure ahead of a mass that speeds up",
-        "templates/pendulum.py",
+        "templates/reduced.py",
         "p - self._along_the_ground(acceleration) / self._rate_squared",
         "p + self._along_the_ground(acceleration) / self._rate_squared",
     ),
     Fault(
         "turning frame: ω in the world's axes",
-        "motions/orientation.py",
+        "motions/inverse_kinematics.py",
         "np.eye(3) - B(square) * K",
         "np.eye(3) + B(square) * K",
     ),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import twistwrench as tw
-from twistwrench.motions.needs import needs
+from twistwrench.motions.support import needs
 from twistwrench.plot.robot import sticks
 from twistwrench.plot.stride import sides
 

@@ -13,10 +13,9 @@ import twistwrench as tw
 from twistwrench.motions import MOTIONS, Motion, ground, limits_broken
 from twistwrench.motions.curves import Harmonics, Pieces, between, hop, stair
 from twistwrench.motions.gaits import CRAWL, TROT, WALK, Steps
-from twistwrench.motions.inverse_kinematics import follow
+from twistwrench.motions.inverse_kinematics import body_rates, follow
 from twistwrench.motions.jumping import FOUR_LEGS, Leap
 from twistwrench.motions.legs import stand
-from twistwrench.motions.orientation import body_rates
 
 G, H = 9.81, 1e-20
 GO2 = tw.load("go2")

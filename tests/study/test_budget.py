@@ -13,7 +13,7 @@ from study.budget import budget
 from study.budget.sources import SOURCES, differentiated, template
 
 import twistwrench as tw
-from twistwrench.motions.needs import needs
+from twistwrench.motions.support import needs
 
 from ..pages import page
 

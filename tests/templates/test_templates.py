@@ -23,7 +23,7 @@ from twistwrench.templates import (
     RigidBody,
     Template,
 )
-from twistwrench.templates.com_motion import com_acceleration, locked_inertia
+from twistwrench.templates.template import com_acceleration, locked_inertia
 from twistwrench.timing import Lap
 
 from ..pages import blocks, page, run

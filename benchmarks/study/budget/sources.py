@@ -11,7 +11,7 @@ import twistwrench as tw
 from twistwrench.algorithms.floating_base import base_placement
 from twistwrench.arrays import Array
 from twistwrench.motions import Motion
-from twistwrench.motions.needs import NEGLIGIBLE, Need, needs
+from twistwrench.motions.support import NEGLIGIBLE, Need, needs
 from twistwrench.templates import TEMPLATES
 
 __all__ = ["SOURCES", "differentiated", "rounded", "template"]

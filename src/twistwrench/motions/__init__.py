@@ -17,10 +17,9 @@ Walk and trot take a speed, a height, a direction and a length of the steps. `re
 another on any robot, an arm or a drone.
 """
 
-from .limits import limits_broken
 from .motion import Motion
 from .reaching import reach
-from .support import Ground, ground
+from .support import Ground, ground, limits_broken
 from .walking import MOTIONS, jump, trot, walk
 
 __all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "limits_broken", "reach", "trot", "walk"]

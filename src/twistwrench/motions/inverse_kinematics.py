@@ -10,6 +10,7 @@ is free (the base's position, the joints of the legs). Orientation and the other
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -18,11 +19,22 @@ from ..algorithms.centroidal import center_of_mass, centroidal_map, centroidal_m
 from ..algorithms.kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
 from ..arrays import Array
 from ..errors import SingularError
-from ..spatial import log3
+from ..spatial import log3, skew
 from .legs import Stand
-from .orientation import body_rates
 
-__all__ = ["Goal", "follow", "free_columns", "nearer", "place", "solve", "targets", "tasks", "turned"]
+__all__ = [
+    "Goal",
+    "body_rates",
+    "follow",
+    "free_columns",
+    "nearer",
+    "place",
+    "solve",
+    "targets",
+    "tasks",
+    "turned",
+    "turning_jacobian",
+]
 
 REFERENCE: Reference = "local_world_aligned"
 
@@ -170,3 +182,29 @@ def targets(stand: Stand, goal: Goal, order: int) -> Array:
         step = goal.steps[order][..., k, :]
         out += [np.zeros_like(step), step] if leg.has_sole else [step]
     return np.concatenate(out, axis=-1)
+
+
+TERMS = 14
+"""Of the series: enough for turns of up to 3 rad."""
+B = np.polynomial.Polynomial([(-1) ** k / math.factorial(2 * k + 2) for k in range(TERMS)])
+C = np.polynomial.Polynomial([(-1) ** k / math.factorial(2 * k + 3) for k in range(TERMS)])
+
+
+def turning_jacobian(phi: Array) -> Array:
+    """Return J, which takes φ̇ to the angular velocity in the body's axes, shape (..., 3, 3)."""
+    square, K = (phi * phi).sum(-1)[..., None, None], skew(phi)
+    return np.asarray(np.eye(3) - B(square) * K + C(square) * K @ K)
+
+
+def body_rates(jet: Array) -> Array:
+    """Return ω and ω̇ in the body's axes from the jet of φ, shape (2, ..., 3)."""
+    phi, rate, second = jet
+    square, growth = (phi * phi).sum(-1)[..., None], 2 * (phi * rate).sum(-1)[..., None]
+    first = np.cross(phi, rate)
+    w_dot = (
+        np.matvec(turning_jacobian(phi), second)
+        - B.deriv()(square) * growth * first
+        + C.deriv()(square) * growth * np.cross(phi, first)
+        + C(square) * np.cross(rate, first)
+    )
+    return np.stack([np.matvec(turning_jacobian(phi), rate), w_dot])

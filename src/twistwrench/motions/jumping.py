@@ -18,9 +18,8 @@ from ..algorithms.centroidal import centroidal_map
 from ..arrays import Array
 from ..errors import SingularError
 from .curves import Pieces, between, hop, stair
-from .inverse_kinematics import Goal, free_columns, nearer, place, solve, targets, tasks, turned
+from .inverse_kinematics import Goal, free_columns, nearer, place, solve, targets, tasks, turned, turning_jacobian
 from .legs import Stand
-from .orientation import turning_jacobian
 
 __all__ = ["FOUR_LEGS", "TWO_LEGS", "Jump", "Leap"]
 

@@ -14,8 +14,7 @@ from ..arrays import Array
 from ..contact import Contact
 from ..model import Model, lock_joints, matching_joints
 from ..templates import TEMPLATES
-from ..templates.full_model import Full
-from ..templates.pendulum import LinearPendulum
+from ..templates.reduced import Full, LinearPendulum
 from ..templates.template import Template
 from .articulated import Articulated
 from .judging import heights

@@ -31,12 +31,7 @@ centroidal   3.1e-16
 full         0.0e+00
 """
 
-from .frozen_body import FrozenRigidBody
-from .full_model import Full
-from .momentum import Centroidal
-from .pendulum import LinearPendulum
-from .point_mass import PointMass
-from .rigid_body import RigidBody
+from .reduced import Centroidal, FrozenRigidBody, Full, LinearPendulum, PointMass, RigidBody
 from .template import Residual, Template
 
 __all__ = [

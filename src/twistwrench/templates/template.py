@@ -11,14 +11,14 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.centroidal import center_of_mass
 from ..algorithms.floating_base import base_placement
+from ..algorithms.kinematics import forward_kinematics
 from ..algorithms.rnea import rnea
 from ..arrays import Array, convert
 from ..errors import SingularError
-from ..model import Model, one_configuration
-from ..spatial import SE3
-from .com_motion import locked_inertia
+from ..model import Model, composite_inertias, one_configuration, tree_terms
+from ..spatial import SE3, skew
 
-__all__ = ["Residual", "Template", "full_rate"]
+__all__ = ["Residual", "Template", "com_acceleration", "force", "full_rate", "locked_inertia"]
 
 
 @dataclass(frozen=True)
@@ -185,3 +185,36 @@ def full_rate(model: Model, q: Array, v: Array, a: Array) -> Array:
     g = convert(model.mass * model.gravity, q.dtype)
     rate: Array = np.matvec(to_G, rnea(model, q, v, a)[..., :6]) + np.concatenate([np.zeros_like(g), g])
     return rate
+
+
+def com_acceleration(model: Model, q: Array, v: Array, a: Array) -> Array:
+    """Return p̈_G, the acceleration of the centre of mass, in the axes of the world, shape (..., 3).
+
+    The mean over the bodies of c̈_i = R_i (a + ω × v + α × c + ω × (ω × c)): (α, a) is the spatial acceleration of
+    body i, (ω, v) its twist and c its centre of mass, all in its own frame.
+    """
+    moving = forward_kinematics(model, q, v, a)
+    if moving.twist is None or moving.acceleration is None:
+        raise RuntimeError("v and a were given")
+    mass = np.array([inertia.mass for inertia in model.inertia]).astype(q.dtype)
+    c = np.stack([inertia.com for inertia in model.inertia]).astype(q.dtype)
+    w, alpha = moving.twist[..., :3], moving.acceleration[..., :3]
+    local = moving.acceleration[..., 3:] + np.cross(w, moving.twist[..., 3:] + np.cross(w, c)) + np.cross(alpha, c)
+    R = np.stack([T.rotation for T in moving.placement], axis=-3)
+    return np.asarray((mass[:, None] * np.matvec(R, local)).sum(axis=-2) / mass.sum())
+
+
+def force(model: Model, p_ddot: Array) -> Array:
+    """Return l̇_G = m p̈_G."""
+    return np.asarray(convert(np.asarray(model.mass), p_ddot.dtype) * p_ddot)
+
+
+def locked_inertia(model: Model, q: Array) -> Array:
+    """Return the inertia about the centre of mass of the robot with its joints locked, in the base's axes, (..., 3, 3).
+
+    Of the composite inertia at the base, I_O, m c and m: I_G = I_O + m [c]× [c]×.
+    """
+    composite = composite_inertias(tree_terms(model, q))[1]
+    mass, mc = composite[..., 3, 3], composite[..., [2, 0, 1], [4, 5, 3]]  # m [c]× is the block at the top right
+    C = skew(mc / mass[..., None])
+    return np.asarray(composite[..., :3, :3] + mass[..., None, None] * C @ C)
