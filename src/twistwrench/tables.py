@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterable, Sequence
 from html import escape
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["html_matrix", "html_table", "text_table"]
+__all__ = ["aligned", "html_matrix", "html_table", "text_table"]
 
 SQUARE = 9
 """Side of an entry of a matrix, pixels."""
@@ -16,9 +17,43 @@ SQUARE = 9
 
 def text_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Return a table as text, its columns under each other."""
-    lines = [head, *rows]
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in lines)
+    return "\n".join(aligned([head, *rows]))
+
+
+def aligned(
+    lines: Sequence[Sequence[str]], *, right: Iterable[int] = (), widths: Sequence[int] = (), gap: str = "  "
+) -> list[str]:
+    """Return the lines of a table, their cells padded to columns.
+
+    Parameters
+    ----------
+    lines : sequence of sequence of str
+        The cells.
+    right : iterable of int
+        The columns whose cells end at the right, as numbers do.
+    widths : sequence of int, optional
+        Of the columns, for a table that is printed line by line; those of the widest cells unless given.
+    gap : str
+        Between two columns.
+
+    Examples
+    --------
+    >>> aligned([("joint", "rad"), ("hip", "1.5")], right=[1])
+    ['joint  rad', 'hip    1.5']
+    """
+    widths = widths or [max(map(_width, column)) for column in zip(*lines, strict=True)]
+    at_right = set(right)
+
+    def padded(cell: str, column: int) -> str:
+        space = " " * (widths[column] - _width(cell))
+        return space + cell if column in at_right else cell + space
+
+    return [gap.join(padded(cell, column) for column, cell in enumerate(line)).rstrip() for line in lines]
+
+
+def _width(text: str) -> int:
+    """Return how many columns a text takes: the dot over a letter takes none."""
+    return sum(not unicodedata.combining(c) for c in text)
 
 
 def html_table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

@@ -7,8 +7,9 @@ import textwrap
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from twistwrench.tables import aligned
 from twistwrench.timing import duration
-from twistwrench.validate.report import number, pad
+from twistwrench.validate.report import number
 
 from .choice import advice, front
 from .measure import Effort, LeftOut, Point
@@ -83,7 +84,7 @@ class Trade:
 
     def _table(self, key: str) -> list[str]:
         one, many = self.fronts(key)
-        lines = ["", self.names[key], _laid_out(HEADER)]
+        lines = ["", self.names[key], _aligned(HEADER)]
         for p in sorted(self.of(key), key=lambda p: (p.states, p.seconds)):
             marks = "●" if p in one else "", "●" if p in many else ""
             quartiles = f"{duration(p.q1)} – {duration(p.q3)}"
@@ -95,7 +96,7 @@ class Trade:
                 quartiles,
                 number(p.error),
             )
-            lines.append(_laid_out((*marks, *cells)))
+            lines.append(_aligned((*marks, *cells)))
         lost = [x for x in self.left_out if x.quantity == key]
         return lines + [
             f"    left out: {x.way}, {x.number}{', a batch' if x.states > 1 else ''}: {x.why}" for x in lost
@@ -130,5 +131,5 @@ def _wrapped(line: str) -> str:
     return textwrap.fill(line, LINE, subsequent_indent=rest, break_on_hyphens=False, break_long_words=False)
 
 
-def _laid_out(cells: tuple[str, ...]) -> str:
-    return " ".join(pad(cell, width, right=i >= 4) for i, (cell, width) in enumerate(zip(cells, WIDTHS))).rstrip()
+def _aligned(cells: tuple[str, ...]) -> str:
+    return aligned([cells], widths=WIDTHS, right=range(4, len(WIDTHS)), gap=" ")[0]

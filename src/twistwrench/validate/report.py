@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-import unicodedata
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
+from ..tables import aligned, html_table
 from .measure import Row
 
-__all__ = ["Report", "notes", "number", "pad"]
+__all__ = ["Report", "notes", "number"]
 
 HEADER = ("§", "quantity", "in Pinocchio", "shape", "vs Pin.", "vs truth", "bound", "")
 RIGHT = (4, 5, 6)
@@ -73,7 +73,12 @@ class Report:
         return max(compared, key=lambda row: _ratio(row), default=None)
 
     def __str__(self) -> str:
-        lines = [f"{self.robot}: {self.description}", *self._sides(), "", *_aligned([HEADER, *map(_cells, self.rows)])]
+        lines = [
+            f"{self.robot}: {self.description}",
+            *self._sides(),
+            "",
+            *aligned([HEADER, *map(_cells, self.rows)], right=RIGHT),
+        ]
         return "\n".join([*lines, *notes(self.rows), "", self.summary()])
 
     @property
@@ -118,10 +123,8 @@ class Report:
         return plain
 
     def _repr_html_(self) -> str:
-        cells = [HEADER, *map(_cells, self.rows)]
-        rows = ("<tr>" + "".join(f"<td>{escape(c)}</td>" for c in line) + "</tr>" for line in cells)
         head = "<br>".join(escape(line) for line in (f"{self.robot}: {self.description}", *self._sides()))
-        return f"<p>{head}</p><table>{''.join(rows)}</table><p>{escape(self.summary())}</p>"
+        return f"<p>{head}</p>{html_table(HEADER, map(_cells, self.rows))}<p>{escape(self.summary())}</p>"
 
 
 def notes(rows: Iterable[Row]) -> list[str]:
@@ -158,24 +161,6 @@ def number(x: float | None) -> str:
     if x is None:
         return "–"
     return "NaN" if math.isnan(x) else "0" if x == 0 else f"{x:.1e}".replace("1.0e-12", "1e-12")
-
-
-def _aligned(lines: list[tuple[str, ...]]) -> list[str]:
-    """Lay cells out in columns, numbers to the right."""
-    widths = [max(map(_width, column)) for column in zip(*lines, strict=True)]
-    right = [i in RIGHT for i in range(len(widths))]
-    return ["  ".join(map(pad, line, widths, right)).rstrip() for line in lines]
-
-
-def pad(cell: str, width: int, right: bool) -> str:
-    """Fill a cell up to a width."""
-    space = " " * (width - _width(cell))
-    return space + cell if right else cell + space
-
-
-def _width(text: str) -> int:
-    """Return how many columns a text takes: the dot over a letter takes none."""
-    return sum(not unicodedata.combining(c) for c in text)
 
 
 def _finite(value: Any) -> Any:

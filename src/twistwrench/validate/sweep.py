@@ -13,7 +13,8 @@ from typing import Any, Literal
 from ..loading import robots
 from ..loading.catalogue import PREFIX, example_robot_data_folder
 from ..stopping import without_interrupts
-from .report import Report, notes, number, pad
+from ..tables import aligned
+from .report import Report, notes, number
 from .run import validate
 
 __all__ = ["Outcome", "every_robot", "header", "line", "summary", "sweep"]
@@ -119,23 +120,23 @@ WIDTHS = (26, 8, 3, 5, 23, 7, 7, 7, 1)
 
 def header() -> str:
     """Return the first line of the table."""
-    return _laid_out(COLUMNS)
+    return _aligned(COLUMNS)
 
 
 def line(outcome: Outcome) -> str:
     """Return an outcome's line of the table, and below it the notes on its rows."""
     report, name = outcome.report, outcome.robot.replace(PREFIX, "…/")
     if report is None:
-        return _laid_out((name, outcome.base, "", "", outcome.error))
+        return _aligned((name, outcome.base, "", "", outcome.error))
     row, count = report.worst, f"{len(report.rows) - len(report.failed)}/{len(report.rows)}"
     what = row.quantity if row else "(nothing moves)"
     numbers = map(number, (row.ours_vs_pinocchio, row.ours_vs_truth, row.bound)) if row else [""] * 3
     cells = (name, outcome.base, str(report.nv), count, what, *numbers, "✓" if outcome.passed else "✗")
-    return "\n".join([_laid_out(cells), *notes(report.rows)])
+    return "\n".join([_aligned(cells), *notes(report.rows)])
 
 
-def _laid_out(cells: Sequence[str]) -> str:
-    return " ".join(pad(cell, width, right=5 <= i <= 7) for i, (cell, width) in enumerate(zip(cells, WIDTHS))).rstrip()
+def _aligned(cells: Sequence[str]) -> str:
+    return aligned([cells], widths=WIDTHS, right=range(5, 8), gap=" ")[0]
 
 
 def summary(outcomes: Sequence[Outcome], seconds: float) -> str:
