@@ -19,15 +19,19 @@ import lazy_loader
 
 __version__ = "0.1.0"
 
-_load, _, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_ROOMS = ("contact", "loading", "model", "scene", "simulation", "validate")
+"""Namespaces that need no import of their own, beside those in `__all__`; most of their names are here as well."""
+
+_load, _, _names = lazy_loader.attach_stub(__name__, __file__)
+__all__ = [name for name in _names if name not in _ROOMS]
 
 
 def __getattr__(name: str) -> Any:
-    if name in __all__:
+    if name in _names:
         return _load(name)
     message = f"module {__name__!r} has no attribute {name!r}"
     raise AttributeError(message, name=name, obj=import_module(__name__))  # with both, Python names the nearest
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "__version__"]
+    return [*_names, "__version__"]

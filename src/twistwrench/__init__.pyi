@@ -1,6 +1,12 @@
 """The public names, and the file that holds each; a file is loaded when the first of its names is used."""
 
 from . import bridge, exercises, fast, motions, newton_euler_3d, plot, templates
+from . import contact as contact
+from . import loading as loading
+from . import model as model
+from . import scene as scene
+from . import simulation as simulation
+from . import validate as validate
 from .algorithms.aba import aba, aba_terms
 from .algorithms.articulated import articulated_inertia
 from .algorithms.centroidal import (
@@ -32,6 +38,7 @@ from .algorithms.whole_body import Dynamics, dynamics
 from .compiler import Program, compile
 from .contact import (
     Baumgarte,
+    Contact,
     ContactDynamics,
     ContactForces,
     Coupling,
@@ -84,6 +91,7 @@ __all__ = [
     "Accuracy",
     "Baumgarte",
     "Builder",
+    "Contact",
     "ContactDynamics",
     "ContactForces",
     "Continuous",

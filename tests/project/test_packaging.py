@@ -80,6 +80,27 @@ def test_the_names_that_others_rely_on_are_there():
     assert {*tw.__all__, "plot", "exercises"} <= set(dir(tw))
 
 
+@pytest.mark.parametrize(
+    "room",
+    [
+        "bridge",
+        "contact",
+        "exercises",
+        "fast",
+        "loading",
+        "model",
+        "motions",
+        "plot",
+        "scene",
+        "simulation",
+        "validate",
+    ],
+)
+def test_the_namespaces_exist_before_anything_else_is_touched(room):
+    script = f"import twistwrench as tw; assert {room!r} in dir(tw); print(tw.{room}.__name__)"
+    assert python(script) == f"twistwrench.{room}"
+
+
 @pytest.mark.parametrize("name", [name for name, arguments in FUNCTIONS.items() if arguments is not None])
 def test_functions_take_the_arguments_that_others_pass(name):
     signature = list(inspect.signature(getattr(tw, name)).parameters)
