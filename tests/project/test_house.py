@@ -103,7 +103,11 @@ def abstract(function: Function) -> bool:
 def offered(file: str) -> set[str]:
     """Return what a file offers: its ``__all__``."""
     for node in TREES[file].body:
-        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+        if (
+            isinstance(node, ast.Assign)
+            and ast.unparse(node.targets[0]) == "__all__"
+            and isinstance(node.value, ast.List)
+        ):
             return set(ast.literal_eval(node.value))
     return set()
 
