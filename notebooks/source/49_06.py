@@ -58,10 +58,15 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 #
 # $$\boldsymbol V_i = X_i \boldsymbol V_{\lambda(i)} + S_i \dot q_i.$$
 #
-# Differentiate this, and use the rate of $X$ (49.5). The motion of the frames adds one cross product, the Coriolis
-# term:
+# Differentiate this, and use the rate of $X$ (49.5). The motion of the frames adds one cross product:
 #
 # $$\boldsymbol a_i = X_i \boldsymbol a_{\lambda(i)} + S_i \ddot q_i + \boldsymbol V_i \times S_i \dot q_i.$$
+#
+# The axis $S_i$ is fixed in body $i$ and moves with it; $\boldsymbol V_i \times S_i$ is the rate at which it does. This
+# is not yet the Coriolis acceleration: on a slider that moves outward on a turntable it is $\omega \times v$, half of
+# $2\,\omega \times v$. The other half appears when the spatial acceleration is turned into that of a point. (If the
+# numbers of $S_i$ depended on $q$, as in a base with Euler angles, $\dot S_i \dot q_i$ would be added. Every joint here
+# has a constant $S_i$; Euler angles are three hinges in a row.)
 #
 # The start is the world: $\boldsymbol V_0 = 0$, and $\boldsymbol a_0 = (0, -\boldsymbol g)$: instead of pulling
 # every body down, let the world rise. Why that is the same, we see below.
@@ -74,9 +79,13 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 #
 # $$\boldsymbol V_i = X_i \boldsymbol V_{\lambda(i)} + S_i \dot q_i.$$
 #
-# 求导,并用上 $X$ 的变化规律(49.5)。坐标系的运动留下的只有一个叉积,即科里奥利项:
+# 求导,并用上 $X$ 的变化规律(49.5)。坐标系的运动留下的只有一个叉积:
 #
 # $$\boldsymbol a_i = X_i \boldsymbol a_{\lambda(i)} + S_i \ddot q_i + \boldsymbol V_i \times S_i \dot q_i.$$
+#
+# 关节轴 $S_i$ 固定在刚体 $i$ 上,随它一起运动,$\boldsymbol V_i \times S_i$ 就是它的变化率。这还不是科里奥利加速度:在转盘上向外滑动的滑块,这一项是
+# $\omega \times v$,只有 $2\,\omega \times v$ 的一半;另一半要到由空间加速度求点的加速度时才出现。(若 $S_i$ 的各个数随 $q$ 变化,例如用欧拉角表示的基座,
+# 还要加上 $\dot S_i \dot q_i$。这里每种关节的 $S_i$ 都是常数,欧拉角写成三个依次相连的转动关节。)
 #
 # 起点是世界:$\boldsymbol V_0 = 0$,而 $\boldsymbol a_0 = (0, -\boldsymbol g)$:不是把每个刚体往下拉,而是让世界向上加速。
 # 为什么两者一样,下面会看到。
@@ -87,8 +96,8 @@ terms = tw.rnea_terms(model, q, v, a)
 V, A = np.array(terms.V), np.array(terms.A)
 i, at = 3, model.v_slice[3]  # one of its lines, by hand: the left front thigh
 assert np.allclose(V[i], X[i] @ V[parent[i]] + S[i] @ v[at], atol=1e-14)
-coriolis = tw.cross_motion(V[i]) @ S[i] @ v[at]
-assert np.allclose(A[i], X[i] @ A[parent[i]] + S[i] @ a[at] + coriolis, atol=1e-13)
+S_rate = tw.cross_motion(V[i]) @ S[i]  # the axis moves with its body
+assert np.allclose(A[i], X[i] @ A[parent[i]] + S[i] @ a[at] + S_rate @ v[at], atol=1e-13)
 assert np.allclose(A[0], [0, 0, 0, *-model.gravity])  # the world rises
 
 kin = tw.forward_kinematics(model, q, v, a)
@@ -99,6 +108,12 @@ assert np.allclose(A - risen, kin.acceleration, atol=1e-12)
 h = 1e-100  # and is it the rate of V? The complex step confirms it:
 moving = tw.forward_kinematics(model, model.integrate(q, 1j * h * v), v + 1j * h * a).twist
 assert np.allclose(moving.imag / h, kin.acceleration, atol=1e-12)
+
+w, out = 2.0, 3.0  # a slider at 0.5 m on a turntable: rad/s, and m/s outward along x
+V_slider, S_slider = np.array([0, 0, w, out, 0.5 * w, 0]), np.eye(6)[3]
+half = tw.cross_motion(V_slider) @ S_slider * out
+assert np.allclose(half[3:], [0, w * out, 0])  # the acceleration of the slider has 2 ω v across:
+assert np.allclose(half[3:] + np.cross(V_slider[:3], V_slider[3:]), [-(w**2) * 0.5, 2 * w * out, 0])
 # %% [markdown] lang="en"
 # ## Inward: wrenches
 #

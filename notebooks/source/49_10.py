@@ -365,35 +365,84 @@ assert np.abs(difference - by_formula).max() < 1e-4 * np.abs(by_formula).max()
 # %% [markdown] lang="en"
 # ## When is $\dot k_G \approx 0$?
 #
-# The linear inverted pendulum says: always. A rate $\dot k_G$ that it leaves out shifts the centre of pressure by
-# $|\dot k_G| / mg$, so it can be read in millimetres. The same gait at different frequencies: velocities grow with $f$,
-# accelerations with $f^2$, and so does the error.
-# %% [markdown] lang="zh"
-# ## 什么时候 $\dot k_G \approx 0$？
+# The linear inverted pendulum says: always. How wrong that is, the centre of pressure $c$ tells in millimetres: the
+# point of the ground about which its forces $f$ have no moment along the ground. Their moment about $G$ is $\dot k_G$,
+# so with the height $z$ of $G$ above the ground, $(c - p_G) \times f = \dot k_G$ in x and y gives
 #
-# 线性倒立摆(LIPM)说:总是如此。被它忽略的 $\dot k_G$ 会使压力中心移动 $|\dot k_G| / mg$,所以可以用毫米来衡量。
-# 同一种步态用不同的频率来走:速度与 $f$ 成正比,加速度与 $f^2$ 成正比,误差也与 $f^2$ 成正比。
+# $$c_x = x_G - \frac{z f_x + \dot k_y}{f_z}, \qquad c_y = y_G - \frac{z f_y - \dot k_x}{f_z}.$$
+#
+# Whoever leaves $\dot k_G$ out puts $c$ off by $|(\dot k_x, \dot k_y)| / f_z$. The load $f_z = m(g + \ddot z)$ is the
+# weight only if the height is constant; a lightly loaded foot shifts far for a small moment. ($\dot k_z$ shifts nothing.
+# Friction supplies it.) To check this, Go2 stands on all four feet and accelerates its trunk; the forces of the feet
+# show where $c$ is:
+# %% [markdown] lang="zh"
+# ## 什么时候 $\dot k_G \approx 0$?
+#
+# 线性倒立摆(LIPM)说:总是如此。错多少,可以用压力中心 $c$ 以毫米来衡量:它是地面上的一点,地面的力 $f$ 对该点没有沿地面方向的力矩。
+# 这些力对 $G$ 的力矩就是 $\dot k_G$。设 $G$ 离地面的高度为 $z$,取 $(c - p_G) \times f = \dot k_G$ 的 x、y 分量,得到
+#
+# $$c_x = x_G - \frac{z f_x + \dot k_y}{f_z}, \qquad c_y = y_G - \frac{z f_y - \dot k_x}{f_z}.$$
+#
+# 忽略 $\dot k_G$,压力中心就偏了 $|(\dot k_x, \dot k_y)| / f_z$。法向力 $f_z = m(g + \ddot z)$ 只有在高度不变时才等于重力;脚上压力很小时,
+# 很小的力矩也会让压力中心移动很远。($\dot k_z$ 不移动压力中心,它由摩擦提供。)检验一下:Go2 四脚站立,躯干加速,由足端力就能看出 $c$ 在哪里:
+# %%
+contacts = [tw.PointContact(foot, 0.6) for foot in model.feet]
+J_stand = tw.contact_jacobian(model, stand, model.feet)
+trunk = np.array([8.0, -6, 0, 1, 0.5, 3])  # rad/s² and m/s²: it rolls, pitches, and rises
+legs = np.linalg.solve(J_stand[:, 6:], -J_stand[:, :6] @ trunk)  # so that no foot accelerates
+speed_up = np.concatenate([trunk, legs])
+f = np.array(list(tw.contact_inverse_dynamics(model, stand, rest, speed_up, contacts).forces.values()))
+standing = np.array([tw.frame_placement(model, stand, foot).translation for foot in model.feet])
+c = f[:, 2] @ standing / f[:, 2].sum()  # each foot counts with its load
+(x_G, y_G, z_G), (f_x, f_y, f_z) = tw.center_of_mass(model, stand), f.sum(axis=0)
+k_x, k_y, _, *l_rate = tw.centroidal_momentum_rate(model, stand, rest, speed_up)
+without = np.array([x_G - z_G * f_x / f_z, y_G - z_G * f_y / f_z])  # where it is if k̇_G = 0
+
+print(f"shift {1000 * np.hypot(*(c[:2] - without)):.3f} mm, |k̇_xy| / f_z {1000 * np.hypot(k_x, k_y) / f_z:.3f} mm")
+assert np.allclose(standing[:, 2], 0, atol=1e-12)
+assert np.allclose(l_rate - model.mass * model.gravity, f.sum(axis=0), rtol=1e-10, atol=1e-10)
+assert np.allclose(c[:2] - without, np.array([-k_y, k_x]) / f_z, rtol=0, atol=1e-12)
+assert f_z > 1.2 * weight  # with the weight in place of f_z it would not come out
+# %% [markdown] lang="en"
+# The same gait at different frequencies: velocities grow with $f$, accelerations with $f^2$, and so does the moment.
+# The shift does so only while the load hardly changes. But the trunk bobs faster as well, and near 2.6 strides per
+# second it all but unloads the feet: the shift runs away. Beyond that they would have to pull: there is no centre of
+# pressure, and no such gait.
+# %% [markdown] lang="zh"
+# 同一种步态用不同的频率来走:速度与 $f$ 成正比,加速度与 $f^2$ 成正比,力矩也与 $f^2$ 成正比。压力中心的偏移只有在法向力几乎不变时才如此。但躯干的起伏也随之加快,接近每秒 2.6 步时脚上几乎没有压力,偏移急剧增大;
+# 超过每秒 2.6 步,脚就得往上拉地面:压力中心不存在,这样的步态也不存在。
 # %%
 frequencies = np.geomspace(0.25, 4, 17)
-shifts = {}
+moments, shifts = {}, {}
 for name in ("trot", "bound"):
     family = [gaits[name]._replace(strides=f) for f in frequencies]
     times = [np.linspace(0, 1, 121) / f for f in frequencies]
-    k_rate = [tw.centroidal_momentum_rate(model, *move(t, g), acceleration(t, g))[:, 1] for t, g in zip(times, family)]
-    shifts[name] = 1000 * np.abs(k_rate).max(axis=1) / weight
-    assert np.allclose(shifts[name] / frequencies**2, shifts[name][0] / frequencies[0] ** 2, rtol=1e-12)
+    h_rate = np.array(
+        [tw.centroidal_momentum_rate(model, *move(t, g), acceleration(t, g)) for t, g in zip(times, family)]
+    )
+    moment, load = np.hypot(h_rate[..., 0], h_rate[..., 1]), h_rate[..., 5] + weight
+    pushes = (load > 0).all(axis=1)
+    moments[name] = moment.max(axis=1)
+    shifts[name] = 1000 * (moment[pushes] / load[pushes]).max(axis=1)
+    assert np.allclose(moments[name] / frequencies**2, moments[name][0] / frequencies[0] ** 2, rtol=1e-12)
+    assert frequencies[pushes].max() < 2.6 < frequencies[~pushes].min()
+    assert shifts[name][-1] / shifts[name][-2] > 1.5 * (frequencies[1] / frequencies[0]) ** 2  # the last step: not f²
 
 half_length = 1000 * tw.frame_placement(model, stand, "FL_foot").translation[0]
-ax = plot.axes_2d(size=(6.5, 3.6))
-for (name, shift), colour in zip(shifts.items(), ("blue", "vermilion")):
-    ax.loglog(frequencies, shift, ".-", color=plot.COLOURS[colour], label=name)
-ax.axhline(half_length, color="k", linestyle=":")
-ax.text(0.25, half_length, "from the middle to the front feet", va="bottom", fontsize=8)
-ax.set(xlabel="strides per second", ylabel="shift of the centre of pressure [mm]", title="what k̇_G = 0 leaves out")
-ax.set_xticks([0.25, 0.5, 1, 2, 4], ["0.25", "0.5", "1", "2", "4"])
-ax.minorticks_off()
-ax.grid(alpha=0.3)
-ax.legend()
+figure, axes = plt.subplots(1, 2, figsize=(11, 3.6), layout="constrained")
+for name, colour in zip(moments, ("blue", "vermilion")):
+    axes[0].loglog(frequencies, moments[name], ".-", color=plot.COLOURS[colour], label=name)
+    axes[1].loglog(frequencies[pushes], shifts[name], ".-", color=plot.COLOURS[colour], label=name)
+axes[1].axhline(half_length, color="k", linestyle=":")
+axes[1].text(0.25, half_length, "from the middle to the front feet", va="bottom", fontsize=8)
+axes[0].set(ylabel="moment [N m]", title="what k̇_G = 0 leaves out")
+axes[1].set(ylabel="shift [mm]", title="shift of the centre of pressure")
+for ax in axes:
+    ax.set_xlabel("strides per second")
+    ax.set_xticks([0.25, 0.5, 1, 2, 4], ["0.25", "0.5", "1", "2", "4"])
+    ax.minorticks_off()
+    ax.grid(alpha=0.3)
+axes[0].legend()
 plt.show()
 # %% [markdown] lang="en"
 # ## LIPM and SRBM
@@ -402,13 +451,13 @@ plt.show()
 # $\ddot z \ne 0$ the force along the leg is scaled by $1 + \ddot z/g$. The single rigid body (SRBM) keeps six
 # equations, but its momentum is that of a body that turns with the trunk, $k_G \approx \bar I \omega$, with the inertia
 # of the standing robot. The contribution of the swinging legs is missing; if the trunk does not turn, this is all of
-# $k_G$.
+# $k_G$. The bars divide the moment left out by the load at the same instant: the shift of the centre of pressure.
 # %% [markdown] lang="zh"
 # ## LIPM 与 SRBM
 #
 # 还有两个假设值得用数字看一看。LIPM 还假设高度不变,否则它就不是线性的:$\ddot z \ne 0$ 时,沿腿的力要乘以 $1 + \ddot z/g$。
 # 单刚体模型(SRBM)保留了六个方程,但它的动量是随躯干转动的一个刚体的动量,$k_G \approx \bar I \omega$,惯量取站立时的值。
-# 摆动的腿所贡献的部分就没有了;若躯干不转,丢掉的就是全部 $k_G$。
+# 摆动的腿所贡献的部分就没有了;若躯干不转,丢掉的就是全部 $k_G$。图中的柱高是漏掉的力矩除以同一时刻的法向力,即压力中心的偏移。
 # %%
 inertia = tw.centroidal_map(model, stand)[:3, :3]  # the base is level: of the whole robot about G, in its axes
 
@@ -419,31 +468,36 @@ def rigid(t, gait):
     return np.matvec(tw.forward_kinematics(model, q).placement[1].rotation @ inertia, v[..., :3])
 
 
-print("gait        k̇_G in all   SRBM leaves out   height: z̈/g up to")
-left_out = {}
+print("gait         LIPM leaves out        SRBM leaves out     load f_z / mg")
+off, missed, loads = {}, {}, {}
 for name, gait in gaits.items():
-    t = strides[name][0]
+    t, k_rate = strides[name][0], rates[name][:, :3]
     rigid_rate = rigid(t + 1j * tiny, gait).imag / tiny
-    errors = [np.abs(x).max() / weight * 1000 for x in (rates[name][:, :3], rates[name][:, :3] - rigid_rate)]
-    left_out[name] = *errors, np.abs(rates[name][:, 5]).max() / weight
-    print(f"{name:10} {errors[0]:9.2f} mm {errors[1]:14.2f} mm {left_out[name][2]:15.5f}")
+    load = rates[name][:, 5] + weight
+    left_out = [np.hypot(x[:, 0], x[:, 1]) for x in (k_rate, k_rate - rigid_rate)]
+    missed[name] = [moment.max() for moment in left_out]
+    off[name] = [1000 * (moment / load).max() for moment in left_out]
+    loads[name] = load.min() / weight, load.max() / weight
+    pairs = "  ".join(f"{m:6.2f} N m {mm:7.2f} mm" for m, mm in zip(missed[name], off[name]))
+    print(f"{name:10} {pairs}   {loads[name][0]:.2f} to {loads[name][1]:.2f}")
 
 x = np.arange(3)
 ax = plot.axes_2d(size=(6.5, 3.4))
 for k, (model_name, colour) in enumerate({"LIPM": "vermilion", "SRBM": "blue"}.items()):
-    bars = ax.bar(
-        x + 0.4 * k - 0.2, [row[k] for row in left_out.values()], 0.4, color=plot.COLOURS[colour], label=model_name
-    )
+    bars = ax.bar(x + 0.4 * k - 0.2, [row[k] for row in off.values()], 0.4, color=plot.COLOURS[colour], label=model_name)
     ax.bar_label(bars, fmt="%.3g", fontsize=8)
-ax.set(xticks=x, xticklabels=left_out, yscale="log", ylim=(0.1, 400), ylabel="shift of the centre of pressure [mm]")
-ax.set_title("moment left out, over the weight")
+ax.axhline(half_length, color="k", linestyle=":")
+ax.set(xticks=x, xticklabels=off, yscale="log", ylim=(0.1, 2000), ylabel="shift of the centre of pressure [mm]")
+ax.set_title("moment left out, over the load")
 ax.legend(loc="upper left")
 plt.show()
 
-assert max(left_out["slow walk"]) < 0.5  # half a millimetre, and nothing of the height: both models will do
-assert np.isclose(left_out["trot"][0], left_out["trot"][1])  # a level trunk: the SRBM has no angular momentum at all
-assert left_out["bound"][1] < 0.5 * left_out["bound"][0] < 0.5 * half_length
-assert min(left_out["trot"][2], left_out["bound"][2]) > 0.8  # nearly in free fall twice a stride: no LIPM
+assert max(off["slow walk"]) < 0.5  # half a millimetre, and
+assert np.allclose(loads["slow walk"], 1, atol=1e-4)  # nothing of the height: both models will do
+assert np.isclose(*off["trot"])  # a level trunk: the SRBM has no angular momentum at all
+assert missed["bound"][1] < 0.3 * missed["bound"][0]  # of the moment of the bound it leaves out a quarter, but
+assert half_length < off["bound"][1] < off["bound"][0]  # the shift goes beyond the feet for both, at the least load
+assert max(loads["trot"][0], loads["bound"][0]) < 0.1  # nearly in free fall twice a stride: no LIPM
 # %% [markdown] lang="en"
 # ## Pinocchio
 #

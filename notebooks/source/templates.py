@@ -79,13 +79,14 @@ plt.show()
 # ## What the plan left out
 #
 # The pendulum believes that the centre of pressure is at $p_G - \frac zg \ddot p_G$. In fact, the ground must exert
-# $\dot h_G$ of the whole robot minus the weight, and its centre of pressure is at a distance of $|\dot k_G| / mg$ from
-# there, because of the moment that swings the legs.
+# $\dot h_G$ of the whole robot minus the weight, and its centre of pressure is at a distance of
+# $|(\dot k_x, \dot k_y)| / f_z$ from there, because of the moment that swings the legs (49.10). In this walk the load
+# $f_z$ is the weight $mg$ throughout, because the height is constant.
 # %% [markdown] lang="zh"
 # ## 规划漏掉了什么
 #
 # 按倒立摆,压力中心在 $p_G - \frac zg \ddot p_G$。实际上,地面要提供整个机器人的 $\dot h_G$ 减去重力,它的压力中心与前者
-# 相差 $|\dot k_G| / mg$,原因是摆腿所需的力矩。
+# 相差 $|(\dot k_x, \dot k_y)| / f_z$,原因是摆腿所需的力矩(49.10)。这段行走高度不变,法向力 $f_z$ 始终等于重力 $mg$。
 # %%
 com = tw.center_of_mass(humanoid, walk.q)
 height = com[0, 2] - tw.frame_placement(humanoid, walk.q[0], walk.feet[0]).translation[2]
