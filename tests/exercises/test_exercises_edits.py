@@ -47,7 +47,7 @@ def test_the_edit_that_gives_the_numbers_is_found(name, pairs, says):
 
 def test_a_slip_of_the_list_tells_where_a_recursion_goes_wrong_as_well():
     said = message("tree_rnea", changed("tree_rnea", (" + cross_motion(V[i]) @ vJ", "")))
-    assert "the Coriolis term V × S q̇ is missing." in said
+    assert "the velocity term V × S q̇ is missing." in said
     assert "this slip makes A[2] wrong first. These stay right for every body: V." in said
 
 

@@ -1,5 +1,6 @@
 """docs/conventions.md: it runs, and Pinocchio, MuJoCo and Drake, where they are installed, do what it says."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,16 @@ def conventions() -> dict[str, Any]:
 def test_the_page_of_conventions_runs_from_top_to_bottom(conventions: dict[str, Any]) -> None:
     assert len(numbered("conventions")[1]) == 15
     assert conventions["go2"].nv == 18
+
+
+def test_the_letters_with_several_meanings_are_as_many_as_the_page_says() -> None:
+    for language, said in (("", "Fifteen letters have more than one meaning"), (".zh-CN", "十五个字母")):
+        text = page("conventions", language).read_text(encoding="utf-8")
+        rows = re.findall(r"^\| (\w) \| (.+) \| .+ \|$", text.partition("### 2.")[0], re.MULTILINE)
+        meanings = [len(re.split("[;；]", what)) for _, what in rows]
+        assert len({letter for letter, _ in rows}) == len(rows) == 15
+        assert (min(meanings), meanings.count(3)) == (2, 7)
+        assert said in text
 
 
 @pytest.fixture(params=["go2", "humanoid"])
