@@ -41,14 +41,15 @@ def slug(title: str) -> str:
 PREAMBLE, ENTRIES = read(ENGLISH)
 SEVERITIES = (["wrong number", "crash", "misleading", "history"], ["数值错误", "报错中断", "误导", "史实"])
 _TEXT = ENGLISH.read_text(encoding="utf-8")
-_HISTORY, _APPENDIX = (
+_SOURCES, _APPENDIX, _LATER = (
     int(HEADING.search(_TEXT, _TEXT.index(f"\n## {name}"))[1])  # type: ignore[index]
-    for name in ("Not shown by code", "Appendix")
+    for name in ("Not shown by code", "Appendix", "Found later")
 )
 PARTS = {
-    "main": ENTRIES[: _HISTORY - 1],
-    "history": ENTRIES[_HISTORY - 1 : _APPENDIX - 1],
-    "appendix": ENTRIES[_APPENDIX - 1 :],
+    "main": ENTRIES[: _SOURCES - 1],
+    "sources": ENTRIES[_SOURCES - 1 : _APPENDIX - 1],
+    "appendix": ENTRIES[_APPENDIX - 1 : _LATER - 1],
+    "later": ENTRIES[_LATER - 1 :],
 }
 SHOWN = [entry for entry in ENTRIES if entry.blocks]
 
@@ -83,7 +84,8 @@ def test_entries_are_numbered_and_each_part_is_in_the_order_of_the_chapter() -> 
 
 def test_entries_without_code_come_last_in_their_part_and_name_a_year_or_a_source() -> None:
     assert [bool(e.blocks) for e in PARTS["main"]] == [True] * len(PARTS["main"])
-    assert not any(e.blocks for e in PARTS["history"])
+    assert not any(e.blocks for e in PARTS["sources"])
+    assert sum(not entry.blocks for entry in ENTRIES) == 10  # "all but ten"
     for entry in ENTRIES:
         true = entry.text.partition("**What is true.**")[2]
         assert entry.blocks or re.search(r"\b1[789]\d\d\b|\b20\d\d\b|https://", true), entry.title
