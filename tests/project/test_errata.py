@@ -2,9 +2,8 @@
 
 import ast
 import re
-import runpy
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
@@ -132,63 +131,3 @@ def test_both_languages_have_the_same_entries_and_the_same_code() -> None:
 def test_both_pages_name_the_author_and_the_licence() -> None:
     assert names_author_and_licence(ENGLISH)
     assert names_author_and_licence(CHINESE)
-
-
-# ---------------------------------------------------------------- docs/chapter: the listing, and a patch for the author
-
-CHAPTER = DOCS / "chapter"
-LISTING = {
-    11: "pin.neutral()",
-    13: "SE3.action",
-    22: "Inertia.matrix()",
-    23: "body 0",
-    35: "crba",
-    43: "randomConfiguration",
-    52: "`h_G[3:]`",
-    53: "`J_full[3:, :]`",
-    54: "getFrameJacobian",
-    55: "rnea",
-    58: "Static equilibrium",
-}
-"""The entries that the comments of the listing name."""
-
-
-def test_the_mended_listing_passes_its_tests(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the listing is written for it")
-    monkeypatch.setattr("sys.argv", ["listing_49_11.py"])
-    runpy.run_path(str(CHAPTER / "listing_49_11.py"), run_name="__main__")
-    assert re.search(r"7 rank of J_c +12", capsys.readouterr().out)
-
-
-def test_the_listing_names_the_entries_that_it_mends() -> None:
-    numbers = re.findall(r"# .*\[(\d+)\]$", (CHAPTER / "listing_49_11.py").read_text(encoding="utf-8"), re.MULTILINE)
-    assert {int(k) for k in numbers} == set(LISTING)
-    assert [k for k, words in LISTING.items() if words not in ENTRIES[k - 1].title] == []
-
-
-def mend() -> dict[str, Any]:
-    return runpy.run_path(str(CHAPTER / "mend.py"), run_name="mend")
-
-
-def test_every_entry_that_the_chapter_could_mend_has_a_correction() -> None:
-    named = {correction.entry for correction in mend()["corrections"]()}
-    titles = {entry.title for entry in ENTRIES}
-    assert named <= titles
-    assert titles - named == set()
-    assert f"{len(mend()['corrections']())} passages" in _TEXT
-
-
-def test_the_patch_is_made_and_what_is_not_found_is_reported(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    own = mend()
-    chapter = tmp_path / "chapter.md"
-    passages = {c.find: c for c in own["corrections"]()}  # a chapter that consists of the passages alone
-    chapter.write_text("\n\n".join(c.find for c in passages.values() for _ in range(c.times)), encoding="utf-8")
-    own["main"]([str(chapter)])
-    assert "\n+要求:pip install pin numpy matplotlib\n" in capsys.readouterr().out
-    chapter.write_text("pip install pinocchio numpy matplotlib", encoding="utf-8")
-    assert own["main"]([str(chapter)]) == 1
-    assert "not found 1 time(s)" in capsys.readouterr().err
