@@ -52,7 +52,7 @@ def draw(model: tw.Model, motions: Sequence[Motion], path: Path) -> None:
 
 
 def rates(model: tw.Model, motion: Motion, ax: Any) -> None:
-    """Draw k̇_G over the weight: the shift of the centre of pressure that it causes."""
+    """Draw k̇_G over the weight, a length: where the load is the weight, the shift of the centre of pressure."""
     rate = tw.centroidal_momentum_rate(model, motion.q, motion.v, motion.a)[:, :3]
     weight = model.mass * np.sqrt((model.gravity**2).sum())
     for k, (name, colour) in enumerate(zip("xyz", XYZ)):

@@ -344,7 +344,7 @@ else:
 # %% [markdown] lang="en"
 # ## Exercises
 #
-# - **49.8.1** the base's block of $M$ in the neutral posture, and why it is not diagonal
+# - **49.8.1** the base's block of $M$ in the neutral configuration, and why it is not diagonal
 # - **49.8.2** how large $M$ is with a floating base, and with a fixed one
 #
 # `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.8.1`.
