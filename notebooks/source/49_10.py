@@ -376,7 +376,7 @@ assert np.abs(difference - by_formula).max() < 1e-4 * np.abs(by_formula).max()
 # Friction supplies it.) To check this, Go2 stands on all four feet and accelerates its trunk; the forces of the feet
 # show where $c$ is:
 # %% [markdown] lang="zh"
-# ## 什么时候 $\dot k_G \approx 0$?
+# ## 什么时候 $\dot k_G \approx 0$？
 #
 # 线性倒立摆(LIPM)说:总是如此。错多少,可以用压力中心 $c$ 以毫米来衡量:它是地面上的一点,地面的力 $f$ 对该点没有沿地面方向的力矩。
 # 这些力对 $G$ 的力矩就是 $\dot k_G$。设 $G$ 离地面的高度为 $z$,取 $(c - p_G) \times f = \dot k_G$ 的 x、y 分量,得到
