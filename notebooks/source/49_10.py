@@ -484,7 +484,9 @@ for name, gait in gaits.items():
 x = np.arange(3)
 ax = plot.axes_2d(size=(6.5, 3.4))
 for k, (model_name, colour) in enumerate({"LIPM": "vermilion", "SRBM": "blue"}.items()):
-    bars = ax.bar(x + 0.4 * k - 0.2, [row[k] for row in off.values()], 0.4, color=plot.COLOURS[colour], label=model_name)
+    bars = ax.bar(
+        x + 0.4 * k - 0.2, [row[k] for row in off.values()], 0.4, color=plot.COLOURS[colour], label=model_name
+    )
     ax.bar_label(bars, fmt="%.3g", fontsize=8)
 ax.axhline(half_length, color="k", linestyle=":")
 ax.set(xticks=x, xticklabels=off, yscale="log", ylim=(0.1, 2000), ylabel="shift of the centre of pressure [mm]")
