@@ -241,3 +241,40 @@ def test_the_mended_pseudocode_is_right_for_a_floating_base(mended_chapter: str,
         joints = names["tau" if name == "RNEA" else "q_ddot"][1:]
         found = np.concatenate([base[:, 0], [x.item() for x in joints]])
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-11 * np.abs(wanted).max())
+
+
+FIRST = re.compile(r'import pinocchio as pin$|"""$|# Pinocchio 中查看 Plucker 变换|twist = data\.v')
+AFTER = re.compile(r"练习|⚠|RNEA 的计算|质量矩阵的结构|代码-数学对应|CMM 与简化|验证|本章|Pinocchio 的")
+
+
+def listings(chapter: str) -> list[str]:
+    """Return the listings of the chapter in Python, from its fences or from the text of a page without indentation."""
+    fenced = re.findall(r"^```python\n(.*?)^```", chapter, re.DOTALL | re.MULTILINE)
+    found: list[list[str]] = []
+    inside = in_loop = False
+    for line in [] if fenced else chapter.splitlines():
+        if not inside and FIRST.match(line):
+            inside, in_loop = True, False
+            found.append([])
+        elif inside and AFTER.match(line):
+            inside = False
+        if inside:
+            if re.match(r"# ===|t_\w+ = ", line) or (line.startswith("print(") and "J_c[" in found[-1][-1]):
+                in_loop = False
+            found[-1].append("    " * in_loop + line)
+            in_loop |= line.startswith("for ") and line.endswith(":")
+    return fenced or ["\n".join(lines) for lines in found]
+
+
+def test_the_mended_listings_run(mended_chapter: str, capsys: pytest.CaptureFixture[str]) -> None:
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the listings are written for it")
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: a listing draws").use("Agg")
+    urdf = next(str(robot.path) for robot in tw.robots() if robot.name == "go2")
+    names: dict[str, Any] = {"pin": pin, "np": np}
+    for listing in listings(mended_chapter):
+        exec(listing.replace('"go2.urdf"', repr(urdf)), names)
+    printed = capsys.readouterr().out
+    errors = [float(x) for x in re.findall(r"error(?::| =) ([\d.e+-]+)", printed)]
+    assert len(errors) == 13
+    assert max(errors) < 1e-10
+    assert re.findall(r"rank: (\d+)|definite: (\w+)", printed) == [("", "True"), ("12", "")]
