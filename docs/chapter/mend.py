@@ -19,8 +19,8 @@ from typing import NamedTuple
 CORRECTIONS = Path(__file__).with_name("corrections.toml")
 
 CODE = re.compile(r"`([^`\n]+)`")
-BETWEEN = r"(?:\s|`|\*\*)*"
-"""What may stand between two characters of a passage: line ends and indentation, and the marks of code and of bold."""
+BETWEEN = r"(?:\n[ \t]*>|\s|`|\*\*)*"
+"""What may stand between two characters of a passage: a line end, indentation, the marks of quotes, code and bold."""
 
 
 class Correction(NamedTuple):
@@ -54,7 +54,7 @@ def patches() -> list[Patch]:
 
 
 def pattern(passage: str) -> re.Pattern[str]:
-    """Return what finds a passage, however it is indented, wrapped, and marked as code, as bold or as a formula."""
+    """Return what finds a passage, however it is indented, quoted, wrapped, and marked as code, bold or formula."""
     letters = re.findall(r"\\[()]|\S", passage.replace("**", ""))
     formula = {r"\(": r"(?:\\\(|\$)", r"\)": r"(?:\\\)|\$)"}
     return re.compile(BETWEEN.join(formula.get(letter, re.escape(letter)) for letter in letters))
@@ -79,7 +79,7 @@ def dressed(text: str, chapter: str, start: int, end: int) -> str:
     for code in sorted(set(CODE.findall(chapter[start:end])), key=len, reverse=True):
         text = re.sub(rf"(?<![\w.`]){re.escape(code)}(?![\w.`])", f"`{code}`", text, flags=re.ASCII)
     line = chapter[chapter.rfind("\n", 0, start) + 1 : start]
-    indentation = line[: len(line) - len(line.lstrip())]
+    indentation = line[: len(line) - len(line.lstrip(" \t>"))]
     return text.replace("\n", f"\n{indentation}")
 
 

@@ -72,7 +72,11 @@ MARKDOWN = r"""
 每个连杆的 body twist
 存储在 `data.v[i]` 中:
 
-上面代码中 `J[3:, :]` 取的是角速度行——对于点接触应改用 `J[:3, :]`。
+> 上面代码中 `J[3:, :]` 取的是
+> 角速度行——对于点接触应改用 `J[:3, :]`。
+
+> 要求:pip install pinocchio numpy
+> matplotlib
 
 其中 ${}^G\hat{I}_i$ 是连杆 $i$ 的空间惯量变换到**质心坐标系**后的结果,$J_i$ 是连杆 $i$ 的 body Jacobian。
 
@@ -88,12 +92,15 @@ for link_id in [1, 3, 5]:
     for i = 1 to N:
         IC[i] = I_hat[i]
 """
-"""A line of each kind that a Markdown source may have: code, bold, formulas, line ends, indentation."""
+"""A line of each kind that a Markdown source may have: code, bold, formulas, quotes, line ends, indentation."""
 
 MENDED = r"""
 每个关节所带刚体的 body twist 存储在 `data.v[i]` 中(data.v[0] 是 universe,data.v[1] 是基座):
 
-若写成`J[3:, :]`,取到的是角速度行;上面的代码正确地用 `J[:3, :]`。
+> 若写成`J[3:, :]`,取到的是角速度行;上面的代码正确地用 `J[:3, :]`。
+
+> 要求:pip install pin numpy matplotlib
+> (装过 pinocchio 这个包的,先 pip uninstall pinocchio)
 
 其中 ${}^G\hat{I}_i$ 是连杆 $i$ 的空间惯量变换到质心坐标系后的结果,$J_i$ 也必须变换到质心坐标系。
 
@@ -154,7 +161,7 @@ def test_the_patches_are_made_in_order_and_what_is_not_found_is_reported(
     chapter.write_text(MARKDOWN, encoding="utf-8")
     assert own["main"]([str(chapter), str(tmp_path / "patches")]) == 1
     missed = capsys.readouterr().err.splitlines()
-    assert len(missed) == len(own["corrections"]()) - 5
+    assert len(missed) == len(own["corrections"]()) - 6
     made = sorted((tmp_path / "patches").iterdir())
     assert [path.stem for path in made] == [f"{k:02}-{patch.name}" for k, patch in enumerate(own["patches"](), 1)]
     lines = [path.read_text(encoding="utf-8").splitlines() for path in made]
