@@ -141,3 +141,90 @@ def test_what_cannot_be_converted_is_named():
     there.dof_armature[0] = 1.0
     with pytest.raises(tw.ModelError, match="joint 'root': expected one armature in all directions"):
         bridge.from_mujoco_model(there)
+
+
+# -------------------------------------------------------------------- actuators
+
+DRIVEN = """
+<mujoco model="driven"><compiler angle="radian"/><option gravity="0 0 0"/><worldbody><body>
+<joint name="motor" axis="1 0 0"/><joint name="servo" type="slide"/><joint name="two" axis="0 1 0"/>
+<geom size="0.1" mass="2"/><body>
+<joint name="bounded" axis="0 0 1" actuatorfrcrange="-3 3"/><joint name="one way" type="slide" axis="1 0 0"/>
+<joint name="general" type="slide" axis="0 1 0"/><joint name="free" axis="1 1 0"/><geom size="0.1" mass="2"/>
+<body><joint name="ball" type="ball"/><geom size="0.1" pos="0.2 0 0"/></body></body></body></worldbody>
+<actuator>
+<motor joint="motor" gear="-2" ctrlrange="-5 5"/>
+<position joint="servo" kp="1e6" ctrlrange="-1 1" forcerange="-45 45" gear="0.5"/>
+<motor joint="two" gear="3" ctrlrange="-1 1"/><motor joint="two" gear="10" ctrlrange="-9 9" forcerange="-2 2"/>
+<motor joint="bounded" gear="7" ctrlrange="-1 1"/>
+<motor joint="one way" ctrlrange="0 4"/>
+<general joint="general" gainprm="6" ctrlrange="-2 2" biastype="affine"/>
+<motor joint="ball" gear="1 -2 0 0 0 0" ctrlrange="-3 3"/>
+</actuator></mujoco>"""
+
+
+def test_efforts_reach_their_limits_and_none_is_larger():
+    """All controls at ±1e9: MuJoCo clamps them, and what its motors then do to each joint is the limit."""
+    there = mujoco.MjModel.from_xml_string(DRIVEN)
+    here, data = bridge.from_mujoco_model(there), mujoco.MjData(there)
+    largest = np.zeros(there.nv)
+    for sign in (1, -1):
+        data.ctrl[:] = sign * 1e9
+        mujoco.mj_forward(there, data)
+        largest = np.maximum(largest, np.abs(data.qfrc_actuator))
+    driven = largest > 0
+    np.testing.assert_allclose(here.effort_limit[driven], largest[driven], rtol=1e-15)
+    np.testing.assert_array_equal(here.effort_limit[driven], [10, 22.5, 23, 3, 4, 12, 3, 6])
+    assert np.isinf(here.effort_limit[~driven]).all()
+    assert [(entry.where, entry.read_as) for entry in here.report] == [
+        ("the file", "limits of effort; what they are told is left out"),
+        ("joint 'one way'", "effort limit 4"),
+    ]
+
+
+LEFT_OUT = """
+<mujoco model="left out"><worldbody><body><freejoint name="root"/><geom size="0.1"/><site name="tip"/>
+<body><joint name="hinge" actuatorfrcrange="-8 8"/><geom size="0.1"/>
+<body><joint name="last"/><geom size="0.1"/></body></body></body></worldbody>
+<tendon><fixed name="cord"><joint joint="hinge" coef="1"/></fixed></tendon>
+<actuator><motor name="a" tendon="cord" ctrlrange="-1 1"/><motor name="b" site="tip"/><motor name="c" joint="root"/>
+<motor name="d" joint="last"/></actuator></mujoco>"""
+
+
+def test_actuators_that_are_left_out_are_named():
+    here = bridge.from_mujoco_model(mujoco.MjModel.from_xml_string(LEFT_OUT))
+    assert [entry.found for entry in here.report if entry.where.startswith("actuator")] == [
+        "drives a tendon",
+        "drives a site",
+        "drives joint 'root' in axes of the world or its parent",
+        "a force without a limit",
+    ]
+    np.testing.assert_array_equal(here.effort_limit, [*[np.inf] * 6, 8, np.inf])
+
+
+ROTORS = """
+<mujoco model="rotors"><worldbody><body><joint name="a" axis="0 1 0" armature="0.1" damping="0.2"/>
+<geom size="0.1" mass="2"/><body pos="0.3 0 0"><joint name="b" axis="0 0 1"/><geom size="0.1" pos="0.1 0 0"/></body>
+</body></worldbody><actuator><motor joint="a" gear="2" armature="0.5" damping="0.3"/>
+<motor joint="b" gear="-3" armature="0.01"/></actuator></mujoco>"""
+
+
+def test_rotors_and_friction_of_actuators_are_the_joints_by_the_square_of_the_gear():
+    try:
+        there, data, here, q, v = both(ROTORS, 0)
+    except ValueError:
+        pytest.skip("this MuJoCo has no armature of actuators")
+    np.testing.assert_allclose(tw.crba(here, q), mass_matrix(there, data), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(here.armature, [0.1 + 4 * 0.5, 9 * 0.01], rtol=1e-15)
+    np.testing.assert_allclose(-here.damping * v, data.qfrc_passive, rtol=1e-14)
+
+
+def test_gravity_that_is_disabled_is_none_and_a_fluid_is_reported():
+    air = FIXED.replace(
+        "<worldbody>", '<option density="1.2" viscosity="2e-5"><flag gravity="disable"/></option><worldbody>'
+    )
+    there = mujoco.MjModel.from_xml_string(air)
+    here = bridge.from_mujoco_model(there)
+    assert not here.gravity.any()
+    found = [entry.found for entry in here.report]
+    assert {"a fluid of density 1.2", "a fluid of viscosity 2e-05"} <= {*found}

@@ -15,13 +15,21 @@ from ..arrays import Array
 from ..errors import ModelError
 from ..model import WORLD, Entry, Frame, FreeFlyer, Joint, Model, Prismatic, Report, Revolute, Spherical
 from ..spatial import SE3, SpatialInertia, quaternion_to_rotation
+from .mujoco_actuators import Drives, read_actuators
 from .mujoco_states import SCALAR_LAST, from_mujoco_configuration
 from .spatial import HALVES
 
 __all__ = ["from_mujoco_model"]
 
 FREE, BALL, SLIDE = 0, 1, 2
-LEFT_OUT = {"neq": "equality constraints", "ntendon": "tendons", "nflex": "flexible bodies"}
+GRAVITY_DISABLED = 1 << 7
+LEFT_OUT = {
+    "neq": "equality constraints",
+    "ntendon": "tendons",
+    "nflex": "flexible bodies",
+    "nplugin": "plugins",
+    "nplastic": "springs that yield",
+}
 """What has forces of its own in MuJoCo and none here, by its count in an MjModel."""
 
 
@@ -38,9 +46,9 @@ def from_mujoco_model(there: Any) -> Model:
     Model
         Joints in MuJoCo's order and with its angles. A body with several joints becomes a chain with massless links, a
         body without one a part of its parent. Bodies, joints and sites are frames; keyframes are named postures;
-        armature, ranges, damping and friction loss are read. Springs, tendons, equality constraints and compensation of
-        gravity, which have forces in MuJoCo and none here, stand in `Model.report`. Contacts and actuators are not
-        part of a model.
+        armature, ranges, damping and friction loss are read, and of the actuators the limits of effort, armature and
+        damping. What has forces in MuJoCo and none here stands in `Model.report`: springs, tendons, equality
+        constraints, fluids, compensation of gravity, what the actuators are told. Contacts are not part of a model.
 
     Raises
     ------
@@ -79,6 +87,7 @@ def from_mujoco_model(there: Any) -> Model:
             own = SpatialInertia(there.body_mass[b], np.zeros(3), np.diag(there.body_inertia[b]))
             inertia[body] += own.transform(T @ _placed(there.body_ipos[b], there.body_iquat[b]))
     names = [WORLD, *(there.joint(j).name or f"joint{j}" for j in range(there.njnt))]
+    drives = read_actuators(there)
     limits = np.concatenate([np.zeros((2, 0)), *(_limits(there, j) for j in range(there.njnt))], axis=-1)
     model = Model(
         name=there.names[: there.names.find(b"\0")].decode(),
@@ -89,13 +98,12 @@ def from_mujoco_model(there: Any) -> Model:
         placement=tuple(placement),
         inertia=tuple(inertia),
         frames=dict(_frames(there, names, carrier, at)),
-        gravity=there.opt.gravity,
+        gravity=there.opt.gravity * (not there.opt.disableflags & GRAVITY_DISABLED),
         lower=limits[0],
         upper=limits[1],
         velocity_limit=np.full(there.nv, np.inf),
-        effort_limit=np.full(there.nv, np.inf),
-        report=Report(_left_out(there, names)),
-        **_per_dof(there, names, joints),
+        report=Report([*_left_out(there, names), *drives.remarks]),
+        **_per_dof(there, names, joints, drives),
     )
     keys = {there.key(k).name or f"key{k}": there.key_qpos[k] for k in range(there.nkey)}
     return replace(model, postures={k: model.normalize(from_mujoco_configuration(model, q)) for k, q in keys.items()})
@@ -146,18 +154,24 @@ def _frames(there: Any, names: list[str], carrier: list[int], at: list[SE3]) -> 
             yield own, frame
 
 
-def _per_dof(there: Any, names: list[str], joints: list[Joint | None]) -> dict[str, Any]:
-    """Return armature, damping and friction in our order; of a free joint the first three are (v in the world)."""
+def _per_dof(there: Any, names: list[str], joints: list[Joint | None], drives: Drives) -> dict[str, Any]:
+    """Return armature, damping, friction and limits of effort in our order; MuJoCo's free joints begin with v."""
     order = np.arange(there.nv)
+    sums = {
+        "armature": there.dof_armature + drives.armature,
+        "damping": there.dof_damping + drives.damping,
+        "friction": there.dof_frictionloss,
+        "effort_limit": drives.effort_limit,
+    }
     arrays: dict[str, Any] = {}
     for joint, start in zip(joints[1:], there.jnt_dofadr):
         if isinstance(joint, FreeFlyer):
             order[start : start + 6] = start + HALVES
-    for key, source in (("armature", "armature"), ("damping", "damping"), ("friction", "frictionloss")):
-        arrays[key] = getattr(there, f"dof_{source}")[order]
+    for key, values in sums.items():
+        arrays[key] = values[order]
         for name, joint, start in zip(names[1:], joints[1:], there.jnt_dofadr):
             linear = arrays[key][start + 3 : start + 6]
-            if isinstance(joint, FreeFlyer) and np.ptp(linear):
+            if isinstance(joint, FreeFlyer) and (linear != linear[0]).any():
                 raise ModelError(f"joint {name!r}: expected one {key} in all directions, got {linear}")
     return arrays
 
@@ -167,7 +181,20 @@ def _left_out(there: Any, names: list[str]) -> Iterator[Entry]:
     for count, what in LEFT_OUT.items():
         if getattr(there, count):
             yield Entry("the file", f"{getattr(there, count)} {what}", "left out")
+    for name in ("density", "viscosity"):
+        if getattr(there.opt, name):
+            yield Entry("the file", f"a fluid of {name} {getattr(there.opt, name):g}", "left out")
     for j in np.flatnonzero(there.jnt_stiffness):
         yield Entry(f"joint {names[j + 1]!r}", f"a spring of stiffness {there.jnt_stiffness[j]:g}", "left out")
+    for j in np.flatnonzero(_polynomial(there, "jnt_stiffness", there.njnt)):
+        yield Entry(f"joint {names[j + 1]!r}", "a spring whose stiffness changes", "left out")
+    for j in sorted({*there.dof_jntid[_polynomial(there, "dof_damping", there.nv)]}):
+        yield Entry(f"joint {names[j + 1]!r}", "damping that changes with speed", "its constant part")
     for b in np.flatnonzero(there.body_gravcomp):
         yield Entry(f"body {there.body(b).name!r}", f"gravity compensated by {there.body_gravcomp[b]:g}", "left out")
+
+
+def _polynomial(there: Any, name: str, count: int) -> Array:
+    """Return where a number has terms of higher order, which MuJoCo has had since version 4."""
+    terms = getattr(there, f"{name}poly", np.zeros((count, 1)))
+    return np.asarray(terms).any(axis=-1)
