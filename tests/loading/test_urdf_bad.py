@@ -5,8 +5,10 @@ import re
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import twistwrench as tw
 from twistwrench import ModelError
 from twistwrench.loading import load
 
@@ -71,6 +73,14 @@ FAULTS = {
     "no parent element": (changed('<parent link="a"/>', ""), ["'j'", "names no parent link"]),
     "no child attribute": (changed('<child link="b"/>', "<child/>"), ["'j'", "names no child link"]),
     "no link": ('<robot name="r"/>', ["no <link>"]),
+    "all in a group": (
+        GOOD.replace("</robot>", "</group></robot>").replace('"r">', '"r"><group>'),
+        ["<group>", "no <link>"],
+    ),
+    "a joint of Drake's": (
+        GOOD.replace("<joint ", "<drake:joint ").replace("</joint>", "</drake:joint>"),
+        ["2 links", "one root", "line 4: <drake:joint name='j'>"],
+    ),
     # names
     "duplicate link": (changed(LINK_B, LINK_B + "\n" + LINK_B), ["line 4", "two links", "'b'", "line 3"]),
     "duplicate joint": (changed(JOINT, JOINT + "\n" + JOINT), ["line 5", "two joints", "'j'", "line 4"]),
@@ -84,6 +94,11 @@ FAULTS = {
     "axis without xyz": (changed(LIMIT, LIMIT + "<axis/>"), ["'j'", "<axis> has no xyz"]),
     "axis of two": (changed(LIMIT, LIMIT + '<axis xyz="0 1"/>'), ["'j'", "<axis xyz='0 1'>", "3 numbers, got 2"]),
     "planar without axis": (changed(JOINT, PLANAR), ["'j'", "planar", "0 0 1", "got no <axis>, which means 1 0 0"]),
+    "planar with its axis as an attribute": (
+        changed(JOINT, PLANAR.replace("<joint ", '<joint axis="0 0 1" ')),
+        ["'j'", "got no <axis>", "line 4: attribute 'axis' of <joint>"],
+    ),
+    "planar, a little across": (changed(JOINT, PLANAR.replace(LIMIT, '<axis xyz="1e-8 0 1"/>')), ["planar", "1e-08"]),
     "planar across": (changed(JOINT, PLANAR.replace(LIMIT, '<axis xyz="0 1 0"/>')), ["planar", "[0.0, 1.0, 0.0]"]),
     "planar upside down": (changed(JOINT, PLANAR.replace(LIMIT, '<axis xyz="0 0 -1"/>')), ["planar", "0 0 1"]),
     "two axes": (changed(LIMIT, LIMIT + 2 * '<axis xyz="0 0 1"/>'), ["'j'", "two <axis>"]),
@@ -125,9 +140,8 @@ FAULTS = {
     "negative mass": (changed('<mass value="1"/>', '<mass value="-1"/>'), ["line 2", "'a'", "mass is -1"]),
     "no mass": (changed('<mass value="1"/>', ""), ["'a'", "incomplete", "<mass> missing"]),
     "no mass value": (changed('<mass value="1"/>', "<mass/>"), ["'a'", "incomplete", "mass value missing"]),
-    "no inertia": (changed(INERTIAL, '<inertial><mass value="1"/></inertial>'), ["'a'", "<inertia> missing"]),
     "inertia in part": (changed(' iyy="1" izz="1"', ""), ["'a'", "incomplete", "iyy, izz missing"]),
-    "nothing in it": (changed(INERTIAL, "<inertial/>"), ["'a'", "<mass>, <inertia> missing", "leave out"]),
+    "nothing in it": (changed(INERTIAL, "<inertial/>"), ["'a'", "<mass> missing", "leave out"]),
     "two inertials": (changed(INERTIAL, 2 * INERTIAL), ["'a'", "two <inertial>"]),
     # the file
     "empty": ("", ["robot.urdf", "the file is empty"]),
@@ -136,7 +150,8 @@ FAULTS = {
     "cut in a tag": (GOOD[: GOOD.index("velocity")], ["not well-formed XML"]),
     "text": ("a robot", ["line 1", "not well-formed XML"]),
     "binary": (bytes(range(256)), ["not well-formed XML"]),
-    "wrong encoding": (GOOD.replace("r", "ü", 1).encode("latin-1"), ["not well-formed XML"]),
+    "wrong encoding": (GOOD.replace("r", "ü", 1).encode("latin-1"), ["not well-formed XML", "save the file as UTF-8"]),
+    "chinese": (GOOD.replace('"r"', '"机器人"').encode("gb18030"), ["line 1", "save the file as UTF-8"]),
     "unknown encoding": ('<?xml version="1.0" encoding="martian"?>' + GOOD, ["not well-formed XML", "ncoding"]),
     "bytes not of the encoding": ('<robot name="é"/>'.encode("latin-1"), ["line 1", "not well-formed XML"]),
     "entity of nobody": (changed('"1"', '"&one;"'), ["line 2", "not well-formed XML", "one"]),
@@ -223,8 +238,36 @@ def unphysical(**moments):
 
 def test_all_bodies_that_cannot_exist_are_named_in_one_message(save):
     path = save(unphysical(izz=10))
-    message = refuse(path, "2 moving bodies", "'a'", "'b'", "triangle inequality", "1, 1, 10", "physical=False")
+    words = ["2 moving bodies", "'a'", "'b'", "triangle inequality", "1, 1, 10 kg m², 8 too much", "physical=False"]
+    message = refuse(path, *words, physical=True)
     assert message.count("triangle inequality") == 2
+
+
+def test_a_body_that_cannot_exist_and_can_be_computed_is_loaded_with_one_warning(save):
+    """A plate whose digits CAD rounded: 1e-6 + 1e-6 < 2.000001e-6. The excess is 1e-12 kg m²."""
+    path = save(unphysical(ixx=1e-6, iyy=1e-6, izz=2.000001e-6))
+    with pytest.warns(UserWarning, match=r"(?s)'a'.*1e-12 too much.*'b'.*1e-12 too much") as caught:
+        model = load(path)
+    assert len(caught) == 1
+    assert [entry.where for entry in model.report.warnings] == ["link 'a'", "link 'b'"]
+    assert np.linalg.eigvalsh(tw.crba(model, [0.1, 0.2])).min() > 0
+    np.testing.assert_array_equal(tw.crba(model, [0.1, 0.2]), tw.crba(load(path, physical=False), [0.1, 0.2]))
+    refuse(path, "1e-12 too much", strict=True)
+    refuse(path, "1e-12 too much", physical=True)
+    assert load(path, physical=False, strict=True).report.warnings == ()
+
+
+def test_one_body_that_makes_m_indefinite_is_refused_and_the_others_are_not_named(save):
+    text = unphysical(izz=10)
+    head, mark, tail = text.partition('<link name="b">')
+    refuse(save(head + mark + tail.replace('ixx="1"', 'ixx="-1"', 1)), "1 moving body", "link 'b'", "positive definite")
+
+
+def test_what_rounding_leaves_of_no_inertia_is_none(save):
+    """As in iCub's file: 0.5 kg, 3 cm away, and -5e-20 kg m², which rounding of m c² hides."""
+    text = unphysical(ixx=-5.4e-20, iyy=0, izz=0).replace("<inertial>", '<inertial><origin xyz="0 0 0.03"/>')
+    assert load(save(text), strict=True).nv == 2
+    refuse(save(text.replace("-5.4e-20", "-5.4e-17")), "positive definite")
 
 
 def test_inertia_that_is_not_positive_definite_is_refused(save):
@@ -235,7 +278,7 @@ def test_inertia_that_is_not_positive_definite_is_refused(save):
 def test_what_is_welded_to_a_faulty_link_is_named_with_it(save):
     weld = '<joint name="w" type="fixed"><parent link="b"/><child link="c"/></joint>'
     text = unphysical(izz=10).replace(JOINT, JOINT + weld + f'<link name="c">{INERTIAL}</link>')
-    assert "link 'b'" in refuse(save(text), "(with 'c' welded to it)")
+    assert "link 'b'" in refuse(save(text), "(with 'c' welded to it)", physical=True)
 
 
 @pytest.mark.parametrize("moments", [{"izz": 10}, {"ixx": -1}])
@@ -246,7 +289,7 @@ def test_physical_false_loads_them_all_the_same(save, moments):
 def test_what_never_moves_need_not_exist(save):
     path = save(changed('izz="1"', 'izz="10"'))  # only link a, the root
     assert load(path, base="fixed").nv == 1
-    refuse(path, "'a'", "triangle inequality", base="floating")
+    refuse(path, "'a'", "triangle inequality", base="floating", physical=True)
 
 
 def test_welded_links_are_judged_by_their_sum(save):
@@ -288,6 +331,16 @@ def test_missing_file_is_named(tmp_path):
 def test_a_null_character_is_in_no_path():
     refuse("a\0b.urdf", r"'a\x00b.urdf'", "null character")
     refuse(Path("a\0b"), r"'a\x00b'", "null character")
+
+
+@pytest.mark.parametrize("address", ["package://go2_description/go2.urdf", "https://nowhere.invalid/robot.urdf"])
+def test_an_address_is_no_path(address):
+    refuse(address, address, "the path of a file", address.partition("//")[0])
+
+
+def test_bytes_are_to_be_decoded():
+    with pytest.raises(TypeError, match=r"source: expected a name, a path or the text of a URDF, got bytes.*decode"):
+        load(GOOD.encode())
 
 
 def test_directory_is_no_file(tmp_path, monkeypatch):

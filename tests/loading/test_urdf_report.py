@@ -52,8 +52,46 @@ CASES = {
     ),
     "lower above the default": (changed('lower="-1" upper="1"', 'lower="1"'), ["lower limit 1 above upper limit 0"]),
     "no room": (changed('lower="-1" upper="1"', 'lower="inf" upper="inf"'), ["lower limit inf"]),
+    "neither end": (changed('lower="-1" upper="1" ', ""), ["neither lower nor upper", "no end of its range"]),
+    "ends of another format": (
+        changed('lower="-1" upper="1"', 'min="-1" max="1"'),
+        ["neither lower", "(but max, min)"],
+    ),
+    "ends of a wheel": (
+        changed("revolute", "continuous"),
+        ["lower limit -1, upper limit 1", "continuous joint has none"],
+    ),
     "negative damping": (changed(LIMIT, LIMIT + '<dynamics damping="-1"/>'), ["damping -1", "none"]),
     "no mass": (both_move('<mass value="1"/>', '<mass value="0"/>'), ["link 'b'", "an inertia without a mass"]),
+    "no inertia": (both_move(INERTIAL, '<inertial><mass value="2"/></inertial>'), ["line 3", "no <inertia>", "point"]),
+    "millimetres": (
+        both_move('ixx="1" iyy="1" izz="1"', 'ixx="5e4" iyy="5e4" izz="5e4"'),
+        ["link 'b'", "a radius of gyration of 224 m", "in metres and kg m²"],
+    ),
+    "millimetres of a joint": (changed(LIMIT, LIMIT + '<origin xyz="300 0 400"/>'), ["<origin> 500 m away"]),
+    "placed by its joint": (changed("<joint ", '<joint xyz="0 0 1" '), ["line 4", "attribute 'xyz' of <joint>"]),
+    "limits of a joint": (changed("<joint ", '<joint lower="1" '), ["attribute 'lower' of <joint>"]),
+    "placed by its link": (changed("<link ", '<link xyz="0 0 1" '), ["line 2", "attribute 'xyz' of <link>"]),
+    "mass of an inertial": (changed("<inertial>", '<inertial mass="3">'), ["attribute 'mass' of <inertial>"]),
+    "com": (changed("<inertial>", '<inertial><com xyz="0 0 1"/>'), ["line 2", "<com> in <inertial>"]),
+    "pose of a joint": (changed(LIMIT, LIMIT + "<pose>0 0 1 0 0 0</pose>"), ["<pose> in <joint>"]),
+    "pose of a link": (changed(INERTIAL, INERTIAL + "<pose>0 0 1 0 0 0</pose>"), ["<pose> in <link>"]),
+    "damping as an element": (changed(LIMIT, LIMIT + "<damping>3</damping>"), ["line 4", "<damping> in <joint>"]),
+    "damping of another format": (
+        changed(LIMIT, LIMIT + '<joint_properties damping="3"/>'),
+        ["<joint_properties> in <joint>"],
+    ),
+    "spring": (changed(LIMIT, LIMIT + '<dynamics spring_stiffness="4"/>'), ["'spring_stiffness' of <dynamics>"]),
+    "include": (changed(JOINT, '<include filename="arm.urdf"/>' + JOINT), ["<include>", "left out"]),
+    "group": (changed(JOINT, '<group><link name="c"/></group>' + JOINT), ["line 4", "<group>", "left out"]),
+    "a closed loop": (
+        changed(JOINT, '<loop_joint name="l"><link1 link="a"/><axis xyz="1 0 0"/></loop_joint>' + JOINT),
+        ["line 4", "<loop_joint name='l'>", "left out"],
+    ),
+    "a link of another namespace": (
+        changed('name="r">', 'name="r" xmlns:u="urn:u"><u:link name="c"/>'),
+        ["line 1", "<u:link name='c'>", "left out"],
+    ),
     "a point": (both_move('<inertia ixx="1" iyy="1" izz="1"', NO_MOMENTS), ["link 'b'", "a point mass"]),
 }
 
@@ -124,9 +162,86 @@ def test_infinite_limits_are_read_as_written(save):
     assert [model.lower[0], model.upper[0], model.effort_limit[0]] == [-np.inf, np.inf, np.inf]
 
 
-def test_crossed_limits_of_a_joint_without_ends_are_nothing_to_it(save):
-    text = changed('lower="-1"', 'lower="2"').replace("revolute", "continuous")
-    assert tw.load(save(text), strict=True).nv == 1
+@pytest.mark.parametrize("ends", ['lower="0" upper="0"', 'lower="-inf" upper="inf"', ""])
+def test_ends_that_are_none_are_nothing_to_a_wheel(save, ends):
+    text = changed('lower="-1" upper="1"', ends).replace("revolute", "continuous")
+    assert tw.load(save(text), strict=True).report == ()
+
+
+@pytest.mark.parametrize(
+    ("ends", "read"),
+    [
+        ('lower="0" upper="0"', ([0], [0], "given: the joint cannot move")),
+        ('upper="2"', ([0], [2], "0, as the format says")),
+    ],
+)
+def test_a_range_as_the_format_has_it_is_noted_without_a_warning(save, ends, read):
+    model = tw.load(save(changed('lower="-1" upper="1"', ends)), strict=True)
+    assert (model.lower.tolist(), model.upper.tolist(), model.report[0].read_as) == read
+
+
+def test_a_joint_without_ends_is_not_locked(save):
+    model, _ = load_warned(save(CASES["neither end"][0]))
+    assert (model.lower[0], model.upper[0]) == (-np.inf, np.inf)
+    assert abs(model.random_configuration(rng=0)[0]) > 0.01
+
+
+DRAKE = """<transmission name="t"><joint name="j"/><actuator name="m">
+<drake:rotor_inertia value="0.0001321"/><drake:gear_ratio value="160"/></actuator></transmission>"""
+
+
+@pytest.mark.parametrize("space", ["", ' xmlns:drake="http://drake.mit.edu"'], ids=["undeclared", "declared"])
+def test_a_rotor_of_drakes_is_armature(save, space):
+    """iiwa's first motor: 1.321e-4 kg m² behind a gear of 160 weigh 160² × 1.321e-4 = 3.38176 kg m² at the joint."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        good, model = (
+            tw.load(save(GOOD)),
+            tw.load(save(GOOD.replace('"r"', '"r"' + space).replace(JOINT, JOINT + DRAKE))),
+        )
+    np.testing.assert_allclose(tw.crba(model, [0.3]) - tw.crba(good, [0.3]), [[3.38176]], rtol=1e-15)
+    assert [(entry.where, entry.warns) for entry in model.report if "a rotor" in entry.found] == [("joint 'j'", False)]
+
+
+def test_two_rotors_on_a_joint_add_up(save):
+    model, _ = load_warned(save(changed(JOINT, JOINT + DRAKE + DRAKE.replace('"t"', '"u"'))))
+    assert model.armature[0] == pytest.approx(2 * 3.38176, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "transmission",
+    [
+        DRAKE.replace('<joint name="j"/>', '<joint name="nobody"/>'),
+        DRAKE.replace('<joint name="j"/>', '<joint name="j"/><joint name="k"/>'),
+        DRAKE.replace("drake:", ""),
+    ],
+    ids=["of nobody", "of two joints", "of no prefix"],
+)
+def test_a_rotor_that_cannot_be_read_is_reported(save, transmission):
+    model, message = load_warned(save(changed(JOINT, JOINT + transmission)))
+    assert model.armature[0] == 0
+    assert "left out" in message
+    refuse(save(changed(JOINT, JOINT + DRAKE.replace("0.0001321", "-1"))), "joint 'j'", "rotor_inertia is -1")
+
+
+def test_a_gear_alone_weighs_nothing_and_is_noted(save):
+    gear = DRAKE.replace("drake:rotor_inertia", "x").replace("drake:gear_ratio", "y")
+    gear = gear.replace("</actuator>", "<mechanicalReduction>50</mechanicalReduction></actuator>")
+    model = tw.load(save(changed(JOINT, JOINT + gear)), strict=True)
+    assert [(entry.found, entry.warns) for entry in model.report] == [("a gear of 50", False)]
+
+
+def test_a_planar_axis_may_hold_what_cad_leaves_of_zero(save):
+    planar = JOINT.replace("revolute", "planar").replace(LIMIT, '<axis xyz="1e-17 -1e-12 1"/>')
+    assert tw.load(save(changed(JOINT, planar)), strict=True).nv == 3
+
+
+def test_a_mass_without_an_inertia_is_a_point(save):
+    """M of a point on a rod is m l² about the joint: 2 kg at 1 m and 0.5 m along two axes."""
+    point = '<inertial><origin xyz="0 1 0.5"/><mass value="2"/></inertial>'
+    model, message = load_warned(save(both_move(INERTIAL, point)))
+    assert message.count("'b'") == 1  # once, with its line
+    np.testing.assert_allclose(tw.crba(model, [0.0, 0.0])[1, 1], 2 * (1 + 0.25), rtol=1e-15)
 
 
 def test_all_nine_entries_give_the_matrix(save):
@@ -248,6 +363,21 @@ def test_point_masses_on_rods_are_the_textbooks_double_pendulum():
 # -------------------------------------------------------------------- the catalogue
 
 
+def test_what_is_of_the_format_or_of_a_simulator_is_no_word_in_a_wrong_place(save):
+    extras = '<safety_controller soft_lower_limit="-1" k_velocity="9"/><calibration rising="0.1"/>'
+    joint = changed(LIMIT, '<limit lower="-1" upper="1" effort="1" velocity="1" acceleration="9"/>' + extras)
+    sensor = '<sensor><parent link="a"/><origin xyz="0 0 1"/></sensor><gazebo><link/></gazebo><robot_info/>'
+    simulator = (
+        '<contact><damping value="9"/></contact><gravity>0</gravity><self_filter><origin xyz="1 0 0"/></self_filter>'
+    )
+    text = (
+        joint.replace("</robot>", sensor + "</robot>")
+        .replace(INERTIAL, INERTIAL + simulator)
+        .replace("<robot ", '<robot version="1.0" ')
+    )
+    assert tw.load(save(text), strict=True).report == ()
+
+
 def test_robots_of_the_catalogue_are_reported_on_and_do_not_warn():
     assert tw.load("go2").report == ()
     pytest.importorskip("pinocchio", reason="example-robot-data comes with Pinocchio")
@@ -255,5 +385,5 @@ def test_robots_of_the_catalogue_are_reported_on_and_do_not_warn():
     assert any("<mimic>" in entry.found for entry in report.warnings)
     assert "<td>" in report._repr_html_()
     with pytest.raises(tw.ModelError, match="strict=True"):
-        tw.load("panda", strict=True)
-    assert tw.load("panda", strict=True, mimic="independent").nv == 9
+        tw.load("baxter", strict=True)
+    assert tw.load("baxter", strict=True, mimic="independent").nv == 19

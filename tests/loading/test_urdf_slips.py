@@ -22,13 +22,16 @@ LINK = """<link name="{0}"><inertial><origin xyz="0.1 0.2 0.3" rpy="0.1 0.2 0.3"
 JOINT = """<joint name="{0}" type="{1}"><origin xyz="0.3 0.1 0.2" rpy="0.3 0.1 0.2"/>
 <parent link="{2}"/><child link="{3}"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="9" velocity="8"/>
 <dynamics damping="0.1" friction="0.2"/>{4}</joint>"""
+ENDS = {name: ('lower="-1" upper="1" ', "") if name == "k" else ("", "") for name in "ijkl"}
+"""A continuous joint has no ends of its range."""
+
 MIMIC = '<mimic joint="i" multiplier="2" offset="0.1"/>'
 JOINTS = ["i revolute a b", "j prismatic b c", "k continuous a d", "l revolute d e"]
 GOOD = "".join(
     [
         "<robot name='r'>",
         *map(LINK.format, "abcde"),
-        *(JOINT.format(*words.split(), MIMIC if words[0] == "l" else "") for words in JOINTS),
+        *(JOINT.format(*words.split(), MIMIC if words[0] == "l" else "").replace(*ENDS[words[0]]) for words in JOINTS),
         "</robot>",
     ]
 )
@@ -183,6 +186,8 @@ def test_an_inertia_outside_all_links_is_reported_with_its_line(tmp_path):
     file.write_text(f'<robot name="early">{LINK.format("base")}\n{stray}</robot>')
     with pytest.warns(UserWarning, match=r"<inertial> outside all links"):
         report = tw.load(file).report
-    assert [(entry.found, entry.read_as) for entry in report] == [("<inertial> outside all links", "left out")]
+    assert [(entry.found, entry.read_as) for entry in report] == [
+        ("<inertial> outside all links", "not URDF, left out")
+    ]
     with pytest.raises(tw.ModelError, match="<inertial> outside all links"):
         tw.load(file, strict=True)

@@ -6,6 +6,7 @@ Model 'go2': floating base, 13 moving bodies, nq = 19, nv = 18, 16.085 kg
 
 from __future__ import annotations
 
+import re
 from os import PathLike
 from os.path import exists
 from pathlib import Path
@@ -23,13 +24,15 @@ from .urdf import load_urdf
 
 __all__ = ["Catalogue", "Robot", "load", "robots"]
 
+ADDRESS = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
+
 
 def load(
     source: str | PathLike[str],
     *,
     base: Literal["fixed", "floating"] | None = None,
     gravity: ArrayLike = (0.0, 0.0, -9.81),
-    physical: bool = True,
+    physical: bool | None = None,
     mimic: Literal["independent", "reduce"] | None = None,
     strict: bool = False,
 ) -> Model:
@@ -48,9 +51,10 @@ def load(
         Whether the root link is welded to the world or flies freely. Default: that of the catalogue; of a file, fixed.
     gravity : array_like, shape (3,)
         In the world, m/s².
-    physical : bool
-        Reject a moving body that cannot exist: its inertia about the centre of mass must be positive definite and
-        obey the triangle inequality.
+    physical : bool, optional
+        Whether moving bodies must be able to exist: no principal moment of inertia about the centre of mass below zero,
+        and the largest at most the sum of the other two. True rejects a body that breaks either rule, False accepts it.
+        Default: what breaks the second, and so leaves M positive definite, is loaded with a warning.
     mimic : {"independent", "reduce"}, optional
         "reduce" makes the smaller model in which joints with ``<mimic>`` follow their leaders. "independent" lets them
         move on their own, as in Pinocchio, without the warning of the default.
@@ -76,7 +80,7 @@ def load(
     Warns
     -----
     UserWarning
-        For a file with a report; it contains the whole report. The robots of the catalogue do not warn.
+        For a file with a report; it contains the whole report. Those of the catalogue warn of bodies that cannot exist.
 
     Examples
     --------
@@ -92,15 +96,18 @@ def load(
         check_choice(base, "base", ("fixed", "floating"), ModelError)
     if mimic is not None:
         check_choice(mimic, "mimic", ("independent", "reduce"))
-    physical, strict = as_flag(physical, "physical"), as_flag(strict, "strict")
+    physical = None if physical is None else as_flag(physical, "physical")
+    strict = as_flag(strict, "strict")
+    if isinstance(source, bytes | bytearray):
+        raise TypeError("source: expected a name, a path or the text of a URDF, got bytes; use source.decode()")
     if not isinstance(source, str | PathLike):
-        raise no_model(source, "source", "a name or a path")
+        raise no_model(source, "source", "a name, a path or the text of a URDF")
     options: dict[str, Any] = {"gravity": gravity, "physical": physical, "mimic": mimic, "strict": strict}
     if isinstance(source, str) and source.lstrip("\ufeff \t\r\n").startswith("<"):
         path = Path("<string>")
         model, laws = load_urdf(path, base=base or "fixed", quiet=False, text=source, **options)
     elif not isinstance(source, str) or _is_path(source):
-        _refuse_folder_before_name(source)
+        _refuse_what_is_no_path(source)
         path = Path(source)
         model, laws = load_urdf(path, base=base or "fixed", quiet=False, **options)
     else:
@@ -127,8 +134,13 @@ def _is_path(source: str) -> bool:
     return named or (not known(source) and exists(source))
 
 
-def _refuse_folder_before_name(source: str | PathLike[str]) -> None:
-    """Raise for ``"./go2"``, where there is no such file, with the hint that the robot is called ``"go2"``."""
+def _refuse_what_is_no_path(source: str | PathLike[str]) -> None:
+    """Raise for ``"./go2"``, where there is no such file, with the hint that the robot is called ``"go2"``.
+
+    Raise for ``"package://go2_description/go2.urdf"`` as well: an address, which only ROS can resolve.
+    """
     name = Path(source).name
+    if isinstance(source, str) and (address := ADDRESS.match(source)):
+        raise ModelError(f"{source}: expected the path of a file; addresses of {address[0]} are not resolved")
     if isinstance(source, str) and source != name and known(name) and not exists(source):
         raise ModelError(f"{source}: no such file; {name!r} without a folder is a robot of the catalogue")

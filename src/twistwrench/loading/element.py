@@ -10,9 +10,20 @@ from pathlib import Path
 from ..errors import ModelError
 from ..model import Entry
 from .reading import XML
-from .urdf_words import ATTRIBUTES, CHILDREN, SAID_BY_ATTRIBUTES, home_of, ignored_attribute, meant
+from .urdf_words import (
+    ATTRIBUTES,
+    BY_ATTRIBUTES,
+    CHILDREN,
+    home_of,
+    ignored_attribute,
+    ignored_child,
+    meant,
+)
 
-__all__ = ["Element"]
+__all__ = ["LEFT_OUT", "Element"]
+
+LEFT_OUT = "not URDF, left out"
+"""How a word of the format is read in a place where it means nothing."""
 
 QUATERNION = "quat_xyzw"
 """An attribute of <origin> in a later version of the format."""
@@ -26,12 +37,24 @@ def all_zero(texts: Iterable[str]) -> bool:
     return not any(word.strip("-+.0") for text in texts for word in text.split())
 
 
+def says_nothing(element: XML) -> bool:
+    """Return whether an element, and all that is in it, holds nothing but zeros."""
+    return all_zero(text for x in element.iter("*") for text in (x.text or "", *x.attrib.values()))
+
+
+def written(element: XML) -> str:
+    """Return the tag as the file has it, with the name of the element where it has one."""
+    prefix = f"{element.prefix}:" if element.prefix and ":" not in element.tag.rpartition("}")[2] else ""
+    name = element.get("name")
+    return prefix + element.tag.rpartition("}")[2] + (f" name={name!r}" if name else "")
+
+
 @dataclass(frozen=True)
 class Element:
     """An element whose numbers are read and checked here; `what` is the link or joint, for the messages.
 
-    A misspelt attribute or child is an error from the start, and so is a child that belongs elsewhere. Violations
-    with a single possible meaning are added to `remarks`, a list that all elements of a file share.
+    A misspelt attribute or child is an error from the start, and so is a child that belongs elsewhere. What has a
+    single possible meaning, and a word where it has none, is added to `remarks`, a list that all elements share.
     """
 
     xml: XML
@@ -43,18 +66,23 @@ class Element:
         tag = self.xml.tag
         if tag == "origin" and QUATERNION in self.xml.attrib:
             raise self.error(f"<origin {QUATERNION}=...> is not read; give the rotation as rpy")
+        if tag not in CHILDREN and tag not in ATTRIBUTES:
+            return
         for key in self.xml.attrib:
             if word := meant(key, ATTRIBUTES.get(tag, ())):
                 raise self.error(f"unknown attribute {key!r} of <{tag}>; did you mean {word!r}?")
             if ignored_attribute(tag, key) and not all_zero([self.xml.get(key)]):
-                self.remark(f"attribute {key!r} of <{tag}>", "not URDF")
-        if tag in SAID_BY_ATTRIBUTES and (self.xml.text or "").strip():
-            self.remark(f"text in <{tag}>", "not URDF")
+                self.remark(f"attribute {key!r} of <{tag}>", LEFT_OUT)
+        if tag in BY_ATTRIBUTES and (self.xml.text or "").strip():
+            self.remark(f"text in <{tag}>", LEFT_OUT)
         for child in self.xml.iterchildren("*"):
             if word := meant(child.tag, CHILDREN.get(tag, ())):
                 raise self.error(f"unknown element <{child.tag}>; did you mean <{word}>?", child)
             if home := home_of(child.tag, tag):
                 self._misplaced(child, home)
+            elif child.tag not in CHILDREN.get(tag, ()) and ignored_child(tag, child) and not says_nothing(child):
+                place = "" if tag == "robot" else f" in <{tag}>"
+                self.remark(f"<{written(child)}>{place}", LEFT_OUT, line=child.sourceline)
 
     def _misplaced(self, child: XML, home: str) -> None:
         """Raise for a misplaced child that affects the dynamics; report a limit, friction or a link's own origin.
@@ -62,12 +90,12 @@ class Element:
         An inertia outside all links is reported, too: no link has it, here as in every other loader.
         """
         if child.tag == "inertial" and self.xml.tag == "robot":
-            self.remark("<inertial> outside all links", "left out", line=child.sourceline)
+            self.remark("<inertial> outside all links", LEFT_OUT, line=child.sourceline)
             return
         if child.tag not in NO_LOSS:
             raise self.error(f"a <{child.tag}> stands in <{self.xml.tag}>, expected in <{home}>", child)
         if not all_zero(child.attrib.values()):
-            self.remark(f"<{child.tag}> in <{self.xml.tag}>", "not URDF")
+            self.remark(f"<{child.tag}> in <{self.xml.tag}>", LEFT_OUT)
 
     def error(self, text: str, child: XML = None) -> ModelError:
         """Return the error with this text of the link or joint, or of a child."""

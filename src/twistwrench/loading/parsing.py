@@ -8,25 +8,35 @@ physical is decided later, once the welded links are merged: see `Builder.build`
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import ModelError, unknown_name
+from ..model import Entry, Report
 from ..spatial import SE3, SpatialInertia, rpy_to_rotation
-from .element import Element
-from .reading import read_document
+from .element import LEFT_OUT, Element
+from .reading import XML, read_document
 from .records import UrdfJoint, UrdfLink, UrdfMimic, UrdfRobot
+from .rotors import read_rotors
 from .urdf_tree import outwards
-from .urdf_words import CHILDREN, words_of
 
 __all__ = ["read_urdf"]
 
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 RANGED = ("revolute", "prismatic")
+FAR = 10.0
+"""Metres: longer ones in an <origin>, or as a radius of gyration, are often millimetres."""
+
+ACROSS = 1e-9
+"""Relative size of the x and y of an axis along z that are rounding, as a CAD program leaves it."""
+
 RESERVED = "universe"
 """Pinocchio's name of the world, which stands in `Model.joint_names` as well."""
 
+POINT = "a point mass"
+GIVEN = "given, in metres and kg m²"
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 """The entries below the diagonal, which the format leaves out, and those above it."""
@@ -51,14 +61,22 @@ def read_urdf(path: Path, text: str | None = None) -> UrdfRobot:
         Naming the file, the line, the link or joint, and what was expected.
     """
     xml, remarks = read_document(path, text)
+    try:
+        return _robot(path, xml, remarks)
+    except ModelError as error:
+        unread = Report(entry for entry in remarks if entry.read_as == LEFT_OUT)
+        raise ModelError(f"{error}{unread.summary()}") from None
+
+
+def _robot(path: Path, xml: XML, remarks: list[Entry]) -> UrdfRobot:
+    """Read the links, the joints, and the tree that they make."""
     robot = Element(xml, path, "the robot", remarks)
-    for child in xml.iterchildren("*"):
-        if child.tag not in CHILDREN["robot"] and words_of(str(child.tag)) & {*CHILDREN["robot"]}:
-            Element(child, path, "the robot", remarks).remark(f"<{child.tag}>", "not URDF")
     links = {name: _link(name, element) for name, element in _named(robot, "link").items()}
     if not links:
         raise ModelError(f"{path}: the robot has no <link>")
     joints = {name: _joint(name, element, links) for name, element in _named(robot, "joint").items()}
+    rotors = read_rotors(robot, joints)
+    joints |= {name: replace(joints[name], numbers=joints[name].numbers | rotor) for name, rotor in rotors.items()}
     root, ordered = outwards(path, links, joints)
     return UrdfRobot(xml.get("name") or path.stem, root, links, ordered, tuple(remarks))
 
@@ -83,24 +101,26 @@ def _named(robot: Element, tag: str) -> dict[str, Element]:
 
 
 def _link(name: str, link: Element) -> UrdfLink:
-    """Read all of mass and inertia; no <inertial> at all is a massless link."""
+    """Read mass and inertia: no <inertial> is a massless link, a mass without <inertia> a point."""
     inertial = link.only("inertial")
     if inertial is None:
         return UrdfLink(name, SpatialInertia.zero())
     placement = _placement(inertial)
     mass, inertia = inertial.only("mass"), inertial.only("inertia")
-    missing = [f"<{tag}>" for tag, element in (("mass", mass), ("inertia", inertia)) if element is None]
-    if mass is not None and mass.get("value") is None:
-        missing.append("mass value")
+    missing = ["<mass>" if mass is None else "mass value"] if mass is None or mass.get("value") is None else []
     if inertia is not None:
         missing += [key for key in MOMENTS if inertia.get(key) is None]
-    if mass is None or inertia is None or missing:
+    if mass is None or missing:
         raise inertial.error(
             f"its <inertial> is incomplete: {', '.join(missing)} missing (for a link without mass leave out <inertial>)"
         )
-    moments, kilograms = _moments(inertia), mass.number("value")
+    moments, kilograms = np.zeros((3, 3)) if inertia is None else _moments(inertia), mass.number("value")
     if kilograms < 0:
         raise mass.error(f"its mass is {mass.get('value')}, expected 0 or more")
+    if inertia is None and kilograms > 0:
+        inertial.remark("no <inertia>", POINT)
+    if inertia is not None and (largest := moments.diagonal().max()) > kilograms * FAR**2 > 0:
+        inertia.remark(f"a radius of gyration of {math.sqrt(largest / kilograms):.3g} m", GIVEN)
     about_com = SpatialInertia(kilograms, np.zeros(3), moments)
     return UrdfLink(name, about_com.transform(placement))  # its <origin> may turn the axes of <inertia> as well
 
@@ -144,17 +164,19 @@ def _placement(element: Element) -> SE3:
         return SE3.identity()
     nothing = (0.0, 0.0, 0.0)
     xyz, rpy = origin.numbers("xyz", nothing), origin.numbers("rpy", nothing)
+    if (distance := math.hypot(*xyz)) > FAR:
+        origin.remark(f"<origin> {distance:.3g} m away", GIVEN)
     return SE3._trusted(rpy_to_rotation(np.array(rpy)), np.array(xyz))
 
 
 def _axis(joint: Element, kind: str) -> tuple[float, ...]:
-    """Read an axis that can be normalised; for a planar joint check that the plane is x-y."""
+    """Read an axis that can be normalised; for a planar joint check that the plane is x-y, but for rounding."""
     element = joint.only("axis")
     if element is not None and element.get("xyz") is None:
         raise element.error("its <axis> has no xyz")
     axis = (1.0, 0.0, 0.0) if element is None else element.numbers("xyz", (1.0, 0.0, 0.0))
     place = joint if element is None else element
-    if kind == "planar" and not (axis[0] == axis[1] == 0 < axis[2]):
+    if kind == "planar" and not math.hypot(*axis[:2]) <= ACROSS * axis[2] > 0:
         got = "no <axis>, which means 1 0 0" if element is None else str([*axis])
         raise place.error(
             f"a planar joint moves in its x-y plane: expected <axis xyz='0 0 1'/>, got {got} "
@@ -168,7 +190,7 @@ def _axis(joint: Element, kind: str) -> tuple[float, ...]:
 def _limits(joint: Element, kind: str) -> dict[str, float]:
     """Read the limits, which do not affect the dynamics: a missing or impossible one is infinite.
 
-    Only revolute and prismatic joints have lower and upper limits, which are 0 when they are not given.
+    Only revolute and prismatic joints have a range. Of one that has but one end the other is 0, as the format says.
     """
     limit = joint.only("limit")
     if limit is None:
@@ -182,12 +204,30 @@ def _limits(joint: Element, kind: str) -> dict[str, float]:
             limits[f"{key}_limit"] = value
         else:
             limit.remark(f"no {key} limit" if limit.get(key) is None else f"{key} limit {value:g}", "no limit of it")
+    return limits | _range(limit, kind)
+
+
+def _range(limit: Element, kind: str) -> dict[str, float]:
+    """Read the ends of a joint's range; nothing is returned where it has none."""
     lower, upper = (limit.number(key, infinite=True) for key in ("lower", "upper"))
-    if kind in RANGED and (lower > upper or lower == math.inf or upper == -math.inf):
+    ends = f"lower limit {lower:g}, upper limit {upper:g}"
+    missing = [key for key in ("lower", "upper") if limit.get(key) is None]
+    if kind not in RANGED:
+        if any(math.isfinite(end) and end for end in (lower, upper)):
+            limit.remark(ends, f"no end of its range: a {kind} joint has none")
+        return {}
+    if len(missing) == 2:
+        others = ", ".join(sorted({*limit.xml.attrib} - {"effort", "velocity"}))
+        limit.remark("neither lower nor upper limit" + f" (but {others})" * bool(others), "no end of its range")
+        return {}
+    if lower > upper or lower == math.inf or upper == -math.inf:
         limit.remark(f"lower limit {lower:g} above upper limit {upper:g}", "no end of its range")
-    elif kind in RANGED:
-        limits |= {"lower": lower, "upper": upper}
-    return limits
+        return {}
+    if missing:
+        limit.remark(f"no {missing[0]} limit", "0, as the format says", warns=False)
+    if lower == upper:
+        limit.remark(ends, "given: the joint cannot move", warns=False)
+    return {"lower": lower, "upper": upper}
 
 
 def _dynamics(joint: Element) -> dict[str, float]:

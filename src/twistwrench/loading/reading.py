@@ -134,6 +134,8 @@ def _parse(path: Path, data: bytes) -> tuple[XML, list[Entry]]:
         reason = (error.msg or "nothing could be parsed").removesuffix(f", {place}")
     if "entity amplification" in reason or "entity reference loop" in reason:
         raise ModelError(f"{path}, {place}: {DOCTYPE} ({reason})")
+    if "encoding" in reason.lower():
+        raise ModelError(f"{path}, {place}: not well-formed XML: {reason}; save the file as UTF-8")
     if "depth" in reason.lower():
         raise ModelError(f"{path}, {place}: elements are nested deeper than any robot's ({reason})")
     raise ModelError(f"{path}, {place}: not well-formed XML: {reason}")

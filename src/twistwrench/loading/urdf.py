@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ..algorithms.mimic import Law
 from ..errors import ModelError, unknown_name
 from ..model import Builder, Continuous, Entry, FreeFlyer, Joint, Model, Planar, Prismatic, Report, Revolute
+from ..model.numbering import IMPOSSIBLE
 from .parsing import read_urdf
 from .records import UrdfJoint, UrdfRobot
 
@@ -29,7 +30,7 @@ def load_urdf(
     *,
     base: Base,
     gravity: ArrayLike,
-    physical: bool,
+    physical: bool | None,
     mimic: Mimic | None,
     strict: bool,
     quiet: bool,
@@ -43,14 +44,14 @@ def load_urdf(
     base : {"fixed", "floating"}
     gravity : array_like, shape (3,)
         In the world, m/s².
-    physical : bool
-        Reject bodies that cannot exist.
+    physical : bool, optional
+        As in `Builder.build`.
     mimic : {"independent", "reduce"}, optional
         Of no effect on the joints, which are free here: the laws are returned.
     strict : bool
         Raise for what would be reported.
     quiet : bool
-        Report, and do not warn.
+        Report, and warn of nothing but bodies that cannot exist.
     text : str, optional
         The URDF itself; `path` then only names it.
 
@@ -73,18 +74,22 @@ def load_urdf(
             model, remarks = _build(robot, base, gravity, physical)
         except ModelError as error:
             raise ModelError(f"{path}: {error}") from None
-    model = replace(model, report=Report([*robot.remarks, *remarks, *_mimics(robot, mimic), *model.report]))
+    impossible = Report(entry for entry in model.report.warnings if entry.read_as == IMPOSSIBLE)
+    known = {(entry.where, entry.read_as) for entry in robot.remarks}
+    bodies = [entry for entry in model.report if (entry.where, entry.read_as) not in known]
+    model = replace(model, report=Report([*robot.remarks, *remarks, *_mimics(robot, mimic), *bodies]))
     odd = model.report.warnings
     if odd and strict:
         raise ModelError(f"{path}: strict=True rejects what is not as it should be:{odd.summary()}")
-    if odd and not quiet:
+    odd = impossible if quiet else odd
+    if odd:
         hint = "model.report has the table, strict=True rejects them"
         warnings.warn(f"{path}: not all is as it should be ({hint}):{odd.summary()}", stacklevel=3)
     followers = [(joint.name, joint.mimic) for joint in robot.joints if joint.mimic is not None]
     return model, {name: (law.leader, law.multiplier, law.offset) for name, law in followers}
 
 
-def _build(robot: UrdfRobot, base: Base, gravity: ArrayLike, physical: bool) -> tuple[Model, list[Entry]]:
+def _build(robot: UrdfRobot, base: Base, gravity: ArrayLike, physical: bool | None) -> tuple[Model, list[Entry]]:
     """Put the tree together, from the root outwards."""
     names = {joint.name for joint in robot.joints}
     free = "root_joint"

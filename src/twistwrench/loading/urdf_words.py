@@ -1,16 +1,21 @@
-"""Slips of the pen in a URDF: ``<axs>``, ``<inertal>``, ``<origin xzy=...>``.
+"""The words of a URDF, and those that look like them: ``<axs>``, ``<origin xzy=...>``, ``<joint xyz=...>``.
 
 A URDF may hold elements and attributes that a reader does not know: those of simulators and drivers are
-ignored. A misspelt one would be ignored as well, and a different robot loaded. An unknown name that nearly is a
-word of the format is therefore an error.
+ignored. A misspelt word would be ignored as well, and so would one in the wrong place: a different robot would be
+loaded. An unknown name that nearly is a word of the format is therefore an error, and a word of the format in a
+place where it means nothing is reported.
 """
 
 from __future__ import annotations
 
 import re
 from functools import cache
+from typing import Any
 
-__all__ = ["ATTRIBUTES", "CHILDREN", "NOT_DYNAMICS", "home_of", "ignored_attribute", "meant", "words_of"]
+__all__ = [
+    *("ATTRIBUTES", "CHILDREN", "NOT_DYNAMICS"),
+    *("home_of", "ignored_attribute", "ignored_child", "local_name", "meant", "words_of"),
+]
 
 CHILDREN = {
     "robot": ("link", "joint"),
@@ -34,11 +39,26 @@ ATTRIBUTES = {
     "dynamics": ("damping", "friction"),
 }
 
-SAID_BY_ATTRIBUTES = {"origin", "mass", "inertia", "parent", "child", "axis", "mimic"}
-"""Elements whose whole meaning is in their attributes, and counts for the dynamics."""
+BY_ATTRIBUTES = {*ATTRIBUTES} - {"link", "joint", "limit"}
+"""Elements whose whole meaning is in their attributes. (Drivers add theirs to a <limit>: those count for nothing.)"""
+
+WORDS = {word for words in (*CHILDREN.values(), *ATTRIBUTES.values()) for word in words} - {"name", "type"}
+"""All words of the format but those two, which label anything."""
+
+LABELS = {"link", "joint", "value"}
+"""Words that are attributes of elements of many other formats as well."""
+
+OTHER_FORMATS = {"include", "pose", "com"}
+"""Elements of SDF, of xacro and of the first URDFs that place or hold a body."""
 
 NOT_DYNAMICS = {"visual", "collision", "geometry", "material", "gazebo", "sensor", "camera", "transmission", "plugin"}
 """Elements that do not affect the equations of motion, whatever their contents."""
+
+EXTENSIONS = {
+    *("safety_controller", "calibration", "hardwareInterface", "ros2_control", "mujoco", "contact", "frame"),
+    *("collision_checking", "collision_filter_group", "self_collision_checking", "self_filter", "surface"),
+}
+"""More of them, those of the format, of drivers and of simulators, by their whole name."""
 
 ALIKE = 0.65
 """Similarity (difflib's ratio) of a misspelt word, at least: xzy and xyz have 0.67, command_effort and effort 0.6."""
@@ -68,17 +88,55 @@ def home_of(word: str, tag: str) -> str:
     return next((home for home, words in CHILDREN.items() if word in words), "")
 
 
+def local_name(name: str) -> str:
+    """Return a name without its prefix or namespace.
+
+    Examples
+    --------
+    >>> local_name("drake:joint"), local_name("{http://drake.mit.edu}joint"), local_name("joint")
+    ('joint', 'joint', 'joint')
+    """
+    return name.rpartition("}")[2].rpartition(":")[2]
+
+
 def ignored_attribute(tag: str, key: str) -> bool:
     """Return whether an attribute stands where a number of the dynamics may be meant, and is not one of the format.
 
     Examples
     --------
-    >>> ignored_attribute("origin", "position"), ignored_attribute("joint", "axis"), ignored_attribute("link", "type")
+    >>> ignored_attribute("origin", "position"), ignored_attribute("joint", "xyz"), ignored_attribute("link", "type")
     (True, True, False)
     """
-    if key in ATTRIBUTES.get(tag, ()) or "}" in key or ":" in key:
+    if key in ATTRIBUTES.get(tag, ()):
         return False
-    return tag in SAID_BY_ATTRIBUTES or (tag in ("link", "joint") and any(key in words for words in CHILDREN.values()))
+    return local_name(key) in WORDS or (tag in BY_ATTRIBUTES and local_name(key) == key)
+
+
+def ignored_child(tag: str, child: Any) -> bool:
+    """Return whether a child that is none of `tag` may be meant for the dynamics.
+
+    Whatever stands in an <inertial> or a <joint> may; elsewhere, or with a prefix, what holds a word of the format.
+
+    Parameters
+    ----------
+    tag : str
+    child : lxml element
+
+    Examples
+    --------
+    >>> from lxml import etree
+    >>> group, gravity = etree.fromstring("<group><link name='a'/></group>"), etree.fromstring("<gravity>1</gravity>")
+    >>> ignored_child("robot", group), ignored_child("link", gravity), ignored_child("inertial", gravity)
+    (True, False, True)
+    """
+    name = local_name(child.tag)
+    if "xacro" in child.tag or name in NOT_DYNAMICS | EXTENSIONS:
+        return False
+    if name == child.tag and tag not in ("robot", "link"):
+        return True
+    inside = {local_name(x.tag) for x in child.iter("*")}
+    inside |= {local_name(key) for x in child.iter("*") for key in x.attrib} - LABELS
+    return bool(inside & (WORDS | OTHER_FORMATS) or words_of(name) & WORDS)
 
 
 @cache

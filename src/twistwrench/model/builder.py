@@ -175,7 +175,11 @@ class Builder:
         self._joint_names.add(link.joint_name)
 
     def build(
-        self, *, postures: Mapping[str, ArrayLike] | None = None, feet: Sequence[str] = (), physical: bool = True
+        self,
+        *,
+        postures: Mapping[str, ArrayLike] | None = None,
+        feet: Sequence[str] = (),
+        physical: bool | None = True,
     ) -> Model:
         """Make the model.
 
@@ -185,8 +189,9 @@ class Builder:
             Named configurations.
         feet : sequence of str
             The frames on which a legged robot stands.
-        physical : bool
-            Reject a moving body, welded links merged, that cannot exist (`SpatialInertia.check_physical`).
+        physical : bool, optional
+            Reject a moving body, welded links merged, that cannot exist (`SpatialInertia.check_physical`). None rejects
+            only a principal moment below zero; a body whose largest is more than the sum of the others is reported.
             A body without mass is accepted, and `Model.report` names it where it has an inertia.
 
         Returns
@@ -202,7 +207,8 @@ class Builder:
         """
         postures = {} if postures is None else postures
         check_kind(postures, "postures", Mapping, "configurations by name")
-        feet, physical = as_names(feet, "feet", "frame names", ordered=True), as_flag(physical, "physical")
+        feet = as_names(feet, "feet", "frame names", ordered=True)
+        physical = None if physical is None else as_flag(physical, "physical")
         with np.errstate(over="ignore", invalid="ignore"):
             tree = NumberedTree(self._links)
             tree.check_finite()

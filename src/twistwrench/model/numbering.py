@@ -13,7 +13,9 @@ from .link import WORLD, Link
 from .model import Frame
 from .report import Entry
 
-__all__ = ["NumberedTree"]
+__all__ = ["IMPOSSIBLE", "NumberedTree"]
+
+IMPOSSIBLE = "given, as a body that cannot exist (physical=True rejects it)"
 
 
 class NumberedTree:
@@ -72,22 +74,23 @@ class NumberedTree:
             if not np.isfinite(frame.placement.matrix()).all():
                 raise ModelError(f"frame {name!r}: the way to it overflows")
 
-    def check_bodies(self, physical: bool) -> list[Entry]:
+    def check_bodies(self, physical: bool | None) -> list[Entry]:
         """Check each body, welded links merged: that sum is all that enters the dynamics.
 
         A single welded link may be a point, or carry an inertia without mass, as in many a real file. Returns
         remarks on whole bodies, for the report.
         """
         bodies = list(zip(self.groups[1:], self.inertia[1:], strict=True))
+        indefinite = [(group, fault) for group, inertia in bodies if (fault := _fault(inertia, group, definite=True))]
         faults = [(group, fault) for group, inertia in bodies if (fault := _fault(inertia, group))]
-        if faults and physical:
-            count = "1 moving body" if len(faults) == 1 else f"{len(faults)} moving bodies"
-            listed = "".join(f"\n  {fault}" for _, fault in faults)
+        refused = {True: faults, False: [], None: indefinite}[physical]
+        if refused:
+            count = "1 moving body" if len(refused) == 1 else f"{len(refused)} moving bodies"
+            listed = "".join(f"\n  {fault}" for _, fault in refused)
             raise ModelError(f"{count} cannot exist (physical=False accepts the robot all the same):{listed}")
-        impossible = [
-            Entry(_link(group), fault.partition(": ")[2], "a body that cannot exist (physical=False)", warns=False)
-            for group, fault in faults
-        ]
+        warns = physical is None
+        read_as = IMPOSSIBLE if warns else "a body that cannot exist (physical=False)"
+        impossible = [Entry(_link(group), fault.partition(": ")[2], read_as, warns=warns) for group, fault in faults]
         degenerate = [entry for group, inertia in bodies if (entry := _degenerate(inertia, group))]
         return [*impossible, *degenerate, *self._floating_nothing()]
 
@@ -102,16 +105,17 @@ class NumberedTree:
         return [Entry(_link(self.groups[1]), found, "given: M is singular (base='fixed' or a mass mends that)")]
 
 
-def _fault(inertia: SpatialInertia, group: list[Link]) -> str:
+def _fault(inertia: SpatialInertia, group: list[Link], *, definite: bool = False) -> str:
     """Return why a body cannot exist, under the name of its first link; empty if it can exist.
 
-    A body without mass is judged as the limit of ever lighter ones with its inertia: no moment may be negative.
+    A body without mass is judged as the limit of ever lighter ones with its inertia: no moment may be negative. With
+    `definite` that is all that is asked of a body with mass, too: it keeps M positive definite.
     """
     try:
-        if inertia.mass > 0:
+        if inertia.mass > 0 and not definite:
             inertia.check_physical(group[0].name)
         else:
-            check_not_negative(group[0].name, inertia.inertia_at_com)
+            check_not_negative(group[0].name, inertia.mass, inertia.com, inertia.inertia_at_com)
     except ModelError as error:
         others = [repr(x.name) for x in group[1:] if x.inertia.mass > 0 or x.inertia.inertia_at_com.any()]
         return f"{error}" + (f" (with {', '.join(others)} welded to it)" if others else "")

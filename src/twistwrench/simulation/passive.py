@@ -57,7 +57,7 @@ class Joints:
         gap = self.gap(q).min(axis=tuple(range(q.ndim - 1)), initial=np.inf)
         if (gap < -OUTSIDE).any():
             k = int(gap.argmin())
-            i = next(i for i, s in enumerate(self.model.q_slice) if s.start == self.at_q[k])
+            i = next(i for i, s in enumerate(self.model.q_slice) if s.start <= self.at_q[k] < s.stop)
             s = self.model.q_slice[i]
             lower, upper = (float(x[s.start]) for x in (self.model.lower, self.model.upper))
             raise ValueError(

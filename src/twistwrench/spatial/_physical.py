@@ -29,32 +29,40 @@ def check_numbers(mass: Array, inertia_at_com: Array) -> None:
         )
 
 
-def check_physical(link: str, mass: Array, inertia_at_com: Array) -> None:
+def check_physical(link: str, mass: Array, com: Array, inertia_at_com: Array) -> None:
     """Raise ModelError, with the link, the condition and its numbers, unless a body with this inertia can exist."""
     mass = judged(mass)
     if (mass <= 0).any():
         raise ModelError(f"link {link!r}: the mass must be positive, got {mass.min():.6g} kg")
-    moments = check_not_negative(link, inertia_at_com)
+    moments = check_not_negative(link, mass, com, inertia_at_com)
     a, b, c = np.moveaxis(moments, -1, 0)
-    broken = c > (a + b) * (1 + ROOM)
+    excess = np.asarray(c - (a + b))
+    broken = excess > ROOM * (a + b) + _rounding(mass, com)
     if broken.any():
+        much = excess[broken][0]
         raise ModelError(
-            f"link {link!r}: the largest principal moment must not exceed the sum of the other two "
-            f"(triangle inequality), got {_numbers(moments[broken][0])} kg m²"
+            f"link {link!r}: the largest principal moment must not exceed the sum of the other two (triangle "
+            f"inequality), got {_numbers(moments[broken][0])} kg m², {much:.3g} too much"
         )
 
 
-def check_not_negative(link: str, inertia_at_com: Array) -> Array:
+def check_not_negative(link: str, mass: Array, com: Array, inertia_at_com: Array) -> Array:
     """Return the principal moments; raise ModelError where one of them is negative. All are zero for a point mass."""
     # NumPy has eigenvalues in single and double precision only: double is enough to judge by.
     moments: Array = np.linalg.eigvalsh(judged(inertia_at_com).astype(np.float64))
-    negative = moments[..., 0] < -ROOM * np.abs(moments[..., 2])
+    negative = moments[..., 0] < -ROOM * np.abs(moments[..., 2]) - _rounding(judged(mass), com)
     if negative.any():
         raise ModelError(
             f"link {link!r}: the inertia about the centre of mass must be positive definite, "
             f"got principal moments {_numbers(moments[negative][0])} kg m²"
         )
     return moments
+
+
+def _rounding(mass: Array, com: Array) -> Array:
+    """Return what rounding leaves of an inertia of zero that was computed from that about the body's frame."""
+    room: Array = 4 * np.finfo(np.float64).eps * mass * (judged(com) ** 2).sum(-1)
+    return room
 
 
 def _numbers(moments: Array) -> str:

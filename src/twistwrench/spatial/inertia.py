@@ -254,7 +254,7 @@ class SpatialInertia(Shapes):
         """Raise ModelError unless a body with this inertia can exist.
 
         The mass is positive; no principal moment is negative; the largest is at most the sum of the other two. Each to
-        a relative 1e-9: point masses, thin rods and plates are limits, and pass.
+        a relative 1e-9, and to the rounding of m|c|²: point masses, thin rods and plates are limits, and pass.
 
         Parameters
         ----------
@@ -272,7 +272,7 @@ class SpatialInertia(Shapes):
         Traceback (most recent call last):
         twistwrench.errors.ModelError: link 'calf': the largest principal moment must not exceed ...
         """
-        check_physical(link, self.mass, self.inertia_at_com)
+        check_physical(link, self.mass, self.com, self.inertia_at_com)
 
     def __repr__(self) -> str:
         if self.mass.ndim:
