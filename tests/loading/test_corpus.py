@@ -54,12 +54,16 @@ def test_the_table_is_that_of_the_corpus(language):
     assert counts == [
         verdicts.count("loaded"),
         verdicts.count("with a report"),
+        verdicts.count("not physical"),
         len(refused) - len(hopeless),
         len(hopeless),
     ]
     assert all(re.search(rf"\b{n}\b", text(language)) for n in (len(ROWS), len(BY_PINOCCHIO)))
     assert len({row["package"] for row in ROWS}) == 24
-    assert sum("<inertia> missing" in row["message"] for row in hopeless) == 8
+    assert ["two <axis>" in row["message"] for row in hopeless] == [True]
+    assert sum("no <inertia>" in row["message"] for row in BY_PINOCCHIO) == 8
+    assert sum("joint has none" in row["message"] for row in BY_PINOCCHIO) == 11
+    assert sum("neither lower nor upper" in row["message"] for row in BY_PINOCCHIO) == 6
     assert max(float(row["difference"]) for row in ROWS if row["difference"]) < 8e-14
 
 
@@ -82,7 +86,8 @@ def test_verdicts_of_what_is_installed():
             warnings.simplefilter("always")
             try:
                 tw.load(path)
-                verdict = "with a report" if caught else "loaded"
+                impossible = any("cannot exist" in str(warning.message) for warning in caught)
+                verdict = "not physical" if impossible else "with a report" if caught else "loaded"
             except tw.ModelError:
                 verdict = "refused"
         assert verdict == row["verdict"], path

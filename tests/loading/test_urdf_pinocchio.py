@@ -58,7 +58,11 @@ def compare_joint(pin, ours, theirs, i):
     if ours.joint_names[i] == "root_joint":
         return
     q, v = ours.q_slice[i], ours.v_slice[i]
-    if ours.joints[i].nq == 1:  # Pinocchio puts ±1.01 around a cosine and a sine
+    where = f"joint {ours.joint_names[i]!r}"
+    if any(entry.where == where and entry.found == "neither lower nor upper limit" for entry in ours.report):
+        assert (ours.lower[q], ours.upper[q]) == (-np.inf, np.inf)
+        assert (theirs.lowerPositionLimit[q], theirs.upperPositionLimit[q]) == (0, 0)  # Pinocchio locks it
+    elif ours.joints[i].nq == 1:  # Pinocchio puts ±1.01 around a cosine and a sine
         np.testing.assert_array_equal(ours.lower[q], theirs.lowerPositionLimit[q])
         np.testing.assert_array_equal(ours.upper[q], theirs.upperPositionLimit[q])
     np.testing.assert_array_equal(ours.velocity_limit[v], theirs.velocityLimit[v])

@@ -47,6 +47,7 @@ class Oracle:
             except ValueError as error:
                 raise ModelError(f"{path}: Pinocchio cannot read it: {error}") from None
             self.model.gravity.linear = ours.gravity
+            self.model.armature = self.tangent(ours.armature)  # of Drake's rotors, which Pinocchio does not read
         self.data = self.model.createData()
         if tuple(self.model.names) != ours.joint_names:
             raise ModelError(
