@@ -188,7 +188,7 @@ LEFT_OUT = """
 <body><joint name="last"/><geom size="0.1"/></body></body></body></worldbody>
 <tendon><fixed name="cord"><joint joint="hinge" coef="1"/></fixed></tendon>
 <actuator><motor name="a" tendon="cord" ctrlrange="-1 1"/><motor name="b" site="tip"/><motor name="c" joint="root"/>
-<motor name="d" joint="last"/></actuator></mujoco>"""
+<motor name="d" joint="last"/><motor name="e" joint="hinge"/></actuator></mujoco>"""
 
 
 def test_actuators_that_are_left_out_are_named():

@@ -20,7 +20,7 @@ def robot(*joints):
     links = "".join(f'<link name="l{i}">{BODY.format(m=1 + i)}</link>' for i in range(len(joints) + 1))
     chain = "".join(
         f'<joint name="{name}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/><axis xyz="{axis}"/>'
-        f'<origin xyz="0.3 0.1 0.4" rpy="0.3 -0.2 0.5"/>{LIMIT if kind in ("revolute", "prismatic") else ""}{extra}</joint>'
+        f'<origin xyz="0.3 0.1 0.4" rpy="0.3 -0.2 0.5"/>{"" if kind == "continuous" else LIMIT}{extra}</joint>'
         for i, (name, kind, axis, extra) in enumerate(joints)
     )
     return f'<robot name="r">{links}{chain}</robot>'

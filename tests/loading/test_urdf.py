@@ -103,14 +103,15 @@ def test_axis_is_x_when_not_given_and_normalised_when_given(tmp_path):
     assert load(one_joint(tmp_path, "revolute", '<axis xyz="0 3 4"/>')).joints[1].axis == (0, 0.6, 0.8)
 
 
-def test_limits_are_kept_and_a_limit_without_ends_means_zero(tmp_path):
+def test_limits_are_kept_and_a_limit_without_ends_locks_nothing(tmp_path):
     model = load(one_joint(tmp_path, "revolute"))
     limits = (model.lower, model.upper, model.effort_limit, model.velocity_limit)
     assert [x.tolist() for x in limits] == [[-1], [2], [3], [4]]
     path = one_joint(tmp_path, "prismatic")
     path.write_text(path.read_text().replace('lower="-1" upper="2" ', ""))
-    model = load(path)
-    assert (model.lower.tolist(), model.upper.tolist()) == ([0], [0])
+    with pytest.warns(UserWarning, match="neither lower nor upper limit"):
+        model = load(path)
+    assert (model.lower.tolist(), model.upper.tolist()) == ([-np.inf], [np.inf])
 
 
 def test_base_and_gravity_are_those_asked_for(tmp_path):

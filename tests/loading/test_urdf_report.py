@@ -335,7 +335,8 @@ def test_what_loads_equals_pinocchio(save):
     rng = np.random.default_rng(0)
     rod = '<inertial><origin xyz="0 1 0.5"/>'
     point = CASES["a point"][0].replace("<inertial>", rod)
-    for text in (PUMA, point, CASES["no inertia"][0], CASES["nine entries"][0], CASES["lower above the default"][0]):
+    bare = CASES["no inertia"][0].replace("<inertial>", rod)
+    for text in (PUMA, point, bare, CASES["nine entries"][0], CASES["lower above the default"][0]):
         path = save(text)
         model, _ = load_warned(path)
         theirs = pin.buildModelFromUrdf(str(path))

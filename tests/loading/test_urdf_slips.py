@@ -10,12 +10,16 @@ import random
 import string
 import warnings
 from contextlib import suppress
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from lxml import etree
 
 import twistwrench as tw
+from twistwrench.loading.element import Element
+from twistwrench.loading.urdf_words import ATTRIBUTES, CHILDREN, WORDS
 
 LINK = """<link name="{0}"><inertial><origin xyz="0.1 0.2 0.3" rpy="0.1 0.2 0.3"/><mass value="2"/>
 <inertia ixx="1" ixy="0.01" ixz="0.02" iyy="0.9" iyz="0.03" izz="0.8"/></inertial></link>"""
@@ -129,6 +133,25 @@ def test_a_misspelt_word_is_not_passed_over(behaviour):
             if (word := misspelt(key, rng)) not in child.attrib:
                 child.set(word, child.attrib.pop(key))
                 assert not silent(root, behaviour), (SEED, child.tag, key, word)
+
+
+def noticed(tag, attributes="", child=""):
+    """Return whether an element is refused, or a remark on it is made that warns."""
+    remarks = []
+    try:
+        Element(etree.fromstring(f"<{tag} {attributes}>{child}</{tag}>"), Path("r.urdf"), tag, remarks)
+    except tw.ModelError:
+        return True
+    return any(entry.warns for entry in remarks)
+
+
+@pytest.mark.parametrize("tag", [*{**CHILDREN, **ATTRIBUTES}])
+def test_a_word_of_the_format_is_not_passed_over_on_any_other_element(tag):
+    """Each word as an attribute, and as a child, of each element to which it does not belong."""
+    own = ATTRIBUTES.get(tag, ()), CHILDREN.get(tag, ())
+    for word in WORDS:
+        assert noticed(tag, f'{word}="3"') == (word not in own[0]), f"attribute {word}"
+        assert noticed(tag, child=f'<{word} value="3"/>') == (word not in own[1]), f"child {word}"
 
 
 @pytest.mark.parametrize("word", ["position", "rotation", "direction", "kg"])

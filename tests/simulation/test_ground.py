@@ -416,6 +416,12 @@ def test_a_joint_that_begins_beyond_its_range_is_refused():
         tw.simulate(GO2, GO2.neutral() + np.eye(19)[2], np.zeros(18), dt=0.002, steps=1, ground=tw.Ground())
 
 
+def test_the_first_joint_of_a_fixed_base_is_named_and_not_the_world():
+    arm = replace(tw.load("pendulum"), lower=[-1.0], upper=[1.0])
+    with pytest.raises(ValueError, match=f"q: joint {arm.joint_names[1]!r} begins 0.3 beyond its range"):
+        tw.simulate(arm, [1.3], [0.0], dt=0.01, steps=1, method="time-stepping")
+
+
 def test_a_ground_of_another_kind_is_refused():
     with pytest.raises(TypeError, match="ground: expected a Ground, got float"):
         dropped(ground=0.0)

@@ -47,6 +47,7 @@ def read_actuators(there: Any) -> Drives:
     remarks = [Entry("the file", _counted(count), "limits of effort; what they are told is left out")] * (count > 0)
     efforts, driven = np.zeros((there.nv, 2)), np.zeros(there.nv, dtype=bool)
     armature, damping = np.zeros(there.nv), np.zeros(there.nv)
+    endless: list[tuple[str, Array]] = []
     for k in range(count):
         where = f"actuator {there.actuator(k).name or k!r}"
         if not _drives_a_joint(there, k):
@@ -55,7 +56,7 @@ def read_actuators(there: Any) -> Drives:
         dofs, gear = _driven(there, k)
         force = _force_range(there, k)
         if np.isinf(force).any():
-            remarks.append(Entry(where, "a force without a limit", "no limit of it"))
+            endless.append((where, dofs))
         efforts[dofs] += np.sort(np.multiply.outer(gear, force), axis=-1)
         driven[dofs] = True
         if np.any(getattr(there, "actuator_dampingpoly", np.zeros(count))[k]):
@@ -71,6 +72,9 @@ def read_actuators(there: Any) -> Drives:
         dof = there.jnt_dofadr[j]
         efforts[dof] = np.clip(efforts[dof], *there.jnt_actfrcrange[j])
     limit = np.abs(efforts).max(axis=-1)
+    for where, dofs in endless:
+        if np.isinf(limit[dofs]).any():
+            remarks.append(Entry(where, "a force without a limit", "no limit of effort"))
     for dof, (lower, upper) in enumerate(efforts):
         if np.isclose(-lower, upper, rtol=1e-12, atol=0):
             continue

@@ -44,9 +44,9 @@ def says_nothing(element: XML) -> bool:
 
 def written(element: XML) -> str:
     """Return the tag as the file has it, with the name of the element where it has one."""
-    prefix = f"{element.prefix}:" if element.prefix and ":" not in element.tag.rpartition("}")[2] else ""
-    name = element.get("name")
-    return prefix + element.tag.rpartition("}")[2] + (f" name={name!r}" if name else "")
+    tag, name = str(element.tag).rpartition("}")[2], element.get("name")
+    prefix = f"{element.prefix}:" if element.prefix and ":" not in tag else ""
+    return prefix + tag + (f" name={name!r}" if name else "")
 
 
 @dataclass(frozen=True)

@@ -76,7 +76,7 @@ def _robot(path: Path, xml: XML, remarks: list[Entry]) -> UrdfRobot:
         raise ModelError(f"{path}: the robot has no <link>")
     joints = {name: _joint(name, element, links) for name, element in _named(robot, "joint").items()}
     rotors = read_rotors(robot, joints)
-    joints |= {name: replace(joints[name], numbers=joints[name].numbers | rotor) for name, rotor in rotors.items()}
+    joints |= {name: replace(joints[name], numbers={**joints[name].numbers, **rotor}) for name, rotor in rotors.items()}
     root, ordered = outwards(path, links, joints)
     return UrdfRobot(xml.get("name") or path.stem, root, links, ordered, tuple(remarks))
 

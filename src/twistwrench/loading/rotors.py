@@ -41,9 +41,8 @@ def read_rotors(robot: Element, joints: Mapping[str, UrdfJoint]) -> dict[str, di
         if not armature:
             continue
         if len(names) == 1 and names[0] in joints and joints[names[0]].kind in ONE_SPEED:
-            armature += found.get(names[0], {}).get("armature", 0.0)
-            found[names[0]] = {"armature": armature}
             transmission.remark("a rotor", f"armature {armature:g}, as in Drake (Pinocchio has none)", warns=False)
+            found[names[0]] = {"armature": armature + found.get(names[0], {}).get("armature", 0.0)}
         else:
             transmission.remark("a rotor", LEFT_OUT)
     return found
@@ -64,4 +63,4 @@ def _reflected(transmission: Element, actuator: XML) -> float:
     gears = {reduction, f"{numbers['gear_ratio']:g}"} - {"", "1", "1.0", "-1", "-1.0"}
     if gears and not numbers["rotor_inertia"]:
         transmission.remark(f"a gear of {', '.join(sorted(gears))}", "no armature: the file has no rotor", warns=False)
-    return numbers["rotor_inertia"] * numbers["gear_ratio"] ** 2
+    return numbers["rotor_inertia"] * numbers["gear_ratio"] * numbers["gear_ratio"]
