@@ -196,5 +196,5 @@ def _left_out(there: Any, names: list[str]) -> Iterator[Entry]:
 
 def _polynomial(there: Any, name: str, count: int) -> Array:
     """Return where a number has terms of higher order, which MuJoCo has had since version 4."""
-    terms: Array = np.asarray(getattr(there, f"{name}poly", np.zeros((count, 1))))
-    return np.any(terms != 0, axis=-1)
+    found: Array = np.any(getattr(there, f"{name}poly", np.zeros((count, 1))), axis=-1)
+    return found

@@ -13,8 +13,17 @@ from functools import cache
 from typing import Any
 
 __all__ = [
-    *("ATTRIBUTES", "CHILDREN", "NOT_DYNAMICS"),
-    *("home_of", "ignored_attribute", "ignored_child", "local_name", "meant", "words_of"),
+    "ATTRIBUTES",
+    "BY_ATTRIBUTES",
+    "CHILDREN",
+    "NOT_DYNAMICS",
+    "WORDS",
+    "home_of",
+    "ignored_attribute",
+    "ignored_child",
+    "local_name",
+    "meant",
+    "words_of",
 ]
 
 CHILDREN = {
