@@ -10,9 +10,8 @@ import pytest
 
 from twistwrench import ModelError, center_of_mass, frame_placement
 from twistwrench.loading import catalogue, load, robots
-from twistwrench.loading.reading import read_robot_xml
-from twistwrench.loading.srdf import read_states, with_stance, with_states
-from twistwrench.loading.stances import STANCES, Stance
+from twistwrench.loading.element import read_robot_xml
+from twistwrench.loading.stances import STANCES, Stance, read_states, with_stance, with_states
 
 FOLDER = catalogue.example_robot_data_folder()
 OWN = [robot for robot in robots() if robot.source == "models"]

@@ -19,7 +19,7 @@ from ..arrays import as_flag, check_choice
 from ..errors import ModelError, NameNotFound, no_model
 from ..model import Model
 from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
-from .srdf import read_states, with_stance, with_states
+from .stances import read_states, with_stance, with_states
 from .urdf import load_urdf
 
 __all__ = ["Catalogue", "Robot", "load", "robots"]

@@ -16,11 +16,9 @@ import numpy as np
 from ..errors import ModelError, unknown_name
 from ..model import Entry, Report
 from ..spatial import SE3, SpatialInertia, rpy_to_rotation
-from .element import LEFT_OUT, Element
-from .reading import XML, read_document
-from .records import UrdfJoint, UrdfLink, UrdfMimic, UrdfRobot
+from .element import LEFT_OUT, XML, Element, read_document
+from .records import UrdfJoint, UrdfLink, UrdfMimic, UrdfRobot, outwards
 from .rotors import read_rotors
-from .urdf_tree import outwards
 
 __all__ = ["read_urdf"]
 

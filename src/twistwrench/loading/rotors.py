@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from .element import LEFT_OUT, Element
-from .reading import XML
+from .element import LEFT_OUT, XML, Element
 from .records import UrdfJoint
 from .urdf_words import local_name
 

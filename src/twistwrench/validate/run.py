@@ -14,7 +14,7 @@ from ..arrays import as_count
 from ..errors import NameNotFound, no_model
 from ..loading import load
 from ..loading.catalogue import find
-from ..loading.reading import read_robot_xml
+from ..loading.element import read_robot_xml
 from ..model import Model
 from .fast_rows import FAST
 from .measure import Judge

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..loading.catalogue import PREFIX, find, known
-from ..loading.reading import read_robot_xml
+from ..loading.element import read_robot_xml
 from ..model import Model
 from ..spatial import SE3
 from .meshes import Unseen, find_mesh, read_mesh
