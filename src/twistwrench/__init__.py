@@ -17,7 +17,7 @@ from typing import Any
 
 import lazy_loader
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 _ROOMS = ("contact", "loading", "model", "scene", "simulation", "validate")
 """Namespaces that need no import of their own, beside those in `__all__`; most of their names are here as well."""
