@@ -1,7 +1,9 @@
 """Numbers that are objects: which are let in, what they become, and what comes out."""
 
+import re
 from decimal import Decimal
 from fractions import Fraction as F
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -103,11 +105,59 @@ def test_the_mass_matrix_of_the_double_pendulum_is_a_formula():
     np.testing.assert_allclose(np.array(M.subs(at), float), tw.crba(TWO, [0.3, -0.8]), rtol=1e-14)
 
 
-def test_the_formula_of_the_readme_is_what_comes_out():
+@pytest.mark.parametrize("page", ["README.md", "README.zh-CN.md"])
+def test_the_formula_of_the_readme_is_what_comes_out(page):
     sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
-    M = sympy.Matrix(tw.crba(tw.load("double_pendulum"), sympy.symbols("q1 q2"))).applyfunc(sympy.trigsimp)
-    told = ("0.36*cos(q2) + 0.6002", "0.18*cos(q2) + 0.1201", "0.18*cos(q2) + 0.1201", "0.1201")
-    assert tuple(str(sympy.N(one, 4)) for one in M) == told
+    text = (Path(__file__).parents[2] / page).read_text(encoding="utf-8")
+    line, *entries = re.search(r"`(sympy\.simplify\(.*\))`" + 3 * r"[^`]*`([^`]*)`", text).groups()
+    M = eval(line, {"tw": tw, "sympy": sympy})
+    assert [str(M[0, 0]), str(M[1, 1]), str(M[0, 1])] == entries
+    assert M[0, 1] == M[1, 0]
+
+
+def test_beside_symbols_a_float_is_its_shortest_decimal_and_beside_fractions_itself():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
+    screw, mass = tw.Builder("screw"), tw.SpatialInertia(0.3, [0.1, 0, 0], np.eye(3) / 100)
+    screw.link("nut", parent="base_link", joint=tw.Helical([0.6, 0, 0.8], 0.1), inertia=mass, armature=0.1)
+    model, x = screw.build(), sympy.Symbol("x")
+    # I_c + m pitch² + m (0.1 · 0.8)² + armature
+    assert tw.crba(model, [x]).tolist() == [
+        [F("0.01") + F("0.3") * F("0.1") ** 2 + F("0.3") * F("0.08") ** 2 + F("0.1")]
+    ]
+    assert sympy.simplify(tw.newton_euler_3d.mass_matrix(model, [x])[0, 0]) == F("0.11492")
+    exact = tw.crba(model, [F(0)])[0, 0]
+    assert exact != F("0.11492")
+    assert float(exact) == pytest.approx(0.11492, rel=1e-15)
+    assert tw.crba(TWO, [F(0), F(0)])[1, 1] != tw.crba(TWO, [x, 0])[1, 1]  # each has constants of its own
+    assert tw.Twist([x, 0.1, 0, 0, 0, 0]).vector[1] == F(1, 10)
+    assert tw.Twist([F(1), 0.1, 0, 0, 0, 0]).vector[1] == F(0.1)
+
+
+def test_one_symbol_anywhere_in_the_state_makes_decimals_of_all_constants():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
+    model, (v, a) = tw.load("double_pendulum"), sympy.symbols("v a")
+    tip = F("0.1201")
+    assert sympy.expand(tw.rnea(model, [0, 0], [0, 0], [0, a])[1]) == sympy.Rational(tip) * a
+    assert sympy.expand(tw.kinetic_energy(model, [0, 0], [0, v])) == sympy.Rational(tip) / 2 * v**2
+    for x in tw.point_acceleration(model, [0, 0], [0, v], [0, a], "lower", [0.1, 0, 0]):
+        assert all(number.q < 1000 for number in sympy.sympify(x).atoms(sympy.Rational))
+
+
+def test_functions_of_time_are_numbers_as_symbols_are():
+    """Their types have no `__module__`: SymPy makes one for each function."""
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
+    mechanics = pytest.importorskip("sympy.physics.mechanics")
+    model, q, t = tw.load("double_pendulum"), sympy.symbols("q1 q2"), mechanics.dynamicsymbols("q1 q2")
+    of_time = dict(zip(q, t))
+    for function in (tw.gravity, tw.crba, tw.newton_euler_3d.gravity):
+        assert sympy.Matrix(function(model, q)).subs(of_time) == sympy.Matrix(function(model, t))
+    f = t[0]
+    assert tw.skew([f, 0, 0])[2, 1] == f
+    assert tw.hat([f] * 6)[0, 3] == tw.cross_motion([f] * 6)[2, 1] == f
+    assert tw.SE3(np.eye(3), [f, 0, 0]).translation[0] == tw.Twist([f] * 6).vector[5] == f
+    assert tw.SpatialInertia(f, [0, 0, 0], np.eye(3)).matrix()[5, 5] == f
+    with pytest.raises(ValueError, match=r"w: expected floating-point numbers, got q1\(t\)"):
+        tw.exp3([f, 0, 0])
 
 
 def test_bias_forces_of_symbols_are_lagranges():
@@ -144,6 +194,18 @@ def test_what_is_no_number_is_refused_beside_fractions(bad, said):
     x[1] = bad
     with pytest.raises(ValueError, match=rf"^q: {said}.* at index \(1,\)$"):
         tw.crba(TWO, x)
+
+
+def test_numbers_that_do_not_mix_with_fractions_are_refused():
+    class Alone:
+        """A number, as CasADi's are, that is added to floats only."""
+
+        __neg__ = __radd__ = __rsub__ = __rmul__ = __rtruediv__ = lambda *_: NotImplemented
+
+    with pytest.raises(
+        ValueError, match=r"^q: expected numbers that can be added to fractions, got .* at index \(0,\)"
+    ):
+        tw.crba(TWO, np.array([Alone(), 0], object))
 
 
 def test_symbols_that_are_not_finite_are_refused():

@@ -46,6 +46,7 @@ def point_jacobian(model: Model, q: ArrayLike, frame: str, point: ArrayLike) -> 
     >>> tw.point_jacobian(tw.load("pendulum"), [0.0], "bob", [0, 0, -1])[:, 0]  # a metre below the bob, two in all
     array([-2.,  0.,  0.])
     """
+    (q,) = check_state(model, q)
     J, r = frame_jacobian(model, q, frame, ALIGNED), _lever(model, q, frame, point)
     return np.asarray(J[..., 3:, :] - cross_matrix(r) @ J[..., :3, :])  # 49.1 v_P: v + ω × r
 
@@ -122,9 +123,9 @@ def point_acceleration(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f
     return np.asarray(frame_acceleration[..., 3:] + turning)
 
 
-def _lever(model: Model, q: ArrayLike, frame: str, point: ArrayLike) -> Array:
+def _lever(model: Model, q: Array, frame: str, point: ArrayLike) -> Array:
     """Return the way from the origin of the frame to the point, in the axes of the world."""
     there, R = as_number_array(point, "point", 3), frame_placement(model, q, frame).rotation
     if there.dtype != object:
         check_size(there, "point")
-    return np.asarray(np.matvec(R, convert(there, object) if R.dtype == object else there))
+    return np.asarray(np.matvec(R, convert(there, q.dtype) if R.dtype == object else there))

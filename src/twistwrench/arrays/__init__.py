@@ -28,7 +28,7 @@ from .conversion import (
     resolution,
     tolerance,
 )
-from .exact import convert, elementary, exact_numbers, exact_unit, has_objects, judged
+from .exact import beside, convert, elementary, exact_numbers, exact_unit, has_objects, home, judged
 from .kinds import as_flag, as_sequence, check_choice, check_kind
 
 __all__ = [
@@ -47,6 +47,7 @@ __all__ = [
     "as_number_arrays",
     "as_real",
     "as_sequence",
+    "beside",
     "check_choice",
     "check_kind",
     "check_overflow",
@@ -56,6 +57,7 @@ __all__ = [
     "exact_numbers",
     "exact_unit",
     "has_objects",
+    "home",
     "judged",
     "resolution",
     "tolerance",

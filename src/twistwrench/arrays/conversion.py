@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ShapeError
-from .exact import exact_numbers, has_objects
+from .exact import beside, exact_numbers, has_objects, home
 from .kinds import as_sequence
 
 __all__ = [
@@ -109,7 +109,8 @@ def as_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
 def as_number_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
     """Convert as `as_arrays`, for formulas that take any number: fractions, SymPy's and the like are kept, too.
 
-    Where one argument holds such, all become arrays of objects, and floats the fractions that they are.
+    Where one argument holds such, all become arrays of objects, and floats the fractions that they are; beside
+    symbols the shortest decimals that are read as them.
 
     Raises
     ------
@@ -128,9 +129,10 @@ def as_number_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array,
         return as_arrays(**named)
     if not any(has_objects(x) for x in arrays.values()):
         return as_arrays(**named)
+    dtype = beside(arrays.values())
     for name, (value, tail) in named.items():
         x = arrays[name] if arrays[name].dtype == object else as_array(value, name, *tail)
-        arrays[name] = exact_numbers(x, name)
+        arrays[name] = exact_numbers(x, name, dtype)
         _check_tail(x, name, tail)
     return tuple(arrays.values())
 
@@ -286,7 +288,7 @@ def _what(x: Array) -> str:
     if not has_objects(x):
         return "an array of objects; .astype(float) makes floating-point numbers of it"
     odd = next(one for one in x.flat if not isinstance(one, int | float | complex | np.number))
-    mpmath = type(odd).__module__.startswith("mpmath")
+    mpmath = home(odd).startswith("mpmath")
     return f"{odd!r}{' (for mpmath numbers use twistwrench.newton_euler_3d)' if mpmath else ''}"
 
 

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from ..arrays import Array, as_array, as_constant, exact_unit, resolution
+from ..arrays import Array, as_array, as_constant, convert, exact_unit, resolution
 from ..errors import ModelError
 from ..spatial import SE3, Jexp6, Jlog6, exp6, log6
 from ..spatial._elementary import at_first_index, sqrt
@@ -205,7 +205,7 @@ class AxisJoint(Joint):
         """
         if np.dtype(dtype) == object:
             axis = np.array(self.axis)
-            return axis if axis.dtype == object else exact_unit(axis)
+            return axis if axis.dtype == object else exact_unit(convert(axis, dtype))
         a = np.asarray(self.axis).astype(dtype)
         return unit(a) if resolution(a.dtype) < resolution(np.float64) else a
 

@@ -16,13 +16,12 @@ free_flyer    7    6   (x, y, z, qx, qy, qz, qw)     (ω, v), moved frame       
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from ..arrays import Array, as_number
+from ..arrays import Array, as_number, convert
 from ..errors import ModelError
 from ..spatial import SE3, rotation_to_quaternion
 from ..spatial._elementary import cos, sin
@@ -188,9 +187,10 @@ class Helical(AxisJoint):
         axis = self._axis(q.dtype)
         return placement(turn(axis, cos(q), sin(q)).rotation, self._pitch(q.dtype) * q * axis)
 
-    def _pitch(self, dtype: DTypeLike) -> float | Fraction:
+    def _pitch(self, dtype: DTypeLike) -> float:
         """Return the pitch; for arrays of objects, which need not mix with floats, as a fraction."""
-        return Fraction(self.pitch) if np.dtype(dtype) == object and isinstance(self.pitch, float) else self.pitch
+        exact = np.dtype(dtype) == object and isinstance(self.pitch, float)
+        return convert(np.array(self.pitch), dtype).item() if exact else self.pitch
 
 
 @dataclass(frozen=True)

@@ -240,7 +240,8 @@ class Model(Manifold):
         -------
         Constants
         """
-        key = np.dtype(dtype)
+        kind = np.dtype(dtype)
+        key = kind, kind.metadata is None  # of objects, whether they are fractions or decimals
         if key not in self._constants:
-            self._constants[key] = Constants.of(self, key)
+            self._constants[key] = Constants.of(self, kind)
         return self._constants[key]

@@ -16,7 +16,7 @@ __all__ = ["Exact"]
 
 @dataclass(frozen=True)
 class Exact(Arithmetic):
-    """Fractions, SymPy's expressions and the like; the model's doubles become exact fractions.
+    """Fractions, SymPy's expressions and the like; the model's doubles become exact fractions, beside symbols decimals.
 
     Examples
     --------
@@ -33,7 +33,7 @@ class Exact(Arithmetic):
 
     def array(self, values: ArrayLike) -> Array:
         """Turn constants into fractions."""
-        return exact_numbers(np.asarray(values), "constant")
+        return exact_numbers(np.asarray(values), "constant", self.dtype)
 
     def cos(self, x: Any) -> Any:
         """Return the cosine of one number: of fractions, only that of 0 is a fraction."""
@@ -56,7 +56,7 @@ class Exact(Arithmetic):
         """Divide a vector by its length; doubles become the nearest fractions of length 1."""
         given = np.asarray(x)
         if given.dtype != object:
-            return exact_unit(given / np.sqrt((given * given).sum()))
+            return exact_unit(self.array(given / np.sqrt((given * given).sum())))
         unit: Array = given / self.sqrt((given * given).sum())
         return unit
 
