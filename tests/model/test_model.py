@@ -12,10 +12,12 @@ from hypothesis import given
 
 import twistwrench as tw
 from twistwrench import bridge
+from twistwrench.model import Frame
 
 from ..strategies import Recipe, examples, random_state, recipes
 
 trees = given(recipes(12))
+GO2 = tw.load("go2")
 MIXED = Recipe(9, seed=5, base="floating").model
 
 
@@ -189,7 +191,7 @@ def test_nothing_that_later_results_depend_on_can_be_changed():
         with pytest.raises(ValueError, match="read-only"):
             held.postures["standing"][0] = 1.0
         held.standing()[0] = 1.0  # a copy
-    with pytest.raises(ValueError, match="posture 'up': expected real numbers"):
+    with pytest.raises(ValueError, match="posture 'up': q: expected real numbers"):
         replace(model, postures={"up": model.neutral() + 1j})
     for mapping in (model.frames, model.postures):
         with pytest.raises(TypeError, match="does not support item assignment"):
@@ -205,6 +207,76 @@ def test_arrays_that_a_model_is_made_of_stay_the_callers():
     moon = replace(tw.chain(2), gravity=gravity)
     gravity[2] = 0  # still writeable, and of no effect
     assert moon.gravity[2] == -1.62
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "said"),
+    [
+        ({"lower": -np.ones(18)}, tw.ShapeError, r"lower: expected shape \(\) or \(19,\), or \(12,\) .*, got \(18,\)"),
+        ({"armature": np.zeros((2, 18))}, tw.ShapeError, r"armature: .* \(18,\), or \(12,\) .*, got \(2, 18\)"),
+        ({"effort_limit": np.ones(13)}, tw.ShapeError, r"effort_limit: expected .*, got \(13,\)"),
+        ({"armature": np.nan}, tw.ModelError, "joint 'FL_hip_joint': armature: is not a number"),
+        ({"armature": np.r_[np.zeros(17), -1]}, tw.ModelError, "joint 'RR_calf_joint': armature -1 is below zero"),
+        ({"damping": [0, -1, *np.zeros(10)]}, tw.ModelError, "joint 'FL_thigh_joint': damping -1 is below zero"),
+        ({"friction": np.inf}, tw.ModelError, "joint 'FL_hip_joint': friction inf is not finite"),
+        ({"upper": -10.0}, tw.ModelError, "joint 'FL_hip_joint': lower limit -1.* is above upper limit -10"),
+        ({"velocity_limit": 1j}, ValueError, "velocity_limit: expected real numbers"),
+        ({"gravity": [0, 0, np.nan]}, ValueError, "gravity: expected finite numbers, got nan"),
+        ({"gravity": [0, -9.81]}, tw.ShapeError, r"gravity: expected shape \(..., 3\), got \(2,\)"),
+        ({"feet": ("nope",)}, KeyError, "unknown frame 'nope'"),
+        ({"feet": "FR_foot"}, ValueError, "feet: expected a sequence of frame names"),
+        ({"postures": {"standing": np.zeros(3)}}, tw.ShapeError, r"posture 'standing': q: expected .*, got \(3,\)"),
+        ({"postures": {"up": np.zeros(19)}}, ValueError, "posture 'up': q: joint 'root_joint': the quaternion"),
+        ({"postures": {"up": [GO2.standing()] * 2}}, tw.ShapeError, r"posture 'up': .* got \(2, 19\)"),
+        ({"postures": [GO2.standing()]}, TypeError, "postures: expected configurations by name"),
+        ({"name": 3}, TypeError, "name: expected a name, got int 3"),
+        ({"base": "flying"}, tw.ModelError, "base: expected 'fixed' or 'floating', got 'flying'"),
+        ({"joint_names": GO2.joint_names[:-1]}, tw.ShapeError, "joints: expected 13 entries, .*, got 14"),
+        ({"joint_names": (*GO2.joint_names[:-1], "FL_hip_joint")}, tw.ModelError, "'FL_hip_joint': the name is taken"),
+        ({"joint_names": ("world", *GO2.joint_names[1:])}, tw.ModelError, "expected 'universe'"),
+        ({"joints": (*GO2.joints[:-1], None)}, tw.ModelError, "'RR_calf_joint': expected a joint"),
+        ({"joints": (*GO2.joints[:-1], "z")}, TypeError, "'RR_calf_joint': joint: expected a joint"),
+        ({"joints": (None, tw.Planar(), *GO2.joints[2:])}, tw.ModelError, "base: .* joint 1 is not a FreeFlyer"),
+        ({"parent": (*GO2.parent[:-1], 13)}, tw.ModelError, "'RR_calf_joint': expected a parent from 0 to 12, got 13"),
+        ({"placement": GO2.placement[0]}, TypeError, "placement: expected a sequence"),
+        ({"placement": (*GO2.placement[:-1], np.eye(4))}, TypeError, "'RR_calf_joint': placement: expected an SE3"),
+        ({"inertia": (*GO2.inertia[:-1], tw.SpatialInertia([1, 2], np.zeros(3), np.eye(3)))}, tw.ShapeError, r"\(2,\)"),
+        ({"frames": {"tip": Frame(14, tw.SE3.identity())}}, tw.ModelError, "'tip': .* from 0 to 13, got 14"),
+        ({"frames": {"tip": tw.SE3.identity()}}, TypeError, "frame 'tip': expected a Frame"),
+        ({"report": "nothing"}, TypeError, "report: expected a Report"),
+    ],
+    ids=lambda x: str(x)[:30] if isinstance(x, dict) else "",
+)  # fmt: skip
+def test_a_copy_is_checked_as_a_model_from_the_builder_is(change, error, said):
+    with pytest.raises(error, match=said):
+        replace(GO2, **change)
+
+
+@pytest.mark.parametrize("key", ["armature", "damping", "friction", "velocity_limit", "effort_limit"])
+def test_twelve_numbers_for_twelve_motors_leave_out_the_floating_base(key):
+    nothing = np.inf if "limit" in key else 0.0
+    twelve = getattr(replace(GO2, **{key: np.arange(12.0)}), key)
+    assert twelve.tolist() == [nothing] * 6 + list(range(12))
+    assert getattr(replace(GO2, **{key: np.arange(18.0)}), key).tolist() == list(range(18))
+    assert getattr(replace(GO2, **{key: 0.5}), key).tolist() == [nothing] * 6 + [0.5] * 12
+    arm = tw.chain(3)
+    assert getattr(replace(arm, **{key: 0.5}), key).tolist() == [0.5] * 3
+
+
+def test_limits_of_q_may_leave_out_the_floating_base_too():
+    model = replace(GO2, lower=-np.ones(12), upper=1.0)
+    assert model.lower.tolist() == [-np.inf] * 7 + [-1.0] * 12
+    assert model.upper.tolist() == [np.inf] * 7 + [1.0] * 12
+    q = model.random_configuration(rng=0)
+    assert q.shape == (19,)
+    assert (abs(q[7:]) <= 1).all()
+
+
+def test_rotors_given_as_twelve_numbers_are_those_of_the_joints():
+    geared = replace(GO2, armature=np.full(12, 0.01))
+    q = GO2.standing()
+    added = tw.crba(geared, q) - tw.crba(GO2, q)
+    assert close(added, np.diag([0.0] * 6 + [0.01] * 12), 1e-15)
 
 
 def test_model_survives_pickling_and_copying():

@@ -19,7 +19,7 @@ from numpy.typing import DTypeLike, NDArray
 
 __all__ = ["beside", "convert", "elementary", "exact_numbers", "exact_unit", "has_objects", "home", "judged"]
 
-SYMBOLS = np.dtype(object, metadata={"floats": "decimals"})  # type: ignore[call-overload]
+SYMBOLS = np.dtype(object, metadata={"floats": "decimals"})
 """The number type of arrays among which there are symbols: beside them 0.1 is 1/10, the shortest decimal that is read
 as that float. For NumPy it is `object`, and every slice of such an array has it. Beside fractions alone 0.1 is the
 fraction that the float is, 3602879701896397/36028797018963968."""

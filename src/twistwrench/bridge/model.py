@@ -7,14 +7,14 @@ reordered like v.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
 from ..errors import ModelError
-from ..model import PER_DOF, WORLD, AxisJoint, Continuous, Frame, FreeFlyer, Joint, Link, Model, check_model
+from ..model import AxisJoint, Continuous, Frame, FreeFlyer, Joint, Model, check_model
 from ..spatial import SE3, SpatialInertia
 from .objects import (
     from_pinocchio_inertia,
@@ -197,23 +197,11 @@ def from_pinocchio_model(there: Any) -> Model:
         upper=_limits(there.upperPositionLimit),
         velocity_limit=_limits(there.velocityLimit[order]),
         effort_limit=_limits(there.effortLimit[order]),
-        postures={entry.key(): entry.data() for entry in there.referenceConfigurations},
     )
-    _check_joints(model)
-    for name, q in model.postures.items():
+    postures = {entry.key(): entry.data() for entry in there.referenceConfigurations}
+    for name, q in postures.items():
         _named(model.state, q, name, "named configuration")
-    return model
-
-
-def _check_joints(model: Model) -> None:
-    """Raise for the names, limits and armatures that `Builder` rejects."""
-    for i in range(1, model.nbodies):
-        name, at = model.joint_names[i], (model.q_slice[i], model.v_slice[i])
-        if name in model.joint_names[1:i]:
-            raise ModelError(f"joint {name!r}: the name is taken")
-        over_q = {key: getattr(model, key)[at[0]] for key in ("lower", "upper")}
-        over_v = {key: getattr(model, key)[at[1]] for key in PER_DOF}
-        Link.checked("", WORLD, model.joints[i], name, model.placement[i], model.inertia[i], over_q | over_v)
+    return replace(model, postures=postures)
 
 
 def _joints_here(there: Any) -> tuple[Joint | None, ...]:

@@ -11,6 +11,7 @@ constants       the numbers of a model in one number type
 state           what a state must be: shapes, finite numbers, quaternions of norm 1
 configuration   the manifold of q: `integrate`, `difference`, `normalize`, `random_configuration`
 manifold        derivatives of ⊕ and ⊖, `interpolate` and `distance`
+checks          what every model must satisfy: its joints, their limits, its bodies
 report          what a loader had to interpret, and how
 outline         a model as a tree that unfolds, for notebooks
 model           `Model`, frozen, and its frames
@@ -26,22 +27,23 @@ editing         `attach`: two models as one; `replace_inertia`
 ==============  ======================================================================================
 """
 
-from .arguments import check_model, check_state, floats_of, in_double, one_configuration
+from .arguments import check_model, check_state, floats_of, one_configuration
 from .builder import Builder
+from .checks import PER_DOF, UNLIMITED, WORLD
 from .configuration import ConfigurationSpace
 from .constants import Constants, cast, readonly
 from .editing import attach, replace_inertia
 from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
 from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
-from .link import UNLIMITED, WORLD, Link
+from .link import Link
 from .manifold import Manifold
-from .model import PER_DOF, Frame, Model
+from .model import Frame, Model
 from .numbering import NumberedTree
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
 from .report import Entry, Report
 from .samples import KINDS, chain, random_tree
 from .serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
-from .state import check_arrays, checked_state
+from .state import check_arrays, checked_state, in_double
 from .tree import Tree, columns, composite_inertias, joint_placements, stacked, tree_terms, wrenches
 
 __all__ = [

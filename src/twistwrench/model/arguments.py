@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_constant
+from ..arrays import Array
 from ..errors import ShapeError, no_model
 from .model import Model
 from .state import checked_state
 
-__all__ = ["check_model", "check_state", "floats_of", "in_double", "one_configuration"]
+__all__ = ["check_model", "check_state", "floats_of", "one_configuration"]
 
 
 def check_model(model: object) -> None:
@@ -36,12 +36,3 @@ def one_configuration(model: Model, q: ArrayLike) -> Array:
     if q.ndim != 1 or q.dtype.kind == "c":
         raise ShapeError(f"q: expected one real configuration, shape ({model.nq},), got {q.dtype} of shape {q.shape}")
     return q
-
-
-def in_double(model: Model, q: Array) -> Array:
-    """Return a copy of a checked q in double precision; reject complex numbers.
-
-    Quaternions given in single precision are normalised to all the digits that they have now.
-    """
-    double = as_constant(q, "q")
-    return double if q.dtype == double.dtype else model.normalize(double)

@@ -8,20 +8,19 @@ first, siblings in the order of their joints' names.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_exactly, as_flag, as_names, check_choice, check_kind
-from ..errors import ModelError, ShapeError, check_known
+from ..arrays import Array, as_exactly, as_flag, check_choice, check_kind
+from ..errors import ModelError, check_known
 from ..spatial import SE3, SpatialInertia
-from .arguments import in_double
+from .checks import PER_DOF, WORLD
 from .joint import Joint
 from .joints import FreeFlyer
-from .link import WORLD, Link
-from .model import PER_DOF, Model
+from .link import Link
+from .model import Model
 from .numbering import NumberedTree
 from .report import Report
 
@@ -82,8 +81,7 @@ class Builder:
         gravity: ArrayLike = GRAVITY,
     ) -> None:
         check_choice(base, "base", ("fixed", "floating"), ModelError)
-        if not isinstance(name, str):
-            raise TypeError(f"name: expected a name, got {type(name).__name__} {name!r}")
+        check_kind(name, "name", str, "a name")
         check_kind(root_joint, "root_joint", str, "a name")
         self._name = name
         self._base = base
@@ -206,15 +204,13 @@ class Builder:
             If a body cannot exist, numbers overflow where links are merged, or two frames want one name.
         """
         postures = {} if postures is None else postures
-        check_kind(postures, "postures", Mapping, "configurations by name")
-        feet = as_names(feet, "feet", "frame names", ordered=True)
         physical = None if physical is None else as_flag(physical, "physical")
         with np.errstate(over="ignore", invalid="ignore"):
             tree = NumberedTree(self._links)
             tree.check_finite()
         report = Report(tree.check_bodies(physical))
         moved = tree.moved
-        model = Model(
+        return Model(
             name=self._name,
             base=self._base,
             joint_names=(WORLD, *(link.joint_name for link in moved)),
@@ -226,25 +222,11 @@ class Builder:
             gravity=self._gravity,
             lower=_join([link.lower for link in moved]),
             upper=_join([link.upper for link in moved]),
-            postures={},
-            feet=feet,
+            postures=postures,  # type: ignore[arg-type]  # a Model makes arrays of them
+            feet=feet,  # type: ignore[arg-type]
             report=report,
             **{name: _join([getattr(link, name) for link in moved]) for name in PER_DOF},
         )
-        for foot in model.feet:
-            model.frame(foot)
-        return replace(model, postures={name: _posture(model, name, q) for name, q in postures.items()})
-
-
-def _posture(model: Model, name: str, q: ArrayLike) -> Array:
-    """Return one configuration, checked."""
-    try:
-        checked = in_double(model, *model.state(q))
-    except ValueError as error:
-        raise type(error)(f"posture {name!r}: {error}") from None
-    if checked.ndim != 1:
-        raise ShapeError(f"posture {name!r}: expected one configuration, shape ({model.nq},), got {checked.shape}")
-    return checked
 
 
 def _join(pieces: list[Array]) -> Array:

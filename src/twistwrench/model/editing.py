@@ -11,7 +11,8 @@ from ..arrays import as_flag, check_kind
 from ..errors import ModelError
 from ..spatial import SE3, SpatialInertia
 from .arguments import check_model
-from .model import PER_DOF, Frame, Model
+from .checks import PER_DOF
+from .model import Frame, Model
 from .reduction import lock_joints
 from .report import Report
 

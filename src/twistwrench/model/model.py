@@ -14,20 +14,20 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import DTypeLike
+from numpy.typing import ArrayLike, DTypeLike
 
-from ..arrays import Array, as_constant, as_count
-from ..errors import check_known
+from ..arrays import Array, as_count, as_exactly, as_names, as_sequence, check_choice, check_kind
+from ..errors import ModelError, ShapeError, check_known
 from ..spatial import SE3, SpatialInertia
+from .checks import UNLIMITED, WORLD, as_entries, check_body, check_limits, check_name, check_placement
 from .constants import Constants, readonly
 from .joint import Joint
+from .joints import FreeFlyer
 from .manifold import Manifold
 from .report import Report
+from .state import in_double
 
-__all__ = ["PER_DOF", "Frame", "Model"]
-
-PER_DOF = ("armature", "velocity_limit", "effort_limit", "damping", "friction")
-"""The attributes of a `Model` with one entry for each degree of freedom."""
+__all__ = ["Frame", "Model"]
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,10 @@ class Frame:
 @dataclass(frozen=True, eq=False, repr=False)
 class Model(Manifold):
     """A tree of rigid bodies. Frozen; made by `twistwrench.load` or `twistwrench.Builder`.
+
+    A copy with other attributes is ``dataclasses.replace(model, damping=3.0)``, checked as what comes from `Builder`.
+    Where an attribute has an entry for each one of q or v, those of a floating base may be left out: it then has no
+    limits, armature, damping or friction. One number stands for all that are left: 12 numbers for 12 motors, or one.
 
     Attributes
     ----------
@@ -85,6 +89,16 @@ class Model(Manifold):
     report : Report
         What the loader had to interpret, and how. Prints as a table.
 
+    Raises
+    ------
+    ModelError
+        If a limit, an armature, damping or friction cannot be, a name is taken, or joints do not form a tree.
+    ShapeError, ValueError, NameNotFound
+        If an attribute has a wrong size or is not of finite real numbers, a posture is not a configuration, or a foot
+        not a frame.
+    TypeError
+        If an attribute is of another kind.
+
     Examples
     --------
     >>> import twistwrench as tw
@@ -109,21 +123,71 @@ class Model(Manifold):
     effort_limit: Array
     postures: Mapping[str, Array] = field(default_factory=dict)
     feet: tuple[str, ...] = ()
-    damping: Array = field(default_factory=lambda: np.zeros(0))
-    friction: Array = field(default_factory=lambda: np.zeros(0))
+    damping: Array = field(default_factory=lambda: np.zeros(()))
+    friction: Array = field(default_factory=lambda: np.zeros(()))
     report: Report = field(default_factory=Report)
     _constants: dict[Any, Constants] = field(default_factory=dict, init=False)
     _programs: dict[Any, Any] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
-        for name in ("gravity", "armature", "lower", "upper", "velocity_limit", "effort_limit"):
-            object.__setattr__(self, name, readonly(as_constant(getattr(self, name), name)))
-        for name in ("damping", "friction"):
-            given = as_constant(getattr(self, name), name)
-            object.__setattr__(self, name, readonly(given if given.size else np.zeros(self.nv)))
-        postures = {name: readonly(as_constant(q, f"posture {name!r}")) for name, q in self.postures.items()}
-        object.__setattr__(self, "postures", MappingProxyType(postures))
-        object.__setattr__(self, "frames", MappingProxyType(dict(self.frames)))
+        check_kind(self.name, "name", str, "a name")
+        check_choice(self.base, "base", ("fixed", "floating"), ModelError)
+        self._check_bodies()
+        self._hold("gravity", readonly(as_exactly(self.gravity, "gravity", 3)))
+        self._check_limits()
+        check_kind(self.frames, "frames", Mapping, "frames by name")
+        self._hold("frames", MappingProxyType(dict(self.frames)))
+        for name, frame in self.frames.items():
+            check_kind(frame, f"frame {name!r}", Frame, "a Frame")
+            if frame.body not in range(self.nbodies):
+                raise ModelError(f"frame {name!r}: expected a body from 0 to {self.nbodies - 1}, got {frame.body!r}")
+            check_placement(frame.placement, f"frame {name!r}")
+        self._hold("feet", as_names(self.feet, "feet", "frame names", ordered=True))
+        for foot in self.feet:
+            self.frame(foot)
+        check_kind(self.postures, "postures", Mapping, "configurations by name")
+        postures = {name: readonly(_posture(self, name, q)) for name, q in self.postures.items()}
+        self._hold("postures", MappingProxyType(postures))
+        check_kind(self.report, "report", Report, "a Report")
+
+    def _hold(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)
+
+    def _check_bodies(self) -> None:
+        """Raise unless each body has a name, a joint, a parent of a smaller number, a placement and an inertia."""
+        for name in ("joint_names", "joints", "parent", "placement", "inertia"):
+            entries = as_sequence(getattr(self, name), name, "one for each body", letters=False, ordered=True)
+            self._hold(name, entries)
+            if len(entries) != len(self.joint_names):
+                raise ShapeError(f"{name}: expected {len(self.joint_names)} entries, one a body, got {len(entries)}")
+        world = (self.joint_names[:1], self.joints[:1], self.parent[:1])
+        if world != ((WORLD,), (None,), (-1,)):
+            raise ModelError(f"joint_names, joints and parent: expected {WORLD!r}, None and -1 first, got {world}")
+        bodies = zip(self.joint_names, self.joints, self.parent, self.placement, self.inertia)
+        taken = {WORLD}
+        for i, (name, joint, parent, placement, inertia) in enumerate(bodies):
+            check_body(f"joint {name!r}", joint, name, placement, inertia)
+            if i == 0:
+                continue
+            check_name(name, "joint")
+            if name in taken:
+                raise ModelError(f"joint {name!r}: the name is taken")
+            taken.add(name)
+            if joint is None:
+                raise ModelError(f"joint {name!r}: expected a joint such as Revolute('z'), got None")
+            if parent not in range(i):
+                raise ModelError(f"joint {name!r}: expected a parent from 0 to {i - 1}, got {parent!r}")
+        if self.base == "floating" and not (self.nbodies > 1 and isinstance(self.joints[1], FreeFlyer)):
+            raise ModelError("base: expected 'fixed', as joint 1 is not a FreeFlyer, got 'floating'")
+
+    def _check_limits(self) -> None:
+        """Raise unless there is a limit, an armature, a damping and a friction for each entry of q or v."""
+        floating = self.base == "floating"
+        sizes = {key: (self.nq, 7) if key in ("lower", "upper") else (self.nv, 6) for key in UNLIMITED}
+        for key, (size, base) in sizes.items():
+            self._hold(key, as_entries(getattr(self, key), key, size, base * floating, key))
+        joints = list(zip(self.joint_names, self.q_slice, self.v_slice))
+        check_limits({key: readonly(getattr(self, key)) for key in UNLIMITED}, joints[1:])
 
     def __reduce__(self) -> tuple[partial[Model], tuple[()]]:
         given = {f.name: getattr(self, f.name) for f in fields(self) if f.init}
@@ -245,3 +309,14 @@ class Model(Manifold):
         if key not in self._constants:
             self._constants[key] = Constants.of(self, kind)
         return self._constants[key]
+
+
+def _posture(model: Model, name: str, q: ArrayLike) -> Array:
+    """Return a named configuration, checked."""
+    try:
+        checked = in_double(model, *model.state(q))
+    except ValueError as error:
+        raise type(error)(f"posture {name!r}: {error}") from None
+    if checked.ndim != 1:
+        raise ShapeError(f"posture {name!r}: expected one configuration, shape ({model.nq},), got {checked.shape}")
+    return checked

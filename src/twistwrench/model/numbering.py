@@ -9,7 +9,8 @@ import numpy as np
 from ..errors import ModelError
 from ..spatial import SE3, SpatialInertia
 from ..spatial._physical import check_not_negative
-from .link import WORLD, Link
+from .checks import WORLD
+from .link import Link
 from .model import Frame
 from .report import Entry
 

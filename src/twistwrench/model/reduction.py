@@ -16,8 +16,10 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_names
 from ..errors import NameNotFound
 from ..spatial import SE3, SpatialInertia
-from .arguments import in_double, one_configuration
-from .model import PER_DOF, Frame, Model
+from .arguments import one_configuration
+from .checks import PER_DOF
+from .model import Frame, Model
+from .state import in_double
 from .tree import joint_placements
 
 __all__ = ["Reduction", "idle_joints", "lock_joints", "matching_joints"]

@@ -28,9 +28,10 @@ from ..errors import ModelError, ShapeError, check_known
 from ..spatial import SE3, SpatialInertia, exp3, screw
 from .arguments import check_model
 from .builder import GRAVITY, Builder
+from .checks import UNLIMITED
 from .joint import AxisJoint, Joint
 from .joints import Helical, Prismatic, Revolute
-from .link import UNLIMITED, placement_of
+from .link import placement_of
 from .model import Model
 from .tree import joint_placements
 

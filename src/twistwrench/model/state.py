@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_arrays, as_number_arrays, check_size, judged, resolution
+from ..arrays import Array, as_arrays, as_constant, as_number_arrays, check_size, judged, resolution
 from ..arrays.conversion import WIDENED
 from ..errors import ShapeError
 from ..spatial._elementary import at_first_index
@@ -19,7 +19,7 @@ from ..spatial._elementary import at_first_index
 if TYPE_CHECKING:
     from .configuration import ConfigurationSpace
 
-__all__ = ["check_arrays", "checked_state"]
+__all__ = ["check_arrays", "checked_state", "in_double"]
 
 
 def checked_state(
@@ -46,6 +46,15 @@ def checked_state(
         if name.startswith("q"):
             arrays[k] = _with_norm_1(model, arrays[k], name, given=np.asarray(named[name]).dtype)
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
+
+
+def in_double(model: ConfigurationSpace, q: Array) -> Array:
+    """Return a copy of a checked q in double precision; reject complex numbers.
+
+    Quaternions given in single precision are normalised to all the digits that they have now.
+    """
+    double = as_constant(q, "q")
+    return double if q.dtype == double.dtype else model.normalize(double)
 
 
 def check_arrays(
