@@ -37,11 +37,38 @@ def test_a_rotation_that_was_rounded_is_refused_with_its_repair_and_repaired(los
     np.testing.assert_allclose(tw.log3(repaired), tw.log3(turns()), rtol=0, atol=1e-6)
 
 
-def test_the_nearest_rotation_is_the_polar_factor_as_far_as_it_is_offered():
-    rng = np.random.default_rng(1)
-    for size in (1e-3, 1e-2, 0.03):
-        R = turns(50) @ (np.eye(3) + size * rng.uniform(-1, 1, (50, 3, 3)) / 3)
-        np.testing.assert_allclose(tw.nearest_rotation(R), polar(R), rtol=0, atol=1e-14)
+@pytest.mark.parametrize("size", [1e-3, 1e-2, 0.03, 0.1, 0.3])
+def test_the_nearest_rotation_is_the_polar_factor(size):
+    R = turns(50) @ (np.eye(3) + size * np.random.default_rng(1).uniform(-1, 1, (50, 3, 3)))
+    np.testing.assert_allclose(tw.nearest_rotation(R), polar(R), rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("stretch", [[2, 2, 2], [1e200, 1e199, 1e200], [1e-160] * 3, [1, 1e-3, 1e3], [1, 1e-6, 1]])
+def test_scaled_and_stretched_matrices_are_projected(stretch):
+    """R P with P symmetric and positive definite: R is the rotation, whatever P."""
+    R, axes = turns(20, 3), turns(20, 4)
+    P = axes @ (np.array(stretch)[:, None] * axes.mT)
+    room = 1e-15 * max(stretch) / min(stretch) + 1e-14
+    np.testing.assert_allclose(tw.nearest_rotation(R @ P), R, rtol=0, atol=room)
+    near = np.concatenate([R, R @ P])  # some items are rotations already
+    np.testing.assert_allclose(tw.nearest_rotation(near), np.concatenate([R, R]), rtol=0, atol=room)
+    np.testing.assert_allclose(tw.nearest_rotation((2 * R).astype(np.float32)), R, rtol=0, atol=1e-6)
+
+
+def test_a_measured_rotation_is_projected_as_mujoco_does():
+    mujoco = pytest.importorskip("mujoco", reason="MuJoCo is not installed: it is not asked")
+    for R in turns(10) + np.random.default_rng(6).normal(0, 0.1, (10, 3, 3)):
+        quaternion, there = np.array([1.0, 0, 0, 0]), np.zeros(9)
+        mujoco.mju_mat2Rot(quaternion, R.ravel())
+        mujoco.mju_quat2Mat(there, quaternion)
+        np.testing.assert_allclose(tw.nearest_rotation(R), there.reshape(3, 3), rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("bad", [np.diag([1, 1, -1.0]), np.zeros((3, 3)), np.ones((3, 3)), np.diag([1, 1, 0.0])])
+def test_without_a_positive_determinant_no_rotation_is_the_nearest(bad):
+    with pytest.raises(ValueError, match=r"^R: .* positive determinant, .* at index \(1,\)$") as e:
+        tw.nearest_rotation([np.eye(3), bad])
+    assert not isinstance(e.value, tw.ShapeError)
 
 
 @pytest.mark.parametrize("size", [1e-7, 1e-3, 0.03])
@@ -83,7 +110,7 @@ def test_it_ends_where_rounding_gains_an_ulp_with_every_step():
 
 def test_a_complex_step_differentiates_the_nearest_rotation():
     rng = np.random.default_rng(2)
-    for R in (turns(1)[0], turns(1)[0].round(4)):
+    for R in (turns(1)[0], turns(1)[0].round(4), turns(1)[0] @ (np.eye(3) + rng.uniform(-0.2, 0.2, (3, 3)))):
         step = rng.standard_normal((3, 3))
         slope = tw.nearest_rotation(R + 1e-30j * step).imag / 1e-30
         central = (polar(R + 1e-5 * step) - polar(R - 1e-5 * step)) / 2e-5

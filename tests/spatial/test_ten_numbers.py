@@ -217,3 +217,32 @@ def test_errors_name_the_argument():
         SpatialInertia.from_pseudo_inertia(np.triu(np.ones((4, 4))))
     with pytest.raises(tw.ShapeError, match=r"P: expected shape \(\.\.\., 4, 4\)"):
         SpatialInertia.from_pseudo_inertia(np.eye(3))
+
+
+# --- scaling -------------------------------------------------------------------------------------
+
+
+def test_a_body_as_many_times_as_dense_has_as_many_times_each_of_the_ten_numbers():
+    body = SpatialInertia(2.0, [0.1, -0.2, 0.3], np.diag([0.01, 0.02, 0.025]))
+    for scaled in (3 * body, body * 3.0, np.float64(3) * body, body / (1 / 3)):
+        np.testing.assert_allclose(scaled.matrix(), 3 * body.matrix(), rtol=1e-15)
+    batch = np.array([1.0, 2.0, 0.0]) * body
+    np.testing.assert_allclose(batch.parameters(), np.outer([1, 2, 0], body.parameters()), rtol=1e-15, atol=1e-17)
+    single = SpatialInertia(np.float32(2), np.zeros(3, np.float32), np.eye(3, dtype=np.float32))
+    assert (2 * single).com.dtype == (single / 2).com.dtype == np.float32
+    assert (Fraction(1, 3) * SpatialInertia(Fraction(1), [0, 0, 0], np.eye(3))).mass == Fraction(1, 3)
+
+
+def test_what_no_body_can_be_scaled_by_is_refused_with_what_works():
+    body = SpatialInertia(2.0, [0.1, -0.2, 0.3], np.diag([0.01, 0.02, 0.025]))
+    for call in (lambda: -body, lambda: -2 * body, lambda: np.array([1.0, -2]) * body, lambda: body / -2):
+        with pytest.raises(tw.ModelError, match=r"scale: .* not negative, got -.*parameters\(\)"):
+            call()
+    with pytest.raises(ZeroDivisionError):
+        body / 0
+    with pytest.raises(TypeError, match=r"SpatialInertia \* Twist: .* I @ V"):
+        body * tw.Twist(np.zeros(6))
+    with pytest.raises(TypeError, match=r"SpatialInertia \* SpatialInertia"):
+        body * body
+    with pytest.raises(ValueError, match="scale: expected numbers, got 'two'"):
+        body * "two"

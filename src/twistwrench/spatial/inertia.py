@@ -8,12 +8,12 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, judged, tolerance, without_overflow
+from ..arrays import Array, as_array, as_number_array, as_number_arrays, judged, tolerance, without_overflow
 from ..errors import ModelError
 from ._elementary import at_first_index, largest
 from ._physical import check_physical
 from ._shapes import Shapes
-from ._vector import aligned, as_spatial
+from ._vector import SpatialVector, aligned, as_spatial
 from .cross import cross_force, cross_motion
 from .ellipsoid import views
 from .plucker import SE3, blocks, placed_point
@@ -48,6 +48,8 @@ class SpatialInertia(Shapes):
     >>> body = SpatialInertia(2.0, [0, 0, 0.1], np.diag([0.01, 0.01, 0.005]))
     >>> body.matrix()[0, :5]
     array([ 0.03,  0.  ,  0.  ,  0.  , -0.2 ])
+    >>> (1.5 * body).mass, (body + body).mass  # half as dense again, and two of them
+    (array(3.), array(4.))
     """
 
     __slots__ = ()
@@ -175,6 +177,37 @@ class SpatialInertia(Shapes):
         return SpatialInertia._trusted(
             m, com, self.inertia_at_com - other.inertia_at_com + np.asarray(m1 * ratio)[..., None, None] * (D @ D)
         )
+
+    def __mul__(self, scale: ArrayLike) -> SpatialInertia:
+        """Scale a body: the same shape of a material as many times as dense."""
+        if isinstance(scale, SpatialInertia | SpatialVector):
+            use = "I @ V is the momentum" if isinstance(scale, SpatialVector) else "only inertias and numbers multiply"
+            raise TypeError(f"SpatialInertia * {type(scale).__name__}: expected a number; {use}")
+        # A Python number takes the type of the inertia: twice one of float32 is one of float32.
+        if type(scale) in (int, float, complex):
+            scale = np.asarray(scale, np.result_type(self.com, scale))
+        a, c = as_number_arrays(scale=(scale, ()), com=(self.com, (3,)))
+        negative = np.asarray(judged(a) < 0)
+        if negative.any():
+            raise ModelError(
+                f"scale: expected a number that is not negative, got {judged(a)[negative][0]:.6g}"
+                f"{at_first_index(negative)}: no mass is; I₁ − I₂ takes a part away, and I.parameters() are ten "
+                "numbers that may have any sign"
+            )
+        mass = np.asarray(a * self.mass)
+        com = np.broadcast_to(c, (*mass.shape, 3))
+        return SpatialInertia._trusted(mass, com, np.asarray(a[..., None, None] * self.inertia_at_com))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, scale: ArrayLike) -> SpatialInertia:
+        a = as_number_array(scale, "scale")
+        if (judged(a) == 0).any():
+            raise ZeroDivisionError("SpatialInertia / 0")
+        return self * (1 / scale if type(scale) in (int, float, complex) else 1 / a)
+
+    def __neg__(self) -> SpatialInertia:
+        return self * -1
 
     def __matmul__(self, V: Twist) -> Wrench:
         if not isinstance(V, Twist):
