@@ -124,7 +124,12 @@ def no_model(value: object, what: str = "model", expected: str = "a Model") -> T
     elif (package, kind.__name__) == ("pinocchio", "Model"):
         hint = "; tw.bridge.from_pinocchio_model makes one of it"
     elif package == "twistwrench" and hasattr(value, "full") and hasattr(value, "laws"):
-        hint = "; this function does not support joints that follow others; its .full has them free"
+        follower, (leader, ratio, _) = next(iter(value.laws.items()))
+        held = f"contacts=[tw.Coupling({follower!r}, {{{leader!r}: {ratio:g}}}){', …' * (len(value.laws) > 1)}]"
+        hint = (
+            "; this function does not support joints that follow others; its .full has them free, and where a "
+            f"function takes contacts, {held} couples them there"
+        )
     elif package == "twistwrench" and hasattr(value, "model"):
         hint = "; did you mean its .model?"
     return TypeError(f"{what}: expected {expected}, got {got}{hint}")

@@ -122,3 +122,35 @@ def test_aba_says_which_state_of_a_batch_is_singular():
     q, rest = np.array([[0.3, 1.0, 0.2], [0.3, 0.0, 0.2]]), np.zeros(3)
     with pytest.raises(tw.SingularError, match=r"joint 'outer': .* at index \(1,\)"):
         tw.aba(builder.build(), q, rest, rest)
+
+
+def slide(mass):
+    builder = tw.Builder("slide")
+    body = tw.SpatialInertia(mass, np.zeros(3), np.zeros((3, 3)))
+    builder.link("bead", parent="base_link", joint=tw.Prismatic("z"), inertia=body)
+    return builder.build()
+
+
+@pytest.mark.parametrize("mass", [1e-320, 1e-308])
+@pytest.mark.parametrize(
+    "function",
+    [
+        lambda model: tw.aba(model, [0.0], [0.0], [1.0]),
+        lambda model: tw.aba(model, [[0.0]] * 2, [0.0], [0.0]),
+        lambda model: tw.articulated_inertia(model, [0.0], "bead"),
+        lambda model: tw.solve_mass_matrix(model, [0.0], [1.0]),
+        lambda model: tw.ltdl(model, [0.0]),
+    ],
+)
+def test_an_inertia_whose_reciprocal_overflows_is_singular(mass, function):
+    with pytest.raises(tw.SingularError, match="joint 'bead'"):
+        function(slide(mass))
+
+
+def test_a_light_body_that_can_be_accelerated_is_and_one_that_flies_off_is_an_error_by_name():
+    model = slide(1e-300)
+    assert tw.aba(model, [0.0], [0.0], [1e-300])[0] == pytest.approx(1 - 9.81, rel=1e-14)
+    with pytest.raises(ValueError, match=r"tau.*: expected smaller numbers"):
+        tw.aba(model, [0.0], [0.0], [1e20])
+    with pytest.raises(ValueError, match="tau: expected smaller numbers"):
+        tw.solve_mass_matrix(model, [0.0], [1e20])

@@ -206,8 +206,23 @@ def test_what_does_not_know_such_models_refuses_them_by_name(save):
         lambda: tw.bridge.to_pinocchio_model(model),
     ]
     for call in calls:
-        with pytest.raises(TypeError, match=r"got the MimicModel.*joints that follow others; its \.full has them free"):
+        with pytest.raises(
+            TypeError,
+            match=r"got the MimicModel.*joints that follow others; its \.full has them free, and .* contacts=\[tw\.Coupling\(.b., \{.a.: -0\.7\}\), …\]",
+        ):
             call()
+
+
+def test_the_couplings_that_the_error_names_do_what_the_smaller_model_does(save):
+    small = tw.load(save(FINGER), mimic="reduce")
+    q, v, _ = state(small)
+    full, (q_full, v_full) = small.full, small.expand(q, v)
+    couplings = [tw.Coupling(name, {leader: ratio}) for name, (leader, ratio, _) in small.laws.items()]
+    leaders, tau = [full.v_slice[full.joint_id(name)].start for name in small.joint_names[1:]], np.zeros(full.nv)
+    tau[leaders] = [0.3, -0.2]
+    qdd = tw.contact_forward_dynamics(full, q_full, v_full, tau, couplings).qdd
+    np.testing.assert_allclose(qdd[leaders], tw.aba(small, q, v, tau[leaders]), rtol=1e-12)
+    np.testing.assert_allclose(qdd, small.expand(q, qdd[leaders])[1], rtol=0, atol=1e-12 * abs(qdd).max())
 
 
 def test_a_wrong_shape_is_told_in_the_smaller_coordinates(save):

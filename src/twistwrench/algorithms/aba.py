@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
+from ..arrays import Array, check_overflow
 from ..errors import SingularError
 from ..model import Model, Tree, check_state, columns, stacked, tree_terms, wrenches
 from ..spatial.formulas import bias_wrench, cross_motion, inverse, symmetric
@@ -137,4 +137,5 @@ def aba_terms(model: Model, q: ArrayLike, v: ArrayLike, tau: ArrayLike, f_ext: A
         refuse_weightless(model, tree)
         raise SingularError("a joint moves no inertia with its outboard joints free: q̈ is not determined") from None
     refuse_singular(model, tree, terms)
+    check_overflow(terms.qdd, "v, tau, f_ext")
     return terms

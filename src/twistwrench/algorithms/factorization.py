@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, judged, resolution
+from ..arrays import Array, check_overflow, judged, resolution
 from ..errors import SingularError
 from ..model import Model, Tree, check_state, tree_terms
 from ..spatial._elementary import at_first_index, sqrt
@@ -99,7 +99,7 @@ def checked_factors(model: Model, tree: Tree) -> tuple[Array, Array, list[list[i
     except ZeroDivisionError as error:
         raise singular(*error.args) from None
     size, exact = judged(np.diagonal(M, axis1=-2, axis2=-1)), D.dtype == object
-    least = size * (0 if exact else ROUNDINGS * resolution(D.dtype))
+    least = 0 * size if exact else np.maximum(size * ROUNDINGS * resolution(D.dtype), np.finfo(D.dtype).tiny)
     lost = judged(D) <= least if exact else ~(D.real > least)  # a symbol has no value to check
     if lost.any():
         k = int(np.argwhere(lost)[:, -1].max())  # the first that was eliminated; those inboard of it are lost with it
@@ -221,5 +221,8 @@ def solve_mass_matrix(model: Model, q: ArrayLike, tau: ArrayLike) -> Array:
     """
     q, tau = check_state(model, q, tau=tau)
     L, D, inboard = checked_factors(model, tree_terms(model, q))
-    Y = solve_inward(L, inboard, tau[..., None]) / D[..., None]
-    return solve_outward(L, inboard, Y)[..., 0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        Y = solve_inward(L, inboard, tau[..., None]) / D[..., None]
+        qdd = solve_outward(L, inboard, Y)[..., 0]
+    check_overflow(qdd, "tau")
+    return qdd

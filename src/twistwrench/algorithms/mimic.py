@@ -51,7 +51,8 @@ class MimicModel(Manifold):
 
     `rnea`, `aba`, `crba`, `nonlinear_effects`, `gravity`, `coriolis_matrix`, the kinematics, Jacobians, energies, the
     centroidal quantities and `dynamics` take it in the place of a `Model`. Other functions, those of ``tw.fast`` too,
-    raise TypeError; they take `full`, with the q and v of `expand`.
+    raise TypeError; they take `full`, with the q and v of `expand`. Where they take contacts, as `simulate` and `Scene`
+    do, a `Coupling` for each joint that follows makes it follow there.
 
     Parameters
     ----------

@@ -82,10 +82,12 @@ def refuse_lost(D: Array, bound: Array, name: str, hint: str = "") -> None:
 
     Such an inertia cannot be distinguished from zero: the outboard joints can do the same motion.
     """
-    size = np.abs(np.diagonal(D.real, axis1=-2, axis2=-1)) + np.diagonal(bound.real, axis1=-2, axis2=-1)
+    own = np.diagonal(D.real, axis1=-2, axis2=-1)
+    size = np.abs(own) + np.diagonal(bound.real, axis1=-2, axis2=-1)
     unit = np.sqrt(np.where(size == 0, 1, size))
     scaled = (D.real / unit[..., :, None] / unit[..., None, :]).astype(np.float64)
     lost = np.asarray((np.linalg.eigvalsh(scaled) < ROUNDINGS * resolution(D.dtype)).any(axis=-1))
+    lost |= (own < np.finfo(D.dtype).tiny).any(axis=-1)  # of which the reciprocal may overflow
     if lost.any():
         raise SingularError(
             f"joint {name!r}: with its outboard joints free it moves no inertia beyond rounding"

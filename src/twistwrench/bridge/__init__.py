@@ -24,14 +24,17 @@ ids, τ of a joint with one degree of freedom, the centre of mass and the energi
 The functions on arrays do not need Pinocchio.
 
 From MuJoCo come models (`from_mujoco_model`) and, both ways, states: ``from_mujoco_configuration`` for q, and
-``from_mujoco_tangent`` for v and forces, of which only free and ball joints differ.
+``from_mujoco_tangent`` for v and forces, of which only free and ball joints differ; ``from_mujoco_acceleration`` for q̈,
+in which MuJoCo has an ω × v that ours does not.
 """
 
 from .model import from_pinocchio_model, to_pinocchio_model
 from .mujoco import from_mujoco_model
 from .mujoco_states import (
+    from_mujoco_acceleration,
     from_mujoco_configuration,
     from_mujoco_tangent,
+    to_mujoco_acceleration,
     to_mujoco_configuration,
     to_mujoco_tangent,
 )
@@ -64,6 +67,7 @@ from .tangent import (
 )
 
 __all__ = [
+    "from_mujoco_acceleration",
     "from_mujoco_configuration",
     "from_mujoco_model",
     "from_mujoco_tangent",
@@ -79,6 +83,7 @@ __all__ = [
     "from_pinocchio_tangent",
     "from_pinocchio_transform",
     "import_pinocchio",
+    "to_mujoco_acceleration",
     "to_mujoco_configuration",
     "to_mujoco_tangent",
     "to_pinocchio_contact_jacobian",

@@ -15,8 +15,10 @@ from .spatial import HALVES
 
 __all__ = [
     "SCALAR_LAST",
+    "from_mujoco_acceleration",
     "from_mujoco_configuration",
     "from_mujoco_tangent",
+    "to_mujoco_acceleration",
     "to_mujoco_configuration",
     "to_mujoco_tangent",
 ]
@@ -96,7 +98,8 @@ def _order(model: Model) -> Array:
 def from_mujoco_tangent(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """Turn MuJoCo's ``qvel``, or a force over v such as ``qfrc_bias``, into ours: (ω, Rᵀv) of each free joint.
 
-    Both change alike, since the map is orthogonal. Accelerations of a free joint differ by ω × v besides.
+    Both change alike, since the map is orthogonal. An acceleration is not one of them: see
+    `from_mujoco_acceleration`.
 
     Parameters
     ----------
@@ -131,6 +134,8 @@ def from_mujoco_tangent(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
 def to_mujoco_tangent(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     """Turn our v, τ or h into MuJoCo's: the inverse of `from_mujoco_tangent`, with the same errors.
 
+    Of an acceleration `to_mujoco_acceleration` is the one that is right.
+
     Parameters
     ----------
     model : Model
@@ -150,6 +155,83 @@ def to_mujoco_tangent(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     array([4., 5., 6., 1., 2., 3.])
     """
     return _tangent(model, q, v, to=True)
+
+
+def from_mujoco_acceleration(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
+    """Turn MuJoCo's ``qacc`` into our acceleration: (ω̇, Rᵀv̇ − ω × v) of each free joint.
+
+    MuJoCo's linear part is the acceleration of a point, in the world; ours is the rate of the body twist.
+
+    Parameters
+    ----------
+    model : Model
+        From `from_mujoco_model`.
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+        Both ours: `from_mujoco_configuration`, `from_mujoco_tangent`.
+    a : array_like, shape (..., nv)
+        MuJoCo's ``qacc``.
+
+    Returns
+    -------
+    ndarray, shape (..., nv)
+        For `rnea`; what `aba` returns.
+
+    Raises
+    ------
+    ShapeError, ValueError
+        As `Model.state`.
+    ModelError
+        If MuJoCo has no such joint.
+
+    Examples
+    --------
+    A robot that flies along x and turns about z does not accelerate, but its twist changes:
+
+    >>> import twistwrench as tw
+    >>> model, v = tw.load("go2"), [0, 0, 1, 2, *np.zeros(14)]
+    >>> from_mujoco_acceleration(model, model.neutral(), v, np.zeros(18))[3:6] + 0.0
+    array([ 0., -2.,  0.])
+    """
+    check_model(model)
+    q, v, a = model.state(q, v=v, a=a)
+    return _with_turning(model, v, from_mujoco_tangent(model, q, a), -1)
+
+
+def to_mujoco_acceleration(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
+    """Turn our acceleration into MuJoCo's ``qacc``: the inverse of `from_mujoco_acceleration`, with the same errors.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v, a : array_like, shape (..., nv)
+        All three ours.
+
+    Returns
+    -------
+    ndarray, shape (..., nv)
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model, v = tw.load("go2"), [0, 0, 1, 2, *np.zeros(14)]
+    >>> to_mujoco_acceleration(model, model.neutral(), v, np.zeros(18))[:3]
+    array([0., 2., 0.])
+    """
+    check_model(model)
+    q, v, a = model.state(q, v=v, a=a)
+    return to_mujoco_tangent(model, q, _with_turning(model, v, a, 1))
+
+
+def _with_turning(model: Model, v: Array, a: Array, sign: int) -> Array:
+    """Add ω × v of each free joint, or take it away: a point's acceleration is the rate of the twist plus ω × v."""
+    out = a.copy()
+    for joint, s in zip(model.joints, model.v_slice):
+        if isinstance(joint, FreeFlyer):
+            V = v[..., s]
+            out[..., s.start + 3 : s.stop] += sign * np.cross(V[..., :3], V[..., 3:])
+    return out
 
 
 def _tangent(model: Model, q: ArrayLike, v: ArrayLike, *, to: bool) -> Array:
