@@ -5,12 +5,13 @@ import time
 import mpmath
 import numpy as np
 import pytest
-from study.extremes.candidates import ALGORITHMS, candidates
+from study.extremes.candidates import ALGORITHMS, candidates, solve
 from study.extremes.robots import Recipe, State
-from study.extremes.truth import truth
+from study.extremes.truth import accelerations, truth
 
 import twistwrench as tw
 from twistwrench import error_bounds
+from twistwrench.newton_euler_3d import as_mpmath
 
 from .sampling import sampled
 
@@ -104,6 +105,151 @@ def test_no_error_is_above_the_estimate_in_random_trees_with_joints_of_every_kin
     found = list(worst(model, s, ("textbook", "fast")))
     assert len(found) == 10
     assert [(what, error, bound) for what, error, bound in found if not error <= bound] == []
+
+
+# ---------------------------------------------------------------- terms that cancel in q̈
+
+
+def one_body(joint, inertia, **options):
+    builder = tw.Builder("body", **options)
+    builder.link("body", parent="base_link", joint=joint, inertia=inertia)
+    return builder.build()
+
+
+def disc(mass=0.1, radius=0.03, axis=(1, 2, 2)):
+    n = np.array(axis) / np.linalg.norm(axis)
+    return tw.SpatialInertia(mass, np.zeros(3), mass * radius**2 / 4 * (np.eye(3) + np.outer(n, n))), n
+
+
+def fan(rate, drive):
+    inertia, n = disc()
+    return one_body(tw.Revolute(n), inertia), [0.3], [rate], [drive]
+
+
+def ball(rate, drive, gravity, mass=0.5, radius=0.05):
+    inertia, direction = tw.SpatialInertia.from_sphere(mass, radius), np.array([0.6, -0.3, 0.742])
+    model = tw.Builder("ball", base="floating", root="ball", root_inertia=inertia, gravity=gravity).build()
+    return model, model.neutral(), np.r_[rate * direction, 0, 0, 0], np.r_[drive * direction[::-1], 0, 0, 0]
+
+
+def screw(rate):
+    inertia = tw.SpatialInertia(1.0, [0.02, 0.01, 0], np.diag([0.01, 0.02, 0.015]))
+    return one_body(tw.Helical([1, 2, 3], 0.4), inertia), [0.3], [rate], [1e-3]
+
+
+def car(seed):
+    """Spinning wheels with oblique axes on a body that hardly moves."""
+    rng = np.random.default_rng(seed)
+    body = tw.SpatialInertia.from_box(10.0, [1, 0.5, 0.2])
+    builder = tw.Builder("car", base="floating", root="body", root_inertia=body, gravity=[0, 0, 0])
+    for k in range(4):
+        inertia, n = disc(0.5, 0.2, rng.standard_normal(3))
+        builder.link(f"wheel{k}", parent="body", joint=tw.Revolute(n), inertia=inertia,
+                     placement=tw.SE3(np.eye(3), rng.standard_normal(3)))  # fmt: skip
+    model = builder.build()
+    v = np.r_[np.zeros(6), rng.standard_normal(4) * 10 ** rng.uniform(1, 4)]
+    return model, model.random_configuration(rng=rng), v, rng.standard_normal(model.nv) * 10 ** rng.uniform(-6, 0)
+
+
+def tree(seed, seeds=None):
+    rng = np.random.default_rng(seed)
+    model = tw.random_tree(1 + seed % 8, rng=rng if seeds is None else seeds, base=("fixed", "floating")[seed % 2])
+    v = rng.standard_normal(model.nv) * 10 ** rng.uniform(0, 6)
+    return model, model.random_configuration(rng=rng), v, rng.standard_normal(model.nv) * 10 ** rng.uniform(-9, 3)
+
+
+def rods(seed):
+    """Thin rods on ball joints: each turns about itself almost freely."""
+    rng, builder, last = np.random.default_rng(seed), tw.Builder("rods"), "base_link"
+    for k in range(2 + seed % 3):
+        tip, turn = rng.standard_normal(3), tw.SE3(tw.exp3(rng.standard_normal(3)), np.zeros(3))
+        thin = tw.SpatialInertia(1.0, np.zeros(3), 10 ** rng.uniform(-5, 0) * np.diag([1, 1, 1.5]))
+        builder.link(f"rod{k}", parent=last, joint=tw.Spherical(), placement=tw.SE3(turn.rotation, tip),
+                     inertia=thin.transform(turn).transform(tw.SE3(np.eye(3), tip)))  # fmt: skip
+        last = f"rod{k}"
+    model = builder.build()
+    v = rng.standard_normal(model.nv) * 10 ** rng.uniform(-2, 3)
+    return model, model.random_configuration(rng=rng), v, rng.standard_normal(model.nv) * 100
+
+
+FAST = {
+    **{f"fan at {rate:g} rad/s, {drive:g} N m": fan(rate, drive) for rate in (100, 1047, 1e4) for drive in (0, 1e-4)},
+    **{f"ball at {rate:g} rad/s": ball(rate, 1e-9, [0, 0, -9.81]) for rate in (1e3, 1e4)},
+    "ball in orbit": ball(0.37, 1e-9, [0, 0, 0], 50.0, 0.5),
+    **{f"screw at {rate:g} rad/s": screw(rate) for rate in (10, 1e3, 2e6)},
+    "tree": tree(3, seeds=[1, 3]),
+    "car": car(0),
+    "rods": rods(0),
+}
+
+
+def exceeded(model, q, v, tau):
+    """What is above the estimate, of a state and without one."""
+    q, v, tau = (np.asarray(x, float) for x in (q, v, tau))
+    s, weight = State(q, v, np.zeros(model.nv)), np.sqrt(np.diagonal(tw.crba(model, q)))
+    right, free = (accelerations(model, s, x) for x in (tau, 0 * tau))
+    size = float(max(abs(x * weight).max() for x in (right, free, right - free)))
+    terms = (error_bounds._bias_terms(model, q, v) / weight).max()
+    for_all, for_this, for_any_torque = tw.accuracy(model, q), tw.accuracy(model, q, v, tau), tw.accuracy(model, q, v)
+    assert for_any_torque.aba >= for_this.aba * (1 - 1e-12)
+    answers = {
+        "aba": tw.aba(model, q, v, tau),
+        "fast": tw.fast.aba(model, q, v, tau),
+        "crba_solve": solve(tw.crba(model, q), tau - tw.nonlinear_effects(model, q, v)),
+    }
+    for name, answer in answers.items():
+        error = float(max(abs((as_mpmath(answer) - right) * weight)))
+        for known, against in ((for_this, size), (for_all, max(size, terms))):
+            if not error <= float(known.aba) * against and not np.isinf(known.aba):
+                yield name, error / against, float(known.aba)
+
+
+@pytest.mark.parametrize("machine", FAST)
+def test_where_terms_of_the_velocity_cancel_no_error_is_above_the_estimate(machine):
+    assert list(exceeded(*FAST[machine])) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("make", [car, tree, rods])
+@pytest.mark.parametrize("seed", range(1, 40))
+def test_no_error_of_fast_machines_is_above_the_estimate(make, seed):
+    assert list(exceeded(*make(seed))) == []
+
+
+def test_a_disc_that_spins_has_no_certain_digit_where_nothing_accelerates_it():
+    model, q, v, _ = fan(1047.0, 0.0)
+    assert tw.aba(model, q, v, [0.0]) != 0  # and right is 0
+    assert tw.accuracy(model, q, v, [0.0]).aba == np.inf
+    assert tw.accuracy(model, q, v, [0.0]).digits["aba"] == 0
+    driven = [float(tw.accuracy(model, q, v, [drive]).aba) for drive in (1e-4, 1e-2, 1.0)]
+    assert driven[0] > 10 * driven[1] > 100 * tw.accuracy(model, q).aba
+    assert driven[1] > driven[2]
+
+
+def test_a_slow_robot_has_the_digits_that_it_has_without_a_velocity():
+    go2, arm = tw.load("go2"), tw.load("planar_arm")
+    still = np.zeros(go2.nv)
+    plain = tw.accuracy(go2, go2.standing()).aba
+    for v in (still, still + 0.1, still + 1.0):
+        for tau in (None, still, still + 3.0):
+            assert plain <= tw.accuracy(go2, go2.standing(), v, tau).aba < 1.5 * plain
+    assert tw.accuracy(arm, [0.1, 0.2, 0.3], tau=[1.0, 2.0, 0.5]).aba < 1.5 * tw.accuracy(arm, [0.1, 0.2, 0.3]).aba
+
+
+def test_states_come_as_batches_and_are_checked():
+    model, q = tw.load("go2"), tw.load("go2").standing()
+    v = np.random.default_rng(0).standard_normal((3, 2, model.nv))
+    known = tw.accuracy(model, q, v, v[0])
+    assert known.aba.shape == known.crba_solve.shape == (3, 2)
+    assert known.aba[2, 1] == pytest.approx(tw.accuracy(model, q, v[2, 1], v[0, 1]).aba, rel=1e-9)
+    single = tw.accuracy(model, *(x.astype(np.float32) for x in (q, v[0, 0], v[0, 1])))
+    assert single.aba > 1e8 * known.aba[0, 0]
+    with pytest.raises(tw.ShapeError, match="v: expected"):
+        tw.accuracy(model, q, q)
+    with pytest.raises(tw.ShapeError, match="tau: expected"):
+        tw.accuracy(model, q, tau=q)
+    still = tw.Builder("rock").build()
+    assert tw.accuracy(still, [], [], []).aba == tw.accuracy(still, []).aba
 
 
 # ---------------------------------------------------------------- what comes back

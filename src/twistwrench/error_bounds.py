@@ -9,14 +9,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .algorithms._mimic import also_of_mimics
+from .algorithms.aba import aba
 from .arrays import Array, resolution
-from .model import Model, composite_inertias, floats_of, tree_terms
+from .errors import SingularError
+from .model import Model, check_model, columns, composite_inertias, floats_of, tree_terms
 
 __all__ = ["Accuracy", "accuracy"]
 
 SUMMED, DIVIDED = 24, 4
 """Safety factors on the bare formulas, of inverse and of forward dynamics. Less would do for the textbook; with these
 the errors of `twistwrench.fast` stay below too, in ``python -m benchmarks.study extremes`` and in random trees."""
+
+CANCELLED = 0.25
+"""Safety factor on what is left of terms of q̈ that cancel."""
+
+TOGETHER = 0.1
+"""Where the directions of one joint are less independent than this, eliminating them together costs digits besides."""
 
 SHARE = 0.05
 """A joint with a smaller share of a motion's energy than this is not named."""
@@ -38,7 +46,8 @@ class Accuracy:
         Of τ, each entry measured against the terms that it sums: over the outboard bodies, lever times force.
     aba, crba_solve : ndarray, shape (...)
         Of q̈, each entry weighed by √M_kk, measured against the largest of q̈, of q̈ without torques, and of their
-        difference. Infinite where nothing is certain.
+        difference. Where no v was given, also against the terms of the bias forces, each divided by √M_kk: those of a
+        wheel that spins may cancel, and leave no acceleration. Infinite where nothing is certain.
     apparent_inertia : ndarray, shape (...)
         Of the motion with the least, as a part of the apparent inertia of its joints one by one, the others locked.
     weak : tuple of str
@@ -85,14 +94,19 @@ class Accuracy:
         return f"{kept}\nMoved against each other, {names} have {least:.1e} of their apparent inertias one by one."
 
 
-def accuracy(model: Model, q: ArrayLike) -> Accuracy:
-    """Estimate the rounding errors of `rnea`, of `aba` and of solving with M from `crba`, for any v and τ.
+def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayLike | None = None) -> Accuracy:
+    """Estimate the rounding errors of `rnea`, of `aba` and of solving with M from `crba`.
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (..., nq)
         The configuration, in the number type of the computation.
+    v : array_like, shape (..., nv), optional
+        The velocity. Without it the estimate is for any v, but for a q̈ that is as large as its terms: not for that of a
+        wheel that spins fast, or of an arm that hangs at rest, whose terms cancel.
+    tau : array_like, shape (..., nv), optional
+        The joint forces, with v, which is zero unless given. Without them the estimate is for any τ.
 
     Returns
     -------
@@ -110,7 +124,11 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
     farthest tip. Forward dynamics divides by M. Its error is about the resolution of the number type divided by λ, the
     least eigenvalue of D^-½ M D^-½ with the diagonal D of M, plus the error of the bias forces. The condition number of
     M itself is misleading: different units or masses make it large, but they do not cause errors. For the worst
-    torques, `aba` loses as many digits as a solver.
+    torques, `aba` loses as many digits as a solver, and more where a ball joint carries a thin rod: it eliminates three
+    directions together, of which one has little inertia.
+
+    The error of the bias forces is relative to their terms, lever times force. Where v is given, it is compared with q̈,
+    so that terms which cancel cost digits.
 
     Examples
     --------
@@ -122,14 +140,93 @@ def accuracy(model: Model, q: ArrayLike) -> Accuracy:
     >>> print(tw.accuracy(model, np.full(6, 0.1)))
     rnea keeps 13 of 16 digits, aba 8, crba + solve 8.
     Moved against each other, 'rod_02', 'rod_03', 'rod_01' have ... of their apparent inertias one by one.
+
+    A fan of an oblique axis turns at 10 000 rpm, and 0.1 mN m drive it:
+
+    >>> n = np.array([1, 2, 2]) / 3
+    >>> fan, disc = tw.Builder("fan"), tw.SpatialInertia(0.1, [0, 0, 0], 2e-5 * (np.eye(3) + np.outer(n, n)))
+    >>> fan.link("disc", parent="base_link", joint=tw.Revolute(n), inertia=disc)
+    >>> print(tw.accuracy(fan.build(), [0.3], [1047.0], [1e-4]))
+    rnea keeps 14 of 16 digits, aba 9, crba + solve 9.
     """
-    (q,) = floats_of(model, q)
+    q, v, tau = _state(model, q, v, tau)
     eps, depth = resolution(q.dtype), max([1, *(len(model.support(i)) for i in range(model.nbodies))])
-    least, motion = _least_inertia(model, model.normalize(q.real.astype(np.float64)))
+    q, v, tau = (None if x is None else x.real.astype(np.float64) for x in (q, v, tau))
+    q = model.normalize(q)
+    scaled = _scaled_mass_matrix(model, q)
+    least, motion = _least_inertia(scaled)
     certain = least - model.nv * resolution(np.float64)  # as certain as the eigenvalue itself is
     sums = np.full(least.shape, SUMMED * eps * np.sqrt(depth))
-    forward = sums + np.where(certain > 0, DIVIDED * eps / np.where(certain > 0, certain, 1), np.inf)
+    within = np.maximum(TOGETHER / np.maximum(_least_of_joints(model, scaled), np.finfo(float).tiny), 1)
+    forward = sums + np.where(certain > 0, DIVIDED * eps * within / np.where(certain > 0, certain, 1), np.inf)
+    if v is not None:
+        forward = forward + eps * _cancelled(model, q, v, tau, certain)
     return Accuracy(sums, forward, forward.copy(), least, _most_moved(model, least, motion), eps)
+
+
+def _state(
+    model: Model, q: ArrayLike, v: ArrayLike | None, tau: ArrayLike | None
+) -> tuple[Array, Array | None, Array | None]:
+    """Check a state; v is zero where only torques are given."""
+    check_model(model)
+    given = {name: x for name, x in (("v", v), ("tau", tau)) if x is not None}
+    if "tau" in given and v is None:
+        given["v"] = np.zeros(model.nv, int)  # which affects no number type
+    checked = dict(zip(("q", *given), floats_of(model, q, **given)))
+    return checked["q"], checked.get("v"), checked.get("tau")
+
+
+def _cancelled(model: Model, q: Array, v: Array, tau: Array | None, least: Array) -> Array:
+    """Return the terms of q̈ as multiples of q̈, shape (...): infinite where no digit of q̈ is certain.
+
+    An error of h becomes one of M⁻¹h. With entries weighed by √M_kk this is at most 1/λ times as large.
+    """
+    weight = np.sqrt(np.diagonal(_mass_matrix(model, q), axis1=-2, axis2=-1))
+    terms = _bias_terms(model, q, v) / np.where(weight > 0, weight, 1)
+    lost = CANCELLED * terms.max(axis=-1, initial=0) / np.where(least > 0, least, 1)
+    try:
+        free = aba(model, q, v, np.zeros(model.nv))
+        driven = free if tau is None else aba(model, q, v, tau)
+    except SingularError:
+        return np.where(lost > 0, np.inf, 0)
+    sizes = [np.abs(weight * x).max(axis=-1, initial=0) for x in (free, driven, driven - free)]
+    size = np.maximum.reduce(sizes) - resolution(np.float64) * lost  # of q̈, as far as it is certain itself
+    return np.where(lost > 0, np.where(size > 0, lost / np.where(size > 0, size, 1), np.inf), 0)
+
+
+def _bias_terms(model: Model, q: Array, v: Array) -> Array:
+    """Return the size of the terms of each entry of h, shape (..., nv): RNEA with every vector replaced by its length.
+
+    So nothing cancels but in the twists, whose sizes are those of their sums and of what the own joint adds.
+    """
+    tree, rates = tree_terms(model, q), columns(model, v)
+    reach = [_length(T.translation) for T in tree.placement]  # from the parent's frame to the body's
+    (V,), (nothing, falling) = tree.zeros(1), (np.zeros(tree.batch), np.full(tree.batch, _length(model.gravity)))
+    force, moment, turning, moving = [nothing], [nothing], [nothing], [falling]  # the last two: terms of ω̇ and v̇
+    for i in tree.outward:
+        p, own = tree.parent[i], tree.S[i] @ rates[i]
+        V[i] = tree.X[i] @ V[p] + own
+        own_w, own_v = _length(own[..., :3, 0]), _length(own[..., 3:, 0])
+        w = _length(V[i][..., :3, 0]) + own_w
+        u = _length(V[i][..., 3:, 0]) + own_v + reach[i] * _length(V[p][..., :3, 0])
+        turning.append(turning[p] + w * own_w)
+        moving.append(moving[p] + reach[i] * turning[p] + w * own_v + u * own_w)
+        m, mc, J = tree.I[i][5, 5], np.linalg.norm(tree.I[i][:3, 3:]), np.linalg.norm(tree.I[i][:3, :3])
+        force.append(m * moving[i] + mc * turning[i] + w * (m * u + mc * w))
+        moment.append(J * turning[i] + mc * moving[i] + w * (J * w + mc * u) + u * (m * u + mc * w))
+    h = np.zeros((*tree.batch, model.nv))
+    for i in tree.inward:
+        p, S = tree.parent[i], tree.S[i]
+        turns, slides = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
+        h[..., model.v_slice[i]] = turns * moment[i][..., None] + slides * force[i][..., None]
+        force[p] = force[p] + force[i]
+        moment[p] = moment[p] + moment[i] + reach[i] * force[i]
+    return h
+
+
+def _length(x: Array) -> Array:
+    """Return the lengths of vectors over the last axis."""
+    return np.asarray(np.linalg.norm(x, axis=-1))
 
 
 @also_of_mimics
@@ -151,13 +248,25 @@ def _mass_matrix(model: Model, q: Array) -> Array:
     return np.triu(M) + np.triu(M, 1).mT
 
 
-def _least_inertia(model: Model, q: Array) -> tuple[Array, Array]:
-    """Return the least eigenvalue of M scaled to a diagonal of ones, and its eigenvector, the motion that has it."""
+def _scaled_mass_matrix(model: Model, q: Array) -> Array:
+    """Return D^-½ M D^-½: M in units in which each degree of freedom alone has the inertia 1."""
     M = _mass_matrix(model, q)
     own = np.diagonal(M, axis1=-2, axis2=-1)
     unit = np.sqrt(np.where(own > 0, own, 1))  # a motion without inertia keeps its zero
-    values, vectors = np.linalg.eigh(M / unit[..., :, None] / unit[..., None, :])
+    return np.asarray(M / unit[..., :, None] / unit[..., None, :])
+
+
+def _least_inertia(scaled: Array) -> tuple[Array, Array]:
+    """Return the least eigenvalue of the scaled M, and its eigenvector, the motion that has it."""
+    values, vectors = np.linalg.eigh(scaled)
     return np.maximum(values.min(axis=-1, initial=1), 0), vectors[..., :1].sum(axis=-1)
+
+
+def _least_of_joints(model: Model, scaled: Array) -> Array:
+    """Return the least eigenvalue of the blocks of joints with several directions that other joints carry."""
+    blocks = [s for s, p in zip(model.v_slice, model.parent) if p > 0 and s.stop - s.start > 1]
+    least = [np.linalg.eigvalsh(scaled[..., s, s])[..., 0] for s in blocks]
+    return np.asarray(np.min([np.ones(scaled.shape[:-2]), *least], axis=0))
 
 
 def _most_moved(model: Model, least: Array, motion: Array) -> tuple[str, ...]:
