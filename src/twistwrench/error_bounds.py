@@ -149,18 +149,18 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     >>> print(tw.accuracy(fan.build(), [0.3], [1047.0], [1e-4]))
     rnea keeps 14 of 16 digits, aba 9, crba + solve 9.
     """
-    q, v, tau = _state(model, q, v, tau)
-    eps, depth = resolution(q.dtype), max([1, *(len(model.support(i)) for i in range(model.nbodies))])
-    q, v, tau = (None if x is None else x.real.astype(np.float64) for x in (q, v, tau))
-    q = model.normalize(q)
-    scaled = _scaled_mass_matrix(model, q)
+    given, rates, torques = _state(model, q, v, tau)
+    eps, depth = resolution(given.dtype), max([1, *(len(model.support(i)) for i in range(model.nbodies))])
+    at = model.normalize(_double(given))
+    scaled = _scaled_mass_matrix(model, at)
     least, motion = _least_inertia(scaled)
     certain = least - model.nv * resolution(np.float64)  # as certain as the eigenvalue itself is
     sums = np.full(least.shape, SUMMED * eps * np.sqrt(depth))
     within = np.maximum(TOGETHER / np.maximum(_least_of_joints(model, scaled), np.finfo(float).tiny), 1)
     forward = sums + np.where(certain > 0, DIVIDED * eps * within / np.where(certain > 0, certain, 1), np.inf)
-    if v is not None:
-        forward = forward + eps * _cancelled(model, q, v, tau, certain)
+    if rates is not None:
+        drives = None if torques is None else _double(torques)
+        forward = forward + eps * _cancelled(model, at, _double(rates), drives, certain)
     return Accuracy(sums, forward, forward.copy(), least, _most_moved(model, least, motion), eps)
 
 
@@ -174,6 +174,11 @@ def _state(
         given["v"] = np.zeros(model.nv, int)  # which affects no number type
     checked = dict(zip(("q", *given), floats_of(model, q, **given)))
     return checked["q"], checked.get("v"), checked.get("tau")
+
+
+def _double(x: Array) -> Array:
+    """Return real parts in double precision."""
+    return x.real.astype(np.float64)
 
 
 def _cancelled(model: Model, q: Array, v: Array, tau: Array | None, least: Array) -> Array:

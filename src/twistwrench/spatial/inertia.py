@@ -204,7 +204,7 @@ class SpatialInertia(Shapes):
         a = as_number_array(scale, "scale")
         if (judged(a) == 0).any():
             raise ZeroDivisionError("SpatialInertia / 0")
-        return self * (1 / scale if type(scale) in (int, float, complex) else 1 / a)
+        return self * (1 / scale if isinstance(scale, int | float) else 1 / a)
 
     def __neg__(self) -> SpatialInertia:
         return self * -1
