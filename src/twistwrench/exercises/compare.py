@@ -19,6 +19,7 @@ __all__ = [
     "is_one_array",
     "only_zero_is_missed",
     "pieces",
+    "plain",
     "to_do",
     "values",
 ]
@@ -31,12 +32,63 @@ ROUNDING = 1e-9
 """Numbers below this are zeros but for rounding, and zeros are met by chance."""
 
 
+LARGEST_INTEGER = 2**1023
+"""Whole numbers beyond cannot be converted to a float."""
+
+DEEPEST = 20
+"""Lists in lists of an answer; a list may also be in itself."""
+
+Known = dict[int, tuple[Any, Any]]
+"""By the identity of an object: the object, and what it has become."""
+
+
 class Value(NamedTuple):
     """One thing that a function returned, as an array; None where it cannot be one."""
 
     quantity: Quantity
     array: Array | None
     raw: Any
+
+
+def plain(answer: Any) -> Any:
+    """Return an answer as numbers, strings, arrays, and lists of these: values of which nothing runs code of its own.
+
+    An object may raise any error where it is converted, compared or printed. It is converted here, once; what cannot be
+    becomes an empty object of a class of the same name. What is plain already is returned itself.
+    """
+    return _plain(answer, {}, 0)
+
+
+def _plain(x: Any, known: Known, depth: int) -> Any:
+    kind = type(x)
+    if kind in (type(None), type(...), bool, float, complex, str) or issubclass(kind, np.number | np.bool_):
+        return x
+    if kind is int or (kind is np.ndarray and x.dtype.kind in "biufc"):
+        return x if kind is not int or abs(x) < LARGEST_INTEGER else _stand_in(x)
+    if id(x) not in known:
+        known[id(x)] = x, _stand_in(x)  # what it is inside itself; x is kept, and with it its identity
+        known[id(x)] = x, _converted(x, known, depth)
+    return known[id(x)][1]
+
+
+def _converted(x: Any, known: Known, depth: int) -> Any:
+    kind = type(x)
+    try:
+        if issubclass(kind, str):
+            return str.__str__(x)
+        if issubclass(kind, list | tuple | Sequence) and not issubclass(kind, bytes) and depth < DEEPEST:
+            items = [_plain(item, known, depth + 1) for item in x]
+            same = kind in (list, tuple) and all(a is b for a, b in zip(items, x))
+            return x if same else tuple(items) if issubclass(kind, tuple) else items
+        array = _array(x)
+    except Exception:
+        array = None
+    return _stand_in(x) if array is None else array
+
+
+def _stand_in(x: Any) -> Any:
+    """Return an empty object of a class that has the name of the class of another object."""
+    return type(type(x).__name__, (), {})()
 
 
 def to_do(answer: Any) -> bool:
@@ -72,7 +124,7 @@ def _array(x: Any) -> Array | None:
             break
     try:
         array = np.asarray(x)
-    except ValueError:  # rows of different lengths
+    except Exception:  # rows of different lengths, numbers that are too large
         return None
     if array.dtype.kind in "iu":
         array = array.astype(float)
@@ -141,5 +193,5 @@ def copied_results(answers: Sequence[Any], right: Sequence[Any], before: Sequenc
 def unchanged(before: Any, after: Any) -> bool:
     """Whether an array, a number, or each of a list of them is unchanged."""
     if isinstance(before, list):
-        return len(before) == len(after) and all(map(unchanged, before, after))
+        return len(before) == len(after) and all(map(unchanged, before, map(plain, after)))
     return not isinstance(before, np.ndarray | int | float) or np.array_equal(before, after)

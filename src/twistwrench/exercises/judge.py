@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
-import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, is_dataclass, replace
 from importlib.util import find_spec
 from typing import Any, Literal, NamedTuple
 
@@ -16,22 +16,19 @@ import numpy as np
 from .calls import begin, copied, silent
 from .cases import cases, every_case, further_cases, special_cases
 from .changes.repairs import guarded
-from .compare import agree, copied_results, is_one_array, to_do, unchanged
+from .compare import agree, copied_results, is_one_array, plain, to_do, unchanged
 from .context import context_of
 from .exercise import Exercise, Part
 from .failing import Case, failing_case
 from .naming.changing import changing_line
 from .naming.diagnose import after_error, explain
 from .naming.state import kept_in_module
-from .rules import Calls, file_or_cell, is_ours, watching, written_down
+from .rules import broken_rules, file_or_cell, is_ours
 from .words.phrases import say
 from .words.text import Text
 from .words.wrapping import hanging
 
 __all__ = ["State", "Verdict", "judge"]
-
-SLOW = 0.3
-"""Seconds, of the processor, after which no more cases are tried of what is wrong."""
 
 Watch = Callable[[], AbstractContextManager[object]]
 State = Literal["to do", "done", "wrong"]
@@ -107,12 +104,12 @@ def judge(
     """
     if exercise.needs and find_spec(exercise.needs) is None:
         return Verdict("to do", (say("needs", name=exercise.needs),))
-    calls, so_far, changes = Calls(part.name), _Compared([], [], [], []), dict[int, Text]()
+    broken, so_far, changes = broken_rules(part, function), _Compared([], [], [], []), dict[int, Text]()
     search = not exercise.needs if search is None else search
     for arguments in _trials(part, seed, so_far):
-        known = part.value(part.solution, arguments)  # first: an answer may change a model that it is given
+        kept = _copied_but_frozen(arguments)  # an answer may change a model that it is given
         try:
-            with watch(), watching(part, function, calls):
+            with watch():
                 answer, changed = _run(part, function, arguments)
         except NotImplementedError:
             return Verdict("to do")
@@ -128,23 +125,22 @@ def judge(
         if to_do(answer):
             return Verdict("to do")
         changes |= {len(so_far.tried): changed} if changed else {}
+        known = part.value(part.solution, kept)
         so_far.add(arguments, answer, known, agree(part, answer, known, arguments))
         if not so_far.right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
             model = _head(exercise, part), say("changed", name=part.arguments.partition(",")[0])  # it comes first
             return Verdict("wrong", model, (), failing_case(part, len(so_far.tried) - 1, seed, arguments))
     safe = guarded(function)
     again = (lambda given: _again(part, safe, given, watch)) if search else None
-    kept = _keeps(part, function, so_far, watch)
+    state = _keeps(part, function, so_far, watch)
     noted = [*changes.values()][:1]
     for k in [*changes][:1]:
         noted += changing_line(part, function, so_far.tried[k])
-    if all(so_far.right) and kept is None:
+    if all(so_far.right) and state is None:
         shown = [failing_case(part, k, seed, so_far.tried[k]) for k in changes][:1]
-        lines = (
-            noted or calls.lines or written_down(part, function) or [say(phrase) for phrase in _made_one(so_far)][:1]
-        )
+        lines = noted or broken or [say(phrase) for phrase in _made_one(so_far)][:1]
         return Verdict("wrong", (_head(exercise, part), *lines), (), *shown) if lines else Verdict("done")
-    found = _wrong(exercise, part, function, so_far, seed, kept, again)
+    found = _wrong(exercise, part, function, so_far, seed, state, again)
     if noted and inspect.isclass(part.solution) and not found.slips:  # what is wrong comes of it
         k = so_far.first_wrong
         return Verdict("wrong", (*found.lines[:1], *noted), (), failing_case(part, k, seed, so_far.tried[k]))
@@ -152,11 +148,9 @@ def judge(
 
 
 def _trials(part: Part, seed: int, so_far: _Compared) -> Iterator[tuple[Any, ...]]:
-    """Yield the cases: those that are drawn first, further ones unless the answer is wrong and slow, special ones."""
-    start = time.process_time()
+    """Yield the cases: those that are drawn first, further ones, and special ones unless one of these was wrong."""
     yield from cases(part, seed)
-    if all(so_far.right) or time.process_time() - start < SLOW:
-        yield from further_cases(part, seed)
+    yield from further_cases(part, seed)
     if all(so_far.right):
         yield from special_cases(part, seed)
 
@@ -230,8 +224,17 @@ def _repeated(first: Any, second: Any) -> bool:
         return len(first) == len(second) and all(map(_repeated, first, second))
     try:
         return np.shape(first) == np.shape(second) and np.allclose(first, second, equal_nan=True)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         return True
+
+
+def _copied_but_frozen(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return a copy of the arguments and of all that they hold, but for those that nothing can change."""
+    return copy.deepcopy(arguments, {id(x): x for x in arguments if is_dataclass(x) and _is_frozen(x)})
+
+
+def _is_frozen(x: Any) -> bool:
+    return bool(x.__dataclass_params__.frozen)
 
 
 def _again(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...], watch: Watch) -> Any:
@@ -248,7 +251,7 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
     given = copied(arguments)
     begin(arguments)
     try:
-        answer = part.value(function, given)
+        answer = plain(part.value(function, given))
     except NotImplementedError:
         raise
     except (Exception, SystemExit) as error:  # whatever the student's code raises becomes a message
@@ -263,10 +266,14 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
 
 def _stopped(error: BaseException) -> list[Text]:
     """Report what was raised, and at which line of the student's file."""
-    lines = [say("stopped", error=f"{type(error).__name__}: {error}")]
+    try:
+        why = f"{type(error).__name__}: {error}"
+    except Exception:  # an error of a student's own class
+        why = type(error).__name__
+    lines = [say("stopped", error=why)]
     own = [f for f in traceback.extract_tb(error.__traceback__) if not is_ours(f.filename)]
     if own:
-        frame = own[-1]
+        frame = next((f for f in reversed(own) if f.line), own[-1])  # generated code has no line that can be shown
         lines.append(say("at line", file=file_or_cell(frame.filename), line=frame.lineno))
         lines.append(Text(f"    {frame.line}", f"    {frame.line}"))
     return lines

@@ -1,40 +1,65 @@
-"""The ways that an exercise rules out: calls that it forbids, the reference itself, a result that is written down."""
+"""The ways that an exercise rules out: calls that it forbids, the reference itself, a result that is written down.
+
+They are decided before anything is run, by what the code of the student's function names: the objects that its names and
+their attributes stand for, in it and in the student's other functions that it uses. A name that is only made at run time
+is not seen.
+"""
 
 from __future__ import annotations
 
-import ast
+import builtins
+import dis
+import functools
+import inspect
+import re
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
-from inspect import unwrap
+from itertools import islice
 from pathlib import Path
-from types import FrameType
-from typing import Any
+from types import BuiltinFunctionType, CodeType, FunctionType, GetSetDescriptorType, MethodType, ModuleType
+from typing import Any, NamedTuple
 
-from .changes.crosses import nodes_of
-from .changes.places import unused
-from .changes.written import text_written
 from .exercise import Part
 from .words.text import Text
 
-__all__ = ["FORBIDDEN", "Calls", "file_or_cell", "is_ours", "watching", "written_down"]
+__all__ = ["FORBIDDEN", "broken_rules", "file_or_cell", "is_ours", "is_reference", "reference"]
+
+M = ("crba", "crba_terms", "mass_matrix", "dynamics", "inverse_mass_matrix", "solve_mass_matrix")
+M += ("ltl", "ltdl", "operational_space_inertia")
+A_G = ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics")
+RNEA = ("rnea", "rnea_terms", "inverse_dynamics")
 
 FORBIDDEN: dict[str, tuple[str, ...]] = {
-    "base_wrench_at_rest": ("rnea", "rnea_terms", "gravity", "nonlinear_effects", "dynamics"),
-    "mass_matrix_by_rnea": ("crba", "crba_terms", "dynamics", "inverse_mass_matrix", "kinetic_energy", "ltdl"),
-    "base_block": ("crba", "crba_terms", "rnea", "rnea_terms", "dynamics"),
+    "base_wrench_at_rest": (*RNEA, "gravity", "nonlinear_effects", "dynamics"),
+    "mass_matrix_by_rnea": (*M, "kinetic_energy"),
+    "base_block": (*M, *RNEA),
     "on_all_rows": ("selection_matrix",),
-    "momentum_of_links": ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics"),
-    "own_centroidal_map": ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics"),
-    "map_from_pinocchio": ("from_pinocchio_model", "centroidal_map", "centroidal_terms", "dynamics"),
+    "momentum_of_links": A_G,
+    "own_centroidal_map": A_G,
+    "map_from_pinocchio": ("from_pinocchio_model", *A_G),
     "jacobian_from_pinocchio": ("from_pinocchio_model", "frame_jacobian", "dynamics"),
-    "acceleration_from_pinocchio": ("from_pinocchio_model", "aba", "aba_terms", "crba", "rnea", "dynamics"),
+    "acceleration_from_pinocchio": ("from_pinocchio_model", "aba", "aba_terms", "crba", *RNEA, "dynamics"),
 }
 """What the text of an exercise forbids, by the function that the student writes: names of the package."""
 
+ROOMS = ("twistwrench", "twistwrench.fast", "twistwrench.bridge", "twistwrench.newton_euler_3d")
+"""Where these names are looked up."""
+
+SYMBOLS = {"crba": "M", "rnea": "tau", "aba": "qdd", "centroidal_map": "A_G", "gravity": "g", "nonlinear_effects": "h"}
+"""What some of them compute, as `tw.compile` names it."""
+
+BY_NAME = frozenset(("eval", "exec", "compile", "trace", "getattr", "attrgetter", "import_module", "__import__"))
+"""Functions that are told by a text what to compute or to call."""
+
 COMPUTED = {"about_center_of_mass": 1}
 """Which argument a result is computed from, though its value does not depend on it, by the name of the function."""
+
+OFFERED = frozenset(("mine", "check", "case", "hint", "start", "status"))
+"""What a student may call of the exercises themselves."""
+
+TYPED = ("<ipython", "<stdin", "<string>", "<console>", "<python-input", "<cell")
+"""How the names of files begin that stand for code which was typed, or run by `exec`."""
 
 SAY = {
     "written down": Text(
@@ -45,41 +70,214 @@ SAY = {
         "The numbers are right, but line {line} calls {name}, and the exercise asks to do without it.",
         "数值正确，但第 {line} 行调用了 {name}，而题目要求不用它。",
     ),
+    "is forbidden": Text(
+        "The numbers are right, but the function calls {name}, and the exercise asks to do without it.",
+        "数值正确，但函数调用了 {name}，而题目要求不用它。",
+    ),
     "reference": Text(
         "The numbers are right, but they are those of the reference, which it calls: write {name} yourself.",
         "数值正确，但它调用的就是参考实现：请自己写出 {name}。",
     ),
 }
 
+UNKNOWN = object()
+"""What a name stands for that is only known at run time."""
 
-class Calls:
-    """What a student's function called that it must not; `lines` is the message, empty where there is nothing."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-        self.found: dict[str, int] = {}
-
-    @property
-    def lines(self) -> list[Text]:
-        """The message."""
-        if self.name in self.found:
-            return [SAY["reference"].fill(name=self.name)]
-        return [SAY["forbidden"].fill(name=name, line=line) for name, line in self.found.items()][:1]
+MOST_HELD = 1000
+"""Of the things in a list or a dictionary that a function uses, how many are looked at."""
 
 
-def written_down(part: Part, function: Callable[..., Any]) -> list[Text]:
-    """Report that a student's function does not use the argument that its result is to be computed from."""
-    if part.name not in COMPUTED:
+class Named(NamedTuple):
+    """What a function names, and the line; none where the function is it, or holds it."""
+
+    value: Any
+    line: int | None
+
+
+# ---------------------------------------------------------------- what is forbidden
+
+
+def broken_rules(part: Part, function: Callable[..., Any]) -> list[Text]:
+    """Return what a student's function names that it must not, as a message; nothing where it keeps to the rules."""
+    if function is part.solution:
         return []
-    defined = [x for x in nodes_of(text_written(function)) if isinstance(x, ast.FunctionDef) and x.name == part.name]
-    given = [(x, argument.arg) for x in defined for argument in x.args.args[COMPUTED[part.name] :][:1]]
-    return [SAY["written down"].fill(name=name) for x, name in given if name in unused(x)]
+    forbidden, names = _forbidden(part), FORBIDDEN.get(part.name, ())
+    symbols = {SYMBOLS[name]: name for name in names if name in SYMBOLS}
+    said, by_name = list[Text](), False
+    for value, line in _named(function):
+        if _is_answer(part, value):
+            return [SAY["reference"].fill(name=part.name)]
+        if id(value) in forbidden:
+            return [_calls(forbidden[id(value)], line)]
+        if isinstance(value, str):
+            said += [_calls(f"tw.{name}", line) for name in names if re.search(rf"\b{name}\b", value)]
+            said += [_calls(f"tw.{symbols[value]}", line)] if value in symbols else []
+        by_name |= isinstance(value, FunctionType | BuiltinFunctionType | type) and value.__name__ in BY_NAME
+        computed = {getattr(x, "symbol", "") for x in vars(value).get("quantities", ())} if _is_program(value) else set()
+        said += [_calls(f"tw.{symbols[symbol]}", line) for symbol in sorted(computed & symbols.keys())]
+        by_name |= bool(computed)
+    return said[:1] if by_name and said else _written_down(part, function)
+
+
+def is_reference(part: Part, function: Callable[..., Any]) -> bool:
+    """Whether what a student hands in is the reference itself, under whatever name."""
+    return _core(function) is _core(part.solution)
+
+
+def reference(part: Part) -> Text:
+    """Return the message on that."""
+    return SAY["reference"].fill(name=part.name)
+
+
+def _calls(name: str, line: int | None) -> Text:
+    return SAY["is forbidden"].fill(name=name) if line is None else SAY["forbidden"].fill(name=name, line=line)
+
+
+def _forbidden(part: Part) -> dict[int, str]:
+    """Return the functions that the text forbids, by identity, with their names."""
+    found: dict[int, str] = {}
+    for room in map(import_module, ROOMS if part.name in FORBIDDEN else ()):
+        shown = room.__name__.replace("twistwrench", "tw")
+        names = [name for name in FORBIDDEN[part.name] if hasattr(room, name)]
+        found |= {id(_core(getattr(room, name))): f"{shown}.{name}" for name in names}
+    return found
+
+
+def _is_answer(part: Part, value: Any) -> bool:
+    """Whether something is the reference, the listing that it runs, or what leads to them."""
+    if any(value is _core(x) for x in (part.solution, *part.beside[-1:])):
+        return True
+    if not isinstance(value, FunctionType | type):
+        return False
+    if "mine" in vars(value):
+        return bool(vars(value)["mine"] == part.name)
+    home = str(vars(value).get("__module__") if isinstance(value, type) else value.__module__)
+    return home.startswith(__package__) and value.__name__ not in OFFERED
+
+
+def _is_program(value: Any) -> bool:
+    return type(value).__module__.startswith("twistwrench.") and hasattr(value, "__dict__")
+
+
+def _written_down(part: Part, function: Callable[..., Any]) -> list[Text]:
+    """Report that a student's function does not use the argument that its result is to be computed from."""
+    code = getattr(_core(function), "__code__", None)
+    if part.name not in COMPUTED or code is None or code.co_argcount <= COMPUTED[part.name]:
+        return []
+    name = code.co_varnames[COMPUTED[part.name]]
+    used = (step.argval for one in _codes(code) for step in dis.get_instructions(one) if "LOAD" in step.opname)
+    return [] if any(name in x if isinstance(x, tuple) else name == x for x in used) else [SAY["written down"].fill(name=name)]
+
+
+# ---------------------------------------------------------------- what a function names
+
+
+def _named(function: Any) -> Iterator[Named]:
+    """Yield a function, and all that is named in it and in the student's functions and classes that it uses."""
+    waiting, met = [Named(function, None)], dict[int, Any]()
+    while waiting:
+        value, line = waiting.pop(0)
+        value = _core(value)
+        if id(value) not in met:
+            met[id(value)] = value
+            yield Named(value, line)
+            waiting += (x if isinstance(x, Named) else Named(x, line) for x in _inside(value))
+
+
+def _core(value: Any) -> Any:
+    """Return the function that another one is made of, as a method, or one with a cache."""
+    for _ in range(10):
+        if isinstance(value, MethodType | staticmethod | classmethod):
+            value = value.__func__
+        elif isinstance(value, property):
+            value = value.fget
+        elif isinstance(value, FunctionType | functools._lru_cache_wrapper) and "__wrapped__" in vars(value):
+            value = value.__wrapped__
+    return value
+
+
+def _inside(value: Any) -> Iterator[Any]:
+    """Yield what something of the student's is made of: what its code names, and what it holds."""
+    if isinstance(value, functools.partial):
+        yield from (value.func, *value.args, *value.keywords.values())
+    elif isinstance(value, FunctionType):
+        if not is_ours(value.__code__.co_filename):
+            yield from (*(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values())
+            closed = inspect.getclosurevars(value).nonlocals if value.__closure__ else {}
+            known = vars(builtins) | value.__globals__ | closed
+            yield from closed.values()
+            for code in _codes(value.__code__):
+                yield from _of_code(code, known)
+    elif isinstance(value, type):
+        if any(isinstance(x, FunctionType) and not is_ours(x.__code__.co_filename) for x in vars(value).values()):
+            yield from vars(value).values()
+    elif isinstance(value, list | tuple | set | frozenset):
+        yield from islice(value, MOST_HELD)
+    elif isinstance(value, dict):
+        yield from islice(value.values(), MOST_HELD)
+    elif type(type(value)) is type and isinstance(vars(type(value)).get("__dict__"), GetSetDescriptorType):
+        yield type(value)  # an object of a class, which may be the student's
+
+
+def _codes(code: CodeType) -> Iterator[CodeType]:
+    """Yield a code, and those of the functions that are written in it."""
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from _codes(constant)
+
+
+def _of_code(code: CodeType, known: Mapping[str, Any]) -> Iterator[Named]:
+    """Yield what names, and names with their attributes, stand for in a code, and its constants."""
+    own: dict[str, Any] = {}
+    value = module = UNKNOWN
+    for step in dis.get_instructions(code):
+        name, line = step.argval, step.positions.lineno if step.positions else None
+        if step.opname.startswith("STORE_") and isinstance(name, str):
+            own[name], value = value, UNKNOWN
+        elif step.opname == "IMPORT_NAME":
+            value = module = _module(name, whole=value is not None)
+        elif step.opname == "IMPORT_FROM":
+            value = _attribute(module, name)
+        elif step.opname in ("LOAD_ATTR", "LOAD_METHOD"):
+            value = _attribute(value, name)
+        elif step.opname.startswith(("LOAD_CONST", "RETURN_CONST")):
+            value = name
+        elif step.opname.startswith("LOAD_") and isinstance(name, str):
+            value = own.get(name, UNKNOWN if step.opname.startswith("LOAD_FAST") else known.get(name, UNKNOWN))
+        elif step.opname not in KEEPING:
+            value = UNKNOWN
+        if value is not UNKNOWN and not isinstance(value, CodeType):
+            yield Named(value, line)
+
+
+KEEPING = ("CACHE", "COPY", "POP_TOP", "PRECALL", "PUSH_NULL", "SWAP")
+"""Steps after which what was loaded last is still at hand."""
+
+
+def _module(name: str, *, whole: bool) -> Any:
+    """Return the module that an ``import`` in a function gives: the last of a dotted name, or the first."""
+    try:
+        found = import_module(name) if name.startswith("twistwrench") else sys.modules.get(name, UNKNOWN)
+    except ImportError:
+        return UNKNOWN
+    return found if whole else sys.modules.get(name.partition(".")[0], UNKNOWN)
+
+
+def _attribute(value: Any, name: str) -> Any:
+    """Return an attribute without running code of the student's."""
+    if isinstance(value, ModuleType) and value.__name__.startswith("twistwrench"):
+        return getattr(value, name, UNKNOWN)
+    return UNKNOWN if value is UNKNOWN else inspect.getattr_static(value, name, UNKNOWN)
+
+
+# ---------------------------------------------------------------- whose code it is
 
 
 def is_ours(file: str) -> bool:
     """Whether a file is in this package, in NumPy or in another library, and not the student's."""
     own = str(Path(__file__).parents[1]) in file or "site-packages" in file
-    return own or (file.startswith("<") and not file.startswith("<ipython"))
+    return own or (file.startswith("<") and not file.startswith(TYPED))
 
 
 def file_or_cell(file: str) -> Text:
@@ -87,47 +285,3 @@ def file_or_cell(file: str) -> Text:
     if "ipykernel" in file or file.startswith("<ipython"):
         return Text("your cell", "你的单元格")
     return Text(*(Path(file).name,) * 2)
-
-
-@contextmanager
-def watching(part: Part, function: Callable[..., Any], calls: Calls) -> Iterator[None]:
-    """Note the forbidden calls of a student's function while it runs."""
-    forbidden, wrappers = _forbidden(part) if function is not part.solution else ({}, set())
-
-    def noted(frame: FrameType, *event: Any) -> None:
-        if event[0] == "call" and id(frame.f_code) in forbidden:
-            name, caller = forbidden[id(frame.f_code)], frame.f_back
-            while caller is not None and id(caller.f_code) in wrappers:
-                caller = caller.f_back
-            own = frame.f_code is getattr(part.solution, "__code__", None)  # also by way of `mine`
-            if caller is not None and (own or not is_ours(caller.f_code.co_filename)):
-                calls.found.setdefault(name, caller.f_lineno)
-
-    before = sys.getprofile()
-    sys.setprofile(noted if forbidden and before is None else before)  # a profiler of the student's goes first
-    try:
-        yield
-    finally:
-        sys.setprofile(before)
-
-
-def _forbidden(part: Part) -> tuple[dict[int, str], set[int]]:
-    """Return the code that a function must not run, with its name, and the code of what stands around it, by identity.
-
-    Two functions with the same text have equal code. Forbidden are the reference, the listing that it runs, and what
-    the text forbids.
-    """
-    functions = [(part.name, function) for function in (part.solution, *part.beside[-1:])]
-    for room in map(import_module, ("twistwrench", "twistwrench.fast", "twistwrench.bridge")):
-        shown = room.__name__.replace("twistwrench", "tw")
-        names = [name for name in FORBIDDEN.get(part.name, ()) if hasattr(room, name)]
-        functions += [(f"{shown}.{name}", getattr(room, name)) for name in names]
-    found: dict[int, str] = {}
-    wrappers: set[int] = set()
-    for name, function in functions:
-        if hasattr(function, "__code__"):
-            inner = unwrap(function)
-            found[id(inner.__code__)] = name
-            if inner is not function:
-                wrappers.add(id(function.__code__))
-    return found, wrappers

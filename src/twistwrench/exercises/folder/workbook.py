@@ -278,6 +278,7 @@ def mine(name: str) -> Callable[..., Any]:
         return book.best(name)(*arguments, **named)
 
     function.__name__, function.__doc__ = name, part.doc.en
+    function.mine = name  # type: ignore[attr-defined]
     return function
 
 
