@@ -28,6 +28,7 @@ __all__ = [
     "keeps_arguments",
     "limited",
     "local_values",
+    "shown",
     "silent",
     "smallest",
     "switches_off",
@@ -160,6 +161,14 @@ def silent() -> Iterator[None]:
             os.dup2(stream, number)
         for number in (*kept, nothing):
             os.close(number)
+
+
+def shown(error: BaseException) -> str:
+    """Return an error as a message shows it; one of a student's own class may raise another where it is printed."""
+    try:
+        return f"{type(error).__name__}: {getattr(error, 'msg', error)}"
+    except Exception:
+        return type(error).__name__
 
 
 def copied(arguments: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -13,7 +13,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .calls import begin, copied, silent
+from .calls import begin, copied, shown, silent
 from .cases import cases, every_case, further_cases, special_cases
 from .changes.repairs import guarded
 from .compare import agree, copied_results, is_one_array, plain, to_do, unchanged
@@ -266,11 +266,7 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
 
 def _stopped(error: BaseException) -> list[Text]:
     """Report what was raised, and at which line of the student's file."""
-    try:
-        why = f"{type(error).__name__}: {error}"
-    except Exception:  # an error of a student's own class
-        why = type(error).__name__
-    lines = [say("stopped", error=why)]
+    lines = [say("stopped", error=shown(error))]
     own = [f for f in traceback.extract_tb(error.__traceback__) if not is_ours(f.filename)]
     if own:
         frame = next((f for f in reversed(own) if f.line), own[-1])  # generated code has no line that can be shown

@@ -1,7 +1,7 @@
 """The ways that an exercise rules out: calls that it forbids, the reference itself, a result that is written down.
 
-They are decided before anything is run, by what the code of the student's function names: the objects that its names and
-their attributes stand for, in it and in the student's other functions that it uses. A name that is only made at run time
+They are decided before anything is run, by what the code of the student's function names: the objects that its names
+and their attributes stand for, in it and in the student's other functions that it uses. What is only named while it runs
 is not seen.
 """
 
@@ -13,6 +13,7 @@ import functools
 import inspect
 import re
 import sys
+import sysconfig
 from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from itertools import islice
@@ -55,8 +56,8 @@ BY_NAME = frozenset(("eval", "exec", "compile", "trace", "getattr", "attrgetter"
 COMPUTED = {"about_center_of_mass": 1}
 """Which argument a result is computed from, though its value does not depend on it, by the name of the function."""
 
-OFFERED = frozenset(("mine", "check", "case", "hint", "start", "status"))
-"""What a student may call of the exercises themselves."""
+ANSWERS = f"{__package__}.items.", f"{__package__}.catalogue"
+"""Where the right answers are, and what leads to them."""
 
 TYPED = ("<ipython", "<stdin", "<string>", "<console>", "<python-input", "<cell")
 """How the names of files begin that stand for code which was typed, or run by `exec`."""
@@ -79,6 +80,8 @@ SAY = {
         "数值正确，但它调用的就是参考实现：请自己写出 {name}。",
     ),
 }
+
+LIBRARY = sysconfig.get_path("stdlib")
 
 UNKNOWN = object()
 """What a name stands for that is only known at run time."""
@@ -113,7 +116,9 @@ def broken_rules(part: Part, function: Callable[..., Any]) -> list[Text]:
             said += [_calls(f"tw.{name}", line) for name in names if re.search(rf"\b{name}\b", value)]
             said += [_calls(f"tw.{symbols[value]}", line)] if value in symbols else []
         by_name |= isinstance(value, FunctionType | BuiltinFunctionType | type) and value.__name__ in BY_NAME
-        computed = {getattr(x, "symbol", "") for x in vars(value).get("quantities", ())} if _is_program(value) else set()
+        computed = (
+            {getattr(x, "symbol", "") for x in vars(value).get("quantities", ())} if _is_program(value) else set()
+        )
         said += [_calls(f"tw.{symbols[symbol]}", line) for symbol in sorted(computed & symbols.keys())]
         by_name |= bool(computed)
     return said[:1] if by_name and said else _written_down(part, function)
@@ -152,7 +157,7 @@ def _is_answer(part: Part, value: Any) -> bool:
     if "mine" in vars(value):
         return bool(vars(value)["mine"] == part.name)
     home = str(vars(value).get("__module__") if isinstance(value, type) else value.__module__)
-    return home.startswith(__package__) and value.__name__ not in OFFERED
+    return home.startswith(ANSWERS)
 
 
 def _is_program(value: Any) -> bool:
@@ -166,7 +171,11 @@ def _written_down(part: Part, function: Callable[..., Any]) -> list[Text]:
         return []
     name = code.co_varnames[COMPUTED[part.name]]
     used = (step.argval for one in _codes(code) for step in dis.get_instructions(one) if "LOAD" in step.opname)
-    return [] if any(name in x if isinstance(x, tuple) else name == x for x in used) else [SAY["written down"].fill(name=name)]
+    return (
+        []
+        if any(name in x if isinstance(x, tuple) else name == x for x in used)
+        else [SAY["written down"].fill(name=name)]
+    )
 
 
 # ---------------------------------------------------------------- what a function names
@@ -275,8 +284,8 @@ def _attribute(value: Any, name: str) -> Any:
 
 
 def is_ours(file: str) -> bool:
-    """Whether a file is in this package, in NumPy or in another library, and not the student's."""
-    own = str(Path(__file__).parents[1]) in file or "site-packages" in file
+    """Whether a file is in this package, in Python's or another library, and not the student's."""
+    own = str(Path(__file__).parents[1]) in file or "site-packages" in file or file.startswith(LIBRARY)
     return own or (file.startswith("<") and not file.startswith(TYPED))
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import shlex
+import stat
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import cached_property, partial
 from importlib.util import decode_source
@@ -23,16 +24,31 @@ import twistwrench
 from ...errors import ModelError
 from ...files import write_text
 from .. import catalogue
+from ..calls import shown
 from ..exercise import Exercise, Part
 from ..judge import Verdict, judge
+from ..rules import is_reference, reference
 from ..words.phrases import say
 from ..words.text import Language, Text, default_language
 from .formulas import judge_formula, typed
 
-__all__ = ["STATE_FILE", "Unread", "Workbook", "has_started", "mine", "verdict_on_words"]
+__all__ = [
+    "LARGEST_FILE",
+    "STATE_FILE",
+    "Unread",
+    "Workbook",
+    "content",
+    "has_started",
+    "mine",
+    "offered",
+    "verdict_on_words",
+]
 
 STATE_FILE = ".twistwrench.json"
 """Remembers the language, how many hints were shown, which solutions and which model answers."""
+
+LARGEST_FILE = 1_000_000
+"""Bytes of a student's file; the largest of the solved ones has 20 kB."""
 
 SHORTEST_ANSWER = 12
 """Characters of an answer in words; a sentence in Chinese needs no more."""
@@ -58,10 +74,19 @@ class Workbook:
         Of the messages; the one that the folder was started in unless given.
     seed : int
         Of the random cases.
+    files : mapping
+        From a section to the file with its answers, where that has another name than `start` has given it.
     """
 
-    def __init__(self, folder: str | PathLike[str], *, language: Language | None = None, seed: int = 0) -> None:
-        self.folder, self.seed = Path(folder), seed
+    def __init__(
+        self,
+        folder: str | PathLike[str],
+        *,
+        language: Language | None = None,
+        seed: int = 0,
+        files: Mapping[str, Path] | None = None,
+    ) -> None:
+        self.folder, self.seed, self.files = Path(folder), seed, dict(files or {})
         self._asked = language
         self._modules: dict[str, ModuleType | Text | None] = {}
         self._verdicts: dict[str, Verdict] = {}
@@ -91,12 +116,18 @@ class Workbook:
 
     @cached_property
     def state(self) -> dict[str, Any]:
-        """The content of the hidden file."""
+        """The content of the hidden file, as far as it can be read."""
         try:
-            kept = json.loads((self.folder / STATE_FILE).read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            kept = json.loads(content(self.folder / STATE_FILE))
+        except (OSError, ValueError, RecursionError):
             kept = {}
-        return {"hints": {}, "compared": [], "solutions": [], **(kept if isinstance(kept, dict) else {})}
+        kept = kept if isinstance(kept, dict) else {}
+        hints = kept.get("hints") if isinstance(kept.get("hints"), dict) else {}
+        found = {"hints": {id: n for id, n in hints.items() if isinstance(n, int) and 0 <= n < 100}}
+        for name in ("compared", "solutions"):
+            listed = kept.get(name) if isinstance(kept.get(name), list) else []
+            found[name] = [x for x in listed if isinstance(x, str)]
+        return {**kept, **found}
 
     def remember(self, **news: Any) -> None:
         """Write the hidden file."""
@@ -112,11 +143,15 @@ class Workbook:
 
     # ---------------------------------------------------------------- what the student wrote
 
+    def path(self, section: str) -> Path:
+        """Return the student's file of a section."""
+        return self.files.get(section, self.folder / catalogue.file_name(section))
+
     def module(self, section: str) -> ModuleType | Text:
         """Return the student's file of a section as a module, or why it cannot be read."""
         if section not in self._modules:
             self._modules[section] = None  # while it is being read
-            self._modules[section] = self._read(self.folder / catalogue.file_name(section))
+            self._modules[section] = self._read(self.path(section))
         return self._modules[section] or say("no file", file=catalogue.file_name(section))
 
     def _read(self, path: Path) -> ModuleType | Text:
@@ -125,7 +160,7 @@ class Workbook:
         module = ModuleType(path.stem)
         module.__dict__.update(__file__=str(path), __workbook__=self)
         try:
-            source = decode_source(path.read_bytes())  # as Python reads it: with a BOM, or a line that names a coding
+            source = decode_source(content(path))  # as Python reads it: with a BOM, or a line that names a coding
         except (OSError, SyntaxError, UnicodeError) as error:
             return say("file" if isinstance(error, OSError) else "encoding", file=path.name, error=error)
         kept = {name: (x, dict(vars(x))) for name, x in SHARED.items()}
@@ -135,7 +170,7 @@ class Workbook:
                 # compiled anew each time: a cached file can be older than the last change
                 exec(compile(source, path, "exec", dont_inherit=True), module.__dict__)
         except (Exception, SystemExit) as error:  # whatever the student's file raises becomes a message
-            said = f"{type(error).__name__}: {getattr(error, 'msg', error)}"
+            said = shown(error)
             if (line := _line(error, path)) is not None:
                 return say("file at line", file=path.name, line=line, error=said)
             return say("file", file=path.name, error=said)
@@ -145,8 +180,8 @@ class Workbook:
     def words(self, exercise: Exercise) -> str | None:
         """Return the student's answer in words, None if it is not written yet."""
         module = self.module(exercise.section)
-        text = None if isinstance(module, Text) else getattr(module, exercise.answer_name, None)
-        return text.strip() if isinstance(text, str) and text.strip() else None
+        text = None if isinstance(module, Text) else vars(module).get(exercise.answer_name)
+        return str.strip(text) or None if isinstance(text, str) else None
 
     # ---------------------------------------------------------------- the progress
 
@@ -161,17 +196,19 @@ class Workbook:
         return self._verdicts[part.name]
 
     def _judge(self, exercise: Exercise, part: Part) -> Verdict:
-        module, file = self.module(exercise.section), catalogue.file_name(exercise.section)
+        module, file = self.module(exercise.section), self.path(exercise.section).name
         head = say("head", id=exercise.id, name=part.name)
         if isinstance(module, Text):
-            missing = not (self.folder / file).exists()
+            missing = not self.path(exercise.section).exists()
             return Verdict("to do", (head, module)) if missing else Unread("wrong", (head, module))
-        function = getattr(module, part.name, None)
+        function = vars(module).get(part.name)
         if isinstance(function, str):
             return judge_formula(exercise, part, function, seed=self.seed)
         if not callable(function):
             phrase = "missing" if function is None else "not a function"
             return Verdict("wrong", (head, say(phrase, name=part.name, file=file)))
+        if is_reference(part, function):
+            return Verdict("wrong", (head, reference(part)))
         watch = partial(self.watch, part.name)
         return judge(exercise, part, function, seed=self.seed, watch=watch, search=self.search)
 
@@ -180,9 +217,10 @@ class Workbook:
         if exercise.answer is None:
             return None
         words = self.words(exercise)
-        if words is None:
-            return Verdict("to do", (say("words missing", name=exercise.answer_name),))
-        return verdict_on_words(exercise, words)
+        if words is not None:
+            return verdict_on_words(exercise, words)
+        are_right = all(self.verdict(exercise, part).state == "done" for part in exercise.parts)
+        return Verdict("to do", (say("words missing", name=exercise.answer_name),) if are_right else ())
 
     def verdicts(self, exercise: Exercise) -> dict[str, Verdict]:
         """Return the verdicts on all parts of an exercise, by the name in the file."""
@@ -197,7 +235,7 @@ class Workbook:
         exercise, part = catalogue.find_part(name)
         module = self.module(exercise.section)
         if name not in self._judging and not isinstance(module, Text) and self.verdict(exercise, part).state == "done":
-            found = getattr(module, name)
+            found = vars(module)[name]
             function: Callable[..., Any] = typed(part, found) if isinstance(found, str) else found
             return function
         self.borrowed.add(name)
@@ -209,6 +247,23 @@ def verdict_on_words(exercise: Exercise, words: str) -> Verdict:
     if len(words.strip()) < SHORTEST_ANSWER:
         return Verdict("wrong", (say("words short", name=exercise.answer_name),))
     return Verdict("done")
+
+
+def content(path: Path) -> bytes:
+    """Return what is in a file.
+
+    Raises
+    ------
+    OSError
+        If it is not a regular file, as a pipe that nobody writes to, or has more than 1 MB.
+    """
+    about = path.stat()
+    if not stat.S_ISREG(about.st_mode):
+        raise OSError("it is not a regular file")
+    if about.st_size > LARGEST_FILE:
+        raise OSError(f"it has {about.st_size / 1e6:.1f} MB, and may have {LARGEST_FILE / 1e6:.0f} MB")
+    with path.open("rb") as file:
+        return file.read(LARGEST_FILE)
 
 
 def _line(error: BaseException, path: Path) -> int | None:
@@ -270,15 +325,19 @@ def mine(name: str) -> Callable[..., Any]:
            [ 3.,  0., -1.],
            [-2.,  1.,  0.]])
     """
-    _, part = catalogue.find_part(name)
     asker = sys._getframe(1).f_globals  # the folder is that of the calling file
-    book = asker.get("__workbook__") or Workbook(Path(asker.get("__file__", "")).parent)
+    return offered(name, asker.get("__workbook__") or Workbook(Path(asker.get("__file__", "")).parent))
+
+
+def offered(name: str, book: Workbook) -> Callable[..., Any]:
+    """Return what `mine` does, for a folder."""
+    _, part = catalogue.find_part(name)
 
     def function(*arguments: Any, **named: Any) -> Any:
         return book.best(name)(*arguments, **named)
 
     function.__name__, function.__doc__ = name, part.doc.en
-    function.mine = name  # type: ignore[attr-defined]
+    function.mine, function.folder = name, book.folder  # type: ignore[attr-defined]
     return function
 
 

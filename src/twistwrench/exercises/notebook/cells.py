@@ -13,8 +13,7 @@ from ..exercise import Exercise, Part
 from ..folder.formulas import judge_formula
 from ..folder.workbook import Workbook, verdict_on_words
 from ..judge import State, Verdict
-from ..processes.forking import judged
-from ..processes.isolation import TIME_LIMIT, drawn
+from ..processes.isolation import TIME_LIMIT, drawn, judged
 from ..words.text import Language, Text
 from ..words.wrapping import wrapped
 
@@ -127,7 +126,7 @@ def check(
     seed : int, optional
         Of the random cases; drawn anew unless given.
     time_limit : float
-        Seconds for one call; 0 for none. On Linux the answers run in a process of their own.
+        Seconds for one call, in a process of its own; 0 for none, and no other process.
     formulas : str
         Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them,
         and compares exactly where the right answer is a formula.

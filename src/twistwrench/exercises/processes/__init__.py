@@ -1,13 +1,18 @@
-"""The processes that run a student's code, so that nothing in it stops or harms the check.
+"""The process that runs a student's code, so that nothing in it stops or harms the check.
+
+It answers in lines of JSON, of which only plain values are made: nothing that it sends is ever run. The process that
+asks has a clock of its own, and ends it with all that it has started.
 
 Each file imports only from those above it in this table.
 
-=========  ===================================================
+=========  ====================================================
 file       what it holds
-=========  ===================================================
-isolation  a process of its own for the answers of a folder
+=========  ====================================================
 limits     what such a process may use
-forking    a copy of this process for a function of a notebook
-worker     the program that the process of a folder runs
-=========  ===================================================
+messages   verdicts as JSON, and back
+transfer   a function of a notebook as bytes
+process    the process as it is seen from outside
+worker     the program that it runs
+isolation  a folder, or a function, judged in it
+=========  ====================================================
 """

@@ -2,42 +2,54 @@
 
 from __future__ import annotations
 
-import os
-import pickle
+import base64
+import linecache
 import re
 import secrets
-import signal
-import subprocess
 import sys
 import tempfile
-from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import Any, BinaryIO, cast
+from typing import IO, Any
 
-from ...stopping import without_interrupts
+from ...errors import ModelError
 from .. import catalogue
 from ..cases import cases
 from ..exercise import Exercise, Part
 from ..failing import Case, failing_case
 from ..folder.workbook import Workbook
-from ..judge import Verdict
+from ..judge import Verdict, judge
+from ..rules import file_or_cell, is_ours, is_reference, reference
 from ..words.phrases import say
 from ..words.text import Language, Text
+from .process import Died, Process
+from .transfer import sent
+from .worker import not_judged
 
-__all__ = ["TIME_LIMIT", "CheckFailed", "IsolatedWorkbook", "drawn", "opened"]
+__all__ = ["TIME_LIMIT", "IsolatedWorkbook", "drawn", "judged", "opened"]
 
 TIME_LIMIT = 10.0
 """Seconds for one call of a function, and for reading a file. The longest of the references takes 0.1 s."""
 
-WORKER = "import sys; sys.path[:] = {path!r}; from twistwrench.exercises.processes.worker import main; main()"
-
 
 def drawn(seed: int | None) -> int:
-    """Return a seed for the random cases: a new one each time unless it is given."""
+    """Return a seed for the random cases: a new one each time unless it is given.
+
+    Raises
+    ------
+    ModelError
+        If it is negative.
+    """
+    if seed is not None and seed < 0:
+        raise ModelError(f"seed: expected a whole number, 0 or more, got {seed}")
     return secrets.randbelow(10**6) if seed is None else seed
+
+
+def _is_possible(time_limit: float) -> bool:
+    """Whether there is another process; a browser has none."""
+    return bool(time_limit and sys.executable) and sys.platform != "emscripten"
 
 
 @contextmanager
@@ -48,6 +60,7 @@ def opened(
     seed: int | None = None,
     time_limit: float = TIME_LIMIT,
     quiet: bool = False,
+    files: Mapping[str, Path] | None = None,
 ) -> Iterator[Workbook]:
     """Open a folder that was started before, and close it again.
 
@@ -62,187 +75,144 @@ def opened(
         Seconds for one call of a student's function; 0 for none, and no other process, as a debugger needs it.
     quiet : bool
         Drop what the other process prints.
+    files : mapping, optional
+        The files that have another name than `start` has given them, by section.
 
     Yields
     ------
     Workbook
     """
-    if not time_limit or not sys.executable or sys.platform == "emscripten":
-        yield Workbook(folder, language=language, seed=drawn(seed))
+    if not _is_possible(time_limit):
+        yield Workbook(folder, language=language, seed=drawn(seed), files=files)
         return
-    book = IsolatedWorkbook(folder, language=language, seed=drawn(seed), time_limit=time_limit, quiet=quiet)
+    book = IsolatedWorkbook(folder, language=language, seed=drawn(seed), files=files)
+    book.time_limit, book.printed = time_limit, None if quiet else sys.__stderr__
     try:
         yield book
     finally:
         book.close()
 
 
-class IsolatedWorkbook(Workbook):
-    """A folder whose files are read and judged in another process.
+def judged(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed: int, time_limit: float) -> Verdict:
+    """Judge a function of a notebook, a script or a shell in another process, and print what it prints.
+
+    It is judged here where there is no other process, and where it holds what cannot be sent to one.
 
     Parameters
     ----------
-    folder : str or path
-    language : {"en", "zh"}, optional
-        Of the messages.
+    exercise : Exercise
+    part : Part
+        Of the exercise.
+    function : callable
+        The student's.
     seed : int
         Of the random cases.
     time_limit : float
-        Seconds for one call of a student's function.
-    quiet : bool
-        Drop what the other process prints.
-    """
+        Seconds for one call; 0 for none.
 
-    def __init__(
-        self,
-        folder: str | PathLike[str],
-        *,
-        language: Language | None = None,
-        seed: int = 0,
-        time_limit: float = TIME_LIMIT,
-        quiet: bool = False,
-    ) -> None:
-        super().__init__(folder, language=language, seed=seed)
-        self._quiet = quiet
-        self._time_limit = time_limit
-        self._worker: _Worker | None = None
-        self._unreadable: dict[str, Text] = {}
+    Returns
+    -------
+    Verdict
+    """
+    if is_reference(part, function):
+        return Verdict("wrong", (say("head", id=exercise.id, name=part.name), reference(part)))
+    data = sent(function) if _is_possible(time_limit) else None
+    if data is None:
+        return judge(exercise, part, function, seed=seed)
+    book = IsolatedWorkbook(".", seed=seed)
+    book.time_limit, book.function = time_limit, (base64.b64encode(data).decode(),)
+    with tempfile.TemporaryFile() as printed:
+        book.printed = printed
+        try:
+            return book.verdict(exercise, part)
+        finally:
+            book.close()
+            printed.seek(0)
+            sys.stdout.write(printed.read().decode(errors="replace"))
+
+
+class IsolatedWorkbook(Workbook):
+    """A folder whose files are read and judged in another process; the arguments are those of `Workbook`."""
+
+    time_limit = TIME_LIMIT
+    """Seconds for one call of a student's function."""
+
+    printed: IO[Any] | None = None
+    """Where what the other process prints goes; nowhere unless given."""
+
+    function: tuple[str, ...] = ()
+    """A function that is sent to be judged, in place of one of a file."""
+
+    is_closed = False
+    _process: Process | None = None
 
     def words(self, exercise: Exercise) -> str | None:
         """Return the student's answer in words, None if it is not written yet."""
-        found: str | None = self._ask("words", exercise.id)
-        return found
+        found = self._ask("words", exercise.id)
+        return found if isinstance(found, str) else None
 
     def _judge(self, exercise: Exercise, part: Part) -> Verdict:
-        verdict = self._ask("verdict", part.name) or self._ask("plain verdict", part.name)
-        return verdict if isinstance(verdict, Verdict) else _wrong(exercise, part.name, [say("ended")])
+        for what in ("verdict", "plain verdict"):  # at a change that the search tries, a library may end the process
+            found = self._ask(what, part.name, *self.function)
+            if isinstance(found, Verdict):
+                return found
+        return not_judged(exercise, part, say("ended").en)
 
     def close(self) -> None:
-        """End the other process."""
-        if self._worker is not None:
-            self._worker.close()
-            self._worker = None
+        """End the other process, and start no new one."""
+        self.is_closed = True
+        self._end()
 
-    def _ask(self, what: str, name: str) -> Any:
+    def _end(self) -> None:
+        process, self._process = self._process, None
+        if process is not None:
+            process.close()
+
+    def _ask(self, what: str, name: str, *function: str) -> Any:
         """Return the answer of the other process. Where it had to stop, note at what, and start a new one."""
-        while True:
-            if self._worker is None:
-                known = self._verdicts, self._unreadable
-                self._worker = _Worker(self._quiet, str(self.folder), self.seed, self._time_limit, *known)
+        unreadable: dict[str, Text] = {k: x for k, x in self._modules.items() if isinstance(x, Text)}
+        while not self.is_closed:
+            if self._process is None:
+                task = {"folder": str(self.folder), "seed": self.seed}
+                files = [[section, str(path)] for section, path in self.files.items()]
+                states = [[known, verdict.state] for known, verdict in self._verdicts.items()]
+                task |= {"files": files, "states": states, "unreadable": [*map(list, unreadable.items())]}
+                self._process = Process(task, self.time_limit, self.printed)
             try:
-                answer, borrowed = self._worker.ask(what, name)
-            except _Died as died:
-                self.close()
+                answer, borrowed = self._process.ask(what, name, *function)
+            except Died as died:
+                self._end()
                 if died.at is None:  # not in the student's code
                     return None
                 lines = self._explained(died)
-                if died.at in map(catalogue.file_name, catalogue.SECTIONS):
-                    self._unreadable[died.at] = Text(*("\n".join(line.of(k) for line in lines) for k in ("en", "zh")))
+                if sections := [section for section in catalogue.SECTIONS if self.path(section).name == died.at]:
+                    text = Text(*("\n".join(line.of(k) for line in lines) for k in ("en", "zh")))
+                    self._modules[sections[0]] = unreadable[sections[0]] = text
                 else:
-                    exercise, part = catalogue.find_part(died.at)
-                    if exercise.needs and not died.trace.startswith("Timeout"):
-                        lines.insert(1, say("ended in", name=exercise.needs.title()))
-                    tried = cases(part, self.seed)
-                    k = min(died.case, len(tried) - 1)  # further calls look for what is wrong
-                    case = failing_case(part, k, self.seed, tried[k])
-                    self._verdicts[died.at] = _wrong(exercise, died.at, lines, case)
+                    self._verdicts[died.at] = self._verdict_on(died, lines)
                 if died.at == name:
                     return self._verdicts[name]
             else:
-                self.borrowed |= borrowed
+                self.borrowed |= {*borrowed}
                 return answer
+        return None
 
-    def _explained(self, died: _Died) -> list[Text]:
+    def _verdict_on(self, died: Died, lines: list[Text]) -> Verdict:
+        """Return the verdict on a function that did not give an answer, with the case that it was called with."""
+        exercise, part = catalogue.find_part(str(died.at))
+        if exercise.needs and not died.late:
+            lines.insert(1, say("ended in", name=exercise.needs.title()))
+        tried = cases(part, self.seed)
+        k = min(max(died.call, 0), len(tried) - 1)  # further calls look for what is wrong
+        case: Case = failing_case(part, k, self.seed, tried[k])
+        return Verdict("wrong", (say("head", id=exercise.id, name=part.name), *lines), (), case)
+
+    def _explained(self, died: Died) -> list[Text]:
         """Return why the process ended, and at which line of the student's."""
-        late = died.trace.startswith("Timeout")
-        lines = [say("endless", seconds=f"{self._time_limit:g}") if late else say("ended")]
+        lines = [say("endless", seconds=f"{self.time_limit:g}") if died.late else say("ended")]
         for path, number in re.findall(r'File "(.+)", line (\d+) in', died.trace):
-            file = self.folder / Path(path).name
-            if file.exists():
-                lines.append(say("at line", file=file.name, line=number))
-                source = file.read_text(encoding="utf-8-sig", errors="replace").splitlines()
-                lines += [Text(*("    " + line.strip(),) * 2) for line in source[int(number) - 1 : int(number)]]
+            linecache.checkcache(path)
+            if not is_ours(path) and (line := linecache.getline(path, int(number)).strip()):
+                lines += [say("at line", file=file_or_cell(path), line=number), Text("    " + line, "    " + line)]
                 break
         return lines
-
-
-def _wrong(exercise: Exercise, name: str, lines: list[Text], case: Case | None = None) -> Verdict:
-    """Return the verdict on a function that did not give an answer."""
-    return Verdict("wrong", (say("head", id=exercise.id, name=name), *lines), (), case)
-
-
-class CheckFailed(Exception):
-    """The check itself raised an error, which is not the student's."""
-
-    def __init__(self, trace: str) -> None:
-        super().__init__(f"the check itself failed, and not the answer:\n{trace}")
-
-
-class _Died(Exception):
-    """The other process ended: what it was running, in which of its cases, and where its threads were."""
-
-    def __init__(self, at: str | None, case: int, trace: str) -> None:
-        super().__init__()
-        self.at, self.case, self.trace = at, case, trace
-
-
-class _Worker:
-    """The other process."""
-
-    def __init__(self, quiet: bool, folder: str, seed: int, limit: float, *known: dict[str, Any]) -> None:
-        handle, trace = tempfile.mkstemp(prefix="twistwrench-", suffix=".trace")
-        with open(handle, "wb"):
-            self._trace = Path(trace)
-        with without_interrupts():  # Ctrl-C is for the parent
-            self._process = subprocess.Popen(
-                [sys.executable, "-u", "-c", WORKER.format(path=sys.path)],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL if quiet else None,
-                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
-                process_group=0 if os.name == "posix" else None,  # all that the answers start ends with it
-            )
-        self._requests, self._replies = cast("tuple[BinaryIO, BinaryIO]", (self._process.stdin, self._process.stdout))
-        self._send((folder, seed, limit, trace, *known))
-
-    def _send(self, message: Any) -> None:
-        with suppress(OSError):  # the process has ended: there will be no answer
-            pickle.dump(message, self._requests)
-            self._requests.flush()
-
-    def ask(self, what: str, name: str) -> Any:
-        """Return an answer, and follow what the process runs until then."""
-        begun: list[str] = []
-        calls: Counter[str] = Counter()
-        self._send((what, name))
-        try:
-            while True:
-                kind, said = pickle.load(self._replies)
-                if kind == "answer":
-                    return said
-                if kind == "failed":
-                    raise CheckFailed(said)
-                if kind == "begin":
-                    begun.append(said)
-                    calls[said] += 1
-                else:
-                    begun.pop()
-        except (EOFError, OSError, pickle.UnpicklingError):
-            trace = self._trace.read_text(encoding="utf-8", errors="replace")
-            at = begun[-1] if begun else None
-            raise _Died(at, calls[at or ""] - 1, trace) from None
-
-    def close(self) -> None:
-        """End it: it exits when its input is closed, unless it is still running something."""
-        for pipe in (self._requests, self._replies):
-            with suppress(OSError):
-                pipe.close()
-        try:
-            self._process.wait(0.5)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-        if os.name == "posix":
-            with suppress(ProcessLookupError, PermissionError):  # what it has started
-                os.killpg(self._process.pid, signal.SIGKILL)
-        self._trace.unlink(missing_ok=True)

@@ -1,38 +1,58 @@
-"""The process that runs the student's code, and stops itself where that takes too long.
+"""The program of the process that runs the student's code. It stops itself where a call takes too long.
 
-`faulthandler` watches from a thread of its own, which needs neither Python's lock nor a living parent.
+`faulthandler` watches from a thread of its own, which does not need Python's lock, and writes down the student's line.
 """
 
 from __future__ import annotations
 
+import base64
 import faulthandler
 import os
-import pickle
-import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, BinaryIO
+from pathlib import Path
+from typing import IO, Any
 
 from .. import catalogue
+from ..calls import shown
+from ..exercise import Exercise, Part
 from ..folder.workbook import Workbook
+from ..judge import Verdict, judge
+from ..words.phrases import say
 from ..words.text import Text
 from .limits import contained
+from .messages import as_json, from_json
+from .transfer import received
 
-__all__ = ["main"]
+__all__ = ["main", "not_judged"]
+
+NOT_JUDGED = Text("It could not be judged: {why}", "无法评判：{why}")
+
+
+def not_judged(exercise: Exercise, part: Part, why: str) -> Verdict:
+    """Return the verdict on a function that the check itself fails on."""
+    return Verdict("wrong", (say("head", id=exercise.id, name=part.name), NOT_JUDGED.fill(why=why)))
 
 
 class _Watched(Workbook):
-    """A folder that reports what it is running, under a time limit."""
+    """A folder that tells what it is running, under a time limit."""
 
-    def __init__(self, folder: str, seed: int, limit: float, trace: BinaryIO, replies: BinaryIO) -> None:
-        super().__init__(folder, seed=seed)
-        self._limit, self._trace, self._replies = limit, trace, replies
+    def __init__(self, replies: int, word: str, limit: float, trace: IO[Any], task: dict[str, Any]) -> None:
+        files = {section: Path(path) for section, path in task["files"]}
+        super().__init__(task["folder"], seed=task["seed"], files=files)
+        self._replies, self._word, self._limit, self._trace = replies, word, limit, trace
         self._depth, self.watch = 0, self._watch
+        self._verdicts.update({name: Verdict(state) for name, state in task["states"]})
+        self._modules.update(dict(task["unreadable"]))
 
-    def tell(self, kind: str, said: Any) -> None:
-        """Write a message to the parent."""
-        pickle.dump((kind, said), self._replies)
-        self._replies.flush()
+    def tell(self, *message: Any) -> None:
+        """Write a message; begin a line, as the student's code may have written to this file, too."""
+        text = f"\n{self._word}{as_json(message)}\n".encode()
+        try:
+            while text:
+                text = text[os.write(self._replies, text) :]
+        except OSError:  # closed by the student's code, or the other process has ended
+            os._exit(1)
 
     @contextmanager
     def _watch(self, name: str) -> Iterator[None]:
@@ -43,7 +63,7 @@ class _Watched(Workbook):
             yield
         finally:
             self._set(self._depth - 1)
-            self.tell("end", name)
+            self.tell("end")
 
     def _set(self, depth: int) -> None:
         self._depth = depth
@@ -52,37 +72,38 @@ class _Watched(Workbook):
         else:
             faulthandler.cancel_dump_traceback_later()
 
-    def know(self, verdicts: Any, unreadable: dict[str, Text]) -> None:
-        """Take over what was found before the last process had to stop."""
-        self._verdicts.update(verdicts)
-        files = {catalogue.file_name(section): section for section in catalogue.SECTIONS}
-        self._modules.update({files[file]: text for file, text in unreadable.items()})
+    def answer(self, what: str, name: str, *function: str) -> Any:
+        """Return the answer to a question."""
+        if what == "words":
+            return self.words(catalogue.exercise(name))
+        exercise, part = catalogue.find_part(name)
+        for search in (
+            (False,) if what == "plain verdict" else (None, False)
+        ):  # the search may fail where judging does not
+            self.search = search
+            try:
+                return self._function(exercise, part, *function) if function else self.verdict(exercise, part)
+            except Exception as error:
+                why = shown(error)
+        return not_judged(exercise, part, why)
+
+    def _function(self, exercise: Exercise, part: Part, text: str) -> Verdict:
+        """Judge a function that was sent."""
+        function = received(base64.b64decode(text))
+        search = True if self.search is None else self.search
+        return judge(exercise, part, function, seed=self.seed, watch=lambda: self.watch(part.name), search=search)
 
 
 def main() -> None:
-    """Answer the requests on stdin, on stdout; what the student's code prints goes to stderr."""
-    requests, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    """Answer the questions on stdin, on stdout; what the student's code prints goes to stderr."""
+    questions, replies = os.fdopen(os.dup(0), "rb"), os.dup(1)
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
     os.dup2(2, 1)
-    folder, seed, limit, path, verdicts, unreadable = pickle.load(requests)
+    word, limit, path, task = from_json(questions.readline())
     with open(path, "wb") as trace, contained():
         faulthandler.enable(trace)
-        book = _Watched(folder, seed, limit, trace, replies)
-        book.know(verdicts, unreadable)
-        while True:
-            try:
-                what, name = pickle.load(requests)
-            except EOFError:
-                return
-            try:
-                book.tell("answer", (_answer(book, what, name), book.borrowed))
-            except Exception:
-                book.tell("failed", traceback.format_exc())
-
-
-def _answer(book: Workbook, what: str, name: str) -> Any:
-    if what == "words":
-        return book.words(catalogue.exercise(name))
-    book.search = what != "plain verdict"
-    return book.verdict(*catalogue.find_part(name))
+        book = _Watched(replies, word, limit, trace, dict(task))
+        while question := questions.readline():
+            answer = book.answer(*from_json(question))
+            book.tell("answer", [answer, sorted(book.borrowed)])
