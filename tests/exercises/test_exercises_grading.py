@@ -120,7 +120,7 @@ def test_a_folder_without_exercises_is_a_line_and_not_an_end(room, tmp_path):
     (tmp_path / "late").mkdir()
     found = grade([tmp_path / "late", room / "ada"], only=["49.0.1"])
     assert [one.points for one in found] == [0, 1]
-    assert "nothing was started here" in as_table(found, 0, "en")
+    assert "No exercises were found here" in as_table(found, 0, "en")
 
 
 def test_what_is_not_there_is_an_error(room, tmp_path):

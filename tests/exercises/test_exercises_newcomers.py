@@ -5,7 +5,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.exercises import catalogue, start
-from twistwrench.exercises.course.grading import students
+from twistwrench.exercises.course.submissions import submissions
 from twistwrench.exercises.folder.workbook import Workbook
 from twistwrench.exercises.judge import judge
 
@@ -145,10 +145,12 @@ def test_a_file_that_changes_numpy_is_told_so(tmp_path):
 
 
 def test_a_folder_without_answers_is_among_those_of_a_class(tmp_path):
-    start(tmp_path / "anna")
-    (tmp_path / "empty").mkdir()
-    start(tmp_path / "zoe" / "deeper")
-    assert [path.name for path in students([tmp_path])] == ["anna", "empty", "zoe"]
+    start(tmp_path / "class" / "anna")
+    (tmp_path / "class" / "empty").mkdir()
+    start(tmp_path / "class" / "zoe" / "deeper")
+    (tmp_path / "room").mkdir()
+    found = submissions([tmp_path / "class"], tmp_path / "room", ["49.0"])
+    assert [(one.student, len(one.files) > 0) for one in found] == [("anna", True), ("empty", False), ("zoe", True)]
 
 
 @pytest.mark.parametrize("first", ["", "from __future__ import annotations\n"])

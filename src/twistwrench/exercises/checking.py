@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 
 import pytest
 
+from ..options import at_least
 from . import catalogue
 from .exercise import Exercise
 from .folder.workbook import Unread, Workbook
@@ -75,7 +76,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="S",
         help="seconds for one call of an answer; 0 for none, as `breakpoint()` needs it (10)",
     )
-    parser.addoption("--seed", type=int, metavar="N", help="of the random cases; drawn anew each time unless given")
+    parser.addoption(
+        "--seed", type=at_least(0), metavar="N", help="of the random cases; drawn anew each time unless given"
+    )
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 from typing import Any
 
 from ..files import write_text
+from ..options import at_least, check_writable
 from .words.text import Language, Text
 
 __all__ = ["register"]
@@ -32,11 +34,11 @@ def register(commands: Any) -> None:
     status.add_argument(
         "--time-limit", type=_seconds, metavar="S", help="seconds for one call of a function; 0 for none (10)"
     )
-    status.add_argument("--seed", type=int, metavar="N", help="of the random cases; drawn anew unless given")
+    status.add_argument("--seed", type=at_least(0), metavar="N", help="of the random cases; drawn anew unless given")
     case = _action(actions, "case", "the arguments of a case, and the right answer", run_case)
     case.add_argument("name", metavar="FUNCTION", help="as in the skeletons")
     case.add_argument("number", type=int, nargs="?", default=0, metavar="K", help="which case, counted from 0 (0)")
-    case.add_argument("--seed", type=int, default=0, metavar="N", help="of the random cases (0)")
+    case.add_argument("--seed", type=at_least(0), default=0, metavar="N", help="of the random cases (0)")
     hint = _action(actions, "hint", "the next hint for an exercise", run_hint)
     solution = _action(actions, "solution", "a solution of an exercise", run_solution)
     for asked in (hint, solution):
@@ -50,14 +52,18 @@ def register(commands: Any) -> None:
 
 
 def _add_grade(grade: Any) -> None:
-    grade.add_argument("folders", nargs="+", metavar="FOLDER", help="of a student, or a folder of such folders")
+    grade.add_argument(
+        "folders", nargs="+", metavar="FOLDER", help="or zip: of a student, or with those of students in it"
+    )
     grade.add_argument("--only", nargs="+", default=[], metavar="ID", help="exercises or sections: 49.6 49.7.1 (all)")
     grade.add_argument("--csv", metavar="FILE", help="a row for each function of each student")
     grade.add_argument("--html", metavar="FILE", help="a page: points, messages, words beside the model answer")
     grade.add_argument("--junit", metavar="FILE", help="a test suite for each student")
-    grade.add_argument("--seed", type=int, metavar="N", help="of the random cases, the same for all; else drawn")
+    grade.add_argument(
+        "--seed", type=at_least(0), metavar="N", help="of the random cases, the same for all; else drawn"
+    )
     grade.add_argument("--timeout", type=_seconds, metavar="S", help="seconds for one call of a function (10)")
-    grade.add_argument("--jobs", type=int, metavar="N", help="folders at a time (one for each processor)")
+    grade.add_argument("--jobs", type=at_least(1), metavar="N", help="folders at a time (one for each processor)")
 
 
 def _action(actions: Any, name: str, help: str, run: Any) -> Any:
@@ -157,19 +163,33 @@ def _sure(number: str, language: Language) -> bool:
 
 
 def run_grade(args: argparse.Namespace) -> int:
-    """Grade folders, print a table, and write what is asked for."""
-    from .course.grading import grade
+    """Grade folders, print a table, and write what is asked for: the CSV after each student, the others at the end."""
+    from .course.grading import Graded, grade
     from .course.sheets import as_csv, as_html, as_junit, as_table
     from .processes.isolation import TIME_LIMIT, drawn
     from .words.text import default_language
 
     seed, language = drawn(args.seed), args.language or default_language()
-    limit = args.timeout or TIME_LIMIT
-    found = grade(args.folders, only=args.only, seed=seed, time_limit=limit, jobs=args.jobs, language=language)
-    print(as_table(found, seed, language))
-    for path, made in ((args.csv, as_csv), (args.html, as_html), (args.junit, as_junit)):
-        if path is not None:
-            write_text(path, made(found, seed, language))
+    for option in ("csv", "html", "junit"):
+        path = getattr(args, option)
+        check_writable(f"--{option}", None if path is None else Path(path))
+    so_far: list[Graded] = []
+
+    def ended(found: list[Graded], one: Graded, of: int) -> None:
+        so_far[:] = found
+        counts = f"{one.points:.2f} / {len(one.marks)}"
+        print(f"{len(found)}/{of}  {one.student}  {counts}  {one.seconds:.0f} s", file=sys.stderr, flush=True)
+        if args.csv is not None:
+            write_text(args.csv, as_csv(found, seed, language))
+
+    how = {"only": args.only, "seed": seed, "time_limit": args.timeout or TIME_LIMIT, "jobs": args.jobs}
+    try:
+        grade(args.folders, language=language, ended=ended, **how)
+    finally:
+        for path, made in ((args.html, as_html), (args.junit, as_junit)):
+            if path is not None and so_far:
+                write_text(path, made(so_far, seed, language))
+    print(as_table(so_far, seed, language))
     return 0
 
 

@@ -83,8 +83,7 @@ def hint(
     number, spoken, n = exercise.id, book.language, len(exercise.hints)
     shown = int(book.state["hints"].get(number, 0))
     last = n if every else min(max(shown, 1) if again else shown + 1, n)
-    if remembered := (book.folder / catalogue.file_name(exercise.section)).exists():
-        book.remember(hints={**book.state["hints"], number: max(shown, last)})
+    remembered = _remember(book, exercise, hints={**book.state["hints"], number: max(shown, last)})
     lines: list[str] = []
     for k in range(1 if every else last, last + 1):
         title = SAY["hint"].fill(id=number, title=exercise.title, k=k, n=n).of(spoken)
@@ -92,6 +91,17 @@ def hint(
     if last == n:
         return Shown("\n".join([*lines, SAY["last"].fill(id=number).of(spoken)]))
     return Shown("\n".join(lines[:-1] if remembered else [*lines, SAY["forgotten"].of(spoken)]))
+
+
+def _remember(book: Workbook, exercise: Exercise, **news: object) -> bool:
+    """Write down what was shown, in a folder with the exercise that may be written to; return whether it is."""
+    if not (book.folder / catalogue.file_name(exercise.section)).exists():
+        return False
+    try:
+        book.remember(**news)
+    except OSError:
+        return False
+    return True
 
 
 def _has_words(book: Workbook, exercise: Exercise) -> bool:
@@ -133,8 +143,7 @@ def solution(name: str, folder: str | PathLike[str] = ".", *, language: Language
     """
     exercise, book = catalogue.asked_for(name), Workbook(folder, language=language)
     number, spoken = exercise.id, book.language
-    if (book.folder / catalogue.file_name(exercise.section)).exists():
-        book.remember(solutions=sorted({*book.state["solutions"], number}))
+    _remember(book, exercise, solutions=sorted({*book.state["solutions"], number}))
     lines = [SAY["solution"].fill(id=number, title=exercise.title).of(spoken)]
     lines += ["\n" + source.rstrip() for source in solution_sources(exercise, spoken)]
     if exercise.answer is not None:

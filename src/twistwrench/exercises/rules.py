@@ -1,8 +1,8 @@
 """The ways that an exercise rules out: calls that it forbids, the reference itself, a result that is written down.
 
 They are decided before anything is run, by what the code of the student's function names: the objects that its names
-and their attributes stand for, in it and in the student's other functions that it uses. What is only named while it runs
-is not seen.
+and their attributes stand for, in it and in the student's other functions that it uses. What is only named while it
+runs is not seen.
 """
 
 from __future__ import annotations

@@ -2,10 +2,11 @@
 
 Each file imports only from those above it in this table.
 
-=======  ====================================
-file     what it holds
-=======  ====================================
-grading  the folders, each judged by itself
-sheets   a table, a page, CSV and JUnit's XML
-=======  ====================================
+===========  ========================================
+file         what it holds
+===========  ========================================
+submissions  what was handed in, in folders and zips
+grading      each student judged, by itself
+sheets       a table, a page, CSV and JUnit's XML
+===========  ========================================
 """

@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 import os
-import threading
+import tempfile
 import time
-from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
-
-from tqdm import tqdm
 
 from ...errors import ModelError, check_known
 from .. import catalogue
+from ..calls import shown
 from ..exercise import Exercise
-from ..folder.workbook import Workbook, has_started
+from ..folder.workbook import Workbook
 from ..judge import Verdict
-from ..processes.isolation import TIME_LIMIT, opened
-from ..words.text import Language
+from ..processes.isolation import TIME_LIMIT, IsolatedWorkbook, drawn, opened
+from ..processes.worker import not_judged
+from ..words.text import Language, Text
+from .submissions import Submission, submissions
 
-__all__ = ["Graded", "Mark", "grade", "students"]
+__all__ = ["Graded", "Mark", "grade"]
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,8 @@ class Mark:
         From the name of each function to its verdict.
     words : str, optional
         The answer in words, to be read by the instructor; None where there is none.
+    words_verdict : Verdict, optional
+        Whether there is enough of it; None where none is asked for.
     hints : int
         How many were asked for.
     solution : bool
@@ -46,6 +48,7 @@ class Mark:
     exercise: str
     verdicts: dict[str, Verdict]
     words: str | None
+    words_verdict: Verdict | None
     hints: int
     solution: bool
 
@@ -64,14 +67,17 @@ class Graded:
     student : str
         The name of the folder.
     marks : dict
-        By the number of the exercise; empty where nothing was started in the folder.
+        By the number of the exercise.
     seconds : float
         That it took.
+    remarks : tuple of Text
+        What an instructor should look at: files that are missing, or have another name.
     """
 
     student: str
     marks: dict[str, Mark]
     seconds: float
+    remarks: tuple[Text, ...] = ()
 
     @property
     def points(self) -> float:
@@ -80,20 +86,21 @@ class Graded:
 
 
 def grade(
-    folders: Sequence[str | PathLike[str]],
+    given: Sequence[str | PathLike[str]],
     *,
     only: Sequence[str] = (),
     seed: int = 0,
     time_limit: float = TIME_LIMIT,
     jobs: int | None = None,
     language: Language = "en",
+    ended: Callable[[list[Graded], Graded, int], object] | None = None,
 ) -> list[Graded]:
-    """Grade the folders of students. Each runs in processes of its own, so that none can disturb another.
+    """Grade what students have handed in. Each runs in processes of its own, so that none can disturb another.
 
     Parameters
     ----------
-    folders : sequence of str or path
-        Each of a student, or one that holds the folders of students.
+    given : sequence of str or path
+        Folders or zips: each of a student, or with those of students in it.
     only : sequence of str
         Numbers of exercises, or of sections, as "49.6"; all unless given.
     seed : int
@@ -101,9 +108,12 @@ def grade(
     time_limit : float
         Seconds for one call of a function.
     jobs : int, optional
-        Folders at a time; one for each processor unless given.
+        Students at a time; one for each processor unless given.
     language : {"en", "zh"}
         Of the messages.
+    ended : callable, optional
+        Called whenever a student is done: with all that are done, in their order, with this one, and with the number
+        of all students.
 
     Returns
     -------
@@ -113,37 +123,42 @@ def grade(
     Raises
     ------
     ModelError
-        If there is nothing to grade.
+        If there is nothing to grade, or a number is negative.
     NameNotFound
         If there is no such exercise or section.
     """
-    exercises, stopping = _chosen(only), threading.Event()
+    if jobs is not None and jobs < 1:
+        raise ModelError(f"jobs: expected a whole number, 1 or more, got {jobs}")
+    exercises, books = _chosen(only), list[Workbook]()
+    sections = list(dict.fromkeys(exercise.section for exercise in exercises))
+    how = {"language": language, "seed": drawn(seed), "time_limit": time_limit, "quiet": True}
 
-    def graded(folder: Path) -> Graded:
-        start = time.perf_counter()
-        with opened(folder, language=language, seed=seed, time_limit=time_limit, quiet=True) as book:
-            marks = {e.id: _mark(book, e) for e in exercises if has_started(folder) and not stopping.is_set()}
-        return Graded(folder.name, marks, time.perf_counter() - start)
+    def graded(one: Submission) -> Graded:
+        start, marks = time.perf_counter(), dict[str, Mark]()
+        with opened(one.folder, files=one.files, **how) as book:
+            books.append(book)
+            marks = {exercise.id: _mark(book, exercise) for exercise in exercises}
+        return Graded(one.student, marks, time.perf_counter() - start, one.remarks)
 
-    with ThreadPoolExecutor(jobs or os.cpu_count() or 1) as pool:
+    with (
+        tempfile.TemporaryDirectory(prefix="twistwrench-", ignore_cleanup_errors=True) as room,
+        ThreadPoolExecutor(jobs or os.cpu_count() or 1) as pool,
+    ):
+        found: dict[int, Graded] = {}
+        every = submissions(given, Path(room), sections)
+        running = {pool.submit(graded, one): k for k, one in enumerate(every)}
         try:
-            every = students(folders)
-            return list(tqdm(pool.map(graded, every), total=len(every), unit="folder", disable=None, leave=False))
+            for done in as_completed(running):
+                found[running[done]] = done.result()
+                if ended is not None:
+                    ended([found[k] for k in sorted(found)], done.result(), len(every))
         except BaseException:
-            stopping.set()
-            pool.shutdown(cancel_futures=True)
+            pool.shutdown(wait=False, cancel_futures=True)
+            for book in books:
+                if isinstance(book, IsolatedWorkbook):
+                    book.close()
             raise
-
-
-def students(folders: Sequence[str | PathLike[str]]) -> list[Path]:
-    """Return the folders of students: those given, and for a folder of folders those in it."""
-    found: list[Path] = []
-    for folder in map(Path, folders):
-        if not folder.is_dir():
-            raise ModelError(f"{folder}: expected the folder of a student, or a folder of such folders")
-        inside = [] if has_started(folder) else sorted(path for path in folder.iterdir() if path.is_dir())
-        found += inside if any(map(has_started, inside)) else [folder.resolve()]
-    return found
+    return [found[k] for k in sorted(found)]
 
 
 def _chosen(only: Sequence[str]) -> list[Exercise]:
@@ -155,9 +170,16 @@ def _chosen(only: Sequence[str]) -> list[Exercise]:
 
 
 def _mark(book: Workbook, exercise: Exercise) -> Mark:
-    state: dict[str, Any] = book.state
-    verdicts = {part.name: book.verdict(exercise, part) for part in exercise.parts}
-    words = book.words(exercise) if exercise.answer is not None else None
-    return Mark(
-        exercise.id, verdicts, words, int(state["hints"].get(exercise.id, 0)), exercise.id in state["solutions"]
-    )
+    """Return the points in one exercise; a function that the check fails on has none, and the reason."""
+    verdicts = {}
+    for part in exercise.parts:
+        try:
+            verdicts[part.name] = book.verdict(exercise, part)
+        except Exception as error:
+            verdicts[part.name] = not_judged(exercise, part, shown(error))
+    try:
+        words, enough = book.words(exercise) if exercise.answer is not None else None, book.verdict_in_words(exercise)
+    except Exception as error:
+        words, enough = None, not_judged(exercise, exercise.parts[0], shown(error))
+    hints, was_shown = int(book.state["hints"].get(exercise.id, 0)), exercise.id in book.state["solutions"]
+    return Mark(exercise.id, verdicts, words, enough, hints, was_shown)

@@ -31,10 +31,10 @@ SAY = {
         "Random cases: --seed {seed}. A point for each exercise; answers in words are for you to read.",
         "随机数据：--seed {seed}。每题一分；文字作答请自行批阅。",
     ),
-    "nothing": Text("nothing was started here", "此文件夹中没有练习"),
+    "remarks": Text("To look at", "请留意"),
+    "no words": Text("No answer: {names}", "未作答：{names}"),
     "title": Text("The exercises of the class", "全班练习"),
     "model": Text("Model answer", "参考答案"),
-    "none": Text("(no answer)", "（未作答）"),
     "messages": Text("Messages", "消息"),
     "read": Text("In words, to be read", "文字作答（请批阅）"),
     "to do": Text("to do", "未做"),
@@ -42,7 +42,8 @@ SAY = {
     "wrong": Text("wrong", "有误"),
 }
 
-HEADER = ("student", "exercise", "function", "state", "points", "of", "hints", "solution", "slips", "reason", "words")
+HEADER = ("student", "exercise", "function", "state", "points", "of", "hints", "solution", "slips", "how", "reason")
+HEADER += ("words", "seed")
 
 PAGE = """<!doctype html>
 <html lang="{code}"><head><meta charset="utf-8"><title>{title}</title>
@@ -72,8 +73,8 @@ def as_table(found: Sequence[Graded], seed: int, language: Language) -> str:
         marks = one.marks.values()
         cells = [f"{one.points:.2f} / {len(one.marks)}", f"{sum(m.hints for m in marks)}"]
         cells += [f"{sum(m.solution for m in marks)}", f"{sum(m.words is not None for m in marks)}"]
-        rest = "".join(_padded(cell, 14) for cell in cells) if one.marks else SAY["nothing"].of(language)
-        lines.append((_padded(one.student, wide) + rest).rstrip())
+        lines.append((_padded(one.student, wide) + "".join(_padded(cell, 14) for cell in cells)).rstrip())
+        lines += [f"  ! {remark.of(language)}" for remark in one.remarks]
     return "\n".join([*lines, "", SAY["seed"].fill(seed=seed).of(language)])
 
 
@@ -82,10 +83,10 @@ def _padded(text: str, width: int) -> str:
 
 
 def as_csv(found: Sequence[Graded], seed: int, language: Language) -> str:
-    """Return a row for each function of each student, and one for each answer in words."""
+    """Return a row for each function of each student, for each answer in words, and for each remark on a student."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow((*HEADER, "seed"))
+    writer.writerow(HEADER)
     for one in found:
         for row in _rows(one, language):
             writer.writerow([_harmless(str(cell)) for cell in (one.student, *row, seed)])
@@ -93,16 +94,19 @@ def as_csv(found: Sequence[Graded], seed: int, language: Language) -> str:
 
 
 def _rows(one: Graded, language: Language) -> Iterator[tuple[object, ...]]:
+    for remark in one.remarks:
+        yield *[""] * 9, remark.of(language), ""
     for number, mark in one.marks.items():
         share = 1 / len(mark.verdicts)
         used = mark.hints, int(mark.solution)
         for name, verdict in mark.verdicts.items():
             points = share if verdict.state == "done" else 0.0
-            slips, reason = " ".join(verdict.slips), _reason(verdict, language)
-            yield number, name, verdict.state, f"{points:.4g}", f"{share:.4g}", *used, slips, reason, ""
-        if catalogue.exercise(number).answer is not None:
-            state = "to do" if mark.words is None else "to read"
-            yield number, catalogue.exercise(number).answer_name, state, "", "", *used, "", "", mark.words or ""
+            slips, how = " ".join(verdict.slips), "slip" if verdict.slips else ""
+            points_of = f"{points:.4g}", f"{share:.4g}"
+            yield number, name, verdict.state, *points_of, *used, slips, how, _reason(verdict, language), ""
+        if mark.words_verdict is not None:
+            name, state = catalogue.exercise(number).answer_name, mark.words_verdict.state
+            yield number, name, state, "", "", *used, "", "", "", mark.words or ""
 
 
 def _harmless(cell: str) -> str:
@@ -125,9 +129,10 @@ def as_junit(found: Sequence[Graded], seed: int, language: Language) -> str:
         verdicts = [(n, name, v) for n, mark in one.marks.items() for name, v in mark.verdicts.items()]
         count = {state: str(sum(v.state == state for *_, v in verdicts)) for state in ("wrong", "to do")}
         how = {"failures": count["wrong"], "skipped": count["to do"], "errors": "0", "time": f"{one.seconds:.3f}"}
-        suite = SubElement(root, "testsuite", {"name": one.student, "tests": str(len(verdicts)), **how})
+        student = _printable(one.student)
+        suite = SubElement(root, "testsuite", {"name": student, "tests": str(len(verdicts)), **how})
         for number, name, verdict in verdicts:
-            test = SubElement(suite, "testcase", classname=one.student, name=f"{number.replace('.', '_')}-{name}")
+            test = SubElement(suite, "testcase", classname=student, name=f"{number.replace('.', '_')}-{name}")
             if verdict.state == "wrong":
                 failure = SubElement(test, "failure", message=_printable(_reason(verdict, language)))
                 failure.text = _printable(verdict.report(language))
@@ -138,13 +143,13 @@ def as_junit(found: Sequence[Graded], seed: int, language: Language) -> str:
 
 def _printable(text: str) -> str:
     """Drop characters that XML cannot hold."""
-    return "".join(c for c in text if c in "\n\t" or c >= " ")
+    return "".join(c for c in text if c in "\n\t" or (c >= " " and c not in "\ufffe\uffff"))
 
 
 def as_html(found: Sequence[Graded], seed: int, language: Language) -> str:
     """Return a page: the points of all, their answers in words beside the model answer, and every message."""
     said = f"{SAY['seed'].fill(seed=seed).of(language)}<br>{SAY['legend'].of(language)}"
-    body = [f"<p>{said}</p>", _points(found, language)]
+    body = [f"<p>{said}</p>", _points(found, language), _remarks(found, language)]
     numbers = list(dict.fromkeys(number for one in found for number in one.marks))
     asked = [n for n in numbers if catalogue.exercise(n).answer is not None]
     body += [f"<h2>{SAY['read'].of(language)}</h2>", *(_answers(number, found, language) for number in asked)]
@@ -163,6 +168,16 @@ def _points(found: Sequence[Graded], language: Language) -> str:
         cells = "".join(_cell(one.marks.get(number), _place(k, number)) for number in numbers)
         rows.append(f"<tr><th>{escape(one.student)}</th><td>{one.points:.2f}</td>{cells}</tr>")
     return f'<div class="tw-scroll"><table class="tw-class"><tr>{head}</tr>{"".join(rows)}</table></div>'
+
+
+def _remarks(found: Sequence[Graded], language: Language) -> str:
+    """Return what to look at, a line for each student of whom there is something."""
+    lines = [
+        f"<li><b>{escape(x.student)}</b>: {escape(' '.join(r.of(language) for r in x.remarks))}"
+        for x in found
+        if x.remarks
+    ]
+    return f"<h2>{SAY['remarks'].of(language)}</h2><ul>{''.join(lines)}</ul>" if lines else ""
 
 
 def _place(student: int, number: str) -> str:
@@ -189,10 +204,11 @@ def _answers(number: str, found: Sequence[Graded], language: Language) -> str:
     exercise = catalogue.exercise(number)
     model = (exercise.answer or Text("", "")).of(language).strip()
     rows = [f"<tr><th>{SAY['model'].of(language)}</th><td><pre>{escape(model)}</pre></td></tr>"]
-    for one in found:
-        words = one.marks[number].words if number in one.marks else None
-        text = f"<pre>{escape(words)}</pre>" if words else f"<i>{SAY['none'].of(language)}</i>"
-        rows.append(f"<tr><th>{escape(one.student)}</th><td style='text-align: left'>{text}</td></tr>")
+    written = {one.student: words for one in found if (words := one.marks[number].words)}
+    for student, words in written.items():
+        rows.append(f"<tr><th>{escape(student)}</th><td style='text-align: left'><pre>{escape(words)}</pre></td></tr>")
+    if without := ", ".join(one.student for one in found if one.student not in written):
+        rows.append(f"<tr><td colspan='2'><i>{escape(SAY['no words'].fill(names=without).of(language))}</i></td></tr>")
     title = f"{number} {escape(exercise.title.of(language))}"
     table = f'<table class="tw-class">{"".join(rows)}</table>'
     return f'<details class="tw-check"><summary>{title}</summary>{table}</details>'

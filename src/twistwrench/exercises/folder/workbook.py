@@ -165,7 +165,7 @@ class Workbook:
             return say("file" if isinstance(error, OSError) else "encoding", file=path.name, error=error)
         kept = {name: (x, dict(vars(x))) for name, x in SHARED.items()}
         try:
-            with _importable(self.folder), self.watch(path.name):
+            with _importable(path.parent), self.watch(path.name):
                 sys.modules.setdefault(path.stem, module)  # in which a dataclass looks for its names
                 # compiled anew each time: a cached file can be older than the last change
                 exec(compile(source, path, "exec", dont_inherit=True), module.__dict__)

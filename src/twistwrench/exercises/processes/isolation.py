@@ -26,7 +26,7 @@ from ..words.phrases import say
 from ..words.text import Language, Text
 from .process import Died, Process
 from .transfer import sent
-from .worker import not_judged
+from .worker import NOT_RECEIVED, not_judged
 
 __all__ = ["TIME_LIMIT", "IsolatedWorkbook", "drawn", "judged", "opened"]
 
@@ -125,10 +125,16 @@ def judged(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed
         book.printed = printed
         try:
             return book.verdict(exercise, part)
+        except _NotReceived:
+            return judge(exercise, part, function, seed=seed)
         finally:
             book.close()
             printed.seek(0)
             sys.stdout.write(printed.read().decode(errors="replace"))
+
+
+class _NotReceived(Exception):
+    """The other process cannot make a function again."""
 
 
 class IsolatedWorkbook(Workbook):
@@ -156,6 +162,8 @@ class IsolatedWorkbook(Workbook):
             found = self._ask(what, part.name, *self.function)
             if isinstance(found, Verdict):
                 return found
+            if found == NOT_RECEIVED:
+                raise _NotReceived
         return not_judged(exercise, part, say("ended").en)
 
     def close(self) -> None:

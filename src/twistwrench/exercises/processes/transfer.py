@@ -6,6 +6,7 @@ What a library defines goes by its name, what the student has defined by its con
 from __future__ import annotations
 
 import dis
+import functools
 import io
 import linecache
 import marshal
@@ -57,6 +58,8 @@ class _Pickler(pickle.Pickler):
             return _mine, (x.mine, str(x.folder))
         if isinstance(x, FunctionType) and not is_ours(x.__code__.co_filename):
             return self._function(x)
+        if isinstance(x, functools._lru_cache_wrapper) and not is_ours(x.__wrapped__.__code__.co_filename):
+            return _cached, (x.__wrapped__, x.cache_parameters())
         if isinstance(x, type) and _is_students(x):
             held = {k: v for k, v in vars(x).items() if k not in ("__dict__", "__weakref__")}
             return type(x), (x.__name__, x.__bases__, {}), held, None, None, _fill_class
@@ -104,6 +107,10 @@ def _content(cell: CellType) -> tuple[Any, ...]:
 
 def _mine(name: str, folder: str) -> Function:
     return offered(name, Workbook(folder))
+
+
+def _cached(function: Function, parameters: dict[str, Any]) -> Function:
+    return functools.lru_cache(**parameters)(function)
 
 
 def _function(code: bytes, space: int, name: str, closure: tuple[CellType, ...] | None) -> FunctionType:

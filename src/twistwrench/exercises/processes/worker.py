@@ -24,7 +24,10 @@ from .limits import contained
 from .messages import as_json, from_json
 from .transfer import received
 
-__all__ = ["main", "not_judged"]
+__all__ = ["NOT_RECEIVED", "main", "not_judged"]
+
+NOT_RECEIVED = "not received"
+"""The answer on a function that cannot be made again here."""
 
 NOT_JUDGED = Text("It could not be judged: {why}", "无法评判：{why}")
 
@@ -87,9 +90,12 @@ class _Watched(Workbook):
                 why = shown(error)
         return not_judged(exercise, part, why)
 
-    def _function(self, exercise: Exercise, part: Part, text: str) -> Verdict:
+    def _function(self, exercise: Exercise, part: Part, text: str) -> Verdict | str:
         """Judge a function that was sent."""
-        function = received(base64.b64decode(text))
+        try:
+            function = received(base64.b64decode(text))
+        except Exception:  # it names something that is only where it comes from
+            return NOT_RECEIVED
         search = True if self.search is None else self.search
         return judge(exercise, part, function, seed=self.seed, watch=lambda: self.watch(part.name), search=search)
 
