@@ -252,9 +252,9 @@ def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -
     begin(arguments)
     try:
         answer = plain(part.value(function, given))
-    except NotImplementedError:
+    except (KeyboardInterrupt, NotImplementedError):
         raise
-    except (Exception, SystemExit) as error:  # whatever the student's code raises becomes a message
+    except BaseException as error:  # whatever the student's code raises becomes a message
         outside = isinstance(error, MemoryError | SystemExit)  # no slip of the mathematics
         raise (_Stop if outside else _Raised)(*_stopped(error)) from None
     for name, before, after in zip(part.arguments.split(", "), arguments, given):

@@ -169,7 +169,9 @@ class Workbook:
                 sys.modules.setdefault(path.stem, module)  # in which a dataclass looks for its names
                 # compiled anew each time: a cached file can be older than the last change
                 exec(compile(source, path, "exec", dont_inherit=True), module.__dict__)
-        except (Exception, SystemExit) as error:  # whatever the student's file raises becomes a message
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # whatever the student's file raises becomes a message
             said = shown(error)
             if (line := _line(error, path)) is not None:
                 return say("file at line", file=path.name, line=line, error=said)

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from importlib.util import decode_source
 from os import PathLike
 from pathlib import Path
 from typing import IO, Any
@@ -19,7 +20,7 @@ from .. import catalogue
 from ..cases import cases
 from ..exercise import Exercise, Part
 from ..failing import Case, failing_case
-from ..folder.workbook import Workbook
+from ..folder.workbook import Workbook, content
 from ..judge import Verdict, judge
 from ..rules import file_or_cell, is_ours, is_reference, reference
 from ..words.phrases import say
@@ -219,8 +220,16 @@ class IsolatedWorkbook(Workbook):
         """Return why the process ended, and at which line of the student's."""
         lines = [say("endless", seconds=f"{self.time_limit:g}") if died.late else say("ended")]
         for path, number in re.findall(r'File "(.+)", line (\d+) in', died.trace):
-            linecache.checkcache(path)
-            if not is_ours(path) and (line := linecache.getline(path, int(number)).strip()):
+            if not is_ours(path) and (line := _line(path, int(number))):
                 lines += [say("at line", file=file_or_cell(path), line=number), Text("    " + line, "    " + line)]
                 break
         return lines
+
+
+def _line(path: str, number: int) -> str:
+    """Return a line of a student's file, or of a cell; empty where there is none."""
+    try:
+        source = decode_source(content(Path(path)))
+    except (OSError, SyntaxError, UnicodeError, ValueError):
+        source = "".join(linecache.cache[path][2]) if len(linecache.cache.get(path, ())) == 4 else ""
+    return "".join(source.splitlines()[number - 1 : number]).strip()

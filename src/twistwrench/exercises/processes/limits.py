@@ -13,6 +13,9 @@ __all__ = ["MEMORY", "contained"]
 MEMORY = 4 << 30
 """Bytes that an answer may use on top; the largest of the references uses 0.1 GB."""
 
+LARGEST_FILE = 100_000_000
+"""Bytes of a file that an answer writes, where the system can limit them."""
+
 PRINTED = 10_000
 """Characters that the answers of a folder may print, a line counted as 80 at least; an endless loop prints more."""
 
@@ -22,7 +25,7 @@ def contained() -> Iterator[None]:
     """Limit the memory of this process and what it prints, and let a process that it forks end at once."""
     if hasattr(os, "register_at_fork"):
         os.register_at_fork(after_in_child=lambda: os._exit(0))
-    _limit_memory()
+    _limit_memory_and_files()
     before = sys.stdout, sys.stderr
     sys.stdout, sys.stderr = (_Short(stream) for stream in before)
     try:
@@ -31,12 +34,17 @@ def contained() -> Iterator[None]:
         sys.stdout, sys.stderr = before
 
 
-def _limit_memory() -> None:
-    """Let an array that is too large raise a MemoryError in the student's line, where the system can do that."""
-    if sys.platform != "linux":
+def _limit_memory_and_files() -> None:
+    """Let an array or a file that is too large raise an error in the student's line, where the system can do that."""
+    if os.name != "posix":
         return
     import resource
 
+    _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    wanted = LARGEST_FILE if most == resource.RLIM_INFINITY else min(LARGEST_FILE, most)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (wanted, most))
+    if sys.platform != "linux":
+        return
     with open("/proc/self/statm", encoding="ascii") as file:
         used = int(file.read().split()[0]) * resource.getpagesize()
     _, most = resource.getrlimit(resource.RLIMIT_AS)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import fields
+from json import dumps, loads  # by themselves: a student's file may change the module
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,9 @@ from ..judge import Verdict
 from ..words.text import Text
 
 __all__ = ["as_json", "from_json"]
+
+CONTROLS = {k: f"\\x{k:02x}" for k in (*range(32), 127) if chr(k) not in "\t\n"}
+"""Characters that a terminal or a table obeys. Others that no file can hold are written in the same way."""
 
 CLASSES = {kind.__name__: kind for kind in (Verdict, Unread, Case, Compared, Block)}
 
@@ -32,14 +35,14 @@ def as_json(value: Any) -> str:
     >>> as_json(Text("right", "正确").en), as_json(np.eye(2, dtype=bool))
     ('"right"', '{"array": [[2, 2], "b", [1, 0, 0, 1]]}')
     """
-    return json.dumps(_plain(value))
+    return dumps(_plain(value))
 
 
 def _plain(x: Any) -> Any:
     if x is None or isinstance(x, bool | int | float):
         return x
     if isinstance(x, str):
-        return x.encode("utf-8", "backslashreplace").decode()  # a character that no file can hold
+        return x.translate(CONTROLS).encode("utf-8", "backslashreplace").decode()
     if isinstance(x, Text):
         return {"Text": [_plain(x.en), _plain(x.zh)]}
     if isinstance(x, Quantity):
@@ -75,7 +78,7 @@ def from_json(text: str | bytes) -> Any:
     'no'
     """
     try:
-        return _value(json.loads(text))
+        return _value(loads(text))
     except (KeyError, TypeError, ValueError, RecursionError) as error:
         raise ValueError(f"expected a message, got {text[:80]!r}: {error}") from None
 

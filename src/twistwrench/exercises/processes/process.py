@@ -61,7 +61,7 @@ class Died(Exception):
 
     def __init__(self, at: str | None, call: int, late: bool, trace: str) -> None:
         super().__init__()
-        self.at, self.call, self.late, self.trace = at, call, late or trace.startswith("Timeout"), trace
+        self.at, self.call, self.late, self.trace = at, call, late or "Timeout (" in trace, trace
 
 
 class Process:

@@ -86,7 +86,7 @@ class _Watched(Workbook):
             self.search = search
             try:
                 return self._function(exercise, part, *function) if function else self.verdict(exercise, part)
-            except Exception as error:
+            except BaseException as error:
                 why = shown(error)
         return not_judged(exercise, part, why)
 
