@@ -1,7 +1,6 @@
 """A class of students who are odd, unlucky or hostile: each hands in a right `act`, and a `skew` that does harm."""
 
 import os
-import signal
 
 from twistwrench.exercises import start
 from twistwrench.exercises.folder.workbook import STATE_FILE
@@ -57,12 +56,26 @@ class Items(list):
 """Classes whose objects raise an error wherever they are touched."""
 
 LOOP = "while True:\n    pass"
-DEAF = "import signal\nfor n in range(1, 32):\n    try:\n        signal.signal(n, signal.SIG_IGN)\n    except (OSError, ValueError):\n        pass\n"
+DEAF = """\
+import signal
+for n in range(1, 32):
+    try:
+        signal.signal(n, signal.SIG_IGN)
+    except (OSError, ValueError):
+        pass
+"""
 UNWATCHED = "import faulthandler\nfaulthandler.cancel_dump_traceback_later()\n"
 SLEEP = "import subprocess\nsubprocess.Popen(['sleep', '4712'], start_new_session=True)\n"
 TWICE = "import subprocess\nsubprocess.run(['sh', '-c', 'setsid sleep 4712 >/dev/null 2>&1 &'])\n"
-WRITES = "import os, pickle\nfor fd in range(3, 20):\n    try:\n        os.write(fd, {})\n    except OSError:\n        pass\n"
-PICKLE = "b'cposix\\nsystem\\n(S\"touch {}\"\\ntR.'"
+WRITES = """\
+import os
+for fd in range(3, 20):
+    try:
+        os.write(fd, WHAT)
+    except OSError:
+        pass
+"""
+PICKLE = """b'cposix\\nsystem\\n(S"touch MARKED"\\ntR.'"""
 
 BODIES = {
     "tensor": "return Odd(w)",
@@ -91,18 +104,19 @@ BODIES = {
     "group stopped": "import os, signal\nos.killpg(0, signal.SIGSTOP)\nreturn tw.skew(w)",
     "unwatched": UNWATCHED + LOOP,
     "deaf": DEAF + UNWATCHED + LOOP,
-    "swallowing": "while True:\n    try:\n        while True:\n            pass\n    except BaseException:\n        pass",
+    "swallowing": "while True:\n    try:\n        x = 1\n    except BaseException:\n        pass",
     "stays": SLEEP + "return tw.skew(w) + 1",
     "stays apart": TWICE + "return tw.skew(w) + 1",
     "stays and exits": SLEEP + "import os\nos._exit(0)",
-    "garbage": WRITES.replace("{}", "b'garbage' * 3000") + "return tw.skew(w) + 1",
-    "endless garbage": "while True:\n    " + WRITES.replace("\n", "\n    ").replace("{}", "b'x' * 60000"),
+    "garbage": WRITES.replace("WHAT", "b'garbage' * 3000") + "return tw.skew(w) + 1",
+    "a pickle": WRITES.replace("WHAT", PICKLE) + "return tw.skew(w) + 1",
+    "endless garbage": "while True:\n    " + WRITES.replace("\n", "\n    ").replace("WHAT", "b'x' * 60000"),
     "closed": "import os\nos.closerange(3, 100)\nreturn tw.skew(w)",
-    "own json": WRITES.replace("{}", "b'[\"answer\", [true, []]]\\n'") + "return tw.skew(w) + 1",
+    "own json": WRITES.replace("WHAT", "b'[\"answer\", [true, []]]\\n'") + "return tw.skew(w) + 1",
     "memory": "return np.ones((10**6, 10**6))",
     "recursion": "return skew(w)",
     "forks": "import os\nwhile os.fork():\n    pass",
-    "threads": "import threading\nthreading.Thread(target=lambda: [0 for _ in iter(int, 1)]).start()\nreturn tw.skew(w) + 1",
+    "threads": "import threading\nthreading.Thread(target=lambda: max(iter(int, 1))).start()\nreturn tw.skew(w) + 1",
 }
 """By its kind, what stands in `skew`."""
 
@@ -133,10 +147,9 @@ ROOMS = {
 
 def hand_in(room, *, bodies=BODIES, files=FILES, rooms=ROOMS):
     """Write the class into a folder: a folder for each kind."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)
     for kind, body in bodies.items():
         start(room / f"body, {kind}", language="en")
-        filled = body.replace("{}", str(room / "was here"))
+        filled = body.replace("MARKED", str(room / "was here"))
         write(room / f"body, {kind}", "49.0", {"act": RIGHT, "skew": filled}, more=ODD)
     for kind, change in files.items():
         start(room / f"file, {kind}", language="en")

@@ -1,7 +1,6 @@
 """The cases of an answer: no turn and half a turn, negative arguments, a second call, and a change that ends Python."""
 
 import os
-import sys
 from functools import partial
 
 import numpy as np

@@ -1,7 +1,6 @@
 """`check`, where the answer is written: the same verdict as in a folder, as text and as HTML, and nothing hangs."""
 
 import re
-import sys
 from dataclasses import replace
 
 import numpy as np

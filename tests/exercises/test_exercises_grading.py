@@ -3,6 +3,8 @@
 import csv
 import io
 import re
+import sys
+import zipfile
 from xml.etree import ElementTree
 
 import pytest
@@ -12,6 +14,7 @@ from twistwrench.cli import main
 from twistwrench.exercises import catalogue, hint, solution, start
 from twistwrench.exercises.course.grading import grade
 from twistwrench.exercises.course.sheets import as_csv, as_html, as_junit, as_table
+from twistwrench.exercises.course.submissions import submissions
 from twistwrench.exercises.folder import skeletons
 
 from .test_exercises_isolation import write
@@ -121,6 +124,152 @@ def test_a_folder_without_exercises_is_a_line_and_not_an_end(room, tmp_path):
     found = grade([tmp_path / "late", room / "ada"], only=["49.0.1"])
     assert [one.points for one in found] == [0, 1]
     assert "No exercises were found here" in as_table(found, 0, "en")
+
+
+def test_the_columns_are_those_that_others_rely_on(found):
+    header, *rows = csv.reader(io.StringIO(as_csv(found, 5, "en").removeprefix("\ufeff")))
+    columns = "student exercise function state points of hints solution slips how reason words seed"
+    assert header == columns.split()
+    assert {row[3] for row in rows if row[2]} <= {"done", "wrong", "to do"}
+    assert {row[9] for row in rows if row[8]} == {"slip"}
+
+
+ACT = "return R @ x + p"
+
+
+def answers(folder, name="ex_49_0.py"):
+    """Start a folder with a right `act` in a file of that name."""
+    start(folder, language="en")
+    write(folder, "49.0", {"act": ACT})
+    (folder / "ex_49_0.py").rename(folder / name)
+    return folder
+
+
+def graded(*places):
+    """Return the points in 49.0.2, and the remarks, by student."""
+    return {x.student: (x.points, " ".join(r.en for r in x.remarks)) for x in grade(places, only=["49.0.2"])}
+
+
+def test_answers_are_found_under_the_names_that_they_are_handed_in_with(tmp_path):
+    room = tmp_path / "class"
+    answers(room / "ada" / "answers")
+    answers(room / "bela_1234_assignsubmission_file" / "week" / "one", "ex_49_0 (1).py")
+    answers(room / "chen", "chen_98765_ex49_0-2.PY")
+    answers(room / "dora", "ex_49_0_new.py")
+    (room / "dora" / "ex_49_0_old.py").write_text("def act(R, p, x):\n    return x\n", encoding="utf-8")
+    answers(room / "emil")
+    (room / "emil" / "ex_49_0 (1).py").write_text("x = 1\n", encoding="utf-8")
+    (room / "fay").mkdir()
+    (room / "fay" / "homework.pdf").write_text("", encoding="utf-8")
+    answers(room / "gus", "answers.py")
+    found = graded(room)
+    assert found["ada"] == (1, "")
+    points, remark = found["bela_1234_assignsubmission_file"]
+    assert (points, remark) == (1, "ex_49_0 (1).py was taken for ex_49_0.py.")
+    assert found["chen"][0] == 1
+    assert found["dora"][0] == 0
+    assert "ex_49_0_new.py, ex_49_0_old.py" in found["dora"][1]
+    assert found["emil"][0] == 1
+    assert "ex_49_0 (1).py" in found["emil"][1]
+    assert found["fay"] == (0, "No exercises were found here. Here are: homework.pdf.")
+    assert found["gus"] == (0, "Not there: ex_49_0.py.")
+
+
+def test_remarks_are_on_the_page_in_the_table_and_in_the_rows(tmp_path):
+    answers(tmp_path / "class" / "ada", "ex_49_0 (1).py")
+    answers(tmp_path / "class" / "bela")
+    found = grade([tmp_path / "class"], only=["49.0.2"])
+    for shown in (as_table, as_html, as_csv):
+        assert "ex_49_0 (1).py was taken for ex_49_0.py." in shown(found, 0, "en")
+        assert "ex_49_0 (1).py" in shown(found, 0, "zh")
+
+
+@pytest.mark.parametrize(
+    ("tree", "given", "students"),
+    [
+        ({"class/ada/": 1, "class/bela/": 1}, ["class"], ["ada", "bela"]),
+        ({"class/ada/": 1}, ["class"], ["ada"]),
+        ({"class/ada/answers/": 1}, ["class"], ["ada"]),
+        ({"class/ada/answers/": 1, "class/bela/": 1}, ["class/ada", "class/bela"], ["ada", "bela"]),
+        ({"class/class/ada/": 1, "class/class/bela/x/": 1}, ["class"], ["ada", "bela"]),
+        ({"ada/": 1}, ["ada"], ["ada"]),
+        ({"class/ada.zip": {"": 1}, "class/bela.zip": {"answers/": 1}}, ["class"], ["ada", "bela"]),
+        ({"class.zip": {"ada/": 1, "bela/answers/": 1, "__MACOSX/ada/": 1}}, ["class.zip"], ["ada", "bela"]),
+        ({"class.zip": {"class/ada/": 1, "class/bela/": 1}}, ["class.zip"], ["ada", "bela"]),
+        ({"class.zip": {"ada.zip": {"": 1}, "bela.zip": {"x/": 1}}}, ["class.zip"], ["ada", "bela"]),
+        ({"class/ada/mine.zip": {"answers/": 1}, "class/bela/": 1}, ["class"], ["ada", "bela"]),
+    ],
+)
+def test_folders_and_zips_of_any_depth_are_those_of_their_students(tmp_path, tree, given, students):
+    for place, held in tree.items():
+        made = tmp_path / place
+        (made if held == 1 else made.parent).mkdir(parents=True, exist_ok=True)
+        if held == 1:
+            (made / "ex_49_0.py").write_text("x = 1\n", encoding="utf-8")
+        else:
+            made.write_bytes(packed(held))
+    (tmp_path / "room").mkdir()
+    found = submissions([tmp_path / place for place in given], tmp_path / "room", ["49.0"])
+    assert [one.student for one in found] == students
+    assert all(one.files["49.0"].read_text(encoding="utf-8") == "x = 1\n" for one in found)
+
+
+def packed(tree):
+    """Return a zip: of a folder a file with answers, of a zip its content."""
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w") as archive:
+        for place, held in tree.items():
+            archive.writestr(place + "ex_49_0.py" if held == 1 else place, "x = 1\n" if held == 1 else packed(held))
+    return made.getvalue()
+
+
+def test_a_zip_writes_nothing_elsewhere_and_unpacks_nothing_huge(tmp_path):
+    room = tmp_path / "class" / "room"
+    room.mkdir(parents=True)
+    with zipfile.ZipFile(tmp_path / "ada.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in ("../above.py", "/tmp/absolute-49.py", "C:\\drive.py", "a/../../b.py"):
+            archive.writestr(name, "")
+        archive.writestr("huge.py", b"#" * 30_000_000)
+        archive.writestr("ex_49_0.py", "x = 1\n")
+        archive.writestr("ex_49_1.py", "x = 2\n")
+    damaged = (tmp_path / "ada.zip").read_bytes()
+    at = damaged.index(b"ex_49_1.py") + len("ex_49_1.py")
+    (tmp_path / "ada.zip").write_bytes(damaged[:at] + b"\0\0\0" + damaged[at + 3 :])
+    (tmp_path / "bela.zip").write_bytes(b"PK no zip")
+    ada, bela = submissions([tmp_path / "ada.zip", tmp_path / "bela.zip"], room, ["49.0"])
+    assert [path.name for path in room.rglob("*") if path.is_file()] == ["ex_49_0.py"]
+    assert ada.remarks[0].en.startswith("Of ada.zip this was not unpacked: ../above.py, /tmp/absolute-49.py, C:")
+    assert "huge.py, ex_49_1.py" in ada.remarks[0].en
+    assert "bela.zip cannot be unpacked" in bela.remarks[0].en
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["ada.zip", "bela.zip", "class"]
+
+
+def test_each_student_has_a_line_and_rows_as_soon_as_he_is_done(room, tmp_path, capsys, monkeypatch):
+    file, sizes = tmp_path / "a.csv", []
+    monkeypatch.setattr(sys.stderr, "write", lambda text: sizes.append(file.exists() and file.stat().st_size))
+    command = ["exercises", "grade", str(room / "ada"), str(room / "dora"), "--only", "49.0.2", "--csv", str(file)]
+    assert main([*command, "--jobs", "1"]) == 0
+    written = [size for size in sizes if size]
+    assert len(written) >= 1
+    assert written[0] < file.stat().st_size
+
+
+@pytest.mark.parametrize("option", ["--csv", "--html", "--junit"])
+def test_a_file_that_cannot_be_written_is_told_before_anything_is_judged(room, tmp_path, capsys, option):
+    missing = str(tmp_path / "nowhere" / "marks")
+    assert main(["exercises", "grade", str(room), option, missing]) == 2
+    told = capsys.readouterr().err
+    assert missing in told
+    assert "1/5" not in told
+
+
+@pytest.mark.parametrize("option", [["--jobs", "-1"], ["--jobs", "0"], ["--seed", "-5"]])
+def test_a_negative_number_is_told_in_a_sentence(room, capsys, option):
+    with pytest.raises(SystemExit, match="2"):
+        main(["exercises", "grade", str(room), *option])
+    assert f"or more, got '{option[1]}'" in capsys.readouterr().err
+    with pytest.raises(tw.ModelError, match=f"{option[0][2:]}: expected a whole number"):
+        grade([room], **{option[0][2:]: int(option[1])})
 
 
 def test_what_is_not_there_is_an_error(room, tmp_path):

@@ -166,7 +166,7 @@ def silent() -> Iterator[None]:
 def shown(error: BaseException) -> str:
     """Return an error as a message shows it; one of a student's own class may raise another where it is printed."""
     try:
-        return f"{type(error).__name__}: {getattr(error, 'msg', error)}"
+        return f"{type(error).__name__}: {getattr(error, 'msg', error)}".removesuffix(": ")
     except Exception:
         return type(error).__name__
 

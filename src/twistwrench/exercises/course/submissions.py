@@ -7,9 +7,9 @@ import re
 import tempfile
 import zipfile
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
-from pathlib import Path, PurePosixPath
+from pathlib import Path, PurePath, PurePosixPath
 
 from ...errors import ModelError
 from .. import catalogue
@@ -22,8 +22,8 @@ DEEPEST = 5
 """Folders in folders that are looked through."""
 
 MOST_FOLDERS = 1000
-MOST_MEMBERS = 5000
-LARGEST_ARCHIVE = 50 * LARGEST_FILE
+MOST_MEMBERS = 100_000
+LARGEST_ARCHIVE = 200 * LARGEST_FILE
 """Bytes of a zip in a zip, and of all that is unpacked of one."""
 
 OTHERS = ("__MACOSX", "__pycache__", "site-packages", "node_modules")
@@ -91,10 +91,12 @@ def submissions(given: Sequence[str | PathLike[str]], room: Path, sections: Sequ
     unpacking = _Unpacking(room)
     found: list[Submission] = []
     for path in map(Path, given):
-        if not path.is_dir() and not _is_zip(path):
+        if not path.is_dir() and not (_is_zip(path) and path.is_file()):
             raise ModelError(f"{path}: expected the folder of a student, a folder of such folders, or a zip of either")
-        places = _places_of_students(path.resolve(), unpacking, several=len(given) > 1)
-        found += [_submission(place, unpacking, sections) for place in places]
+        place = path.resolve()
+        inside = _places_of_students(place, unpacking, several=len(given) > 1)
+        of_all = tuple(unpacking.remarks.get(place, ())) if inside != [place] else ()
+        found += [replace(x, remarks=of_all + x.remarks) for x in (_submission(y, unpacking, sections) for y in inside)]
     return found
 
 
@@ -115,46 +117,44 @@ class _Unpacking:
             self.remarks[place] = []
             try:
                 self._unpack(place, self._known[place])
-            except Exception as error:  # damaged, encrypted, packed in a way that is not known
+            except Exception as error:  # it is no zip, or its list of members is damaged
                 self.remarks[place].append(SAY["zip"].fill(file=place.name, error=error))
         return self._known[place]
 
     def _unpack(self, archive: Path, target: Path) -> None:
         """Write the members that are small and stay in the folder."""
-        skipped, left = [], LARGEST_ARCHIVE
+        skipped, left = list[str](), LARGEST_ARCHIVE
         with zipfile.ZipFile(archive) as packed:
-            for k, member in enumerate(packed.infolist()):
+            for member in packed.infolist()[:MOST_MEMBERS]:
                 name = PurePosixPath(member.filename.replace("\\", "/"))
                 if member.is_dir() or _is_hidden(name.parts[:-1]):
                     continue
-                largest = min(left, LARGEST_ARCHIVE if _is_zip(Path(name)) else LARGEST_FILE)
-                inside = not name.is_absolute() and ".." not in name.parts and ":" not in member.filename
-                with packed.open(member) as source:
-                    data = source.read(largest + 1) if inside and k < MOST_MEMBERS else b""
-                if not inside or k >= MOST_MEMBERS or len(data) > largest:
-                    skipped.append(member.filename)
-                    continue
-                left -= len(data)
-                (target / name).parent.mkdir(parents=True, exist_ok=True)
-                (target / name).write_bytes(data)
+                largest = min(left, LARGEST_ARCHIVE if _is_zip(name) else LARGEST_FILE)
+                try:
+                    data = _member(packed, member, name, largest)
+                    (target / name).parent.mkdir(parents=True, exist_ok=True)
+                    (target / name).write_bytes(data)
+                    left -= len(data)
+                except Exception:  # damaged, encrypted, too large, or elsewhere
+                    skipped += [member.filename] if name.suffix in (".py", ".zip") else []
         if skipped:
             self.remarks[archive].append(SAY["skipped"].fill(file=archive.name, files=_listed(skipped)))
 
-    def below(self, place: Path) -> Iterator[tuple[int, Path]]:
-        """Yield a place and all folders below it, zips unpacked, with their depths; the nearest first."""
+    def below(self, place: Path) -> Iterator[tuple[int, Path, list[Text]]]:
+        """Yield a place and all folders below it, zips unpacked: depth, folder, remarks; the nearest first."""
         waiting = [(0, place)]
         for _ in range(MOST_FOLDERS):
             if not waiting:
                 return
             depth, place = waiting.pop(0)
             folder = self.folder(place)
-            yield depth, folder
+            yield depth, folder, self.remarks.get(place, [])
             waiting += [(depth + 1, inside) for inside in self.places(folder) if depth < DEEPEST]
 
     def places(self, folder: Path) -> list[Path]:
         """Return the folders and zips in a folder."""
         inside = [x for x in _entries(folder) if not _is_hidden((x.name,)) and not x.is_symlink()]
-        return [x for x in inside if x.is_dir() or _is_zip(x)]
+        return [x for x in inside if x.is_dir() or (_is_zip(x) and x.is_file())]
 
 
 def _places_of_students(place: Path, unpacking: _Unpacking, *, several: bool) -> list[Path]:
@@ -171,7 +171,7 @@ def _places_of_students(place: Path, unpacking: _Unpacking, *, several: bool) ->
 
 
 def _leads_to_answers(place: Path, unpacking: _Unpacking) -> bool:
-    return any(_answers(folder) for _, folder in unpacking.below(place))
+    return any(_answers(folder) for _, folder, _ in unpacking.below(place))
 
 
 def _answers(folder: Path) -> list[tuple[str, Path]]:
@@ -184,15 +184,13 @@ def _submission(place: Path, unpacking: _Unpacking, sections: Sequence[str]) -> 
     """Choose a file for each section: the nearest with the right name, else the only one with a similar name."""
     found: dict[str, list[tuple[bool, int, Path]]] = {}
     others: list[str] = []
-    before = dict.fromkeys(unpacking.remarks)
-    for depth, folder in unpacking.below(place):
+    remarks: list[Text] = []
+    for depth, folder, said in unpacking.below(place):
+        remarks += said
         answers = _answers(folder)
         for section, path in answers:
             found.setdefault(section, []).append((path.name != catalogue.file_name(section), depth, path))
         others += [path.name for path in _entries(folder) if path not in [x for _, x in answers] and path.is_file()]
-    remarks = [
-        x for zipped in unpacking.remarks if zipped == place or zipped not in before for x in unpacking.remarks[zipped]
-    ]
     files: dict[str, Path] = {}
     for section, ways in found.items():
         name, best = catalogue.file_name(section), min(ways)[:2]
@@ -232,12 +230,29 @@ def _content(path: Path) -> bytes | str:
         return str(error)
 
 
-def _is_zip(path: Path) -> bool:
+def _member(packed: zipfile.ZipFile, member: zipfile.ZipInfo, name: PurePosixPath, largest: int) -> bytes:
+    """Return the content of a member of a zip.
+
+    Raises
+    ------
+    ValueError
+        If it would be written elsewhere, or is too large, whatever the zip says of its size.
+    """
+    if name.is_absolute() or ".." in name.parts or ":" in str(name):
+        raise ValueError(f"{name}: expected a name in the folder")
+    with packed.open(member) as source:
+        data = source.read(largest + 1)
+    if len(data) > largest:
+        raise ValueError(f"{name}: expected at most {largest} bytes")
+    return data
+
+
+def _is_zip(path: PurePath) -> bool:
     return path.suffix.lower() == ".zip"
 
 
 def _is_hidden(names: Sequence[str]) -> bool:
-    return any(name.startswith(".") or name in OTHERS for name in names)
+    return any((name.startswith(".") and name != "..") or name in OTHERS for name in names)
 
 
 def _listed(names: Sequence[str], most: int = 6) -> str:
