@@ -1,6 +1,10 @@
 """`check`, where the answer is written: the same verdict as in a folder, as text and as HTML, and nothing hangs."""
 
+import functools
+import os
 import re
+import threading
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +16,7 @@ from twistwrench.exercises.cases import every_case
 from twistwrench.exercises.failing import Block, Compared
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.notebook.markup import case_html
+from twistwrench.exercises.processes.transfer import received, sent
 
 LIMIT = 1.0
 
@@ -125,6 +130,69 @@ def test_what_ends_python_does_not_end_the_notebook(capsys):
     assert check("49.0.2", loud).right
     assert capsys.readouterr().out.count("here") == 2 + cases  # once more to see what is kept, and once where it ended
     assert check("49.0.2", right, time_limit=0).right
+
+
+SCALE = {"one": 1.0}
+
+
+def scaled(x):
+    return SCALE["one"] * x if len(x) else scaled(x)
+
+
+class Frame:
+    def __init__(self, R, p):
+        self.R, self.p = R, p
+
+    def act(self, x):
+        return self.R @ x + self.p
+
+
+def counted():
+    calls = 0
+
+    def act(R, p, x):
+        nonlocal calls
+        calls += 1
+        return Frame(R, p).act(scaled(x)) + 0 * calls
+
+    return act
+
+
+@functools.cache
+def zero(k):
+    return 0 * k
+
+
+def cached(R, p, x):
+    return R @ x + p + zero(3)
+
+
+LOCK = threading.Lock()
+
+
+def with_a_lock(R, p, x):
+    with LOCK:
+        return R @ x + p
+
+
+@pytest.mark.parametrize(("function", "is_sent"), [(counted(), True), (cached, True), (with_a_lock, False)])
+def test_a_function_goes_to_the_other_process_with_what_it_uses(function, is_sent):
+    assert (sent(function) is not None) == is_sent
+    assert check("49.0.2", function).right
+
+
+def test_a_function_that_was_sent_shares_the_names_of_its_module():
+    function = received(sent(counted()))
+    assert function.__globals__ is function.__globals__["scaled"].__globals__
+    assert (function(np.eye(3), np.zeros(3), np.ones(3)) == 1).all()
+
+
+def test_nothing_forks(monkeypatch):
+    """A copy of a process with threads may hold a lock for ever."""
+    monkeypatch.setattr(os, "fork", lambda: pytest.fail("forked"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert check("49.0.2", right).right
 
 
 def test_the_progress_is_that_of_the_section():

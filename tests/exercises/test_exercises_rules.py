@@ -1,14 +1,17 @@
 """What an exercise forbids is noticed: calls that its text rules out, and the reference itself."""
 
+import functools
+import sys
+
 import numpy as np
 import pytest
 
 import twistwrench as tw
 from twistwrench.algorithms.rnea import newton_euler
-from twistwrench.exercises import catalogue, mine, start
+from twistwrench.exercises import catalogue, check, mine, start
 from twistwrench.exercises.items.project_trees import tree_of
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.rules import FORBIDDEN
+from twistwrench.exercises.rules import FORBIDDEN, broken_rules
 
 from .test_exercises_isolation import said, write
 
@@ -47,6 +50,108 @@ def test_a_forbidden_call_is_wrong_though_the_numbers_are_right(name, function, 
     assert found.state == "wrong"
     assert f"calls tw.{called}, and the exercise asks to do without it" in " ".join(found.message("en").split())
     assert f"调用了 tw.{called}" in found.message("zh")
+
+
+def named(model, q):
+    return getattr(tw, "crba")(model, q)  # noqa: B009
+
+
+def imported(model, q):
+    from twistwrench.algorithms.crba import crba
+
+    return crba(model, q)
+
+
+def renamed(model, q):
+    package = tw
+    fast = package.fast
+    return fast.crba(model, q)
+
+
+class Tools:
+    matrix = staticmethod(tw.crba)
+
+    def of(self, model, q):
+        return tw.crba(model, q)
+
+
+TABLE = {"M": tw.crba}
+PROGRAM = tw.compile(tw.load("go2"), "crba")
+TOOLS = Tools()
+
+DISGUISES = {
+    "itself": tw.crba,
+    "partial": functools.partial(tw.crba),
+    "cached": functools.cache(lambda model, q: tw.crba(model, q)),
+    "default": lambda model, q, f=tw.crba: f(model, q),
+    "mapped": lambda model, q: next(map(tw.crba, [model], [q])),
+    "in a table": lambda model, q: TABLE["M"](model, q),
+    "in a class": lambda model, q: Tools.matrix(model, q),
+    "method": TOOLS.of,
+    "of an object": lambda model, q: TOOLS.of(model, q),
+    "helper": lambda model, q: imported(model, q),
+    "imported": imported,
+    "renamed": renamed,
+    "named": named,
+    "evaluated": lambda model, q: eval("tw.crba(model, q)"),
+    "compiled": lambda model, q: tw.compile(model, "crba")(q),
+    "wanted": lambda model, q: tw.compile(model, want={"M"})(q).M,
+    "traced": lambda model, q: tw.trace(model, "crba", q),
+    "program": PROGRAM,
+    "calls a program": lambda model, q: PROGRAM(q),
+    "factors": lambda model, q: tw.ltl(model, q).T @ tw.ltl(model, q),
+    "slow": lambda model, q: tw.newton_euler_3d.mass_matrix(model, q),
+}
+
+
+@pytest.mark.parametrize("disguise", DISGUISES)
+def test_a_forbidden_call_is_met_in_every_disguise_that_needs_no_malice(disguise):
+    part = catalogue.find_part("mass_matrix_by_rnea")[1]
+    found = broken_rules(part, DISGUISES[disguise])
+    assert len(found) == 1
+    assert "asks to do without it" in found[0].en
+
+
+def by_forces(model, q):
+    """Without crba."""
+    rest = np.zeros(model.nv)
+    return np.array([tw.rnea(model, q, rest, e) - tw.rnea(model, q, rest, rest) for e in np.eye(model.nv)]).T
+
+
+@pytest.mark.parametrize(
+    "function", [by_forces, lambda model, q: tw.compile(model, "rnea")(q), mine("skew"), lambda m: m]
+)
+def test_what_is_not_forbidden_is_not_taken_for_it(function):
+    assert broken_rules(catalogue.find_part("mass_matrix_by_rnea")[1], function) == []
+
+
+@pytest.mark.parametrize("file", ["<stdin>", "<string>", "<console>", "<python-input-3>", "<ipython-input-1-ab>"])
+def test_what_is_typed_or_run_by_exec_is_the_students(file):
+    names = {"tw": tw}
+    exec(compile("def base_block(model, q):\n    return tw.crba(model, q)[:6, :6]", file, "exec"), names)
+    found = check("49.8.1", names["base_block"], language="en", time_limit=0).verdicts["base_block"]
+    assert found.state == "wrong"
+    assert "line 2 calls tw.crba" in " ".join(found.message("en").split())
+
+
+def test_the_reference_is_refused_whatever_its_name(tmp_path):
+    reference = catalogue.find_part("skew")[1].solution
+    assert not check("49.0.1", reference, time_limit=0).right
+    start(tmp_path, language="en")
+    head = "from twistwrench.exercises.items.ex_49_0_1 import skew as given"
+    write(tmp_path, "49.0", more=f"\n{head}\nskew = given\n")
+    assert "those of the reference" in said(tmp_path, "skew")[1]
+
+
+def test_the_right_answer_is_not_there_while_the_students_function_runs():
+    def skew(w):
+        frame, held = sys._getframe(), []
+        while frame is not None:
+            held += [x for x in frame.f_locals.values() if isinstance(x, np.ndarray) and x.shape == (3, 3)]
+            frame = frame.f_back
+        return held[-1] if held else np.zeros((3, 3))
+
+    assert verdict("skew", skew).state == "wrong"
 
 
 def test_what_the_package_calls_by_itself_is_not_held_against_the_student():

@@ -66,7 +66,7 @@ class _Pickler(pickle.Pickler):
         if isinstance(x, ModuleType):
             return import_module, (x.__name__,)
         if isinstance(x, CellType):
-            return CellType, (), _content(x), None, None, _fill_cell
+            return _cell, (), _content(x), None, None, _fill_cell
         return NotImplemented
 
     def _function(self, x: FunctionType) -> Any:
@@ -126,6 +126,10 @@ def _fill_function(function: FunctionType, state: Any) -> None:
 def _fill_class(kind: type, held: dict[str, Any]) -> None:
     for name, value in held.items():
         setattr(kind, name, value)
+
+
+def _cell() -> CellType:
+    return CellType()
 
 
 def _fill_cell(cell: CellType, content: tuple[Any, ...]) -> None:
