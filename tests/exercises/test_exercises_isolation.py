@@ -7,11 +7,18 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import twistwrench as tw
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, solution, start, status
+from twistwrench.exercises import case, catalogue, check, solution, start, status
+from twistwrench.exercises.calls import tried
+from twistwrench.exercises.cases import cases
+from twistwrench.exercises.folder import workbook
+from twistwrench.exercises.folder.skeletons import solved
 from twistwrench.exercises.folder.workbook import Workbook
+from twistwrench.exercises.judge import judge
 from twistwrench.exercises.processes.isolation import opened
 
 from ..sampling import sampled
@@ -236,3 +243,73 @@ def test_a_function_cannot_be_its_own_reference(tmp_path):
     verdict = Workbook(tmp_path).verdict(*catalogue.find_part("skew"))
     assert verdict.state == "wrong"
     assert "mine('skew') is the function that you are to write here" in verdict.message("en")
+
+
+# ---------------------------------------------------------------- what is said, and how often it is judged
+
+
+def test_words_are_asked_for_where_the_functions_are_right(tmp_path):
+    start(tmp_path, language="en")
+    write(tmp_path, "49.8", {"base_block": "return tw.crba(model, q)[:6, :6]"})
+    exercise = catalogue.exercise("49.8.1")
+    words = Workbook(tmp_path).verdict_in_words(exercise)
+    assert (words.state, words.lines) == ("to do", ())
+    (tmp_path / "ex_49_8.py").write_text(solved("49.8", "en").replace("answer_49_8_1 = ", "rest = "), encoding="utf-8")
+    words = Workbook(tmp_path).verdict_in_words(exercise)
+    assert "answer_49_8_1" in words.lines[0].en
+
+
+@pytest.mark.parametrize("name", ["tree_rnea"])
+def test_the_number_of_cases_does_not_depend_on_the_clock(name, monkeypatch):
+    exercise, part = catalogue.find_part(name)
+    slow = iter(range(0, 10**9, 1000))
+
+    def wrong(*arguments):
+        calls.append(1)
+        answer = part.solution(*arguments)
+        return tuple(2 * x for x in answer) if isinstance(answer, tuple) else 2 * np.asarray(answer)
+
+    counts = []
+    for clock in (time.process_time, lambda: float(next(slow))):
+        monkeypatch.setattr(time, "process_time", clock)
+        calls = []
+        verdict = judge(exercise, part, wrong, search=False)
+        counts.append((len(calls), verdict.message("en")))
+    assert counts[0] == counts[1]
+    assert counts[0][0] > len(cases(part, 0))
+
+
+def test_numpy_is_that_of_the_others_while_a_change_is_tried():
+    solvers = {name: getattr(np.linalg, name) for name in ("svd", "pinv", "lstsq")}
+    part, seen = catalogue.find_part("act")[1], []
+
+    def act(R, p, x):
+        seen.append({name: getattr(np.linalg, name) for name in solvers} == solvers)
+        return np.linalg.pinv(R) @ np.full(3, np.nan)
+
+    tried(part, act, cases(part, 0)[0])
+    assert seen == [True]
+
+
+def test_a_hint_is_shown_where_nothing_can_be_written_down(tmp_path, monkeypatch, capsys):
+    def read_only(path, text):
+        raise OSError(30, "Read-only file system", str(path))
+
+    start(tmp_path, language="en")
+    monkeypatch.setattr(workbook, "write_text", read_only)
+    for language in ([], ["--language", "en"]):
+        assert main(["exercises", "hint", "49.3.1", "--dir", str(tmp_path), *language]) == 0
+        assert "hint 1 of 2" in capsys.readouterr().out
+    assert main(["exercises", "solution", "49.3.1", "--yes", "--dir", str(tmp_path)]) == 0
+    assert "a solution" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", [["status", "."], ["case", "act"]])
+def test_a_negative_seed_is_told_in_a_sentence(command, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["exercises", *command, "--seed", "-5"])
+    assert "expected a whole number, 0 or more, got '-5'" in capsys.readouterr().err
+    with pytest.raises(tw.ModelError, match="seed: expected a whole number, 0 or more, got -5"):
+        check("49.0.1", tw.skew, seed=-5)
+    with pytest.raises(tw.ModelError, match="seed: expected a whole number, 0 or more, got -5"):
+        case("act", seed=-5)

@@ -264,7 +264,7 @@ def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:
     NameNotFound
         If no exercise has a function of that name.
     ModelError
-        If there are fewer cases.
+        If there are fewer cases, or the seed is negative.
 
     Examples
     --------
@@ -273,6 +273,8 @@ def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:
     (3,)
     """
     part = catalogue.find_part(name)[1]
+    if seed < 0:
+        raise ModelError(f"seed: expected a whole number, 0 or more, got {seed}")
     found = every_case(part, seed)
     if not 0 <= number < len(found):
         raise ModelError(f"number: {name} has the cases 0 to {len(found) - 1}, got {number}")

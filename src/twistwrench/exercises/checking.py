@@ -11,7 +11,7 @@ import io
 import re
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from typing import Any, NoReturn
 
 import pytest
@@ -204,7 +204,8 @@ def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pyte
             terminalreporter.write_line(COMPARE.fill(id=exercise.id).of(book.language))
             model = wrapped((exercise.answer or Text("", "")).of(book.language))
             terminalreporter.write_line("\n" + "\n".join(model))
-            book.remember(compared=[*book.state["compared"], exercise.id])
+            with suppress(OSError):  # a folder may be for reading only
+                book.remember(compared=[*book.state["compared"], exercise.id])
         if not config.option.collectonly:
             terminalreporter.section(str(book.folder))
             terminalreporter.write_line(str(survey(book)))

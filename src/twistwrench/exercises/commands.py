@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -90,7 +91,8 @@ def _language(args: argparse.Namespace, folder: str = ".") -> Language:
 
     book = Workbook(folder, language=args.language)
     if args.language and has_started(book.folder):
-        book.remember(language=args.language)
+        with suppress(OSError):  # a folder may be for reading only
+            book.remember(language=args.language)
     return book.language
 
 
