@@ -9,9 +9,10 @@ import pytest
 import twistwrench as tw
 from twistwrench.algorithms.rnea import newton_euler
 from twistwrench.exercises import catalogue, check, mine, start
+from twistwrench.exercises.forbidden import FORBIDDEN
 from twistwrench.exercises.items.project_trees import tree_of
 from twistwrench.exercises.judge import judge
-from twistwrench.exercises.rules import FORBIDDEN, broken_rules
+from twistwrench.exercises.rules import broken_rules
 
 from .test_exercises_isolation import said, write
 

@@ -23,7 +23,8 @@ slips       a room: the list of slips with a name
 changes     a room: small changes of a function
 failing     the failing case, with its numbers
 context     in how many cases an answer is wrong, and the first
-rules       calls that an exercise forbids
+forbidden   what the texts forbid
+rules       whether a function keeps to that
 statements  a room: the student's function statement by statement
 stopwatch   a machine whose clock is known
 wrong       wrong functions, made out of right ones

@@ -22,39 +22,13 @@ from types import BuiltinFunctionType, CodeType, FunctionType, GetSetDescriptorT
 from typing import Any, NamedTuple
 
 from .exercise import Part
+from .forbidden import COMPUTED, FORBIDDEN, ROOMS, SYMBOLS
 from .words.text import Text
 
-__all__ = ["FORBIDDEN", "broken_rules", "file_or_cell", "is_ours", "is_reference", "reference"]
-
-M = ("crba", "crba_terms", "mass_matrix", "dynamics", "inverse_mass_matrix", "solve_mass_matrix")
-M += ("ltl", "ltdl", "operational_space_inertia")
-A_G = ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics")
-RNEA = ("rnea", "rnea_terms", "inverse_dynamics")
-
-FORBIDDEN: dict[str, tuple[str, ...]] = {
-    "base_wrench_at_rest": (*RNEA, "gravity", "nonlinear_effects", "dynamics"),
-    "mass_matrix_by_rnea": (*M, "kinetic_energy"),
-    "base_block": (*M, *RNEA),
-    "on_all_rows": ("selection_matrix",),
-    "momentum_of_links": A_G,
-    "own_centroidal_map": A_G,
-    "map_from_pinocchio": ("from_pinocchio_model", *A_G),
-    "jacobian_from_pinocchio": ("from_pinocchio_model", "frame_jacobian", "dynamics"),
-    "acceleration_from_pinocchio": ("from_pinocchio_model", "aba", "aba_terms", "crba", *RNEA, "dynamics"),
-}
-"""What the text of an exercise forbids, by the function that the student writes: names of the package."""
-
-ROOMS = ("twistwrench", "twistwrench.fast", "twistwrench.bridge", "twistwrench.newton_euler_3d")
-"""Where these names are looked up."""
-
-SYMBOLS = {"crba": "M", "rnea": "tau", "aba": "qdd", "centroidal_map": "A_G", "gravity": "g", "nonlinear_effects": "h"}
-"""What some of them compute, as `tw.compile` names it."""
+__all__ = ["broken_rules", "file_or_cell", "is_ours", "is_reference", "reference"]
 
 BY_NAME = frozenset(("eval", "exec", "compile", "trace", "getattr", "attrgetter", "import_module", "__import__"))
 """Functions that are told by a text what to compute or to call."""
-
-COMPUTED = {"about_center_of_mass": 1}
-"""Which argument a result is computed from, though its value does not depend on it, by the name of the function."""
 
 ANSWERS = f"{__package__}.items.", f"{__package__}.catalogue"
 """Where the right answers are, and what leads to them."""
@@ -81,6 +55,8 @@ SAY = {
     ),
 }
 
+PACKAGE = __package__.partition(".")[0]
+
 LIBRARY = sysconfig.get_path("stdlib")
 
 UNKNOWN = object()
@@ -102,7 +78,7 @@ class Named(NamedTuple):
 
 def broken_rules(part: Part, function: Callable[..., Any]) -> list[Text]:
     """Return what a student's function names that it must not, as a message; nothing where it keeps to the rules."""
-    if function is part.solution:
+    if is_reference(part, function):
         return []
     forbidden, names = _forbidden(part), FORBIDDEN.get(part.name, ())
     symbols = {SYMBOLS[name]: name for name in names if name in SYMBOLS}
@@ -125,7 +101,7 @@ def broken_rules(part: Part, function: Callable[..., Any]) -> list[Text]:
 
 
 def is_reference(part: Part, function: Callable[..., Any]) -> bool:
-    """Whether what a student hands in is the reference itself, under whatever name."""
+    """Whether a function is the reference itself, under whatever name: it is right, and no answer of a student."""
     return _core(function) is _core(part.solution)
 
 
@@ -142,7 +118,7 @@ def _forbidden(part: Part) -> dict[int, str]:
     """Return the functions that the text forbids, by identity, with their names."""
     found: dict[int, str] = {}
     for room in map(import_module, ROOMS if part.name in FORBIDDEN else ()):
-        shown = room.__name__.replace("twistwrench", "tw")
+        shown = room.__name__.replace(PACKAGE, "tw")
         names = [name for name in FORBIDDEN[part.name] if hasattr(room, name)]
         found |= {id(_core(getattr(room, name))): f"{shown}.{name}" for name in names}
     return found
@@ -161,7 +137,7 @@ def _is_answer(part: Part, value: Any) -> bool:
 
 
 def _is_program(value: Any) -> bool:
-    return type(value).__module__.startswith("twistwrench.") and hasattr(value, "__dict__")
+    return type(value).__module__.startswith(PACKAGE) and hasattr(value, "__dict__")
 
 
 def _written_down(part: Part, function: Callable[..., Any]) -> list[Text]:
@@ -267,7 +243,7 @@ KEEPING = ("CACHE", "COPY", "POP_TOP", "PRECALL", "PUSH_NULL", "SWAP")
 def _module(name: str, *, whole: bool) -> Any:
     """Return the module that an ``import`` in a function gives: the last of a dotted name, or the first."""
     try:
-        found = import_module(name) if name.startswith("twistwrench") else sys.modules.get(name, UNKNOWN)
+        found = import_module(name) if name.startswith(PACKAGE) else sys.modules.get(name, UNKNOWN)
     except ImportError:
         return UNKNOWN
     return found if whole else sys.modules.get(name.partition(".")[0], UNKNOWN)
@@ -275,7 +251,7 @@ def _module(name: str, *, whole: bool) -> Any:
 
 def _attribute(value: Any, name: str) -> Any:
     """Return an attribute without running code of the student's."""
-    if isinstance(value, ModuleType) and value.__name__.startswith("twistwrench"):
+    if isinstance(value, ModuleType) and value.__name__.startswith(PACKAGE):
         return getattr(value, name, UNKNOWN)
     return UNKNOWN if value is UNKNOWN else inspect.getattr_static(value, name, UNKNOWN)
 

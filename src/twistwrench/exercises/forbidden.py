@@ -1,0 +1,32 @@
+"""What the texts of the exercises forbid, by the function that the student writes."""
+
+from __future__ import annotations
+
+__all__ = ["COMPUTED", "FORBIDDEN", "ROOMS", "SYMBOLS"]
+
+M = ("crba", "crba_terms", "mass_matrix", "dynamics", "inverse_mass_matrix", "solve_mass_matrix")
+M += ("ltl", "ltdl", "operational_space_inertia")
+A_G = ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics")
+RNEA = ("rnea", "rnea_terms", "inverse_dynamics")
+
+FORBIDDEN: dict[str, tuple[str, ...]] = {
+    "base_wrench_at_rest": (*RNEA, "gravity", "nonlinear_effects", "dynamics"),
+    "mass_matrix_by_rnea": (*M, "kinetic_energy"),
+    "base_block": (*M, *RNEA),
+    "on_all_rows": ("selection_matrix",),
+    "momentum_of_links": A_G,
+    "own_centroidal_map": A_G,
+    "map_from_pinocchio": ("from_pinocchio_model", *A_G),
+    "jacobian_from_pinocchio": ("from_pinocchio_model", "frame_jacobian", "dynamics"),
+    "acceleration_from_pinocchio": ("from_pinocchio_model", "aba", "aba_terms", "crba", *RNEA, "dynamics"),
+}
+"""What the text of an exercise forbids, by the function that the student writes: names of the package."""
+
+ROOMS = ("twistwrench", "twistwrench.fast", "twistwrench.bridge", "twistwrench.newton_euler_3d")
+"""Where these names are looked up."""
+
+SYMBOLS = {"crba": "M", "rnea": "tau", "aba": "qdd", "centroidal_map": "A_G", "gravity": "g", "nonlinear_effects": "h"}
+"""What some of them compute, as `tw.compile` names it."""
+
+COMPUTED = {"about_center_of_mass": 1}
+"""Which argument a result is computed from, though its value does not depend on it, by the name of the function."""
