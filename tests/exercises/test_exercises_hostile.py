@@ -1,7 +1,7 @@
 """A class of students who are odd, unlucky or hostile: everybody else's mark is there, nothing hangs, nothing stays."""
 
 import csv
-import os
+import secrets
 import subprocess
 import sys
 import time
@@ -17,7 +17,6 @@ from twistwrench.exercises.course.grading import grade
 from twistwrench.exercises.folder.workbook import Workbook
 from twistwrench.exercises.judge import judge
 from twistwrench.exercises.processes import process
-from twistwrench.exercises.processes.process import MARK
 
 from .hostile import BODIES, FILES, ODD, ROOMS, hand_in
 
@@ -28,12 +27,20 @@ UNREADABLE = {f"file, {kind}" for kind in FILES} - {"file, names that raise", "f
 QUICK = {"bodies": ("stopped", "stays and exits", "garbage"), "files": ("a pipe",), "rooms": ("hints are a list",)}
 
 
-def left():
-    """Return the processes that a check has started, however they call themselves."""
+@pytest.fixture(autouse=True)
+def mark(monkeypatch):
+    """Return what all have in their environment that are started by a test."""
+    word = secrets.token_hex(16)
+    monkeypatch.setenv("TWISTWRENCH_TEST", word)
+    return word
+
+
+def left(mark):
+    """Return the processes that a test has started, however they call themselves."""
     found = []
     for place in Path("/proc").glob("[0-9]*"):
         try:
-            if MARK.encode() in (place / "environ").read_bytes() and int(place.name) != os.getpid():
+            if mark.encode() in (place / "environ").read_bytes():
                 found.append((place / "cmdline").read_bytes())
         except OSError:
             pass
@@ -48,19 +55,19 @@ def few(tmp_path_factory):
     return room
 
 
-def test_harm_costs_the_function_that_does_it_and_nobody_else(few, monkeypatch):
+def test_harm_costs_the_function_that_does_it_and_nobody_else(few, mark, monkeypatch):
     monkeypatch.setattr(process, "SLACK_S", 0.5)
     found = {one.student: one.marks for one in grade([few], only=["49.0.1", "49.0.2"], time_limit=LIMIT)}
     assert len(found) == sum(map(len, QUICK.values()))
     for student, marks in found.items():
         assert marks["49.0.2"].points == (student not in UNREADABLE), student
         assert marks["49.0.1"].points == student.startswith("room"), student
-    assert not left()
+    assert not left(mark)
     assert not (few / "was here").exists()
 
 
 @pytest.mark.slow
-def test_a_hostile_class_is_graded_by_the_command(tmp_path):
+def test_a_hostile_class_is_graded_by_the_command(tmp_path, mark):
     room, file = tmp_path / "class", tmp_path / "marks.csv"
     room.mkdir()
     hand_in(room)
@@ -85,7 +92,7 @@ def test_a_hostile_class_is_graded_by_the_command(tmp_path):
             assert bool(row["reason"]) != right, row
     assert done.stderr.count(f"/{len(students)}  ") == len(students)
     time.sleep(0.2)
-    assert not left()
+    assert not left(mark)
     assert not (room / "was here").exists()
 
 
