@@ -175,6 +175,16 @@ def test_answers_are_found_under_the_names_that_they_are_handed_in_with(tmp_path
     assert found["gus"] == (0, "Not there: ex_49_0.py.")
 
 
+def test_every_file_of_a_student_is_found(tmp_path):
+    start(tmp_path / "ada")
+    (tmp_path / "room").mkdir()
+    (one,) = submissions([tmp_path / "ada"], tmp_path / "room", [*catalogue.SECTIONS])
+    assert {section: path.name for section, path in one.files.items()} == {
+        section: catalogue.file_name(section) for section in catalogue.SECTIONS
+    }
+    assert one.remarks == ()
+
+
 def test_remarks_are_on_the_page_in_the_table_and_in_the_rows(tmp_path):
     answers(tmp_path / "class" / "ada", "ex_49_0 (1).py")
     answers(tmp_path / "class" / "bela")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 __all__ = ["COMPUTED", "FORBIDDEN", "ROOMS", "SYMBOLS"]
 
-M = ("crba", "crba_terms", "mass_matrix", "dynamics", "inverse_mass_matrix", "solve_mass_matrix")
-M += ("ltl", "ltdl", "operational_space_inertia")
+M = (
+    *("crba", "crba_terms", "mass_matrix", "dynamics", "inverse_mass_matrix", "solve_mass_matrix"),
+    *("ltl", "ltdl", "operational_space_inertia"),
+)
 A_G = ("centroidal_map", "centroidal_momentum", "centroidal_terms", "dynamics")
 RNEA = ("rnea", "rnea_terms", "inverse_dynamics")
 

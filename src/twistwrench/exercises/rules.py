@@ -18,14 +18,14 @@ from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from itertools import islice
 from pathlib import Path
-from types import BuiltinFunctionType, CodeType, FunctionType, GetSetDescriptorType, MethodType, ModuleType
+from types import BuiltinFunctionType, CellType, CodeType, FunctionType, GetSetDescriptorType, MethodType, ModuleType
 from typing import Any, NamedTuple
 
 from .exercise import Part
 from .forbidden import COMPUTED, FORBIDDEN, ROOMS, SYMBOLS
 from .words.text import Text
 
-__all__ = ["broken_rules", "file_or_cell", "is_ours", "is_reference", "reference"]
+__all__ = ["broken_rules", "cell_content", "file_or_cell", "is_ours", "is_reference", "reference"]
 
 BY_NAME = frozenset(("eval", "exec", "compile", "trace", "getattr", "attrgetter", "import_module", "__import__"))
 """Functions that are told by a text what to compute or to call."""
@@ -177,7 +177,7 @@ def _core(value: Any) -> Any:
         elif isinstance(value, property):
             value = value.fget
         elif isinstance(value, FunctionType | functools._lru_cache_wrapper) and "__wrapped__" in vars(value):
-            value = value.__wrapped__
+            value = vars(value)["__wrapped__"]
     return value
 
 
@@ -188,8 +188,9 @@ def _inside(value: Any) -> Iterator[Any]:
     elif isinstance(value, FunctionType):
         if not is_ours(value.__code__.co_filename):
             yield from (*(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values())
-            closed = inspect.getclosurevars(value).nonlocals if value.__closure__ else {}
-            known = vars(builtins) | value.__globals__ | closed
+            cells = zip(value.__code__.co_freevars, value.__closure__ or ())
+            closed = {name: x for name, cell in cells for x in cell_content(cell)}
+            known = {**vars(builtins), **value.__globals__, **closed}
             yield from closed.values()
             for code in _codes(value.__code__):
                 yield from _of_code(code, known)
@@ -202,6 +203,14 @@ def _inside(value: Any) -> Iterator[Any]:
         yield from islice(value.values(), MOST_HELD)
     elif type(type(value)) is type and isinstance(vars(type(value)).get("__dict__"), GetSetDescriptorType):
         yield type(value)  # an object of a class, which may be the student's
+
+
+def cell_content(cell: CellType) -> tuple[Any, ...]:
+    """Return what is in a cell of a closure; nothing where it is empty."""
+    try:
+        return (cell.cell_contents,)
+    except ValueError:
+        return ()
 
 
 def _codes(code: CodeType) -> Iterator[CodeType]:

@@ -43,8 +43,9 @@ SAY = {
 }
 
 PATTERNS = {
-    section: re.compile(rf"(?:.*[^0-9a-z])?ex[ _.-]?{'[ _.-]?'.join(section.split('.'))}(?:[^0-9a-z].*)?\.py(?:\.txt)?")
+    section: re.compile(rf"(?:.*[^0-9a-z])?{name.replace('_', '[ _.-]?')}(?:[^0-9a-z].*)?\.py(?:\.txt)?")
     for section in catalogue.SECTIONS
+    for name in [catalogue.file_name(section).removesuffix(".py")]
 }
 """Names of a section's file: a second download is ``ex_49_7 (1).py``, and a platform puts the student's name before."""
 

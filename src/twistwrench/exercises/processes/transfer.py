@@ -18,7 +18,7 @@ from types import CellType, CodeType, FunctionType, ModuleType
 from typing import Any
 
 from ..folder.workbook import Workbook, offered
-from ..rules import is_ours
+from ..rules import cell_content, is_ours
 
 __all__ = ["received", "sent"]
 
@@ -66,7 +66,7 @@ class _Pickler(pickle.Pickler):
         if isinstance(x, ModuleType):
             return import_module, (x.__name__,)
         if isinstance(x, CellType):
-            return _cell, (), _content(x), None, None, _fill_cell
+            return _cell, (), cell_content(x), None, None, _fill_cell
         return NotImplemented
 
     def _function(self, x: FunctionType) -> Any:
@@ -92,14 +92,6 @@ def _globals(code: CodeType) -> Iterator[str]:
             yield step.argval
         elif isinstance(step.argval, CodeType):
             yield from _globals(step.argval)
-
-
-def _content(cell: CellType) -> tuple[Any, ...]:
-    """Return what is in a cell; nothing where it is empty."""
-    try:
-        return (cell.cell_contents,)
-    except ValueError:
-        return ()
 
 
 # ---------------------------------------------------------------- called where it is received
