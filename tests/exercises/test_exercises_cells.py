@@ -128,7 +128,7 @@ def test_what_ends_python_does_not_end_the_notebook(capsys):
     part = catalogue.find_part("act")[1]
     cases = len(every_case(part, 0))
     assert check("49.0.2", loud).right
-    assert capsys.readouterr().out.count("here") == 2 + cases  # once more to see what is kept, and once where it ended
+    assert capsys.readouterr().out.count("here") == 3 + cases  # once more to see what is kept, and twice where it ended
     assert check("49.0.2", right, time_limit=0).right
 
 

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import partial
 from os import PathLike
 from pathlib import Path
 
@@ -131,11 +132,11 @@ def grade(
         raise ModelError(f"jobs: expected a whole number, 1 or more, got {jobs}")
     exercises, books = _chosen(only), list[Workbook]()
     sections = list(dict.fromkeys(exercise.section for exercise in exercises))
-    how = {"language": language, "seed": drawn(seed), "time_limit": time_limit, "quiet": True}
+    reader = partial(opened, language=language, seed=drawn(seed), time_limit=time_limit, quiet=True)
 
     def graded(one: Submission) -> Graded:
         start, marks = time.perf_counter(), dict[str, Mark]()
-        with opened(one.folder, files=one.files, **how) as book:
+        with reader(one.folder, files=one.files) as book:
             books.append(book)
             marks = {exercise.id: _mark(book, exercise) for exercise in exercises}
         return Graded(one.student, marks, time.perf_counter() - start, one.remarks)

@@ -42,8 +42,10 @@ SAY = {
     "wrong": Text("wrong", "有误"),
 }
 
-HEADER = ("student", "exercise", "function", "state", "points", "of", "hints", "solution", "slips", "how", "reason")
-HEADER += ("words", "seed")
+HEADER = (
+    *("student", "exercise", "function", "state", "points", "of", "hints", "solution", "slips", "how"),
+    *("reason", "words", "seed"),
+)
 
 PAGE = """<!doctype html>
 <html lang="{code}"><head><meta charset="utf-8"><title>{title}</title>

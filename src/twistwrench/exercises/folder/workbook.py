@@ -50,6 +50,9 @@ STATE_FILE = ".twistwrench.json"
 LARGEST_FILE = 1_000_000
 """Bytes of a student's file; the largest of the solved ones has 20 kB."""
 
+MOST_HINTS = 100
+"""More than any exercise has."""
+
 SHORTEST_ANSWER = 12
 """Characters of an answer in words; a sentence in Chinese needs no more."""
 
@@ -122,12 +125,11 @@ class Workbook:
         except (OSError, ValueError, RecursionError):
             kept = {}
         kept = kept if isinstance(kept, dict) else {}
-        hints = kept.get("hints") if isinstance(kept.get("hints"), dict) else {}
-        found = {"hints": {id: n for id, n in hints.items() if isinstance(n, int) and 0 <= n < 100}}
-        for name in ("compared", "solutions"):
-            listed = kept.get(name) if isinstance(kept.get(name), list) else []
-            found[name] = [x for x in listed if isinstance(x, str)]
-        return {**kept, **found}
+        hints, *lists = (kept.get(name) for name in ("hints", "compared", "solutions"))
+        shown = hints.items() if isinstance(hints, dict) else ()
+        counts = {number: n for number, n in shown if isinstance(n, int) and 0 <= n < MOST_HINTS}
+        compared, solutions = ([x for x in y if isinstance(x, str)] if isinstance(y, list) else [] for y in lists)
+        return {**kept, "hints": counts, "compared": compared, "solutions": solutions}
 
     def remember(self, **news: Any) -> None:
         """Write the hidden file."""

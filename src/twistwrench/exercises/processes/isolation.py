@@ -231,5 +231,5 @@ def _line(path: str, number: int) -> str:
     try:
         source = decode_source(content(Path(path)))
     except (OSError, SyntaxError, UnicodeError, ValueError):
-        source = "".join(linecache.cache[path][2]) if len(linecache.cache.get(path, ())) == 4 else ""
+        source = "".join(linecache.getlines(path)) if path in linecache.cache else ""  # a cell
     return "".join(source.splitlines()[number - 1 : number]).strip()

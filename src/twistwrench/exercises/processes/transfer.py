@@ -55,7 +55,7 @@ class _Pickler(pickle.Pickler):
 
     def reducer_override(self, x: Any) -> Any:
         if isinstance(x, FunctionType) and "mine" in vars(x):
-            return _mine, (x.mine, str(x.folder))
+            return _mine, (vars(x)["mine"], str(vars(x)["folder"]))
         if isinstance(x, FunctionType) and not is_ours(x.__code__.co_filename):
             return self._function(x)
         if isinstance(x, functools._lru_cache_wrapper) and not is_ours(x.__wrapped__.__code__.co_filename):
@@ -102,7 +102,8 @@ def _mine(name: str, folder: str) -> Function:
 
 
 def _cached(function: Function, parameters: dict[str, Any]) -> Function:
-    return functools.lru_cache(**parameters)(function)
+    found: Function = functools.lru_cache(**parameters)(function)
+    return found
 
 
 def _function(code: bytes, space: int, name: str, closure: tuple[CellType, ...] | None) -> FunctionType:
