@@ -140,11 +140,17 @@ def scaled(x):
 
 
 class Frame:
+    scale = property(lambda self: 1.0)
+
+    @staticmethod
+    def turned(R, x):
+        return R @ x
+
     def __init__(self, R, p):
         self.R, self.p = R, p
 
     def act(self, x):
-        return self.R @ x + self.p
+        return self.scale * self.turned(self.R, x) + self.p
 
 
 def counted():
@@ -156,6 +162,17 @@ def counted():
         return Frame(R, p).act(scaled(x)) + 0 * calls
 
     return act
+
+
+GENERATOR = np.random.default_rng(1)
+
+
+def drawn(R, p, x):
+    return R @ x - p + 0 * GENERATOR.standard_normal()
+
+
+def test_what_a_value_of_the_file_is_made_of_goes_with_it():
+    assert check("49.0.2", drawn).verdicts["act"].slips == ("translation-sign",)
 
 
 @functools.cache

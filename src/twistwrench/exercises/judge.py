@@ -130,7 +130,7 @@ def judge(
         if not so_far.right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
             model = _head(exercise, part), say("changed", name=part.arguments.partition(",")[0])  # it comes first
             return Verdict("wrong", model, (), failing_case(part, len(so_far.tried) - 1, seed, arguments))
-    safe = guarded(function)
+    safe = guarded(function) if search else function
     again = (lambda given: _again(part, safe, given, watch)) if search else None
     state = _keeps(part, function, so_far, watch)
     noted = [*changes.values()][:1]

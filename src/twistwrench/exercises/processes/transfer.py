@@ -5,6 +5,7 @@ What a library defines goes by its name, what the student has defined by its con
 
 from __future__ import annotations
 
+import ast
 import dis
 import functools
 import io
@@ -63,6 +64,10 @@ class _Pickler(pickle.Pickler):
         if isinstance(x, type) and _is_students(x):
             held = {k: v for k, v in vars(x).items() if k not in ("__dict__", "__weakref__")}
             return type(x), (x.__name__, x.__bases__, {}), held, None, None, _fill_class
+        if isinstance(x, staticmethod | classmethod):
+            return type(x), (x.__func__,)
+        if isinstance(x, property):
+            return property, (x.fget, x.fset, x.fdel, x.__doc__)
         if isinstance(x, ModuleType):
             return import_module, (x.__name__,)
         if isinstance(x, CellType):
@@ -73,6 +78,7 @@ class _Pickler(pickle.Pickler):
         file = x.__code__.co_filename
         self.sources[file] = linecache.getlines(file)
         named = {"__name__", "__file__", x.__name__, *_globals(x.__code__)}
+        named = _with_those_below(named, "".join(self.sources[file]))
         names = {name: x.__globals__[name] for name in sorted(named & x.__globals__.keys())}
         state = names, x.__defaults__, x.__kwdefaults__, vars(x), x.__qualname__
         made = _function, (marshal.dumps(x.__code__), id(x.__globals__), x.__name__, x.__closure__)
@@ -92,6 +98,25 @@ def _globals(code: CodeType) -> Iterator[str]:
             yield step.argval
         elif isinstance(step.argval, CodeType):
             yield from _globals(step.argval)
+
+
+def _with_those_below(names: set[str], source: str) -> set[str]:
+    """Return names and those that their values are made of in a file or cell: it is compiled anew with changes."""
+    try:
+        statements = [node for node in ast.parse(source).body if isinstance(node, ast.Assign | ast.AnnAssign)]
+    except (SyntaxError, ValueError):
+        return names
+    while True:
+        used = [{x.id for x in ast.walk(node) if isinstance(x, ast.Name)} for node in statements]
+        further = names.union(*(found for node, found in zip(statements, used) if names & _targets(node)))
+        if further == names:
+            return names
+        names = further
+
+
+def _targets(node: ast.Assign | ast.AnnAssign) -> set[str]:
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+    return {x.id for target in targets for x in ast.walk(target) if isinstance(x, ast.Name)}
 
 
 # ---------------------------------------------------------------- called where it is received
