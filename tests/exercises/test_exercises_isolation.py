@@ -311,5 +311,7 @@ def test_a_negative_seed_is_told_in_a_sentence(command, capsys):
     assert "expected a whole number, 0 or more, got '-5'" in capsys.readouterr().err
     with pytest.raises(tw.ModelError, match="seed: expected a whole number, 0 or more, got -5"):
         check("49.0.1", tw.skew, seed=-5)
+    with pytest.raises(tw.ModelError, match="time_limit: expected seconds, 0 or more, got -1"):
+        check("49.0.1", tw.skew, time_limit=-1)
     with pytest.raises(tw.ModelError, match="seed: expected a whole number, 0 or more, got -5"):
         case("act", seed=-5)
