@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.simulation.ground import ground_terms
+from twistwrench.simulation.ground import GroundPoints
 
 from ..mechanisms import G
 
@@ -104,7 +104,7 @@ def test_the_ground_is_computed_by_a_program_for_points_soles_and_balls():
         (tw.load("humanoid"), tw.SurfaceContact("left_sole", (0.07, 0.02), 0.6)),
         (BALL, touch()[0]),
     ):
-        ground_terms(model, model.standing() if model.feet else model.neutral(), (contact,), tw.Ground())
+        GroundPoints(model, (contact,), tw.Ground()).terms(model.standing() if model.feet else model.neutral())
         made = [program for key, program in model._programs.items() if key[0] == "ground"]
         assert {type(program).__name__ for program in made} == {"Program"}
 
