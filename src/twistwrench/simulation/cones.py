@@ -141,7 +141,8 @@ def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         way, pushing = unit(u[at, :2]), np.ones(len(too), bool)
         fresh = np.where(np.abs(u[at, :2]).max(axis=-1) > -least, SLIDES, STICKS)
         as_before = np.where(before[at] > OPEN, before[at], fresh)
-        kinds = [as_before, fresh] if (before[at] > OPEN).any() else [fresh]
+        kinds = [fresh, np.full(len(at), STICKS)]
+        kinds = [as_before, *kinds] if (before[at] > OPEN).any() else kinds
         found, off = solved(law, [Guess(kind, way, pushing) for kind in kinds], fastest)
         impulse[at], pushes[too], missed[at] = found[: 3 * len(at)].reshape(-1, 3), found[3 * len(at) :], off[: len(at)]
         total = found @ A

@@ -35,14 +35,17 @@ CASES = 30
 ROUNDS, SWEEPS = 25, 8
 """So many times at most the cases are tried again, each time after so many sweeps over all points."""
 
-SETTLED = 1e-9
-"""How far the law may be missed, relative to the fastest point."""
+SETTLED, ENOUGH = 1e-9, 1e-7
+"""How far the law may be missed, relative to the fastest point: what is looked for, and what is taken in the end."""
 
 RANK = 1e-12
 """What is smaller, relative to the largest singular value of W, is zero: four corners bear what three could."""
 
-ANGLES = 2 * np.pi * np.arange(33) / 32
-"""Directions in which a point that slides is looked for."""
+EIGHTHS = 2 * np.pi * np.arange(8) / 8
+"""rad, of a turn."""
+
+ONE_BY_ONE = 10
+"""From this guess on, only what contradicts its guess the most changes: all at once may go round in circles."""
 
 
 @dataclass
@@ -103,15 +106,15 @@ def solved(law: Law, guesses: Sequence[Guess], size: float) -> tuple[Array, Arra
         if off.max() < missed.max():
             best, missed = one, off
         if missed.max() <= SETTLED * size:
-            return best, missed
+            break
     for _ in range(ROUNDS):
+        if missed.max() <= ENOUGH * size:
+            break
         impulse = swept(law, impulse)
         for one in (impulse, by_cases(law, guess_of(law, impulse, SETTLED * size), impulse, SETTLED * size)):
             off = law.missed(one, law.moves(one))
             if off.max() < missed.max():
                 best, missed = one, off
-        if missed.max() <= SETTLED * size:
-            break
     return best, missed
 
 
@@ -140,8 +143,8 @@ def by_cases(law: Law, guess: Guess, impulse: Array, still: float) -> Array:
     k, n, mu = law.k, 3 * law.k, law.mu
     kind, way, on = guess.kind.copy(), guess.way.copy(), guess.rows.copy()
     kind[(kind == STICKS) & (mu == 0)] = SLIDES
-    curl = np.zeros(k)
-    for _ in range(CASES):
+    curl, jams = np.zeros(k), np.zeros(k, bool)
+    for made in range(CASES):
         takes = np.concatenate([np.repeat(kind > OPEN, 3), on])
         at = np.flatnonzero(takes)
         A, b = law.W[np.ix_(at, at)], -law.u0[at]
@@ -157,21 +160,33 @@ def by_cases(law: Law, guess: Guess, impulse: Array, still: float) -> Array:
         impulse[at] = near + np.linalg.lstsq(A, b - A @ near, rcond=RANK)[0] if len(at) else b
         u = law.moves(impulse)
         L, U = impulse[:n].reshape(k, 3), u[:n].reshape(k, 3)
-        light = 1e-10 * np.abs(impulse).max(initial=0)
         speed, friction = np.sqrt((U[:, :2] ** 2).sum(axis=-1)), np.sqrt((L[:, :2] ** 2).sum(axis=-1))
-        new = kind.copy()
-        new[(kind == STICKS) & (friction > mu * L[:, 2] + light)] = SLIDES
-        new[(kind == SLIDES) & ((U[:, :2] * way).sum(axis=-1) < -still) & (mu > 0)] = STICKS
-        new[(kind > OPEN) & (L[:, 2] < -light)] = OPEN
-        sinks = (kind == OPEN) & (U[:, 2] < -still)
-        new[sinks] = np.where((speed[sinks] > still) | (mu[sinks] == 0), SLIDES, STICKS)
-        new_on = np.where(on, impulse[n:] >= -light, u[n:] < -still)
-        goes = (new == SLIDES) & (speed > still) & (kind != STICKS)
-        begins = (new == SLIDES) & (kind == STICKS)
-        way[goes], way[begins] = unit(U[goes, :2]), unit(-L[begins, :2])
-        curl = np.where(goes, np.minimum(law.own * mu * np.maximum(L[:, 2], 0) / np.maximum(speed, still), 1e6), 0.0)
-        curl[kind != SLIDES] = 0.0
-        if (new == kind).all() and (new_on == on).all() and law.missed(impulse, u).max(initial=0) <= still:
+        pulls, slow = law.own * L[:, 2], (U[:, :2] * way).sum(axis=-1)
+        wrong = np.zeros(k + law.m)  # by how much each contradicts its guess, m/s
+        wrong[:k] = np.where(kind == OPEN, -U[:, 2], -pulls)
+        wrong[:k] = np.maximum(wrong[:k], np.where(kind == STICKS, law.own * (friction - mu * L[:, 2]), 0))
+        wrong[:k] = np.maximum(wrong[:k], np.where((kind == SLIDES) & (mu > 0), -slow, 0))
+        wrong[k:] = np.where(on, -law.own_rows * impulse[n:], -u[n:])
+        apart = np.where(kind > OPEN, U[:, 2], 0)  # above 0 where not all that are closed can be met: one of them opens
+        creeps = np.where(kind == STICKS, speed, 0)  # and here not all can stick
+        wrong[:k] = np.maximum(wrong[:k], np.maximum(apart, creeps))
+        changes = wrong > still / 2
+        if made >= ONE_BY_ONE or max(apart.max(initial=0), creeps.max(initial=0)) > still / 2:
+            changes &= np.arange(k + law.m) == wrong.argmax()
+        new, new_on = kind.copy(), on ^ changes[k:]
+        closes = changes[:k] & (kind == OPEN)
+        opens = changes[:k] & (kind > OPEN) & ((L[:, 2] < 0) | (apart > np.maximum(creeps, still / 2)))
+        turns = changes[:k] & ~closes & ~opens
+        new[turns] = np.where(kind[turns] == STICKS, SLIDES, STICKS)
+        new[opens] = OPEN
+        jams |= opens & (kind == SLIDES) & (L[:, 2] < 0)  # and where it closes again, it may stick
+        new[closes] = np.where(((speed[closes] > still) & ~jams[closes]) | (mu[closes] == 0), SLIDES, STICKS)
+        slides, begins = new == SLIDES, (new == SLIDES) & (kind == STICKS) & (creeps <= still / 2)
+        way[slides & (speed > still)] = unit(U[slides & (speed > still), :2])
+        way[begins] = unit(-L[begins, :2])
+        curl = np.minimum(law.own * mu * np.maximum(L[:, 2], 0) / np.maximum(speed, still), 1e9)
+        curl[~slides | begins | closes | (speed <= still)] = 0.0
+        if not changes.any() and law.missed(impulse, u).max(initial=0) <= still:
             break
         kind, on = new, new_on
     return within(law, impulse)
@@ -212,31 +227,28 @@ def of_one_point(W: Array, u: Array, mu: float, own: float) -> Array:
     if np.hypot(sticks[0], sticks[1]) <= mu * sticks[2]:
         return sticks
 
+    # In the direction d = (cos, sin) it slides with λ_n = −u_n / push, and u_t is along d where off is 0: a polynomial of
+    # degree 4 in cos + i sin, which has all such directions among its roots.
     def slides(angle: Array) -> tuple[Array, Array, Array]:
-        """Return λ_n of what slides in a direction, how far u_t turns away from there, and whether it is behind."""
+        """Return push, off, and push times how fast it slides along d."""
         d = np.stack([np.cos(angle), np.sin(angle)])
         push = W[2, 2] - mu * (W[2, :2] @ d)
-        normal = np.where(push > 0, -u[2] / np.where(push > 0, push, 1), np.inf)
-        ahead = u[:2, None] + np.where(push > 0, normal, 0) * (W[:2, 2:] - mu * (W[:2, :2] @ d))
-        return normal, d[0] * ahead[1] - d[1] * ahead[0], (d * ahead).sum(axis=0)
+        ahead = push * u[:2, None] - u[2] * (W[:2, 2:] - mu * (W[:2, :2] @ d))
+        return push, d[0] * ahead[1] - d[1] * ahead[0], (d * ahead).sum(axis=0)
 
-    low, high = ANGLES[:-1], ANGLES[1:]
-    normal, off, ahead = slides(ANGLES)
-    passes = (off[:-1] * off[1:] <= 0) & np.isfinite(normal[:-1]) & np.isfinite(normal[1:])
-    passes &= (ahead[:-1] > 0) | (ahead[1:] > 0)
-    if not passes.any():
-        fits = np.where(np.isfinite(normal) & (ahead >= 0), np.abs(off), np.inf)
-        best = int(fits.argmin()) if np.isfinite(fits).any() else int(np.where(np.isfinite(normal), normal, np.inf).argmin())
-        angle = ANGLES[best : best + 1]
-    else:
-        low, high, left = low[passes], high[passes], off[:-1][passes]
-        for _ in range(45):
-            middle = (low + high) / 2
-            same = slides(middle)[1] * left > 0
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
-        angle = (low + high) / 2
-    normal = slides(angle)[0]
-    k = int(normal.argmin())
-    if not np.isfinite(normal[k]):
-        return np.zeros(3)
-    return float(normal[k]) * np.array([-mu * np.cos(angle[k]), -mu * np.sin(angle[k]), 1.0])
+    series = np.fft.fft(slides(EIGHTHS)[1]) / len(EIGHTHS)
+    found = np.roots([series[2], series[1], series[0], series[-1], series[-2]])
+    angle = np.angle(found)
+    push, _, ahead = slides(angle)
+    fits = (push > 0) & (ahead >= 0) & (np.abs(np.abs(found) - 1) < 1e-3)
+    if not fits.any():
+        return within_one(sticks, mu)
+    k = int(np.where(fits, push, 0).argmax())
+    return np.array([-mu * np.cos(angle[k]), -mu * np.sin(angle[k]), 1.0]) * (-u[2] / push[k])
+
+
+def within_one(impulse: Array, mu: float) -> Array:
+    """Return the impulse at a point, or what its cone takes of it."""
+    friction, most = float(np.hypot(impulse[0], impulse[1])), mu * max(0.0, float(impulse[2]))
+    share = most / friction if friction > most else 1.0
+    return np.array([share * impulse[0], share * impulse[1], max(0.0, float(impulse[2]))])

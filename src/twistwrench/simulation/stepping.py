@@ -208,7 +208,7 @@ class TimeStepping:
             return self.joints.rubbed(metric, free, self.dt, solved)
 
         found, share = answer(lowest), self.points.restitution
-        hits = (n @ v < 0) & (gap + self.dt * (n @ free) < 0) & (share > 0)
+        hits = (n @ v < 0) & (found.kind > OPEN) & (share > 0)
         if hits.any():
             q_goes, faster = found.v, 2 * np.maximum(gap, 0) / self.dt * (n @ (v - free))
             speed = np.sqrt(np.maximum((n @ v) ** 2 + faster, 0))  # where it hits, by what accelerates it until then
