@@ -13,7 +13,7 @@ from ..arrays import Array
 from ..contact.decomposition import cholesky_factors
 from ..contact.qp import FEASIBLE, least_with_multipliers
 from ..model import Model
-from .coulomb import OPEN, SETTLED, SLIDES, STICKS, Guess, Law, solved, unit
+from .coulomb import SETTLED, Law, solved
 
 __all__ = ["Answer", "Metric", "Points", "touched"]
 
@@ -93,7 +93,10 @@ class Points:
     J: Array
     mu: Array
     bound: Array
-    """c, shape (k, 3): the velocity of the ground along it, and the least normal velocity after the step, m/s."""
+    """c, shape (k, 3): the velocity of the ground along it, and the least normal velocity after the step, m/s.
+
+    It is −inf of what cannot touch.
+    """
 
 
 @dataclass
@@ -105,8 +108,6 @@ class Answer:
     """The velocity along which q goes: v, unless something bounces, which ends where it hits."""
     impulse: Array
     others: Array
-    kind: Array
-    """(k,): whether each point is open, sticks or slides."""
     slide: Array
     """(k, 2), how the points that touch move along the ground, m/s; 0 of the others."""
     missed: Array
@@ -122,40 +123,31 @@ class Answer:
 def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array], before: Array) -> Answer:
     """Return the velocity after the step, v being that of the free motion.
 
-    `others` are rows G and bounds c of what else holds, G v ≥ c; `before` (k,) is what the points did in the step
-    before.
+    `others` are rows G and bounds c of what else holds, G v ≥ c; `before` (k, 3) are the impulses of the step before.
+    Only points that sink without an impulse take part, and those that would sink by the impulses of the others. So
+    nothing is pushed that no motion brings to the ground, even where a large μ knows an answer with a force from afar.
     """
     J, k, (G, c) = points.J, len(points.mu), others
     u, rows = J @ v - points.bound, G @ v - c
     fastest = float(max(np.abs(J @ v).max(initial=0), np.abs(rows + c).max(initial=0)))
-    kind, slide, impulse, after = np.full(k, OPEN), u[:, :2], np.zeros((k, 3)), v
-    pushes, missed, least = np.zeros(len(c)), np.zeros(k), -SETTLED * fastest
-    joins, joins_too, total = u[:, 2] < 0, rows < 0, np.zeros_like(v)
+    impulse, pushes, missed, least = np.zeros((k, 3)), np.zeros(len(c)), np.zeros(k), -SETTLED * fastest
+    after, total = v, np.zeros_like(v)
+    joins, joins_too = u[:, 2] < 0, rows < 0
     if joins.any() or joins_too.any():
-        joins |= before > OPEN
+        joins |= (before[:, 2] > 0) & np.isfinite(points.bound[:, 2])
     while joins.any() or joins_too.any():
         at, too = np.flatnonzero(joins), np.flatnonzero(joins_too)
         A = np.concatenate([J[at].reshape(-1, len(v)), G[too]])
         Y = metric.inverse @ A.mT
         law = Law(Y.mT @ Y, np.concatenate([u[at].ravel(), rows[too]]), points.mu[at])
-        way, pushing = unit(u[at, :2]), np.ones(len(too), bool)
-        fresh = np.where(np.abs(u[at, :2]).max(axis=-1) > -least, SLIDES, STICKS)
-        as_before = np.where(before[at] > OPEN, before[at], fresh)
-        kinds = [fresh, np.full(len(at), STICKS)]
-        kinds = [as_before, *kinds] if (before[at] > OPEN).any() else kinds
-        found, off = solved(law, [Guess(kind, way, pushing) for kind in kinds], fastest)
+        found, off = solved(law, np.concatenate([before[at].ravel(), pushes[too]]), fastest)
         impulse[at], pushes[too], missed[at] = found[: 3 * len(at)].reshape(-1, 3), found[3 * len(at) :], off[: len(at)]
-        total = found @ A
-        after = v + metric.inverse.mT @ (Y @ found)
-        sinks = (J @ after - points.bound)[:, 2] < least
-        late, late_too = sinks & ~joins, (G @ after - c < least) & ~joins_too
+        total, after = found @ A, v + metric.inverse.mT @ (Y @ found)
+        late, late_too = (J[:, 2] @ after - points.bound[:, 2] < least) & ~joins, (G @ after - c < least) & ~joins_too
         if not late.any() and not late_too.any():
             break
         joins, joins_too = joins | late, joins_too | late_too
     ends = J @ after - points.bound
-    touches, slide = impulse[:, 2] > 0, ends[:, :2]
-    still = np.sqrt((slide * slide).sum(axis=-1)) <= -least
-    kind = np.where(touches, np.where(still, STICKS, SLIDES), OPEN)
-    slide = np.where((kind == SLIDES)[:, None], slide, 0)
-    sunk = np.maximum(0, -ends[:, 2])
-    return Answer(after, after, impulse, pushes, kind, slide, missed, sunk, fastest, total)
+    slides = (impulse[:, 2] > 0) & (np.sqrt((ends[:, :2] ** 2).sum(axis=-1)) > -least)
+    slide, sinks = np.where(slides[:, None], ends[:, :2], 0), np.maximum(0, -ends[:, 2])
+    return Answer(after, after, impulse, pushes, slide, missed, sinks, fastest, total)

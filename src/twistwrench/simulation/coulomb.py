@@ -1,39 +1,40 @@
-"""Coulomb's law for one step: which points stick, slide or stay open, and the impulses that let them.
+"""Coulomb's law for one step: the impulses at the points that touch, of which some stick, some slide and some open.
 
 A point with the normal velocity u_n and the velocity u_t along the ground bears impulses λ with |λ_t| ≤ μ λ_n. Coulomb:
 
     u_n ≥ c,    λ_n ≥ 0,    (u_n − c) λ_n = 0,    and where it slides, λ_t = −μ λ_n u_t / |u_t|.
 
-Over a step velocities and impulses are linear in each other, u = u₀ + W λ with W = J M⁻¹ Jᵀ, so that the law is a linear
-system once it is known which point does what: what sticks has u = c, what is open has λ = 0, and what slides has the
-equation above, which Newton's method makes linear (P. Alart and A. Curnier, 1991). Its answer shows what was wrong in
-the guess. Where the guesses go round in circles, the points are asked one after the other, each with the law exact
-while the others push as they do, as often as it takes (M. Jean, The non-smooth contact dynamics method, 1999), and from
-there the cases are tried again.
+Over a step velocities and impulses are linear in each other, u = u₀ + W λ with W = J M⁻¹ Jᵀ. P. Alart and A. Curnier
+(1991) write the law as one equation, λ = P(λ − u / w) with any w > 0: P leaves 0 of what pulls, and of what pushes it
+shortens the part along the ground to μ λ_n. Newton's method solves it: it knows which point sticks, slides or opens as
+soon as it is near, and then the equation is linear, or nearly. Of a robot that stands this takes one step.
 
-Only points that sink without an impulse take part, and those that would sink by the impulses of the others: so nothing
-is pushed that no motion brings to the ground, even where a large μ knows a second answer (P. Painlevé, 1895).
+Where its steps lead nowhere, every point is first made soft by itself, which leaves one answer where a stiff body knows
+many or none that is plain, and harder step by step. If that does not help either, the points are asked one after the
+other, each with the law exact while the others push as they do (M. Jean, The non-smooth contact dynamics method, 1999).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["CASES", "OPEN", "SLIDES", "STICKS", "Law", "solved"]
+__all__ = ["SETTLED", "Law", "solved"]
 
-OPEN, STICKS, SLIDES = 0, 1, 2
+STEPS = 30
+"""Of Newton's method, at most."""
 
-CASES = 30
-"""So many guesses at most which point does what; a robot that stands takes one."""
+SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
+"""Of a step of Newton's that are tried."""
 
-ROUNDS, SWEEPS = 25, 8
-"""So many times at most the cases are tried again, each time after so many sweeps over all points."""
+SOFT = (*10 ** np.linspace(1, -8, 28), 0.0)
+"""What is added to W at each point, relative to its own."""
+
+ROUNDS, SWEEPS = 10, 8
+"""So many times at most Newton's method is tried again, each time after so many sweeps over all points."""
 
 SETTLED, ENOUGH = 1e-9, 1e-7
 """How far the law may be missed, relative to the fastest point: what is looked for, and what is taken in the end."""
@@ -43,9 +44,6 @@ RANK = 1e-12
 
 EIGHTHS = 2 * np.pi * np.arange(8) / 8
 """rad, of a turn."""
-
-ONE_BY_ONE = 10
-"""From this guess on, only what contradicts its guess the most changes: all at once may go round in circles."""
 
 
 @dataclass
@@ -89,107 +87,68 @@ class Law:
         return np.concatenate([w * off, self.own_rows * np.abs(impulse[n:] - rows)])
 
 
-class Guess(NamedTuple):
-    """Which point does what (k,), the unit directions in which they slide (k, 2), and which rows push (m,)."""
+def solved(law: Law, impulse: Array, size: float) -> tuple[Array, Array]:
+    """Return the impulses and how far each point and row misses the law.
 
-    kind: Array
-    way: Array
-    rows: Array
+    `impulse` is what is tried first, as of the step before; `size` is the speed of the fastest.
+    """
+    nothing = np.zeros(len(impulse))
+    best, missed = nothing, law.missed(nothing, law.u0)
 
-
-def solved(law: Law, guesses: Sequence[Guess], size: float) -> tuple[Array, Array]:
-    """Return the impulses and how far each point and row misses the law; `size` is the speed of the fastest."""
-    impulse, best, missed = np.zeros(len(law.u0)), np.zeros(len(law.u0)), np.full(1, np.inf)
-    for guess in guesses:
-        one = by_cases(law, guess, impulse, SETTLED * size)
+    def holds(one: Array) -> bool:
+        """Return whether these impulses are good enough, and keep them if they are the best so far."""
+        nonlocal best, missed
         off = law.missed(one, law.moves(one))
         if off.max() < missed.max():
             best, missed = one, off
-        if missed.max() <= SETTLED * size:
-            break
+        return bool(missed.max() <= ENOUGH * size)
+
+    starts = [impulse, nothing] if impulse.any() else [nothing]
+    if any(holds(by_newton(law, start, SETTLED * size)) for start in starts):
+        return best, missed
+    one, own = nothing, np.concatenate([np.repeat(law.own, 3), law.own_rows])
+    for share in SOFT:
+        one = by_newton(Law(law.W + share * np.diag(own), law.u0, law.mu), one, SETTLED * size)
     for _ in range(ROUNDS):
-        if missed.max() <= ENOUGH * size:
+        if holds(one):
             break
-        impulse = swept(law, impulse)
-        for one in (impulse, by_cases(law, guess_of(law, impulse, SETTLED * size), impulse, SETTLED * size)):
-            off = law.missed(one, law.moves(one))
-            if off.max() < missed.max():
-                best, missed = one, off
+        one = by_newton(law, swept(law, one), SETTLED * size)
     return best, missed
 
 
-def guess_of(law: Law, impulse: Array, still: float) -> Guess:
-    """Return what points and rows do under these impulses; `still` is a speed that counts as none."""
-    k = law.k
-    L, U = (x[: 3 * k].reshape(k, 3) for x in (impulse, law.moves(impulse)))
-    speed = np.sqrt((U[:, :2] ** 2).sum(axis=-1))
-    full = np.sqrt((L[:, :2] ** 2).sum(axis=-1)) >= law.mu * L[:, 2] * (1 - 1e-6)
-    kind = np.where(L[:, 2] <= 0, OPEN, np.where(full, SLIDES, STICKS))
-    way = np.where(speed[:, None] > still, U[:, :2], -L[:, :2])
-    return Guess(kind, unit(way), impulse[3 * k :] > 0)
+def by_newton(law: Law, impulse: Array, still: float) -> Array:
+    """Return the impulses after steps of Newton's method for the law as one equation, λ = P(λ − u / w).
 
-
-def unit(way: Array) -> Array:
-    """Return directions of length 1, and (1, 0) for none."""
-    size = np.sqrt((way * way).sum(axis=-1, keepdims=True))
-    return np.where(size > 0, way / np.where(size > 0, size, 1), [1.0, 0.0])
-
-
-def by_cases(law: Law, guess: Guess, impulse: Array, still: float) -> Array:
-    """Return the impulses of the first guess that its own answer does not contradict, or of the last.
-
-    Where there are many answers, as of four corners that stick, it is the one nearest to the impulses before.
+    P is what `missed` projects with. A step is shortened until it misses the law by less; where none does, it ends.
     """
-    k, n, mu = law.k, 3 * law.k, law.mu
-    kind, way, on = guess.kind.copy(), guess.way.copy(), guess.rows.copy()
-    kind[(kind == STICKS) & (mu == 0)] = SLIDES
-    curl, jams = np.zeros(k), np.zeros(k, bool)
-    for made in range(CASES):
-        takes = np.concatenate([np.repeat(kind > OPEN, 3), on])
-        at = np.flatnonzero(takes)
+    k, n, mu, w = law.k, 3 * law.k, law.mu, law.own
+    missed = law.missed(impulse, law.moves(impulse))
+    for _ in range(STEPS):
+        aim = impulse - law.moves(impulse) / np.concatenate([np.repeat(w, 3), law.own_rows])
+        normal, along = aim[2:n:3], aim[:n].reshape(k, 3)[:, :2]
+        size = np.sqrt((along * along).sum(axis=-1))
+        at = np.flatnonzero(np.concatenate([np.repeat(normal > 0, 3), aim[n:] > 0]))
         A, b = law.W[np.ix_(at, at)], -law.u0[at]
-        slides = np.flatnonzero(kind == SLIDES)
+        slides = np.flatnonzero((normal > 0) & (size > mu * normal))
         for i, a in zip(slides, np.searchsorted(at, 3 * slides)):
-            d, w = way[i], law.own[i]
-            P = curl[i] * np.array([[d[1] * d[1], -d[0] * d[1]], [-d[0] * d[1], d[0] * d[0]]])
+            d, turns = along[i] / size[i], mu[i] * normal[i] / size[i]
+            P = turns * (np.eye(2) - np.outer(d, d))
             A[a : a + 2], b[a : a + 2] = P @ A[a : a + 2], P @ b[a : a + 2]
-            A[a, a] += w
-            A[a + 1, a + 1] += w
-            A[a : a + 2, a + 2] += w * mu[i] * d
-        near, impulse = within(law, impulse)[at], np.zeros(len(law.u0))
-        impulse[at] = near + np.linalg.lstsq(A, b - A @ near, rcond=RANK)[0] if len(at) else b
-        u = law.moves(impulse)
-        L, U = impulse[:n].reshape(k, 3), u[:n].reshape(k, 3)
-        speed, friction = np.sqrt((U[:, :2] ** 2).sum(axis=-1)), np.sqrt((L[:, :2] ** 2).sum(axis=-1))
-        pulls, slow = law.own * L[:, 2], (U[:, :2] * way).sum(axis=-1)
-        wrong = np.zeros(k + law.m)  # by how much each contradicts its guess, m/s
-        wrong[:k] = np.where(kind == OPEN, -U[:, 2], -pulls)
-        wrong[:k] = np.maximum(wrong[:k], np.where(kind == STICKS, law.own * (friction - mu * L[:, 2]), 0))
-        wrong[:k] = np.maximum(wrong[:k], np.where((kind == SLIDES) & (mu > 0), -slow, 0))
-        wrong[k:] = np.where(on, -law.own_rows * impulse[n:], -u[n:])
-        apart = np.where(kind > OPEN, U[:, 2], 0)  # above 0 where not all that are closed can be met: one of them opens
-        creeps = np.where(kind == STICKS, speed, 0)  # and here not all can stick
-        wrong[:k] = np.maximum(wrong[:k], np.maximum(apart, creeps))
-        changes = wrong > still / 2
-        if made >= ONE_BY_ONE or max(apart.max(initial=0), creeps.max(initial=0)) > still / 2:
-            changes &= np.arange(k + law.m) == wrong.argmax()
-        new, new_on = kind.copy(), on ^ changes[k:]
-        closes = changes[:k] & (kind == OPEN)
-        opens = changes[:k] & (kind > OPEN) & ((L[:, 2] < 0) | (apart > np.maximum(creeps, still / 2)))
-        turns = changes[:k] & ~closes & ~opens
-        new[turns] = np.where(kind[turns] == STICKS, SLIDES, STICKS)
-        new[opens] = OPEN
-        jams |= opens & (kind == SLIDES) & (L[:, 2] < 0)  # and where it closes again, it may stick
-        new[closes] = np.where(((speed[closes] > still) & ~jams[closes]) | (mu[closes] == 0), SLIDES, STICKS)
-        slides, begins = new == SLIDES, (new == SLIDES) & (kind == STICKS) & (creeps <= still / 2)
-        way[slides & (speed > still)] = unit(U[slides & (speed > still), :2])
-        way[begins] = unit(-L[begins, :2])
-        curl = np.minimum(law.own * mu * np.maximum(L[:, 2], 0) / np.maximum(speed, still), 1e9)
-        curl[~slides | begins | closes | (speed <= still)] = 0.0
-        if not changes.any() and law.missed(impulse, u).max(initial=0) <= still:
+            A[a : a + 2, a : a + 2] += w[i] * (np.eye(2) - P)
+            A[a : a + 2, a + 2] -= w[i] * mu[i] * d
+        goal = np.zeros(len(impulse))
+        goal[at] = impulse[at] + np.linalg.lstsq(A, b - A @ impulse[at], rcond=RANK)[0] if len(at) else b
+        for share in SHARES:
+            new = within(law, impulse + share * (goal - impulse))
+            off = law.missed(new, law.moves(new))
+            if off @ off < missed @ missed:
+                break
+        else:
             break
-        kind, on = new, new_on
-    return within(law, impulse)
+        impulse, missed = new, off
+        if missed.max() <= still:
+            break
+    return impulse
 
 
 def within(law: Law, impulse: Array) -> Array:

@@ -32,7 +32,6 @@ from ..contact.rows import per_contact
 from ..fast import aba
 from ..model import Model
 from .cones import Answer, Metric, Points, touched
-from .coulomb import OPEN
 from .divergence import DivergenceError, refuse_divergence
 from .ground import Ground, GroundPoints, point_forces
 from .held import Held, Rows
@@ -54,7 +53,7 @@ APART = 1e-12
 DEEPEST = 1e-3
 """m: a point that begins deeper below the ground is a mistake."""
 
-SUNK = 1e-3
+SUNK = 0.05
 """So much, relative to the fastest, a point may be too fast on its way down; beyond, nothing can keep it up."""
 
 
@@ -125,7 +124,7 @@ class TimeStepping:
         self.pulls: list[Array] = []
         self.missed: list[Array] = []
         self.fastest: list[Array] = []
-        self._kind = np.full((*q.shape[:-1], len(self.mu)), OPEN)
+        self._impulse = np.zeros((*q.shape[:-1], len(self.mu), 3))
         self._damping = self.dt * np.diag(model.damping) if model.damping.any() else None
         self._refuse_below(q)
 
@@ -140,8 +139,8 @@ class TimeStepping:
         pull, fastest = np.zeros((*batch, sum(c.dim for c in self.held.contacts))), np.zeros(batch)
         for item in np.ndindex(batch):
             held, end, q0, v0 = self.held.at(item), since + self.dt, q[item].copy(), v[item].copy()
-            found, pull[item], place[item] = self.one(tau[item].copy(), q0, v0, self._kind[item], held, end)
-            self._kind[item], missed[item], fastest[item] = found.kind, found.missed, found.fastest
+            found, pull[item], place[item] = self.one(tau[item].copy(), q0, v0, self._impulse[item], held, end)
+            self._impulse[item], missed[item], fastest[item] = found.impulse, found.missed, found.fastest
             force[item] = found.impulse / self.dt
             slide[item] = np.sqrt((found.slide**2).sum(axis=-1))
             straight = in_turned_axes(self.model, found.v, -self.dt / 2 * v0)  # in the axes of the beginning
@@ -158,7 +157,7 @@ class TimeStepping:
         return q1, v1
 
     def one(
-        self, tau: Array, q: Array, v: Array, kind: Array, held: Held, end: float
+        self, tau: Array, q: Array, v: Array, before: Array, held: Held, end: float
     ) -> tuple[Answer, Array, Array]:
         """Return the velocity at the end of a step in the axes of its middle, λ of what holds, and where points are.
 
@@ -166,14 +165,14 @@ class TimeStepping:
         """
         half = self.dt / 2 * v
         middle, v = go_straight(self.model, q, half), in_turned_axes(self.model, v, half)
-        at, mean, before = self.terms(q, middle), v, np.full_like(v, np.inf)
+        at, mean, other = self.terms(q, middle), v, np.full_like(v, np.inf)
         for _ in range(2):
             free = v + self.dt * (aba(self.model, middle, mean, tau) + turning(self.model, mean))
-            if np.abs(free - before).max(initial=0) <= ALIKE * np.abs(free).max(initial=0):
+            if np.abs(free - other).max(initial=0) <= ALIKE * np.abs(free).max(initial=0):
                 break
-            before, rows = free, held.moving(middle, mean, at.damped, self.dt, end) if held.contacts else None
-            found, pull = self.solve(at, v, free, kind, rows)
-            mean, kind = (v + found.v) / 2, found.kind
+            other, rows = free, held.moving(middle, mean, at.damped, self.dt, end) if held.contacts else None
+            found, pull = self.solve(at, v, free, before, rows)
+            mean, before = (v + found.v) / 2, found.impulse
             refuse_divergence(self.model, "v", mean, dt=self.dt)
         refuse_divergence(self.model, "v dt", self.dt * found.v)
         self._refuse_sunk(found)
@@ -186,7 +185,7 @@ class TimeStepping:
         gap = self.points.place(q)[:, 2]
         return State(terms.M, damped, Metric(self.model, damped), terms.rows, terms.place, gap, self.joints.gap(q))
 
-    def solve(self, at: State, v: Array, free: Array, kind: Array, held: Rows | None) -> tuple[Answer, Array]:
+    def solve(self, at: State, v: Array, free: Array, before: Array, held: Rows | None) -> tuple[Answer, Array]:
         """Return the velocity at the end of the step, from v and that of the free motion, and the impulses."""
         gap, J, metric = at.gap, at.J, at.metric
         loose = free = free if self._damping is None else metric.respond(at.M @ free)
@@ -202,18 +201,20 @@ class TimeStepping:
 
             def solved(free: Array, rows: Array) -> tuple[Answer, Array]:
                 others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
-                found = touched(metric, free, points, others, kind)
+                found = touched(metric, free, points, others, before)
                 return found, found.others[len(ends) :]
 
             return self.joints.rubbed(metric, free, self.dt, solved)
 
         found, share = answer(lowest), self.points.restitution
-        hits = (n @ v < 0) & (found.kind > OPEN) & (share > 0)
+        touches = found.impulse[:, 2] > 0
+        hits = (n @ v < 0) & touches & (share > 0)
         if hits.any():
             q_goes, faster = found.v, 2 * np.maximum(gap, 0) / self.dt * (n @ (v - free))
             speed = np.sqrt(np.maximum((n @ v) ** 2 + faster, 0))  # where it hits, by what accelerates it until then
             while share.any():
-                bounced = replace(answer(np.where(hits, share * speed, lowest)), way=q_goes)
+                leaves = np.where(hits, share * speed, np.where(touches, lowest, -np.inf))
+                bounced = replace(answer(leaves), way=q_goes)
                 if (bounced.impulse * (J @ (bounced.v + free) / 2 - self.points.velocity)).sum() <= 0:
                     found = bounced
                     break
