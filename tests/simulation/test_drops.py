@@ -47,14 +47,14 @@ def test_whatever_is_dropped_lands_by_the_laws(name):
     for _ in range(DROPS):
         q = np.clip(model.standing() if model.feet else model.neutral(), model.lower, model.upper)
         q = model.integrate(model.normalize(q), np.r_[rng.normal(size=3) * 0.5, np.zeros(model.nv - 3)])
-        lowest = GroundPoints(model, contacts, ground).place(q)[:, 2].min()
+        lowest = GroundPoints(model, contacts, ground).height(q).min()
         q[2] += rng.uniform(0, 0.05) - lowest
         s = tw.simulate(model, q, rng.normal(size=model.nv), dt=0.002, duration=0.25, contacts=contacts, ground=ground)
         force, mu = np.array(s.system.stepping.forces), s.system.stepping.mu
         scale = tw.kinetic_energy(model, s.q[0], s.v[0]) + model.mass * G * 0.1
         assert s.energy.max() <= s.energy[0] + 1e-9 * scale
         assert np.diff(s.energy).max() < 0.01 * scale  # what fast legs gain by the order of the step
-        assert GroundPoints(model, contacts, ground).place(s.q)[..., 2].min() > -1e-9
+        assert GroundPoints(model, contacts, ground).height(s.q).min() > -1e-9
         assert force[..., 2].min() >= 0
         assert (np.hypot(force[..., 0], force[..., 1]) <= mu * force[..., 2] * (1 + 1e-12)).all()
         assert not [remark for remark in s.remarks if remark.kind == "coulomb"]

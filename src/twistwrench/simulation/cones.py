@@ -128,10 +128,12 @@ def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
     nothing is pushed that no motion brings to the ground, even where a large μ knows an answer with a force from afar.
     """
     J, k, (G, c) = points.J, len(points.mu), others
-    u, rows = J @ v - points.bound, G @ v - c
-    fastest = float(max(np.abs(J @ v).max(initial=0), np.abs(rows + c).max(initial=0)))
+    every = J.reshape(3 * k, len(v))
+    moves, more = every @ v, G @ v
+    u, rows = moves.reshape(k, 3) - points.bound, more - c
+    fastest = float(max(np.abs(moves).max(initial=0), np.abs(more).max(initial=0)))
     impulse, pushes, missed, least = np.zeros((k, 3)), np.zeros(len(c)), np.zeros(k), -SETTLED * fastest
-    after, total = v, np.zeros_like(v)
+    after, ends, total = v, u, np.zeros_like(v)
     joins, joins_too = u[:, 2] < 0, rows < 0
     if joins.any() or joins_too.any():
         joins |= (before[:, 2] > 0) & np.isfinite(points.bound[:, 2])
@@ -143,11 +145,11 @@ def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         found, off = solved(law, np.concatenate([before[at].ravel(), pushes[too]]), fastest)
         impulse[at], pushes[too], missed[at] = found[: 3 * len(at)].reshape(-1, 3), found[3 * len(at) :], off[: len(at)]
         total, after = found @ A, v + metric.inverse.mT @ (Y @ found)
-        late, late_too = (J[:, 2] @ after - points.bound[:, 2] < least) & ~joins, (G @ after - c < least) & ~joins_too
+        ends = (every @ after).reshape(k, 3) - points.bound
+        late, late_too = (ends[:, 2] < least) & ~joins, (G @ after - c < least) & ~joins_too
         if not late.any() and not late_too.any():
             break
         joins, joins_too = joins | late, joins_too | late_too
-    ends = J @ after - points.bound
     slides = (impulse[:, 2] > 0) & (np.sqrt((ends[:, :2] ** 2).sum(axis=-1)) > -least)
     slide, sinks = np.where(slides[:, None], ends[:, :2], 0), np.maximum(0, -ends[:, 2])
     return Answer(after, after, impulse, pushes, slide, missed, sinks, fastest, total)

@@ -93,38 +93,39 @@ def solved(law: Law, impulse: Array, size: float) -> tuple[Array, Array]:
     `impulse` is what is tried first, as of the step before; `size` is the speed of the fastest.
     """
     nothing = np.zeros(len(impulse))
-    best, missed = nothing, law.missed(nothing, law.u0)
+    best, missed = by_newton(law, impulse, SETTLED * size)
+    if missed.max(initial=0) <= ENOUGH * size:
+        return best, missed
 
-    def holds(one: Array) -> bool:
+    def holds(one: Array, off: Array) -> bool:
         """Return whether these impulses are good enough, and keep them if they are the best so far."""
         nonlocal best, missed
-        off = law.missed(one, law.moves(one))
-        if off.max() < missed.max():
+        if off.max(initial=0) < missed.max(initial=0):
             best, missed = one, off
-        return bool(missed.max() <= ENOUGH * size)
+        return bool(missed.max(initial=0) <= ENOUGH * size)
 
-    starts = [impulse, nothing] if impulse.any() else [nothing]
-    if any(holds(by_newton(law, start, SETTLED * size)) for start in starts):
+    if impulse.any() and holds(*by_newton(law, nothing, SETTLED * size)):
         return best, missed
     one, own = nothing, np.concatenate([np.repeat(law.own, 3), law.own_rows])
     for share in SOFT:
-        one = by_newton(Law(law.W + share * np.diag(own), law.u0, law.mu), one, SETTLED * size)
+        one, off = by_newton(Law(law.W + share * np.diag(own), law.u0, law.mu), one, SETTLED * size)
     for _ in range(ROUNDS):
-        if holds(one):
+        if holds(one, off):
             break
-        one = by_newton(law, swept(law, one), SETTLED * size)
+        one, off = by_newton(law, swept(law, one), SETTLED * size)
     return best, missed
 
 
-def by_newton(law: Law, impulse: Array, still: float) -> Array:
-    """Return the impulses after steps of Newton's method for the law as one equation, λ = P(λ − u / w).
+def by_newton(law: Law, impulse: Array, still: float) -> tuple[Array, Array]:
+    """Return the impulses after steps of Newton's method for λ = P(λ − u / w), and how far they miss the law.
 
     P is what `missed` projects with. A step is shortened until it misses the law by less; where none does, it ends.
     """
     k, n, mu, w = law.k, 3 * law.k, law.mu, law.own
-    missed = law.missed(impulse, law.moves(impulse))
+    u, every = law.moves(impulse), np.concatenate([np.repeat(w, 3), law.own_rows])
+    missed: Array | None = None  # which need not be known where the first step arrives
     for _ in range(STEPS):
-        aim = impulse - law.moves(impulse) / np.concatenate([np.repeat(w, 3), law.own_rows])
+        aim = impulse - u / every
         normal, along = aim[2:n:3], aim[:n].reshape(k, 3)[:, :2]
         size = np.sqrt((along * along).sum(axis=-1))
         at = np.flatnonzero(np.concatenate([np.repeat(normal > 0, 3), aim[n:] > 0]))
@@ -140,15 +141,17 @@ def by_newton(law: Law, impulse: Array, still: float) -> Array:
         goal[at] = impulse[at] + np.linalg.lstsq(A, b - A @ impulse[at], rcond=RANK)[0] if len(at) else b
         for share in SHARES:
             new = within(law, impulse + share * (goal - impulse))
-            off = law.missed(new, law.moves(new))
+            u_new = law.moves(new)
+            off = law.missed(new, u_new)
+            if off.max(initial=0) <= still:
+                return new, off
+            missed = law.missed(impulse, u) if missed is None else missed
             if off @ off < missed @ missed:
                 break
         else:
             break
-        impulse, missed = new, off
-        if missed.max() <= still:
-            break
-    return impulse
+        impulse, u, missed = new, u_new, off
+    return impulse, law.missed(impulse, u)
 
 
 def within(law: Law, impulse: Array) -> Array:

@@ -129,7 +129,7 @@ class GroundPoints:
         self.owner = np.array([i for i, c in enumerate(contacts) for _ in c.points], int)
         self.thick = any(not isinstance(c, PointContact) for c in contacts)
         every = [contacts[i] for i in self.owner]
-        self.mu = np.array([c.mu for c in every])
+        self.mu, self._normal = np.array([c.mu for c in every]), np.array(ground.normal)
         own = [c.restitution for c in every]
         self.restitution = np.array([ground.restitution if e is None else e for e in own], float)
         self.velocity = np.array([c.velocity[-3:] or (0, 0, 0) for c in every], float).reshape(-1, 3) @ ground.axes.mT
@@ -143,10 +143,13 @@ class GroundPoints:
             rows = rows - cross_matrix(arms) @ moves[..., :3, :]
         return Terms(found.M, self._place(found.frames, arms), self.ground.axes @ rows)
 
-    def place(self, q: Array) -> Array:
-        """Return where the points are, shape (..., k, 3), the height last."""
+    def height(self, q: Array) -> Array:
+        """Return how high the points are, shape (..., k)."""
         frames = self._asked(q, ("frames",)).frames
-        return self._place(frames, self._arms(frames))
+        there = frames[..., 3][..., self.owner, :]
+        if self.thick:
+            there = there + self._arms(frames)
+        return np.asarray(there @ self._normal - self.ground.height)
 
     def _place(self, frames: Array, arms: Array) -> Array:
         there = frames[..., 3][..., self.owner, :] + arms
@@ -156,8 +159,7 @@ class GroundPoints:
         """Return the points from the origins of their frames, in the axes of the world."""
         if not self.thick:
             return np.zeros((*frames.shape[:-3], len(self.owner), 3))
-        normal = np.array(self.ground.normal)
-        return np.concatenate([c.arms(frames[..., i, :, :3], normal) for i, c in enumerate(self.contacts)], axis=-2)
+        return np.concatenate([c.arms(frames[..., i, :, :3], self._normal) for i, c in enumerate(self.contacts)], axis=-2)
 
     def _asked(self, q: Array, want: tuple[str, ...]) -> Results:
         """Return M, the placements (..., c, 3, 4) of the frames in the world, and their rows (..., c, 6, nv)."""

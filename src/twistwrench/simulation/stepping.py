@@ -182,7 +182,7 @@ class TimeStepping:
         """Return what a step from q needs."""
         terms = self.points.terms(middle)
         damped = terms.M if self._damping is None else terms.M + self._damping
-        gap = self.points.place(q)[:, 2]
+        gap = self.points.height(q)
         return State(terms.M, damped, Metric(self.model, damped), terms.rows, terms.place, gap, self.joints.gap(q))
 
     def solve(self, at: State, v: Array, free: Array, before: Array, held: Rows | None) -> tuple[Answer, Array]:
@@ -200,7 +200,9 @@ class TimeStepping:
             points = Points(J, self.mu, bound)
 
             def solved(free: Array, rows: Array) -> tuple[Answer, Array]:
-                others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
+                others = (self.joints.rows, ends)
+                if len(rows):
+                    others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
                 found = touched(metric, free, points, others, before)
                 return found, found.others[len(ends) :]
 
@@ -226,7 +228,7 @@ class TimeStepping:
         """Return the nearest configuration with no point below the ground and no joint beyond its range."""
         rows, span = None, None
         for _ in range(PROJECTIONS):
-            gap, way = np.concatenate([self.points.place(q)[:, 2], self.joints.gap(q)]), np.zeros(self.model.nv)
+            gap, way = np.concatenate([self.points.height(q), self.joints.gap(q)]), np.zeros(self.model.nv)
             if held.contacts:
                 rows = held.returning(q, end)
                 way, span = rows.corrected(way), rows.span
@@ -258,7 +260,7 @@ class TimeStepping:
         return [name for c in self.contacts for name in c.point_names]
 
     def _refuse_below(self, q: Array) -> None:
-        height = self.points.place(q)[..., 2]
+        height = self.points.height(q)
         gap = height.min(axis=tuple(range(q.ndim - 1)), initial=np.inf)
         if gap.min(initial=0) < -DEEPEST:
             raise ValueError(
