@@ -43,12 +43,15 @@ class FrameRows(NamedTuple):
     bias : ndarray, shape (..., 6)
         J̇ v.
     v : ndarray, shape (..., nv)
+    rotation : ndarray, shape (..., 3, 3)
+        The frame's axes.
     """
 
     point: Array
     J: Array
     bias: Array
     v: Array
+    rotation: Array
 
 
 class Contact(ABC):

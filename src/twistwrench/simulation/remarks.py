@@ -9,7 +9,7 @@ import numpy as np
 
 from ..algorithms.kinematics import forward_kinematics, frame_placement
 from ..arrays import Array
-from ..contact import Contact, PointContact, SphereContact, SurfaceContact
+from ..contact import Contact, PointContact, SphereContact, SurfaceContact, WheelContact
 from ..model import Model
 from .stepping import TimeStepping
 
@@ -108,7 +108,7 @@ def of_contacts(
 
     A sole would tip where its centre of pressure leaves it. Of others, such as loops, nothing is said.
     """
-    contacts = [c for c in contacts if isinstance(c, PointContact | SphereContact | SurfaceContact)]
+    contacts = [c for c in contacts if isinstance(c, PointContact | SphereContact | SurfaceContact | WheelContact)]
     for c in contacts:
         axes, wrench = c.axes(frame_placement(model, q, c.frame).rotation), np.zeros((*q.shape[:-1], 6))
         wrench[..., c.rows] = forces[c.frame]

@@ -145,9 +145,8 @@ class TimeStepping:
             slide[item] = np.sqrt((found.slide**2).sum(axis=-1))
             straight = in_turned_axes(self.model, found.v, -self.dt / 2 * v0)  # in the axes of the beginning
             way = straight if found.way is found.v else in_turned_axes(self.model, found.way, -self.dt / 2 * v0)
-            q1[item] = self.settle(go_straight(self.model, q0, self.dt * way), held, end)
-            new = in_turned_axes(self.model, straight, self.dt * way)
-            v1[item] = held.settle(q1[item], new, end) if held.contacts else new
+            there, new = go_straight(self.model, q0, self.dt * way), in_turned_axes(self.model, straight, self.dt * way)
+            q1[item], v1[item] = self.settle(there, new, held, end)
         self.forces.append(force)
         self.places.append(place)
         self.slides.append(slide)
@@ -224,8 +223,11 @@ class TimeStepping:
         pull = np.zeros(0) if held is None else held.balance(at.damped @ (found.v - loose) - found.total)
         return found, pull
 
-    def settle(self, q: Array, held: Held, end: float) -> Array:
-        """Return the nearest configuration with no point below the ground and no joint beyond its range."""
+    def settle(self, q: Array, v: Array, held: Held, end: float) -> tuple[Array, Array]:
+        """Return the nearest configuration with no point below the ground and no joint beyond its range, and v there.
+
+        What flies keeps its velocity in the world, where it is turned a little.
+        """
         rows, span = None, None
         for _ in range(PROJECTIONS):
             gap, way = np.concatenate([self.points.height(q), self.joints.gap(q)]), np.zeros(self.model.nv)
@@ -236,10 +238,12 @@ class TimeStepping:
                 break
             terms = self.points.terms(q)
             G = np.concatenate([terms.rows[:, 2], self.joints.rows])
-            q = go_straight(self.model, q, Metric(self.model, terms.M, span).nearest(way, G, -gap)[0])
+            way, _ = Metric(self.model, terms.M, span).nearest(way, G, -gap)
+            q, v = go_straight(self.model, q, way), in_turned_axes(self.model, v, way)
         if rows is not None:
             held.refuse_apart(rows)
-        return q
+            v = held.settle(q, v, end)
+        return q, v
 
     def contact_forces(self, q: Array) -> dict[str, Array]:
         """Return λ of all steps, by the contact's frame; q are the states in which they begin, (n, ..., nq)."""
