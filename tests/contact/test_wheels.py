@@ -101,7 +101,9 @@ def bicycle():
     builder = tw.Builder("bicycle", base="floating", root="rear", root_inertia=frame)
     hub, head = np.array([0, 0, 0.3]), np.array([base + trail, 0, 0.0])  # the steering axis meets the ground here
     steer = np.array([-np.sin(tilt), 0, np.cos(tilt)])
-    fork = rigid(4.0, np.array([0.9, 0, -0.7]) - flip @ head, [[0.05892, 0, -0.00756], [0, 0.06, 0], [-0.00756, 0, 0.00708]])
+    fork = rigid(
+        4.0, np.array([0.9, 0, -0.7]) - flip @ head, [[0.05892, 0, -0.00756], [0, 0.06, 0], [-0.00756, 0, 0.00708]]
+    )
     builder.link("rear_wheel", parent="rear", joint=tw.Revolute("y"), placement=tw.SE3(np.eye(3), hub),
                  inertia=tw.SpatialInertia(2.0, [0, 0, 0], np.diag([0.0603, 0.12, 0.0603])))  # fmt: skip
     builder.link("front", parent="rear", joint=tw.Revolute(steer), placement=tw.SE3(np.eye(3), head), inertia=fork)

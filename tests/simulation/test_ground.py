@@ -127,7 +127,9 @@ def test_each_contact_has_its_own_restitution_and_what_already_lies_has_none():
     lands = slide(0.0, np.r_[np.zeros(5), -1.0], q=np.r_[0, 0, HALF[2], 0, 0, 0, 1], dt=1e-6, steps=1, contacts=hard)
     up = tw.contact_jacobian(BOX, lands.q[-1], [f"p{k}" for k in range(4)]) @ lands.v[-1]
     assert up[2::3] == pytest.approx([0.9, 0.9, 0, 0], abs=1e-5)
-    lies = slide(0.3, np.zeros(6), contacts=[tw.PointContact(f"p{k}", 0.3, restitution=1.0) for k in range(4)], steps=20)
+    lies = slide(
+        0.3, np.zeros(6), contacts=[tw.PointContact(f"p{k}", 0.3, restitution=1.0) for k in range(4)], steps=20
+    )
     assert np.abs(lies.v).max() < 1e-12
     with pytest.raises(ValueError, match=r"contact 'p0': restitution: expected a number from 0 to 1, got 1\.5"):
         tw.PointContact("p0", 0.3, restitution=1.5)
@@ -238,7 +240,7 @@ def test_where_coulombs_law_is_missed_it_is_said_and_where_nothing_keeps_a_point
     assert {remark.name for remark in said} == {f"p{k}" for k in range(4)}
     assert all(remark.value > remark.limit for remark in said)
     monkeypatch.setattr(cones, "solved", lambda law, guesses, size: (0 * law.u0, np.abs(law.u0)))
-    with pytest.raises(tw.DivergenceError, match="nothing keeps 'p[0-3]' above the ground"):
+    with pytest.raises(tw.DivergenceError, match=r"nothing keeps 'p[0-3]' above the ground"):
         slide(0.4, np.r_[0, 0, 0, 1.0, 0, 0], steps=2)
 
 

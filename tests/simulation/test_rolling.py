@@ -66,7 +66,7 @@ def test_on_a_slope_it_rolls_up_to_the_tangent_of_7_2_mu_and_slides_beyond(slope
     assert fast == pytest.approx(expected, rel=expected / R * 0.1 * 0.002)  # ω dt
     same = tw.simulate(BALL, s.q[0], s.v[0], dt=0.002, steps=50, contacts=touch(), ground=ground)  # the ground's counts
     assert np.abs(same.v - s.v).max() < 1e-12
-    with pytest.raises(ValueError, match="contact 'ball': its normal .* is not that of the ground"):
+    with pytest.raises(ValueError, match=r"contact 'ball': its normal .* is not that of the ground"):
         tw.simulate(BALL, s.q[0], s.v[0], dt=0.01, steps=1, contacts=touch(normal=(1, 0, 0)), ground=ground)
 
 

@@ -1,9 +1,9 @@
 """Contact dynamics: constraints, friction and the stability of a stance (49.9).
 
 In the order in which the files are best read: `types` (what a contact is), `kinds` (points, soles, slides), `spheres`,
-`wheels` and `closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the rank), `rows`, `forward`, `impacts`,
-`projection`; `task`, `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares, `reach` (whether
-forces within the limits are enough, and the proof), `stance` (slipping and tipping).
+`wheels` and `closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the rank), `rows`, `forward`,
+`impacts`, `projection`; `task`, `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares, `reach`
+(whether forces within the limits are enough, and the proof), `stance` (slipping and tipping).
 """
 
 from .closures import Coupling, DistanceConstraint, LoopClosure

@@ -97,10 +97,6 @@ class SphereContact(Contact):
         """Return the axes of the world, turned the shortest way until z is the normal."""
         return np.broadcast_to(_normal_axes(self.normal), rotation.shape)
 
-    def arms(self, rotation: Array, normal: Array) -> Array:
-        """Return the lowest point."""
-        return np.broadcast_to(-self.radius * normal, (*rotation.shape[:-2], 1, 3))
-
     @property
     def points(self) -> Array:
         """The lowest point."""

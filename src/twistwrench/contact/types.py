@@ -109,17 +109,15 @@ class Contact(ABC):
     def point_names(self) -> tuple[str, ...]:
         """The names of the k points in messages."""
 
-    def arms(self, rotation: Array, normal: Array) -> Array:
-        """Return the points that touch a plane, from the frame's origin in the axes of the world, shape (..., k, 3).
+    def arms(self, rotation: Array) -> Array:
+        """Return the contact points, from the frame's origin in the axes of the world, shape (..., k, 3).
 
         Parameters
         ----------
         rotation : ndarray, shape (..., 3, 3)
             The frame's axes in the world.
-        normal : ndarray, shape (3,)
-            Of the plane, of length 1.
         """
-        arms: Array = self.points @ rotation.mT
+        arms: Array = self.points @ self.axes(rotation).mT
         return arms
 
     def check(self, model: Model) -> None:

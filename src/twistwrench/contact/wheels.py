@@ -105,7 +105,7 @@ class WheelContact(Contact):
 
     def held_rows(self, rows: FrameRows) -> tuple[Array, Array]:
         """Return the rows of the point that touches, and its J̇ v: the point moves along the rim as well."""
-        n, a, upright, arm = self._wheel(rows.rotation, np.array(self.normal))
+        n, a, upright, arm = self._wheel(rows.rotation)
         J = rows.J[..., 3:, :] - cross_matrix(arm) @ rows.J[..., :3, :]
         w = np.matvec(rows.J[..., :3, :], rows.v)
         leans, turns = _dot(n, a), np.cross(w, a)  # n·a, and the rates of the axle and of n·a
@@ -116,7 +116,7 @@ class WheelContact(Contact):
 
     def held_place(self, T: SE3) -> SE3:
         """Return the placement of the frame's axes at the point that touches."""
-        arm = self._wheel(T.rotation, np.array(self.normal))[3]
+        arm = self._wheel(T.rotation)[3]
         return SE3._trusted(T.rotation, T.translation + arm)
 
     @cached_property
@@ -129,9 +129,9 @@ class WheelContact(Contact):
         """Return the axes of the world, turned the shortest way until z is the normal."""
         return np.broadcast_to(_normal_axes(self.normal), rotation.shape)
 
-    def arms(self, rotation: Array, normal: Array) -> Array:
+    def arms(self, rotation: Array) -> Array:
         """Return the lowest point of the rim."""
-        return self._wheel(rotation, normal)[3][..., None, :]
+        return self._wheel(rotation)[3][..., None, :]
 
     @property
     def points(self) -> Array:
@@ -147,9 +147,10 @@ class WheelContact(Contact):
         """Return the radius in the number type of an array."""
         return convert(np.array(self.radius), like.dtype)
 
-    def _wheel(self, rotation: Array, normal: Array) -> tuple[Array, Array, Array, Array]:
+    def _wheel(self, rotation: Array) -> tuple[Array, Array, Array, Array]:
         """Return n and a, the sine of the angle between them, shape (..., 1), and r m, in the axes of the world."""
-        n, a = convert(normal, rotation.dtype), np.matvec(rotation, convert(np.array(self.axis), rotation.dtype))
+        n, a = (convert(np.array(way), rotation.dtype) for way in (self.normal, self.axis))
+        a = np.matvec(rotation, a)
         up = n - _dot(n, a) * a
         upright = sqrt(_dot(up, up))
         if upright.dtype != object and not (np.abs(upright) > FLAT).all():

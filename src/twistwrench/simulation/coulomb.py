@@ -189,8 +189,8 @@ def of_one_point(W: Array, u: Array, mu: float, own: float) -> Array:
     if np.hypot(sticks[0], sticks[1]) <= mu * sticks[2]:
         return sticks
 
-    # In the direction d = (cos, sin) it slides with λ_n = −u_n / push, and u_t is along d where off is 0: a polynomial of
-    # degree 4 in cos + i sin, which has all such directions among its roots.
+    # In the direction d = (cos, sin) it slides with λ_n = −u_n / push, and u_t is along d where off is 0: a polynomial
+    # of degree 4 in cos + i sin, which has all such directions among its roots.
     def slides(angle: Array) -> tuple[Array, Array, Array]:
         """Return push, off, and push times how fast it slides along d."""
         d = np.stack([np.cos(angle), np.sin(angle)])
@@ -206,7 +206,8 @@ def of_one_point(W: Array, u: Array, mu: float, own: float) -> Array:
     if not fits.any():
         return within_one(sticks, mu)
     k = int(np.where(fits, push, 0).argmax())
-    return np.array([-mu * np.cos(angle[k]), -mu * np.sin(angle[k]), 1.0]) * (-u[2] / push[k])
+    alone: Array = np.array([-mu * np.cos(angle[k]), -mu * np.sin(angle[k]), 1.0]) * (-u[2] / push[k])
+    return alone
 
 
 def within_one(impulse: Array, mu: float) -> Array:

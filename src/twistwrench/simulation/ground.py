@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -124,7 +124,8 @@ class GroundPoints:
     """
 
     def __init__(self, model: Model, contacts: Sequence[Contact], ground: Ground) -> None:
-        self.model, self.contacts, self.ground = model, tuple(contacts), ground
+        self.model, self.ground = model, ground
+        self.contacts = tuple(replace(c, normal=ground.normal) if hasattr(c, "normal") else c for c in contacts)  # type: ignore[type-var]
         self.frames = tuple(c.frame for c in contacts)
         self.owner = np.array([i for i, c in enumerate(contacts) for _ in c.points], int)
         self.thick = any(not isinstance(c, PointContact) for c in contacts)
@@ -159,7 +160,7 @@ class GroundPoints:
         """Return the points from the origins of their frames, in the axes of the world."""
         if not self.thick:
             return np.zeros((*frames.shape[:-3], len(self.owner), 3))
-        return np.concatenate([c.arms(frames[..., i, :, :3], self._normal) for i, c in enumerate(self.contacts)], axis=-2)
+        return np.concatenate([c.arms(frames[..., i, :, :3]) for i, c in enumerate(self.contacts)], axis=-2)
 
     def _asked(self, q: Array, want: tuple[str, ...]) -> Results:
         """Return M, the placements (..., c, 3, 4) of the frames in the world, and their rows (..., c, 6, nv)."""

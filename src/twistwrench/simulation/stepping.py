@@ -155,9 +155,7 @@ class TimeStepping:
         self.fastest.append(fastest)
         return q1, v1
 
-    def one(
-        self, tau: Array, q: Array, v: Array, before: Array, held: Held, end: float
-    ) -> tuple[Answer, Array, Array]:
+    def one(self, tau: Array, q: Array, v: Array, before: Array, held: Held, end: float) -> tuple[Answer, Array, Array]:
         """Return the velocity at the end of a step in the axes of its middle, λ of what holds, and where points are.
 
         Once more, where the mean of the velocities makes a difference.

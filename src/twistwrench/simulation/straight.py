@@ -36,7 +36,7 @@ def go_straight(model: Model, q: Array, u: Array) -> Array:
         for i, joint, s in sliding(model):
             S, place = joint.subspace(u.dtype), model.q_slice[i]
             way = np.matvec(joint.transform(q[..., place]).rotation, np.matvec(S[3:], u[..., s]))
-            size = joint.unit.start  # of its place, which comes before its turn in q
+            size = int(joint.subspace()[3:].any(axis=0).sum())  # of its place, which comes first in q
             shifted[..., place.start : place.start + size] += way[..., :size]
             turn[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], u[..., s]))
         if u.dtype == object:
