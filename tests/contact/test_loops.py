@@ -538,7 +538,7 @@ def test_planes_carry_as_points_without_friction_do_and_what_pulls_cannot_stand(
         ),
         (
             lambda: tw.simulate(BOX, BOX.neutral(), np.zeros(6), dt=1, steps=1, contacts=RISING, ground=tw.Ground()),
-            "'fl': with ground=, expected points, soles and balls on a ground at rest",
+            "'fl': velocity: expected one along the ground",
         ),
         (
             lambda: tw.contact_inverse_dynamics(FOUR_BAR, *3 * [np.zeros(3)], PIN, motors=["cam"]),

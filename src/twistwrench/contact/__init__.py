@@ -1,9 +1,9 @@
 """Contact dynamics: constraints, friction and the stability of a stance (49.9).
 
-In the order in which the files are best read: `types` (what a contact is), `kinds` (points, soles, slides), `spheres`
-and `closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the rank), `rows`, `forward`, `impacts`,
-`projection`; `task`, `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares, `reach` (whether
-forces within the limits are enough, and the proof), `stance` (slipping and tipping).
+In the order in which the files are best read: `types` (what a contact is), `kinds` (points, soles, slides), `spheres`,
+`wheels` and `closures` (loops and gears), `relative` (J and J̇ v), `decomposition` (the rank), `rows`, `forward`,
+`impacts`, `projection`; `task`, `inverse`, its `limits` and its `qp` (friction), `nonnegative` least squares, `reach`
+(whether forces within the limits are enough, and the proof), `stance` (slipping and tipping).
 """
 
 from .closures import Coupling, DistanceConstraint, LoopClosure
@@ -17,6 +17,7 @@ from .spheres import SphereContact
 from .stance import StanceMargins, stance_margins
 from .task import ContactForces
 from .types import Contact
+from .wheels import WheelContact
 
 __all__ = [
     "Baumgarte",
@@ -32,6 +33,7 @@ __all__ = [
     "SphereContact",
     "StanceMargins",
     "SurfaceContact",
+    "WheelContact",
     "constraint_bias",
     "constraint_jacobian",
     "contact_forward_dynamics",

@@ -12,7 +12,7 @@ from ..arrays import Array, as_array, as_constant, as_exactly
 from ..errors import ShapeError
 from ..model import readonly
 from ..spatial import exp3
-from .types import Contact, Motion, checked_frame, checked_motion
+from .types import Contact, Motion, checked_frame, checked_motion, checked_restitution
 
 __all__ = ["PointContact", "SlidingContact", "SurfaceContact"]
 
@@ -34,11 +34,14 @@ class PointContact(Contact):
         Of the ground, out of it, in the axes of the world; any length but 0.
     velocity, acceleration : array_like, shape (3,), optional
         Of the ground, in the axes of the world: an elevator, a belt. At rest unless given.
+    restitution : float, optional
+        e, from 0 to 1, where it hits a ground of `simulate`; the ground's unless given.
 
     Raises
     ------
     ValueError
-        If `mu` is not a number of at least 0, `normal` not a direction, or a motion not one number for each row.
+        If `mu` is not a number of at least 0, `normal` not a direction, `restitution` not from 0 to 1, or a motion not
+        one number for each row.
 
     Examples
     --------
@@ -52,6 +55,7 @@ class PointContact(Contact):
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
     velocity: Motion = field(default=(), kw_only=True)
     acceleration: Motion = field(default=(), kw_only=True)
+    restitution: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
@@ -59,6 +63,7 @@ class PointContact(Contact):
         object.__setattr__(self, "normal", _unit(self.frame, "normal", normal))
         checked_motion(self, "velocity")
         checked_motion(self, "acceleration")
+        checked_restitution(self)
 
     @property
     def rows(self) -> slice:
@@ -102,12 +107,14 @@ class SurfaceContact(Contact):
         Coefficient of friction, at least 0.
     velocity, acceleration : array_like, shape (6,), optional
         Of the ground at the frame's origin, (ω, v) and (α, a) in the axes of the world. At rest unless given.
+    restitution : float, optional
+        e, from 0 to 1, where it hits a ground of `simulate`; the ground's unless given.
 
     Raises
     ------
     ValueError
-        If `mu` is not a number of at least 0, `half_size` not two numbers above 0, or a motion not one number for each
-        row.
+        If `mu` is not a number of at least 0, `half_size` not two numbers above 0, `restitution` not from 0 to 1, or a
+        motion not one number for each row.
 
     Notes
     -----
@@ -128,6 +135,7 @@ class SurfaceContact(Contact):
     mu: float
     velocity: Motion = field(default=(), kw_only=True)
     acceleration: Motion = field(default=(), kw_only=True)
+    restitution: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
@@ -138,6 +146,7 @@ class SurfaceContact(Contact):
         object.__setattr__(self, "half_size", tuple(half.tolist()))
         checked_motion(self, "velocity")
         checked_motion(self, "acceleration")
+        checked_restitution(self)
 
     @property
     def rows(self) -> slice:

@@ -51,8 +51,9 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
             if c.to is not None:
                 own = [x if i in loop.joints else np.zeros_like(x) for i, x in enumerate(qd)]
                 V, A = motion(tree, own, qdd)
-            point = loop.place(model, tree.placement).translation
-            J_c, bias_c = c.held_rows(FrameRows(point, *loop.rows(model, tree, bodies, point, v, V, A), v))
+            T = loop.place(model, tree.placement)
+            J_c, bias_c = loop.rows(model, tree, bodies, T.translation, v, V, A)
+            J_c, bias_c = c.held_rows(FrameRows(T.translation, J_c, bias_c, v, T.rotation))
         J.append(J_c)
         bias.append(bias_c)
     return ContactRows(at, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -11,7 +11,7 @@ from ..arrays import Array, as_exactly
 from ..model import readonly
 from ..spatial.rotation import cross_matrix
 from .kinds import _coefficient, _normal_axes, _unit
-from .types import Contact
+from .types import Contact, checked_restitution
 
 __all__ = ["SphereContact"]
 
@@ -33,11 +33,14 @@ class SphereContact(Contact):
         Coefficient of friction, at least 0.
     normal : array_like, shape (3,), optional
         n, out of the ground, in the axes of the world; any length but 0.
+    restitution : float, optional
+        e, from 0 to 1, where it hits a ground of `simulate`; the ground's unless given.
 
     Raises
     ------
     ValueError
-        If `radius` is not a number above 0, `mu` not one of at least 0, or `normal` not a direction.
+        If `radius` is not a number above 0, `mu` not one of at least 0, `normal` not a direction, or `restitution` not
+        from 0 to 1.
 
     Notes
     -----
@@ -61,6 +64,7 @@ class SphereContact(Contact):
     radius: float
     mu: float
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    restitution: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
@@ -70,6 +74,7 @@ class SphereContact(Contact):
         normal = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
         object.__setattr__(self, "radius", radius)
         object.__setattr__(self, "normal", _unit(self.frame, "normal", normal))
+        checked_restitution(self)
 
     @property
     def rows(self) -> slice:

@@ -18,13 +18,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.kinematics import frame_jacobian
-from ..arrays import Array, as_exactly, convert
+from ..arrays import Array, as_exactly, as_number, convert
 from ..errors import unknown_name
 from ..model import Model, readonly
 from ..spatial import SE3
 from ..spatial.rotation import cross_matrix
 
-__all__ = ["Contact", "FrameRows", "Motion", "Pyramid", "checked_frame", "checked_motion"]
+__all__ = ["Contact", "FrameRows", "Motion", "Pyramid", "checked_frame", "checked_motion", "checked_restitution"]
 
 Pyramid = Literal["inner", "outer"]
 
@@ -43,12 +43,15 @@ class FrameRows(NamedTuple):
     bias : ndarray, shape (..., 6)
         J̇ v.
     v : ndarray, shape (..., nv)
+    rotation : ndarray, shape (..., 3, 3)
+        The frame's axes.
     """
 
     point: Array
     J: Array
     bias: Array
     v: Array
+    rotation: Array
 
 
 class Contact(ABC):
@@ -68,6 +71,8 @@ class Contact(ABC):
         Whether forces have the limits above. If not, the contact bears any, and pulls as well.
     divides : bool
         Whether its rows divide by a length, which may be zero.
+    restitution : float or None
+        e, from 0 to 1, where it hits a ground; None for the ground's.
     """
 
     frame: str
@@ -77,6 +82,7 @@ class Contact(ABC):
     acceleration: Motion = ()
     pushes: bool = True
     divides: bool = False
+    restitution: float | None = None
 
     @property
     @abstractmethod
@@ -102,6 +108,17 @@ class Contact(ABC):
     @abstractmethod
     def point_names(self) -> tuple[str, ...]:
         """The names of the k points in messages."""
+
+    def arms(self, rotation: Array) -> Array:
+        """Return the contact points, from the frame's origin in the axes of the world, shape (..., k, 3).
+
+        Parameters
+        ----------
+        rotation : ndarray, shape (..., 3, 3)
+            The frame's axes in the world.
+        """
+        arms: Array = self.points @ self.axes(rotation).mT
+        return arms
 
     def check(self, model: Model) -> None:
         """Raise an error if no joint of the model moves the contact.
@@ -272,6 +289,17 @@ def checked_motion(contact: Contact, name: str) -> None:
         return
     checked = as_exactly(given, f"contact {contact.frame!r}: {name}", contact.dim)
     object.__setattr__(contact, name, tuple(checked.tolist()))
+
+
+def checked_restitution(contact: Contact) -> None:
+    """Raise if a contact's restitution is neither None nor a number from 0 to 1."""
+    given = contact.restitution
+    if given is None:
+        return
+    which = f"contact {contact.frame!r}: restitution"
+    if not 0 <= as_number(given, which) <= 1:
+        raise ValueError(f"{which}: expected a number from 0 to 1, got {given!r}")
+    object.__setattr__(contact, "restitution", float(given))
 
 
 def checked_frame(frame: str) -> None:

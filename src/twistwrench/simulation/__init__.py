@@ -5,9 +5,11 @@
 - `explicit`: Euler's methods, midpoint and Runge-Kutta.
 - `variational`: the method that keeps momentum and, over long times, energy.
 - `tangent`: what the exponential map does to rates and momenta.
-- `stepping`: the method with a ground, a convex programme per step; start there for contact in time.
-- `cones`: Coulomb's law for one step.
-- `held`: loops, couplings and rails beside the cones.
+- `stepping`: the method with a ground, impulses in each step; start there for contact in time.
+- `straight`: axes that do not turn within a step.
+- `cones`: which points take part, and the velocity after their impulses.
+- `coulomb`: Coulomb's law for one step.
+- `held`: loops, couplings and rails beside it.
 - `passive`: damping, dry friction and ranges of joints.
 - `ground`: the ground and the points that may touch it.
 - `system`: the forces of the policy, the contacts, and the acceleration.

@@ -1,16 +1,6 @@
-"""Coulomb's law for one step: the impulses that let points neither sink, nor be pulled, nor slide without friction.
+"""What a step lets touch, and in which metric: the velocity after it, and the impulses at the points and rows.
 
-A point with the normal velocity u_n and the velocity u_t along the ground bears impulses λ with |λ_t| ≤ μ λ_n. Coulomb:
-
-    u_n ≥ c,    λ_n ≥ 0,    (u_n − c) λ_n = 0,    and where it slides, λ_t = −μ λ_n u_t / |u_t|.
-
-M. Anitescu (Optimization-based simulation of nonsmooth rigid multibody dynamics, 2006) relaxes this to a convex
-programme: of all velocities with u_n − μ |u_t| ≥ c, the one nearest to the free motion in the metric of M. Its artefact
-is known: a point that slides is lifted off at μ |u_t|. V. Acary and F. Cadoux (2011; the shift is De Saxcé's) take that
-away again by a shift s, u_n − μ |u_t| ≥ c − s, and solve the programme again with s = μ |u_t| until s stays what it
-was: that is Coulomb's law itself. In place of the cone is a pyramid inside it, with an edge against the sliding; where
-the answer slides another way, it gets one more edge, against that (a cut, as in Kelley's method of 1960). So the
-friction of a point that slides is that of the cone, and no force is outside it.
+The law itself is in `coulomb`. Here it is asked of the points that the motion brings to the ground, and of no others.
 """
 
 from __future__ import annotations
@@ -23,20 +13,9 @@ from ..arrays import Array
 from ..contact.decomposition import cholesky_factors
 from ..contact.qp import FEASIBLE, least_with_multipliers
 from ..model import Model
+from .coulomb import SETTLED, Law, solved
 
-__all__ = ["Answer", "Metric", "Points", "coulomb"]
-
-SIDES = 8
-"""Edges of a pyramid."""
-
-ROUNDS = 30
-"""So many programmes at most in a step; one that sticks or flies takes one, one that slides on takes two or three."""
-
-CALM = 8
-"""From this programme on the shift goes only half the way: some would swing between two answers for ever."""
-
-SETTLED = 1e-7
-"""How much the shift may still change, relative to the fastest sliding."""
+__all__ = ["Answer", "Metric", "Points", "touched"]
 
 NEAR = 10.0
 """Times the worst violation: rows that are so near take part in a programme from the start."""
@@ -114,7 +93,10 @@ class Points:
     J: Array
     mu: Array
     bound: Array
-    """c, shape (k,): the least normal velocity after the step, m/s."""
+    """c, shape (k, 3): the velocity of the ground along it, and the least normal velocity after the step, m/s.
+
+    It is −inf of what cannot touch.
+    """
 
 
 @dataclass
@@ -122,49 +104,52 @@ class Answer:
     """What a step's programme found: v, the impulses at the points (k, 3), those of the other rows, the sliding."""
 
     v: Array
+    way: Array
+    """The velocity along which q goes: v, unless something bounces, which ends where it hits."""
     impulse: Array
     others: Array
     slide: Array
-    """(k, 2), 0 where nothing touches, m/s."""
-    missed: float
-    """How far the normal velocity of a point that touches is from its bound: what is left of the artefact, m/s."""
+    """(k, 2), how the points that touch move along the ground, m/s; 0 of the others."""
+    missed: Array
+    """(k,), how far Coulomb's law was missed, m/s."""
+    sinks: Array
+    """(k,), how much faster than allowed a point goes down, m/s."""
+    fastest: float
+    """The speed of the fastest point or row without impulses, m/s."""
     total: Array
     """The generalized impulse of all of them, shape (nv,)."""
 
 
-def edges(mu: Array, slide: Array) -> Array:
-    """Return the edges of the pyramids (k, sides, 3), the first of each against the direction in which it slides."""
-    angle = np.arctan2(-slide[:, 1], -slide[:, 0])[:, None] + 2 * np.pi * np.arange(SIDES) / SIDES
-    return np.stack([mu[:, None] * np.cos(angle), mu[:, None] * np.sin(angle), np.ones_like(angle)], axis=-1)
-
-
-def coulomb(metric: Metric, v: Array, points: Points, others: tuple[Array, Array], slide: Array) -> Answer:
+def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array], before: Array) -> Answer:
     """Return the velocity after the step, v being that of the free motion.
 
-    `others` are rows G and bounds c of what else holds, G v ≥ c; `slide` (k, 2) is how the points slid before.
+    `others` are rows G and bounds c of what else holds, G v ≥ c; `before` (k, 3) are the impulses of the step before.
+    Only points that sink without an impulse take part, and those that would sink by the impulses of the others. So
+    nothing is pushed that no motion brings to the ground, even where a large μ knows an answer with a force from afar.
     """
-    J, mu, bound, k = points.J, points.mu, points.bound, len(points.mu)
-    free, size = J @ v, len(others[1])
-    fastest = float(np.abs(free).max(initial=0))
-    shift = mu * np.hypot(*slide.mT)
-    rays = edges(mu, np.where(shift[:, None] > 0, slide, free[:, :2])).reshape(k * SIDES, 3)
-    at = np.repeat(np.arange(k), SIDES)
-    for made in range(ROUNDS):
-        G = np.concatenate([others[0], np.matvec(J[at].mT, rays)])
-        after, u = metric.nearest(v, G, np.concatenate([others[1], bound[at] - shift[at]]))
-        impulse = np.zeros((k, 3))
-        np.add.at(impulse, at, u[size:, None] * rays)
-        moves = J @ after
-        slide, touches = moves[:, :2], impulse[:, 2] > 0
-        speed = np.hypot(*slide.mT)
-        before, shift = shift, shift + (mu * speed - shift) * (1.0 if made < CALM else 0.5)
-        missed = np.where(touches, np.abs(moves[:, 2] - bound), 0).max(initial=0)
-        if not touches.any() or missed <= SETTLED * fastest:
+    J, k, (G, c) = points.J, len(points.mu), others
+    every = J.reshape(3 * k, len(v))
+    moves, more = every @ v, G @ v
+    u, rows = moves.reshape(k, 3) - points.bound, more - c
+    fastest = float(max(np.abs(moves).max(initial=0), np.abs(more).max(initial=0)))
+    impulse, pushes, missed, least = np.zeros((k, 3)), np.zeros(len(c)), np.zeros(k), -SETTLED * fastest
+    after, ends, total = v, u, np.zeros_like(v)
+    joins, joins_too = u[:, 2] < 0, rows < 0
+    if joins.any() or joins_too.any():
+        joins |= (before[:, 2] > 0) & np.isfinite(points.bound[:, 2])
+    while joins.any() or joins_too.any():
+        at, too = np.flatnonzero(joins), np.flatnonzero(joins_too)
+        A = np.concatenate([J[at].reshape(-1, len(v)), G[too]])
+        Y = metric.inverse @ A.mT
+        law = Law(Y.mT @ Y, np.concatenate([u[at].ravel(), rows[too]]), points.mu[at])
+        found, off = solved(law, np.concatenate([before[at].ravel(), pushes[too]]), fastest)
+        impulse[at], pushes[too], missed[at] = found[: 3 * len(at)].reshape(-1, 3), found[3 * len(at) :], off[: len(at)]
+        total, after = found @ A, v + metric.inverse.mT @ (Y @ found)
+        ends = (every @ after).reshape(k, 3) - points.bound
+        late, late_too = (ends[:, 2] < least) & ~joins, (G @ after - c < least) & ~joins_too
+        if not late.any() and not late_too.any():
             break
-        slides = speed > SETTLED * fastest
-        cut = np.flatnonzero(slides & (moves[:, 2] - mu * speed + before < bound - SETTLED * fastest))
-        edge = np.ones((len(cut), 3))
-        edge[:, :2] = -mu[cut, None] * slide[cut] / speed[cut, None]
-        rays, at = np.concatenate([rays, edge]), np.concatenate([at, cut])
-    slides = touches & (speed > SETTLED * fastest)
-    return Answer(after, impulse, u[:size], np.where(slides[:, None], slide, 0), float(missed), u @ G)
+        joins, joins_too = joins | late, joins_too | late_too
+    slides = (impulse[:, 2] > 0) & (np.sqrt((ends[:, :2] ** 2).sum(axis=-1)) > -least)
+    slide, sinks = np.where(slides[:, None], ends[:, :2], 0), np.maximum(0, -ends[:, 2])
+    return Answer(after, after, impulse, pushes, slide, missed, sinks, fastest, total)

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array, as_exactly, as_number, convert
+from ..arrays import Array, as_exactly, as_number
 from ..compiler import Results
 from ..compiler.quantities import Quantity, quantities
-from ..contact import Contact, PointContact, SphereContact
-from ..contact.relative import contact_rows
+from ..contact import Contact, PointContact, SlidingContact, SurfaceContact
+from ..contact.relative import ContactRows, contact_rows
 from ..fast.programs import remembered
 from ..model import Model, readonly
+from ..spatial.rotation import cross_matrix
 
-__all__ = ["Ground", "check_normals", "ground_terms", "point_forces"]
+__all__ = ["Ground", "GroundPoints", "Terms", "check_ground", "point_forces"]
 
 UP = (0.0, 0.0, 1.0)
+
+LEVEL = 1e-12
+"""Relative to its size, so much of a velocity along the ground may be across it."""
 
 
 @dataclass(frozen=True)
@@ -74,53 +79,113 @@ class Ground:
         return readonly(np.stack([along, np.cross(n, along), n]))
 
 
-def check_normals(contacts: Sequence[Contact], ground: Ground) -> None:
-    """Raise for what may touch and is not a point or sole at rest, or whose normal is not the ground's."""
+def check_ground(contacts: Sequence[Contact], ground: Ground) -> None:
+    """Raise for what may touch and is not a point, a sole, a ball or a wheel, or does not go with this ground."""
     for c in contacts:
-        if c.pushes and (c.dim not in (3, 6) or c.velocity or c.acceleration):
+        if not c.pushes:
+            continue
+        if isinstance(c, SlidingContact) or c.acceleration:
             raise ValueError(
-                f"contact {c.frame!r}: with ground=, expected points, soles and balls on a ground at rest, got {c!r}"
+                f"contact {c.frame!r}: with ground=, expected points, soles, balls and wheels on a ground that is at "
+                f"rest or moves along itself, got {c!r}"
             )
-        if isinstance(c, SphereContact) and not np.allclose(c.normal, ground.normal, 0, 1e-12):
-            raise ValueError(f"contact {c.frame!r}: expected normal={ground.normal}, the ground's, got {c.normal}")
-        if isinstance(c, PointContact) and c.normal != UP and not np.allclose(c.normal, ground.normal, 0, 1e-12):
+        normal = getattr(c, "normal", UP)
+        if normal != UP and not np.allclose(normal, ground.normal, 0, 1e-12):
             raise ValueError(
-                f"contact {c.frame!r}: its normal {c.normal} is not that of the ground, {ground.normal}; "
+                f"contact {c.frame!r}: its normal {normal} is not that of the ground, {ground.normal}; "
                 "with ground= the ground's counts: leave it out"
             )
+        turns, moves = np.array(c.velocity[:-3]), np.array(c.velocity[-3:])
+        if turns.any() or (moves.size and abs(moves @ ground.normal) > LEVEL * np.abs(moves).max()):
+            raise ValueError(
+                f"contact {c.frame!r}: velocity: expected one along the ground, without a turn, got {c.velocity}"
+            )
 
 
-def ground_terms(model: Model, q: Array, contacts: Sequence[Contact], ground: Ground) -> Results:
-    """Return M, the ``place`` of all contact points and the ``rows`` of their velocities, from one program.
+class Terms(NamedTuple):
+    """What a step needs of a configuration: M, and of all points the place, the height last, and the rows of J."""
 
-    In the axes of the ground: `place` (..., k, 3) with the height above the plane last, `rows` (..., k, 3, nv).
+    M: Array
+    place: Array
+    rows: Array
+
+
+class GroundPoints:
+    """The points of a robot that may touch a ground, in the axes of the ground.
+
+    Its programs know the frames of the contacts and nothing else: neither μ nor the ground makes another one.
+
+    Attributes
+    ----------
+    mu, restitution : ndarray, shape (k,)
+        Of each point; e is the ground's, unless its contact has its own.
+    velocity : ndarray, shape (k, 3)
+        Of the ground there.
     """
 
-    def asked() -> list[Quantity]:
-        return [
-            quantities(model, q.dtype)["M"],
-            Quantity("place", ("q",), lambda q: (point_terms(model, q, contacts)[0], [])),
-            Quantity("rows", ("q",), lambda q: (point_terms(model, q, contacts)[1], [])),
-        ]
+    def __init__(self, model: Model, contacts: Sequence[Contact], ground: Ground) -> None:
+        self.model, self.ground = model, ground
+        self.contacts = tuple(replace(c, normal=ground.normal) if hasattr(c, "normal") else c for c in contacts)  # type: ignore[type-var]
+        self.frames = tuple(c.frame for c in contacts)
+        self.owner = np.array([i for i, c in enumerate(contacts) for _ in c.points], int)
+        self.thick = any(not isinstance(c, PointContact) for c in contacts)
+        every = [contacts[i] for i in self.owner]
+        self.mu, self._normal = np.array([c.mu for c in every]), np.array(ground.normal)
+        own = [c.restitution for c in every]
+        self.restitution = np.array([ground.restitution if e is None else e for e in own], float)
+        self.velocity = np.array([c.velocity[-3:] or (0, 0, 0) for c in every], float).reshape(-1, 3) @ ground.axes.mT
 
-    found: Results = remembered(model, ("ground", q.dtype, tuple(contacts)), q.dtype, asked)(q)
-    found.place = found.place @ ground.axes.mT - np.array([0.0, 0.0, ground.height])
-    found.rows = ground.axes @ found.rows
-    return found
+    def terms(self, q: Array) -> Terms:
+        """Return what a step needs of q."""
+        found = self._asked(q, ("M", "frames", "moves"))
+        arms, moves = self._arms(found.frames), found.moves[..., self.owner, :, :]
+        rows = moves[..., 3:, :]
+        if self.thick:
+            rows = rows - cross_matrix(arms) @ moves[..., :3, :]
+        return Terms(found.M, self._place(found.frames, arms), self.ground.axes @ rows)
 
+    def height(self, q: Array) -> Array:
+        """Return how high the points are, shape (..., k)."""
+        frames = self._asked(q, ("frames",)).frames
+        there = frames[..., 3][..., self.owner, :]
+        if self.thick:
+            there = there + self._arms(frames)
+        return np.asarray(there @ self._normal - self.ground.height)
 
-def point_terms(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Array, Array]:
-    """Return where the contact points are, and the rows of their velocities, in the axes of the world."""
-    places, rows = [np.zeros((*q.shape[:-1], 0, 3), q.dtype)], [np.zeros((*q.shape[:-1], 0, 3, model.nv), q.dtype)]
-    found, end = contact_rows(model, q, np.zeros((*q.shape[:-1], model.nv), q.dtype), contacts), 0
-    for c, T in zip(contacts, found.placement):
-        J = found.J[..., end : (end := end + c.dim), :]
-        for point in c.points:
-            arm = np.matvec(convert(c.axes(T.rotation), q.dtype), convert(point, q.dtype))
-            moves = J if c.dim == 3 else J[..., 3:, :] + np.cross(J[..., :3, :], arm[..., None], axis=-2)
-            places.append((T.translation + arm)[..., None, :])
-            rows.append(moves[..., None, :, :])
-    return np.concatenate(places, axis=-2), np.concatenate(rows, axis=-3)
+    def _place(self, frames: Array, arms: Array) -> Array:
+        there = frames[..., 3][..., self.owner, :] + arms
+        return np.asarray(there @ self.ground.axes.mT - [0.0, 0.0, self.ground.height])
+
+    def _arms(self, frames: Array) -> Array:
+        """Return the points from the origins of their frames, in the axes of the world."""
+        if not self.thick:
+            return np.zeros((*frames.shape[:-3], len(self.owner), 3))
+        return np.concatenate([c.arms(frames[..., i, :, :3]) for i, c in enumerate(self.contacts)], axis=-2)
+
+    def _asked(self, q: Array, want: tuple[str, ...]) -> Results:
+        """Return M, the placements (..., c, 3, 4) of the frames in the world, and their rows (..., c, 6, nv)."""
+
+        def rows(q: Array) -> ContactRows:
+            every = [SurfaceContact(name, (1.0, 1.0), 0.0) for name in self.frames]  # which hold all six rows
+            return contact_rows(self.model, q, np.zeros((*q.shape[:-1], self.model.nv), q.dtype), every)
+
+        def frames(q: Array) -> Array:
+            at = [T.matrix()[..., None, :3, :] for T in rows(q).placement]
+            return np.concatenate([np.zeros((*q.shape[:-1], 0, 3, 4), q.dtype), *at], axis=-3)
+
+        def moves(q: Array) -> Array:
+            return rows(q).J.reshape(*q.shape[:-1], len(self.frames), 6, self.model.nv)
+
+        def asked() -> list[Quantity]:
+            known = {
+                "M": quantities(self.model, q.dtype)["M"],
+                "frames": Quantity("frames", ("q",), lambda q: (frames(q), [])),
+                "moves": Quantity("moves", ("q",), lambda q: (moves(q), [])),
+            }
+            return [known[name] for name in want]
+
+        found: Results = remembered(self.model, ("ground", want, q.dtype, self.frames), q.dtype, asked)(q)
+        return found
 
 
 def point_forces(contacts: Sequence[Contact], place: Array, force: Array, ground: Ground) -> dict[str, Array]:

@@ -26,6 +26,7 @@ from ..contact.rows import contact_terms, per_contact
 from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3
+from .straight import turning
 
 __all__ = ["Held", "Rows"]
 
@@ -78,7 +79,8 @@ class Held(NamedTuple):
         """Return the rows in the middle of a step of dt that ends at the time `since`, in the metric of M."""
         contacts = moved(self.contacts, since)
         terms = contact_terms(self.model, q, v, contacts)
-        u = terms.W @ (given_motion(contacts, "velocity") - dt / 2 * terms.bias)
+        bias = terms.bias - terms.J @ turning(self.model, v)  # in axes that stand still
+        u = terms.W @ (given_motion(contacts, "velocity") - dt / 2 * bias)
         return Rows(terms.W, terms.W @ terms.J, u, decompose(self.model, M, terms.W @ terms.J))
 
     def returning(self, q: Array, since: float) -> Rows:

@@ -75,8 +75,10 @@ class Joints:
         of its impulses is more than f, it slides the way it is pushed.
         """
         n, at = len(self.friction), self.friction
+        if not n:
+            return solve(free, np.zeros((0, len(free))))[0]
         most, slides = dt * self.model.friction[at], np.sign(free[at])
-        for _ in range(CHANGES if n else 1):
+        for _ in range(CHANGES):
             rows = np.zeros((2 * n, len(free)))
             rows[np.arange(n), at] = np.where(slides >= 0, 1.0, 0.0)
             rows[n + np.arange(n), at] = np.where(slides <= 0, -1.0, 0.0)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..algorithms.kinematics import forward_kinematics, frame_placement
 from ..arrays import Array
-from ..contact import Contact, PointContact, SphereContact, SurfaceContact
+from ..contact import Contact, PointContact, SphereContact, SurfaceContact, WheelContact
 from ..model import Model
 from .stepping import TimeStepping
 
@@ -24,6 +24,9 @@ DEEP = 1e-3
 SLIDES = 1e-3
 """m/s: how fast a point that touches slides at least."""
 
+MISSES = 1e-3
+"""Relative to the fastest point: how far a step may miss Coulomb's law before it is said."""
+
 SENTENCES = {
     "pull": "contact {name!r} pulls, by {value:.4g} N",
     "slip": "contact {name!r} holds {value:.4g} N along the ground; without slipping it can {limit:.4g} N",
@@ -34,6 +37,7 @@ SENTENCES = {
     "effort": "the motor of joint {name!r} gives {value:.4g} N m or N; it can {limit:.4g}",
     "lift-off": "contact {name!r} leaves the ground",
     "slide": "contact {name!r} slides, at {value:.4g} m/s",
+    "coulomb": "contact {name!r} misses Coulomb's law by {value:.4g} m/s, more than {limit:.4g}: a smaller dt?",
     "damping": "joint {name!r} has damping, here up to {value:.4g} N m or N, which only 'time-stepping' applies",
     "friction": "joint {name!r} has dry friction, {value:.4g} N m or N, which only 'time-stepping' applies",
 }
@@ -48,7 +52,8 @@ class Remark(NamedTuple):
         When, s.
     kind : str
         "pull", "slip", "tip" of a contact that sticks, "sunk" of a body below all of them; "range", "speed", "effort"
-        of a joint; "lift-off", "slide" of a contact on a ground; "damping", "friction" of a joint that moves, which
+        of a joint; "lift-off", "slide" of a contact on a ground, and "coulomb" where no forces were found that
+        fulfil Coulomb's law to 1e-3 of the fastest point; "damping", "friction" of a joint that moves, which
         only time stepping applies; the value is the largest that was left out.
     name : str
         Of the frame of the contact, or the joint.
@@ -103,7 +108,7 @@ def of_contacts(
 
     A sole would tip where its centre of pressure leaves it. Of others, such as loops, nothing is said.
     """
-    contacts = [c for c in contacts if isinstance(c, PointContact | SphereContact | SurfaceContact)]
+    contacts = [c for c in contacts if isinstance(c, PointContact | SphereContact | SurfaceContact | WheelContact)]
     for c in contacts:
         axes, wrench = c.axes(frame_placement(model, q, c.frame).rotation), np.zeros((*q.shape[:-1], 6))
         wrench[..., c.rows] = forces[c.frame]
@@ -123,11 +128,13 @@ def of_contacts(
 
 
 def of_ground(stepping: TimeStepping, t: Array) -> Iterator[Remark]:
-    """Yield the contacts on a ground that left it after they had touched it, or slid on it, by the steps' forces."""
+    """Yield the contacts on a ground that left it after they had touched it, slid on it, or missed Coulomb's law."""
     force, slides, end = np.array(stepping.forces), np.array(stepping.slides), 0
+    missed, most = np.array(stepping.missed), MISSES * np.array(stepping.fastest)
     for c in stepping.contacts if len(force) else ():
         points = slice(end, end := end + len(c.points))
         touches = (force[..., points, 2] > 0).any(axis=-1)
         left = np.maximum.accumulate(touches, axis=0) & ~touches
         yield from first(t, "lift-off", c.frame, left.astype(float), 0.0)
         yield from first(t, "slide", c.frame, slides[..., points].max(axis=-1), SLIDES)
+        yield from first(t, "coulomb", c.frame, missed[..., points].max(axis=-1), most)

@@ -15,7 +15,7 @@ from ..contact.rows import as_contacts
 from ..errors import SingularError, check_known
 from ..model import Model
 from .divergence import DivergenceError, refuse_divergence
-from .ground import Ground, check_normals
+from .ground import Ground, check_ground
 from .methods import METHODS, Step
 from .result import Simulation
 from .scene_like import SceneLike, parts
@@ -214,7 +214,7 @@ def _method(method: str | None, ground: Ground | None, contacts: Sequence[Contac
     if ground is not None:
         if name != "time-stepping":
             raise ValueError(f"method: {name!r} takes no ground; leave it out, or expected 'time-stepping'")
-        check_normals(contacts, ground)
+        check_ground(contacts, ground)
     elif name == "time-stepping" and any(c.pushes for c in contacts):
         raise ValueError(f"method: {name!r} takes no contacts without a ground but loops, couplings and rails")
     elif contacts and not METHODS[name].contacts and name != "time-stepping":

@@ -1,24 +1,27 @@
-"""Time stepping: convex programmes on the velocities, step by step, for ground, friction and joint limits.
+"""Time stepping: the laws of contact on the velocities, step by step, for ground, friction and joint limits.
 
 D. E. Stewart and J. C. Trinkle (1996) and M. Anitescu and F. A. Potra (1997): over a step, forces are impulses, and
 what may not be is said of the velocity at its end, along which q goes:
 
     M v⁺ = M v* + Σ Jᵀ λ,    q⁺ = q ⊕ dt v⁺,    gap + dt u_n⁺ ≥ 0 at each point,
 
-with Coulomb's law between λ and u⁺ (`cones`). So it does not matter when in the step a foot lands: a force that is
-infinite is a finite impulse. v* is the velocity without contacts, by the midpoint rule; M and J are those of the
-beginning. There is no spring, and nothing to tune. What it costs: order 1 in dt; what falls freely loses ½ m g² dt of
-energy in a second, because q goes along the velocity at the end; what hits the ground is stopped where it hits within
-one step more.
+with Coulomb's law between λ and u⁺ (`coulomb`). So it does not matter when in the step a foot lands: a force that is
+infinite is a finite impulse. v* is the velocity without contacts, by the midpoint rule. All of this stands in the axes
+of the middle of the step, q ⊕ ½ dt v: M, J, the weight and the other forces; v is turned into them, and v⁺ out of them
+(`straight`). There is no spring, and nothing to tune. What it costs: order 1 in dt; what falls freely loses ½ m g² dt
+of energy in a second, because q goes along the velocity at the end; what hits the ground is stopped where it hits
+within one step more.
 
-The gap is linear in v⁺ only to first order, so that a point may end below the ground, by O(dt²). Then q, and not v, is
-moved by the least step in the metric of M that brings all points up to it: no speed comes of it. Loops, couplings and
-rails are equations in the same programme (`held`), and are brought back to their anchors in the same step.
+The gap is linear in v⁺ only to second order, so that a point may end below the ground, by O(dt³), and by O(dt²) where
+something hits. Then q, and not v, is moved by the least step in the metric of M that brings all points up to it: no
+speed comes of it. Loops, couplings and rails are equations beside the law (`held`), and are brought back to their
+anchors in the same step.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -27,13 +30,13 @@ from ..arrays import Array
 from ..contact import Contact
 from ..contact.rows import per_contact
 from ..fast import aba
-from ..fast.steps import integrate
 from ..model import Model
-from .cones import Answer, Metric, Points, coulomb
-from .divergence import refuse_divergence
-from .ground import Ground, ground_terms, point_forces
+from .cones import Answer, Metric, Points, touched
+from .divergence import DivergenceError, refuse_divergence
+from .ground import Ground, GroundPoints, point_forces
 from .held import Held, Rows
 from .passive import Joints
+from .straight import go_straight, in_turned_axes, turning
 
 __all__ = ["TimeStepping"]
 
@@ -41,7 +44,7 @@ PROJECTIONS = 5
 BELOW = 1e-10
 """m or rad: nearer than this, what is below the ground is on it."""
 
-ALIKE = 1e-6
+ALIKE = 1e-8
 """So much, relative to the fastest, may the free velocity change by that in the middle without being asked again."""
 
 APART = 1e-12
@@ -50,15 +53,19 @@ APART = 1e-12
 DEEPEST = 1e-3
 """m: a point that begins deeper below the ground is a mistake."""
 
+SUNK = 0.05
+"""So much, relative to the fastest, a point may be too fast on its way down; beyond, nothing can keep it up."""
+
 
 class State(NamedTuple):
-    """What a step needs of its beginning: M, that with damping and its metric, J and gaps of points, gaps of ranges."""
+    """What a step needs: of its middle M, that with damping and its metric, J and places of points; the first gaps."""
 
     M: Array
     damped: Array
     metric: Metric
-    gap: Array
     J: Array
+    place: Array
+    gap: Array
     ends: Array
 
 
@@ -81,12 +88,16 @@ class TimeStepping:
     ----------
     forces : list of ndarray, shape (..., k, 3)
         Of each step, at the k points in the axes of the ground, the normal last, N.
+    places : list of ndarray, shape (..., k, 3)
+        Where they act: the points in the middle of each step, in these axes, m.
     slides : list of ndarray, shape (..., k)
         Of each step, how fast the points that touch slide at its end, m/s.
     pulls : list of ndarray, shape (..., m)
         Of each step λ of what holds, by its rows, N and N m.
-    missed : list of ndarray, shape (...)
-        Of each step, how far Coulomb's law was missed: the normal speed that a point that touches has too much, m/s.
+    missed : list of ndarray, shape (..., k)
+        Of each step, how far each point missed Coulomb's law, m/s.
+    fastest : list of ndarray, shape (...)
+        Of each step, how fast the fastest point would be without a ground, m/s.
 
     Raises
     ------
@@ -104,13 +115,17 @@ class TimeStepping:
         held: Sequence[Contact] = (),
     ) -> None:
         self.model, self.contacts, self.ground, self.dt = model, tuple(contacts), ground, dt
-        self.mu = np.array([c.mu for c in self.contacts for _ in c.points])
+        self.points = GroundPoints(model, self.contacts, ground)
+        self.mu = self.points.mu
         self.joints, self.held = Joints(model, q), Held.beginning(model, held, q)
         self.forces: list[Array] = []
+        self.places: list[Array] = []
         self.slides: list[Array] = []
         self.pulls: list[Array] = []
         self.missed: list[Array] = []
-        self._slide = np.zeros((*q.shape[:-1], len(self.mu), 2))
+        self.fastest: list[Array] = []
+        self._impulse = np.zeros((*q.shape[:-1], len(self.mu), 3))
+        self._damping = self.dt * np.diag(model.damping) if model.damping.any() else None
         self._refuse_below(q)
 
     def step(self, tau: Array, q: Array, v: Array, since: float) -> tuple[Array, Array]:
@@ -119,102 +134,138 @@ class TimeStepping:
         `since` is the time since the start of the motion at which the step begins.
         """
         refuse_divergence(self.model, "v", v, dt=self.dt)
-        q1, v1, batch = np.empty_like(q), np.empty_like(v), q.shape[:-1]
-        force, missed = np.zeros((*batch, len(self.mu), 3)), np.zeros(batch)
-        pull = np.zeros((*batch, sum(c.dim for c in self.held.contacts)))
+        q1, v1, batch, k = np.empty_like(q), np.empty_like(v), q.shape[:-1], len(self.mu)
+        force, place, slide, missed = (np.zeros((*batch, k, *size)) for size in ((3,), (3,), (), ()))
+        pull, fastest = np.zeros((*batch, sum(c.dim for c in self.held.contacts))), np.zeros(batch)
         for item in np.ndindex(batch):
-            held, end = self.held.at(item), since + self.dt
-            found, pull[item] = self.one(tau[item].copy(), q[item].copy(), v[item].copy(), self._slide[item], held, end)
-            self._slide[item], missed[item] = found.slide, found.missed
+            held, end, q0, v0 = self.held.at(item), since + self.dt, q[item].copy(), v[item].copy()
+            found, pull[item], place[item] = self.one(tau[item].copy(), q0, v0, self._impulse[item], held, end)
+            self._impulse[item], missed[item], fastest[item] = found.impulse, found.missed, found.fastest
             force[item] = found.impulse / self.dt
-            q1[item] = self.settle(integrate(self.model, q[item].copy(), self.dt * found.v), held, end)
-            v1[item] = held.settle(q1[item], found.v, end) if held.contacts else found.v
+            slide[item] = np.sqrt((found.slide**2).sum(axis=-1))
+            straight = in_turned_axes(self.model, found.v, -self.dt / 2 * v0)  # in the axes of the beginning
+            way = straight if found.way is found.v else in_turned_axes(self.model, found.way, -self.dt / 2 * v0)
+            there, new = go_straight(self.model, q0, self.dt * way), in_turned_axes(self.model, straight, self.dt * way)
+            q1[item], v1[item] = self.settle(there, new, held, end)
         self.forces.append(force)
-        self.slides.append(np.hypot(self._slide[..., 0], self._slide[..., 1]))
+        self.places.append(place)
+        self.slides.append(slide)
         self.pulls.append(pull)
         self.missed.append(missed)
+        self.fastest.append(fastest)
         return q1, v1
 
-    def one(self, tau: Array, q: Array, v: Array, slide: Array, held: Held, end: float) -> tuple[Answer, Array]:
-        """Return the velocity at the end of a step, and λ of what holds.
+    def one(self, tau: Array, q: Array, v: Array, before: Array, held: Held, end: float) -> tuple[Answer, Array, Array]:
+        """Return the velocity at the end of a step in the axes of its middle, λ of what holds, and where points are.
 
-        Once more, where the velocity in its middle makes a difference.
+        Once more, where the mean of the velocities makes a difference.
         """
-        middle, at, mean, before = integrate(self.model, q, self.dt / 2 * v), self.terms(q), v, np.full_like(v, np.inf)
+        half = self.dt / 2 * v
+        middle, v = go_straight(self.model, q, half), in_turned_axes(self.model, v, half)
+        at, mean, other = self.terms(q, middle), v, np.full_like(v, np.inf)
         for _ in range(2):
-            free = v + self.dt * aba(self.model, middle, mean, tau)
-            if np.abs(free - before).max(initial=0) <= ALIKE * np.abs(free).max(initial=0):
+            free = v + self.dt * (aba(self.model, middle, mean, tau) + turning(self.model, mean))
+            if np.abs(free - other).max(initial=0) <= ALIKE * np.abs(free).max(initial=0):
                 break
-            before, rows = free, held.moving(middle, mean, at.damped, self.dt, end) if held.contacts else None
-            found, pull = self.solve(at, v, free, slide, rows)
-            mean, slide = (v + found.v) / 2, found.slide
+            other, rows = free, held.moving(middle, mean, at.damped, self.dt, end) if held.contacts else None
+            found, pull = self.solve(at, v, free, before, rows)
+            mean, before = (v + found.v) / 2, found.impulse
             refuse_divergence(self.model, "v", mean, dt=self.dt)
         refuse_divergence(self.model, "v dt", self.dt * found.v)
-        return found, pull / self.dt
+        self._refuse_sunk(found)
+        return found, pull / self.dt, at.place
 
-    def terms(self, q: Array) -> State:
-        """Return what a step needs of its beginning."""
-        terms = ground_terms(self.model, q, self.contacts, self.ground)
-        damped = terms.M + self.dt * np.diag(self.model.damping)
-        return State(terms.M, damped, Metric(self.model, damped), terms.place[:, 2], terms.rows, self.joints.gap(q))
+    def terms(self, q: Array, middle: Array) -> State:
+        """Return what a step from q needs."""
+        terms = self.points.terms(middle)
+        damped = terms.M if self._damping is None else terms.M + self._damping
+        gap = self.points.height(q)
+        return State(terms.M, damped, Metric(self.model, damped), terms.rows, terms.place, gap, self.joints.gap(q))
 
-    def solve(self, at: State, v: Array, free: Array, slide: Array, held: Rows | None) -> tuple[Answer, Array]:
+    def solve(self, at: State, v: Array, free: Array, before: Array, held: Rows | None) -> tuple[Answer, Array]:
         """Return the velocity at the end of the step, from v and that of the free motion, and the impulses."""
         gap, J, metric = at.gap, at.J, at.metric
-        loose = free = metric.respond(at.M @ free)
+        loose = free = free if self._damping is None else metric.respond(at.M @ free)
         if held is not None:
             metric, free = Metric(self.model, at.damped, held.span), held.corrected(free)
-        ends = -np.maximum(at.ends, 0) / self.dt
-        hits = gap + self.dt * (J[:, 2] @ free) < 0
-        share, bound = self.ground.restitution, -np.maximum(gap, 0) / self.dt
-        while True:
-            back = J[:, 2] @ (free - (1 + share) * v)  # as if it were hit where the step begins
-            bounces = hits & (share > 0)
-            points = Points(J, self.mu, np.where(bounces, np.maximum(bound, back), bound))
+        ends, n = -np.maximum(at.ends, 0) / self.dt, J[:, 2]
+        bound, lowest = self.points.velocity.copy(), -np.maximum(gap, 0) / self.dt
 
-            def solved(free: Array, rows: Array, points: Points = points) -> tuple[Answer, Array]:
-                others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
-                found = coulomb(metric, free, points, others, slide)
+        def answer(least: Array) -> Answer:
+            """Return what is found where points leave the step with this normal velocity at least."""
+            bound[:, 2] = least
+            points = Points(J, self.mu, bound)
+
+            def solved(free: Array, rows: Array) -> tuple[Answer, Array]:
+                others = (self.joints.rows, ends)
+                if len(rows):
+                    others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
+                found = touched(metric, free, points, others, before)
                 return found, found.others[len(ends) :]
 
-            found = self.joints.rubbed(metric, free, self.dt, solved)
-            gained = (found.impulse * (J @ (found.v + free))).sum() / 2
-            if gained <= 0 or share == 0:
-                break
-            share = share / 2 if share > 0.01 else 0.0  # Newton's law with friction would add energy here
+            return self.joints.rubbed(metric, free, self.dt, solved)
+
+        found, share = answer(lowest), self.points.restitution
+        touches = found.impulse[:, 2] > 0
+        hits = (n @ v < 0) & touches & (share > 0)
+        if hits.any():
+            q_goes, faster = found.v, 2 * np.maximum(gap, 0) / self.dt * (n @ (v - free))
+            speed = np.sqrt(np.maximum((n @ v) ** 2 + faster, 0))  # where it hits, by what accelerates it until then
+            while share.any():
+                leaves = np.where(hits, share * speed, np.where(touches, lowest, -np.inf))
+                bounced = replace(answer(leaves), way=q_goes)
+                if (bounced.impulse * (J @ (bounced.v + free) / 2 - self.points.velocity)).sum() <= 0:
+                    found = bounced
+                    break
+                share = np.where(share > 0.01, share / 2, 0.0)  # Newton's law with friction would add energy here
         pull = np.zeros(0) if held is None else held.balance(at.damped @ (found.v - loose) - found.total)
         return found, pull
 
-    def settle(self, q: Array, held: Held, end: float) -> Array:
-        """Return the nearest configuration with no point below the ground and no joint beyond its range."""
+    def settle(self, q: Array, v: Array, held: Held, end: float) -> tuple[Array, Array]:
+        """Return the nearest configuration with no point below the ground and no joint beyond its range, and v there.
+
+        What flies keeps its velocity in the world, where it is turned a little.
+        """
         rows, span = None, None
         for _ in range(PROJECTIONS):
-            terms = ground_terms(self.model, q, self.contacts, self.ground)
-            gap, way = np.concatenate([terms.place[:, 2], self.joints.gap(q)]), np.zeros(self.model.nv)
+            gap, way = np.concatenate([self.points.height(q), self.joints.gap(q)]), np.zeros(self.model.nv)
             if held.contacts:
                 rows = held.returning(q, end)
                 way, span = rows.corrected(way), rows.span
             if gap.min(initial=0) >= -BELOW and (rows is None or np.abs(rows.u).max() <= APART):
                 break
+            terms = self.points.terms(q)
             G = np.concatenate([terms.rows[:, 2], self.joints.rows])
-            q = integrate(self.model, q, Metric(self.model, terms.M, span).nearest(way, G, -gap)[0])
+            way, _ = Metric(self.model, terms.M, span).nearest(way, G, -gap)
+            q, v = go_straight(self.model, q, way), in_turned_axes(self.model, v, way)
         if rows is not None:
             held.refuse_apart(rows)
-        return q
+            v = held.settle(q, v, end)
+        return q, v
 
     def contact_forces(self, q: Array) -> dict[str, Array]:
         """Return λ of all steps, by the contact's frame; q are the states in which they begin, (n, ..., nq)."""
-        place = ground_terms(self.model, q, self.contacts, self.ground).place
-        force = np.array(self.forces[: len(q)]).reshape(place.shape)
-        pull = np.array(self.pulls[: len(q)]).reshape(*q.shape[:-1], sum(c.dim for c in self.held.contacts))
+        n, batch, k = len(q), q.shape[:-1], len(self.mu)
+        place, force = (np.array(x[:n]).reshape(*batch, k, 3) for x in (self.places, self.forces))
+        pull = np.array(self.pulls[:n]).reshape(*batch, sum(c.dim for c in self.held.contacts))
         return point_forces(self.contacts, place, force, self.ground) | per_contact(self.held.contacts, pull)
 
+    def _refuse_sunk(self, found: Answer) -> None:
+        if found.sinks.max(initial=0) > SUNK * found.fastest:
+            worst = int(found.sinks.argmax())
+            raise DivergenceError(
+                f"nothing keeps {self._names()[worst]} above the ground: it goes down {found.sinks[worst]:.3g} m/s "
+                "too fast, by Coulomb's law and by what holds; a smaller dt?"
+            )
+
+    def _names(self) -> list[str]:
+        return [name for c in self.contacts for name in c.point_names]
+
     def _refuse_below(self, q: Array) -> None:
-        height = ground_terms(self.model, q, self.contacts, self.ground).place[..., 2]
+        height = self.points.height(q)
         gap = height.min(axis=tuple(range(q.ndim - 1)), initial=np.inf)
         if gap.min(initial=0) < -DEEPEST:
-            names = [name for c in self.contacts for name in c.point_names]
             raise ValueError(
-                f"q: {names[int(gap.argmin())]} begins {-gap.min():.3g} m below the ground; "
+                f"q: {self._names()[int(gap.argmin())]} begins {-gap.min():.3g} m below the ground; "
                 "raise the base, or lower the ground"
             )

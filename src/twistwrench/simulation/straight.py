@@ -1,0 +1,89 @@
+"""Steps in axes that do not turn: a body that turns while it flies goes straight on (49.2, 49.5).
+
+The velocity of a floating base, or of a joint that slides and turns, is in axes that turn with it. The entries v along
+them change though nothing pushes, v̇ = a with a = −ω × v, and a method that adds dt a to them adds to the speed as well:
+√(1 + ω² dt²) a step. In axes that stand still it is v̇ = a + ω × v, which is the force over the mass and nothing else.
+So a step is made in the axes of one instant: the velocity is turned into them, changed there, and turned into those of
+the end, v⁺ = exp(−dt ω) (v + dt (a + ω × v)).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..arrays import Array
+from ..compiler.quantities import Quantity
+from ..fast.programs import remembered
+from ..fast.steps import turns
+from ..model import GroupJoint, Model
+from ..spatial import cross_motion
+from ..spatial._quaternions import exp_quaternion
+from ..spatial.rotation import quaternion_matrix
+
+__all__ = ["go_straight", "in_turned_axes", "turning"]
+
+
+def go_straight(model: Model, q: Array, u: Array) -> Array:
+    """Return where q is after a step u at which what flies goes straight: first it is shifted, then it turns.
+
+    `Model.integrate` would go along the screw of u.
+    """
+
+    def step(q: Array, u: Array) -> tuple[Array, list[object]]:
+        shifted, turn = q.copy(), u.copy()
+        for i, joint, s in sliding(model):
+            S, place = joint.subspace(u.dtype), model.q_slice[i]
+            way = np.matvec(joint.transform(q[..., place]).rotation, np.matvec(S[3:], u[..., s]))
+            size = int(joint.subspace()[3:].any(axis=0).sum())  # of its place, which comes first in q
+            shifted[..., place.start : place.start + size] += way[..., :size]
+            turn[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], u[..., s]))
+        if u.dtype == object:
+            return model._step(shifted, turn), turns(model, u)
+        return model.integrate(shifted, turn), []
+
+    asked = Quantity("q", ("q", "v"), step)
+    there: Array = remembered(model, ("straight", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
+    return there
+
+
+def in_turned_axes(model: Model, v: Array, u: Array) -> Array:
+    """Return the velocity v in the axes of what slides and turns after it has turned by its part of u."""
+
+    def turned(v: Array, u: Array) -> tuple[Array, list[object]]:
+        new = v.copy()
+        for _, joint, s in sliding(model):
+            S = joint.subspace(u.dtype)
+            R = quaternion_matrix(exp_quaternion(np.matvec(S[:3], u[..., s])))
+            along = np.matvec(R.mT, np.matvec(S[3:], v[..., s]))
+            new[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], v[..., s])) + np.matvec(S.mT[:, 3:], along)
+        return new, turns(model, u) if u.dtype == object else []
+
+    asked = Quantity("turned", ("v", "a"), turned)
+    there: Array = remembered(model, ("turned", u.dtype), u.dtype, lambda: [asked], single=True)(v, u)
+    return there
+
+
+def turning(model: Model, v: Array) -> Array:
+    """Return ω × v of what slides and turns: what is to be added to an acceleration for axes that stand still."""
+
+    def crossed(v: Array) -> tuple[Array, list[object]]:
+        more = np.zeros_like(v)
+        for _, joint, s in sliding(model):
+            S = joint.subspace(v.dtype)
+            twist = np.matvec(S, v[..., s])
+            spin = np.concatenate([twist[..., :3], np.zeros_like(twist[..., 3:])], axis=-1)
+            more[..., s] = np.matvec(S.mT, np.matvec(cross_motion(spin), twist))
+        return more, []
+
+    asked = Quantity("turning", ("v",), crossed)
+    there: Array = remembered(model, ("turning", v.dtype), v.dtype, lambda: [asked], single=True)(v)
+    return there
+
+
+def sliding(model: Model) -> Iterator[tuple[int, GroupJoint, slice]]:
+    """Yield the joints that slide in axes that turn with them, and their entries of v: floating and planar ones."""
+    for i, (joint, s) in enumerate(zip(model.joints, model.v_slice)):
+        if isinstance(joint, GroupJoint) and joint.subspace()[3:].any():
+            yield i, joint, s
