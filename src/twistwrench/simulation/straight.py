@@ -18,11 +18,11 @@ from ..compiler.quantities import Quantity
 from ..fast.programs import remembered
 from ..fast.steps import turns
 from ..model import GroupJoint, Model
-from ..spatial import cross_motion
+from ..spatial import cross_motion, skew
 from ..spatial._quaternions import exp_quaternion
 from ..spatial.rotation import quaternion_matrix
 
-__all__ = ["go_straight", "in_turned_axes", "turning"]
+__all__ = ["go_straight", "in_turned_axes", "straight_rate", "turning"]
 
 
 def go_straight(model: Model, q: Array, u: Array) -> Array:
@@ -80,6 +80,32 @@ def turning(model: Model, v: Array) -> Array:
     asked = Quantity("turning", ("v",), crossed)
     there: Array = remembered(model, ("turning", v.dtype), v.dtype, lambda: [asked], single=True)(v)
     return there
+
+
+def straight_rate(model: Model, u: Array, v: Array) -> Array:
+    """Return u̇ of a way u that is gone with the velocity v in the axes of its beginning (`go_straight`).
+
+    What is shifted is shifted by v. What turns, R = exp φ, turns with φ̇ = dexp⁻¹₋ᵩ ω = ω + ½ φ × ω + 1/12 φ × (φ × ω),
+    and terms of the fourth order in φ: what methods up to order 4 need.
+    """
+
+    def asked() -> list[Quantity]:
+        return [Quantity("rate", ("v", "a"), lambda u, v: (v + turns_further(model, u, v), []))]
+
+    found: Array = remembered(model, ("rate", v.dtype), v.dtype, asked, single=True)(u, v)
+    return found
+
+
+def turns_further(model: Model, u: Array, v: Array) -> Array:
+    """Return φ̇ − ω of balls, floating bases and planar joints; 0 elsewhere."""
+    more = np.zeros_like(v)
+    for joint, s in zip(model.joints, model.v_slice):
+        if isinstance(joint, GroupJoint):
+            S = joint.subspace(u.dtype)[:3]
+            first = np.matvec(skew(np.matvec(S, u[..., s])), np.matvec(S, v[..., s]))
+            second = np.matvec(skew(np.matvec(S, u[..., s])), first)
+            more[..., s] = np.matvec(S.mT, first / 2 + second / 12)
+    return more
 
 
 def sliding(model: Model) -> Iterator[tuple[int, GroupJoint, slice]]:

@@ -171,8 +171,12 @@ class System:
 
     def integrate(self, q: Array, u: Array) -> Array:
         """Return q ⊕ u."""
-        refuse_divergence(self.model, "v dt", u)
+        self.refuse_way(u)
         return integrate(self.model, q, u)
+
+    def refuse_way(self, u: Array) -> None:
+        """Raise for a step u that no robot goes."""
+        refuse_divergence(self.model, "v dt", u)
 
     def refuse_slip(self, q: Array, v: Array) -> None:
         """Raise for a contact that sticks and moves at the start."""
