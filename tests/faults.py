@@ -449,9 +449,9 @@ FAULTS = [
     ),
     Fault(
         "variational: momentum carried the wrong way",
-        "simulation/variational.py",
-        "P0 = exp_transposed(ad, self.p0)",
-        "P0 = exp_transposed(-ad, self.p0)",
+        "simulation/tangent.py",
+        "P0 = np.matvec(back, np.matvec(turn, p0[..., s]))",
+        "P0 = np.matvec(back.mT, np.matvec(turn, p0[..., s]))",
     ),
     # templates, motions
     Fault(

@@ -30,39 +30,44 @@ def go_straight(model: Model, q: Array, u: Array) -> Array:
 
     `Model.integrate` would go along the screw of u.
     """
-
-    def step(q: Array, u: Array) -> tuple[Array, list[object]]:
-        shifted, turn = q.copy(), u.copy()
-        for i, joint, s in sliding(model):
-            S, place = joint.subspace(u.dtype), model.q_slice[i]
-            way = np.matvec(joint.transform(q[..., place]).rotation, np.matvec(S[3:], u[..., s]))
-            size = int(joint.subspace()[3:].any(axis=0).sum())  # of its place, which comes first in q
-            shifted[..., place.start : place.start + size] += way[..., :size]
-            turn[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], u[..., s]))
-        if u.dtype == object:
-            return model._step(shifted, turn), turns(model, u)
-        return model.integrate(shifted, turn), []
-
-    asked = Quantity("q", ("q", "v"), step)
+    asked = Quantity("q", ("q", "v"), lambda q, u: (shifted_and_turned(model, q, u), watched(model, u)))
     there: Array = remembered(model, ("straight", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
     return there
 
 
+def shifted_and_turned(model: Model, q: Array, u: Array) -> Array:
+    """Return what `go_straight` does, by the textbook."""
+    shifted, turn = q.copy(), u.copy()
+    for i, joint, s in sliding(model):
+        S, place = joint.subspace(u.dtype), model.q_slice[i]
+        way = np.matvec(joint.transform(q[..., place]).rotation, np.matvec(S[3:], u[..., s]))
+        size = int(joint.subspace()[3:].any(axis=0).sum())  # of its place, which comes first in q
+        shifted[..., place.start : place.start + size] += way[..., :size]
+        turn[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], u[..., s]))
+    return model._step(shifted, turn) if u.dtype == object else model.integrate(shifted, turn)
+
+
+def watched(model: Model, u: Array) -> list[object]:
+    """Return what a program watches of a step: how far joints turn."""
+    return turns(model, u) if u.dtype == object else []
+
+
 def in_turned_axes(model: Model, v: Array, u: Array) -> Array:
     """Return the velocity v in the axes of what slides and turns after it has turned by its part of u."""
-
-    def turned(v: Array, u: Array) -> tuple[Array, list[object]]:
-        new = v.copy()
-        for _, joint, s in sliding(model):
-            S = joint.subspace(u.dtype)
-            R = quaternion_matrix(exp_quaternion(np.matvec(S[:3], u[..., s])))
-            along = np.matvec(R.mT, np.matvec(S[3:], v[..., s]))
-            new[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], v[..., s])) + np.matvec(S.mT[:, 3:], along)
-        return new, turns(model, u) if u.dtype == object else []
-
-    asked = Quantity("turned", ("v", "a"), turned)
+    asked = Quantity("turned", ("v", "a"), lambda v, u: (turned(model, v, u), watched(model, u)))
     there: Array = remembered(model, ("turned", u.dtype), u.dtype, lambda: [asked], single=True)(v, u)
     return there
+
+
+def turned(model: Model, v: Array, u: Array) -> Array:
+    """Return what `in_turned_axes` does, by the textbook."""
+    new = v.copy()
+    for _, joint, s in sliding(model):
+        S = joint.subspace(u.dtype)
+        R = quaternion_matrix(exp_quaternion(np.matvec(S[:3], u[..., s])))
+        along = np.matvec(R.mT, np.matvec(S[3:], v[..., s]))
+        new[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], v[..., s])) + np.matvec(S.mT[:, 3:], along)
+    return new
 
 
 def turning(model: Model, v: Array) -> Array:
