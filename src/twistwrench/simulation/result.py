@@ -10,6 +10,7 @@ import numpy as np
 
 from ..algorithms.centroidal import center_of_mass, centroidal_momentum
 from ..algorithms.energy import kinetic_energy, potential_energy
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_count
 from ..errors import check_known
 from ..model import Model
@@ -55,6 +56,8 @@ class Simulation:
         How often forces and accelerations were computed.
     seconds : float
         How long it took.
+    follows : MimicModel, optional
+        Where joints follow others: q, v and τ are this model's, and `system` is the full robot's.
     """
 
     system: System
@@ -66,11 +69,23 @@ class Simulation:
     contact_forces: dict[str, Array]
     evaluations: int
     seconds: float
+    follows: MimicModel | None = None
 
     @property
-    def model(self) -> Model:
+    def model(self) -> Model | MimicModel:
         """The model that moved; of a scene the smallest one."""
-        return self.system.model
+        return self.system.model if self.follows is None else self.follows
+
+    @cached_property
+    def full(self) -> tuple[Array, Array, Array]:
+        """q, v and τ of all joints, those that follow others included."""
+        if self.follows is None:
+            return self.q, self.v, self.tau
+        q, v = self.follows.expand(self.q, self.v)
+        tau = np.zeros((*self.tau.shape[:-1], v.shape[-1]), self.tau.dtype)
+        own = [self.follows.full.v_slice[self.follows.full.joint_id(name)] for name in self.follows.joint_names[1:]]
+        tau[..., np.r_[tuple(own)]] = self.tau
+        return q, v, tau
 
     @cached_property
     def energy(self) -> Array:
@@ -104,11 +119,11 @@ class Simulation:
         speed, a motor beyond its limit; on a ground, a contact that leaves it or slides; damping and friction of a
         joint, which only time stepping applies.
         """
-        system, stepping = self.system, self.system.stepping
-        found = [*of_joints(self.model, self.t, self.q, self.v, self.tau)]
+        system, stepping, model, (q, v, tau) = self.system, self.system.stepping, self.system.model, self.full
+        found = [*of_joints(model, self.t, q, v, tau)]
         if self.contact_forces and stepping is None:
-            found += of_contacts(self.model, self.t, self.q, system.contacts, self.contact_forces)
-        found += of_left_out(self.model, self.t, self.v) if stepping is None else of_ground(stepping, self.t)
+            found += of_contacts(model, self.t, q, system.contacts, self.contact_forces)
+        found += of_left_out(model, self.t, v) if stepping is None else of_ground(stepping, self.t)
         return tuple(sorted(found))
 
     def step_error(self, samples: int = 20) -> tuple[float, float]:
@@ -142,10 +157,10 @@ class Simulation:
         True
         """
         count = min(as_count(samples, "samples", 1), len(self.tau))
-        worst = np.zeros(2)
+        worst, (q, v, tau) = np.zeros(2), self.full
         for k in np.unique(np.linspace(0, len(self.tau) - 1, count).astype(int)) if count else ():
-            half = self.system.again(float(self.t[k]), self.q[k], self.v[k], self.tau[k], METHODS[self.method].step)
-            whole = self.model.difference(self.q[k + 1], half[0]), self.v[k + 1] - half[1]
+            half = self.system.again(float(self.t[k]), q[k], v[k], tau[k], METHODS[self.method].step)
+            whole = self.system.model.difference(q[k + 1], half[0]), v[k + 1] - half[1]
             worst = np.maximum(worst, [np.abs(x).max(initial=0) for x in whole])
         worst = worst / (1 - 2.0 ** -METHODS[self.method].order)
         return float(worst[0]), float(worst[1])
@@ -156,7 +171,8 @@ class Simulation:
         lines = [f"{self.model.name} by {METHODS[self.method].title}: {made}, {self.evaluations} evaluations"]
         rows = [("energy", "J", self.energy[..., None])]
         if self.model.base == "floating":
-            fall = self.model.mass * np.multiply.outer(self.t, self.model.gravity)
+            moved = self.system.model
+            fall = moved.mass * np.multiply.outer(self.t, moved.gravity)
             fall = fall.reshape(len(self.t), *(1,) * (self.q.ndim - 2), 3)
             rows += [
                 ("angular momentum at the centre of mass", "kg m²/s", self.momentum[..., :3]),

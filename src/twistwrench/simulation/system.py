@@ -101,7 +101,7 @@ class System:
         self._first = True
         self._start = t if k == 0 else self._start
         if self.period and k % self.period == 0:
-            self._constant = self._asked(t, q, v)
+            self._constant = self.asked(t, q, v)
 
     def since(self, t: float) -> float:
         """Return the time since the start, s."""
@@ -110,7 +110,7 @@ class System:
     def force(self, t: float, q: Array, v: Array) -> Array:
         """Return the generalized forces of policy and external wrenches in a state: τ + Σ Jᵀ f, shape (..., nv)."""
         self.evaluations += 1
-        tau = self._constant if self.period else self._asked(t, q, v)
+        tau = self._constant if self.period else self.asked(t, q, v)
         if self._first:
             self.tau = np.broadcast_to(tau, v.shape).copy()
         return self._with_push(tau, q, v)
@@ -122,7 +122,7 @@ class System:
         rest = np.zeros_like(v)
         return tau + rnea(self.model, q, rest, rest) - rnea(self.model, q, rest, rest, self.push(q))
 
-    def _asked(self, t: float, q: Array, v: Array) -> Array:
+    def asked(self, t: float, q: Array, v: Array) -> Array:
         """Return what the policy returns in a state, or the constant forces."""
         if self._policy is None:
             return self._constant
