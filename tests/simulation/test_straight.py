@@ -85,3 +85,20 @@ def test_the_rate_of_a_straight_way_is_its_derivative():
     ahead = go_straight(model, there, dt * in_turned_axes(model, v, u))
     by_rate = go_straight(model, q, u + dt * straight_rate(model, u, v))
     assert np.abs(model.difference(ahead, by_rate)).max() < 1e-9
+
+
+def test_the_semi_implicit_method_keeps_the_energy_nearly_where_m_is_constant():
+    """A pendulum, and a spinning ball on a spring: the error of the last swings is that of the first."""
+    swings = tw.simulate(tw.load("pendulum"), [2.0], [0.0], dt=0.02, steps=4000, method="semi-implicit")
+    model = ball()
+
+    def spring(t, q, v):
+        pull = tw.frame_placement(model, q, "ball").rotation.T @ (-40.0 * q[:3])
+        return np.r_[0, 0, 0, pull]
+
+    start = model.neutral() + np.r_[0.3, np.zeros(6)]
+    flies = tw.simulate(model, start, [5.0, 20, 30, 0, 1, 0], dt=0.01, steps=1500, tau=spring, method="semi-implicit")
+    stored = {"pendulum": swings.energy, "ball": flies.energy + 20.0 * (flies.q[:, :3] ** 2).sum(axis=-1)}
+    for energy in stored.values():
+        error, part = np.abs(energy - energy[0]), len(energy) // 5
+        assert error[-part:].max() < 1.05 * error[:part].max()

@@ -15,7 +15,6 @@ import numpy as np
 from ..algorithms.kinematics import forward_kinematics
 from ..arrays import Array
 from ..contact import constraint_jacobian
-from ..errors import SingularError
 from ..fast import crba
 from ..fast.steps import integrate
 from .system import System
@@ -96,10 +95,8 @@ def of_gains(
     if damped[j] > limit:
         bound = f"{name} = {dt:.3g} s must be below {limit:.3g} D/kd = {limit * D[j] / kd[j]:.2g} s"
         unit = f"D = {D[j]:.2g}, the damping kd = {kd[j]:.3g}"
-        return (
-            j,
-            f"its apparent inertia is {unit} (SI units), and {bound}; as damping of the model, time stepping needs no bound",
-        )
+        instead = "time stepping needs no bound where kd is damping of the model"
+        return j, f"its apparent inertia is {unit} (SI units), and {bound}; {instead}"
     j = int(swung.argmax())
     if swung[j] > SWINGS and np.isfinite(limit):
         bound = f"{name} = {dt:.3g} s must be below {SWINGS:.3g} √(D/kp) = {SWINGS * np.sqrt(D[j] / kp[j]):.2g} s"
