@@ -46,7 +46,8 @@ def why(system: System, method: str, t0: float, states: Sequence[tuple[Array, Ar
     states : sequence of (q, v)
         Until the step that failed.
     """
-    item = np.unravel_index(np.abs(states[-1][1]).max(axis=-1, initial=0).argmax(), states[-1][1].shape[:-1])
+    size = np.abs(states[-1][1]).max(axis=-1, initial=0)
+    item = tuple(int(i) for i in np.unravel_index(size.argmax(), size.shape))
     speeds = np.array([v[item] for _, v in states])
     k, entry = onset(speeds)
     q, v = states[k]
@@ -58,7 +59,7 @@ def why(system: System, method: str, t0: float, states: Sequence[tuple[Array, Ar
         found = of_spin(system, q[item], v[item])
     if found is None:
         return ""
-    entry, reason = (entry if found[0] is None else found[0]), found[1]
+    entry, reason = found
     joint = next(i for i, s in enumerate(system.model.v_slice) if s.start <= entry < s.stop)
     return f"it began with joint {system.model.joint_names[joint]!r}{alternating(speeds[k:, entry])}: {reason}"
 
@@ -82,7 +83,7 @@ def alternating(v: Array) -> str:
 
 
 def of_gains(
-    system: System, method: str, t: float, q: Array, v: Array, item: tuple[np.intp, ...]
+    system: System, method: str, t: float, q: Array, v: Array, item: tuple[int, ...]
 ) -> tuple[int, str] | None:
     """Return the entry of v whose feedback needs the shortest step, and that step; None where dt is short enough."""
     kp, kd = gains(system, t, q, v, item)
@@ -107,13 +108,12 @@ def of_gains(
     return None
 
 
-def gains(system: System, t: float, q: Array, v: Array, item: tuple[np.intp, ...]) -> tuple[Array, Array]:
+def gains(system: System, t: float, q: Array, v: Array, item: tuple[int, ...]) -> tuple[Array, Array]:
     """Return −∂τ/∂q and −∂τ/∂v of each joint on itself, shapes (nv,)."""
     kp, kd = np.zeros((2, system.model.nv))
     for j in range(system.model.nv):
-        probe = np.zeros_like(v)
-        probe[(*item, j)] = PROBE
-        entry = (*item, j)
+        probe, entry = np.zeros_like(v), (*item, j)
+        probe[entry] = PROBE
         ahead, back = (system.asked(t, integrate(system.model, q, sign * probe), v.copy()) for sign in (1, -1))
         kp[j] = (back - ahead)[entry] / (2 * PROBE)
         ahead, back = (system.asked(t, q.copy(), v + sign * probe) for sign in (1, -1))
@@ -126,16 +126,16 @@ def apparent_inertia(system: System, q: Array) -> Array:
     inverse = np.linalg.inv(crba(system.model, q).astype(np.float64))
     if system.contacts and system.stepping is None:
         J = constraint_jacobian(system.model, q, system.contacts)
-        inverse = inverse - inverse @ J.T @ np.linalg.pinv(J @ inverse @ J.T) @ J @ inverse
+        inverse = inverse - inverse @ J.mT @ np.linalg.pinv(J @ inverse @ J.mT) @ J @ inverse
     gives = np.diagonal(inverse)
     free = gives > 1e-9 * gives.max(initial=0)
     return np.where(free, 1 / np.where(free, gives, 1), np.inf)
 
 
-def of_spin(system: System, q: Array, v: Array) -> tuple[int | None, str] | None:
+def of_spin(system: System, q: Array, v: Array) -> tuple[int, str] | None:
     """Return the joint whose body turns too far in a step for the gyroscopic torque to be integrated."""
-    twists = forward_kinematics(system.model, q, v).twist[1:]
-    turn = system.dt * np.linalg.norm(twists[:, :3], axis=-1)
+    twists = np.asarray(forward_kinematics(system.model, q, v).twist)
+    turn = system.dt * np.linalg.norm(twists[1:, :3], axis=-1)
     if not turn.max(initial=0) > FAST:
         return None
     body = 1 + int(turn.argmax())

@@ -24,7 +24,7 @@ __all__ = ["couplings", "simulate_following"]
 
 def couplings(model: MimicModel) -> list[Coupling]:
     """Return what holds the joints that follow, for the full model."""
-    return [Coupling(name, {leader: multiplier}) for name, (leader, multiplier, _) in model.laws.items()]
+    return [Coupling(name, ((leader, multiplier),)) for name, (leader, multiplier, _) in model.laws.items()]
 
 
 def simulate_following(
@@ -81,5 +81,5 @@ def at_leaders(model: MimicModel, tau: Array) -> Array:
 def of_leaders(model: MimicModel, motion: Simulation) -> Simulation:
     """Return the motion of the leaders."""
     own = leading(model)
-    moved = {"q": motion.q[..., model.kept_q], "v": motion.v[..., own], "tau": motion.tau[..., own]}
-    return replace(motion, **moved, follows=model)
+    q, v, tau = motion.q[..., model.kept_q], motion.v[..., own], motion.tau[..., own]
+    return replace(motion, q=q, v=v, tau=tau, follows=model)

@@ -90,19 +90,20 @@ class Simulation:
     @cached_property
     def energy(self) -> Array:
         """Kinetic and potential energy, shape (n, ...), J."""
-        total: Array = kinetic_energy(self.model, self.q, self.v) + potential_energy(self.model, self.q)
+        moved, (q, v, _) = self.system.model, self.full
+        total: Array = kinetic_energy(moved, q, v) + potential_energy(moved, q)
         return total
 
     @cached_property
     def momentum(self) -> Array:
         """Angular and linear momentum (k_G, l_G) at the centre of mass, axes of the world, shape (n, ..., 6)."""
-        return centroidal_momentum(self.model, self.q, self.v)
+        return centroidal_momentum(self.system.model, *self.full[:2])
 
     @cached_property
     def momentum_about_origin(self) -> Array:
         """Angular momentum about the world's origin, and linear momentum, shape (n, ..., 6): k_G + p_G × l_G, l_G."""
         k, l = self.momentum[..., :3], self.momentum[..., 3:]
-        return np.concatenate([k + np.cross(center_of_mass(self.model, self.q), l), l], axis=-1)
+        return np.concatenate([k + np.cross(center_of_mass(self.system.model, self.full[0]), l), l], axis=-1)
 
     @cached_property
     def work(self) -> Array:
