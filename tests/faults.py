@@ -429,7 +429,12 @@ FAULTS = [
         "np.cross(J[..., :3, :], arm[..., None], axis=-2)",
         "0 * J[..., :3, :]",
     ),
-    Fault("Munthe-Kaas: sign of ½ [u, v]", "simulation/tangent.py", "v + first / 2 +", "v - first / 2 +"),
+    Fault(
+        "Munthe-Kaas: sign of ½ φ × ω",
+        "simulation/straight.py",
+        "first / 2 + second / 12",
+        "second / 12 - first / 2",
+    ),
     Fault(
         "Runge-Kutta: second stage counted once, not twice",
         "simulation/explicit.py",
@@ -444,9 +449,9 @@ FAULTS = [
     ),
     Fault(
         "variational: momentum carried the wrong way",
-        "simulation/variational.py",
-        "P0 = exp_transposed(ad, self.p0)",
-        "P0 = exp_transposed(-ad, self.p0)",
+        "simulation/tangent.py",
+        "P0 = np.matvec(back, np.matvec(turn, p0[..., s]))",
+        "P0 = np.matvec(back.mT, np.matvec(turn, p0[..., s]))",
     ),
     # templates, motions
     Fault(

@@ -109,8 +109,8 @@ STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
 def measure(example: Example) -> dict[str, list[tuple[float, float, float]]]:
     """Return for each method (dt, processor time for a second of motion, error), and print it as rows of a table."""
     found: dict[str, list[tuple[float, float, float]]] = {}
-    for name, method in METHODS.items():
-        if example.contacts and not method.contacts:
+    for name in LOOK:
+        if example.contacts and not METHODS[name].contacts:
             continue
         for dt in example.steps:
             start = time.process_time()
@@ -168,16 +168,95 @@ def kept_momentum() -> None:
     """Print how well each method keeps the angular momentum about the origin of a robot that tumbles without weight."""
     scene = tw.Scene("go2", gravity=[0, 0, 0])
     v = np.random.default_rng(0).standard_normal(scene.model.nv)
-    for name in METHODS:
+    for name in LOOK:
         s = tw.simulate(scene, scene.model.standing(), v, dt=0.01, steps=100, method=name)
         h = s.momentum_about_origin[:, :3]
         change = np.abs(h - h[0]).max() / np.abs(h[0]).max()
         print(f"| `{name}` | {change:.1e} | {s.evaluations / 100:.1f} |", flush=True)
 
 
+def flown_ball(method: str, dt: float) -> float:
+    """Return how far a ball without weight, at 3.5 m/s and 35 rad/s, is from its straight line after 2 s, m."""
+    inertia = tw.SpatialInertia.from_sphere(1.0, 0.1)
+    model = tw.Builder("ball", base="floating", root_inertia=inertia, gravity=np.zeros(3)).build()
+    v = np.array([21.0, -16.8, 22.4, 3.5, 0.0, 0.0])
+    s = tw.simulate(model, model.neutral(), v, dt=dt, duration=2.0, method=method)
+    return float(np.abs(s.q[-1, :3] - [7.0, 0, 0]).max())
+
+
+def swung_pendulum(method: str, dt: float) -> float:
+    """Return how far a pendulum is from Jacobi's solution 0.4 s after it was let go at 2 rad."""
+    from scipy.special import ellipj, ellipk
+
+    m, omega = np.sin(1.0) ** 2, np.sqrt(9.81 / 1.001)
+    sn = ellipj(ellipk(m) - omega * 0.4, m)[0]
+    s = tw.simulate(tw.load("pendulum"), [2.0], [0.0], dt=dt, duration=0.4, method=method)
+    return abs(float(s.q[-1, 0]) - 2 * np.arcsin(np.sin(1.0) * sn))
+
+
+def free_top(method: str, dt: float) -> float:
+    """Return how far a symmetric body, which precesses about its momentum, is from there after 0.4 s, rad."""
+    A, C, w, T = 2.0, 0.5, np.array([0.3, -1.2, 4.0]), 0.4
+    inertia = tw.SpatialInertia(1.0, np.zeros(3), np.diag([A, A, C]))
+    model = tw.Builder("top", base="floating", root_inertia=inertia, gravity=np.zeros(3)).build()
+    R = tw.exp3(T * np.array([A, A, C]) * w / A) @ tw.exp3([0, 0, T * w[2] * (A - C) / A])
+    s = tw.simulate(model, model.neutral(), np.r_[w, 1.0, 2.0, 3.0], dt=dt, duration=T, method=method)
+    return float(np.abs(tw.log3(tw.frame_placement(model, s.q[-1], "base_link").rotation.T @ R)).max())
+
+
+def heavy_top(method: str, dt: float) -> float:
+    """Return how far a top on a ball joint is from its steady precession after 0.4 s: m g l = C ω₃ Ω − A Ω² cos θ."""
+    A, C, m, l, tilt, turns, T = 0.03, 0.03, 1.0, 0.1, 0.5, 5.0, 0.4
+    spin = (m * 9.81 * l + A * turns**2 * np.cos(tilt)) / (C * turns)
+    builder = tw.Builder("top")
+    builder.link(
+        "top",
+        parent="base_link",
+        joint=tw.Spherical(),
+        inertia=tw.SpatialInertia(m, [0, 0, l], np.diag([A - m * l * l, A - m * l * l, C])),
+    )
+    model, R0 = builder.build(), tw.exp3([0, tilt, 0])
+    w = R0.T @ np.array([0, 0, turns])
+    w[2] = spin
+    own = spin - turns * np.cos(tilt)
+    q = np.r_[0, np.sin(tilt / 2), 0, np.cos(tilt / 2)]
+    s = tw.simulate(model, q, w, dt=dt, duration=T, method=method)
+    R = tw.exp3([0, 0, turns * T]) @ R0 @ tw.exp3([0, 0, own * T])
+    return float(np.abs(tw.log3(tw.frame_placement(model, s.q[-1], "top").rotation.T @ R)).max())
+
+
+def orders() -> None:
+    """Print the error in closed forms at a dt, the slope between twice this dt and it, and what a step costs."""
+    go2 = tw.load("go2")
+    start = go2.standing(), np.random.default_rng(0).standard_normal(18)
+
+    def made(name: str) -> float:
+        return seconds_of(lambda: tw.simulate(go2, *start, dt=0.002, steps=60, method=name))
+
+    spent = {name: made(name) for name in LOOK}
+    for name in LOOK:
+        dt, cells = (0.01 if METHODS[name].order == 4 else 0.002), []
+        for form in (flown_ball, swung_pendulum, free_top, heavy_top):
+            coarse, fine = form(name, 2 * dt), form(name, dt)
+            cells.append(f"{fine:.1e}" + (f" ({np.log2(coarse / fine):.1f})" if fine > 1e-11 else ""))
+        print(f"| `{name}` | {1000 * dt:g} | {' | '.join(cells)} | {spent[name] / spent['rk4']:.1g} |", flush=True)
+
+
+def seconds_of(call: Callable[[], object]) -> float:
+    """Return the processor time of the quickest of five calls, after one in which programs are made."""
+    call()
+    found = []
+    for _ in range(5):
+        start = time.process_time()
+        call()
+        found.append(time.process_time() - start)
+    return min(found)
+
+
 def main() -> None:
     """Print all tables and write all pictures."""
     mpl.use("agg")
+    orders()
     kept_momentum()
     long_run()
     examples = [pendulum(), double_pendulum(), tumbling_body(), standing_go2()]

@@ -8,7 +8,6 @@ from twistwrench import bridge
 from twistwrench.fast import programs
 from twistwrench.fast.steps import integrate
 from twistwrench.model import KINDS, Joint
-from twistwrench.simulation.tangent import bracket, dexp_inverse, rate
 
 SIZES = [0.0, 1e-200, 1e-8, 1e-3, 0.1, 0.5, 1.0, 3.0, 20.0]
 """Of the steps: on both sides of the radian from which the textbook takes them."""
@@ -44,14 +43,6 @@ def test_a_step_is_pinocchios_and_half_of_it_twice(kind):
         assert np.abs(model.difference(ours, theirs)).max() < 1e-14 * size
         halves = integrate(model, integrate(model, one_q, one_u / 2), one_u / 2)
         assert np.abs(model.difference(ours, halves)).max() < 1e-14 * size
-
-
-@KIND
-def test_the_rate_of_a_step_is_the_textbooks(kind):
-    model, _, u = steps(kind)
-    v = np.random.default_rng(2).standard_normal(u.shape)
-    expected = dexp_inverse(bracket(model, u), v)
-    np.testing.assert_allclose(rate(model, u, v), expected, rtol=1e-14, atol=1e-14 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])

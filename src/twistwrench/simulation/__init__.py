@@ -14,6 +14,9 @@
 - `ground`: the ground and the points that may touch it.
 - `system`: the forces of the policy, the contacts, and the acceleration.
 - `divergence`: when a step has gone wrong.
+- `diagnosis`: why.
+- `mimics`: robots some of whose joints follow others.
+- `straight`: steps in axes that do not turn.
 - `remarks`: what a motion is worth.
 - `result`: the motion.
 - `scene_like`: what `simulate` needs of a scene.

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..model import Model
+from ..model import GroupJoint, Model
 from ..spatial._elementary import at_first_index
 
-__all__ = ["DivergenceError", "refuse_divergence"]
+__all__ = ["DivergenceError", "refuse_divergence", "refuse_whole_turn"]
 
 FARTHEST = 1e6
 """No joint goes that far in one step, in rad or m."""
@@ -40,6 +40,15 @@ def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> 
             f"the motion diverges: joint {model.joint_names[joint]!r} has {what}[{entry[-1]}] = {float(x[entry]):.3g}"
             f"{at_first_index(np.asarray(wrong.any(axis=-1)))}; a smaller dt or weaker forces?"
         )
+
+
+def refuse_whole_turn(model: Model, u: Array) -> None:
+    """Raise DivergenceError where a ball, a floating base or a planar joint turns by more than 2π in a step u."""
+    for name, joint, s in zip(model.joint_names, model.joints, model.v_slice):
+        if isinstance(joint, GroupJoint) and joint.nv > 1:
+            angle = np.linalg.norm(np.matvec(joint.subspace(u.dtype)[:3], u[..., s]), axis=-1).max(initial=0)
+            if not angle <= 2 * np.pi:
+                raise DivergenceError(f"joint {name!r} turns by more than a whole turn in one step, by {angle:.3g} rad")
 
 
 @cache

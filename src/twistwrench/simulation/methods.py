@@ -51,7 +51,9 @@ class Method:
 
 METHODS = {
     "euler": Method("explicit Euler", 1, partial(runge_kutta, EULER), "nothing: the energy grows"),
-    "semi-implicit": Method("semi-implicit Euler", 1, semi_implicit, "nothing; the energy nearly, where M is constant"),
+    "semi-implicit": Method(
+        "semi-implicit Euler", 1, semi_implicit, "the energy nearly, where M is constant and no body tumbles"
+    ),
     "midpoint": Method("explicit midpoint", 2, partial(runge_kutta, MIDPOINT), "nothing"),
     "rk4": Method("Runge-Kutta", 4, partial(runge_kutta, RK4), "nothing; the errors are small"),
     "variational": Method(

@@ -18,11 +18,11 @@ from ..compiler.quantities import Quantity
 from ..fast.programs import remembered
 from ..fast.steps import turns
 from ..model import GroupJoint, Model
-from ..spatial import cross_motion
+from ..spatial import cross_motion, skew
 from ..spatial._quaternions import exp_quaternion
 from ..spatial.rotation import quaternion_matrix
 
-__all__ = ["go_straight", "in_turned_axes", "turning"]
+__all__ = ["go_straight", "in_turned_axes", "straight_rate", "turning"]
 
 
 def go_straight(model: Model, q: Array, u: Array) -> Array:
@@ -30,39 +30,44 @@ def go_straight(model: Model, q: Array, u: Array) -> Array:
 
     `Model.integrate` would go along the screw of u.
     """
-
-    def step(q: Array, u: Array) -> tuple[Array, list[object]]:
-        shifted, turn = q.copy(), u.copy()
-        for i, joint, s in sliding(model):
-            S, place = joint.subspace(u.dtype), model.q_slice[i]
-            way = np.matvec(joint.transform(q[..., place]).rotation, np.matvec(S[3:], u[..., s]))
-            size = int(joint.subspace()[3:].any(axis=0).sum())  # of its place, which comes first in q
-            shifted[..., place.start : place.start + size] += way[..., :size]
-            turn[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], u[..., s]))
-        if u.dtype == object:
-            return model._step(shifted, turn), turns(model, u)
-        return model.integrate(shifted, turn), []
-
-    asked = Quantity("q", ("q", "v"), step)
+    asked = Quantity("q", ("q", "v"), lambda q, u: (shifted_and_turned(model, q, u), watched(model, u)))
     there: Array = remembered(model, ("straight", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
     return there
 
 
+def shifted_and_turned(model: Model, q: Array, u: Array) -> Array:
+    """Return what `go_straight` does, by the textbook."""
+    shifted, turn = q.copy(), u.copy()
+    for i, joint, s in sliding(model):
+        S, place = joint.subspace(u.dtype), model.q_slice[i]
+        way = np.matvec(joint.transform(q[..., place]).rotation, np.matvec(S[3:], u[..., s]))
+        size = int(joint.subspace()[3:].any(axis=0).sum())  # of its place, which comes first in q
+        shifted[..., place.start : place.start + size] += way[..., :size]
+        turn[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], u[..., s]))
+    return model._step(shifted, turn) if u.dtype == object else model.integrate(shifted, turn)
+
+
+def watched(model: Model, u: Array) -> list[object]:
+    """Return what a program watches of a step: how far joints turn."""
+    return turns(model, u) if u.dtype == object else []
+
+
 def in_turned_axes(model: Model, v: Array, u: Array) -> Array:
     """Return the velocity v in the axes of what slides and turns after it has turned by its part of u."""
-
-    def turned(v: Array, u: Array) -> tuple[Array, list[object]]:
-        new = v.copy()
-        for _, joint, s in sliding(model):
-            S = joint.subspace(u.dtype)
-            R = quaternion_matrix(exp_quaternion(np.matvec(S[:3], u[..., s])))
-            along = np.matvec(R.mT, np.matvec(S[3:], v[..., s]))
-            new[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], v[..., s])) + np.matvec(S.mT[:, 3:], along)
-        return new, turns(model, u) if u.dtype == object else []
-
-    asked = Quantity("turned", ("v", "a"), turned)
+    asked = Quantity("turned", ("v", "a"), lambda v, u: (turned(model, v, u), watched(model, u)))
     there: Array = remembered(model, ("turned", u.dtype), u.dtype, lambda: [asked], single=True)(v, u)
     return there
+
+
+def turned(model: Model, v: Array, u: Array) -> Array:
+    """Return what `in_turned_axes` does, by the textbook."""
+    new = v.copy()
+    for _, joint, s in sliding(model):
+        S = joint.subspace(u.dtype)
+        R = quaternion_matrix(exp_quaternion(np.matvec(S[:3], u[..., s])))
+        along = np.matvec(R.mT, np.matvec(S[3:], v[..., s]))
+        new[..., s] = np.matvec(S.mT[:, :3], np.matvec(S[:3], v[..., s])) + np.matvec(S.mT[:, 3:], along)
+    return new
 
 
 def turning(model: Model, v: Array) -> Array:
@@ -80,6 +85,32 @@ def turning(model: Model, v: Array) -> Array:
     asked = Quantity("turning", ("v",), crossed)
     there: Array = remembered(model, ("turning", v.dtype), v.dtype, lambda: [asked], single=True)(v)
     return there
+
+
+def straight_rate(model: Model, u: Array, v: Array) -> Array:
+    """Return u̇ of a way u that is gone with the velocity v in the axes of its beginning (`go_straight`).
+
+    What is shifted is shifted by v. What turns, R = exp φ, turns with φ̇ = dexp⁻¹₋ᵩ ω = ω + ½ φ × ω + 1/12 φ × (φ × ω),
+    and terms of the fourth order in φ: what methods up to order 4 need.
+    """
+
+    def asked() -> list[Quantity]:
+        return [Quantity("rate", ("v", "a"), lambda u, v: (v + turns_further(model, u, v), []))]
+
+    found: Array = remembered(model, ("rate", v.dtype), v.dtype, asked, single=True)(u, v)
+    return found
+
+
+def turns_further(model: Model, u: Array, v: Array) -> Array:
+    """Return φ̇ − ω of balls, floating bases and planar joints; 0 elsewhere."""
+    more = np.zeros_like(v)
+    for joint, s in zip(model.joints, model.v_slice):
+        if isinstance(joint, GroupJoint):
+            S = joint.subspace(u.dtype)[:3]
+            first = np.matvec(skew(np.matvec(S, u[..., s])), np.matvec(S, v[..., s]))
+            second = np.matvec(skew(np.matvec(S, u[..., s])), first)
+            more[..., s] = np.matvec(S.mT, first / 2 + second / 12)
+    return more
 
 
 def sliding(model: Model) -> Iterator[tuple[int, GroupJoint, slice]]:

@@ -89,13 +89,19 @@ class System:
         self._constant = self.tau = np.broadcast_to(constant, v.shape).copy()
         self.forces: dict[str, Array] = {}
         self._first, self._start = True, 0.0
+        self._policy_missing = False
+
+    def __getstate__(self) -> dict[str, object]:
+        """Leave the policy behind: a lambda cannot be pickled, and a motion is worth as much without it."""
+        needed = self._policy is not None and not self.period
+        return vars(self) | {"_policy": None, "_policy_missing": self._policy_missing or needed}
 
     def begin(self, k: int, t: float, q: Array, v: Array) -> None:
         """Begin step k: what is evaluated next counts. At the beginning of a period, call the policy."""
         self._first = True
         self._start = t if k == 0 else self._start
         if self.period and k % self.period == 0:
-            self._constant = self._asked(t, q, v)
+            self._constant = self.asked(t, q, v)
 
     def since(self, t: float) -> float:
         """Return the time since the start, s."""
@@ -104,15 +110,19 @@ class System:
     def force(self, t: float, q: Array, v: Array) -> Array:
         """Return the generalized forces of policy and external wrenches in a state: τ + Σ Jᵀ f, shape (..., nv)."""
         self.evaluations += 1
-        tau = self._constant if self.period else self._asked(t, q, v)
+        tau = self._constant if self.period else self.asked(t, q, v)
         if self._first:
             self.tau = np.broadcast_to(tau, v.shape).copy()
+        return self._with_push(tau, q, v)
+
+    def _with_push(self, tau: Array, q: Array, v: Array) -> Array:
+        """Return τ and the generalized forces of the wrenches from outside."""
         if self.push is None:
             return np.broadcast_to(tau, v.shape)
         rest = np.zeros_like(v)
         return tau + rnea(self.model, q, rest, rest) - rnea(self.model, q, rest, rest, self.push(q))
 
-    def _asked(self, t: float, q: Array, v: Array) -> Array:
+    def asked(self, t: float, q: Array, v: Array) -> Array:
         """Return what the policy returns in a state, or the constant forces."""
         if self._policy is None:
             return self._constant
@@ -131,16 +141,19 @@ class System:
 
     def held(self, t: float, q: Array, v: Array) -> ContactDynamics:
         """Return acceleration and contact forces in a state (49.9)."""
-        contacts = moved(self.contacts, self.since(t))
-        found = contact_forward_dynamics(self.model, q, v, self.force(t, q, v), contacts)
+        found = self._held_under(self.force(t, q, v), t, q, v)
         if self._first:
             self.forces, self._first = found.forces, False
         return found
 
     def held_last(self, t: float, q: Array, v: Array) -> dict[str, Array]:
         """Return the contact forces in a state under the last forces that were applied."""
-        self._policy, self._constant = None, self.tau
-        return self.held(t, q, v).forces
+        self.evaluations += 1
+        return self._held_under(self._with_push(self.tau, q, v), t, q, v).forces
+
+    def _held_under(self, force: Array, t: float, q: Array, v: Array) -> ContactDynamics:
+        contacts = moved(self.contacts, self.since(t))
+        return contact_forward_dynamics(self.model, q, v, force, contacts)
 
     def again(
         self,
@@ -150,11 +163,22 @@ class System:
         tau: Array,
         step: Callable[[System, float, Array, Array], tuple[Array, Array]],
     ) -> tuple[Array, Array]:
-        """Return the state after a step from t, q and v under constant forces, made in two halves."""
+        """Return the state after a step from t, q and v, made in two halves as the step was made.
+
+        The policy is asked again, wherever the method needs it; forces that were held for a period are held again.
+
+        Raises
+        ------
+        ValueError
+            If there was a policy, and it stayed in the process in which the motion was made.
+        """
+        if self._policy_missing:
+            raise ValueError("step_error: the policy has stayed in the process in which the motion was made")
         dt, own = self.dt / 2, self.stepping
+        forces = tau if self._policy is None or self.period else self._policy
         contacts = moved(self.contacts, self.since(t))
         stepping = own and TimeStepping(self.model, own.contacts, own.ground, dt, q, contacts)
-        there = System(self.model, contacts, self.push, tau, q, v, dt, stepping=stepping)
+        there = System(self.model, contacts, self.push, forces, q, v, dt, stepping=stepping)
         for k in range(2):
             at = t + k * dt
             there.begin(k, at, q, v)
@@ -171,8 +195,12 @@ class System:
 
     def integrate(self, q: Array, u: Array) -> Array:
         """Return q ⊕ u."""
-        refuse_divergence(self.model, "v dt", u)
+        self.refuse_way(u)
         return integrate(self.model, q, u)
+
+    def refuse_way(self, u: Array) -> None:
+        """Raise for a step u that no robot goes."""
+        refuse_divergence(self.model, "v dt", u)
 
     def refuse_slip(self, q: Array, v: Array) -> None:
         """Raise for a contact that sticks and moves at the start."""

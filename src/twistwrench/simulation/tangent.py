@@ -1,26 +1,25 @@
-"""Steps on the configuration manifold: what the exponential does to rates and to momenta (49.2, 49.3).
+"""Momenta over a step: what the exponential of the joints that turn does to them (49.2, 49.3).
 
-The configurations of a tree are a Lie group, the product of its joints' groups, and v is the body velocity: q̇ = q v.
-Around a configuration q₀ every other one is q₀ ⊕ u = q₀ exp(u), with u a vector of nv numbers that can be added. While
-q₀ ⊕ u moves with the velocity v, u does not move with v but with u̇ = dexp⁻¹₋ᵤ v. The two differ for balls and
-floating bases, and are equal for joints that turn about one axis only.
+Over a step that turns by φ, R = exp [φ]×. A momentum p that is seen from its beginning is Rᵀ p seen from its end, and
+dexp_φ = 1 + ½ [φ]× + 1/6 [φ]×² + … says how exp φ moves with φ. For joints about one axis, and for what slides in axes
+that stand still (`straight`), both are 1.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Array, resolution
+from ..arrays import Array
 from ..compiler.quantities import Quantity
 from ..fast.programs import remembered
-from ..model import Model
+from ..model import GroupJoint, Model
 from ..spatial import cross_motion
-from .divergence import DivergenceError
+from ..spatial._quaternions import exp_quaternion
+from ..spatial.exponential import shift
+from ..spatial.rotation import quaternion_matrix
+from .straight import watched
 
-__all__ = ["bracket", "dexp_inverse", "dexp_transposed", "exp_transposed", "rate"]
-
-TERMS = 64
-"""Enough of the series for a turn of 2π in one step, in every number type: (2π)⁶³/63! is 4e-38."""
+__all__ = ["bracket", "momenta"]
 
 
 def bracket(model: Model, u: Array) -> Array:
@@ -35,41 +34,34 @@ def bracket(model: Model, u: Array) -> Array:
     return ad
 
 
-def dexp_inverse(ad: Array, v: Array) -> Array:
-    """Return u̇ = dexp⁻¹₋ᵤ v = v + ½ [u, v] + 1/12 [u, [u, v]] + O(u⁴ v): what methods up to order 4 need."""
-    first = np.matvec(ad, v)
-    rate: Array = v + first / 2 + np.matvec(ad, first) / 12
-    return rate
+def momenta(model: Model, u: Array, p0: Array, impulse: Array) -> tuple[Array, Array]:
+    """Return what μ must be in the middle of a step 2 u, and the momentum at its end, both (..., nv).
+
+    P₀ = Rᵀ p₀ and P₁ = P₀ + impulse are seen from the middle; μ = ½ (dexp(−u)ᵀ P₀ + dexp(u)ᵀ P₁) and p₁ = Rᵀ P₁.
+    What slides has its p₀ and its impulse in the axes of the beginning, and its p₁ in those of the end.
+    """
+
+    def both(u: Array, p0: Array, impulse: Array) -> tuple[Array, list[object]]:
+        mu, end = p0 + impulse / 2, p0 + impulse
+        for joint, s in zip(model.joints, model.v_slice):
+            if isinstance(joint, GroupJoint) and joint.nv > 1:
+                S = joint.subspace(u.dtype)
+                turn, slide = S[:3], S[3:]
+                phi = np.matvec(turn, u[..., s])
+                back = quaternion_matrix(exp_quaternion(phi)).mT
+                P0 = np.matvec(back, np.matvec(turn, p0[..., s]))
+                P1 = P0 + np.matvec(turn, impulse[..., s])
+                mean = (dexp_transposed(-phi, P0) + dexp_transposed(phi, P1)) / 2
+                along = np.matvec(slide, mu[..., s]), np.matvec(back @ back, np.matvec(slide, end[..., s]))
+                mu[..., s] = np.matvec(turn.mT, mean) + np.matvec(slide.mT, along[0])
+                end[..., s] = np.matvec(turn.mT, np.matvec(back, P1)) + np.matvec(slide.mT, along[1])
+        return np.concatenate([mu, end], axis=-1), watched(model, u)
+
+    asked = Quantity("momenta", ("v", "a", "tau"), both)
+    found = remembered(model, ("momenta", u.dtype), u.dtype, lambda: [asked], single=True)(u, p0, impulse)
+    return found[..., : model.nv], found[..., model.nv :]
 
 
-def rate(model: Model, u: Array, v: Array) -> Array:
-    """Return u̇ of a q₀ ⊕ u that moves with v, by a program: `dexp_inverse` of `bracket`."""
-
-    def asked() -> list[Quantity]:
-        return [Quantity("rate", ("v", "a"), lambda u, v: (dexp_inverse(bracket(model, u), v), []))]
-
-    found: Array = remembered(model, ("rate", v.dtype), v.dtype, asked, single=True)(u, v)
-    return found
-
-
-def exp_transposed(ad: Array, p: Array) -> Array:
-    """Return Ad(exp u)ᵀ p = Σ (ad_uᵀ)ᵏ p / k!: a momentum p seen from q ⊕ u, where it was seen from q."""
-    return _series(ad.mT, p, 0)
-
-
-def dexp_transposed(ad: Array, p: Array) -> Array:
-    """Return dexpᵤᵀ p = Σ (ad_uᵀ)ᵏ p / (k + 1)!."""
-    return _series(ad.mT, p, 1)
-
-
-def _series(A: Array, p: Array, shift: int) -> Array:
-    """Return Σ Aᵏ p / (k + shift)!, to the last digit."""
-    total: Array = p
-    term = p
-    for k in range(1, TERMS):
-        term = np.matvec(A, term) / (k + shift)
-        total = total + term
-        added, size = (np.abs(x).max(axis=-1, initial=0) for x in (term, total))
-        if (added <= resolution(p.dtype) * size / 4).all():
-            return total
-    raise DivergenceError("a ball or a floating base turns by more than a whole turn in one step")
+def dexp_transposed(phi: Array, p: Array) -> Array:
+    """Return dexp_φᵀ p = Σ (−[φ]×)ᵏ p / (k + 1)!, shape (..., 3): the way of a velocity p that turns by −φ."""
+    return shift(np.concatenate([-phi, p], axis=-1))

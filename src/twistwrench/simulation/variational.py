@@ -2,7 +2,7 @@
 
 Of all motions between two configurations the true one makes the action ∫ L dt stationary. Here the action itself is
 made discrete, and not the equation that follows from it: over a step, L is taken at the middle, at the constant
-velocity ξ that leads from one end to the other,
+velocity ξ that leads from one end to the other, in the axes of the beginning (`straight`),
 
     q₁ = q₀ ⊕ h ξ,        m = q₀ ⊕ ½ h ξ,        S(q₀, q₁) = h L(m, ξ).
 
@@ -18,15 +18,19 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array, resolution
+from ..compiler.quantities import Quantity
 from ..fast import aba, crba
+from ..fast.programs import remembered
 from ..model import Model, tree_terms
 from ..model.tree import join, split
 from ..spatial import cross_force
-from .divergence import DivergenceError, refuse_divergence
+from ..spatial.rotation import cross_matrix
+from .divergence import DivergenceError, refuse_divergence, refuse_whole_turn
+from .straight import go_straight, in_turned_axes, shifted_and_turned, sliding, turned, turning, watched
 from .system import System
-from .tangent import bracket, dexp_transposed, exp_transposed
+from .tangent import bracket, momenta
 
-__all__ = ["momentum_and_force", "variational"]
+__all__ = ["middle", "momentum_and_force", "variational"]
 
 ITERATIONS = 50
 CLOSE = 50
@@ -65,7 +69,9 @@ def variational(system: System, t: float, q: Array, v: Array) -> tuple[Array, Ar
     """
     M, model, dt = crba(system.model, q), system.model, q.dtype.type(system.dt)
     equation = Equation(system, t, q, np.matvec(M, v))
-    xi = v + dt / 2 * aba(model, q, v, np.zeros_like(v))  # also raises where there is no inertia
+    fall = aba(model, q, v, np.zeros_like(v))  # also raises where there is no inertia
+    xi = v + dt / 2 * (fall + turning(model, v))
+    refuse_whole_turn(model, dt * xi)
     inverse, done = np.linalg.inv(M.astype(np.float64)), np.zeros(v.shape[:-1], bool)
     defect, end, close = equation.defect(xi)
     for _ in range(ITERATIONS):
@@ -73,21 +79,48 @@ def variational(system: System, t: float, q: Array, v: Array) -> tuple[Array, Ar
         xi, done, before = xi + change, done | close, defect
         defect, end, close = equation.defect(xi)
         if done.all():
-            q1 = system.integrate(q, dt * xi)
+            refuse_whole_turn(model, dt * xi)
+            q1 = go_straight(model, q, dt * xi)
             return q1, solve(crba(model, q1), end)
         inverse = broyden(inverse, change, defect - before)
     raise unsolved(model, np.where(close[..., None], 0, defect))
 
 
+def middle(model: Model, q: Array, u: Array, xi: Array) -> tuple[Array, Array, Array, Array]:
+    """Return where a way u leads to from q, v there, and μ and ∂L/∂q there, for a velocity ξ in the axes of q.
+
+    μ and the force are in the axes of q, too. There the velocity of what slides stays while it turns by δ, so that the
+    one in its own axes changes by −δ × v, and L by −δ · (v × p).
+
+    Returns
+    -------
+    tuple of ndarray, shapes (..., nq) and three times (..., nv)
+    """
+
+    def terms(q: Array, u: Array, xi: Array) -> tuple[Array, list[object]]:
+        there, v = shifted_and_turned(model, q, u), turned(model, xi, u)
+        mu, force = momentum_and_force(model, there, v)
+        for _, joint, s in sliding(model):
+            S = joint.subspace(u.dtype)
+            along, p = np.matvec(S[3:], v[..., s]), np.matvec(S[3:], mu[..., s])
+            force[..., s] -= np.matvec(S.mT[:, :3], np.matvec(cross_matrix(along), p))
+        return np.concatenate([there, v, turned(model, mu, -u), turned(model, force, -u)], axis=-1), watched(model, u)
+
+    asked = Quantity("middle", ("q", "v", "a"), terms)
+    found = remembered(model, ("middle", u.dtype), u.dtype, lambda: [asked], single=True)(q, u, xi)
+    there, v, mu, force = np.split(found, model.nq + model.nv * np.arange(3), axis=-1)
+    return there, v, mu, force
+
+
 class Equation:
     """The equation of one step from q, with the momentum p₀ = M(q) v there.
 
-    Momenta are seen from the middle: P₀ = Ad(exp ½u)ᵀ p₀ and P₁ = P₀ + h f, with u = h ξ and f = ∂L/∂q + τ at the
-    middle. Then ξ must be such that
+    Momenta of what turns are seen from the middle: P₀ = Ad(exp ½u)ᵀ p₀ and P₁ = P₀ + h f, with u = h ξ and
+    f = ∂L/∂q + τ at the middle. Then ξ must be such that
 
         μ = ½ (dexp(−½u)ᵀ P₀ + dexp(½u)ᵀ P₁),    and at the end    p₁ = Ad(exp ½u)ᵀ P₁.
 
-    Without balls and floating bases dexp = Ad = 1, so that μ = ½ (p₀ + p₁) and p₁ = p₀ + h f.
+    For what slides, and for joints about one axis, dexp = Ad = 1, so that μ = ½ (p₀ + p₁) and p₁ = p₀ + h f.
     """
 
     def __init__(self, system: System, t: float, q: Array, p0: Array) -> None:
@@ -99,14 +132,15 @@ class Equation:
         """Return the residual of ξ, the momentum p₁ it leads to, and whether the residual is only rounding."""
         model, dt = self.system.model, self.dt
         refuse_divergence(model, "v", xi, dt=self.system.dt)
-        middle, ad = self.system.integrate(self.q, dt * xi / 2), bracket(model, dt * xi / 2)
-        mu, force = momentum_and_force(model, middle, xi)
-        tau = self.system.force(self.t, middle, xi)
-        P0 = exp_transposed(ad, self.p0)
-        P1 = P0 + dt * (force + tau)
-        defect = mu - (dexp_transposed(-ad, P0) + dexp_transposed(ad, P1)) / 2
-        size = largest(P0) + largest(mu) + dt * (largest(force) + largest(tau) + self.weight)
-        return defect, exp_transposed(ad, P1), largest(defect) <= CLOSE * resolution(xi.dtype) * size
+        u = dt / 2 * xi
+        there, v, mu, force = middle(model, self.q, u, xi)
+        tau = self.system.force(self.t, there, v)
+        if tau.any():
+            tau = in_turned_axes(model, tau, -u)
+        between, end = momenta(model, u, self.p0, dt * (force + tau))
+        defect = mu - between
+        size = largest(self.p0) + largest(mu) + dt * (largest(force) + largest(tau) + self.weight)
+        return defect, end, largest(defect) <= CLOSE * resolution(xi.dtype) * size
 
 
 def largest(x: Array) -> Array:

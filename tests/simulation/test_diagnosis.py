@@ -1,0 +1,99 @@
+"""What began a divergence: the joint, its apparent inertia, and the longest step."""
+
+import re
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+
+STABLE = {"euler": 2.0, "semi-implicit": 2.0, "midpoint": 2.0, "rk4": 2.785}
+
+
+def told(error, quantity):
+    """The number after a quantity in a message."""
+    return float(re.search(rf"{quantity} = ([0-9.e+-]+)", str(error)).group(1))
+
+
+def wheel(inertia):
+    builder = tw.Builder("wheel", gravity=(0, 0, 0))
+    solid = tw.SpatialInertia(1.0, [0, 0, 0], inertia * np.eye(3))
+    builder.link("disc", parent="base_link", joint=tw.Revolute("z"), inertia=solid)
+    return builder.build()
+
+
+@pytest.mark.parametrize("method", STABLE)
+def test_a_damped_wheel_is_stable_up_to_the_step_that_the_message_names(method):
+    """v⁺ = R(−dt kd / D) v, with the polynomial R of the method: closed form."""
+    model, kd = wheel(0.02), 4.0
+    longest = STABLE[method] * 0.02 / kd
+
+    def moved(dt):
+        return tw.simulate(model, [0.0], [1.0], dt=dt, steps=3000, tau=lambda t, q, v: -kd * v, method=method)
+
+    assert abs(moved(0.98 * longest).v[-1, 0]) < 1e-6
+    with pytest.raises(tw.DivergenceError, match="it began with joint 'disc'") as raised:
+        moved(1.3 * longest)
+    assert told(raised.value, "D") == pytest.approx(0.02, rel=0.05)
+    assert told(raised.value, "kd") == pytest.approx(kd, rel=0.01)
+    assert told(raised.value, "D/kd") == pytest.approx(longest, rel=0.05)
+    assert ("alternates" in str(raised.value)) == (method in ("euler", "semi-implicit"))
+
+
+def test_the_ankle_of_a_humanoid_is_named():
+    """The apparent inertia of its roll is that of the foot alone: 0.00015 kg m², and kd = 3 needs 0.1 ms."""
+    model = tw.load("humanoid")
+    q0 = model.standing()
+
+    def hold(t, q, v):
+        return np.r_[np.zeros(6), 300.0 * (q0[7:] - q[7:]) - 3.0 * v[6:]]
+
+    with pytest.raises(tw.DivergenceError) as raised:
+        tw.simulate(model, q0, 0.1 * np.ones(27), dt=1e-3, steps=100, tau=hold, method="semi-implicit")
+    assert re.search("began with joint '(left|right)_ankle_roll', whose velocity alternates", str(raised.value))
+    ankle = model.v_slice[model.joint_id("left_ankle_roll")].start
+    D = 1 / np.linalg.inv(tw.crba(model, q0))[ankle, ankle]
+    assert told(raised.value, "D") == pytest.approx(D, rel=0.05)
+    assert told(raised.value, "D/kd") == pytest.approx(2 * D / 3, rel=0.1)
+
+
+def test_the_clock_of_a_policy_counts_and_not_the_step():
+    clock = {"dt": 1e-3, "dt_control": 0.02, "steps": 20_000}
+    with pytest.raises(tw.DivergenceError) as raised:
+        tw.simulate(wheel(0.02), [0.0], [1.0], tau=lambda t, q, v: -4 * v, **clock)
+    assert told(raised.value, "dt_control") == pytest.approx(0.02)
+    assert told(raised.value, "D/kd") == pytest.approx(0.01, rel=0.01)
+
+
+def test_a_spring_that_is_too_stiff_is_named_with_its_step():
+    model, kp = wheel(0.02), 200.0  # ω = 100 rad/s
+    with pytest.raises(tw.DivergenceError, match="stiffness kp = 200") as raised:
+        tw.simulate(model, [0.1], [0.0], dt=0.025, steps=500, tau=lambda t, q, v: -kp * q, method="semi-implicit")
+    assert re.search(r"√\(D/kp\) = 0\.02 s", str(raised.value))
+
+
+def test_a_policy_that_pushes_the_way_it_moves_is_named():
+    with pytest.raises(tw.DivergenceError, match="joint 'disc': its τ grows with its own velocity, by 4"):
+        tw.simulate(wheel(0.02), [0.0], [1.0], dt=0.01, steps=500, tau=lambda t, q, v: 4 * v)
+
+
+@pytest.mark.parametrize("method", ["euler", "semi-implicit", "midpoint", "rk4"])
+def test_a_rod_that_spins_too_fast_for_its_step_is_named_with_its_angle(method):
+    inertia = tw.SpatialInertia(1e-3, [0, 0, 0], np.diag([2e-10, 8e-5, 8e-5]))
+    rod = tw.Builder("rod", base="floating", root="rod", root_inertia=inertia, gravity=(0, 0, 0)).build()
+    with pytest.raises(tw.DivergenceError, match=r"began with joint 'root_joint'.*dt \|ω\| = ") as raised:
+        tw.simulate(rod, rod.neutral(), [200.0, 300, 400, 0, 0, 0], dt=0.019, steps=50, method=method)
+    assert told(raised.value, r"dt \|ω\|") > 5
+
+
+def test_a_policy_that_cannot_be_asked_again_leaves_the_message_as_it_was():
+    calls = []
+
+    def until_then(t, q, v):
+        calls.append(t)
+        if not np.isclose(t, 0.1 * (len(calls) - 1)):
+            raise ValueError("the log is read once")
+        return 100.0 * v
+
+    with pytest.raises(tw.DivergenceError, match=r"^step \d+, from .*weaker forces\?$"):
+        tw.simulate(wheel(0.02), [0.0], [1.0], dt=0.1, steps=50, tau=until_then, method="euler")
