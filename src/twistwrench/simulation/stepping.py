@@ -44,7 +44,7 @@ PROJECTIONS = 5
 BELOW = 1e-10
 """m or rad: nearer than this, what is below the ground is on it."""
 
-ALIKE = 1e-8
+ALIKE = 1e-12
 """So much, relative to the fastest, may the free velocity change by that in the middle without being asked again."""
 
 APART = 1e-12
