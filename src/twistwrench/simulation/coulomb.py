@@ -7,7 +7,7 @@ A point with the normal velocity u_n and the velocity u_t along the ground bears
 Over a step velocities and impulses are linear in each other, u = u₀ + W λ with W = J M⁻¹ Jᵀ. P. Alart and A. Curnier
 (1991) write the law as one equation, λ = P(λ − u / w) with any w > 0: P leaves 0 of what pulls, and of what pushes it
 shortens the part along the ground to μ λ_n. Newton's method solves it: it knows which point sticks, slides or opens as
-soon as it is near, and then the equation is linear, or nearly. Of a robot that stands this takes one step.
+soon as it is near, and then the equation is linear, or nearly. Where all stick, as of a robot that stands, it is.
 
 Where its steps lead nowhere, every point is first made soft by itself, which leaves one answer where a stiff body knows
 many or none that is plain, and harder step by step. If that does not help either, the points are asked one after the
@@ -17,6 +17,7 @@ other, each with the law exact while the others push as they do (M. Jean, The no
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -57,13 +58,25 @@ class Law:
     u0: Array
     mu: Array
 
-    def __post_init__(self) -> None:
-        self.k = len(self.mu)
-        self.m = len(self.u0) - 3 * self.k
-        d = np.diagonal(self.W)
-        own = d[: 3 * self.k].reshape(-1, 3).mean(axis=-1)
-        least = 1e-14 * d.max(initial=0) + np.finfo(float).tiny
-        self.own, self.own_rows = np.maximum(own, least), np.maximum(d[3 * self.k :], least)
+    @property
+    def k(self) -> int:
+        """The number of points."""
+        return len(self.mu)
+
+    @cached_property
+    def own(self) -> Array:
+        """Return w of each point: what its own impulse does to it, m/s over N s, shape (k,)."""
+        own = np.diagonal(self.W)[: 3 * self.k].reshape(-1, 3).mean(axis=-1)
+        return np.maximum(own, self._least)
+
+    @cached_property
+    def own_rows(self) -> Array:
+        """Return w of each row, shape (m,)."""
+        return np.maximum(np.diagonal(self.W)[3 * self.k :], self._least)
+
+    @cached_property
+    def _least(self) -> float:
+        return float(1e-14 * np.diagonal(self.W).max(initial=0) + np.finfo(float).tiny)
 
     def moves(self, impulse: Array) -> Array:
         """Return u."""
@@ -93,6 +106,10 @@ def solved(law: Law, impulse: Array, size: float) -> tuple[Array, Array]:
     `impulse` is what is tried first, as of the step before; `size` is the speed of the fastest.
     """
     nothing = np.zeros(len(impulse))
+    if impulse.any():
+        sticks, u = stuck(law, impulse)
+        if np.abs(u).max() <= SETTLED * size and (within(law, sticks) == sticks).all():
+            return sticks, np.concatenate([np.abs(u[: 3 * law.k]).reshape(-1, 3).max(axis=-1), np.abs(u[3 * law.k :])])
     best, missed = by_newton(law, impulse, SETTLED * size)
     if missed.max(initial=0) <= ENOUGH * size:
         return best, missed
@@ -114,6 +131,12 @@ def solved(law: Law, impulse: Array, size: float) -> tuple[Array, Array]:
             break
         one, off = by_newton(law, swept(law, one), SETTLED * size)
     return best, missed
+
+
+def stuck(law: Law, impulse: Array) -> tuple[Array, Array]:
+    """Return the impulses with which every point sticks and every row is met, those nearest to others, and u."""
+    impulse = impulse - np.linalg.lstsq(law.W, law.moves(impulse), rcond=RANK)[0]
+    return impulse, law.moves(impulse)
 
 
 def by_newton(law: Law, impulse: Array, still: float) -> tuple[Array, Array]:
@@ -173,7 +196,7 @@ def swept(law: Law, impulse: Array) -> Array:
             s = slice(3 * i, 3 * i + 3)
             W = law.W[s, s]
             impulse[s] = of_one_point(W, law.u0[s] + law.W[s] @ impulse - W @ impulse[s], float(law.mu[i]), law.own[i])
-        for j in range(3 * k, 3 * k + law.m):
+        for j in range(3 * k, len(impulse)):
             u = law.u0[j] + law.W[j] @ impulse
             impulse[j] = max(0.0, impulse[j] - u / law.own_rows[j - 3 * k])
     return impulse
