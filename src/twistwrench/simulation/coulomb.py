@@ -67,12 +67,12 @@ class Law:
     def own(self) -> Array:
         """Return w of each point: what its own impulse does to it, m/s over N s, shape (k,)."""
         own = np.diagonal(self.W)[: 3 * self.k].reshape(-1, 3).mean(axis=-1)
-        return np.maximum(own, self._least)
+        return np.asarray(np.maximum(own, self._least))
 
     @cached_property
     def own_rows(self) -> Array:
         """Return w of each row, shape (m,)."""
-        return np.maximum(np.diagonal(self.W)[3 * self.k :], self._least)
+        return np.asarray(np.maximum(np.diagonal(self.W)[3 * self.k :], self._least))
 
     @cached_property
     def _least(self) -> float:
