@@ -397,7 +397,7 @@ def test_both_pages_have_the_same_code_and_the_same_numbers():
     english, chinese = (page("simulation", language) for language in ("", ".zh-CN"))
     uncommented = [[re.sub(r"#.*", "", block) for block in code(path)] for path in (english, chinese)]
     assert uncommented[0] == uncommented[1]
-    assert len(uncommented[0]) == 7
+    assert len(uncommented[0]) == 8
     assert numbers(english) == numbers(chinese)
 
 
