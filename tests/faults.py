@@ -98,15 +98,11 @@ FAULTS = [
     ),
     Fault("V×* as +(V×)ᵀ", "spatial/cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V).mT"),
     Fault("V×* as V×", "spatial/cross.py", "return -motion_cross_matrix(V).mT", "return motion_cross_matrix(V)"),
+    Fault("parameters: about the centre of mass", "spatial/inertia.py", "- m[..., None] * (C @ C)", "- 0 * (C @ C)"),
+    Fault("pseudo-inertia: tr(I) for half of it", "spatial/inertia.py", "_trace(inertia) / 2 *", "_trace(inertia) *"),
+    Fault("capsule: no lever of the half spheres", "spatial/inertia.py", "+ 3 * h * r / 8 +", "+"),
     Fault(
-        "parameters: about the centre of mass", "spatial/_ten_numbers.py", "- m[..., None] * (C @ C)", "- 0 * (C @ C)"
-    ),
-    Fault(
-        "pseudo-inertia: tr(I) for half of it", "spatial/_ten_numbers.py", "_trace(inertia) / 2 *", "_trace(inertia) *"
-    ),
-    Fault("capsule: no lever of the half spheres", "spatial/_shapes.py", "+ 3 * h * r / 8 +", "+"),
-    Fault(
-        "mesh: centre of a triangle for a tetrahedron's", "spatial/_shapes.py", "share @ total / 4", "share @ total / 3"
+        "mesh: centre of a triangle for a tetrahedron's", "spatial/inertia.py", "share @ total / 4", "share @ total / 3"
     ),
     Fault(
         "difference: sign of the parallel axes",

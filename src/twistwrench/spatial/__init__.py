@@ -18,10 +18,8 @@ exponential     49.3     `exp6`, `log6`, `interpolate`
 jacobians       49.3     `Jexp3`, `Jlog3`, `Jexp6`, `Jlog6`
 wrench          49.4     `Wrench`, `power`
 cross           49.5     `cross_motion` V×, `cross_force` V×*
-_ten_numbers    49.5     mass, centre, inertia; as ten parameters, as pseudo-inertia; principal axes
-_shapes         49.5     the constructors of a `SpatialInertia` by shape
 ellipsoid       49.5     an inertia as a small picture, for notebooks
-inertia         49.5     `SpatialInertia` Î
+inertia         49.5     `SpatialInertia` Î: its forms, sums, momentum, energy; bodies by shape
 formulas                 the recursions' own V×, V×*, V ×* Î V: on columns, without checks
 ==============  =======  ==============================================================================
 """
