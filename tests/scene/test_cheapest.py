@@ -8,8 +8,7 @@ import pytest
 import twistwrench as tw
 from twistwrench import motions
 from twistwrench.scene import costs
-from twistwrench.scene.articulated import Articulated, radius_of_gyration
-from twistwrench.scene.candidates import limbs
+from twistwrench.scene.candidates import Articulated, limbs, radius_of_gyration
 from twistwrench.scene.compiled import compiled
 from twistwrench.templates import TEMPLATES, Template
 
@@ -115,8 +114,8 @@ def test_what_is_exact_misses_nothing_and_what_is_silent_tells_nothing(found):
     assert {name: options["full"].worst(name) for name in NEED} == dict.fromkeys(NEED, 0)
     assert max(options["centroidal"].worst(name) for name in ("wrench", "cop", "forces")) < 1e-12
     assert options["centroidal"].worst("tau") == np.inf
-    assert not options["centroidal"].tells_torques
-    assert options["full"].tells_torques
+    assert not options["centroidal"].predicts_torques
+    assert options["full"].predicts_torques
     worst = {name: option.worst() for name, option in options.items()}
     assert worst["hold left_shoulder_pitch"] < worst["this scene"] < worst["srbm_frozen"]
     assert worst["this scene"] == pytest.approx(worst["hold left_shoulder_pitch + right_shoulder_pitch"], rel=0.01)

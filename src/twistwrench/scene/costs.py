@@ -16,10 +16,9 @@ from ..contact import Contact
 from ..errors import check_known
 from ..model import Model
 from ..motions import Motion
-from ..tables import html_table
+from ..tables import aligned, html_table
 from ..templates.template import Template
-from .articulated import Articulated, radius_of_gyration
-from .candidates import Candidate
+from .candidates import Articulated, Candidate, radius_of_gyration
 from .compiled import compiled, seconds
 from .judging import QUANTITIES, Judge, scale, unit
 
@@ -83,9 +82,9 @@ class Option:
         return self._runs.kept if self._runs else np.zeros(0, int)
 
     @property
-    def tells_torques(self) -> bool:
+    def predicts_torques(self) -> bool:
         """Whether it gives joint torques, and not only ḣ_G and what follows from it."""
-        return self._runs is not None and self._runs.tells_torques
+        return self._runs is not None and self._runs.predicts_torques
 
     def worst(self, quantity: str = "wrench", *, held_out: bool = False) -> float:
         """Return the largest error over the motions; infinite where the model does not tell the quantity."""
@@ -151,48 +150,54 @@ class Costs:
         return str(self)
 
     def _repr_html_(self) -> str:
-        title, *_ = str(self).split("\n")
-        columns = [(name, out) for name in self.tolerance for out in ((False, True) if self.held_out else (False,))]
-        head = ["", "model", *(f"{name}, held out" if out else name + unit(name) for name, out in columns)]
-        rows = [
-            ["→" if option is self.best else "", option.name, *(self._cell(option, *column) for column in columns)]
-            + (["-", "-"] if np.isnan(option.seconds) else _work(option).split())
-            + ["ḣ_G, τ" if option.tells_torques else "ḣ_G", option.leaves_out]
-            for option in self.options
-            if not option.unfit
-        ]
-        blank = ["-"] * (len(columns) + 3)
-        rows += [
-            ["", option.name, *blank, f"does not apply: {option.unfit}"] for option in self.options if option.unfit
-        ]
-        return f"<p>{escape(title)}</p>{html_table((*head, 'operations', 'µs/state', 'tells', 'leaves out'), rows)}"
+        head, rows = self._table()
+        left_out = {option.name: f"does not apply: {option.unfit}" for option in self.options if option.unfit}
+        blank = ["-"] * (len(head) - 2)
+        rows += [[name, *blank, why] for name, why in left_out.items()]
+        marked = [["→" if row[0] == self.best.name else "", *row] for row in rows]
+        return f"<p>{escape(self._title())}</p>{html_table(['', *head], marked)}"
 
     def __str__(self) -> str:
+        head, rows = self._table()
         width = max(len(option.name) for option in self.options)
-        columns = [(name, out) for name in self.tolerance for out in ((False, True) if self.held_out else (False,))]
-        head = "".join(f"{'held out' if out else name + unit(name):>15} " for name, out in columns)
-        rows = [
-            f"{'→' if option is self.best else ' '} {option.name:{width}} "
-            + "".join(self._cell(option, *column) for column in columns)
-            + (f"{'-':>10} {'-':>9}" if np.isnan(option.seconds) else _work(option))
-            + f"  {'ḣ_G, τ' if option.tells_torques else 'ḣ_G':6}  {option.leaves_out}"
-            for option in self.options
-            if not option.unfit
-        ]
-        rows += [f"  {option.name:{width}}  does not apply: {option.unfit}" for option in self.options if option.unfit]
+        lines = [[f"{'→' if name == self.best.name else ' '} {name:{width}}", *rest] for name, *rest in rows]
+        table = aligned([[f"  {head[0]}", *head[1:]], *lines], right=range(1, len(head) - 2))
+        left_out = [f"  {o.name:{width}}  does not apply: {o.unfit}" for o in self.options if o.unfit]
+        return "\n".join([self._title(), *table, *left_out])
+
+    def _title(self) -> str:
+        """Return the motions, the tolerances and the margin, in one line."""
         most = ", ".join(f"{name} {most * scale(name):.3g}{unit(name)}" for name, most in self.tolerance.items())
         title = f"{self.motion}: the largest errors; shares are of {self.share_of}; at most {most}"
         title += f", with a margin of {self.margin:g}" if self.margin != 1 else ""
         title += f"; held out: {self.held_out}" if self.held_out else ""
-        head = f"  {'model':{width}} {head}operations  µs/state  tells   leaves out"
-        return "\n".join([title, head, *map(str.rstrip, rows)])
+        return title
 
-    def _cell(self, option: Option, name: str, held_out: bool) -> str:
-        worst, most = option.worst(name, held_out=held_out), self.tolerance[name]
+    def _table(self) -> tuple[list[str], list[list[str]]]:
+        """Return the head of the table, and the cells of each option that applies."""
+        columns = [(name, out) for name in self.tolerance for out in ((False, True) if self.held_out else (False,))]
+        errors = [f"{name}, held out" if out else name + unit(name) for name, out in columns]
+        rows = [
+            [
+                option.name,
+                *(self._error(option, *column) for column in columns),
+                f"{option.operations:.0f}" if option.operations < np.inf else "-",
+                "-" if np.isnan(option.seconds) else f"{option.seconds * 1e6:.3f}",
+                "ḣ_G, τ" if option.predicts_torques else "ḣ_G",
+                option.leaves_out,
+            ]
+            for option in self.options
+            if not option.unfit
+        ]
+        return ["model", *errors, "operations", "µs/state", "tells", "leaves out"], rows
+
+    def _error(self, option: Option, name: str, held_out: bool) -> str:
+        """Return the largest error of an option as a cell, marked where it is above the tolerance."""
+        worst = option.worst(name, held_out=held_out)
         if not np.isfinite(worst):
-            return f"{'-':>15} "
-        over = worst * (1.0 if held_out else self.margin) > most
-        return f"{worst * scale(name):15.2g}" + (">" if over else " ")
+            return "- "
+        over = worst * (1.0 if held_out else self.margin) > self.tolerance[name]
+        return f"{worst * scale(name):.2g}" + (">" if over else " ")
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the time of each option that is exact enough, the choice marked, and the error of every option.
@@ -210,21 +215,35 @@ class Costs:
         ModuleNotFoundError
             If matplotlib is not installed.
         """
-        from .picture import draw
+        from ..plot.style import COLOURS, axes_2d
+        from ..plot.words import word
 
-        return draw(self, ax)
+        options = [option for option in self.options if not option.unfit]
+        ax = axes_2d(ax, size=(7.0, 1.2 + 0.32 * len(options)))
+        timed = [option for option in options if option.seconds > 0]
+        times = [1e6 * option.seconds for option in timed]
+        for kind, colour in (("the choice", "vermilion"), ("exact enough", "blue")):
+            rows = [k for k, option in enumerate(timed) if (option is self.best) == (kind == "the choice")]
+            ax.barh(rows, [times[k] for k in rows], color=COLOURS[colour], label=word(kind))
+        for k, option in enumerate(options):
+            errors = [
+                f"{option.worst(name) * scale(name):.2g}{unit(name)}" if name in option.errors else "-"
+                for name in self.tolerance
+            ]
+            label = ", ".join(errors) + (word("  + torques") if option.predicts_torques else "")
+            end = times[k] if k < len(times) else 0.0
+            ax.text(end + 0.01 * max(times), k, label, va="center")
+        ax.set_yticks(range(len(options)), [option.name for option in options])
+        ax.set(xlim=(0, 2.4 * max(times)), ylim=(len(options) - 0.5, -0.5), xlabel=word("time [µs per state]"))
+        ax.set_title(word("{}: largest errors of {}").format(self.motion, ", ".join(self.tolerance)))
+        ax.legend(loc="lower right", fontsize="small")
+        return ax
 
 
 def _rank(option: Option) -> tuple[bool, bool, float, float]:
     """Return by what options are in order: operations; the time, of those that are no program, which have no number."""
     count = np.nan_to_num(option.operations, posinf=np.inf)
     return bool(option.unfit), bool(np.isnan(option.operations)), count, 0.0 if count < np.inf else option.seconds
-
-
-def _work(option: Option) -> str:
-    """Return the cells of a model's operations, not counted where NumPy runs it, and of its time."""
-    count = f"{option.operations:.0f}" if option.operations < np.inf else "-"
-    return f"{count:>10} {option.seconds * 1e6:9.3f}"
 
 
 def needed(tolerance: float | Mapping[str, float]) -> dict[str, float]:
@@ -274,7 +293,7 @@ def costs(
         states = [np.concatenate(x) for x in zip(*known[: len(motions)])]
         wanted = [0, 1] if "tau" in need else [0]
         if options[-1].within(need, margin):
-            call, operations = compiled(model, one.law, states, wanted[: 1 + one.tells_torques])
+            call, operations = compiled(model, one.law, states, wanted[: 1 + one.predicts_torques])
             options[-1] = replace(options[-1], operations=operations)
             calls[len(options) - 1] = call
     for k, time in zip(calls, seconds([*calls.values()], sum(map(len, motions)))):

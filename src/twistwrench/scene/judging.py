@@ -21,9 +21,9 @@ from ..model import Model
 from ..motions import Motion
 from ..spatial import SE3, skew
 from ..templates import Residual
-from .articulated import Articulated
+from .candidates import Articulated, heights
 
-__all__ = ["QUANTITIES", "Judge", "heights", "scale", "unit"]
+__all__ = ["QUANTITIES", "Judge", "scale", "unit"]
 
 QUANTITIES = {"wrench": "of the weight", "cop": "m", "forces": "of the weight", "tau": "N m"}
 """What may be asked of a model, and the unit of its error."""
@@ -140,12 +140,6 @@ def _share(arm: Array, on: Array) -> Array:
     if not points:
         return np.zeros((n, 0, 3, 6))
     return np.asarray(np.linalg.pinv(np.moveaxis(columns, 1, 2).reshape(n, 6, -1), rtol=RANK).reshape(n, points, 3, 6))
-
-
-def heights(model: Model, points: Array, G: Array) -> Array:
-    """Return how far the centre of mass is above points, against gravity, m, shape (..., k)."""
-    up = -model.gravity / max(float(np.sqrt(model.gravity @ model.gravity)), np.finfo(float).tiny)
-    return np.asarray((G[..., None, :] - points) @ up)
 
 
 def _points(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Array, Array]:

@@ -12,14 +12,14 @@ from ..arrays import Array
 from ..model import PER_DOF, Frame, FreeFlyer, Model, Planar, cast
 from ..spatial import SE3
 
-__all__ = ["OnTheFloor"]
+__all__ = ["PlanarBase"]
 
 FLOOR_IN_FLYER = [3, 4, 2]
 """The entries of a base's twist (ω, v) that a planar joint leaves free: vx, vy, ωz."""
 
 
 @dataclass(frozen=True, eq=False)
-class OnTheFloor:
+class PlanarBase:
     """A model with a floating base, and the same robot at a constant height and tilt.
 
     Body 1 of the planar model is placed by (x, y, heading) in the world's x-y plane; the base link sits on it, as
@@ -40,7 +40,7 @@ class OnTheFloor:
     near: Array
 
     @classmethod
-    def of(cls, full: Model, q: Array) -> OnTheFloor:
+    def of(cls, full: Model, q: Array) -> PlanarBase:
         """Exchange the floating base of a model."""
         q = q.astype(np.float64)
         near, T = q[full.q_slice[1]], base_placement(full, q)
