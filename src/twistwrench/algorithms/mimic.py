@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, resolution
 from ..errors import ModelError, SingularError, check_known
-from ..model import Joint, Manifold, Model, Report, check_model
+from ..model import ConfigurationSpace, Joint, Model, Report, check_model
 from .crba import crba
 from .rnea import rnea
 from .whole_body import Dynamics
@@ -46,7 +46,7 @@ RESULTS = {
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MimicModel(Manifold):
+class MimicModel(ConfigurationSpace):
     """A model some of whose joints follow others; made by ``twistwrench.load(file, mimic="reduce")``.
 
     `rnea`, `aba`, `crba`, `nonlinear_effects`, `gravity`, `coriolis_matrix`, the kinematics, Jacobians, energies, the

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ..algorithms.mimic import Law
 from ..errors import ModelError, unknown_name
 from ..model import Builder, Continuous, Entry, FreeFlyer, Joint, Model, Planar, Prismatic, Report, Revolute
-from ..model.numbering import IMPOSSIBLE
+from ..model.builder import IMPOSSIBLE
 from .parsing import read_urdf
 from .records import UrdfJoint, UrdfRobot
 

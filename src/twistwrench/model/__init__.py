@@ -9,17 +9,14 @@ joint           `Joint`: the motion subspace S, and the placement that a joint m
 joints          the joints of the package, one class each
 constants       the numbers of a model in one number type
 state           what a state must be: shapes, finite numbers, quaternions of norm 1
-configuration   the manifold of q: `integrate`, `difference`, `normalize`, `random_configuration`
-manifold        derivatives of ⊕ and ⊖, `interpolate` and `distance`
+configuration   the manifold of q: ⊕ and ⊖, their derivatives, ways and distances, random configurations
 checks          what every model must satisfy: its joints, their limits, its bodies
 report          what a loader had to interpret, and how
 outline         a model as a tree that unfolds, for notebooks
 model           `Model`, frozen, and its frames
 arguments       input validation of the algorithms: a model and a state of it
 tree            what a recursion reads of a model: S, X, I and the parents
-link            a link of a model that is being built
-numbering       the order of the joints; links that are welded together
-builder         `Builder`: a model made in Python
+builder         `Builder`: a model made of links, its bodies numbered and welded links merged
 samples         `chain` and `random_tree`
 serial          `from_screw_axes`, `screw_axes`, `from_dh`: arms as textbooks print them
 reduction       `lock_joints`: a smaller model
@@ -28,17 +25,14 @@ editing         `attach`: two models as one; `replace_inertia`
 """
 
 from .arguments import check_model, check_state, floats_of, one_configuration
-from .builder import Builder
+from .builder import Builder, Link, NumberedTree
 from .checks import PER_DOF, UNLIMITED, WORLD
 from .configuration import ConfigurationSpace
 from .constants import Constants, cast, readonly
 from .editing import attach, replace_inertia
 from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, unit
 from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
-from .link import Link
-from .manifold import Manifold
 from .model import Frame, Model
-from .numbering import NumberedTree
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
 from .report import Entry, Report
 from .samples import KINDS, chain, random_tree
@@ -63,7 +57,6 @@ __all__ = [
     "Helical",
     "Joint",
     "Link",
-    "Manifold",
     "Model",
     "NumberedTree",
     "Planar",

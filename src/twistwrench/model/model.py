@@ -20,10 +20,10 @@ from ..arrays import Array, as_count, as_exactly, as_names, as_sequence, check_c
 from ..errors import ModelError, ShapeError, check_known
 from ..spatial import SE3, SpatialInertia
 from .checks import UNLIMITED, WORLD, as_entries, check_body, check_limits, check_name, check_placement
+from .configuration import ConfigurationSpace
 from .constants import Constants, readonly
 from .joint import Joint
 from .joints import FreeFlyer
-from .manifold import Manifold
 from .report import Report
 from .state import in_double
 
@@ -47,7 +47,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Model(Manifold):
+class Model(ConfigurationSpace):
     """A tree of rigid bodies. Frozen; made by `twistwrench.load` or `twistwrench.Builder`.
 
     A copy with other attributes is ``dataclasses.replace(model, damping=3.0)``, checked as what comes from `Builder`.

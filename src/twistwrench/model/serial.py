@@ -27,11 +27,10 @@ from ..arrays import (
 from ..errors import ModelError, ShapeError, check_known
 from ..spatial import SE3, SpatialInertia, exp3, screw
 from .arguments import check_model
-from .builder import GRAVITY, Builder
+from .builder import GRAVITY, Builder, placement_of
 from .checks import UNLIMITED
 from .joint import AxisJoint, Joint
 from .joints import Helical, Prismatic, Revolute
-from .link import placement_of
 from .model import Model
 from .tree import joint_placements
 
