@@ -180,7 +180,7 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "bridge.from_pinocchio_force": {"F": np.ones(6)},
     "operational_space_inertia": {"J": np.eye(6, GO2.nv)},
     "plot.arrows": {"points": np.zeros(3), "texts": ["a"]},
-    "plot.felt_mass": {"inertia": BODY.matrix()},
+    "plot.apparent_mass_ellipse": {"inertia": BODY.matrix()},
     "plot.foot_forces": {"contacts": GO2.feet},
     "static_equilibrium": {"contacts": GO2.feet},
     "unskew": {"M": tw.skew([1.0, 2, 3])},
@@ -230,7 +230,7 @@ KINDS |= {
 }
 """What is unknown where one of several names is."""
 
-FLAT = {"fill_in", "flow", "felt_mass", "mass_matrix", "matrix", "side_view", "sole"}
+FLAT = {"fill_in", "flow", "apparent_mass_ellipse", "mass_matrix", "matrix", "side_view", "sole"}
 """The pictures that are flat."""
 
 

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from twistwrench.cli import main
-from twistwrench.files import naming, replacing, write_text
+from twistwrench.files import errors_name, replacing, write_text
 from twistwrench.options import check_writable
 
 POSIX = pytest.mark.skipif(os.name != "posix", reason="links and devices are those of POSIX")
@@ -87,7 +87,7 @@ def test_a_file_that_may_not_be_written_is_not_replaced(tmp_path):
 
 
 def test_an_error_without_a_file_gets_its_name(tmp_path):
-    with pytest.raises(OSError, match=r"^cells\.jsonl: No space left on device$"), naming("cells.jsonl"):
+    with pytest.raises(OSError, match=r"^cells\.jsonl: No space left on device$"), errors_name("cells.jsonl"):
         raise OSError(errno.ENOSPC, "No space left on device")
     with pytest.raises(OSError, match="nowhere"):
         write_text(tmp_path / "nowhere" / "x.json", "{}")

@@ -9,7 +9,7 @@ import time
 
 import pytest
 
-from twistwrench.stopping import Stopped, heeded, without_interrupts
+from twistwrench.stopping import Stopped, handle_signals, without_interrupts
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and processes are those of POSIX")
 
@@ -112,7 +112,7 @@ def test_a_sweep_that_meets_the_closed_pipe_while_it_prints_is_quiet():
 
 def test_a_signal_ends_the_work_and_is_as_before_afterwards():
     def terminated():
-        with heeded():
+        with handle_signals():
             os.kill(os.getpid(), signal.SIGTERM)
             time.sleep(SOON)
 
@@ -137,7 +137,7 @@ def test_an_interrupt_that_a_library_swallows_comes_again(number):
     swallowed, tidied = [], []
 
     def interrupted():
-        with heeded():
+        with handle_signals():
             try:
                 os.kill(os.getpid(), number)
                 time.sleep(SOON)

@@ -30,7 +30,7 @@ PACKAGES = (*(name for name in tw.__all__ if isinstance(getattr(tw, name), Modul
 LAST = "errors"
 RETURNED = (
     *(f"algorithms.terms.{name}" for name in ("RneaTerms", "AbaTerms", "CrbaTerms", "CentroidalTerms", "Subtree")),
-    *("model.report.Entry", "model.report.Report"),
+    *("model.report.Entry", "model.report.LoadReport"),
     "simulation.remarks.Remark",
 )
 """What public functions return and has no public name itself: users do not make one by hand."""

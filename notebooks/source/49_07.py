@@ -62,8 +62,8 @@ figure, axes = plt.subplots(1, 3, figsize=(10, 3.8), layout="constrained", share
 for ax, angle in zip(axes, np.deg2rad([0, 40, 90])):
     X = tw.SE3(tw.exp3([0, -angle, 0]), np.zeros(3)).inverse().motion_transform()  # from the hand to the turned rod
     ax.plot([0, np.sin(angle)], [0, -np.cos(angle)], color=plot.COLOURS["grey"], linewidth=6, solid_capstyle="round")
-    plot.felt_mass(I, scale=0.4, colour=plot.COLOURS["orange"], label="hinge locked", ax=ax)
-    plot.felt_mass(X.T @ apparent @ X, scale=0.4, label="hinge free", ax=ax)
+    plot.apparent_mass_ellipse(I, scale=0.4, colour=plot.COLOURS["orange"], label="hinge locked", ax=ax)
+    plot.apparent_mass_ellipse(X.T @ apparent @ X, scale=0.4, label="hinge free", ax=ax)
     ax.plot(0, 0, "k.")
     ax.set(title=f"rod at {np.rad2deg(angle):.0f}°", xlabel="force along x for 1 m/s²", xticks=[-0.8, 0, 0.8])
     ax.set(xticklabels=["−2 N", "0", "2 N"], yticks=[])
@@ -212,8 +212,10 @@ for i in range(1, 7):
     assert np.isclose((turn.T @ locked[i] @ turn)[5, 5], 7 - i)  # kg: all outboard rods
     assert (np.linalg.eigvalsh(locked[i] - free[i]) > -1e-12).all()  # free is lighter, for every motion
     orange = plot.COLOURS["orange"]
-    plot.felt_mass(turn.T @ locked[i] @ turn, at, scale=0.14, colour=orange, label="locked" if i == 1 else None, ax=ax)
-    plot.felt_mass(turn.T @ free[i] @ turn, at, scale=0.14, label="free" if i == 1 else None, ax=ax)
+    plot.apparent_mass_ellipse(
+        turn.T @ locked[i] @ turn, at, scale=0.14, colour=orange, label="locked" if i == 1 else None, ax=ax
+    )
+    plot.apparent_mass_ellipse(turn.T @ free[i] @ turn, at, scale=0.14, label="free" if i == 1 else None, ax=ax)
 assert free[1][3, 3] < 1.3 * free[6][3, 3]
 assert free[1][5, 5] < 3
 print("free, across and along the first rod:", free[1][3, 3].round(2), free[1][5, 5].round(2), "kg")

@@ -4,7 +4,7 @@ import sys
 
 __all__ = ["run"]
 
-INTERRUPTED = 130
+EXIT_SIGINT = 130
 
 
 def run() -> int:
@@ -14,7 +14,7 @@ def run() -> int:
 
         return main()
     except KeyboardInterrupt:
-        return INTERRUPTED
+        return EXIT_SIGINT
 
 
 if __name__ == "__main__":

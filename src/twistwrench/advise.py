@@ -30,10 +30,10 @@ NO_MPMATH = 'the truth needs mpmath: pip install "twistwrench[validate]"'
 TRUTH_DIGITS = 60
 """More than any way has, so that each has an error to show."""
 
-DRAWN = 1000
+RANDOM_STATES = 1000
 """The number of random states; larger batches repeat them."""
 
-CHECKED = 3
+CHECKED_STATES = 3
 """States at which the error is measured; the worst counts."""
 
 MILLIMETRES = "mm after 1 s"
@@ -268,10 +268,10 @@ def advise(model: Model, use: str, *, rounds: int = 5) -> Advice:
         import mpmath
     except ImportError:
         raise ImportError(NO_MPMATH) from None
-    states = _random_states(model, max(wanted.states, CHECKED))
+    states = _random_states(model, max(wanted.states, CHECKED_STATES))
     compute = wanted.make(model)
     with mpmath.workdps(TRUTH_DIGITS):
-        error = max(_error(model, wanted, compute, [x[k] for x in states]) for k in range(CHECKED))
+        error = max(_error(model, wanted, compute, [x[k] for x in states]) for k in range(CHECKED_STATES))
         of_call = 0 if wanted.states == 1 else slice(wanted.states)
         args = [_convert(x[of_call], wanted.number) for x in states]
         (lap,) = round_robin([lambda: compute(*args)], rounds=rounds, least=0.005)
@@ -281,9 +281,9 @@ def advise(model: Model, use: str, *, rounds: int = 5) -> Advice:
 
 
 def _random_states(model: Model, n: int) -> list[Array]:
-    """Draw q (n, nq), v and a (n, nv): `DRAWN` states, which are repeated as often as needed."""
+    """Draw q (n, nq), v and a (n, nv): `RANDOM_STATES` states, which are repeated as often as needed."""
     rng = np.random.default_rng(0)
-    drawn = min(n, DRAWN)
+    drawn = min(n, RANDOM_STATES)
     q = np.stack([model.random_configuration(rng=rng) for _ in range(drawn)])
     v, a = rng.standard_normal((2, drawn, model.nv))
     return [np.resize(x, (n, x.shape[-1])) for x in (q, v, a)]

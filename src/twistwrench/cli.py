@@ -26,7 +26,7 @@ from .errors import ModelError, NameNotFound, SingularError
 from .exercises.commands import register as add_exercises
 from .files import write_text
 from .options import at_least, check_writable
-from .stopping import INTERRUPTED, UNREAD, Stopped, heeded
+from .stopping import EXIT_SIGINT, EXIT_SIGPIPE, Stopped, handle_signals
 from .viewing.commands import register as add_view
 
 if TYPE_CHECKING:
@@ -84,22 +84,22 @@ def main(
     if isinstance(sys.stdout, io.TextIOWrapper):  # a letter that a terminal or a file lacks is shown by its number
         sys.stdout.reconfigure(errors="backslashreplace", line_buffering=True)
     try:
-        with heeded():
+        with handle_signals():
             status = int(args.run(args))
             sys.stdout.flush()
         return status
     except BrokenPipeError:  # the reader has closed the pipe, as in `twistwrench robots | head`
-        return _unheard(UNREAD)
+        return _discard_output(EXIT_SIGPIPE)
     except Stopped as stopped:
-        return _unheard(UNREAD) if stopped.status == UNREAD else stopped.status
+        return _discard_output(EXIT_SIGPIPE) if stopped.status == EXIT_SIGPIPE else stopped.status
     except KeyboardInterrupt:
-        return INTERRUPTED
+        return EXIT_SIGINT
     except (NameNotFound, ModelError, SingularError, ImportError, OSError) as error:
         print(f"twistwrench: {_said(error)}", file=sys.stderr)
-        return _unheard(MISUSED) if _is_of_stdout(error) else MISUSED
+        return _discard_output(MISUSED) if _is_of_stdout(error) else MISUSED
 
 
-def _unheard(status: int) -> int:
+def _discard_output(status: int) -> int:
     """Discard what is still to be printed, and return an exit status."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return status

@@ -20,19 +20,19 @@ SUMMED, DIVIDED = 24, 4
 """Safety factors on the bare formulas, of inverse and of forward dynamics. Less would do for the textbook; with these
 the errors of `twistwrench.fast` stay below too, in ``python -m benchmarks.study extremes`` and in random trees."""
 
-CANCELLED = 0.25
+CANCELLATION_FACTOR = 0.25
 """Safety factor on what is left of terms of q̈ that cancel."""
 
-TOGETHER = 0.1
+MIN_INDEPENDENCE = 0.1
 """Where the directions of one joint are less independent than this, eliminating them together costs digits besides."""
 
-SHARE = 0.05
+MIN_ENERGY_SHARE = 0.05
 """A joint with a smaller share of a motion's energy than this is not named."""
 
-NAMED = 4
+MAX_NAMED_JOINTS = 4
 """How many joints are named in print."""
 
-PLENTY = 1e-3
+AMPLE_INERTIA_SHARE = 1e-3
 """A motion with more than this part of the apparent inertia of its joints is not worth a warning."""
 
 
@@ -83,14 +83,14 @@ class Accuracy:
         sure = {name: f"{int(digits.min(initial=whole)) or 'none'}" for name, digits in self.digits.items()}
         kept = f"rnea keeps {sure['rnea']} of {whole} digits, aba {sure['aba']}, crba + solve {sure['crba_solve']}."
         least = float(self.apparent_inertia.min(initial=1))
-        if least > PLENTY:
+        if least > AMPLE_INERTIA_SHARE:
             return kept
         if len(self.weak) == 1:
             return (
                 f"{kept}\nA motion of {self.weak[0]!r} has {least:.1e} of the apparent inertia of its parts one by one."
             )
-        more = len(self.weak) - NAMED
-        names = ", ".join(map(repr, self.weak[:NAMED])) + (f" and {more} more" if more > 0 else "")
+        more = len(self.weak) - MAX_NAMED_JOINTS
+        names = ", ".join(map(repr, self.weak[:MAX_NAMED_JOINTS])) + (f" and {more} more" if more > 0 else "")
         return f"{kept}\nMoved against each other, {names} have {least:.1e} of their apparent inertias one by one."
 
 
@@ -156,7 +156,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     least, motion = _least_inertia(scaled)
     certain = least - model.nv * resolution(np.float64)  # as certain as the eigenvalue itself is
     sums = np.full(least.shape, SUMMED * eps * np.sqrt(depth))
-    within = np.maximum(TOGETHER / np.maximum(_least_of_joints(model, scaled), np.finfo(float).tiny), 1)
+    within = np.maximum(MIN_INDEPENDENCE / np.maximum(_least_of_joints(model, scaled), np.finfo(float).tiny), 1)
     forward = sums + np.where(certain > 0, DIVIDED * eps * within / np.where(certain > 0, certain, 1), np.inf)
     if rates is not None:
         drives = None if torques is None else _double(torques)
@@ -188,7 +188,7 @@ def _cancelled(model: Model, q: Array, v: Array, tau: Array | None, least: Array
     """
     weight = np.sqrt(np.diagonal(_mass_matrix(model, q), axis1=-2, axis2=-1))
     terms = _bias_terms(model, q, v) / np.where(weight > 0, weight, 1)
-    lost = CANCELLED * terms.max(axis=-1, initial=0) / np.where(least > 0, least, 1)
+    lost = CANCELLATION_FACTOR * terms.max(axis=-1, initial=0) / np.where(least > 0, least, 1)
     try:
         free = aba(model, q, v, np.zeros(model.nv))
         driven = free if tau is None else aba(model, q, v, tau)
@@ -279,4 +279,4 @@ def _most_moved(model: Model, least: Array, motion: Array) -> tuple[str, ...]:
     worst = motion.reshape(least.size, model.nv)[np.argmin(least)] if least.size else np.zeros(model.nv)
     shares = [float((worst[s] ** 2).sum()) for s in model.v_slice]
     order = np.argsort(shares)[::-1]
-    return tuple(model.joint_names[i] for i in order if shares[i] > SHARE)
+    return tuple(model.joint_names[i] for i in order if shares[i] > MIN_ENERGY_SHARE)

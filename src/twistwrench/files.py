@@ -10,14 +10,14 @@ from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 
-__all__ = ["naming", "replacing", "write_text"]
+__all__ = ["errors_name", "replacing", "write_text"]
 
 IN_PLACE = ("/dev/", "/proc/")
 """In these folders a name stands for a file that is open already."""
 
 
 @contextmanager
-def naming(path: str | PathLike[str]) -> Iterator[None]:
+def errors_name(path: str | PathLike[str]) -> Iterator[None]:
     """Name the file in an error of the operating system: "No space left on device" does not.
 
     Raises
@@ -60,7 +60,7 @@ def replacing(path: str | PathLike[str]) -> Iterator[Path]:
     >>> path.read_text(), len(list(path.parent.iterdir()))
     ('{}', 1)
     """
-    with naming(path):
+    with errors_name(path):
         target = Path(os.path.realpath(path))
         there = Path(path).exists()
         if (there and not Path(path).is_file()) or os.path.abspath(path).startswith(IN_PLACE):

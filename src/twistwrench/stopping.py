@@ -11,15 +11,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
-__all__ = ["INTERRUPTED", "UNREAD", "Stopped", "heeded", "without_interrupts"]
+__all__ = ["EXIT_SIGINT", "EXIT_SIGPIPE", "Stopped", "handle_signals", "without_interrupts"]
 
-INTERRUPTED, UNREAD = 130, 141
+EXIT_SIGINT, EXIT_SIGPIPE = 130, 141
 """Exit statuses, as a shell reports them: 128 and the number of the signal, SIGINT or SIGPIPE."""
 
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
-NOBODYS = (signal.SIG_DFL, signal.default_int_handler)
+DEFAULT_HANDLERS = (signal.SIG_DFL, signal.default_int_handler)
 POLL_MS = 300
-AGAIN = 0.4
+RERAISE_S = 0.4
 """Seconds until an exception that was swallowed is raised again."""
 
 
@@ -38,7 +38,7 @@ class Stopped(KeyboardInterrupt):
 
 
 @contextmanager
-def heeded() -> Iterator[None]:
+def handle_signals() -> Iterator[None]:
     """Let Ctrl-C, SIGTERM, SIGHUP and a closed pipe on stdout end the work, with its cleanup, by raising `Stopped`.
 
     The exception is raised wherever the main thread is, and libraries may swallow it there: C code that calls Python
@@ -51,16 +51,16 @@ def heeded() -> Iterator[None]:
     def stop(*received: Any) -> None:
         if unread.is_set() and _is_tidied():
             return  # printing has failed on the closed pipe, too
-        stopped = Stopped(UNREAD if unread.is_set() else 128 + received[0])
+        stopped = Stopped(EXIT_SIGPIPE if unread.is_set() else 128 + received[0])
         if timer and signal.getsignal(signal.SIGALRM) is signal.SIG_DFL:
             before[signal.SIGALRM] = signal.signal(signal.SIGALRM, lambda *_: _again(stopped))
-            signal.setitimer(signal.ITIMER_REAL, AGAIN, AGAIN)
+            signal.setitimer(signal.ITIMER_REAL, RERAISE_S, RERAISE_S)
         raise stopped
 
     before: dict[int, Any] = {}
     if threading.current_thread() is threading.main_thread():
         known = [number for name in SIGNALS if (number := getattr(signal, name, None)) is not None]
-        before = {number: signal.getsignal(number) for number in known if signal.getsignal(number) in NOBODYS}
+        before = {number: signal.getsignal(number) for number in known if signal.getsignal(number) in DEFAULT_HANDLERS}
     for number in list(before):
         signal.signal(number, stop)
     if signal.SIGTERM in before and _is_pipe(sys.stdout):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 __all__ = ["aligned", "html_matrix", "html_table", "text_table"]
 
-SQUARE = 9
+ENTRY_PX = 9
 """Side of an entry of a matrix, pixels."""
 
 
@@ -72,13 +72,13 @@ def html_matrix(A: NDArray[np.floating], name: str) -> str:
     """
     largest = float(np.abs(A).max(initial=0)) or 1.0
     squares = "".join(
-        f'<rect x="{SQUARE * k}" y="{SQUARE * i}" width="{SQUARE}" height="{SQUARE}" '
+        f'<rect x="{ENTRY_PX * k}" y="{ENTRY_PX * i}" width="{ENTRY_PX}" height="{ENTRY_PX}" '
         f'fill="{"#542788" if x > 0 else "#B35806"}" fill-opacity="{np.cbrt(abs(x) / largest):.2f}">'
         f"<title>{escape(name)}[{i}, {k}] = {x:.6g}</title></rect>"
         for (i, k), x in np.ndenumerate(A)
         if x
     )
-    height, width = (SQUARE * n for n in A.shape)
+    height, width = (ENTRY_PX * n for n in A.shape)
     said = f"{escape(name)}: full colour ±{largest:.3g}, half ±{largest / 8:.3g}"
     return (
         f'{said}<br><svg width="{width}" height="{height}" role="img" '

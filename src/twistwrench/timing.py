@@ -15,10 +15,10 @@ __all__ = ["Lap", "Race", "duration", "race", "round_robin"]
 
 Call = Callable[[], object]
 
-UNDISTURBED = 0.93
+MIN_CPU_SHARE = 0.93
 """The least share of wall time that must have been processor time for a stretch to count."""
 
-PATIENCE = 4
+MAX_TRIES_PER_LAP = 4
 """At most this many times the wanted number of stretches are tried; then disturbed ones count all the same."""
 
 
@@ -58,7 +58,7 @@ def race(
     repeats = [_repeats(call, least) for call, _ in racers]
     kept: list[list[float]] = []
     spare: list[list[float]] = []
-    while len(kept) < rounds and len(kept) + len(spare) < PATIENCE * rounds:
+    while len(kept) < rounds and len(kept) + len(spare) < MAX_TRIES_PER_LAP * rounds:
         stretches = [_stretch(call, repeat) for (call, _), repeat in zip(racers, repeats, strict=True)]
         quiet = not one_thread or all(_undisturbed(*stretch) for stretch in stretches)
         (kept if quiet else spare).append([t / states for (t, _), (_, states) in zip(stretches, racers, strict=True)])
@@ -93,7 +93,7 @@ class Lap:
     def wants_more(self, rounds: int, most: float) -> bool:
         """Whether there are too few good stretches yet, and time to spend."""
         tried = len(self.kept) + len(self.spare)
-        return len(self.kept) < rounds and tried < PATIENCE * rounds and (self.spent < most or tried == 0)
+        return len(self.kept) < rounds and tried < MAX_TRIES_PER_LAP * rounds and (self.spent < most or tried == 0)
 
 
 def round_robin(
@@ -129,7 +129,7 @@ def round_robin(
     True
     """
     laps = [Lap(call, _repeats(call, least)) for call in calls]
-    for turn in range(PATIENCE * rounds):
+    for turn in range(MAX_TRIES_PER_LAP * rounds):
         for lap in laps:
             if lap.wants_more(rounds, most):
                 lap.run()
@@ -149,7 +149,7 @@ def _stretch(call: Call, repeat: int) -> tuple[float, float]:
 
 
 def _undisturbed(wall: float, busy: float) -> bool:
-    return busy > UNDISTURBED * wall
+    return busy > MIN_CPU_SHARE * wall
 
 
 def _repeats(call: Call, least: float) -> int:

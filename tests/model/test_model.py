@@ -243,7 +243,7 @@ def test_arrays_that_a_model_is_made_of_stay_the_callers():
         ({"inertia": (*GO2.inertia[:-1], tw.SpatialInertia([1, 2], np.zeros(3), np.eye(3)))}, tw.ShapeError, r"\(2,\)"),
         ({"frames": {"tip": Frame(14, tw.SE3.identity())}}, tw.ModelError, "'tip': .* from 0 to 13, got 14"),
         ({"frames": {"tip": tw.SE3.identity()}}, TypeError, "frame 'tip': expected a Frame"),
-        ({"report": "nothing"}, TypeError, "report: expected a Report"),
+        ({"report": "nothing"}, TypeError, "report: expected a LoadReport"),
     ],
     ids=lambda x: str(x)[:30] if isinstance(x, dict) else "",
 )  # fmt: skip

@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 
 import twistwrench as tw
 from twistwrench.motions import MOTIONS, Motion, ground, limits_broken
-from twistwrench.motions.curves import Harmonics, Pieces, between, hop, stair
+from twistwrench.motions.curves import Harmonics, PiecewiseCurve, between, hop, stair
 from twistwrench.motions.gaits import CRAWL, TROT, WALK, Steps
 from twistwrench.motions.inverse_kinematics import body_rates, follow
 from twistwrench.motions.jumping import FOUR_LEGS, Leap
@@ -196,7 +196,7 @@ def test_a_polynomial_has_the_derivatives_and_the_area_asked_for():
 
 def test_jets_are_derivatives():
     t = np.array([0.05, 0.4, 0.77, 1.3])
-    pieces = Pieces([0, 0.5, 1], [[Polynomial([1, 2, 3]), Polynomial([0, 1])], [Polynomial([2, -1, 0, 4])] * 2])
+    pieces = PiecewiseCurve([0, 0.5, 1], [[Polynomial([1, 2, 3]), Polynomial([0, 1])], [Polynomial([2, -1, 0, 4])] * 2])
     path = Harmonics(np.array([0.3]), np.random.default_rng(0).standard_normal((32, 1)), 0.9, np.ones(8))
     for curve in (pieces, path, lambda t: stair(2 * t - 0.3, 2), lambda t: hop(2 * t - 0.3, 2)):
         jet, moved = curve(t), curve(t + 1j * H)
@@ -315,7 +315,7 @@ def fork():
 
 
 def test_a_jump_whose_turning_does_not_come_to_rest_is_none(monkeypatch):
-    monkeypatch.setattr("twistwrench.motions.jumping.ROUNDS", 1)
+    monkeypatch.setattr("twistwrench.motions.jumping.PICARD_ITERATIONS", 1)
     with pytest.raises(tw.SingularError, match="'go2': no turning of the base found"):
         Leap(stand(robot("go2")), FOUR_LEGS)
 

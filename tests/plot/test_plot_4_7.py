@@ -50,7 +50,7 @@ def body(rng):
         (lambda ax: plot.ellipsoid(MODEL.inertia[1], ax=ax), "space"),
         (lambda ax: plot.ellipsoids(MODEL, Q, ax=ax), "space"),
         (lambda ax: plot.sole(CORNERS, ax=ax), "flat"),
-        (lambda ax: plot.felt_mass(MODEL.inertia[1].matrix(), ax=ax), "flat"),
+        (lambda ax: plot.apparent_mass_ellipse(MODEL.inertia[1].matrix(), ax=ax), "flat"),
         (lambda ax: plot.flow(MODEL, [""] * MODEL.nbodies, ax=ax), "flat"),
     ],
 )
@@ -67,10 +67,26 @@ def test_a_picture_is_drawn_on_the_axes_given(draw, fixture, request):
         (lambda ax: plot.ellipsoids(MODEL, Q, names="hinge", ax=ax), "space", "names: expected a sequence of"),
         (lambda ax: plot.sole([CORNERS, CORNERS], ax=ax), "flat", r"corners: expected shape \(n, 3\), got \(2, 4, 3\)"),
         (lambda ax: plot.sole(CORNERS, np.ones((2, 6)), ax=ax), "flat", r"F: expected shape \(6,\), got \(2, 6\)"),
-        (lambda ax: plot.felt_mass(np.ones((2, 6, 6)), ax=ax), "flat", r"inertia: expected shape \(6, 6\), got"),
-        (lambda ax: plot.felt_mass(np.eye(6), (1, 2, 3), ax=ax), "flat", r"at: expected shape \(..., 2\), got \(3,\)"),
-        (lambda ax: plot.felt_mass(np.eye(6), plane=(-1, -2), ax=ax), "flat", "plane: expected two of the axes"),
-        (lambda ax: plot.felt_mass(np.eye(6), plane=(2, 2), ax=ax), "flat", "plane: expected two of the axes"),
+        (
+            lambda ax: plot.apparent_mass_ellipse(np.ones((2, 6, 6)), ax=ax),
+            "flat",
+            r"inertia: expected shape \(6, 6\), got",
+        ),
+        (
+            lambda ax: plot.apparent_mass_ellipse(np.eye(6), (1, 2, 3), ax=ax),
+            "flat",
+            r"at: expected shape \(..., 2\), got \(3,\)",
+        ),
+        (
+            lambda ax: plot.apparent_mass_ellipse(np.eye(6), plane=(-1, -2), ax=ax),
+            "flat",
+            "plane: expected two of the axes",
+        ),
+        (
+            lambda ax: plot.apparent_mass_ellipse(np.eye(6), plane=(2, 2), ax=ax),
+            "flat",
+            "plane: expected two of the axes",
+        ),
     ],
 )
 def test_what_cannot_be_drawn_is_named(draw, fixture, said, request):
@@ -208,7 +224,7 @@ def test_every_sole_that_is_drawn_has_its_own_corners(flat):
 
 def test_the_mass_of_a_rigid_body_is_felt_alike_in_every_direction(flat):
     inertia = body(np.random.default_rng(4))
-    plot.felt_mass(inertia.matrix(), [1.0, 2.0], scale=0.1, ax=flat)
+    plot.apparent_mass_ellipse(inertia.matrix(), [1.0, 2.0], scale=0.1, ax=flat)
     radius = np.linalg.norm(flat.lines[0].get_xydata() - [1, 2], axis=1)
     np.testing.assert_allclose(radius, 0.1 * inertia.mass, rtol=1e-12)
 
@@ -216,7 +232,7 @@ def test_the_mass_of_a_rigid_body_is_felt_alike_in_every_direction(flat):
 def test_a_force_that_is_drawn_gives_the_unit_acceleration_it_is_drawn_for(flat):
     A = np.random.default_rng(5).standard_normal((6, 6))
     articulated = A @ A.T
-    plot.felt_mass(articulated, plane=(1, 2), ax=flat)
+    plot.apparent_mass_ellipse(articulated, plane=(1, 2), ax=flat)
     forces = flat.lines[0].get_xydata()
     accelerations = np.linalg.solve(articulated[4:, 4:], forces.T).T
     np.testing.assert_allclose(np.linalg.norm(accelerations, axis=1), 1, rtol=1e-9)
@@ -227,14 +243,14 @@ def test_a_force_that_is_drawn_gives_the_unit_acceleration_it_is_drawn_for(flat)
 
 def test_every_body_has_a_seat_of_its_own_beyond_what_carries_it():
     for model in (MODEL, tw.load("humanoid"), tw.chain(4), tw.random_tree(15, rng=1)):
-        seats = plot.seats(model)
+        seats = plot.tree_layout(model)
         assert len({tuple(seat) for seat in seats}) == model.nbodies
         for i in range(1, model.nbodies):
             assert seats[i, 0] == seats[model.parent[i], 0] + 1
 
 
 def test_seats_of_the_legs_lie_on_either_side_of_the_base():
-    seats = plot.seats(MODEL)
+    seats = plot.tree_layout(MODEL)
     np.testing.assert_array_equal(seats[[0, 1]], [[0, -1.5], [1, -1.5]])
     np.testing.assert_array_equal(seats[[2, 5, 8, 11], 1], [0, -1, -2, -3])  # FL, FR, RL, RR from above
 
@@ -243,7 +259,7 @@ def test_seats_of_the_legs_lie_on_either_side_of_the_base():
 def test_the_arrows_of_a_pass_lead_its_way(inward, flat):
     amounts = np.arange(MODEL.nbodies)
     plot.flow(MODEL, [str(i) for i in range(MODEL.nbodies)], inward=inward, amounts=amounts, ax=flat)
-    seats = plot.seats(MODEL)
+    seats = plot.tree_layout(MODEL)
     assert len(flat.patches) == MODEL.nbodies - 1
     for i, arrow in enumerate(flat.patches, start=1):
         way = arrow._path_original.vertices  # ends at the tip
@@ -259,7 +275,7 @@ def test_the_arrows_of_a_pass_lead_its_way(inward, flat):
 
 def test_each_text_stands_at_its_arrow(flat):
     plot.flow(MODEL, [f"<{i}>" for i in range(MODEL.nbodies)], ax=flat)
-    seats = plot.seats(MODEL)
+    seats = plot.tree_layout(MODEL)
     places = {text.get_text(): np.array(getattr(text, "xy", text.get_position())) for text in flat.texts}
     for i in range(1, MODEL.nbodies):
         way = flat.patches[i - 1]._path_original.vertices

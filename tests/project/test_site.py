@@ -214,7 +214,7 @@ def test_every_public_name_has_one_page_and_so_have_the_records(interface):
     assert {f"{name}.{own}" for name in packages for own in getattr(tw, name).__all__} <= set(names)
     returned = {tw.rnea_terms, tw.aba_terms, tw.crba_terms, tw.centroidal_terms}
     records = {f"{f.__module__}.{f.__annotations__['return']}".rpartition(".")[2] for f in returned}
-    assert records | {"Report", "Entry"} <= {name.rpartition(".")[2] for name in names}
+    assert records | {"LoadReport", "Entry"} <= {name.rpartition(".")[2] for name in names}
 
 
 def test_only_what_differs_is_touched_and_what_is_gone_goes(tmp_path):

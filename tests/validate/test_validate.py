@@ -15,7 +15,7 @@ from twistwrench.model import random_tree
 from twistwrench.validate import Judge, quantities, sweep, validate
 from twistwrench.validate.conditioning import forward_dynamics_bound
 from twistwrench.validate.oracle import Oracle
-from twistwrench.validate.quantity import BOUND
+from twistwrench.validate.quantity import DEFAULT_RTOL
 from twistwrench.validate.run import _context
 from twistwrench.validate.states import random_states, sample_frames
 
@@ -467,7 +467,7 @@ def test_the_report_is_json_and_html():
     assert found["passed"] is True
     assert found["seed"] == 0
     assert len(found["rows"]) == len(report.rows)
-    assert {row["bound"] for row in found["rows"]} == {BOUND}
+    assert {row["bound"] for row in found["rows"]} == {DEFAULT_RTOL}
     assert report._repr_html_().count("<tr>") == len(report.rows) + 1
 
 

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from twistwrench.files import naming, write_text
+from twistwrench.files import errors_name, write_text
 
 from .cell import Outcome, measure
 from .robots import Recipe
@@ -111,6 +111,6 @@ def _kept(cells: Iterable[Cell], path: Path | None, known: Iterable[Cell]) -> It
         return
     write_text(path, "".join(cell.as_line() + "\n" for cell in known))
     for cell in cells:
-        with naming(path), path.open("a", encoding="utf-8") as file:
+        with errors_name(path), path.open("a", encoding="utf-8") as file:
             file.write(cell.as_line() + "\n")
         yield cell

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, resolution
 from ..errors import ModelError, SingularError, check_known
-from ..model import ConfigurationSpace, Joint, Model, Report, check_model
+from ..model import ConfigurationSpace, Joint, LoadReport, Model, check_model
 from .crba import crba
 from .rnea import rnea
 from .whole_body import Dynamics
@@ -101,7 +101,7 @@ class MimicModel(ConfigurationSpace):
         return self.full.nbodies
 
     @property
-    def report(self) -> Report:
+    def report(self) -> LoadReport:
         """The report of the full model."""
         return self.full.report
 

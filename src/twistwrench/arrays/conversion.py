@@ -36,7 +36,7 @@ __all__ = [
 
 Array = NDArray[Any]
 
-WIDENED = 16 * 2.0**-52
+ROUNDING_ATOL = 16 * 2.0**-52
 """By how much rounding may break a condition on doubles: entries of rotations, norms of quaternions."""
 
 
@@ -62,7 +62,7 @@ def tolerance(dtype: np.dtype[Any] | type) -> float:
     >>> tolerance(np.float64) == 2.0**-26
     True
     """
-    return float(max(resolution(dtype) ** 0.5, WIDENED))
+    return float(max(resolution(dtype) ** 0.5, ROUNDING_ATOL))
 
 
 def as_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:

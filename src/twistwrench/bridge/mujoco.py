@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..errors import ModelError
-from ..model import WORLD, Entry, Frame, FreeFlyer, Joint, Model, Prismatic, Report, Revolute, Spherical
+from ..model import WORLD, Entry, Frame, FreeFlyer, Joint, LoadReport, Model, Prismatic, Revolute, Spherical
 from ..spatial import SE3, SpatialInertia, quaternion_to_rotation
 from .mujoco_actuators import Drives, read_actuators
 from .mujoco_states import SCALAR_LAST, from_mujoco_configuration
@@ -102,7 +102,7 @@ def from_mujoco_model(there: Any) -> Model:
         lower=limits[0],
         upper=limits[1],
         velocity_limit=np.full(there.nv, np.inf),
-        report=Report([*_left_out(there, names), *drives.remarks]),
+        report=LoadReport([*_left_out(there, names), *drives.remarks]),
         **_per_dof(there, names, joints, drives),
     )
     keys = {there.key(k).name or f"key{k}": there.key_qpos[k] for k in range(there.nkey)}

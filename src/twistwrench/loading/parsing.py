@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ModelError, unknown_name
-from ..model import Entry, Report
+from ..model import Entry, LoadReport
 from ..spatial import SE3, SpatialInertia, rpy_to_rotation
 from .element import LEFT_OUT, XML, Element, read_document
 from .records import UrdfJoint, UrdfLink, UrdfMimic, UrdfRobot, outwards
@@ -24,10 +24,10 @@ __all__ = ["read_urdf"]
 
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 RANGED = ("revolute", "prismatic")
-FAR = 10.0
+MAX_USUAL_M = 10.0
 """Metres: longer ones in an <origin>, or as a radius of gyration, are often millimetres."""
 
-ACROSS = 1e-9
+AXIS_RTOL = 1e-9
 """Relative size of the x and y of an axis along z that are rounding, as a CAD program leaves it."""
 
 RESERVED = "universe"
@@ -62,7 +62,7 @@ def read_urdf(path: Path, text: str | None = None) -> UrdfRobot:
     try:
         return _robot(path, xml, remarks)
     except ModelError as error:
-        unread = Report(entry for entry in remarks if entry.read_as == LEFT_OUT)
+        unread = LoadReport(entry for entry in remarks if entry.read_as == LEFT_OUT)
         raise ModelError(f"{error}{unread.summary()}") from None
 
 
@@ -117,7 +117,7 @@ def _link(name: str, link: Element) -> UrdfLink:
         raise mass.error(f"its mass is {mass.get('value')}, expected 0 or more")
     if inertia is None and kilograms > 0:
         inertial.remark("no <inertia>", POINT)
-    if inertia is not None and (largest := moments.diagonal().max()) > kilograms * FAR**2 > 0:
+    if inertia is not None and (largest := moments.diagonal().max()) > kilograms * MAX_USUAL_M**2 > 0:
         inertia.remark(f"a radius of gyration of {math.sqrt(largest / kilograms):.3g} m", GIVEN)
     about_com = SpatialInertia(kilograms, np.zeros(3), moments)
     return UrdfLink(name, about_com.transform(placement))  # its <origin> may turn the axes of <inertia> as well
@@ -162,7 +162,7 @@ def _placement(element: Element) -> SE3:
         return SE3.identity()
     nothing = (0.0, 0.0, 0.0)
     xyz, rpy = origin.numbers("xyz", nothing), origin.numbers("rpy", nothing)
-    if (distance := math.hypot(*xyz)) > FAR:
+    if (distance := math.hypot(*xyz)) > MAX_USUAL_M:
         origin.remark(f"<origin> {distance:.3g} m away", GIVEN)
     return SE3._trusted(rpy_to_rotation(np.array(rpy)), np.array(xyz))
 
@@ -174,7 +174,7 @@ def _axis(joint: Element, kind: str) -> tuple[float, ...]:
         raise element.error("its <axis> has no xyz")
     axis = (1.0, 0.0, 0.0) if element is None else element.numbers("xyz", (1.0, 0.0, 0.0))
     place = joint if element is None else element
-    if kind == "planar" and not math.hypot(*axis[:2]) <= ACROSS * axis[2] > 0:
+    if kind == "planar" and not math.hypot(*axis[:2]) <= AXIS_RTOL * axis[2] > 0:
         got = "no <axis>, which means 1 0 0" if element is None else str([*axis])
         raise place.error(
             f"a planar joint moves in its x-y plane: expected <axis xyz='0 0 1'/>, got {got} "

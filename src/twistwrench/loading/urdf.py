@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.mimic import Law
 from ..errors import ModelError, unknown_name
-from ..model import Builder, Continuous, Entry, FreeFlyer, Joint, Model, Planar, Prismatic, Report, Revolute
+from ..model import Builder, Continuous, Entry, FreeFlyer, Joint, LoadReport, Model, Planar, Prismatic, Revolute
 from ..model.builder import IMPOSSIBLE
 from .parsing import read_urdf
 from .records import UrdfJoint, UrdfRobot
@@ -74,10 +74,10 @@ def load_urdf(
             model, remarks = _build(robot, base, gravity, physical)
         except ModelError as error:
             raise ModelError(f"{path}: {error}") from None
-    impossible = Report(entry for entry in model.report.warnings if entry.read_as == IMPOSSIBLE)
+    impossible = LoadReport(entry for entry in model.report.warnings if entry.read_as == IMPOSSIBLE)
     known = {(entry.where, entry.read_as) for entry in robot.remarks}
     bodies = [entry for entry in model.report if (entry.where, entry.read_as) not in known]
-    model = replace(model, report=Report([*robot.remarks, *remarks, *_mimics(robot, mimic), *bodies]))
+    model = replace(model, report=LoadReport([*robot.remarks, *remarks, *_mimics(robot, mimic), *bodies]))
     odd = model.report.warnings
     if odd and strict:
         raise ModelError(f"{path}: strict=True rejects what is not as it should be:{odd.summary()}")

@@ -69,7 +69,7 @@ EXTENSIONS = {
 }
 """More of them, those of the format, of drivers and of simulators, by their whole name."""
 
-ALIKE = 0.65
+MIN_SIMILARITY = 0.65
 """Similarity (difflib's ratio) of a misspelt word, at least: xzy and xyz have 0.67, command_effort and effort 0.6."""
 
 
@@ -163,4 +163,4 @@ def meant(word: str, known: tuple[str, ...]) -> str:
 
     if word in known or "}" in word or ":" in word or (len(words_of(word)) > 1 and set(known) & words_of(word)):
         return ""
-    return next(iter(difflib.get_close_matches(word.lower(), known, n=1, cutoff=ALIKE)), "")
+    return next(iter(difflib.get_close_matches(word.lower(), known, n=1, cutoff=MIN_SIMILARITY)), "")

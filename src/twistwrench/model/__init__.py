@@ -34,7 +34,7 @@ from .joint import AxisJoint, GroupJoint, Joint, placement, same_side, turn, uni
 from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .model import Frame, Model
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
-from .report import Entry, Report
+from .report import Entry, LoadReport
 from .samples import KINDS, chain, random_tree
 from .serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
 from .state import check_arrays, checked_state, in_double
@@ -57,12 +57,12 @@ __all__ = [
     "Helical",
     "Joint",
     "Link",
+    "LoadReport",
     "Model",
     "NumberedTree",
     "Planar",
     "Prismatic",
     "Reduction",
-    "Report",
     "Revolute",
     "ScrewAxes",
     "Spherical",

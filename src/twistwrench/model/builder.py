@@ -23,7 +23,7 @@ from .constants import cast
 from .joint import Joint
 from .joints import FreeFlyer
 from .model import Frame, Model
-from .report import Entry, Report
+from .report import Entry, LoadReport
 
 __all__ = ["GRAVITY", "IMPOSSIBLE", "Builder", "Link", "NumberedTree", "placement_of"]
 
@@ -212,7 +212,7 @@ class Builder:
         with np.errstate(over="ignore", invalid="ignore"):
             tree = NumberedTree(self._links)
             tree.check_finite()
-        report = Report(tree.check_bodies(physical))
+        report = LoadReport(tree.check_bodies(physical))
         moved = tree.moved
         return Model(
             name=self._name,

@@ -14,7 +14,7 @@ from .arguments import check_model
 from .checks import PER_DOF
 from .model import Frame, Model
 from .reduction import lock_joints
-from .report import Report
+from .report import LoadReport
 
 __all__ = ["attach", "replace_inertia"]
 
@@ -88,7 +88,7 @@ def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | No
         frames={**model.frames, **frames},
         postures={name: np.concatenate([q, other.neutral()]) for name, q in model.postures.items()},
         feet=(*model.feet, *(prefix + foot for foot in other.feet)),
-        report=Report([*model.report, *other.report]),
+        report=LoadReport([*model.report, *other.report]),
         **limits,
     )
     return lock_joints(whole, [root], whole.neutral()).model if frame is not None else whole

@@ -24,7 +24,7 @@ from .configuration import ConfigurationSpace
 from .constants import Constants, readonly
 from .joint import Joint
 from .joints import FreeFlyer
-from .report import Report
+from .report import LoadReport
 from .state import in_double
 
 __all__ = ["Frame", "Model"]
@@ -86,7 +86,7 @@ class Model(ConfigurationSpace):
     damping, friction : ndarray, shape (nv,)
         From a URDF's ``<dynamics>``: N m s/rad or N s/m, and N m or N; zero where the file has no
         value. `simulate` applies them with the method "time-stepping", as on a ground; no algorithm does.
-    report : Report
+    report : LoadReport
         What the loader had to interpret, and how. Prints as a table.
 
     Raises
@@ -125,7 +125,7 @@ class Model(ConfigurationSpace):
     feet: tuple[str, ...] = ()
     damping: Array = field(default_factory=lambda: np.zeros(()))
     friction: Array = field(default_factory=lambda: np.zeros(()))
-    report: Report = field(default_factory=Report)
+    report: LoadReport = field(default_factory=LoadReport)
     _constants: dict[Any, Constants] = field(default_factory=dict, init=False)
     _programs: dict[Any, Any] = field(default_factory=dict, init=False)
 
@@ -148,7 +148,7 @@ class Model(ConfigurationSpace):
         check_kind(self.postures, "postures", Mapping, "configurations by name")
         postures = {name: readonly(_posture(self, name, q)) for name, q in self.postures.items()}
         self._hold("postures", MappingProxyType(postures))
-        check_kind(self.report, "report", Report, "a Report")
+        check_kind(self.report, "report", LoadReport, "a LoadReport")
 
     def _hold(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

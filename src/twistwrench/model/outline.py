@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["outline"]
 
-OPEN = 3
+UNFOLDED_JOINTS = 3
 """So many joints outward from the world the tree is unfolded."""
 
 
@@ -39,7 +39,7 @@ def _branch(model: Model, i: int, depth: int) -> str:
     name, line, carried = escape(model.joint_names[i]), _facts(model, i), _branches(model, i, depth + 1)
     if not carried:
         return f'<div style="margin-left:2.4em"><b>{name}</b> {line}</div>'
-    unfolded = " open" * (depth < OPEN)
+    unfolded = " open" * (depth < UNFOLDED_JOINTS)
     return f'<details{unfolded} style="margin-left:1.2em"><summary><b>{name}</b> {line}</summary>{carried}</details>'
 
 

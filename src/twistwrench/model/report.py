@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..tables import html_table, text_table
 
-__all__ = ["Entry", "Report"]
+__all__ = ["Entry", "LoadReport"]
 
 
 @dataclass(frozen=True)
@@ -36,15 +36,15 @@ class Entry:
     warns: bool = True
 
 
-class Report(tuple[Entry, ...]):
+class LoadReport(tuple[Entry, ...]):
     """The findings of a loader, a tuple of `Entry`; prints as a table. Empty where the file is clean.
 
     Examples
     --------
-    >>> Report([Entry("joint 'j'", "no <limit>", "no limits", line=4)])
+    >>> LoadReport([Entry("joint 'j'", "no <limit>", "no limits", line=4)])
     line  where      found       read as
     4     joint 'j'  no <limit>  no limits
-    >>> Report()
+    >>> LoadReport()
     nothing to report
     """
 
@@ -53,9 +53,9 @@ class Report(tuple[Entry, ...]):
     columns = ("line", "where", "found", "read as")
 
     @property
-    def warnings(self) -> Report:
+    def warnings(self) -> LoadReport:
         """The entries that `twistwrench.load` warns of."""
-        return Report(entry for entry in self if entry.warns)
+        return LoadReport(entry for entry in self if entry.warns)
 
     def summary(self) -> str:
         """Return one line for each interpretation, with the first places."""

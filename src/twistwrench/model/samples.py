@@ -21,7 +21,7 @@ __all__ = ["KINDS", "chain", "random_tree"]
 KINDS = tuple(Joint.kinds)
 """The kinds of joint that `random_tree` draws from by default: those of the package."""
 
-HUGE = 1e60
+MAX_MASS_OR_LENGTH = 1e60
 """Upper bound of masses, lengths and their ratios: products of several must not overflow."""
 
 AXIAL: dict[str, Callable[[str | ArrayLike], Joint]] = {kind.kind: kind for kind in (Revolute, Prismatic, Continuous)}
@@ -77,7 +77,7 @@ def chain(
     _check_count(n)
     check_choice(base, "base", ("fixed", "floating"), ModelError)
     for name, value in (("mass", mass), ("length", length), ("mass_ratio", mass_ratio)):
-        if not 1 / HUGE < as_number(value, name) < HUGE:
+        if not 1 / MAX_MASS_OR_LENGTH < as_number(value, name) < MAX_MASS_OR_LENGTH:
             raise ModelError(f"{name}: expected a positive number, and no astronomical one, got {value}")
     mass, length, mass_ratio = float(mass), float(length), float(mass_ratio)
     if not isinstance(joint, str) or joint not in AXIAL:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_arrays, as_constant, as_number_arrays, check_size, judged, resolution
-from ..arrays.conversion import WIDENED
+from ..arrays.conversion import ROUNDING_ATOL
 from ..errors import ShapeError
 from ..spatial._elementary import at_first_index
 
@@ -135,7 +135,7 @@ def _with_norm_1(model: ConfigurationSpace, q: Array, name: str, given: np.dtype
     One given with fewer digits than it has now is normalised to all of these.
     """
     digits = resolution(given if given.kind in "fc" else np.float64)
-    tolerance = max(np.sqrt(digits), WIDENED)
+    tolerance = max(np.sqrt(digits), ROUNDING_ATOL)
     for joint, joint_name, s in zip(model.joints, model.joint_names, model.q_slice):
         if joint is None or joint.unit is None:
             continue
@@ -151,4 +151,4 @@ def _with_norm_1(model: ConfigurationSpace, q: Array, name: str, given: np.dtype
                 f"{name}: joint {joint_name!r}: the {what} {name}[{part.start}:{part.stop}] has norm {first:.6g}"
                 f"{at_first_index(bad)}, {close}; model.{mend}"
             )
-    return model.normalize(q) if digits > resolution(q.dtype) or tolerance == WIDENED else q
+    return model.normalize(q) if digits > resolution(q.dtype) or tolerance == ROUNDING_ATOL else q

@@ -19,7 +19,9 @@ another on any robot, an arm or a drone.
 
 from .motion import Motion
 from .reaching import reach
-from .support import Ground, ground, limits_broken
+from .support import GroundLoad, ground, limits_broken
 from .walking import MOTIONS, jump, trot, walk
 
-__all__ = ["MOTIONS", "Ground", "Motion", "ground", "jump", "limits_broken", "reach", "trot", "walk"]
+Ground = GroundLoad  # by its former name as well
+
+__all__ = ["MOTIONS", "GroundLoad", "Motion", "ground", "jump", "limits_broken", "reach", "trot", "walk"]

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 
-__all__ = ["Harmonics", "Pieces", "between", "hop", "stair"]
+__all__ = ["Harmonics", "PiecewiseCurve", "between", "hop", "stair"]
 
 SMOOTH_STEP = Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
 """From 0 to 1 within the unit of time, with three derivatives zero at both ends."""
@@ -63,7 +63,7 @@ def between(
     return Polynomial(np.linalg.solve(np.array(rows), np.array(values)), domain=interval, window=(0, 1))
 
 
-class Pieces:
+class PiecewiseCurve:
     """A curve in pieces, each given by a polynomial for every coordinate.
 
     Parameters

@@ -38,9 +38,9 @@ __all__ = [
 
 REFERENCE: Reference = "local_world_aligned"
 
-STEPS = 40
+NEWTON_STEPS = 40
 """Of Newton's method, which needs about six."""
-LONGEST_STEP = 0.4
+MAX_STEP_RAD = 0.4
 """Of them, rad: a longer one may bend a knee that is nearly straight the wrong way."""
 
 
@@ -103,7 +103,7 @@ def place(stand: Stand, goal: Goal) -> Array:
         If there is no such q near standing.
     """
     q, left = turned(stand, goal, np.broadcast_to(stand.q, (*goal.turn[0].shape[:-1], stand.model.nq))), 2
-    for _ in range(STEPS):
+    for _ in range(NEWTON_STEPS):
         q, error = nearer(stand, goal, q)
         left -= int(error.max() < 1e-12 * max(1.0, stand.height))  # twice more: the imaginary part
         if not left:
@@ -131,7 +131,7 @@ def nearer(stand: Stand, goal: Goal, q: Array) -> tuple[Array, Array]:
     move = np.zeros((*error.shape[:-1], stand.model.nv), error.dtype)
     free = free_columns(stand)
     move[..., free] = solve(stand, tasks(stand, q)[..., free], error)
-    far = np.abs(move.real).max(axis=-1, keepdims=True) / LONGEST_STEP
+    far = np.abs(move.real).max(axis=-1, keepdims=True) / MAX_STEP_RAD
     return stand.model.integrate(q, move / np.maximum(far, 1)), np.abs(error.real).max(axis=-1)
 
 
@@ -184,10 +184,10 @@ def targets(stand: Stand, goal: Goal, order: int) -> Array:
     return np.concatenate(out, axis=-1)
 
 
-TERMS = 14
+SERIES_TERMS = 14
 """Of the series: enough for turns of up to 3 rad."""
-B = np.polynomial.Polynomial([(-1) ** k / math.factorial(2 * k + 2) for k in range(TERMS)])
-C = np.polynomial.Polynomial([(-1) ** k / math.factorial(2 * k + 3) for k in range(TERMS)])
+B = np.polynomial.Polynomial([(-1) ** k / math.factorial(2 * k + 2) for k in range(SERIES_TERMS)])
+C = np.polynomial.Polynomial([(-1) ** k / math.factorial(2 * k + 3) for k in range(SERIES_TERMS)])
 
 
 def turning_jacobian(phi: Array) -> Array:

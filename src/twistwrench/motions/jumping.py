@@ -17,16 +17,16 @@ from numpy.polynomial import Chebyshev
 from ..algorithms.centroidal import centroidal_map
 from ..arrays import Array
 from ..errors import SingularError
-from .curves import Pieces, between, hop, stair
+from .curves import PiecewiseCurve, between, hop, stair
 from .inverse_kinematics import Goal, free_columns, nearer, place, solve, targets, tasks, turned, turning_jacobian
 from .legs import Stand
 
 __all__ = ["FOUR_LEGS", "TWO_LEGS", "Jump", "Leap"]
 
-NODES = 24
+NODES_PER_PART = 24
 """Collocation points in each part of a phase."""
-PARTS = 3
-ROUNDS = 40
+PARTS_PER_PHASE = 3
+PICARD_ITERATIONS = 40
 """Of Picard's iteration, which needs about ten."""
 
 
@@ -93,7 +93,7 @@ class Leap:
             between([high, -up, -g, 0], [low, 0, 0, 0], after),
         ]
         y = [between([y0], [y0], span) for span in (before, flying, after)]
-        self.com = Pieces(self.breaks, list(zip(x, y, z)))
+        self.com = PiecewiseCurve(self.breaks, list(zip(x, y, z)))
         self.momentum = self._momentum([before, flying, after])
         self.turn = self._turn()
 
@@ -114,7 +114,7 @@ class Leap:
         steps = np.repeat(step[:, :, None], len(self.stand.legs), axis=2)
         return Goal(self.com(t), turn, steps, np.zeros((3, len(t), self.stand.model.nv), t.dtype))
 
-    def _momentum(self, spans: list[tuple[float, float]]) -> Pieces:
+    def _momentum(self, spans: list[tuple[float, float]]) -> PiecewiseCurve:
         """Return k_G: about y, constant in flight; as much nose up as nose down, so that it ends nearly level."""
         I_y = centroidal_map(self.stand.model, self.stand.q)[1, 1]
         k = float(I_y) * self.jump.pitch / self.flight
@@ -124,9 +124,9 @@ class Leap:
             between([k], [k], spans[1]),
             between([k, 0, 0], [0, 0, 0], spans[2], area=-held / 2),
         ]
-        return Pieces(self.breaks, [(zero, p, zero) for p in about_y])
+        return PiecewiseCurve(self.breaks, [(zero, p, zero) for p in about_y])
 
-    def _turn(self) -> Pieces:
+    def _turn(self) -> PiecewiseCurve:
         """Return φ(t): solve J(φ) φ̇ = ω, where momentum and tasks determine ω in the posture with that φ.
 
         Raises
@@ -134,13 +134,13 @@ class Leap:
         SingularError
             If the iteration does not converge.
         """
-        breaks = np.concatenate([np.linspace(*span, PARTS, endpoint=False) for span in pairwise(self.breaks)])
+        breaks = np.concatenate([np.linspace(*span, PARTS_PER_PHASE, endpoint=False) for span in pairwise(self.breaks)])
         spans = list(pairwise([*breaks, self.breaks[-1]]))
-        points = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
+        points = np.cos(np.pi * (np.arange(NODES_PER_PART) + 0.5) / NODES_PER_PART)
         t = np.concatenate([(a + b) / 2 + (b - a) / 2 * points for a, b in spans])
         goal = self._goal(t, np.zeros((3, len(t), 3)))
         q = place(self.stand, goal)
-        for _ in range(ROUNDS):
+        for _ in range(PICARD_ITERATIONS):
             phi = goal.turn[0]
             rate = np.linalg.solve(turning_jacobian(phi), self._angular_velocity(t, q, goal)[..., None])[..., 0]
             turn = _integral(spans, t, rate)
@@ -161,11 +161,11 @@ class Leap:
         return solve(self.stand, J, wanted)[..., :3]
 
 
-def _integral(spans: list[tuple[float, float]], t: Array, rate: Array) -> Pieces:
+def _integral(spans: list[tuple[float, float]], t: Array, rate: Array) -> PiecewiseCurve:
     """Return the integral of what has the values `rate` at the times t, as many of them in each span."""
     pieces, value = list[list[Chebyshev]](), np.zeros(rate.shape[1])
     for span, times, rates in zip(spans, t.reshape(len(spans), -1), rate.reshape(len(spans), -1, rate.shape[1])):
         fits = [Chebyshev.fit(times, x, len(times) - 1, domain=span) for x in rates.mT]
         pieces.append([fit.integ(lbnd=span[0], k=float(x)) for fit, x in zip(fits, value)])
         value = np.array([p(span[1]) for p in pieces[-1]])
-    return Pieces([span[0] for span in spans] + [spans[-1][1]], pieces)
+    return PiecewiseCurve([span[0] for span in spans] + [spans[-1][1]], pieces)

@@ -17,14 +17,14 @@ from ..errors import ModelError
 from ..model import Model, check_model, floats_of
 from .motion import Motion, check_motion
 
-__all__ = ["Ground", "Need", "ground", "limits_broken", "needs"]
+__all__ = ["GroundLoad", "Need", "ground", "limits_broken", "needs"]
 
-LOADED = 1e-6
+MIN_LOAD_SHARE = 1e-6
 """Share of the weight above which the ground counts as loaded."""
 
 
 @dataclass(frozen=True, eq=False)
-class Ground:
+class GroundLoad:
     """What `ground` returns, for n states, of which l load the ground.
 
     Attributes
@@ -49,7 +49,7 @@ class Ground:
     margin: Array
 
 
-def ground(model: Model, motion: Motion) -> Ground:
+def ground(model: Model, motion: Motion) -> GroundLoad:
     """Return what the ground must do for a motion.
 
     Necessary, not sufficient: neither the moment about the vertical is checked, nor whether the forces can be shared
@@ -63,7 +63,7 @@ def ground(model: Model, motion: Motion) -> Ground:
 
     Returns
     -------
-    Ground
+    GroundLoad
 
     Raises
     ------
@@ -86,7 +86,7 @@ def ground(model: Model, motion: Motion) -> Ground:
         raise ModelError(f"{model.name!r}: expected gravity along -z, got {model.gravity.tolist()}")
     wrench = centroidal_momentum_rate(model, motion.q, motion.v, motion.a)
     wrench[:, 3:] -= model.mass * model.gravity
-    loaded = (wrench[:, 5] > LOADED * model.mass * -model.gravity[2]) & motion.contacts.any(axis=1)
+    loaded = (wrench[:, 5] > MIN_LOAD_SHARE * model.mass * -model.gravity[2]) & motion.contacts.any(axis=1)
     n, f = wrench[loaded, :3], wrench[loaded, 3:]
     p_G = center_of_mass(model, motion.q[loaded])
     feet = np.stack([frame_placement(model, motion.q[loaded], foot).translation for foot in motion.feet], axis=1)
@@ -96,7 +96,7 @@ def ground(model: Model, motion: Motion) -> Ground:
     c = p_G + np.stack([(down * f[:, 0] - n[:, 1]) / f[:, 2], (down * f[:, 1] + n[:, 0]) / f[:, 2], down], axis=1)
     friction = np.sqrt(f[:, 0] ** 2 + f[:, 1] ** 2) / f[:, 2]
     margin = [inside(corners[on, :2] - at[:2]) for corners, on, at in zip(feet, stands, c)]
-    return Ground(wrench, loaded, friction, c, np.array(margin))
+    return GroundLoad(wrench, loaded, friction, c, np.array(margin))
 
 
 def limits_broken(model: Model, motion: Motion) -> dict[str, tuple[float, float]]:

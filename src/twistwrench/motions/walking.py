@@ -17,7 +17,7 @@ from .motion import Motion
 
 __all__ = ["MOTIONS", "jump", "trot", "walk"]
 
-FARTHEST = 100.0
+MAX_IN_HEIGHTS = 100.0
 """In units of the height of the centre of mass, and of the time of falling from it: no leg reaches farther."""
 
 
@@ -166,17 +166,17 @@ def _steps(
 ) -> Motion:
     standing = stand(model)
     H, unit = standing.height, standing.unit
-    ahead = _within(direction, "direction", -FARTHEST, FARTHEST)
+    ahead = _within(direction, "direction", -MAX_IN_HEIGHTS, MAX_IN_HEIGHTS)
     gait = replace(gaits.get(len(standing.legs), gaits[4]), direction=ahead)
     if speed is not None:
-        pace = _within(speed, "speed", 0, FARTHEST * H / unit)
+        pace = _within(speed, "speed", 0, MAX_IN_HEIGHTS * H / unit)
         gait, name = replace(gait, speed=pace * unit / H), f"{name} at {pace:.3g} m/s"
     if height is not None:
-        gait = replace(gait, height=_within(height, "height", H / FARTHEST, FARTHEST * H) / H)
+        gait = replace(gait, height=_within(height, "height", H / MAX_IN_HEIGHTS, MAX_IN_HEIGHTS * H) / H)
     if step_length is not None:
         if gait.speed == 0:
             raise ValueError(f"step_length: expected None, since the speed is 0, got {step_length!r}")
-        length = _within(step_length, "step_length", H / FARTHEST, FARTHEST * H)
+        length = _within(step_length, "step_length", H / MAX_IN_HEIGHTS, MAX_IN_HEIGHTS * H)
         gait = replace(gait, period=length / H / gait.speed)
     steps = Steps(standing, gait)
     return _sample(name, standing, steps, steps.period, samples)

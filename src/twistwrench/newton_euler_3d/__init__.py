@@ -65,7 +65,7 @@ array([Fraction(31, 1)], dtype=object)
 from .arithmetic import as_mpmath
 from .forces import gravity, inverse_dynamics, joint_wrenches, nonlinear_effects
 from .frames import frame_bias_acceleration, frame_jacobian, frame_placement
-from .kinematics import Motion, body_accelerations, body_twists, motion, placements
+from .kinematics import BodyMotion, body_accelerations, body_twists, motion, placements
 from .matrices import coriolis_matrix, forward_dynamics, mass_matrix
 from .momentum import (
     center_of_mass,
@@ -76,8 +76,10 @@ from .momentum import (
     potential_energy,
 )
 
+Motion = BodyMotion  # by its former name as well
+
 __all__ = [
-    "Motion",
+    "BodyMotion",
     "as_mpmath",
     "body_accelerations",
     "body_twists",

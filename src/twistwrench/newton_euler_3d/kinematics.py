@@ -11,10 +11,10 @@ from ..arrays import Array
 from .bodies import Body, bodies_in_world, cross
 from .state import take
 
-__all__ = ["Motion", "body_accelerations", "body_twists", "motion", "placements", "spatial_acceleration"]
+__all__ = ["BodyMotion", "body_accelerations", "body_twists", "motion", "placements", "spatial_acceleration"]
 
 
-class Motion(NamedTuple):
+class BodyMotion(NamedTuple):
     """How each body moves, in world axes; each array is (nbodies, 3), row 0 the world's."""
 
     angular_velocity: Array
@@ -59,7 +59,7 @@ def placements(model: Any, q: ArrayLike) -> tuple[Array, Array]:
     return np.stack([b.rotation for b in bodies]), np.stack([b.origin for b in bodies])
 
 
-def motion(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Motion:
+def motion(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> BodyMotion:
     """Return how every body moves in the world.
 
     Parameters
@@ -71,7 +71,7 @@ def motion(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Motion:
 
     Returns
     -------
-    Motion
+    BodyMotion
         In world axes.
 
     Raises
@@ -92,7 +92,7 @@ def motion(model: Any, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Motion:
     """
     bodies = bodies_in_world(take(model, q=q, v=v, a=a))
     rows = [(b.omega, b.velocity, b.alpha, b.acceleration) for b in bodies]
-    return Motion(*(np.stack(column) for column in zip(*rows, strict=True)))
+    return BodyMotion(*(np.stack(column) for column in zip(*rows, strict=True)))
 
 
 def body_twists(model: Any, q: ArrayLike, v: ArrayLike) -> Array:

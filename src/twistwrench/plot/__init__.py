@@ -17,9 +17,9 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 """
 
 from .contacts import center_of_pressure, friction_cone, sole
-from .flow import flow, seats
+from .flow import flow, tree_layout
 from .frames import arrows, triad
-from .inertias import ellipsoid, ellipsoids, felt_mass, semi_axes
+from .inertias import apparent_mass_ellipse, ellipsoid, ellipsoids, semi_axes
 from .matrices import ANGULAR_LINEAR, matrix
 from .robot import robot, sticks
 from .screws import point_velocity, screw_axis, twist_field
@@ -29,10 +29,14 @@ from .stride import side_view
 from .style import COLOURS, XYZ, axes_2d, axes_3d, fit
 from .words import chinese
 
+felt_mass = apparent_mass_ellipse  # both by their former names as well
+seats = tree_layout
+
 __all__ = [
     "ANGULAR_LINEAR",
     "COLOURS",
     "XYZ",
+    "apparent_mass_ellipse",
     "arrows",
     "axes_2d",
     "axes_3d",
@@ -40,7 +44,6 @@ __all__ = [
     "chinese",
     "ellipsoid",
     "ellipsoids",
-    "felt_mass",
     "fill_in",
     "filled_in",
     "fit",
@@ -54,12 +57,12 @@ __all__ = [
     "robot",
     "same_branch",
     "screw_axis",
-    "seats",
     "semi_axes",
     "side_view",
     "sole",
     "sticks",
     "support_polygon",
+    "tree_layout",
     "triad",
     "twist_field",
 ]

@@ -13,10 +13,10 @@ from ..errors import ShapeError
 from ..model import Model, check_model
 from .style import COLOURS, axes_2d, drawn
 
-__all__ = ["flow", "seats"]
+__all__ = ["flow", "tree_layout"]
 
 
-def seats(model: Model) -> Array:
+def tree_layout(model: Model) -> Array:
     """Return a place for each body in a flat picture of the tree: across its depth, along its branch.
 
     Parameters
@@ -34,7 +34,7 @@ def seats(model: Model) -> Array:
     The cart of a cart-pole, and its pole:
 
     >>> import twistwrench as tw
-    >>> seats(tw.load("cart_pole"))
+    >>> tree_layout(tw.load("cart_pole"))
     array([[0., 0.],
            [1., 0.],
            [2., 0.]])
@@ -91,7 +91,7 @@ def flow(
     >>> [text.get_text() for text in ax.texts if text.get_text()]
     ['world', 'slide', 'hinge', '1 kg', '0.1 kg']
     """
-    places = seats(model)
+    places = tree_layout(model)
     size = np.ones(model.nbodies) if amounts is None else drawn(amounts, "amounts", model.nbodies)
     texts = as_names(texts, "texts", "texts", ordered=True)
     if len(texts) != model.nbodies or size.ndim != 1:

@@ -15,7 +15,7 @@ from ..model import Model, one_configuration
 from ..spatial import SE3, SpatialInertia
 from .style import COLOURS, as_placement, axes_2d, axes_3d, drawn, drawn_number, fit
 
-__all__ = ["ellipsoid", "ellipsoids", "felt_mass", "semi_axes"]
+__all__ = ["apparent_mass_ellipse", "ellipsoid", "ellipsoids", "semi_axes"]
 
 
 def semi_axes(inertia: SpatialInertia | ArrayLike, link: str = "body") -> tuple[Array, Array]:
@@ -171,7 +171,7 @@ def ellipsoids(
     return ax
 
 
-def felt_mass(
+def apparent_mass_ellipse(
     inertia: ArrayLike,
     at: ArrayLike = (0.0, 0.0),
     *,
@@ -215,7 +215,7 @@ def felt_mass(
     --------
     >>> from matplotlib.figure import Figure
     >>> body = SpatialInertia(2.0, [0, 0, 0.1], np.diag([0.01, 0.01, 0.005]))
-    >>> ax = felt_mass(body.matrix(), ax=Figure().add_subplot())
+    >>> ax = apparent_mass_ellipse(body.matrix(), ax=Figure().add_subplot())
     >>> np.linalg.norm(ax.lines[0].get_xydata(), axis=-1).round(12).max()
     np.float64(2.0)
     """

@@ -15,7 +15,7 @@ from .style import COLOURS, axes_2d, drawn_number
 
 __all__ = ["side_view", "sides"]
 
-MIDDLE = 0.25
+MIDDLE_SHARE = 0.25
 """Nearer to the plane of symmetry than this share of the widest stick, a stick is on neither side."""
 
 
@@ -70,4 +70,4 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
 def sides(model: Model) -> Array:
     """Return for each stick 1 on the robot's left, −1 on its right, 0 in the middle, as it is in neutral."""
     left = sticks(model, model.neutral())[..., 1].mean(axis=-1)
-    return np.asarray(np.sign(left) * (np.abs(left) > 1e-6 + MIDDLE * np.abs(left).max(initial=0)), int)
+    return np.asarray(np.sign(left) * (np.abs(left) > 1e-6 + MIDDLE_SHARE * np.abs(left).max(initial=0)), int)

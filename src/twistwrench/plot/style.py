@@ -23,7 +23,7 @@ __all__ = [
     "newtons",
 ]
 
-LARGEST = 1e100
+MAX_DRAWN_VALUE = 1e100
 """Larger values cannot be drawn: their products overflow."""
 
 COLOURS = {
@@ -131,8 +131,10 @@ def drawn(value: ArrayLike, name: str, *tail: int) -> Array:
     ValueError: point: expected at most 1e+100, which can be drawn, got 1e+300
     """
     x = as_real(value, name, *tail)
-    if np.abs(x).max(initial=0) > LARGEST:
-        raise ValueError(f"{name}: expected at most {LARGEST:.0e}, which can be drawn, got {np.abs(x).max():.3g}")
+    if np.abs(x).max(initial=0) > MAX_DRAWN_VALUE:
+        raise ValueError(
+            f"{name}: expected at most {MAX_DRAWN_VALUE:.0e}, which can be drawn, got {np.abs(x).max():.3g}"
+        )
     return x
 
 

@@ -20,7 +20,7 @@ from ..tables import aligned, html_table
 from ..templates.template import Template
 from .candidates import Articulated, Candidate, radius_of_gyration
 from .compiled import compiled, seconds
-from .judging import QUANTITIES, Judge, scale, unit
+from .judging import QUANTITIES, ReferenceMotion, scale, unit
 
 __all__ = ["Answer", "Costs", "Option", "costs", "needed"]
 
@@ -269,7 +269,7 @@ def costs(
 ) -> Costs:
     """See `Scene.cheapest`."""
     length = radius_of_gyration(model, motions[0].q[0])
-    judges = [[Judge.of(model, motion, contacts, length) for motion in some] for some in (motions, held_out)]
+    judges = [[ReferenceMotion.of(model, motion, contacts, length) for motion in some] for some in (motions, held_out)]
     for judge, motion in zip([*judges[0], *judges[1]], [*motions, *held_out]):
         for name in need:
             if name not in judge.tells:

@@ -23,20 +23,20 @@ from ..spatial import SE3, skew
 from ..templates import Residual
 from .candidates import Articulated, heights
 
-__all__ = ["QUANTITIES", "Judge", "scale", "unit"]
+__all__ = ["QUANTITIES", "ReferenceMotion", "scale", "unit"]
 
 QUANTITIES = {"wrench": "of the weight", "cop": "m", "forces": "of the weight", "tau": "N m"}
 """What may be asked of a model, and the unit of its error."""
 
-LOADED = 0.05
+MIN_LOAD_SHARE = 0.05
 """Share of the weight that the ground must bear for a centre of pressure to count."""
 
-RANK = 1e-9
+RANK_RTOL = 1e-9
 """Two feet on a line cannot exert a moment about it: a singular value that small counts as zero."""
 
 
 @dataclass(frozen=True, eq=False)
-class Judge:
+class ReferenceMotion:
     """The whole robot in a motion, which the answers of other models are held against."""
 
     model: Model
@@ -60,7 +60,7 @@ class Judge:
     """Of the centre of mass above the lowest contact that stands, m, shape (n,)."""
 
     @classmethod
-    def of(cls, model: Model, motion: Motion, contacts: Sequence[Contact], length: float) -> Judge:
+    def of(cls, model: Model, motion: Motion, contacts: Sequence[Contact], length: float) -> ReferenceMotion:
         """Compute what the motion needs; its feet have the soles of the contacts on the same frames."""
         q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
         whole = Articulated.of(model, model, lambda q, v: (q, v))
@@ -127,7 +127,7 @@ class Judge:
         u = -g / np.sqrt(g @ g)
         N, F = rate[..., :3], rate[..., 3:] - self.model.mass * g
         load = F @ u
-        loaded = (load > LOADED * self.weight) & self.standing.any(axis=1)
+        loaded = (load > MIN_LOAD_SHARE * self.weight) & self.standing.any(axis=1)
         h = np.where(loaded, self.height, 0.0)[:, None]
         across = np.cross(u, N + np.cross(h * u, F))
         return across / np.where(load > 1e-3 * self.weight, load, 1e-3 * self.weight)[:, None], loaded
@@ -139,7 +139,9 @@ def _share(arm: Array, on: Array) -> Array:
     n, points = on.shape
     if not points:
         return np.zeros((n, 0, 3, 6))
-    return np.asarray(np.linalg.pinv(np.moveaxis(columns, 1, 2).reshape(n, 6, -1), rtol=RANK).reshape(n, points, 3, 6))
+    return np.asarray(
+        np.linalg.pinv(np.moveaxis(columns, 1, 2).reshape(n, 6, -1), rtol=RANK_RTOL).reshape(n, points, 3, 6)
+    )
 
 
 def _points(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Array, Array]:

@@ -16,7 +16,7 @@ from ..model import Model
 
 __all__ = ["Standing", "standing"]
 
-OUTSIDE = 1e-9
+LIMIT_ATOL = 1e-9
 """How far outside a limit a joint may be for rounding, rad or m."""
 
 
@@ -61,7 +61,7 @@ def standing(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) 
 
 def outside_limits(model: Model, q: Array) -> list[str]:
     """Name the joints that a pose takes outside their limits."""
-    outside = np.maximum(q - model.upper, model.lower - q) > OUTSIDE
+    outside = np.maximum(q - model.upper, model.lower - q) > LIMIT_ATOL
     return [
         f"joint {name!r} is at {q[s].round(3).tolist()}, outside its limits {model.lower[s].round(3).tolist()} "
         f"to {model.upper[s].round(3).tolist()}"

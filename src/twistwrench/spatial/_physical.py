@@ -11,7 +11,7 @@ from ._elementary import at_first_index, largest
 __all__ = ["check_not_negative", "check_numbers", "check_physical"]
 
 # Relative room for rounding: a thin rod (0, I, I) and a thin plate (I, I, 2I) are limits, and pass.
-ROOM = 1e-9
+MOMENT_RTOL = 1e-9
 
 
 def check_numbers(mass: Array, inertia_at_com: Array) -> None:
@@ -37,7 +37,7 @@ def check_physical(link: str, mass: Array, com: Array, inertia_at_com: Array) ->
     moments = check_not_negative(link, mass, com, inertia_at_com)
     a, b, c = np.moveaxis(moments, -1, 0)
     excess = np.asarray(c - (a + b))
-    broken = excess > ROOM * (a + b) + _rounding(mass, com)
+    broken = excess > MOMENT_RTOL * (a + b) + _rounding(mass, com)
     if broken.any():
         much = excess[broken][0]
         raise ModelError(
@@ -50,7 +50,7 @@ def check_not_negative(link: str, mass: Array, com: Array, inertia_at_com: Array
     """Return the principal moments; raise ModelError where one of them is negative. All are zero for a point mass."""
     # NumPy has eigenvalues in single and double precision only: double is enough to judge by.
     moments: Array = np.linalg.eigvalsh(judged(inertia_at_com).astype(np.float64))
-    negative = moments[..., 0] < -ROOM * np.abs(moments[..., 2]) - _rounding(judged(mass), com)
+    negative = moments[..., 0] < -MOMENT_RTOL * np.abs(moments[..., 2]) - _rounding(judged(mass), com)
     if negative.any():
         raise ModelError(
             f"link {link!r}: the inertia about the centre of mass must be positive definite, "

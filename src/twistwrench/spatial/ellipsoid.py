@@ -8,7 +8,7 @@ from ..arrays import Array
 
 __all__ = ["views"]
 
-SIDE = 110
+VIEW_PX = 110
 """Width of a view, pixels."""
 
 
@@ -31,7 +31,7 @@ def views(mass: Array, com: Array, inertia_at_com: Array) -> str:
     second = np.trace(inertia_at_com) / 2 * np.eye(3) - inertia_at_com  # ∫ρ r rᵀ, from which Σ of the ellipsoid
     shape = (5 / mass * second).astype(float)  # the squares of its semi-axes are the eigenvalues
     reach = 1.1 * float(np.abs(com).max() + np.sqrt(np.abs(shape.diagonal()).max())) or 1.0
-    scale = SIDE / 2 / reach
+    scale = VIEW_PX / 2 / reach
     return "".join(_view(scale * com.astype(float), scale**2 * shape, *plane) for plane in ((0, 1), (0, 2), (1, 2)))
 
 
@@ -40,9 +40,9 @@ def _view(com: Array, shape: Array, i: int, j: int) -> str:
     squares, axes = np.linalg.eigh(shape[np.ix_((i, j), (i, j))])
     b, a = np.sqrt(np.maximum(squares, 0))
     angle = -np.degrees(np.arctan2(axes[1, 1], axes[0, 1]))  # the picture's y points down
-    x, y, half = com[i], -com[j], SIDE / 2
+    x, y, half = com[i], -com[j], VIEW_PX / 2
     return (
-        f'<svg width="{SIDE}" height="{SIDE + 14}" viewBox="{-half} {-half} {SIDE} {SIDE + 14}" role="img">'
+        f'<svg width="{VIEW_PX}" height="{VIEW_PX + 14}" viewBox="{-half} {-half} {VIEW_PX} {VIEW_PX + 14}" role="img">'
         f"<title>{'xyz'[i]} to the right, {'xyz'[j]} up</title>"
         f'<ellipse rx="{max(a, 1):.1f}" ry="{max(b, 1):.1f}" fill="#56B4E9" fill-opacity="0.6" stroke="#0072B2" '
         f'transform="translate({x:.1f} {y:.1f}) rotate({angle:.1f})"/>'

@@ -11,7 +11,7 @@ from ._elementary import at_first_index, largest
 
 __all__ = ["check_rotation", "nearest_rotation"]
 
-NEAR = 0.1
+MAX_GRAM_ERROR = 0.1
 """How far RᵀR may be off 1 for the iteration without an inverse: it converges below 1, to the nearest rotation."""
 
 
@@ -62,8 +62,8 @@ def nearest_rotation(R: ArrayLike) -> Array:
 
 
 def _near_rotation(R: Array) -> Array:
-    """Return matrices with RᵀR within `NEAR` of 1 and the nearest rotations of these; those that are near stay."""
-    far = ~(largest(_defect(R), 2) <= NEAR)
+    """Return matrices with RᵀR within `MAX_GRAM_ERROR` of 1 and the nearest rotations of these; those that are near stay."""
+    far = ~(largest(_defect(R), 2) <= MAX_GRAM_ERROR)
     size = largest(R.real, 2)
     R = np.where(far[..., None, None], R / np.where(size == 0, 1, size)[..., None, None], R)  # nothing overflows
     det = (R[..., 0, :] * _cofactors(R)[..., 0, :]).sum(-1).real
@@ -78,7 +78,7 @@ def _near_rotation(R: Array) -> Array:
         ratio = np.sqrt((inverse.real**2).sum((-2, -1)) / (R.real**2).sum((-2, -1)))
         g = np.sqrt(ratio)[..., None, None]
         R = np.where(far[..., None, None], (g * R + inverse / g) / 2, R)
-        far = ~(largest(_defect(R), 2) <= NEAR)
+        far = ~(largest(_defect(R), 2) <= MAX_GRAM_ERROR)
     return R
 
 
@@ -92,7 +92,7 @@ def check_rotation(R: Array, name: str) -> None:
     """Raise ShapeError unless RᵀR = 1 and det R = 1, to the square root of the resolution."""
     off = largest(_defect(R), 2)
     known = ~np.isnan(judged(R)).any((-2, -1))  # a symbol has no value to check
-    mend = f"; nearest_rotation({name}) repairs it" if (off <= NEAR).all() and not _reflects(R).any() else ""
+    mend = f"; nearest_rotation({name}) repairs it" if (off <= MAX_GRAM_ERROR).all() and not _reflects(R).any() else ""
     _refuse(R, ~(off <= tolerance(R.dtype)) & known, off, f"{name}: expected a rotation matrix", mend)
 
 

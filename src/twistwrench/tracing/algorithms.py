@@ -19,8 +19,8 @@ from ..errors import ShapeError, check_known
 from ..model import Model, Tree, check_model, composite_inertias, tree_terms
 from ..spatial.formulas import symmetric
 from .anchors import anchors
-from .ledger import Account, Row, Trace
-from .listing import Step, places
+from .ledger import Account, BodyRecord, Trace
+from .listing import Assignment, places
 
 __all__ = ["listings", "trace"]
 
@@ -116,14 +116,14 @@ def listings(algorithm: str) -> tuple[Callable[..., Any], ...]:
     return _ALGORITHMS[algorithm].listings
 
 
-def _rnea_rows(model: Model, tree: Tree, x: RneaTerms) -> list[Row]:
+def _rnea_rows(model: Model, tree: Tree, x: RneaTerms) -> list[BodyRecord]:
     """49.6: twists and accelerations outward, wrenches inward."""
     F = _accounts(tree, x.B, x.F, [_inward(X, F) for X, F in zip(tree.X, x.F)])
     tau = [x.tau[s] for s in model.v_slice]
     return [_row(model, i, {"F": F[i]}, {"V": x.V[i], "A": x.A[i], "tau": tau[i]}) for i in range(model.nbodies)]
 
 
-def _aba_rows(model: Model, tree: Tree, x: AbaTerms) -> list[Row]:
+def _aba_rows(model: Model, tree: Tree, x: AbaTerms) -> list[BodyRecord]:
     """49.7: twists outward, articulated inertias and bias wrenches inward, accelerations outward."""
     IA = _accounts(tree, tree.I, x.IA, [symmetric(X.mT @ Ia @ X) for X, Ia in zip(tree.X, x.Ia)])
     pA = _accounts(tree, x.B, x.pA, [_inward(X, pa) for X, pa in zip(tree.X, x.pa)])
@@ -133,11 +133,11 @@ def _aba_rows(model: Model, tree: Tree, x: AbaTerms) -> list[Row]:
     return [_row(model, i, {"IA": IA[i], "pA": pA[i]}, values[i]) for i in range(model.nbodies)]
 
 
-def _crba_rows(model: Model, tree: Tree, x: CrbaTerms) -> list[Row]:
+def _crba_rows(model: Model, tree: Tree, x: CrbaTerms) -> list[BodyRecord]:
     """49.8: composite inertias inward; the wrench of each joint's unit acceleration on its way to the base."""
     IC = _accounts(tree, tree.I, x.IC, [symmetric(X.mT @ IC @ X) for X, IC in zip(tree.X, x.IC)])
     at = model.v_slice
-    rows: list[Row] = []
+    rows: list[BodyRecord] = []
     for i in range(model.nbodies):
         values: dict[str, Array] = {}
         for j in model.support(i):  # in frame i, then in those on the way to the base
@@ -146,7 +146,7 @@ def _crba_rows(model: Model, tree: Tree, x: CrbaTerms) -> list[Row]:
     return rows
 
 
-def _ccrba_rows(model: Model, tree: Tree, x: CentroidalTerms) -> list[Row]:
+def _ccrba_rows(model: Model, tree: Tree, x: CentroidalTerms) -> list[BodyRecord]:
     """49.10: composite inertias inward; the columns of each joint, seen from the centre of mass."""
     IC = _accounts(tree, tree.I, x.IC, [symmetric(X.mT @ IC @ X) for X, IC in zip(tree.X, x.IC)])
     A_G = [x.A_G[:, s] for s in model.v_slice]
@@ -167,11 +167,11 @@ def _accounts(tree: Tree, own: Sequence[Array], total: Sequence[Array], passed: 
     return [Account(*account) for account in zip(own, children, total, [None, *passed[1:]])]
 
 
-def _row(model: Model, i: int, accounts: Mapping[str, Account], values: Mapping[str, Array]) -> Row:
-    return Row(i, model.joint_names[i], model.parent[i], {k: x for k, x in values.items() if x.size}, accounts)
+def _row(model: Model, i: int, accounts: Mapping[str, Account], values: Mapping[str, Array]) -> BodyRecord:
+    return BodyRecord(i, model.joint_names[i], model.parent[i], {k: x for k, x in values.items() if x.size}, accounts)
 
 
-def _steps(algorithm: str, model: Model, terms: Any, rows: Sequence[Row]) -> Iterator[Step]:
+def _steps(algorithm: str, model: Model, terms: Any, rows: Sequence[BodyRecord]) -> Iterator[Assignment]:
     """Yield every line that gave a term its value; what adds up has a value more with each child."""
     sums: dict[Any, list[Array]] = {
         (name, row.body): _sums(account) for row in rows for name, account in row.accounts.items()
@@ -184,22 +184,24 @@ def _steps(algorithm: str, model: Model, terms: Any, rows: Sequence[Row]) -> Ite
             value = values[0] if place.own else values.pop(1)
         else:
             value = _value(model, getattr(terms, name), index)
-        yield Step(listing.__name__, place.line, place.source, place.body, name, index, value)
+        yield Assignment(listing.__name__, place.line, place.source, place.body, name, index, value)
 
 
-def _ccrba_steps(algorithm: str, model: Model, terms: CentroidalTerms, rows: Sequence[Row]) -> Iterator[Step]:
+def _ccrba_steps(
+    algorithm: str, model: Model, terms: CentroidalTerms, rows: Sequence[BodyRecord]
+) -> Iterator[Assignment]:
     """Yield the three lines of the CCRBA, which stand in three functions, for every body in turn."""
     functions = [function.__name__ for function in listings(algorithm)]
     to_G, composite, column = (anchors()[name] for name in ("49.10 X", "49.5 IC", "49.10 A_G"))
     sums = {row.body: _sums(row.accounts["IC"]) for row in rows}
     outward = range(1, model.nbodies)
     for i in outward:
-        yield Step(functions[0], to_G.number, to_G.line, i, "X", i, terms.X[i])
+        yield Assignment(functions[0], to_G.number, to_G.line, i, "X", i, terms.X[i])
     for i in reversed(outward):
         p = model.parent[i]
-        yield Step(functions[1], composite.number, composite.line, i, "IC", p, sums[p].pop(1))
+        yield Assignment(functions[1], composite.number, composite.line, i, "IC", p, sums[p].pop(1))
     for i in outward:
-        yield Step(functions[2], column.number, column.line, i, "A_G", i, rows[i].values.get("A_G"))
+        yield Assignment(functions[2], column.number, column.line, i, "A_G", i, rows[i].values.get("A_G"))
 
 
 def _sums(account: Account) -> list[Array]:
@@ -221,7 +223,7 @@ def _value(model: Model, term: Any, index: Any) -> Array:
 
 class _Algorithm(NamedTuple):
     run: Callable[..., Any]
-    read: Callable[[Model, Tree, Any], list[Row]]
+    read: Callable[[Model, Tree, Any], list[BodyRecord]]
     listings: tuple[Callable[..., Any], ...]
 
 

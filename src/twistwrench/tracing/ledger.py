@@ -10,9 +10,9 @@ from ..arrays import Array
 from ..errors import unknown_name
 from ..model import Model
 from ..spatial import SE3
-from .listing import Step
+from .listing import Assignment
 
-__all__ = ["Account", "Row", "Trace"]
+__all__ = ["Account", "BodyRecord", "Trace"]
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Account:
 
 
 @dataclass(frozen=True)
-class Row:
+class BodyRecord:
     """What happened at a body.
 
     Attributes
@@ -71,9 +71,9 @@ class Trace:
     model : Model
     result : ndarray
         What the algorithm returned.
-    rows : tuple of Row
+    rows : tuple of BodyRecord
         For each body, the world first.
-    steps : tuple of Step
+    steps : tuple of Assignment
         Every line of the source that gave a term of a body its value, in the order in which they are run.
     placement : tuple of SE3
         Of each body, in the world.
@@ -82,11 +82,11 @@ class Trace:
     algorithm: str
     model: Model
     result: Array
-    rows: tuple[Row, ...]
-    steps: tuple[Step, ...]
+    rows: tuple[BodyRecord, ...]
+    steps: tuple[Assignment, ...]
     placement: tuple[SE3, ...]
 
-    def row(self, body: int | str) -> Row:
+    def row(self, body: int | str) -> BodyRecord:
         """Return the row of a body, by its number or by the name of its joint; raises NameNotFound, IndexError."""
         return self.rows[self.model.joint_id(body) if isinstance(body, str) else body]
 

@@ -14,11 +14,11 @@ from typing import Any
 
 from .anchors import anchor_of
 
-__all__ = ["Place", "Step", "places"]
+__all__ = ["Assignment", "Place", "places"]
 
 
 @dataclass(frozen=True)
-class Step:
+class Assignment:
     """A line that gave a term its value.
 
     Attributes

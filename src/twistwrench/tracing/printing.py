@@ -9,7 +9,7 @@ from html import escape
 import numpy as np
 
 from ..arrays import Array
-from .ledger import Account, Row, Trace
+from .ledger import Account, BodyRecord, Trace
 
 __all__ = ["html", "table", "tree"]
 
@@ -88,7 +88,7 @@ def tree(trace: Trace) -> str:
     return "\n".join(f"{name:<{width}}{text}".rstrip() for name, _, text in (line.partition("\t") for line in lines))
 
 
-def _without_rounding(rows: Sequence[Row]) -> list[Row]:
+def _without_rounding(rows: Sequence[BodyRecord]) -> list[BodyRecord]:
     """Return rows with 0 for values that are zero to rounding: less than 1e-13 of the largest number in that unit."""
     largest: dict[str, float] = {}
     for row in rows:
@@ -113,7 +113,7 @@ def _without_rounding(rows: Sequence[Row]) -> list[Row]:
     ]
 
 
-def _passes(algorithm: str, row: Row) -> str:
+def _passes(algorithm: str, row: BodyRecord) -> str:
     """Return in a line what a body passes on, and its joint's force or apparent inertia."""
     account, *_ = row.accounts.values()
     if account.passed is None:
@@ -135,11 +135,11 @@ def _title(trace: Trace) -> str:
     return f"what each body received, and passed on to its parent:\n{PASSED[trace.algorithm]} (angular, linear)"
 
 
-def _heading(row: Row) -> str:
+def _heading(row: BodyRecord) -> str:
     return f"{row.body} {row.name}" + (f", on {row.parent}" if row.parent >= 0 else "")
 
 
-def _lines(algorithm: str, row: Row) -> Iterator[Line]:
+def _lines(algorithm: str, row: BodyRecord) -> Iterator[Line]:
     first = [name for name in row.values if name in FIRST[algorithm]]
     for name in first:
         yield from _numbers(name, name, row.values[name])

@@ -22,7 +22,7 @@ from ..model import Model, tree_terms
 from .algorithms import listings
 from .anchors import SOURCE
 from .ledger import Trace
-from .listing import Step
+from .listing import Assignment
 from .printing import UNITS
 from .words import FORMULAS, PARTS, TERMS, WORDS
 
@@ -96,15 +96,15 @@ def _robot(trace: Trace, language: str) -> dict[str, Any]:
     }
 
 
-def _once(steps: Sequence[Step]) -> list[Step]:
+def _once(steps: Sequence[Assignment]) -> list[Assignment]:
     """Return the steps without the second name of a line that gives two (``F[i] = B[i] = …``)."""
-    seen: dict[Any, Step] = {}
+    seen: dict[Any, Assignment] = {}
     for step in steps:
         seen.setdefault((step.function, step.line, step.body, step.index), step)
     return [*seen.values()]
 
 
-def _step(trace: Trace, step: Step, listing: int, language: str) -> dict[str, Any]:
+def _step(trace: Trace, step: Assignment, listing: int, language: str) -> dict[str, Any]:
     numbers = _numbers(trace.model, step)
     frame = step.index if isinstance(step.index, int) else step.index[0]
     says = TERMS[step.name, trace.algorithm] if (step.name, trace.algorithm) in TERMS else TERMS[step.name]
@@ -125,7 +125,7 @@ def _step(trace: Trace, step: Step, listing: int, language: str) -> dict[str, An
     }
 
 
-def _numbers(model: Model, step: Step) -> dict[str, int]:
+def _numbers(model: Model, step: Assignment) -> dict[str, int]:
     """Return which body each letter of a formula stands for: i, its parent p, j towards the base, k outboard of j."""
     i = _turn(step)
     numbers = {"i": i, "p": max(model.parent[i], 0)}
@@ -154,12 +154,12 @@ def formula(text: str, numbers: Mapping[str, int]) -> str:
     return re.sub(r"^(.*?)( [=←] )", r"<mark>\1</mark>\2", html)
 
 
-def _turn(step: Step) -> int:
+def _turn(step: Assignment) -> int:
     """Return the body whose turn it is; outside of the loops it is the world's."""
     return 0 if step.body is None else step.body
 
 
-def _units(trace: Trace, step: Step) -> list[str]:
+def _units(trace: Trace, step: Assignment) -> list[str]:
     """Return the units of the angular and of the linear part; those of a joint depend on whether it turns or slides."""
     model, name, i = trace.model, step.name, _turn(step)
     per_acceleration = name in ("U", "A_G") or (name, trace.algorithm) == ("F", "crba")

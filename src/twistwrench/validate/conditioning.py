@@ -22,8 +22,8 @@ from .exact import contact_jacobian
 from .states import States
 
 __all__ = [
-    "CANCELLED",
-    "ROUNDINGS",
+    "CANCELLED_SHARE",
+    "TERM_RTOL",
     "equilibrium_bound",
     "forward_dynamics_bound",
     "forward_dynamics_residual",
@@ -35,10 +35,10 @@ __all__ = [
     "wrenches",
 ]
 
-CANCELLED = 0.01
+CANCELLED_SHARE = 0.01
 """The part of the terms' size that a result is measured against where it is itself smaller than that."""
 
-ROUNDINGS = 10 * resolution(np.float64)
+TERM_RTOL = 10 * resolution(np.float64)
 """K ε: the relative error that each term of an equation may have picked up, ten roundings."""
 
 
@@ -88,7 +88,7 @@ def forward_dynamics_bound(model: Model, s: States, qdd: Array, f_ext: Array | N
         inverse = d[:, None] * np.linalg.inv(d[:, None] * M * d) * d
     except np.linalg.LinAlgError:
         return np.inf
-    return float(ROUNDINGS * (np.abs(inverse) @ terms).max() / np.abs(qdd).max())
+    return float(TERM_RTOL * (np.abs(inverse) @ terms).max() / np.abs(qdd).max())
 
 
 def forward_dynamics_residual(model: Model, s: States, exact: States, f_ext: Array | None = None) -> float:
@@ -104,7 +104,7 @@ def equilibrium_bound(model: Model, s: States, solution: Array) -> float:
     computations, section 5.6); τ inherits that through J_cᵀ, and adds K ε of its own terms.
     """
     J, n = contact_jacobian(model, s), model.nv - 6
-    forces, unit = solution[n:], ROUNDINGS
+    forces, unit = solution[n:], TERM_RTOL
     of_forces = 3 * np.linalg.cond(J[:, :6]) * unit * np.sqrt((forces**2).sum())
     own = unit * (wrenches(model, s.q, 0 * s.v, 0 * s.v)[6:] + np.abs(J[:, 6:].mT) @ np.abs(forces))
     of_tau = own.max(initial=0) + np.linalg.norm(J[:, 6:], 2) * of_forces if n else 0.0
@@ -122,7 +122,7 @@ def without_inertia(model: Model, s: States) -> tuple[set[str], set[str]]:
     nothing = set(names[np.diag(M) == 0])
     lost, diagonal = set(), np.diag(M).copy()
     for k in reversed(range(nv)):
-        if M[k, k] <= nv * ROUNDINGS * diagonal[k]:
+        if M[k, k] <= nv * TERM_RTOL * diagonal[k]:
             lost.add(names[k])
         else:
             M[:k, :k] -= np.outer(M[:k, k], M[k, :k]) / M[k, k]

@@ -17,7 +17,7 @@ __all__ = ["FAST"]
 
 Ours = Callable[[Model, States], Array]
 
-AT_ONCE = 16
+MIN_BATCH_STATES = 16
 """The least number of states in a batch: fewer would be computed one by one."""
 
 
@@ -25,7 +25,7 @@ def _both_ways(call: Ours) -> Ours:
     """Return a function that computes the first state alone, and the others in a batch."""
 
     def ours(model: Model, s: States) -> Array:
-        repeated = s[np.resize(np.arange(len(s)), max(AT_ONCE, len(s)))]
+        repeated = s[np.resize(np.arange(len(s)), max(MIN_BATCH_STATES, len(s)))]
         out = call(model, repeated)[: len(s)].copy()
         out[0] = call(model, s[0])
         return out

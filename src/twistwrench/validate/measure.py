@@ -12,9 +12,9 @@ import numpy as np
 from ..arrays import Array
 from ..errors import ShapeError, SingularError
 from ..model import Model
-from .conditioning import CANCELLED, ROUNDINGS
+from .conditioning import CANCELLED_SHARE, TERM_RTOL
 from .oracle import Oracle
-from .quantity import BOUND, Quantity
+from .quantity import DEFAULT_RTOL, Quantity
 from .states import States
 
 __all__ = ["Judge", "Row"]
@@ -49,7 +49,7 @@ class Row:
     ours_vs_pinocchio: float | None = None
     ours_vs_truth: float | None = None
     pinocchio_vs_truth: float | None = None
-    bound: float = BOUND
+    bound: float = DEFAULT_RTOL
     passed: bool = False
     singular: bool = False
     note: str = ""
@@ -60,7 +60,7 @@ class Row:
         return self.ours_vs_pinocchio if self.ours_vs_truth is None else self.ours_vs_truth
 
 
-class Right(NamedTuple):
+class HighLow(NamedTuple):
     """A right value as the sum of two doubles: 32 digits of it."""
 
     high: Array
@@ -68,7 +68,7 @@ class Right(NamedTuple):
 
 
 @dataclass(frozen=True)
-class At:
+class StateErrors:
     """The errors at one state, of every entry, in units of the scale; None where a side is missing."""
 
     ours_vs_pinocchio: Array | None
@@ -91,7 +91,7 @@ class At:
     @property
     def closeness(self) -> float:
         """The deciding error in units of the bound. A NaN is infinitely far off."""
-        worst = np.max([self.error / self.bound, (self.residual or 0.0) / ROUNDINGS])
+        worst = np.max([self.error / self.bound, (self.residual or 0.0) / TERM_RTOL])
         return float(np.inf if np.isnan(worst) else worst)
 
     def place(self, state: int) -> str:
@@ -150,38 +150,40 @@ class Judge:
         more = f" and {len(names) - 4} more" if len(names) > 4 else ""
         return f"singular: {len(names)} joint{'s' * (len(names) > 1)}: {', '.join(names[:4])}{more}"
 
-    def _at(self, quantity: Quantity, i: int, x: Array) -> At:
+    def _at(self, quantity: Quantity, i: int, x: Array) -> StateErrors:
         s = self.states[i]
-        theirs = None if self.oracle is None else Right(quantity.theirs(self.oracle, s))
+        theirs = None if self.oracle is None else HighLow(quantity.theirs(self.oracle, s))
         truth = self._truth(quantity, s) if theirs is None or i < self.truths else None
         at = self._compare(quantity, s, x, theirs, truth)
         if truth is None and at.closeness > 1:
             truth = self._truth(quantity, s)  # who is right?
             at = self._compare(quantity, s, x, theirs, truth)
-        if quantity.residual is not None and BOUND < at.error <= at.bound:
+        if quantity.residual is not None and DEFAULT_RTOL < at.error <= at.bound:
             s = replace(s, a=x)
             at = replace(at, residual=quantity.residual(self.model, s, s.exact(self.context)))
         return at
 
-    def _truth(self, quantity: Quantity, s: States) -> Right | None:
+    def _truth(self, quantity: Quantity, s: States) -> HighLow | None:
         if self.context is None:
             return None
         y = quantity.truth(self.model, s.exact(self.context))
         high = y.astype(np.float64)
-        return Right(high, np.asarray(y - high, np.float64))
+        return HighLow(high, np.asarray(y - high, np.float64))
 
-    def _compare(self, quantity: Quantity, s: States, x: Array, theirs: Right | None, truth: Right | None) -> At:
+    def _compare(
+        self, quantity: Quantity, s: States, x: Array, theirs: HighLow | None, truth: HighLow | None
+    ) -> StateErrors:
         right = theirs if truth is None else truth
         if right is None:
             raise ValueError("nothing to compare with: neither Pinocchio nor mpmath is there")
         if x.shape != right.high.shape:
             raise ShapeError(f"ours has shape {x.shape}, expected {right.high.shape}")
-        scale, bound = np.abs(right.high).max(initial=0), BOUND
+        scale, bound = np.abs(right.high).max(initial=0), DEFAULT_RTOL
         if quantity.terms is not None:
-            scale = max(scale, CANCELLED * quantity.terms(self.model, s))
+            scale = max(scale, CANCELLED_SHARE * quantity.terms(self.model, s))
         if quantity.bound is not None:
             bound = max(bound, quantity.bound(self.model, s, right.high))
-        return At(
+        return StateErrors(
             ours_vs_pinocchio=_errors(x, theirs, scale),
             ours_vs_truth=_errors(x, truth, scale),
             pinocchio_vs_truth=None if theirs is None else _errors(theirs.high, truth, scale),
@@ -189,7 +191,7 @@ class Judge:
         )
 
 
-def _errors(x: Array, right: Right | None, scale: float) -> Array | None:
+def _errors(x: Array, right: HighLow | None, scale: float) -> Array | None:
     """Return the relative error of each entry. Where the scale is zero, so is the right value, to the last bit."""
     if right is None:
         return None
@@ -197,11 +199,11 @@ def _errors(x: Array, right: Right | None, scale: float) -> Array | None:
     return np.asarray(off / scale if scale else np.where(off == 0, 0.0, np.inf))
 
 
-def _sum_up(row: Row, states: Sequence[At]) -> Row:
+def _sum_up(row: Row, states: Sequence[StateErrors]) -> Row:
     """Take the worst of the states."""
     known = [i for i, at in enumerate(states) if at.ours_vs_truth is not None] or range(len(states))
     worst = max(known, key=lambda i: states[i].closeness)
-    constant = all(at.bound == BOUND for at in states)
+    constant = all(at.bound == DEFAULT_RTOL for at in states)
     seen = states if constant else [states[worst]]
     row = replace(
         row,
@@ -220,7 +222,7 @@ def _worst(errors: Iterable[Array | None]) -> float | None:
     return float(np.max(known)) if known else None
 
 
-def _remark(states: Sequence[At]) -> str:
+def _remark(states: Sequence[StateErrors]) -> str:
     """Return notes on where rounding rules out 1e-12, and where ours is right and Pinocchio is not."""
     above = [at for at in states if at.residual is not None]
     theirs = _worst(at.pinocchio_vs_truth for at in states) or 0.0

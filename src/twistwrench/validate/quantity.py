@@ -11,9 +11,9 @@ from ..model import Model
 from .oracle import Oracle
 from .states import States
 
-__all__ = ["BOUND", "Quantity"]
+__all__ = ["DEFAULT_RTOL", "Quantity"]
 
-BOUND = 1e-12
+DEFAULT_RTOL = 1e-12
 """Relative error that every quantity must keep, unless its conditioning forbids it."""
 
 

@@ -15,7 +15,7 @@ from .measure import Row
 __all__ = ["Report", "notes", "number"]
 
 HEADER = ("§", "quantity", "in Pinocchio", "shape", "vs Pin.", "vs truth", "bound", "")
-RIGHT = (4, 5, 6)
+RIGHT_ALIGNED_COLUMNS = (4, 5, 6)
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class Report:
             f"{self.robot}: {self.description}",
             *self._sides(),
             "",
-            *aligned([HEADER, *map(_cells, self.rows)], right=RIGHT),
+            *aligned([HEADER, *map(_cells, self.rows)], right=RIGHT_ALIGNED_COLUMNS),
         ]
         return "\n".join([*lines, *notes(self.rows), "", self.summary()])
 

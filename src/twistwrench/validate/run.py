@@ -26,7 +26,7 @@ from .states import random_states
 
 __all__ = ["NOTHING_TO_COMPARE_WITH", "validate"]
 
-DIGITS = 50
+REFERENCE_DIGITS = 50
 
 NOTHING_TO_COMPARE_WITH = 'nothing to compare with: pip install "twistwrench[validate]" brings Pinocchio and mpmath'
 
@@ -159,7 +159,7 @@ def _context() -> Any:
     except ImportError:
         return None
     context = MPContext()
-    context.dps = DIGITS
+    context.dps = REFERENCE_DIGITS
     return context
 
 

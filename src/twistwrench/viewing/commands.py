@@ -12,7 +12,7 @@ from ..options import check_writable
 
 __all__ = ["register"]
 
-PICTURES = (".png", ".svg", ".pdf")
+PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
 DOTS_PER_INCH = 110
 
 
@@ -40,8 +40,8 @@ def register(commands: Any) -> None:
 def run_view(args: argparse.Namespace) -> int:
     """Show it, or write it."""
     suffix = args.output.suffix.lower() if args.output else ""
-    if args.output and suffix not in (*PICTURES, ".html"):
-        args.misuse(f"argument --output: expected a name in {', '.join(PICTURES)} or .html, got {args.output}")
+    if args.output and suffix not in (*PICTURE_SUFFIXES, ".html"):
+        args.misuse(f"argument --output: expected a name in {', '.join(PICTURE_SUFFIXES)} or .html, got {args.output}")
     if args.output:
         check_writable("--output", args.output)
         _write(args, suffix)

@@ -14,10 +14,10 @@ from .state import Subject
 
 __all__ = ["add_joints", "add_time"]
 
-MANY = 20
+MAX_OPEN_SLIDERS = 20
 """The sliders of more joints than these are folded away at first."""
 
-PICTURES = 30
+PICTURES_PER_S = 30
 """A second, while it plays."""
 
 
@@ -41,7 +41,7 @@ def add_joints(gui: Any, seen: Subject, show: Callable[[Array], None]) -> None:
 
         return moved
 
-    with gui.add_folder("Joints", expand_by_default=model.nv < MANY):
+    with gui.add_folder("Joints", expand_by_default=model.nv < MAX_OPEN_SLIDERS):
         for name, joint, s in zip(model.joint_names, model.joints, model.q_slice):
             if joint is not None and joint.nq == joint.nv == 1:
                 now = float(q[s][0])
@@ -76,9 +76,9 @@ def add_time(gui: Any, t: Array, show: Callable[[int], None]) -> Any:
 
     def play() -> None:
         while runs.value:
-            later = slider.value + 1 / PICTURES
+            later = slider.value + 1 / PICTURES_PER_S
             slider.value = later if later <= last else first
-            time.sleep(1 / PICTURES)
+            time.sleep(1 / PICTURES_PER_S)
 
     def run(event: Any) -> None:
         if event.target.value:

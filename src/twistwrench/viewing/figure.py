@@ -15,9 +15,9 @@ from ..plot.stance import support_polygon
 from ..plot.style import COLOURS, axes_3d, fit
 from .state import Subject
 
-__all__ = ["LONGEST_FORCE", "draw"]
+__all__ = ["MAX_FORCE_EXTENTS", "draw"]
 
-LONGEST_FORCE = 0.25
+MAX_FORCE_EXTENTS = 0.25
 """Length of its arrow, in extents of the robot."""
 
 
@@ -50,7 +50,7 @@ def draw(seen: Subject, frames: Collection[str] | None = None, ax: Any = None) -
         arrows(
             forces.at,
             forces.vectors,
-            scale=LONGEST_FORCE * extent / largest,
+            scale=MAX_FORCE_EXTENTS * extent / largest,
             texts=seen.texts(forces),
             colour=COLOURS["black"],
             label="force of the ground",

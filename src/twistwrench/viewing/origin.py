@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 
 __all__ = ["is_own_page", "only_own_page"]
 
-HERE = ("127.0.0.1", "localhost", "::1")
+LOCAL_HOSTS = ("127.0.0.1", "localhost", "::1")
 
 
 def is_own_page(headers: Mapping[str, str]) -> bool:
@@ -29,7 +29,7 @@ def is_own_page(headers: Mapping[str, str]) -> bool:
     """
     host, origin = headers.get("Host", ""), headers.get("Origin")
     try:
-        here = urlsplit(f"//{host}").hostname in HERE
+        here = urlsplit(f"//{host}").hostname in LOCAL_HOSTS
     except ValueError:
         here = False
     return here and origin in (None, f"http://{host}")

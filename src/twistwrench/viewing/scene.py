@@ -14,7 +14,7 @@ from ..plot.robot import sticks
 from ..plot.stance import hull
 from ..plot.style import COLOURS, XYZ
 from ..spatial import SE3, rotation_to_quaternion
-from .figure import LONGEST_FORCE
+from .figure import MAX_FORCE_EXTENTS
 from .shapes import Shape
 from .state import Subject
 
@@ -205,7 +205,7 @@ def _forces(scene: Any, seen: Subject, largest: float) -> Mover:
         node.visible = forces is not None
         if forces is None:
             return
-        tips = forces.at + LONGEST_FORCE * extent / largest * forces.vectors
+        tips = forces.at + MAX_FORCE_EXTENTS * extent / largest * forces.vectors
         node.points = np.stack([forces.at, tips], axis=1).astype(np.float32)
         for label, text, tip in zip(labels, seen.texts(forces), tips):
             label.text, label.position, label.visible = text, tip, bool(text)
