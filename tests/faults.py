@@ -325,7 +325,7 @@ FAULTS = [
     Fault("contact: a sole's moments without their lever", "contact/forward.py", "np.matvec(W.mT, mu)", "mu"),
     Fault(
         "impact: restitution that slows down",
-        "contact/impacts.py",
+        "contact/forward.py",
         "v=v - (1 + restitution)",
         "v=v - (1 - restitution)",
     ),

@@ -489,7 +489,7 @@ def test_both_equations_hold_on_robots_of_the_catalogue_wherever_they_are(name):
 def test_a_singular_mass_matrix_is_named_where_numpy_gives_nan_instead_of_raising(monkeypatch):
     """NumPy built for a browser has no floating-point flags, and raises no LinAlgError."""
     body = points(["body"])
-    assert np.isfinite(body[0].spread_root).all()  # made once, before
+    assert np.isfinite(body[0].grasp_cholesky).all()  # made once, before
     monkeypatch.setattr(np.linalg, "cholesky", lambda M: np.full_like(M, np.nan))
     builder = tw.Builder("hat", base="floating", root="body", root_inertia=tw.SpatialInertia(1, [0, 0, 0], np.eye(3)))
     builder.link("hat", parent="body", joint=tw.Revolute("z"))

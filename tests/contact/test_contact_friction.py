@@ -9,9 +9,8 @@ import pytest
 from scipy.optimize import linprog, nnls
 
 import twistwrench as tw
-from twistwrench.contact.limits import contact_limits
 from twistwrench.contact.qp import least_within
-from twistwrench.contact.task import Task
+from twistwrench.contact.task import ContactProblem, contact_limits
 
 from ..touching import (
     BOX,
@@ -176,7 +175,7 @@ def test_forces_are_the_least_within_the_limits(model, q, a, contacts, sides, py
     assert np.abs(left).max() < 1e-12 * weight
     assert (need.tau[:6] == 0).all()
 
-    task = Task.of(model, q, v, a, contacts, None)
+    task = ContactProblem.of(model, q, v, a, contacts, None)
     A, _, names, *_ = contact_limits(contacts, sides, pyramid)
     free = task.free
     z, _ = least_within(A @ free, -A @ task.least, task.size)
@@ -220,7 +219,7 @@ def test_the_pressure_on_a_sole_stays_within_it():
 
 @pytest.mark.parametrize("mu", np.linspace(0.45, 0.65, 9))
 def test_it_says_cannot_exactly_where_a_linear_programme_finds_no_forces(mu):
-    task = Task.of(GO2, *poised(FORWARDS), feet(mu), None)
+    task = ContactProblem.of(GO2, *poised(FORWARDS), feet(mu), None)
     A = contact_limits(feet(mu), 8, "inner").A
     possible = linprog(np.zeros(12), A, np.zeros(len(A)), task.J[:, :6].T @ task.P, task.b[:6], (None, None)).success
     try:

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.contact.nonnegative import nonnegative_least_squares
-from twistwrench.contact.qp import least_breach
-from twistwrench.contact.task import Task
+from twistwrench.contact.qp import least_breach, nonnegative_least_squares
+from twistwrench.contact.task import ContactProblem
 
 from ..sampling import sampled
 from ..touching import BOX, FEET, GO2, HUMANOID, SOLES, points, posed
@@ -288,6 +287,6 @@ def test_the_least_breach_leaves_nothing_to_gain():
 
 def test_a_free_fall_asks_nothing_of_the_feet():
     rest, fall = np.zeros(18), np.r_[0, 0, 0, 0, 0, -9.81, np.zeros(12)]
-    task = Task.of(GO2, GO2.standing(), rest, fall, FEET, None)
+    task = ContactProblem.of(GO2, GO2.standing(), rest, fall, FEET, None)
     assert task.reach(SIDES, "inner").reached
     assert np.abs(task.reach(SIDES, "inner").f).max() < 1e-9

@@ -58,7 +58,7 @@ def test_spread_adds_up_the_forces_at_the_corners():
     rng = np.random.default_rng(0)
     f = rng.standard_normal((4, 3))
     wrench = np.concatenate([np.cross(SURFACE.points, f).sum(0), f.sum(0)])
-    assert np.allclose(SURFACE.spread @ f.ravel(), wrench, rtol=0, atol=1e-15)
+    assert np.allclose(SURFACE.grasp_map @ f.ravel(), wrench, rtol=0, atol=1e-15)
 
 
 def caron(wrench, half, mu):
@@ -73,7 +73,7 @@ def caron(wrench, half, mu):
 def test_a_sole_bears_what_the_closed_form_says():
     """Outer pyramids of four sides are the ones of the closed form: |f_x| and |f_y| up to μ f_z at each corner."""
     rng = np.random.default_rng(1)
-    A, G, seen = SURFACE.limits(4, "outer"), SURFACE.spread, {True: 0, False: 0}
+    A, G, seen = SURFACE.limits(4, "outer"), SURFACE.grasp_map, {True: 0, False: 0}
     for _ in range(120):
         wrench = rng.uniform(-1, 1, 6) * [0.05, 0.12, 0.05, 0.5, 0.5, 0] + [0, 0, 0, 0, 0, 1]
         margin = caron(wrench, SURFACE.half_size, 0.5)
@@ -85,7 +85,7 @@ def test_a_sole_bears_what_the_closed_form_says():
 
 
 def test_the_moment_about_the_normal_is_limited_as_the_docstring_says():
-    A, G = SURFACE.limits(64, "inner"), SURFACE.spread
+    A, G = SURFACE.limits(64, "inner"), SURFACE.grasp_map
     carried = np.vstack([G[[0, 1, 3, 4, 5]], *(np.eye(12)[[k]] for k in (2, 5, 8))])  # evenly, and nothing sideways
     most = -linprog(-G[2], A, np.zeros(len(A)), carried, [0, 0, 0, 0, 4, 1, 1, 1], (None, None)).fun
     assert np.isclose(most, 0.5 * np.hypot(0.1, 0.04) * 4, rtol=2e-3)  # the pyramid's sides are at 0.9988 of μ

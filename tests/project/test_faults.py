@@ -167,7 +167,7 @@ def test_a_fault_meets_the_tests_of_its_own_file_first(file):
         ("algorithms/aba.py", "test_aba"),
         ("algorithms/crba.py", "test_crba"),
         ("algorithms/centroidal.py", "test_centroidal"),
-        ("contact/impacts.py", "test_contact_"),
+        ("contact/forward.py", "test_contact_"),
     ],
 )
 def test_the_tests_of_an_algorithm_bear_its_name(file, tests):

@@ -16,11 +16,12 @@ from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index, sqrt
-from .types import Contact, FrameRows, Motion, checked_frame, checked_motion
+from .relative import FrameRows, Posture, StateMotion
+from .types import Contact, RowValues, checked_frame, checked_motion
 
 __all__ = ["Coupling", "DistanceConstraint", "LoopClosure"]
 
-GRIP = 0.1
+WELD_ARM_M = 0.1
 """Of a weld that is held more often than needed, forces at so many metres from it weigh as much as those in it."""
 
 
@@ -87,8 +88,8 @@ class LoopClosure(_Internal):
     frame: str
     to: str = field()
     welded: bool = False
-    velocity: Motion = field(default=(), kw_only=True)
-    acceleration: Motion = field(default=(), kw_only=True)
+    velocity: RowValues = field(default=(), kw_only=True)
+    acceleration: RowValues = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         checked_frame(self.frame)
@@ -105,7 +106,7 @@ class LoopClosure(_Internal):
     @property
     def points(self) -> Array:
         """The frame's origin; of a weld six points around it."""
-        return GRIP * np.concatenate([np.eye(3), -np.eye(3)]) if self.welded else np.zeros((1, 3))
+        return WELD_ARM_M * np.concatenate([np.eye(3), -np.eye(3)]) if self.welded else np.zeros((1, 3))
 
 
 @dataclass(frozen=True)
@@ -148,8 +149,8 @@ class DistanceConstraint(_Internal):
 
     frame: str
     to: str = field()
-    velocity: Motion = field(default=(), kw_only=True)
-    acceleration: Motion = field(default=(), kw_only=True)
+    velocity: RowValues = field(default=(), kw_only=True)
+    acceleration: RowValues = field(default=(), kw_only=True)
     divides = True
 
     def __post_init__(self) -> None:
@@ -232,8 +233,8 @@ class Coupling(_Internal):
 
     frame: str
     ratios: tuple[tuple[str, float], ...]
-    velocity: Motion = field(default=(), kw_only=True)
-    acceleration: Motion = field(default=(), kw_only=True)
+    velocity: RowValues = field(default=(), kw_only=True)
+    acceleration: RowValues = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         checked_frame(self.frame)
@@ -255,10 +256,6 @@ class Coupling(_Internal):
             if model.joints[model.joint_id(name)].nv != 1:  # type: ignore[union-attr]
                 raise ValueError(f"coupling {self.frame!r}: expected joints of one degree of freedom, got {name!r}")
 
-    def counts_turns(self, model: Model) -> bool:
-        """Return whether q of all these joints counts the turns, so that a configuration is held and not the rates."""
-        return all(model.joints[model.joint_id(name)].nq == 1 for name in self.frames)  # type: ignore[union-attr]
-
     def coefficients(self, model: Model, entries: Sequence[slice], n: int, dtype: DTypeLike) -> Array:
         """Return the coupling as a row, shape (1, n), where joint i of a model has these entries."""
         row = np.zeros((1, n))
@@ -271,6 +268,19 @@ class Coupling(_Internal):
         row = self.coefficients(model, model.v_slice, model.nv, q.dtype)
         return np.broadcast_to(row, (*q.shape[:-1], 1, model.nv))
 
+    def place(self, at: Posture) -> SE3:
+        """Return the translation (q − Σ ratio q, 0, 0), zero where q does not count the turns."""
+        model, q = at.model, at.q
+        off = np.zeros((*q.shape[:-1], 3), q.dtype)
+        if self.keeps_place(model):
+            off[..., :1] = np.matvec(self.coefficients(model, model.q_slice, model.nq, q.dtype), q)
+        return SE3._trusted(np.broadcast_to(np.eye(3, dtype=q.dtype), (*q.shape[:-1], 3, 3)), off)
+
+    def kinematics(self, state: StateMotion) -> tuple[SE3, Array, Array]:
+        """Return its place, its row of J, and J̇ v = 0."""
+        q = state.q
+        return self.place(state.posture), self.jacobian(state.model, q), np.zeros((*q.shape[:-1], 1), q.dtype)
+
     @property
     def rows(self) -> slice:
         """One row: it stands for the first linear one."""
@@ -278,5 +288,10 @@ class Coupling(_Internal):
 
     @property
     def frames(self) -> tuple[str, ...]:
-        """The joints, by which their own frames are called as well."""
+        """The joints' own frames, which have their names."""
+        return self.joints
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The driven joint and those that drive it."""
         return (self.frame, *(name for name, _ in self.ratios))

@@ -2,7 +2,7 @@
 
 With M = L Lᵀ and Y = L⁻¹ Jᵀ the matrix J M⁻¹ Jᵀ is YᵀY: Y holds the rows of J in units of kinetic energy, which
 weighs a radian and a metre in v by the inertia that they move. Its singular values decide the rank, without squaring
-them. Every row of J must be a velocity in m/s; `lever` sees to that.
+them. Every row of J must be a velocity in m/s; `row_scaling` sees to that.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..model import Model
 from ..spatial import SE3
 from .types import Contact
 
-__all__ = ["Decomposition", "block_diagonal", "decompose", "lever", "point_map"]
+__all__ = ["Decomposition", "block_diagonal", "decompose", "point_map", "row_scaling"]
 
 
 class Decomposition(NamedTuple):
@@ -107,20 +107,20 @@ def _without_inertia(model: Model, M: Array) -> str:
     return f"no inertia outboard of joint {', '.join(names)}" if names else "some joints have none when moved together"
 
 
-def lever(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
+def row_scaling(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
     """Return W, shape (..., m, m), for which W J v is in m/s: a turn counts as it moves the points of its contact.
 
-    λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `spread` G. The
-    row of a coupling stays as it is: there 1 rad/s counts as 1 m/s.
+    λ = Wᵀ μ; the least μ stands for the least forces at the points, since WᵀW = G Gᵀ for the contact's `grasp_map` G.
+    The row of a coupling stays as it is: there 1 rad/s counts as 1 m/s.
     """
     return block_diagonal(
-        [c.turn(T.rotation) @ convert(c.spread_root, T.rotation.dtype) for c, T in zip(contacts, at)]
+        [c.row_rotation(T.rotation) @ convert(c.grasp_cholesky, T.rotation.dtype) for c, T in zip(contacts, at)]
     ).mT
 
 
 def point_map(contacts: Sequence[Contact], at: Sequence[SE3]) -> Array:
     """Return P, shape (..., m, 3 k): λ = P f of the forces f at all points, each in its contact's axes."""
-    return block_diagonal([c.turn(T.rotation) @ c.spread for c, T in zip(contacts, at)])
+    return block_diagonal([c.row_rotation(T.rotation) @ c.grasp_map for c, T in zip(contacts, at)])
 
 
 def block_diagonal(blocks: Sequence[Array]) -> Array:

@@ -1,8 +1,11 @@
-"""Forward dynamics under contact: M q̈ + h = Sᵀ τ + Jᵀ λ with J q̈ + J̇ v = 0 (49.9).
+"""Forward dynamics under contact: M q̈ + h = Sᵀ τ + Jᵀ λ with J q̈ + J̇ v = 0, and what follows from it (49.9).
 
 Among all accelerations that the contacts allow the robot takes the one nearest to that of its free motion, in the
 metric of M (Gauss's principle of least constraint). The pseudo-inverse finds it in one step also where rows of J
 depend on each other; a damped (proximal) solve would have to be iterated.
+
+An impact is the same for velocities, the jump in the instant in which contacts close, M (v⁺ − v⁻) = Jᵀ Λ; and the
+projection onto the contacts the same for a configuration and a velocity, whose drift is removed.
 """
 
 from __future__ import annotations
@@ -13,19 +16,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_number
+from ..arrays import Array, as_count, as_number
+from ..compiler import Results
 from ..errors import SingularError
+from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose
-from .relative import contact_errors, contact_rows, given_motion
-from .rows import as_contacts, contact_terms, per_contact, real_state
+from .rows import as_contacts, contact_errors, contact_rows, contact_terms, given_motion, per_contact, real_state
 from .types import Contact
 
-__all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
+__all__ = ["Baumgarte", "ContactDynamics", "Impact", "contact_forward_dynamics", "impact", "jump", "project_state"]
 
-CONTRADICTION = 1e-8
+CONTRADICTION_RTOL = 1e-8
 """Tolerance of J q̈ + J̇ v, relative to its terms; rounding stays far below."""
 
 
@@ -182,10 +186,10 @@ def contact_forward_dynamics(
         qdd, mu = qdd + parts.unwhiten(x), mu + change
     residual = np.matvec(J, qdd) - target
     size = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
-    if (largest(np.matvec(W, residual)) > CONTRADICTION * (size + largest(np.matvec(W, target)))).any():
+    if (largest(np.matvec(W, residual)) > CONTRADICTION_RTOL * (size + largest(np.matvec(W, target)))).any():
         held = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
         wanted = np.matvec(W, asked - contact_rows(model, q, held, contacts).bias)
-        refuse_contradiction(contacts, wanted - parts.within(wanted), CONTRADICTION * (size + largest(wanted)))
+        check_contradiction(contacts, wanted - parts.within(wanted), CONTRADICTION_RTOL * (size + largest(wanted)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)
 
@@ -195,7 +199,7 @@ def largest(x: Array) -> Array:
     return np.asarray(np.abs(x).max(axis=-1, initial=0))
 
 
-def refuse_contradiction(contacts: Sequence[Contact], left: Array, rounding: Array) -> None:
+def check_contradiction(contacts: Sequence[Contact], left: Array, rounding: Array) -> None:
     """Raise SingularError where the contacts' unattainable acceleration, in m/s², is more than rounding."""
     wrong = np.asarray(largest(left) > rounding)
     if wrong.any():
@@ -207,3 +211,172 @@ def refuse_contradiction(contacts: Sequence[Contact], left: Array, rounding: Arr
             f"the contacts contradict each other{at_first_index(wrong)}: no acceleration keeps all at rest; "
             f"{missing} is left"
         )
+
+
+@dataclass(frozen=True)
+class Impact:
+    """What `impact` returns.
+
+    Attributes
+    ----------
+    v : ndarray, shape (..., nv)
+        v⁺, the velocity just after.
+    impulses : dict of str to ndarray, shape (..., dim)
+        Λ on the frame, by its name, as `ContactDynamics.forces`, N m s and N s.
+    energy_lost : ndarray, shape (...)
+        Kinetic energy before, less that after, J. Never below zero where what is touched is at rest.
+    rank, redundant : ndarray of int, shape (...)
+        As `ContactDynamics`.
+    """
+
+    v: Array
+    impulses: dict[str, Array]
+    energy_lost: Array
+    rank: Array
+    redundant: Array
+
+
+def impact(
+    model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact], *, restitution: float = 0.0
+) -> Impact:
+    """Return the velocity after an impact in which all contacts close at once, J v⁺ = −e J v⁻.
+
+    With e = 0, v⁺ is the velocity nearest to v⁻, in the metric of M, of all that the contacts allow. If the contacts
+    move with a velocity v*, J v⁺ − v* = −e (J v⁻ − v*).
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+        v⁻, the velocity just before the impact.
+    contacts : iterable of Contact
+        All contacts that hold during the impact. They stick, and they pull if this is necessary.
+    restitution : float, optional
+        e, from 0 to 1. It reverses the whole velocity of a contact, also the part along the ground.
+
+    Returns
+    -------
+    Impact
+        In double precision.
+
+    Raises
+    ------
+    ValueError
+        If `restitution` is not from 0 to 1, or numbers are complex.
+    SingularError
+        If a joint moves no inertia.
+    NameNotFound, ShapeError
+        As `constraint_jacobian`.
+
+    Notes
+    -----
+    Section 49.9. If the contacts do not move by themselves, the energy lost is (1 − e²) times what is lost with e = 0.
+
+    Examples
+    --------
+    A pendulum of 1 m whose bob hits a wall at 2 m/s:
+
+    >>> import twistwrench as tw
+    >>> hit = tw.impact(tw.load("pendulum"), [0.0], [2.0], [tw.PointContact("bob", 0.6)])
+    >>> hit.v, hit.energy_lost.round(9), int(hit.redundant)
+    (array([0.]), np.float64(2.002), 2)
+    """
+    if not 0 <= as_number(restitution, "restitution") <= 1:
+        raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
+    contacts = as_contacts(model, contacts)
+    q, v, _ = real_state(model, q, v=v)
+    return jump(model, v, contacts, contact_terms(model, q, v, contacts), restitution)
+
+
+def jump(model: Model, v: Array, contacts: Sequence[Contact], terms: Results, restitution: float = 0.0) -> Impact:
+    """Return the impact at a velocity, from the terms of the configuration."""
+    J, W = terms.J, terms.W
+    parts = decompose(model, terms.M, W @ J)
+    u = np.matvec(W, given_motion(contacts, "velocity"))
+    x, mu = parts.respond(np.matvec(W @ J, v) - u)  # the change at e = 0, with its sign turned
+    spent = (1 - restitution**2) * (x * x).sum(axis=-1) / 2
+    return Impact(
+        v=v - (1 + restitution) * parts.unwhiten(x),
+        impulses=per_contact(contacts, -(1 + restitution) * np.matvec(W.mT, mu)),
+        energy_lost=np.asarray(spent + (1 + restitution) * (mu * u).sum(axis=-1)),
+        rank=parts.rank,
+        redundant=J.shape[-2] - parts.rank,
+    )
+
+
+def project_state(
+    model: Model,
+    q: ArrayLike,
+    v: ArrayLike,
+    contacts: Iterable[Contact],
+    anchors: Mapping[str, SE3],
+    *,
+    tolerance: float = 1e-12,
+    steps: int = 20,
+) -> tuple[Array, Array]:
+    """Return the nearby q at which the contacts are at their anchors, and the nearest v with which they stay there.
+
+    Newton's method for q, each step the least in the metric of M; then `impact` projects v.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+    v : array_like, shape (..., nv)
+    contacts : iterable of Contact
+    anchors : mapping of str to SE3
+        Where the contacts' frames belong, as from `contact_placements`.
+    tolerance : float, optional
+        How far from its anchor a contact may stay, m; a sole's turn counts by the motion of its corners.
+    steps : int, optional
+        At most so many Newton steps.
+
+    Returns
+    -------
+    q : ndarray, shape (..., nq)
+    v : ndarray, shape (..., nv)
+        In double precision.
+
+    Raises
+    ------
+    SingularError
+        If the contacts do not reach their anchors: out of reach, or too far away for Newton's method.
+    NameNotFound, ShapeError, ValueError
+        As `constraint_jacobian`; complex numbers; an anchor that is missing.
+
+    Notes
+    -----
+    Section 49.9. Near a singular posture (straight knees) a target just out of reach has no solution near by, and one
+    just within reach takes more steps.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> model = tw.load("go2")
+    >>> feet = [tw.PointContact(foot, 0.6) for foot in model.feet]
+    >>> anchors = tw.contact_placements(model, model.standing(), feet)
+    >>> drifted = model.integrate(model.standing(), np.full(model.nv, 1e-3))
+    >>> q, v = tw.project_state(model, drifted, np.ones(model.nv), feet, anchors)
+    >>> np.abs(tw.constraint_jacobian(model, q, feet) @ v).max() < 1e-12
+    np.True_
+    """
+    steps = as_count(steps, "steps", 0)
+    if not as_number(tolerance, "tolerance") >= 0:
+        raise ValueError(f"tolerance: expected a number of at least 0, got {tolerance!r}")
+    contacts = as_contacts(model, contacts)
+    q, v, _ = real_state(model, q, v=v)
+    for _ in range(steps + 1):
+        terms = contact_terms(model, q, v, contacts)
+        error = np.matvec(terms.W, contact_errors(contacts, terms.placement, anchors))
+        far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
+        if not far.any():
+            return q, jump(model, v, contacts, terms).v
+        parts = decompose(model, terms.M, terms.W @ terms.J)
+        q = integrate(model, q, -parts.unwhiten(parts.respond(error)[0]))
+    left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
+    worst = max(left, key=lambda frame: left[frame])
+    raise SingularError(
+        f"the contacts do not come to their anchors in {steps} steps{at_first_index(far)}: "
+        f"{worst!r} is {left[worst]:.3g} m away"
+    )

@@ -13,10 +13,8 @@ from numpy.typing import ArrayLike
 from ..arrays import as_flag
 from ..errors import ShapeError, SingularError
 from ..model import Model
-from .limits import contact_limits
 from .qp import least_breach, least_within
-from .reach import NEAR
-from .task import ContactForces, Task, passive_entries
+from .task import WRENCH_RTOL, ContactForces, ContactProblem, contact_limits, passive_entries
 from .types import Contact, Pyramid
 
 __all__ = ["contact_inverse_dynamics", "friction_inverse_dynamics"]
@@ -76,7 +74,7 @@ def contact_inverse_dynamics(
     >>> sum(held.forces.values()).round(3) + 0.0
     array([  0.   ,   0.   , 157.794])
     """
-    task = Task.of(model, q, v, a, contacts, f_ext, passive_entries(model, motors))
+    task = ContactProblem.of(model, q, v, a, contacts, f_ext, passive_entries(model, motors))
     return task.result(task.least, ())
 
 
@@ -139,7 +137,7 @@ def friction_inverse_dynamics(
     >>> bool(push.forces["RL_foot"][0] <= 0.6 * push.forces["RL_foot"][2])
     True
     """
-    task = Task.of(model, q, v, a, contacts, f_ext)
+    task = ContactProblem.of(model, q, v, a, contacts, f_ext)
     if task.least.ndim != 1:
         asked = "q, v, a" if f_ext is None else "q, v, a, f_ext"
         raise ShapeError(f"{asked}: expected one state, got a batch of shape {task.least.shape[:-1]}")
@@ -157,6 +155,6 @@ def friction_inverse_dynamics(
         if not answer.reached:
             worst = rows.breached(least_breach(A, b, task.size))
             raise SingularError(f"cannot: no forces within the limits do this; they would have to break {worst}")
-        f, tight = answer.f, rows.A @ answer.f - rows.b > -NEAR * task.size
+        f, tight = answer.f, rows.A @ answer.f - rows.b > -WRENCH_RTOL * task.size
     binding = tuple(dict.fromkeys(name for name, leans in zip(rows.names, tight) if leans))
     return task.result(f, binding)

@@ -1,4 +1,8 @@
-"""The kinds of contact with the world: points, soles, and frames that slide on a plane or along a rail (49.4, 49.9)."""
+"""The kinds of contact with the world (49.4, 49.9).
+
+Points, soles, frames that slide on a plane or along a rail; balls, which touch at another point of the body as they
+turn; thin wheels, which touch with the rim at another point as they roll, lean and steer.
+"""
 
 from __future__ import annotations
 
@@ -8,16 +12,22 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_constant, as_exactly
-from ..errors import ShapeError
-from ..model import readonly
-from ..spatial import exp3
-from .types import Contact, Motion, checked_frame, checked_motion, checked_restitution
+from ..arrays import Array, as_array, as_constant, as_exactly, convert
+from ..errors import ShapeError, SingularError
+from ..model import Model, readonly
+from ..spatial import SE3, exp3
+from ..spatial._elementary import at_first_index, sqrt
+from ..spatial.rotation import cross_matrix
+from .relative import FrameRows, StateMotion
+from .types import Contact, RowValues, checked_frame, checked_motion, checked_restitution
 
-__all__ = ["PointContact", "SlidingContact", "SurfaceContact"]
+__all__ = ["PointContact", "SlidingContact", "SphereContact", "SurfaceContact", "WheelContact"]
 
-PARALLEL = 1e-9
+MIN_ANGLE_RAD = 1e-9
 """Two normals with a smaller angle between them, rad, hold one direction."""
+
+FLAT_SINE = 1e-9
+"""Sine of the angle between axle and normal: below, the wheel lies flat."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +63,8 @@ class PointContact(Contact):
     frame: str
     mu: float
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
-    velocity: Motion = field(default=(), kw_only=True)
-    acceleration: Motion = field(default=(), kw_only=True)
+    velocity: RowValues = field(default=(), kw_only=True)
+    acceleration: RowValues = field(default=(), kw_only=True)
     restitution: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -133,8 +143,8 @@ class SurfaceContact(Contact):
     frame: str
     half_size: tuple[float, float]
     mu: float
-    velocity: Motion = field(default=(), kw_only=True)
-    acceleration: Motion = field(default=(), kw_only=True)
+    velocity: RowValues = field(default=(), kw_only=True)
+    acceleration: RowValues = field(default=(), kw_only=True)
     restitution: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -207,8 +217,8 @@ class SlidingContact(Contact):
     frame: str
     normals: tuple[tuple[float, float, float], ...]
     to: str | None = None
-    velocity: Motion = field(default=(), kw_only=True)
-    acceleration: Motion = field(default=(), kw_only=True)
+    velocity: RowValues = field(default=(), kw_only=True)
+    acceleration: RowValues = field(default=(), kw_only=True)
     mu = 0.0
 
     def __post_init__(self) -> None:
@@ -220,7 +230,7 @@ class SlidingContact(Contact):
         if given.shape not in ((3,), (1, 3), (2, 3)):
             raise ShapeError(f"{which}: expected shape (3,) or (2, 3), got {given.shape}")
         units = [_unit(self.frame, "normals", n) for n in given.reshape(-1, 3)]
-        if len(units) == 2 and not np.abs(np.cross(units[0], units[1])).max() > PARALLEL:
+        if len(units) == 2 and not np.abs(np.cross(units[0], units[1])).max() > MIN_ANGLE_RAD:
             raise ValueError(f"{which}: expected two directions that are independent, got {given.tolist()}")
         object.__setattr__(self, "normals", tuple(units))
         checked_motion(self, "velocity")
@@ -249,13 +259,13 @@ class SlidingContact(Contact):
     def _axes(self) -> Array:
         return _normal_axes(self.normals[0])
 
-    def turn(self, rotation: Array) -> Array:
+    def row_rotation(self, rotation: Array) -> Array:
         """Return the identity: λ is along the normals."""
         eye: Array = np.eye(self.dim, dtype=rotation.dtype)
         return np.broadcast_to(eye, (*rotation.shape[:-2], self.dim, self.dim))
 
     @cached_property
-    def spread(self) -> Array:
+    def grasp_map(self) -> Array:
         """The parts of a force along the normals, of which it is the sum; what is along the rail has no part."""
         return readonly(np.linalg.pinv(np.transpose(self.normals)) @ self._axes)
 
@@ -292,3 +302,235 @@ def _coefficient(frame: str, mu: ArrayLike) -> float:
     if value < 0:
         raise ValueError(f"contact {frame!r}: mu: expected at least 0, got {value:g}")
     return value
+
+
+@dataclass(frozen=True)
+class SphereContact(Contact):
+    """A ball on a plane: it touches at its lowest point, which is another one of the body as it turns.
+
+    That point moves with v + ω × (−r n), where v is the velocity of the centre and n the normal. Where it sticks, the
+    ball rolls.
+
+    Parameters
+    ----------
+    frame : str
+        At the centre of the ball.
+    radius : float
+        r, m, above 0.
+    mu : float
+        Coefficient of friction, at least 0.
+    normal : array_like, shape (3,), optional
+        n, out of the ground, in the axes of the world; any length but 0.
+    restitution : float, optional
+        e, from 0 to 1, where it hits a ground of `simulate`; the ground's unless given.
+
+    Raises
+    ------
+    ValueError
+        If `radius` is not a number above 0, `mu` not one of at least 0, `normal` not a direction, or `restitution` not
+        from 0 to 1.
+
+    Notes
+    -----
+    Rolling is not holonomic: of the place of a ball that sticks only its height is held (`project_state`), and of its
+    velocity all.
+
+    Examples
+    --------
+    A solid ball rolls down a slope with 5/7 of g sin 30°:
+
+    >>> import twistwrench as tw
+    >>> solid = tw.SpatialInertia(2.0, [0, 0, 0], 0.4 * 2.0 * 0.1**2 * np.eye(3))
+    >>> ball = tw.Builder("ball", base="floating", root="ball", root_inertia=solid).build()
+    >>> touch = [tw.SphereContact("ball", 0.1, 0.6, normal=[0.5, 0, 0.75**0.5])]
+    >>> rolls = tw.contact_forward_dynamics(ball, ball.neutral(), np.zeros(6), np.zeros(6), touch)
+    >>> np.linalg.norm(rolls.qdd[3:]).round(9), round(5 / 7 * 9.81 / 2, 9)
+    (np.float64(3.503571429), 3.503571429)
+    """
+
+    frame: str
+    radius: float
+    mu: float
+    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    restitution: float | None = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
+        radius = float(as_exactly(self.radius, f"contact {self.frame!r}: radius"))
+        if radius <= 0:
+            raise ValueError(f"contact {self.frame!r}: radius: expected a length above 0, got {radius:g}")
+        normal = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
+        object.__setattr__(self, "radius", radius)
+        object.__setattr__(self, "normal", _unit(self.frame, "normal", normal))
+        checked_restitution(self)
+
+    @property
+    def rows(self) -> slice:
+        """The three linear rows."""
+        return slice(3, 6)
+
+    @cached_property
+    def directions(self) -> Array:
+        """The rows (ω, v) of the lowest point, at −r n from the centre."""
+        down = -self.radius * np.array(self.normal)
+        return readonly(np.concatenate([-cross_matrix(down), np.eye(3)], axis=1))
+
+    @cached_property
+    def placed(self) -> Array:
+        """The height alone."""
+        n = np.array(self.normal)
+        return readonly(np.concatenate([np.zeros((3, 3)), np.outer(n, n)], axis=1))
+
+    def axes(self, rotation: Array) -> Array:
+        """Return the axes of the world, turned the shortest way until z is the normal."""
+        return np.broadcast_to(_normal_axes(self.normal), rotation.shape)
+
+    @property
+    def points(self) -> Array:
+        """The lowest point."""
+        return np.array([[0.0, 0.0, -self.radius]])
+
+    @property
+    def point_names(self) -> tuple[str, ...]:
+        """The frame's name."""
+        return (repr(self.frame),)
+
+
+@dataclass(frozen=True)
+class WheelContact(Contact):
+    """A knife edge on a plane: a coin, a disc, the wheel of a bicycle.
+
+    It touches at the lowest point of its rim, at r m from the centre, where m is the direction down within the wheel:
+    m = −(n − (n·a) a) / |n − (n·a) a| with the normal n and the axle a. That point of the wheel moves with
+    v + ω × r m. Where it sticks, the wheel rolls.
+
+    Parameters
+    ----------
+    frame : str
+        At the centre of the wheel.
+    radius : float
+        r, m, above 0.
+    mu : float
+        Coefficient of friction, at least 0.
+    axis : array_like, shape (3,), optional
+        a, the axle, in the axes of the frame: its y unless given; any length but 0.
+    normal : array_like, shape (3,), optional
+        n, out of the ground, in the axes of the world; any length but 0.
+    restitution : float, optional
+        e, from 0 to 1, where it hits a ground of `simulate`; the ground's unless given.
+
+    Raises
+    ------
+    ValueError
+        If `radius` is not a number above 0, `mu` not one of at least 0, `axis` or `normal` not a direction, or
+        `restitution` not from 0 to 1.
+
+    Notes
+    -----
+    Rolling is not holonomic: of the place of a wheel that sticks only its height is held (`project_state`), and of its
+    velocity all. A wheel that lies flat has no lowest point: SingularError.
+
+    Examples
+    --------
+    A disc that leans by θ and whose centre goes round a circle of radius R rolls so for ever at a rate of turn Ω with
+    Ω² = 4 g tan θ / (6 R + r sin θ). The point that touches is at rest:
+
+    >>> import twistwrench as tw
+    >>> r, R, lean = 0.1, 1.0, 0.3
+    >>> disc = tw.SpatialInertia(1.0, [0, 0, 0], r**2 / 4 * np.diag([1.0, 2.0, 1.0]))
+    >>> coin = tw.Builder("coin", base="floating", root="coin", root_inertia=disc).build()
+    >>> turn = np.sqrt(4 * 9.81 * np.tan(lean) / (6 * R + r * np.sin(lean)))
+    >>> q = [0, 0, r * np.cos(lean), -np.sin(lean / 2), 0, 0, np.cos(lean / 2)]
+    >>> v = np.array([0, turn * R / r, turn * np.cos(lean), turn * R, 0, 0])
+    >>> J = tw.constraint_jacobian(coin, q, [tw.WheelContact("coin", r, 0.8)])
+    >>> bool(np.abs(J @ v).max() < 1e-15)
+    True
+    """
+
+    frame: str
+    radius: float
+    mu: float
+    axis: tuple[float, float, float] = (0.0, 1.0, 0.0)
+    normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    restitution: float | None = field(default=None, kw_only=True)
+    divides = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
+        radius = float(as_exactly(self.radius, f"contact {self.frame!r}: radius"))
+        if radius <= 0:
+            raise ValueError(f"contact {self.frame!r}: radius: expected a length above 0, got {radius:g}")
+        object.__setattr__(self, "radius", radius)
+        for name in ("axis", "normal"):
+            given = as_exactly(getattr(self, name), f"contact {self.frame!r}: {name}", 3)
+            object.__setattr__(self, name, _unit(self.frame, name, given))
+        checked_restitution(self)
+
+    @property
+    def rows(self) -> slice:
+        """The three linear rows, of the point that touches."""
+        return slice(3, 6)
+
+    def jacobian(self, model: Model, q: Array) -> Array:
+        """Return the rows of J of the point that touches."""
+        return self.kinematics(StateMotion.of(model, q, np.zeros(model.nv, q.dtype)))[1]
+
+    def held_rows(self, rows: FrameRows) -> tuple[Array, Array]:
+        """Return the rows of the point that touches, and its J̇ v: the point moves along the rim as well."""
+        n, a, upright, arm = self._wheel(rows.rotation)
+        J = rows.J[..., 3:, :] - cross_matrix(arm) @ rows.J[..., :3, :]
+        w = np.matvec(rows.J[..., :3, :], rows.v)
+        leans, turns = _dot(n, a), np.cross(w, a)  # n·a, and the rates of the axle and of n·a
+        rate = _dot(n, turns)
+        moves = self.radius_as(a) * (rate * a + leans * turns) / upright - arm * (-leans * rate) / (upright * upright)
+        bias = rows.bias[..., 3:] + np.cross(rows.bias[..., :3], arm) + np.cross(w, moves)
+        return J, bias
+
+    def held_place(self, T: SE3) -> SE3:
+        """Return the placement of the frame's axes at the point that touches."""
+        arm = self._wheel(T.rotation)[3]
+        return SE3._trusted(T.rotation, T.translation + arm)
+
+    @cached_property
+    def placed(self) -> Array:
+        """The height alone."""
+        n = np.array(self.normal)
+        return readonly(np.concatenate([np.zeros((3, 3)), np.outer(n, n)], axis=1))
+
+    def axes(self, rotation: Array) -> Array:
+        """Return the axes of the world, turned the shortest way until z is the normal."""
+        return np.broadcast_to(_normal_axes(self.normal), rotation.shape)
+
+    def arms(self, rotation: Array) -> Array:
+        """Return the lowest point of the rim."""
+        return self._wheel(rotation)[3][..., None, :]
+
+    @property
+    def points(self) -> Array:
+        """The lowest point of the wheel where it stands upright."""
+        return np.array([[0.0, 0.0, -self.radius]])
+
+    @property
+    def point_names(self) -> tuple[str, ...]:
+        """The frame's name."""
+        return (repr(self.frame),)
+
+    def radius_as(self, like: Array) -> Array:
+        """Return the radius in the number type of an array."""
+        return convert(np.array(self.radius), like.dtype)
+
+    def _wheel(self, rotation: Array) -> tuple[Array, Array, Array, Array]:
+        """Return n and a, the sine of the angle between them, shape (..., 1), and r m, in the axes of the world."""
+        n, a = (convert(np.array(way), rotation.dtype) for way in (self.normal, self.axis))
+        a = np.matvec(rotation, a)
+        up = n - _dot(n, a) * a
+        upright = sqrt(_dot(up, up))
+        if upright.dtype != object and not (np.abs(upright) > FLAT_SINE).all():
+            where = at_first_index(np.abs(upright[..., 0]) <= FLAT_SINE)
+            raise SingularError(f"contact {self.frame!r}: the wheel lies flat, and has no lowest point{where}")
+        return n, a, upright, -self.radius_as(a) * up / upright
+
+
+def _dot(a: Array, b: Array) -> Array:
+    """Return a·b, shape (..., 1), of numbers of any kind."""
+    return np.asarray((a * b).sum(axis=-1, keepdims=True))

@@ -2,8 +2,12 @@
 
 Solved by DAQP (Arnström, Bemporad and Axehill, 2022), a dual active-set method, where it is installed: its answers are
 right to rounding, and it is quick. Every answer is checked: where it gives none, or one that is outside the limits,
-and where it is not installed, the same programme is solved as nonnegative least squares (Lawson and Hanson, 1974,
-chapter 23.4).
+and where it is not installed, the same programme is solved as nonnegative least squares.
+
+Nonnegative least squares are the x ≥ 0 with E x nearest to f: C. L. Lawson and R. J. Hanson, Solving Least Squares
+Problems, 1974, chapter 23, an active-set method that needs nothing but NumPy; 23.4 makes a quadratic programme of it.
+The residual r = f − E x is a certificate: its product with each column of E is not positive, and with f it is ‖r‖². So
+no x ≥ 0 is nearer.
 """
 
 from __future__ import annotations
@@ -11,15 +15,17 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array
-from .nonnegative import nonnegative_least_squares
 
-__all__ = ["FEASIBLE", "least_breach", "least_with_multipliers", "least_within"]
+__all__ = ["LIMIT_RTOL", "least_breach", "least_with_multipliers", "least_within", "nonnegative_least_squares"]
 
-FEASIBLE = 1e-10
+LIMIT_RTOL = 1e-10
 """How far a limit may be overstepped, relative to the size of the numbers in b."""
 
-SOLVED = 1
+DAQP_SOLVED = 1
 NEWTON_STEPS = 50
+
+MIN_COSINE = 1e-14
+"""A column enters if the cosine of its angle with the residual is larger."""
 
 
 def least_within(A: Array, b: Array, size: float) -> tuple[Array, Array] | None:
@@ -36,13 +42,13 @@ def least_with_multipliers(A: Array, b: Array, size: float) -> tuple[Array, Arra
 
     `size` is the scale of the numbers of b.
     """
-    if (b >= -FEASIBLE * size).all():
+    if (b >= -LIMIT_RTOL * size).all():
         return np.zeros(A.shape[1]), np.zeros(len(b))
     if A.shape[1] == 0:
         return None
     for method in (_by_daqp, _by_least_squares):
         z, u = method(A, b / size)
-        if np.isfinite(z).all() and (A @ z - b / size).max() <= 2 * FEASIBLE:
+        if np.isfinite(z).all() and (A @ z - b / size).max() <= 2 * LIMIT_RTOL:
             return size * z, size * u
     return None
 
@@ -54,8 +60,8 @@ def _by_daqp(A: Array, b: Array) -> tuple[Array, Array]:
         import daqp
     except ModuleNotFoundError:
         return nothing
-    z, _, flag, info = daqp.solve(np.eye(n), np.zeros(n), np.ascontiguousarray(A), b, primal_tol=FEASIBLE)
-    return (z, np.maximum(info["lam"], 0)) if flag == SOLVED else nothing
+    z, _, flag, info = daqp.solve(np.eye(n), np.zeros(n), np.ascontiguousarray(A), b, primal_tol=LIMIT_RTOL)
+    return (z, np.maximum(info["lam"], 0)) if flag == DAQP_SOLVED else nothing
 
 
 def _by_least_squares(A: Array, b: Array) -> tuple[Array, Array]:
@@ -88,3 +94,61 @@ def least_breach(A: Array, b: Array, size: float) -> Array:
             break
         z = z + share * (goal - z)
     return np.asarray(size * np.maximum(A @ z - b, 0))
+
+
+def nonnegative_least_squares(E: Array, f: Array, start: Array | None = None) -> tuple[Array, Array]:
+    """Return x ≥ 0, shape (n,), for which E x is nearest to f, and f − E x, shape (m,).
+
+    Columns of any length are treated alike, and one of zeros stays out. It begins with the columns of `start`, bool of
+    shape (n,), if these alone have a positive answer: those of a problem nearly alike.
+    """
+    length = np.sqrt((E * E).sum(axis=0))
+    E = E / np.where(length > 0, length, 1)
+    x, enters, barred = np.zeros(E.shape[1]), np.zeros(E.shape[1], bool), length == 0
+    r, size = f, float(np.sqrt(f @ f))
+    if start is not None and start.any():
+        guess, _, rank, _ = np.linalg.lstsq(E[:, start], f)
+        if rank == start.sum() and (guess > 0).all():
+            x[start], enters, r = guess, start.copy(), _left(E[:, start], f)
+    for _ in range(3 * (E.shape[1] + 1)):
+        left = float(np.sqrt(r @ r))
+        gain = np.where(enters | barred, -np.inf, E.mT @ r)
+        new = int(gain.argmax()) if len(gain) else 0
+        if left <= np.finfo(np.float64).eps * size or not (gain > MIN_COSINE * left).any():
+            break
+        enters[new] = True
+        x_new = _step(E, f, x, enters, new)
+        if x_new is None:
+            enters[new], barred[new] = False, True
+            continue
+        x, barred = x_new, length == 0
+        enters = x > 0
+        r = _left(E[:, enters], f)
+    return x / np.where(length > 0, length, 1), r
+
+
+def _step(E: Array, f: Array, x: Array, enters: Array, new: int) -> Array | None:
+    """Return the least squares of the columns that enter, without those that would become negative on the way.
+
+    None if the new column depends on the others, or does not become positive: it entered by rounding only.
+    """
+    enters = enters.copy()
+    while True:
+        goal = np.zeros(len(x))
+        goal[enters], _, rank, _ = np.linalg.lstsq(E[:, enters], f)
+        negative = enters & (goal <= 0)
+        if rank < enters.sum() or (x[new] == 0 and negative[new]):
+            return None
+        if not negative.any():
+            return goal
+        share = x[negative] / (x[negative] - goal[negative])
+        x = x + share.min() * (goal - x)
+        enters[np.flatnonzero(negative)[share <= share.min()]] = False
+        x = np.where(enters, x, 0)
+
+
+def _left(E: Array, f: Array) -> Array:
+    """Return f without its part along the columns of E, orthogonal to them to rounding, however little it is."""
+    Q = np.linalg.qr(E)[0]
+    r = f - Q @ (Q.mT @ f)
+    return np.asarray(r - Q @ (Q.mT @ r))

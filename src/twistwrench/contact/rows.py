@@ -2,33 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.rnea import rnea
-from ..arrays import Array, as_sequence
+from ..arrays import Array, as_sequence, check_kind
 from ..compiler import Results
 from ..compiler.quantities import Quantity, quantities
 from ..compiler.watch import with_watch
+from ..errors import unknown_name
 from ..fast.programs import remembered
-from ..model import Model, check_model, check_state, in_double, joint_placements
-from ..spatial import SE3
-from .decomposition import lever
-from .relative import contact_rows, place
+from ..model import Model, cast, check_model, check_state, in_double, joint_placements
+from ..spatial import SE3, exp3, log3
+from .decomposition import row_scaling
+from .relative import Posture, StateMotion
 from .types import Contact
 
 __all__ = [
+    "ContactRows",
     "as_contacts",
     "constraint_bias",
     "constraint_jacobian",
+    "contact_errors",
     "contact_placements",
+    "contact_rows",
+    "contact_terms",
+    "given_motion",
+    "moved",
+    "moved_anchors",
     "per_contact",
     "real_state",
 ]
+
+
+class ContactRows(NamedTuple):
+    """The contacts' places in what holds them, their J and their J̇ v, in the order of the contacts."""
+
+    placement: list[SE3]
+    J: Array
+    bias: Array
+
+
+def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) -> ContactRows:
+    """Return the kinematics of all contacts."""
+    state = StateMotion.of(model, q, v)
+    J = [np.zeros((*q.shape[:-1], 0, model.nv), q.dtype)]
+    bias = [np.zeros((*q.shape[:-1], 0), q.dtype)]
+    at: list[SE3] = []
+    for c in contacts:
+        place, J_c, bias_c = c.kinematics(state)
+        at.append(place)
+        J.append(J_c)
+        bias.append(bias_c)
+    return ContactRows(at, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
 
 
 def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> Array:
@@ -138,8 +169,8 @@ def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) 
     """
     contacts = as_contacts(model, contacts)
     (q,) = check_state(model, q)
-    placement = joint_placements(model, q)
-    return {c.frame: place(model, placement, q, c) for c in contacts}
+    at = Posture(model, q, joint_placements(model, q))
+    return {c.frame: c.place(at) for c in contacts}
 
 
 def contact_terms(
@@ -147,8 +178,8 @@ def contact_terms(
 ) -> Results:
     """Return what the dynamics under contact need, from one program, the first times by the textbook: see `remembered`.
 
-    `placement`, J and `bias` of `ContactRows`, M and W, the `lever`; with `tau` the q̈ of the free motion, `qdd`; with
-    `a` the τ of the motion, and `weight`, that of rest. f_ext may be among the others.
+    `placement`, J and `bias` of `ContactRows`, M and W, the `row_scaling`; with `tau` the q̈ of the free motion, `qdd`;
+    with `a` the τ of the motion, and `weight`, that of rest. f_ext may be among the others.
     """
 
     def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
@@ -163,7 +194,7 @@ def contact_terms(
         known, rows = quantities(model, q.dtype), partial(contact_rows, model, contacts=at_rest)
         at = of("at", "q v", lambda q, v: np.stack([T.matrix() for T in rows(q, v).placement], axis=-3))
         return [
-            *([at, of("W", "q v", lambda q, v: lever(at_rest, rows(q, v).placement))] if contacts else []),
+            *([at, of("W", "q v", lambda q, v: row_scaling(at_rest, rows(q, v).placement))] if contacts else []),
             Quantity("J", ("q", "v"), lambda q, v: with_watch(rows(q, v).J, contacts)),
             of("bias", "q v", lambda q, v: rows(q, v).bias),
             known["M"],
@@ -227,3 +258,52 @@ def _are_plain(model: Model, q: ArrayLike, *others: ArrayLike) -> bool:
         return False
     shape = (*q.shape[:-1], model.nv)
     return all(type(x) is np.ndarray and x.dtype == np.float64 and x.shape == shape for x in others)
+
+
+def given_motion(contacts: Sequence[Contact], name: str) -> Array:
+    """Return the given velocities or accelerations of all contacts, in the order of the rows of J."""
+    return np.concatenate([np.zeros(0), *(getattr(c, name) or np.zeros(c.dim) for c in contacts)])
+
+
+def moved(contacts: tuple[Contact, ...], t: float) -> tuple[Contact, ...]:
+    """Return contacts as they are after a time at their given, constant accelerations."""
+    return tuple(
+        replace(c, velocity=tuple((given_motion([c], "velocity") + t * np.array(c.acceleration)).tolist()))  # type: ignore[type-var]
+        if c.acceleration
+        else c
+        for c in contacts
+    )
+
+
+def moved_anchors(model: Model, contacts: Sequence[Contact], anchors: Mapping[str, SE3], t: float) -> dict[str, SE3]:
+    """Return where the contacts' frames belong after a time; a given turn goes about an axis that does not turn."""
+    later = dict(anchors)
+    for c in contacts:
+        if (c.velocity or c.acceleration) and c.keeps_place(model):
+            turns, more = (given_motion([c], name)[:3] for name in ("velocity", "acceleration"))
+            if c.dim == 6 and np.cross(turns, more).any():
+                raise ValueError(
+                    f"contact {c.frame!r}: acceleration: expected one that turns about the axis of velocity, "
+                    f"{turns.tolist()}, got {more.tolist()}"
+                )
+            way = t * given_motion([c], "velocity") + t**2 / 2 * given_motion([c], "acceleration")
+            turn, shift = np.split(np.linalg.pinv(c.directions) @ way, 2)
+            T = anchors[c.frame]
+            later[c.frame] = SE3._trusted(exp3(turn) @ T.rotation, T.translation + shift)
+    return later
+
+
+def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Mapping[str, SE3]) -> Array:
+    """Return how far the contacts are from their anchors, in the order of the rows of J, rad and m."""
+    check_kind(anchors, "anchors", Mapping, "placements by frame, as from contact_placements")
+    missing = [c.frame for c in contacts if c.frame not in anchors]
+    if missing:
+        raise unknown_name("anchor", missing[0], anchors)
+    parts = [np.zeros((*now[0].translation.shape[:-1], 0))] if now else [np.zeros(0)]
+    for c, T in zip(contacts, now):
+        check_kind(anchors[c.frame], f"anchors[{c.frame!r}]", SE3, "an SE3")
+        anchor = cast(anchors[c.frame], np.float64)
+        moved = T.translation - anchor.translation
+        turned = log3(T.rotation @ anchor.rotation.mT) if c.placed[:, :3].any() else np.zeros_like(moved)
+        parts.append(np.matvec(c.placed, np.concatenate([turned, moved], axis=-1)))
+    return np.concatenate(parts, axis=-1)

@@ -13,16 +13,15 @@ from ..algorithms.centroidal import center_of_mass
 from ..arrays import Array
 from ..errors import ShapeError
 from ..model import Model
-from .limits import contact_limits
 from .rows import as_contacts, contact_placements, real_state
-from .task import Task, Unbalanced
+from .task import ContactProblem, Unbalanced, contact_limits
 from .types import Contact, Pyramid
 
 __all__ = ["StanceMargins", "inside", "stance_margins"]
 
-PRECISION = 1e-6
-MOST = 2.0**20
-STRIDE = 2.0**9
+FRICTION_RTOL = 1e-6
+MAX_FRICTION_MULTIPLE = 2.0**20
+FRICTION_GROWTH = 2.0**9
 """By so much the multiple of the friction grows until it is enough."""
 
 
@@ -116,7 +115,7 @@ def stance_margins(
     contact_limits(contacts, sides, pyramid)  # raises for invalid `sides` and `pyramid` where it falls, too
     tip = tip_distance(model, q, contacts)
     try:
-        task = Task.of(model, q, rest, rest, contacts, None)
+        task = ContactProblem.of(model, q, rest, rest, contacts, None)
     except Unbalanced as error:
         return StanceMargins(False, np.inf, tip, f"it falls: {error}", falls=-error.away)
     answer = task.reach(sides, pyramid)
@@ -135,7 +134,7 @@ def stance_margins(
     return StanceMargins(True, used, tip, reason, point_forces=at_points)
 
 
-def friction_used(task: Task, sides: int, pyramid: Pyramid, stands: bool) -> float:
+def friction_used(task: ContactProblem, sides: int, pyramid: Pyramid, stands: bool) -> float:
     """Return the least multiple of the coefficients of friction at which there are forces within the limits.
 
     At most 1 if it stands with the friction there is, and more if not.
@@ -160,20 +159,20 @@ def friction_used(task: Task, sides: int, pyramid: Pyramid, stands: bool) -> flo
         return 0.0
     low, high = (0.0, 1.0) if stands else (1.0, 2.0)
     while not (high == 1.0 or missing(high)[0] == 0):
-        low, high = high, STRIDE * high
-        if high > MOST:
+        low, high = high, FRICTION_GROWTH * high
+        if high > MAX_FRICTION_MULTIPLE:
             return np.inf
     guess, newton = (low + high) / 2, True
-    while high - low > PRECISION * high:
+    while high - low > FRICTION_RTOL * high:
         width, (left, slope) = high - low, missing(guess)
         low, high = (low, guess) if left == 0 else (guess, high)
-        guess = guess + 1.0000001 * left / slope if left > 0 and slope > 0 else high * (1 - PRECISION / 2)
+        guess = guess + 1.0000001 * left / slope if left > 0 and slope > 0 else high * (1 - FRICTION_RTOL / 2)
         newton = high - low < width / 2 or not newton  # else halve the interval
         guess = guess if newton and low < guess < high else (low + high) / 2
     return high
 
 
-def _rough(task: Task) -> Task:
+def _rough(task: ContactProblem) -> ContactProblem:
     """Return the task with some friction at every contact, since multiples of zero stay zero."""
     return replace(task, contacts=tuple(_with_friction(c, 1.0) for c in task.contacts))
 

@@ -1,9 +1,18 @@
-"""What contacts have to do for a motion: the wrench that no motor gives, and the least forces that exert it (49.9)."""
+"""What contacts have to do for a motion: the wrench that no motor gives, and the least forces that exert it (49.9).
+
+Contact forces f have limits, rows of A f ≤ b: those of the contacts, and of the motors that balance them. Whether
+forces within the limits can exert a given wrench has a proof either way. The forces that contacts bear are sums of
+rays, the edges of their friction pyramids, and so the wrenches that they exert together are a cone. Either the given
+wrench is in it: then forces prove it. Or some twist leads away from the cone: the wrench does work along it, and no
+force within the limits does any (the lemma of Farkas). The residual of nonnegative least squares is such a twist, and
+one product with the rays shows that it is.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,20 +21,37 @@ from ..arrays import Array, as_names
 from ..errors import SingularError
 from ..model import Model, check_model
 from ..spatial._elementary import at_first_index
-from .decomposition import Decomposition, decompose, point_map
-from .limits import Limits, motor_limits
-from .reach import Reach, reach
-from .relative import given_motion
-from .rows import as_contacts, contact_terms, per_contact, real_state
+from .decomposition import Decomposition, block_diagonal, decompose, point_map
+from .qp import nonnegative_least_squares
+from .rows import as_contacts, contact_terms, given_motion, per_contact, real_state
 from .types import Contact, Pyramid
 
-__all__ = ["ContactForces", "Task", "Unbalanced", "passive_entries"]
+__all__ = [
+    "MAX_FORCE_WEIGHTS",
+    "WRENCH_RTOL",
+    "ContactForces",
+    "ContactProblem",
+    "Limits",
+    "Reach",
+    "Unbalanced",
+    "contact_limits",
+    "motor_limits",
+    "passive_entries",
+    "proves",
+    "reach",
+]
 
-FEW = 20
+TEXTBOOK_CALLS = 20
 """So many times the textbook is asked: whether a robot stands is often asked once, and not of these contacts again."""
 
-BALANCED = 1e-8
+BALANCE_RTOL = 1e-8
 """Tolerance of the base's wrench, relative to it; rounding stays far below."""
+
+WRENCH_RTOL = 1e-8
+"""Tolerance of the wrench, relative to it and to the weight."""
+
+MAX_FORCE_WEIGHTS = 1e6
+"""Upper bound of the sum of all forces, in multiples of the weight."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +96,7 @@ class Unbalanced(SingularError):
 
 
 @dataclass(frozen=True)
-class Task:
+class ContactProblem:
     """The total wrench that the contacts must exert, and the least forces f at their points that do.
 
     ``passive`` are the entries of v without a motor: those of the base, unless joints have none either. f has three
@@ -100,11 +126,11 @@ class Task:
         contacts: Iterable[Contact],
         f_ext: ArrayLike | None,
         passive: Array | None = None,
-    ) -> Task:
+    ) -> ContactProblem:
         """Set up and solve the rows without a motor; raise SingularError if no forces at these contacts do."""
         contacts = as_contacts(model, contacts)
         q, v, others = real_state(model, q, f_ext, v=v, a=a)
-        terms = contact_terms(model, q, v, contacts, FEW, **others)
+        terms = contact_terms(model, q, v, contacts, TEXTBOOK_CALLS, **others)
         J, b, P = terms.J, terms.tau, point_map(contacts, terms.placement)
         base = passive_entries(model, None) if passive is None else passive
         parts = decompose(model, terms.M[..., base[:, None], base], P.mT @ J[..., base])
@@ -112,7 +138,7 @@ class Task:
         weight = terms.weight[..., base]
         left = b[..., base] - np.matvec(J[..., base].mT @ P, least)
         off, *sizes = (parts.size(x) for x in (left, b[..., base], weight))
-        missed = np.asarray(off > BALANCED * np.maximum(*sizes))
+        missed = np.asarray(off > BALANCE_RTOL * np.maximum(*sizes))
         if missed.any():
             names = [c.frame for c in contacts]
             over = ", ".join(f"{x:.3g}" for x in left[missed][0])
@@ -160,3 +186,137 @@ class Task:
         tau = self.b - np.matvec(self.J.mT, force)
         tau[..., self.passive] = 0
         return ContactForces(tau, per_contact(self.contacts, force), binding, self.residual)
+
+
+class Limits(NamedTuple):
+    """A f ≤ b, in N, with a name, a size and a unit for each row: broken by 1 N, a row is broken by `size` units."""
+
+    A: Array
+    b: Array
+    names: list[str]
+    size: Array
+    unit: list[str]
+
+    def join(self, other: Limits) -> Limits:
+        """Return the rows of both."""
+        A, b, size = (
+            np.concatenate([x, y]) for x, y in zip((self.A, self.b, self.size), (other.A, other.b, other.size))
+        )
+        return Limits(A, b, self.names + other.names, size, self.unit + other.unit)
+
+    def breached(self, by: Array) -> str:
+        """Return which limits would have to be broken, and by how much, the worst four first."""
+        worst = {self.names[k]: k for k in np.argsort(by) if by[k] > 0.01 * by.max()}  # of equal names the larger
+        ranked = sorted(worst.values(), key=lambda k: (-round(by[k] / by.max(), 6), k))  # alike: in their own order
+        more = f" and {len(ranked) - 4} more" if len(ranked) > 4 else ""
+        said = (f"{self.names[k]} by {by[k] * self.size[k]:.3g} {self.unit[k]}" for k in ranked[:4])
+        return ", ".join(said) + more
+
+
+def contact_limits(contacts: Sequence[Contact], sides: int, pyramid: Pyramid) -> Limits:
+    """Return the limits of the forces at all points, each in its contact's axes."""
+    A = block_diagonal([c.limits(sides, pyramid) for c in contacts])
+    names = [name for c in contacts for name in c.limit_names(sides)]
+    return Limits(A, np.zeros(len(A)), names, np.ones(len(A)), ["N"] * len(A))
+
+
+def motor_limits(model: Model, tau: Array, B: Array) -> Limits:
+    """Return |τ − B f| ≤ `Model.effort_limit`, of all joints that have a limit and are no floating base.
+
+    Parameters
+    ----------
+    model : Model
+    tau : ndarray, shape (nv,)
+        The joint forces that the motion needs without f, N m or N.
+    B : ndarray, shape (nv, 3 k)
+        What f does for them.
+    """
+    owner = np.repeat(np.arange(model.nbodies), [s.stop - s.start for s in model.v_slice])
+    motors = np.flatnonzero(np.isfinite(model.effort_limit) & (owner >= (2 if model.base == "floating" else 1)))
+    B, tau, limit = B[motors], tau[motors], model.effort_limit[motors]
+    most = np.abs(B).max(axis=1, initial=0)
+    size = np.where(most > 0, most, 1)  # m: the longest lever of a force
+    lever, need, limit = B / size[:, None], tau / size, limit / size
+    turns = [bool(model.joints[owner[k]].subspace()[:3, k - model.v_slice[owner[k]].start].any()) for k in motors]
+    names = [f"the motor of {model.joint_names[owner[k]]!r}" for k in motors]
+    A, b = np.concatenate([-lever, lever]), np.concatenate([limit - need, limit + need])
+    return Limits(A, b, 2 * names, np.tile(size, 2), 2 * ["N m" if turn else "N" for turn in turns])
+
+
+class Reach(NamedTuple):
+    """An answer, and its proof."""
+
+    reached: bool
+    f: Array
+    """The forces within the limits that are nearest, at all points, each in its contact's axes, shape (3 k,)."""
+    away: Array
+    """The direction in which they miss, shape (m,): no force within the limits does work along it, but w does."""
+    proved: bool
+    """Whether f, or `away`, proves the answer."""
+    used: Array
+    """Which rays and slacks f is a sum of: where a problem nearly alike begins."""
+
+
+def reach(
+    G: Array,
+    w: Array,
+    contacts: Sequence[Contact],
+    sides: int,
+    pyramid: Pyramid,
+    also: tuple[Array, Array] | None = None,
+    start: Array | None = None,
+) -> Reach:
+    """Return whether forces f within the limits have G f = w, and C f ≤ d where `also` is (C, d).
+
+    Parameters
+    ----------
+    G : ndarray, shape (m, 3 k)
+    w : ndarray, shape (m,)
+        In units in which 1 is large, as are C and d.
+    contacts, sides, pyramid
+        As `friction_inverse_dynamics`.
+    also : (ndarray, ndarray), shapes (n, 3 k) and (n,), optional
+    start : ndarray, optional
+        `used` of a problem nearly alike.
+    """
+    T, C, d = _generators(contacts, sides, pyramid, float(np.abs(G).max(initial=0)))
+    if also is not None:
+        C, d = np.concatenate([C, also[0]]), np.concatenate([d, also[1]])
+    E = np.block([[G @ T, np.zeros((len(w), len(d)))], [C @ T, np.eye(len(d))]])  # C f + slack = d
+    asked = np.concatenate([w, d])
+    length = np.sqrt((E * E).sum(axis=0))
+    x, r = nonnegative_least_squares(E, asked, start)
+    used = x > 0
+    if (
+        r @ r <= WRENCH_RTOL**2 and length @ x > MAX_FORCE_WEIGHTS
+    ):  # internal forces: Σ forces + slack = the largest, in units of that
+        E = np.block([[E, np.zeros((len(E), 1))], [length / MAX_FORCE_WEIGHTS, np.ones(1)]])
+        asked = np.append(asked, 1.0)
+        x, r = nonnegative_least_squares(E, asked)
+    left, f = np.sqrt(r @ r), T @ x[: T.shape[1]]
+    if left <= WRENCH_RTOL:
+        missed = asked - E @ x
+        return Reach(True, f, r[: len(w)], bool((x >= 0).all() and np.sqrt(missed @ missed) <= 2 * WRENCH_RTOL), used)
+    return Reach(False, f, r[: len(w)] / left, proves(r / left, E, asked), used)
+
+
+def proves(away: Array, E: Array, asked: Array) -> bool:
+    """Return whether no x ≥ 0 up to `MAX_FORCE_WEIGHTS` has E x = asked: along `away` it exceeds every E x."""
+    length = np.sqrt((E * E).sum(axis=0))
+    most = (E.mT @ away / np.where(length > 0, length, 1)).max(initial=0)
+    return bool(away @ asked > MAX_FORCE_WEIGHTS * most)
+
+
+def _generators(contacts: Sequence[Contact], sides: int, pyramid: Pyramid, size: float) -> tuple[Array, Array, Array]:
+    """Return T, C, d: the contacts bear the forces f = T x with x ≥ 0 and C f ≤ d.
+
+    The rays of the contacts; for one with limits of its own, its axes both ways and these limits, in the units of G.
+    """
+    spans, bounds = [], []
+    for c in contacts:
+        own = type(c).limits is not Contact.limits or not c.pushes
+        n = 3 * len(c.points)
+        spans.append(np.concatenate([np.eye(n), -np.eye(n)], axis=1) if own else c.rays(sides, pyramid).mT)
+        bounds.append(size * c.limits(sides, pyramid) if own else np.zeros((0, n)))
+    C = block_diagonal(bounds)
+    return block_diagonal(spans), C, np.zeros(len(C))

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,35 +23,14 @@ from ..errors import unknown_name
 from ..model import Model, readonly
 from ..spatial import SE3
 from ..spatial.rotation import cross_matrix
+from .relative import FrameRows, Loop, Posture, StateMotion
 
-__all__ = ["Contact", "FrameRows", "Motion", "Pyramid", "checked_frame", "checked_motion", "checked_restitution"]
+__all__ = ["Contact", "Pyramid", "RowValues", "checked_frame", "checked_motion", "checked_restitution"]
 
 Pyramid = Literal["inner", "outer"]
 
-Motion = tuple[float, ...]
+RowValues = tuple[float, ...]
 """One number for each row that a contact holds; none where it is at rest."""
-
-
-class FrameRows(NamedTuple):
-    """How a frame moves in what holds it, in the axes of that.
-
-    Attributes
-    ----------
-    point : ndarray, shape (..., 3)
-        The frame's origin.
-    J : ndarray, shape (..., 6, nv)
-    bias : ndarray, shape (..., 6)
-        J̇ v.
-    v : ndarray, shape (..., nv)
-    rotation : ndarray, shape (..., 3, 3)
-        The frame's axes.
-    """
-
-    point: Array
-    J: Array
-    bias: Array
-    v: Array
-    rotation: Array
 
 
 class Contact(ABC):
@@ -78,8 +57,8 @@ class Contact(ABC):
     frame: str
     mu: float
     to: str | None = None
-    velocity: Motion = ()
-    acceleration: Motion = ()
+    velocity: RowValues = ()
+    acceleration: RowValues = ()
     pushes: bool = True
     divides: bool = False
     restitution: float | None = None
@@ -154,9 +133,28 @@ class Contact(ABC):
         """
         if self.to is None:
             return convert(self.directions, q.dtype) @ frame_jacobian(model, q, self.frame, "local_world_aligned")
-        from .relative import contact_rows
+        return self.kinematics(StateMotion.of(model, q, np.zeros(model.nv, q.dtype)))[1]
 
-        return contact_rows(model, q, np.zeros(model.nv, q.dtype), [self]).J
+    def place(self, at: Posture) -> SE3:
+        """Return where the contact is in what holds it.
+
+        Of a coupling the translation (q − Σ ratio q, 0, 0), which stays as it is; of points at a distance (d, 0, 0).
+        """
+        return self.held_place(Loop.of(at.model, self.frame, self.to, at.q.dtype).place(at))
+
+    def kinematics(self, state: StateMotion) -> tuple[SE3, Array, Array]:
+        """Return where the contact is in what holds it, and its rows of J and of J̇ v."""
+        rows = Loop.of(state.model, self.frame, self.to, state.q.dtype).rows(state)
+        return self.held_place(SE3._trusted(rows.rotation, rows.point)), *self.held_rows(rows)
+
+    def keeps_place(self, model: Model) -> bool:
+        """Return whether a configuration is held, from which it may drift: not where q of a joint counts no turns."""
+        return all(model.joints[model.joint_id(name)].nq == 1 for name in self.joints)  # type: ignore[union-attr]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints that the contact holds by their own q; none where it holds a frame."""
+        return ()
 
     @cached_property
     def directions(self) -> Array:
@@ -187,7 +185,7 @@ class Contact(ABC):
         """The robot's frames that the contact is about."""
         return (self.frame,) if self.to is None else (self.frame, self.to)
 
-    def turn(self, rotation: Array) -> Array:
+    def row_rotation(self, rotation: Array) -> Array:
         """Return the matrix that takes λ from the contact's own axes to those of its rows, shape (..., dim, dim).
 
         Parameters
@@ -201,15 +199,15 @@ class Contact(ABC):
         return both[..., self.rows, self.rows]
 
     @cached_property
-    def spread(self) -> Array:
+    def grasp_map(self) -> Array:
         """The matrix G that makes λ of forces at the points, in the contact's axes, shape (dim, 3 k)."""
         G = np.concatenate([np.concatenate([cross_matrix(p), np.eye(3)]) for p in self.points], axis=1)
         return readonly(G[self.rows])
 
     @cached_property
-    def spread_root(self) -> Array:
+    def grasp_cholesky(self) -> Array:
         """The lower triangle L with L Lᵀ = G Gᵀ, shape (dim, dim)."""
-        return readonly(np.linalg.cholesky(self.spread @ self.spread.mT))
+        return readonly(np.linalg.cholesky(self.grasp_map @ self.grasp_map.mT))
 
     def limits(self, sides: int, pyramid: Pyramid) -> Array:
         """Return A, shape (k (sides + 1), 3 k): the contact bears the forces f at its points where A f ≤ 0.

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Array
 from ..contact import Contact, stance_margins
 from ..contact.inverse import friction_inverse_dynamics
-from ..contact.task import Task
+from ..contact.task import ContactProblem
 from ..errors import SingularError
 from ..model import Model
 
@@ -73,7 +73,7 @@ def outside_limits(model: Model, q: Array) -> list[str]:
 def weak_motors(model: Model, q: Array, contacts: Sequence[Contact], f_ext: Array) -> str:
     """Name the motor that is too weak whatever the contact forces within the friction cones."""
     rest = np.zeros(model.nv)
-    task = Task.of(model, q, rest, rest, contacts, f_ext)
+    task = ContactProblem.of(model, q, rest, rest, contacts, f_ext)
     if task.reach(16, "inner", task.motors(model)).reached:
         return ""
     first = 2 if model.base == "floating" else 1

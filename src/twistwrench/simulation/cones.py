@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..contact.decomposition import cholesky_factors
-from ..contact.qp import FEASIBLE, least_with_multipliers
+from ..contact.qp import LIMIT_RTOL, least_with_multipliers
 from ..model import Model
 from .coulomb import SETTLED, Law, solved
 
@@ -57,7 +57,7 @@ class Metric:
         while joins.any():
             multipliers = _multipliers(A[joins], b[joins], size)
             z = -(multipliers @ A[joins])
-            late = moves & ~joins & (A @ z - b > FEASIBLE * size)
+            late = moves & ~joins & (A @ z - b > LIMIT_RTOL * size)
             if not late.any():
                 u[joins] = multipliers
                 break

@@ -13,7 +13,7 @@ from ..arrays import Array, as_exactly, as_number
 from ..compiler import Results
 from ..compiler.quantities import Quantity, quantities
 from ..contact import Contact, PointContact, SlidingContact, SurfaceContact
-from ..contact.relative import ContactRows, contact_rows
+from ..contact.rows import ContactRows, contact_rows
 from ..fast.programs import remembered
 from ..model import Model, readonly
 from ..spatial.rotation import cross_matrix

@@ -20,9 +20,8 @@ import numpy as np
 from ..arrays import Array
 from ..contact import Contact, contact_placements
 from ..contact.decomposition import Decomposition, decompose
-from ..contact.impacts import jump
-from ..contact.relative import contact_errors, given_motion, moved, moved_anchors
-from ..contact.rows import contact_terms, per_contact
+from ..contact.forward import jump
+from ..contact.rows import contact_errors, contact_terms, given_motion, moved, moved_anchors, per_contact
 from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3

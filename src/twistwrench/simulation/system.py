@@ -16,7 +16,7 @@ from ..contact import (
     contact_placements,
     project_state,
 )
-from ..contact.relative import given_motion, moved, moved_anchors
+from ..contact.rows import given_motion, moved, moved_anchors
 from ..errors import ShapeError
 from ..fast import aba, rnea
 from ..fast.steps import integrate

@@ -62,7 +62,7 @@ def nearest_rotation(R: ArrayLike) -> Array:
 
 
 def _near_rotation(R: Array) -> Array:
-    """Return matrices of the same nearest rotations, with RᵀR within `MAX_GRAM_ERROR` of 1; those that are near stay."""
+    """Return matrices of the same nearest rotations, with RᵀR within `MAX_GRAM_ERROR` of 1; near ones stay."""
     far = ~(largest(_defect(R), 2) <= MAX_GRAM_ERROR)
     size = largest(R.real, 2)
     R = np.where(far[..., None, None], R / np.where(size == 0, 1, size)[..., None, None], R)  # nothing overflows
