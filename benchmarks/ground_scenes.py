@@ -17,7 +17,7 @@ import numpy as np
 
 import twistwrench as tw
 from twistwrench.simulation.ground import GroundPoints
-from twistwrench.simulation.remarks import MISSES
+from twistwrench.simulation.result import COULOMB_RTOL
 
 BOX = np.array([0.1, 0.08, 0.05])  # m: half its sides
 ON = 1e-9
@@ -116,7 +116,7 @@ def faults(model, state, options, points):
         yield "pulled"
     if (np.hypot(force[..., 0], force[..., 1]) > stepping.mu * force[..., 2] * (1 + 1e-9)).any():
         yield "outside its cone"
-    missed, limit = np.max(stepping.missed, axis=-1, initial=0), MISSES * np.array(stepping.fastest)
+    missed, limit = np.max(stepping.missed, axis=-1, initial=0), COULOMB_RTOL * np.array(stepping.fastest)
     if (missed > limit + 1e-9).any():
         yield "Coulomb's law missed, said" if any(r.kind == "coulomb" for r in s.remarks) else "MISSED IN SILENCE"
     scale = tw.kinetic_energy(model, *state) + model.mass * 9.81 * 0.1

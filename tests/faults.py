@@ -411,11 +411,11 @@ FAULTS = [
     ),
     Fault("no way back from below the ground", "simulation/stepping.py", "-gap)[0])", "0 * gap)[0])"),
     Fault(
-        "dry friction drives", "simulation/passive.py", "braking[at] = -slides * most", "braking[at] = slides * most"
+        "dry friction drives", "simulation/stepping.py", "braking[at] = -slides * most", "braking[at] = slides * most"
     ),
     Fault(
         "a joint's range ends nowhere",
-        "simulation/passive.py",
+        "simulation/stepping.py",
         "at_v.astype(int)] = self.sign",
         "at_v.astype(int)] = -self.sign",
     ),
@@ -433,7 +433,7 @@ FAULTS = [
     ),
     Fault(
         "Runge-Kutta: second stage counted once, not twice",
-        "simulation/explicit.py",
+        "simulation/methods.py",
         "(1 / 6, 1 / 3, 1 / 3, 1 / 6))",
         "(1 / 6, 1 / 6, 1 / 3, 1 / 6))",
     ),
@@ -445,7 +445,7 @@ FAULTS = [
     ),
     Fault(
         "variational: momentum carried the wrong way",
-        "simulation/tangent.py",
+        "simulation/variational.py",
         "P0 = np.matvec(back, np.matvec(turn, p0[..., s]))",
         "P0 = np.matvec(back.mT, np.matvec(turn, p0[..., s]))",
     ),

@@ -12,8 +12,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.simulation import METHODS
-from twistwrench.simulation.tangent import bracket
-from twistwrench.simulation.variational import momentum_and_force
+from twistwrench.simulation.variational import bracket, momentum_and_force
 from twistwrench.spatial import rotation_to_quaternion
 
 from ..sampling import sampled

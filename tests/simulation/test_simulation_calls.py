@@ -10,7 +10,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.simulation import METHODS, variational
-from twistwrench.simulation.tangent import momenta
+from twistwrench.simulation.variational import momenta
 
 from ..pages import blocks, page
 from ..pages import run as run_page
@@ -368,7 +368,7 @@ def test_a_step_that_cannot_be_solved_is_refused(monkeypatch):
     """Far too long a step; and one iteration where five are needed."""
     with pytest.raises(tw.DivergenceError, match=r"^step \d+, from t = \d+ s: .*joint '(elbow|shoulder)'"):
         run(q=[2.0, -1.0], v=[5.0, -5.0], dt=1.0, steps=20, method="variational")
-    monkeypatch.setattr(variational, "ITERATIONS", 1)
+    monkeypatch.setattr(variational, "MAX_ITERATIONS", 1)
     with pytest.raises(tw.DivergenceError, match=r"not solved in 1 iterations, least of all for joint 'shoulder'"):
         run(q=[2.0, -1.0], v=[5.0, -5.0], dt=0.1, steps=1, method="variational")
 

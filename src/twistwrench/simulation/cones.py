@@ -13,14 +13,14 @@ from ..arrays import Array
 from ..contact.decomposition import cholesky_factors
 from ..contact.qp import LIMIT_RTOL, least_with_multipliers
 from ..model import Model
-from .coulomb import SETTLED, Law, solved
+from .coulomb import TARGET_RTOL, CoulombLaw, solve
 
-__all__ = ["Answer", "Metric", "Points", "touched"]
+__all__ = ["Metric", "Points", "StepSolution", "solve_contacts"]
 
-NEAR = 10.0
+JOIN_FACTOR = 10.0
 """Times the worst violation: rows that are so near take part in a programme from the start."""
 
-SWEEPS = 200
+HILDRETH_SWEEPS = 200
 
 
 class Metric:
@@ -53,7 +53,7 @@ class Metric:
         length[~moves] = 1.0
         A, b = A / length[:, None], b / length
         size = -float(b[moves].min(initial=0))
-        joins = moves & (b < NEAR * size)
+        joins = moves & (b < JOIN_FACTOR * size)
         while joins.any():
             multipliers = _multipliers(A[joins], b[joins], size)
             z = -(multipliers @ A[joins])
@@ -79,7 +79,7 @@ def _multipliers(A: Array, b: Array, size: float) -> Array:
 def hildreth(A: Array, b: Array) -> Array:
     """Return multipliers u ≥ 0 of the least z = −Aᵀ u with A z ≤ b, after some sweeps over the rows, of length 1."""
     u, z = np.zeros(len(b)), np.zeros(A.shape[1])
-    for _ in range(SWEEPS):
+    for _ in range(HILDRETH_SWEEPS):
         for k, row in enumerate(A):
             new = max(0.0, u[k] + row @ z - b[k])
             z, u[k] = z - (new - u[k]) * row, new
@@ -100,7 +100,7 @@ class Points:
 
 
 @dataclass
-class Answer:
+class StepSolution:
     """What a step's programme found: v, the impulses at the points (k, 3), those of the other rows, the sliding."""
 
     v: Array
@@ -120,7 +120,9 @@ class Answer:
     """The generalized impulse of all of them, shape (nv,)."""
 
 
-def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array], before: Array) -> Answer:
+def solve_contacts(
+    metric: Metric, v: Array, points: Points, others: tuple[Array, Array], before: Array
+) -> StepSolution:
     """Return the velocity after the step, v being that of the free motion.
 
     `others` are rows G and bounds c of what else holds, G v ≥ c; `before` (k, 3) are the impulses of the step before.
@@ -132,7 +134,7 @@ def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
     moves, more = every @ v, G @ v
     u, rows = moves.reshape(k, 3) - points.bound, more - c
     fastest = float(max(np.abs(moves).max(initial=0), np.abs(more).max(initial=0)))
-    impulse, pushes, missed, least = np.zeros((k, 3)), np.zeros(len(c)), np.zeros(k), -SETTLED * fastest
+    impulse, pushes, missed, least = np.zeros((k, 3)), np.zeros(len(c)), np.zeros(k), -TARGET_RTOL * fastest
     after, ends, total = v, u, np.zeros_like(v)
     joins, joins_too = u[:, 2] < 0, rows < 0
     if joins.any() or joins_too.any():
@@ -141,8 +143,8 @@ def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         at, too = np.flatnonzero(joins), np.flatnonzero(joins_too)
         A = np.concatenate([J[at].reshape(-1, len(v)), G[too]])
         Y = metric.inverse @ A.mT
-        law = Law(Y.mT @ Y, np.concatenate([u[at].ravel(), rows[too]]), points.mu[at])
-        found, off = solved(law, np.concatenate([before[at].ravel(), pushes[too]]), fastest)
+        law = CoulombLaw(Y.mT @ Y, np.concatenate([u[at].ravel(), rows[too]]), points.mu[at])
+        found, off = solve(law, np.concatenate([before[at].ravel(), pushes[too]]), fastest)
         impulse[at], pushes[too], missed[at] = found[: 3 * len(at)].reshape(-1, 3), found[3 * len(at) :], off[: len(at)]
         total, after = found @ A, v + metric.inverse.mT @ (Y @ found)
         ends = (every @ after).reshape(k, 3) - points.bound
@@ -152,4 +154,4 @@ def touched(metric: Metric, v: Array, points: Points, others: tuple[Array, Array
         joins, joins_too = joins | late, joins_too | late_too
     slides = (impulse[:, 2] > 0) & (np.sqrt((ends[:, :2] ** 2).sum(axis=-1)) > -least)
     slide, sinks = np.where(slides[:, None], ends[:, :2], 0), np.maximum(0, -ends[:, 2])
-    return Answer(after, after, impulse, pushes, slide, missed, sinks, fastest, total)
+    return StepSolution(after, after, impulse, pushes, slide, missed, sinks, fastest, total)

@@ -23,32 +23,32 @@ import numpy as np
 
 from ..arrays import Array
 
-__all__ = ["SETTLED", "Law", "solved"]
+__all__ = ["TARGET_RTOL", "CoulombLaw", "solve"]
 
-STEPS = 30
+NEWTON_STEPS = 30
 """Of Newton's method, at most."""
 
-SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
+STEP_SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
 """Of a step of Newton's that are tried."""
 
-SOFT = (*10 ** np.linspace(1, -8, 28), 0.0)
+SOFTENING = (*10 ** np.linspace(1, -8, 28), 0.0)
 """What is added to W at each point, relative to its own."""
 
 ROUNDS, SWEEPS = 10, 8
 """So many times at most Newton's method is tried again, each time after so many sweeps over all points."""
 
-SETTLED, ENOUGH = 1e-9, 1e-7
+TARGET_RTOL, ACCEPTED_RTOL = 1e-9, 1e-7
 """How far the law may be missed, relative to the fastest point: what is looked for, and what is taken in the end."""
 
-RANK = 1e-12
+RANK_RTOL = 1e-12
 """What is smaller, relative to the largest singular value of W, is zero: four corners bear what three could."""
 
-EIGHTHS = 2 * np.pi * np.arange(8) / 8
+EIGHTH_TURNS_RAD = 2 * np.pi * np.arange(8) / 8
 """rad, of a turn."""
 
 
 @dataclass
-class Law:
+class CoulombLaw:
     """The points and rows of a step: u₀ and W, of the k points (t, t, n) one after the other, then of the rows.
 
     u₀ is relative to what bounds it: the velocity of the ground along it, and c. A row is a point with a normal only.
@@ -100,7 +100,7 @@ class Law:
         return np.concatenate([w * off, self.own_rows * np.abs(impulse[n:] - rows)])
 
 
-def solved(law: Law, impulse: Array, size: float) -> tuple[Array, Array]:
+def solve(law: CoulombLaw, impulse: Array, size: float) -> tuple[Array, Array]:
     """Return the impulses and how far each point and row misses the law.
 
     `impulse` is what is tried first, as of the step before; `size` is the speed of the fastest.
@@ -108,10 +108,10 @@ def solved(law: Law, impulse: Array, size: float) -> tuple[Array, Array]:
     nothing = np.zeros(len(impulse))
     if impulse.any():
         sticks, u = stuck(law, impulse)
-        if np.abs(u).max() <= SETTLED * size and (within(law, sticks) == sticks).all():
+        if np.abs(u).max() <= TARGET_RTOL * size and (project(law, sticks) == sticks).all():
             return sticks, np.concatenate([np.abs(u[: 3 * law.k]).reshape(-1, 3).max(axis=-1), np.abs(u[3 * law.k :])])
-    best, missed = by_newton(law, impulse, SETTLED * size)
-    if missed.max(initial=0) <= ENOUGH * size:
+    best, missed = newton(law, impulse, TARGET_RTOL * size)
+    if missed.max(initial=0) <= ACCEPTED_RTOL * size:
         return best, missed
 
     def holds(one: Array, off: Array) -> bool:
@@ -119,27 +119,27 @@ def solved(law: Law, impulse: Array, size: float) -> tuple[Array, Array]:
         nonlocal best, missed
         if off.max(initial=0) < missed.max(initial=0):
             best, missed = one, off
-        return bool(missed.max(initial=0) <= ENOUGH * size)
+        return bool(missed.max(initial=0) <= ACCEPTED_RTOL * size)
 
-    if impulse.any() and holds(*by_newton(law, nothing, SETTLED * size)):
+    if impulse.any() and holds(*newton(law, nothing, TARGET_RTOL * size)):
         return best, missed
     one, own = nothing, np.concatenate([np.repeat(law.own, 3), law.own_rows])
-    for share in SOFT:
-        one, off = by_newton(Law(law.W + share * np.diag(own), law.u0, law.mu), one, SETTLED * size)
+    for share in SOFTENING:
+        one, off = newton(CoulombLaw(law.W + share * np.diag(own), law.u0, law.mu), one, TARGET_RTOL * size)
     for _ in range(ROUNDS):
         if holds(one, off):
             break
-        one, off = by_newton(law, swept(law, one), SETTLED * size)
+        one, off = newton(law, sweep(law, one), TARGET_RTOL * size)
     return best, missed
 
 
-def stuck(law: Law, impulse: Array) -> tuple[Array, Array]:
+def stuck(law: CoulombLaw, impulse: Array) -> tuple[Array, Array]:
     """Return the impulses with which every point sticks and every row is met, those nearest to others, and u."""
-    impulse = impulse - np.linalg.lstsq(law.W, law.moves(impulse), rcond=RANK)[0]
+    impulse = impulse - np.linalg.lstsq(law.W, law.moves(impulse), rcond=RANK_RTOL)[0]
     return impulse, law.moves(impulse)
 
 
-def by_newton(law: Law, impulse: Array, still: float) -> tuple[Array, Array]:
+def newton(law: CoulombLaw, impulse: Array, still: float) -> tuple[Array, Array]:
     """Return the impulses after steps of Newton's method for λ = P(λ − u / w), and how far they miss the law.
 
     P is what `missed` projects with. A step is shortened until it misses the law by less; where none does, it ends.
@@ -147,7 +147,7 @@ def by_newton(law: Law, impulse: Array, still: float) -> tuple[Array, Array]:
     k, n, mu, w = law.k, 3 * law.k, law.mu, law.own
     u, every = law.moves(impulse), np.concatenate([np.repeat(w, 3), law.own_rows])
     missed: Array | None = None  # which need not be known where the first step arrives
-    for _ in range(STEPS):
+    for _ in range(NEWTON_STEPS):
         aim = impulse - u / every
         normal, along = aim[2:n:3], aim[:n].reshape(k, 3)[:, :2]
         size = np.sqrt((along * along).sum(axis=-1))
@@ -161,9 +161,9 @@ def by_newton(law: Law, impulse: Array, still: float) -> tuple[Array, Array]:
             A[a : a + 2, a : a + 2] += w[i] * (np.eye(2) - P)
             A[a : a + 2, a + 2] -= w[i] * mu[i] * d
         goal = np.zeros(len(impulse))
-        goal[at] = impulse[at] + np.linalg.lstsq(A, b - A @ impulse[at], rcond=RANK)[0] if len(at) else b
-        for share in SHARES:
-            new = within(law, impulse + share * (goal - impulse))
+        goal[at] = impulse[at] + np.linalg.lstsq(A, b - A @ impulse[at], rcond=RANK_RTOL)[0] if len(at) else b
+        for share in STEP_SHARES:
+            new = project(law, impulse + share * (goal - impulse))
             u_new = law.moves(new)
             off = law.missed(new, u_new)
             if off.max(initial=0) <= still:
@@ -177,7 +177,7 @@ def by_newton(law: Law, impulse: Array, still: float) -> tuple[Array, Array]:
     return impulse, law.missed(impulse, u)
 
 
-def within(law: Law, impulse: Array) -> Array:
+def project(law: CoulombLaw, impulse: Array) -> Array:
     """Return the impulses without what pulls, or is outside its cone."""
     n = 3 * law.k
     kept = np.maximum(impulse, 0)
@@ -188,27 +188,27 @@ def within(law: Law, impulse: Array) -> Array:
     return kept
 
 
-def swept(law: Law, impulse: Array) -> Array:
+def sweep(law: CoulombLaw, impulse: Array) -> Array:
     """Return the impulses after some sweeps over the points and rows."""
     impulse, k = impulse.copy(), law.k
     for _ in range(SWEEPS):
         for i in range(k):
             s = slice(3 * i, 3 * i + 3)
             W = law.W[s, s]
-            impulse[s] = of_one_point(W, law.u0[s] + law.W[s] @ impulse - W @ impulse[s], float(law.mu[i]), law.own[i])
+            impulse[s] = solve_point(W, law.u0[s] + law.W[s] @ impulse - W @ impulse[s], float(law.mu[i]), law.own[i])
         for j in range(3 * k, len(impulse)):
             u = law.u0[j] + law.W[j] @ impulse
             impulse[j] = max(0.0, impulse[j] - u / law.own_rows[j - 3 * k])
     return impulse
 
 
-def of_one_point(W: Array, u: Array, mu: float, own: float) -> Array:
+def solve_point(W: Array, u: Array, mu: float, own: float) -> Array:
     """Return the impulse at one point alone, which moves with u without it: of two answers the smaller one."""
     if u[2] >= 0 or W[2, 2] <= 1e-12 * own:
         return np.zeros(3)
     if mu == 0:
         return np.array([0.0, 0.0, -u[2] / W[2, 2]])
-    sticks: Array = np.linalg.lstsq(W, -u, rcond=RANK)[0]
+    sticks: Array = np.linalg.lstsq(W, -u, rcond=RANK_RTOL)[0]
     if np.hypot(sticks[0], sticks[1]) <= mu * sticks[2]:
         return sticks
 
@@ -221,19 +221,19 @@ def of_one_point(W: Array, u: Array, mu: float, own: float) -> Array:
         ahead = push * u[:2, None] - u[2] * (W[:2, 2:] - mu * (W[:2, :2] @ d))
         return push, d[0] * ahead[1] - d[1] * ahead[0], (d * ahead).sum(axis=0)
 
-    series = np.fft.fft(slides(EIGHTHS)[1]) / len(EIGHTHS)
+    series = np.fft.fft(slides(EIGHTH_TURNS_RAD)[1]) / len(EIGHTH_TURNS_RAD)
     found = np.roots([series[2], series[1], series[0], series[-1], series[-2]])
     angle = np.angle(found)
     push, _, ahead = slides(angle)
     fits = (push > 0) & (ahead >= 0) & (np.abs(np.abs(found) - 1) < 1e-3)
     if not fits.any():
-        return within_one(sticks, mu)
+        return project_point(sticks, mu)
     k = int(np.where(fits, push, 0).argmax())
     alone: Array = np.array([-mu * np.cos(angle[k]), -mu * np.sin(angle[k]), 1.0]) * (-u[2] / push[k])
     return alone
 
 
-def within_one(impulse: Array, mu: float) -> Array:
+def project_point(impulse: Array, mu: float) -> Array:
     """Return the impulse at a point, or what its cone takes of it."""
     friction, most = float(np.hypot(impulse[0], impulse[1])), mu * max(0.0, float(impulse[2]))
     share = most / friction if friction > most else 1.0

@@ -19,22 +19,22 @@ from ..fast import crba
 from ..fast.steps import integrate
 from .system import System
 
-__all__ = ["why"]
+__all__ = ["divergence_cause"]
 
-DAMPS = {"rk4": 2.785, "variational": np.inf}
+MAX_DAMPING_RATIO = {"rk4": 2.785, "variational": np.inf}
 """The largest dt kd / D at which a method is stable, on the real axis; 2 of all others."""
 
-SWINGS = 2.0
+MAX_SWING_RATIO = 2.0
 """The largest dt √(kp / D), of the semi-implicit method; of the others it is of this size, or less."""
 
-FAST = 1.0
+MAX_TURN_RAD = 1.0
 """rad: a body that turns further in one step is too fast for an explicit method."""
 
-PROBE = 1e-4
+PROBE_SIZE = 1e-4
 """rad, m, rad/s or m/s: how far apart states are at which a policy is asked for its gains."""
 
 
-def why(system: System, method: str, t0: float, states: Sequence[tuple[Array, Array]]) -> str:
+def divergence_cause(system: System, method: str, t0: float, states: Sequence[tuple[Array, Array]]) -> str:
     """Return a sentence on what began a divergence, empty where nothing of the kind is found.
 
     Parameters
@@ -52,11 +52,11 @@ def why(system: System, method: str, t0: float, states: Sequence[tuple[Array, Ar
     k, entry = onset(speeds)
     q, v = states[k]
     try:
-        found = of_gains(system, method, t0 + k * system.dt, q, v, item)
+        found = feedback_cause(system, method, t0 + k * system.dt, q, v, item)
     except (ValueError, ArithmeticError):  # the policy, or M, cannot be asked in such a state
         found = None
     if found is None:
-        found = of_spin(system, q[item], v[item])
+        found = spin_cause(system, q[item], v[item])
     if found is None:
         return ""
     entry, reason = found
@@ -82,14 +82,14 @@ def alternating(v: Array) -> str:
     return ", whose velocity alternates" if len(change) > 1 and (change[1:] * change[:-1] < 0).all() else ""
 
 
-def of_gains(
+def feedback_cause(
     system: System, method: str, t: float, q: Array, v: Array, item: tuple[int, ...]
 ) -> tuple[int, str] | None:
     """Return the entry of v whose feedback needs the shortest step, and that step; None where dt is short enough."""
     kp, kd = gains(system, t, q, v, item)
     D = apparent_inertia(system, q[item])
     dt = system.dt * max(system.period, 1)
-    limit = 2.0 if system.period else DAMPS.get(method, 2.0)
+    limit = 2.0 if system.period else MAX_DAMPING_RATIO.get(method, 2.0)
     damped, swung = dt * kd / D, dt * np.sqrt(np.maximum(kp, 0) / D)
     name = "dt_control" if system.period else "dt"
     j = int(damped.argmax())
@@ -99,11 +99,12 @@ def of_gains(
         instead = "time stepping needs no bound where kd is damping of the model"
         return j, f"its apparent inertia is {unit} (SI units), and {bound}; {instead}"
     j = int(swung.argmax())
-    if swung[j] > SWINGS and np.isfinite(limit):
-        bound = f"{name} = {dt:.3g} s must be below {SWINGS:.3g} √(D/kp) = {SWINGS * np.sqrt(D[j] / kp[j]):.2g} s"
+    if swung[j] > MAX_SWING_RATIO and np.isfinite(limit):
+        longest = MAX_SWING_RATIO * np.sqrt(D[j] / kp[j])
+        bound = f"{name} = {dt:.3g} s must be below {MAX_SWING_RATIO:.3g} √(D/kp) = {longest:.2g} s"
         return j, f"its apparent inertia is D = {D[j]:.2g}, the stiffness kp = {kp[j]:.3g} (SI units), and {bound}"
     j = int(kd.argmin())
-    if kd[j] < 0 and -kd[j] / D[j] * dt > PROBE:
+    if kd[j] < 0 and -kd[j] / D[j] * dt > PROBE_SIZE:
         return j, f"its τ grows with its own velocity, by {-kd[j]:.3g} (SI units): a sign in the policy?"
     return None
 
@@ -113,11 +114,11 @@ def gains(system: System, t: float, q: Array, v: Array, item: tuple[int, ...]) -
     kp, kd = np.zeros((2, system.model.nv))
     for j in range(system.model.nv):
         probe, entry = np.zeros_like(v), (*item, j)
-        probe[entry] = PROBE
-        ahead, back = (system.asked(t, integrate(system.model, q, sign * probe), v.copy()) for sign in (1, -1))
-        kp[j] = (back - ahead)[entry] / (2 * PROBE)
-        ahead, back = (system.asked(t, q.copy(), v + sign * probe) for sign in (1, -1))
-        kd[j] = (back - ahead)[entry] / (2 * PROBE)
+        probe[entry] = PROBE_SIZE
+        ahead, back = (system.policy_forces(t, integrate(system.model, q, sign * probe), v.copy()) for sign in (1, -1))
+        kp[j] = (back - ahead)[entry] / (2 * PROBE_SIZE)
+        ahead, back = (system.policy_forces(t, q.copy(), v + sign * probe) for sign in (1, -1))
+        kd[j] = (back - ahead)[entry] / (2 * PROBE_SIZE)
     return kp, kd
 
 
@@ -132,11 +133,11 @@ def apparent_inertia(system: System, q: Array) -> Array:
     return np.where(free, 1 / np.where(free, gives, 1), np.inf)
 
 
-def of_spin(system: System, q: Array, v: Array) -> tuple[int, str] | None:
+def spin_cause(system: System, q: Array, v: Array) -> tuple[int, str] | None:
     """Return the joint whose body turns too far in a step for the gyroscopic torque to be integrated."""
     twists = np.asarray(forward_kinematics(system.model, q, v).twist)
     turn = system.dt * np.linalg.norm(twists[1:, :3], axis=-1)
-    if not turn.max(initial=0) > FAST:
+    if not turn.max(initial=0) > MAX_TURN_RAD:
         return None
     body = 1 + int(turn.argmax())
     reason = f"its body turns by dt |ω| = {turn.max():.3g} rad in a step, and must stay well below 1"

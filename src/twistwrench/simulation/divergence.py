@@ -11,9 +11,9 @@ from ..arrays import Array
 from ..model import GroupJoint, Model
 from ..spatial._elementary import at_first_index
 
-__all__ = ["DivergenceError", "refuse_divergence", "refuse_whole_turn"]
+__all__ = ["DivergenceError", "check_divergence", "check_turn"]
 
-FARTHEST = 1e6
+MAX_STEP_TRAVEL = 1e6
 """No joint goes that far in one step, in rad or m."""
 
 
@@ -29,9 +29,9 @@ class DivergenceError(ValueError):
     motion: Any = None
 
 
-def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> None:
+def check_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> None:
     """Raise DivergenceError where an entry of x, a velocity for dt, is not finite or goes beyond all bounds."""
-    bound = min(FARTHEST / dt, _largest(x.dtype))
+    bound = min(MAX_STEP_TRAVEL / dt, _largest(x.dtype))
     if not np.abs(x).max(initial=0) <= bound:
         wrong = np.asarray(~(np.abs(x) <= bound))
         entry = tuple(int(k) for k in np.argwhere(wrong)[0])
@@ -42,7 +42,7 @@ def refuse_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> 
         )
 
 
-def refuse_whole_turn(model: Model, u: Array) -> None:
+def check_turn(model: Model, u: Array) -> None:
     """Raise DivergenceError where a ball, a floating base or a planar joint turns by more than 2π in a step u."""
     for name, joint, s in zip(model.joint_names, model.joints, model.v_slice):
         if isinstance(joint, GroupJoint) and joint.nv > 1:

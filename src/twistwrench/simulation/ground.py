@@ -20,9 +20,9 @@ from ..spatial.rotation import cross_matrix
 
 __all__ = ["Ground", "GroundPoints", "Terms", "check_ground", "point_forces"]
 
-UP = (0.0, 0.0, 1.0)
+WORLD_UP = (0.0, 0.0, 1.0)
 
-LEVEL = 1e-12
+NORMAL_SPEED_RTOL = 1e-12
 """Relative to its size, so much of a velocity along the ground may be across it."""
 
 
@@ -53,7 +53,7 @@ class Ground:
     """
 
     height: float = 0.0
-    normal: tuple[float, float, float] = UP
+    normal: tuple[float, float, float] = WORLD_UP
     restitution: float = 0.0
 
     def __post_init__(self) -> None:
@@ -89,14 +89,14 @@ def check_ground(contacts: Sequence[Contact], ground: Ground) -> None:
                 f"contact {c.frame!r}: with ground=, expected points, soles, balls and wheels on a ground that is at "
                 f"rest or moves along itself, got {c!r}"
             )
-        normal = getattr(c, "normal", UP)
-        if normal != UP and not np.allclose(normal, ground.normal, 0, 1e-12):
+        normal = getattr(c, "normal", WORLD_UP)
+        if normal != WORLD_UP and not np.allclose(normal, ground.normal, 0, 1e-12):
             raise ValueError(
                 f"contact {c.frame!r}: its normal {normal} is not that of the ground, {ground.normal}; "
                 "with ground= the ground's counts: leave it out"
             )
         turns, moves = np.array(c.velocity[:-3]), np.array(c.velocity[-3:])
-        if turns.any() or (moves.size and abs(moves @ ground.normal) > LEVEL * np.abs(moves).max()):
+        if turns.any() or (moves.size and abs(moves @ ground.normal) > NORMAL_SPEED_RTOL * np.abs(moves).max()):
             raise ValueError(
                 f"contact {c.frame!r}: velocity: expected one along the ground, without a turn, got {c.velocity}"
             )

@@ -29,7 +29,7 @@ from .straight import turning
 
 __all__ = ["Held", "Rows"]
 
-FAR = 1e-6
+MAX_DRIFT_M = 1e-6
 """m: what is farther from its anchor after a step has come apart."""
 
 
@@ -74,7 +74,7 @@ class Held(NamedTuple):
         one = {name: SE3(T.rotation[item], T.translation[item]) for name, T in self.anchors.items()}
         return self._replace(anchors=one)
 
-    def moving(self, q: Array, v: Array, M: Array, dt: float, since: float) -> Rows:
+    def velocity_rows(self, q: Array, v: Array, M: Array, dt: float, since: float) -> Rows:
         """Return the rows in the middle of a step of dt that ends at the time `since`, in the metric of M."""
         contacts = moved(self.contacts, since)
         terms = contact_terms(self.model, q, v, contacts)
@@ -82,7 +82,7 @@ class Held(NamedTuple):
         u = terms.W @ (given_motion(contacts, "velocity") - dt / 2 * bias)
         return Rows(terms.W, terms.W @ terms.J, u, decompose(self.model, M, terms.W @ terms.J))
 
-    def returning(self, q: Array, since: float) -> Rows:
+    def position_rows(self, q: Array, since: float) -> Rows:
         """Return the rows that lead back to the anchors: u is how far they are, m."""
         terms = contact_terms(self.model, q, np.zeros(self.model.nv), self.contacts)
         anchors = moved_anchors(self.model, self.contacts, self.anchors, since)
@@ -94,9 +94,9 @@ class Held(NamedTuple):
         contacts = moved(self.contacts, since)
         return jump(self.model, v, contacts, contact_terms(self.model, q, v, contacts)).v
 
-    def refuse_apart(self, rows: Rows) -> None:
+    def check_drift(self, rows: Rows) -> None:
         """Raise SingularError where a contact has not come back to its anchor."""
         left = {frame: float(np.abs(u).max()) for frame, u in per_contact(self.contacts, rows.u).items()}
         worst = max(left, key=lambda frame: left[frame], default="")
-        if worst and left[worst] > FAR:
+        if worst and left[worst] > MAX_DRIFT_M:
             raise SingularError(f"contact {worst!r} comes apart by {left[worst]:.3g} m; a smaller dt?")

@@ -57,9 +57,9 @@ def simulate_following(
         motion = simulate(model.full, *model.expand(q, v), tau=tau, contacts=held, stop=stop, **options)
     except (Exception, KeyboardInterrupt) as error:
         if isinstance(made := getattr(error, "motion", None), Simulation):
-            error.motion = of_leaders(model, made)  # type: ignore[union-attr]
+            error.motion = leader_motion(model, made)  # type: ignore[union-attr]
         raise
-    return of_leaders(model, motion)
+    return leader_motion(model, motion)
 
 
 def leading(model: MimicModel) -> Array:
@@ -78,7 +78,7 @@ def at_leaders(model: MimicModel, tau: Array) -> Array:
     return full
 
 
-def of_leaders(model: MimicModel, motion: Simulation) -> Simulation:
+def leader_motion(model: MimicModel, motion: Simulation) -> Simulation:
     """Return the motion of the leaders."""
     own = leading(model)
     q, v, tau = motion.q[..., model.kept_q], motion.v[..., own], motion.tau[..., own]

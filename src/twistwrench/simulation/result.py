@@ -1,34 +1,95 @@
-"""What a simulation returns."""
+"""What a simulation returns: the motion, and what it is worth.
+
+A remark is the first time that a robot did what a real one would not, or that a foot lost the ground.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..algorithms.centroidal import center_of_mass, centroidal_momentum
 from ..algorithms.energy import kinetic_energy, potential_energy
+from ..algorithms.kinematics import forward_kinematics, frame_placement
 from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_count
+from ..contact import Contact, PointContact, SphereContact, SurfaceContact, WheelContact
 from ..errors import check_known
 from ..model import Model
 from .methods import METHODS
-from .remarks import Remark, of_contacts, of_ground, of_joints, of_left_out
+from .stepping import TimeStepping
 from .system import System
 
-__all__ = ["Simulation"]
+__all__ = ["Remark", "Simulation", "contact_remarks", "ground_remarks", "joint_remarks", "neglect_remarks"]
 
-ASKED = 5
+PRINTED_SAMPLES = 5
 """Steps that are made again where a motion is printed."""
 
-LABELS = {
+AXIS_LABELS = {
     "energy": "change of the energy [J]",
     "angular momentum": "change of the angular momentum [kg m²/s]",
     "q": "q [rad, m]",
     "v": "v [rad/s, m/s]",
 }
+
+REMARK_RTOL = 1e-9
+"""Relative to what is allowed, or in rad and m: rounding stays below."""
+
+FOOT_SIZE_M = 1e-3
+"""m: what is less far below the contacts may be a foot's own size."""
+
+MIN_SLIDE_M_PER_S = 1e-3
+"""m/s: how fast a point that touches slides at least."""
+
+COULOMB_RTOL = 1e-3
+"""Relative to the fastest point: how far a step may miss Coulomb's law before it is said."""
+
+SENTENCES = {
+    "pull": "contact {name!r} pulls, by {value:.4g} N",
+    "slip": "contact {name!r} holds {value:.4g} N along the ground; without slipping it can {limit:.4g} N",
+    "tip": "contact {name!r} holds a moment of {value:.4g} N m; without tipping it can {limit:.4g} N m",
+    "sunk": "the body of joint {name!r} is below all contacts, at {value:.4g} m",
+    "range": "joint {name!r} is at {value:.4g}, beyond its range, which ends at {limit:.4g}",
+    "speed": "joint {name!r} moves at {value:.4g} rad/s or m/s; it can {limit:.4g}",
+    "effort": "the motor of joint {name!r} gives {value:.4g} N m or N; it can {limit:.4g}",
+    "lift-off": "contact {name!r} leaves the ground",
+    "slide": "contact {name!r} slides, at {value:.4g} m/s",
+    "coulomb": "contact {name!r} misses Coulomb's law by {value:.4g} m/s, more than {limit:.4g}: a smaller dt?",
+    "damping": "joint {name!r} has damping, here up to {value:.4g} N m or N, which only 'time-stepping' applies",
+    "friction": "joint {name!r} has dry friction, {value:.4g} N m or N, which only 'time-stepping' applies",
+}
+
+
+class Remark(NamedTuple):
+    """The first time that something happened in a motion.
+
+    Attributes
+    ----------
+    t : float
+        When, s.
+    kind : str
+        "pull", "slip", "tip" of a contact that sticks, "sunk" of a body below all of them; "range", "speed", "effort"
+        of a joint; "lift-off", "slide" of a contact on a ground, and "coulomb" where no forces were found that
+        fulfil Coulomb's law to 1e-3 of the fastest point; "damping", "friction" of a joint that moves, which
+        only time stepping applies; the value is the largest that was left out.
+    name : str
+        Of the frame of the contact, or the joint.
+    value, limit : float
+        How large it was then, and what is allowed; in N, N m, rad, m, rad/s or m/s.
+    """
+
+    t: float
+    kind: str
+    name: str
+    value: float
+    limit: float
+
+    def __str__(self) -> str:
+        return f"from t = {self.t:.4g} s " + SENTENCES[self.kind].format(**self._asdict())
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -121,10 +182,10 @@ class Simulation:
         joint, which only time stepping applies.
         """
         system, stepping, model, (q, v, tau) = self.system, self.system.stepping, self.system.model, self.full
-        found = [*of_joints(model, self.t, q, v, tau)]
+        found = [*joint_remarks(model, self.t, q, v, tau)]
         if self.contact_forces and stepping is None:
-            found += of_contacts(model, self.t, q, system.contacts, self.contact_forces)
-        found += of_left_out(model, self.t, v) if stepping is None else of_ground(stepping, self.t)
+            found += contact_remarks(model, self.t, q, system.contacts, self.contact_forces)
+        found += neglect_remarks(model, self.t, v) if stepping is None else ground_remarks(stepping, self.t)
         return tuple(sorted(found))
 
     def step_error(self, samples: int = 20) -> tuple[float, float]:
@@ -160,7 +221,7 @@ class Simulation:
         count = min(as_count(samples, "samples", 1), len(self.tau))
         worst, (q, v, tau) = np.zeros(2), self.full
         for k in np.unique(np.linspace(0, len(self.tau) - 1, count).astype(int)) if count else ():
-            half = self.system.again(float(self.t[k]), q[k], v[k], tau[k], METHODS[self.method].step)
+            half = self.system.two_half_steps(float(self.t[k]), q[k], v[k], tau[k], METHODS[self.method].step)
             whole = self.system.model.difference(q[k + 1], half[0]), v[k + 1] - half[1]
             worst = np.maximum(worst, [np.abs(x).max(initial=0) for x in whole])
         worst = worst / (1 - 2.0 ** -METHODS[self.method].order)
@@ -200,10 +261,10 @@ class Simulation:
         if not len(self.tau):
             return []
         try:
-            dq, dv = self.step_error(ASKED)
+            dq, dv = self.step_error(PRINTED_SAMPLES)
         except ValueError:  # half a step fails, or the policy is in another process
             return []
-        return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {ASKED}: see step_error)"]
+        return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {PRINTED_SAMPLES}: see step_error)"]
 
     def plot(self, ax: Any = None, *, what: str = "energy") -> Any:
         """Draw a quantity over time; of a batch, of every item.
@@ -223,7 +284,7 @@ class Simulation:
         NameNotFound
             If `what` is not one of these.
         """
-        check_known("quantity", what, LABELS)
+        check_known("quantity", what, AXIS_LABELS)
         from ..plot.style import axes_2d
 
         ax = axes_2d(ax)
@@ -233,5 +294,76 @@ class Simulation:
             total = self.energy if what == "energy" else self.momentum[..., :3]
             drawn = total - total[0]
         ax.plot(self.t, drawn.reshape(len(self.t), -1))
-        ax.set(xlabel="time [s]", ylabel=LABELS[what])
+        ax.set(xlabel="time [s]", ylabel=AXIS_LABELS[what])
         return ax
+
+
+def first_excess(
+    t: Array, kind: str, name: str, value: Array, limit: Array | float, sign: float = 1.0
+) -> Iterator[Remark]:
+    """Yield the first time that values, time first, are above a limit, or with the sign −1 below it."""
+    limit = np.broadcast_to(limit, value.shape)
+    over = sign * (value - limit) > REMARK_RTOL * np.maximum(1, np.abs(limit))
+    if over.any():
+        k = tuple(int(i) for i in np.argwhere(over)[0])
+        yield Remark(float(t[k[0]]), kind, name, float(value[k]), float(limit[k]))
+
+
+def joint_remarks(model: Model, t: Array, q: Array, v: Array, tau: Array) -> Iterator[Remark]:
+    """Yield the joints that left their ranges, or were faster or stronger than they can be."""
+    for name, joint, at_q, at_v in zip(model.joint_names, model.joints, model.q_slice, model.v_slice):
+        if joint is None:
+            continue
+        if joint.nq == joint.nv:
+            yield from first_excess(t, "range", name, q[..., at_q], model.upper[at_q])
+            yield from first_excess(t, "range", name, q[..., at_q], model.lower[at_q], -1.0)
+        yield from first_excess(t, "speed", name, np.abs(v[..., at_v]), model.velocity_limit[at_v])
+        yield from first_excess(t, "effort", name, np.abs(tau[..., at_v]), model.effort_limit[at_v])
+
+
+def neglect_remarks(model: Model, t: Array, v: Array) -> Iterator[Remark]:
+    """Yield the joints that moved as if they had no damping or no dry friction, which the file gives them."""
+    for name, joint, at in zip(model.joint_names, model.joints, model.v_slice):
+        if joint is not None:
+            braked = model.damping[at] * np.abs(v[..., at]), model.friction[at] * (v[..., at] != 0)
+            for kind, value in zip(("damping", "friction"), braked):
+                yield from (r._replace(value=float(value.max())) for r in first_excess(t, kind, name, value, 0.0))
+
+
+def contact_remarks(
+    model: Model, t: Array, q: Array, contacts: Sequence[Contact], forces: dict[str, Array]
+) -> Iterator[Remark]:
+    """Yield the contacts that stick and pulled, or would have slipped or tipped, and the bodies that sank below all.
+
+    A sole would tip where its centre of pressure leaves it. Of others, such as loops, nothing is said.
+    """
+    contacts = [c for c in contacts if isinstance(c, PointContact | SphereContact | SurfaceContact | WheelContact)]
+    for c in contacts:
+        axes, wrench = c.axes(frame_placement(model, q, c.frame).rotation), np.zeros((*q.shape[:-1], 6))
+        wrench[..., c.rows] = forces[c.frame]
+        f, moment = np.matvec(axes.mT, wrench[..., 3:]), np.abs(np.matvec(axes.mT, wrench[..., :3]))
+        loose, pressed = REMARK_RTOL * np.abs(f).max(initial=0), np.maximum(f[..., 2], 0)
+        yield from first_excess(t, "pull", c.frame, -f[..., 2], loose)
+        yield from first_excess(t, "slip", c.frame, np.hypot(f[..., 0], f[..., 1]), c.mu * pressed + loose)
+        if isinstance(c, SurfaceContact):
+            for axis, half in ((1, c.half_size[0]), (0, c.half_size[1])):
+                yield from first_excess(t, "tip", c.frame, moment[..., axis], half * pressed + loose)
+    if contacts and not any(c.velocity or c.acceleration for c in contacts):
+        feet = [frame_placement(model, q[0], c.frame).translation[..., 2] for c in contacts]
+        floor, bodies = np.min(feet, axis=0) - FOOT_SIZE_M, forward_kinematics(model, q).placement[1:]
+        if all((T.translation[0, ..., 2] >= floor).all() for T in bodies):
+            for name, T in zip(model.joint_names[1:], bodies):
+                yield from first_excess(t, "sunk", name, T.translation[..., 2], floor, -1.0)
+
+
+def ground_remarks(stepping: TimeStepping, t: Array) -> Iterator[Remark]:
+    """Yield the contacts on a ground that left it after they had touched it, slid on it, or missed Coulomb's law."""
+    force, slides, end = np.array(stepping.forces), np.array(stepping.slides), 0
+    missed, most = np.array(stepping.missed), COULOMB_RTOL * np.array(stepping.fastest)
+    for c in stepping.contacts if len(force) else ():
+        points = slice(end, end := end + len(c.points))
+        touches = (force[..., points, 2] > 0).any(axis=-1)
+        left = np.maximum.accumulate(touches, axis=0) & ~touches
+        yield from first_excess(t, "lift-off", c.frame, left.astype(float), 0.0)
+        yield from first_excess(t, "slide", c.frame, slides[..., points].max(axis=-1), MIN_SLIDE_M_PER_S)
+        yield from first_excess(t, "coulomb", c.frame, missed[..., points].max(axis=-1), most)

@@ -16,27 +16,26 @@ from ..contact import Contact
 from ..contact.rows import as_contacts
 from ..errors import SingularError, check_known
 from ..model import Model
-from .diagnosis import why
-from .divergence import DivergenceError, refuse_divergence
+from .diagnosis import divergence_cause
+from .divergence import DivergenceError, check_divergence
 from .ground import Ground, check_ground
 from .methods import METHODS
 from .mimics import simulate_following
 from .result import Simulation
-from .scene_like import SceneLike, parts
 from .stepping import TimeStepping
-from .system import Policy, System
+from .system import Policy, SimulatedScene, System, parts
 
 __all__ = ["simulate"]
 
 Stop = Callable[[float, Array, Array], bool]
 """From time, q (..., nq) and v (..., nv) to whether the motion ends here."""
 
-LONGEST = 1e60
+MAX_STEP_S = 1e60
 """Seconds: with a longer step products overflow."""
 
 
 def simulate(
-    robot: Model | MimicModel | SceneLike,
+    robot: Model | MimicModel | SimulatedScene,
     q: ArrayLike,
     v: ArrayLike,
     *,
@@ -153,11 +152,11 @@ def simulate(
         contacts = tuple(c for c in contacts if not c.pushes)
         stepper = TimeStepping(model, may_touch, ground or Ground(), float(dt), q, contacts)
     system = System(model, contacts, push, tau, q, v, float(dt), _period(dt_control, dt, tau), stepper)
-    system.refuse_slip(q, v)
+    system.check_slip(q, v)
     start = perf_counter()
     if stop is not None and not callable(stop):
         raise TypeError(f"stop: expected a function (t, q, v) -> bool, got {type(stop).__name__}")
-    made = Made([(q, v)], [], [])
+    made = Trajectory([(q, v)], [], [])
     t0 = float(as_number(t0, "t0"))
 
     try:
@@ -168,7 +167,9 @@ def simulate(
     return _motion(made, system, name, t0, perf_counter() - start)
 
 
-def _motion(made: Made, system: System, name: str, t0: float, seconds: float, *, failed: bool = False) -> Simulation:
+def _motion(
+    made: Trajectory, system: System, name: str, t0: float, seconds: float, *, failed: bool = False
+) -> Simulation:
     """Return what has been made of a motion."""
     qs, vs = (np.stack([state[i] for state in made.states]) for i in (0, 1))
     taus = np.array(made.taus[: len(vs) - 1], vs.dtype).reshape(len(vs) - 1, *vs.shape[1:])
@@ -179,7 +180,7 @@ def _motion(made: Made, system: System, name: str, t0: float, seconds: float, *,
 
 
 @dataclass
-class Made:
+class Trajectory:
     """What has been made of a motion: states, and of each step τ and the forces of the contacts that stick."""
 
     states: list[tuple[Array, Array]]
@@ -198,17 +199,17 @@ class Made:
         return {c.frame: np.stack([at[c.frame] for at in held]) for c in system.contacts}
 
 
-def _loop(made: Made, system: System, method: str, t0: float, counter: Iterable[int], stop: Stop | None) -> None:
+def _loop(made: Trajectory, system: System, method: str, t0: float, counter: Iterable[int], stop: Stop | None) -> None:
     """Make the steps; where one fails, add the time to the error, and what began it."""
     step = METHODS[method].step
     for k in counter:
         t, (q, v) = t0 + k * system.dt, (x.copy() for x in made.states[-1])
         try:
-            system.begin(k, t, q, v)
-            q, v = system.settle(t + system.dt, *step(system, t, q, v))
-            refuse_divergence(system.model, "v", v, dt=system.dt)
+            system.begin_step(k, t, q, v)
+            q, v = system.project(t + system.dt, *step(system, t, q, v))
+            check_divergence(system.model, "v", v, dt=system.dt)
         except (DivergenceError, SingularError) as error:
-            reason = why(system, method, t0, made.states)
+            reason = divergence_cause(system, method, t0, made.states)
             text = f"{error}{' ' if str(error).endswith('?') else '; '}{reason}" if reason else error
             raise type(error)(f"step {k + 1}, from t = {t:.6g} s: {text}") from error
         made.taus.append(system.tau)
@@ -239,7 +240,7 @@ def _period(dt_control: float | None, dt: float, tau: object) -> int:
     """Return the period of the policy in steps; 0 if it has none."""
     if dt_control is None:
         return 0
-    if not 0 < as_number(dt_control, "dt_control") < LONGEST:
+    if not 0 < as_number(dt_control, "dt_control") < MAX_STEP_S:
         raise ValueError(f"dt_control: expected a positive number of seconds, got {dt_control}")
     if not callable(tau):
         raise ValueError("dt_control: there is no policy that could be called: tau is not a function")
@@ -251,7 +252,7 @@ def _period(dt_control: float | None, dt: float, tau: object) -> int:
 
 def _count(dt: float, steps: int | None, duration: float | None) -> int:
     """Return the number of steps; raise an error if it is not one."""
-    if not 0 < as_number(dt, "dt") < LONGEST:
+    if not 0 < as_number(dt, "dt") < MAX_STEP_S:
         raise ValueError(f"dt: expected a positive number of seconds, got {dt}")
     if steps is not None and duration is None:
         return as_count(steps, "steps", 0)

@@ -16,11 +16,16 @@ The gap is linear in v⁺ only to second order, so that a point may end below th
 something hits. Then q, and not v, is moved by the least step in the metric of M that brings all points up to it: no
 speed comes of it. Loops, couplings and rails are equations beside the law (`held`), and are brought back to their
 anchors in the same step.
+
+What a URDF says of its joints holds as well. A damping d is implicit: it acts at the velocity at the end of the step,
+(M + dt D) v⁺ = M v* + …, and is stable however large it is. Dry friction is a force of at most f: what moves is braked
+by f, what rests needs more than f to start. The end of a range is a row like that of a contact point: it pushes back,
+and never pulls.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -31,33 +36,38 @@ from ..contact import Contact
 from ..contact.rows import per_contact
 from ..fast import aba
 from ..model import Model
-from .cones import Answer, Metric, Points, touched
-from .divergence import DivergenceError, refuse_divergence
+from .cones import Metric, Points, StepSolution, solve_contacts
+from .divergence import DivergenceError, check_divergence
 from .ground import Ground, GroundPoints, point_forces
 from .held import Held, Rows
-from .passive import Joints
 from .straight import go_straight, in_turned_axes, turning
 
-__all__ = ["TimeStepping"]
+__all__ = ["Joints", "TimeStepping"]
 
-PROJECTIONS = 5
-BELOW = 1e-10
+MAX_PROJECTIONS = 5
+GAP_ATOL = 1e-10
 """m or rad: nearer than this, what is below the ground is on it."""
 
-ALIKE = 1e-12
+FREE_VELOCITY_RTOL = 1e-12
 """So much, relative to the fastest, may the free velocity change by that in the middle without being asked again."""
 
-APART = 1e-12
+ANCHOR_ATOL_M = 1e-12
 """m: nearer than this, what holds is at its anchor."""
 
-DEEPEST = 1e-3
+MAX_START_DEPTH_M = 1e-3
 """m: a point that begins deeper below the ground is a mistake."""
 
-SUNK = 0.05
+MAX_SINK_SHARE = 0.05
 """So much, relative to the fastest, a point may be too fast on its way down; beyond, nothing can keep it up."""
 
+RANGE_ATOL = 1e-9
+"""rad or m: a joint that begins farther beyond its range is a mistake."""
 
-class State(NamedTuple):
+MAX_FRICTION_ROUNDS = 20
+"""So often at most the joints with friction are asked again in a step which of them slide, and which way."""
+
+
+class StepTerms(NamedTuple):
     """What a step needs: of its middle M, that with damping and its metric, J and places of points; the first gaps."""
 
     M: Array
@@ -126,14 +136,14 @@ class TimeStepping:
         self.fastest: list[Array] = []
         self._impulse = np.zeros((*q.shape[:-1], len(self.mu), 3))
         self._damping = self.dt * np.diag(model.damping) if model.damping.any() else None
-        self._refuse_below(q)
+        self._check_start(q)
 
     def step(self, tau: Array, q: Array, v: Array, since: float) -> tuple[Array, Array]:
         """Make one step of each item of a batch, under the joint forces τ, and return q and v at its end.
 
         `since` is the time since the start of the motion at which the step begins.
         """
-        refuse_divergence(self.model, "v", v, dt=self.dt)
+        check_divergence(self.model, "v", v, dt=self.dt)
         q1, v1, batch, k = np.empty_like(q), np.empty_like(v), q.shape[:-1], len(self.mu)
         force, place, slide, missed = (np.zeros((*batch, k, *size)) for size in ((3,), (3,), (), ()))
         pull, fastest = np.zeros((*batch, sum(c.dim for c in self.held.contacts))), np.zeros(batch)
@@ -155,7 +165,9 @@ class TimeStepping:
         self.fastest.append(fastest)
         return q1, v1
 
-    def one(self, tau: Array, q: Array, v: Array, before: Array, held: Held, end: float) -> tuple[Answer, Array, Array]:
+    def one(
+        self, tau: Array, q: Array, v: Array, before: Array, held: Held, end: float
+    ) -> tuple[StepSolution, Array, Array]:
         """Return the velocity at the end of a step in the axes of its middle, λ of what holds, and where points are.
 
         Once more, where the mean of the velocities makes a difference.
@@ -165,24 +177,26 @@ class TimeStepping:
         at, mean, other = self.terms(q, middle), v, np.full_like(v, np.inf)
         for _ in range(2):
             free = v + self.dt * (aba(self.model, middle, mean, tau) + turning(self.model, mean))
-            if np.abs(free - other).max(initial=0) <= ALIKE * np.abs(free).max(initial=0):
+            if np.abs(free - other).max(initial=0) <= FREE_VELOCITY_RTOL * np.abs(free).max(initial=0):
                 break
-            other, rows = free, held.moving(middle, mean, at.damped, self.dt, end) if held.contacts else None
+            other, rows = free, held.velocity_rows(middle, mean, at.damped, self.dt, end) if held.contacts else None
             found, pull = self.solve(at, v, free, before, rows)
             mean, before = (v + found.v) / 2, found.impulse
-            refuse_divergence(self.model, "v", mean, dt=self.dt)
-        refuse_divergence(self.model, "v dt", self.dt * found.v)
-        self._refuse_sunk(found)
+            check_divergence(self.model, "v", mean, dt=self.dt)
+        check_divergence(self.model, "v dt", self.dt * found.v)
+        self._check_sinking(found)
         return found, pull / self.dt, at.place
 
-    def terms(self, q: Array, middle: Array) -> State:
+    def terms(self, q: Array, middle: Array) -> StepTerms:
         """Return what a step from q needs."""
         terms = self.points.terms(middle)
         damped = terms.M if self._damping is None else terms.M + self._damping
         gap = self.points.height(q)
-        return State(terms.M, damped, Metric(self.model, damped), terms.rows, terms.place, gap, self.joints.gap(q))
+        return StepTerms(terms.M, damped, Metric(self.model, damped), terms.rows, terms.place, gap, self.joints.gap(q))
 
-    def solve(self, at: State, v: Array, free: Array, before: Array, held: Rows | None) -> tuple[Answer, Array]:
+    def solve(
+        self, at: StepTerms, v: Array, free: Array, before: Array, held: Rows | None
+    ) -> tuple[StepSolution, Array]:
         """Return the velocity at the end of the step, from v and that of the free motion, and the impulses."""
         gap, J, metric = at.gap, at.J, at.metric
         loose = free = free if self._damping is None else metric.respond(at.M @ free)
@@ -191,19 +205,19 @@ class TimeStepping:
         ends, n = -np.maximum(at.ends, 0) / self.dt, J[:, 2]
         bound, lowest = self.points.velocity.copy(), -np.maximum(gap, 0) / self.dt
 
-        def answer(least: Array) -> Answer:
+        def answer(least: Array) -> StepSolution:
             """Return what is found where points leave the step with this normal velocity at least."""
             bound[:, 2] = least
             points = Points(J, self.mu, bound)
 
-            def solved(free: Array, rows: Array) -> tuple[Answer, Array]:
+            def solved(free: Array, rows: Array) -> tuple[StepSolution, Array]:
                 others = (self.joints.rows, ends)
                 if len(rows):
                     others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
-                found = touched(metric, free, points, others, before)
+                found = solve_contacts(metric, free, points, others, before)
                 return found, found.others[len(ends) :]
 
-            return self.joints.rubbed(metric, free, self.dt, solved)
+            return self.joints.with_dry_friction(metric, free, self.dt, solved)
 
         found, share = answer(lowest), self.points.restitution
         touches = found.impulse[:, 2] > 0
@@ -227,19 +241,19 @@ class TimeStepping:
         What flies keeps its velocity in the world, where it is turned a little.
         """
         rows, span = None, None
-        for _ in range(PROJECTIONS):
+        for _ in range(MAX_PROJECTIONS):
             gap, way = np.concatenate([self.points.height(q), self.joints.gap(q)]), np.zeros(self.model.nv)
             if held.contacts:
-                rows = held.returning(q, end)
+                rows = held.position_rows(q, end)
                 way, span = rows.corrected(way), rows.span
-            if gap.min(initial=0) >= -BELOW and (rows is None or np.abs(rows.u).max() <= APART):
+            if gap.min(initial=0) >= -GAP_ATOL and (rows is None or np.abs(rows.u).max() <= ANCHOR_ATOL_M):
                 break
             terms = self.points.terms(q)
             G = np.concatenate([terms.rows[:, 2], self.joints.rows])
             way, _ = Metric(self.model, terms.M, span).nearest(way, G, -gap)
             q, v = go_straight(self.model, q, way), in_turned_axes(self.model, v, way)
         if rows is not None:
-            held.refuse_apart(rows)
+            held.check_drift(rows)
             v = held.settle(q, v, end)
         return q, v
 
@@ -250,8 +264,8 @@ class TimeStepping:
         pull = np.array(self.pulls[:n]).reshape(*batch, sum(c.dim for c in self.held.contacts))
         return point_forces(self.contacts, place, force, self.ground) | per_contact(self.held.contacts, pull)
 
-    def _refuse_sunk(self, found: Answer) -> None:
-        if found.sinks.max(initial=0) > SUNK * found.fastest:
+    def _check_sinking(self, found: StepSolution) -> None:
+        if found.sinks.max(initial=0) > MAX_SINK_SHARE * found.fastest:
             worst = int(found.sinks.argmax())
             raise DivergenceError(
                 f"nothing keeps {self._names()[worst]} above the ground: it goes down {found.sinks[worst]:.3g} m/s "
@@ -261,11 +275,79 @@ class TimeStepping:
     def _names(self) -> list[str]:
         return [name for c in self.contacts for name in c.point_names]
 
-    def _refuse_below(self, q: Array) -> None:
+    def _check_start(self, q: Array) -> None:
         height = self.points.height(q)
         gap = height.min(axis=tuple(range(q.ndim - 1)), initial=np.inf)
-        if gap.min(initial=0) < -DEEPEST:
+        if gap.min(initial=0) < -MAX_START_DEPTH_M:
             raise ValueError(
                 f"q: {self._names()[int(gap.argmin())]} begins {-gap.min():.3g} m below the ground; "
                 "raise the base, or lower the ground"
             )
+
+
+class Joints:
+    """The joints of one axis that have a range, and the degrees of freedom with dry friction.
+
+    Raises
+    ------
+    ValueError
+        If a joint is beyond its range in q, shape (..., nq).
+    """
+
+    def __init__(self, model: Model, q: Array) -> None:
+        self.model = model
+        ends = []
+        for joint, sq, sv in zip(model.joints, model.q_slice, model.v_slice):
+            if joint is None or not joint.nq == joint.nv == 1:
+                continue
+            for side, limit in ((1.0, model.lower[sq.start]), (-1.0, model.upper[sq.start])):
+                if np.isfinite(limit):
+                    ends.append((sq.start, sv.start, side, limit))
+        at_q, at_v, self.sign, self.end = np.array(ends).reshape(len(ends), 4).mT
+        self.at_q, self.rows = at_q.astype(int), np.zeros((len(ends), model.nv))
+        self.rows[np.arange(len(ends)), at_v.astype(int)] = self.sign
+        self.friction = np.flatnonzero(model.friction > 0)
+        self._check_ranges(q)
+
+    def gap(self, q: Array) -> Array:
+        """Return how far the joints are from the ends of their ranges, below 0 outside."""
+        return np.asarray(self.sign * (q[..., self.at_q] - self.end))
+
+    def _check_ranges(self, q: Array) -> None:
+        gap = self.gap(q).min(axis=tuple(range(q.ndim - 1)), initial=np.inf)
+        if (gap < -RANGE_ATOL).any():
+            k = int(gap.argmin())
+            i = next(i for i, s in enumerate(self.model.q_slice) if s.start <= self.at_q[k] < s.stop)
+            s = self.model.q_slice[i]
+            lower, upper = (float(x[s.start]) for x in (self.model.lower, self.model.upper))
+            raise ValueError(
+                f"q: joint {self.model.joint_names[i]!r} begins {-gap[k]:.3g} beyond its range, "
+                f"{lower:.6g} to {upper:.6g}, which time stepping keeps"
+            )
+
+    def with_dry_friction(
+        self, metric: Metric, free: Array, dt: float, solve: Callable[[Array, Array], tuple[StepSolution, Array]]
+    ) -> StepSolution:
+        """Return what `solve` finds with dry friction.
+
+        `solve` takes the free velocity, and rows G with G v ≥ 0; it also returns the impulses along these. A joint that
+        slides is braked by f, and may come to rest but not turn back; one that sticks is held both ways. Where the sum
+        of its impulses is more than f, it slides the way it is pushed.
+        """
+        n, at = len(self.friction), self.friction
+        if not n:
+            return solve(free, np.zeros((0, len(free))))[0]
+        most, slides = dt * self.model.friction[at], np.sign(free[at])
+        for _ in range(MAX_FRICTION_ROUNDS):
+            rows = np.zeros((2 * n, len(free)))
+            rows[np.arange(n), at] = np.where(slides >= 0, 1.0, 0.0)
+            rows[n + np.arange(n), at] = np.where(slides <= 0, -1.0, 0.0)
+            braking = np.zeros(len(free))
+            braking[at] = -slides * most
+            found, held = solve(free + metric.respond(braking), rows)
+            total = -slides * most + held[:n] - held[n:]
+            before, loose = slides, 1e-9 * most
+            slides = np.where(total > most + loose, -1.0, np.where(total < -most - loose, 1.0, slides))
+            if (slides == before).all():
+                break
+        return replace(found, total=found.total + braking)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,14 +19,13 @@ from ..contact import (
     project_state,
 )
 from ..contact.rows import given_motion, moved, moved_anchors
-from ..errors import ShapeError
+from ..errors import ShapeError, no_model
 from ..fast import aba, rnea
-from ..fast.steps import integrate
 from ..model import Model
-from .divergence import refuse_divergence
+from .divergence import check_divergence
 from .stepping import TimeStepping
 
-__all__ = ["Policy", "Push", "System"]
+__all__ = ["Policy", "Push", "SimulatedScene", "System", "parts"]
 
 Policy = Callable[[float, Array, Array], ArrayLike]
 """From time, q (..., nq) and v (..., nv) to joint forces (..., nv)."""
@@ -32,8 +33,28 @@ Policy = Callable[[float, Array, Array], ArrayLike]
 Push = Callable[[Array], Array]
 """From q (..., nq) to wrenches on the bodies (..., nbodies, 6)."""
 
-STILL = 1e-9
+SLIP_RTOL = 1e-9
 """How fast a contact that sticks may move at the start, relative to the fastest motion."""
+
+
+class SimulatedScene(Protocol):
+    """What `simulate` needs of a scene, which comes later in the order of the rooms: model, contacts, wrenches."""
+
+    model: Model
+    contacts: tuple[Contact, ...]
+
+    @abstractmethod
+    def f_ext(self, q: ArrayLike) -> Array:
+        """Return the wrenches on the bodies in a configuration, shape (..., nbodies, 6)."""
+
+
+def parts(robot: Model | SimulatedScene) -> tuple[Model, tuple[Contact, ...], Push | None]:
+    """Return the model, the contacts and the wrenches of a scene; of a model alone, only the model."""
+    if isinstance(robot, Model):
+        return robot, (), None
+    if not hasattr(robot, "f_ext"):
+        raise no_model(robot, "robot", "a Model or a Scene")
+    return robot.model, robot.contacts, robot.f_ext
 
 
 class System:
@@ -96,21 +117,21 @@ class System:
         needed = self._policy is not None and not self.period
         return vars(self) | {"_policy": None, "_policy_missing": self._policy_missing or needed}
 
-    def begin(self, k: int, t: float, q: Array, v: Array) -> None:
+    def begin_step(self, k: int, t: float, q: Array, v: Array) -> None:
         """Begin step k: what is evaluated next counts. At the beginning of a period, call the policy."""
         self._first = True
         self._start = t if k == 0 else self._start
         if self.period and k % self.period == 0:
-            self._constant = self.asked(t, q, v)
+            self._constant = self.policy_forces(t, q, v)
 
-    def since(self, t: float) -> float:
+    def time_since_start(self, t: float) -> float:
         """Return the time since the start, s."""
         return t - self._start
 
     def force(self, t: float, q: Array, v: Array) -> Array:
         """Return the generalized forces of policy and external wrenches in a state: τ + Σ Jᵀ f, shape (..., nv)."""
         self.evaluations += 1
-        tau = self._constant if self.period else self.asked(t, q, v)
+        tau = self._constant if self.period else self.policy_forces(t, q, v)
         if self._first:
             self.tau = np.broadcast_to(tau, v.shape).copy()
         return self._with_push(tau, q, v)
@@ -122,7 +143,7 @@ class System:
         rest = np.zeros_like(v)
         return tau + rnea(self.model, q, rest, rest) - rnea(self.model, q, rest, rest, self.push(q))
 
-    def asked(self, t: float, q: Array, v: Array) -> Array:
+    def policy_forces(self, t: float, q: Array, v: Array) -> Array:
         """Return what the policy returns in a state, or the constant forces."""
         if self._policy is None:
             return self._constant
@@ -132,7 +153,7 @@ class System:
 
     def acceleration(self, t: float, q: Array, v: Array) -> Array:
         """Return the acceleration in a state, shape (..., nv) (49.7)."""
-        refuse_divergence(self.model, "v", v, dt=self.dt)
+        check_divergence(self.model, "v", v, dt=self.dt)
         if self.contacts:
             return self.held(t, q, v).qdd
         tau = self.force(t, q, v)
@@ -152,10 +173,10 @@ class System:
         return self._held_under(self._with_push(self.tau, q, v), t, q, v).forces
 
     def _held_under(self, force: Array, t: float, q: Array, v: Array) -> ContactDynamics:
-        contacts = moved(self.contacts, self.since(t))
+        contacts = moved(self.contacts, self.time_since_start(t))
         return contact_forward_dynamics(self.model, q, v, force, contacts)
 
-    def again(
+    def two_half_steps(
         self,
         t: float,
         q: Array,
@@ -176,38 +197,33 @@ class System:
             raise ValueError("step_error: the policy has stayed in the process in which the motion was made")
         dt, own = self.dt / 2, self.stepping
         forces = tau if self._policy is None or self.period else self._policy
-        contacts = moved(self.contacts, self.since(t))
+        contacts = moved(self.contacts, self.time_since_start(t))
         stepping = own and TimeStepping(self.model, own.contacts, own.ground, dt, q, contacts)
         there = System(self.model, contacts, self.push, forces, q, v, dt, stepping=stepping)
         for k in range(2):
             at = t + k * dt
-            there.begin(k, at, q, v)
-            q, v = there.settle(at + dt, *step(there, at, q.copy(), v.copy()))
+            there.begin_step(k, at, q, v)
+            q, v = there.project(at + dt, *step(there, at, q.copy(), v.copy()))
         return q, v
 
-    def settle(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+    def project(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """Return the nearby state in which the contacts are where they stick, and move as what they stick to."""
         if not self.contacts or self.stepping is not None:
             return q, v
-        since = self.since(t)
+        since = self.time_since_start(t)
         anchors = moved_anchors(self.model, self.contacts, self.anchors, since)
         return project_state(self.model, q, v, moved(self.contacts, since), anchors)
 
-    def integrate(self, q: Array, u: Array) -> Array:
-        """Return q ⊕ u."""
-        self.refuse_way(u)
-        return integrate(self.model, q, u)
-
-    def refuse_way(self, u: Array) -> None:
+    def check_travel(self, u: Array) -> None:
         """Raise for a step u that no robot goes."""
-        refuse_divergence(self.model, "v dt", u)
+        check_divergence(self.model, "v dt", u)
 
-    def refuse_slip(self, q: Array, v: Array) -> None:
+    def check_slip(self, q: Array, v: Array) -> None:
         """Raise for a contact that sticks and moves at the start."""
         for contact in self.contacts:
             rates = np.matvec(constraint_jacobian(self.model, q, [contact]), v) - given_motion([contact], "velocity")
             slip = np.abs(rates).max(initial=0)
-            if slip > STILL * np.abs(v).max(initial=1):
+            if slip > SLIP_RTOL * np.abs(v).max(initial=1):
                 raise ValueError(
                     f"v: contact {contact.frame!r} sticks, but slips at t = 0 (up to {slip:.3g} m/s or rad/s); "
                     "twistwrench.impact gives the velocity after it has closed"

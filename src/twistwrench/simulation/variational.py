@@ -11,6 +11,10 @@ momentum that belongs to it is kept to rounding: of a robot that floats freely w
 the angular one about the world's origin; with gravity the horizontal one and the one about the vertical. And the flow
 is symplectic, so that the energy swings about its value and does not drift away, however long the motion. The price is
 an equation to solve in each step.
+
+Over a step that turns by φ, R = exp [φ]×. A momentum p that is seen from its beginning is Rᵀ p seen from its end, and
+dexp_φ = 1 + ½ [φ]× + 1/6 [φ]×² + … says how exp φ moves with φ (49.2, 49.3). For joints about one axis, and for what
+slides in axes that stand still, both are 1.
 """
 
 from __future__ import annotations
@@ -21,19 +25,20 @@ from ..arrays import Array, resolution
 from ..compiler.quantities import Quantity
 from ..fast import aba, crba
 from ..fast.programs import remembered
-from ..model import Model, tree_terms
+from ..model import GroupJoint, Model, tree_terms
 from ..model.tree import join, split
-from ..spatial import cross_force
-from ..spatial.rotation import cross_matrix
-from .divergence import DivergenceError, refuse_divergence, refuse_whole_turn
+from ..spatial import cross_force, cross_motion
+from ..spatial._quaternions import exp_quaternion
+from ..spatial.exponential import shift
+from ..spatial.rotation import cross_matrix, quaternion_matrix
+from .divergence import DivergenceError, check_divergence, check_turn
 from .straight import go_straight, in_turned_axes, shifted_and_turned, sliding, turned, turning, watched
 from .system import System
-from .tangent import bracket, momenta
 
-__all__ = ["middle", "momentum_and_force", "variational"]
+__all__ = ["bracket", "middle", "momenta", "momentum_and_force", "variational"]
 
-ITERATIONS = 50
-CLOSE = 50
+MAX_ITERATIONS = 50
+CONVERGED_ROUNDINGS = 50
 """Times the rounding: from there one more iteration reaches the last digit."""
 
 
@@ -71,15 +76,15 @@ def variational(system: System, t: float, q: Array, v: Array) -> tuple[Array, Ar
     equation = Equation(system, t, q, np.matvec(M, v))
     fall = aba(model, q, v, np.zeros_like(v))  # also raises where there is no inertia
     xi = v + dt / 2 * (fall + turning(model, v))
-    refuse_whole_turn(model, dt * xi)
+    check_turn(model, dt * xi)
     inverse, done = np.linalg.inv(M.astype(np.float64)), np.zeros(v.shape[:-1], bool)
     defect, end, close = equation.defect(xi)
-    for _ in range(ITERATIONS):
+    for _ in range(MAX_ITERATIONS):
         change = np.where(done[..., None], 0, -np.matvec(inverse, defect)).astype(v.dtype)
         xi, done, before = xi + change, done | close, defect
         defect, end, close = equation.defect(xi)
         if done.all():
-            refuse_whole_turn(model, dt * xi)
+            check_turn(model, dt * xi)
             q1 = go_straight(model, q, dt * xi)
             return q1, solve(crba(model, q1), end)
         inverse = broyden(inverse, change, defect - before)
@@ -131,7 +136,7 @@ class Equation:
     def defect(self, xi: Array) -> tuple[Array, Array, Array]:
         """Return the residual of ξ, the momentum p₁ it leads to, and whether the residual is only rounding."""
         model, dt = self.system.model, self.dt
-        refuse_divergence(model, "v", xi, dt=self.system.dt)
+        check_divergence(model, "v", xi, dt=self.system.dt)
         u = dt / 2 * xi
         there, v, mu, force = middle(model, self.q, u, xi)
         tau = self.system.force(self.t, there, v)
@@ -140,7 +145,7 @@ class Equation:
         between, end = momenta(model, u, self.p0, dt * (force + tau))
         defect = mu - between
         size = largest(self.p0) + largest(mu) + dt * (largest(force) + largest(tau) + self.weight)
-        return defect, end, largest(defect) <= CLOSE * resolution(xi.dtype) * size
+        return defect, end, largest(defect) <= CONVERGED_ROUNDINGS * resolution(xi.dtype) * size
 
 
 def largest(x: Array) -> Array:
@@ -170,6 +175,51 @@ def unsolved(model: Model, defect: Array) -> DivergenceError:
     entry = int(np.abs(defect).reshape(-1, model.nv).max(axis=0).argmax())
     joint = next(i for i, s in enumerate(model.v_slice) if s.start <= entry < s.stop)
     return DivergenceError(
-        f"the step was not solved in {ITERATIONS} iterations, least of all for joint {model.joint_names[joint]!r}; "
+        f"the step was not solved in {MAX_ITERATIONS} iterations, least of all for joint {model.joint_names[joint]!r}; "
         "a smaller dt or weaker forces?"
     )
+
+
+def bracket(model: Model, u: Array) -> Array:
+    """Return the matrix ad_u with ad_u w = [u, w] on the whole tree, shape (..., nv, nv); 0 where joints commute.
+
+    Of each joint the twists are S u and S w, and [u, w] is what S makes into S u × S w (49.5).
+    """
+    ad = np.zeros((*u.shape, model.nv), u.dtype)
+    for joint, S, s in zip(model.joints, model.constants(u.dtype).S, model.v_slice):
+        if joint is not None and joint.nv > 1:
+            ad[..., s, s] = S.mT @ cross_motion(np.matvec(S, u[..., s])) @ S
+    return ad
+
+
+def momenta(model: Model, u: Array, p0: Array, impulse: Array) -> tuple[Array, Array]:
+    """Return what μ must be in the middle of a step 2 u, and the momentum at its end, both (..., nv).
+
+    P₀ = Rᵀ p₀ and P₁ = P₀ + impulse are seen from the middle; μ = ½ (dexp(−u)ᵀ P₀ + dexp(u)ᵀ P₁) and p₁ = Rᵀ P₁.
+    What slides has its p₀ and its impulse in the axes of the beginning, and its p₁ in those of the end.
+    """
+
+    def both(u: Array, p0: Array, impulse: Array) -> tuple[Array, list[object]]:
+        mu, end = p0 + impulse / 2, p0 + impulse
+        for joint, s in zip(model.joints, model.v_slice):
+            if isinstance(joint, GroupJoint) and joint.nv > 1:
+                S = joint.subspace(u.dtype)
+                turn, slide = S[:3], S[3:]
+                phi = np.matvec(turn, u[..., s])
+                back = quaternion_matrix(exp_quaternion(phi)).mT
+                P0 = np.matvec(back, np.matvec(turn, p0[..., s]))
+                P1 = P0 + np.matvec(turn, impulse[..., s])
+                mean = (dexp_transposed(-phi, P0) + dexp_transposed(phi, P1)) / 2
+                along = np.matvec(slide, mu[..., s]), np.matvec(back @ back, np.matvec(slide, end[..., s]))
+                mu[..., s] = np.matvec(turn.mT, mean) + np.matvec(slide.mT, along[0])
+                end[..., s] = np.matvec(turn.mT, np.matvec(back, P1)) + np.matvec(slide.mT, along[1])
+        return np.concatenate([mu, end], axis=-1), watched(model, u)
+
+    asked = Quantity("momenta", ("v", "a", "tau"), both)
+    found = remembered(model, ("momenta", u.dtype), u.dtype, lambda: [asked], single=True)(u, p0, impulse)
+    return found[..., : model.nv], found[..., model.nv :]
+
+
+def dexp_transposed(phi: Array, p: Array) -> Array:
+    """Return dexp_φᵀ p = Σ (−[φ]×)ᵏ p / (k + 1)!, shape (..., 3): the way of a velocity p that turns by −φ."""
+    return shift(np.concatenate([-phi, p], axis=-1))
