@@ -150,7 +150,8 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     rnea keeps 14 of 16 digits, aba 9, crba + solve 9.
     """
     given, rates, torques = _state(model, q, v, tau)
-    eps, depth = resolution(given.dtype), max([1, *(len(model.support(i)) for i in range(model.nbodies))])
+    eps = resolution(given.dtype)
+    depth = max([1, *(len(model.support(i)) for i in range(model.nbodies))])
     at = model.normalize(_double(given))
     scaled = _scaled_mass_matrix(model, at)
     least, motion = _least_inertia(scaled)
@@ -209,20 +210,25 @@ def _bias_terms(model: Model, q: Array, v: Array) -> Array:
     (V,), (nothing, falling) = tree.zeros(1), (np.zeros(tree.batch), np.full(tree.batch, _length(model.gravity)))
     force, moment, turning, moving = [nothing], [nothing], [nothing], [falling]  # the last two: terms of ω̇ and v̇
     for i in tree.outward:
-        p, own = tree.parent[i], tree.S[i] @ rates[i]
+        p = tree.parent[i]
+        own = tree.S[i] @ rates[i]
         V[i] = tree.X[i] @ V[p] + own
-        own_w, own_v = _length(own[..., :3, 0]), _length(own[..., 3:, 0])
+        own_w = _length(own[..., :3, 0])
+        own_v = _length(own[..., 3:, 0])
         w = _length(V[i][..., :3, 0]) + own_w
         u = _length(V[i][..., 3:, 0]) + own_v + reach[i] * _length(V[p][..., :3, 0])
         turning.append(turning[p] + w * own_w)
         moving.append(moving[p] + reach[i] * turning[p] + w * own_v + u * own_w)
-        m, mc, J = tree.I[i][5, 5], np.linalg.norm(tree.I[i][:3, 3:]), np.linalg.norm(tree.I[i][:3, :3])
+        m = tree.I[i][5, 5]
+        mc = np.linalg.norm(tree.I[i][:3, 3:])
+        J = np.linalg.norm(tree.I[i][:3, :3])
         force.append(m * moving[i] + mc * turning[i] + w * (m * u + mc * w))
         moment.append(J * turning[i] + mc * moving[i] + w * (J * w + mc * u) + u * (m * u + mc * w))
     h = np.zeros((*tree.batch, model.nv))
     for i in tree.inward:
         p, S = tree.parent[i], tree.S[i]
-        turns, slides = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
+        turns = np.linalg.norm(S[:3], axis=0)
+        slides = np.linalg.norm(S[3:], axis=0)
         h[..., model.v_slice[i]] = turns * moment[i][..., None] + slides * force[i][..., None]
         force[p] = force[p] + force[i]
         moment[p] = moment[p] + moment[i] + reach[i] * force[i]
@@ -245,7 +251,9 @@ def _mass_matrix(model: Model, q: Array) -> Array:
     IC, M = composite_inertias(tree), np.zeros((*tree.batch, model.nv, model.nv))
     F = [np.zeros((*tree.batch, 6, model.nv))] * model.nbodies  # a column for each joint, in frame i
     for i in tree.inward:
-        p, own, Fi = tree.parent[i], model.v_slice[i], F[i].copy()
+        p = tree.parent[i]
+        own = model.v_slice[i]
+        Fi = F[i].copy()
         Fi[..., own] = IC[i] @ tree.S[i]
         M[..., own, :] = tree.S[i].mT @ Fi  # of joint i and of those outboard, whose numbers are higher
         M[..., own, own] += tree.rotor[i]

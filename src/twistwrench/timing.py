@@ -141,10 +141,12 @@ def round_robin(
 def _stretch(call: Call, repeat: int) -> tuple[float, float]:
     """Return seconds per call: on the wall, and on the processor."""
     busy_time = getattr(time, "thread_time", time.process_time)  # a browser has only the second
-    wall, busy = time.perf_counter(), busy_time()
+    wall = time.perf_counter()
+    busy = busy_time()
     for _ in range(repeat):
         call()
-    wall, busy = time.perf_counter() - wall, busy_time() - busy
+    wall = time.perf_counter() - wall
+    busy = busy_time() - busy
     return wall / repeat, busy / repeat
 
 

@@ -218,7 +218,7 @@ def test_what_begins_a_little_below_the_ground_is_brought_back_without_being_thr
 
 def test_where_newtons_method_leads_nowhere_sweeps_over_the_points_find_the_forces(monkeypatch):
     expected = dropped(steps=26)
-    monkeypatch.setattr(coulomb, "by_newton", lambda law, x, still: (x, law.missed(x, law.moves(x))))
+    monkeypatch.setattr(coulomb, "newton", lambda law, x, still: (x, law.missed(x, law.moves(x))))
     monkeypatch.setattr(coulomb, "ROUNDS", 200)
     s = dropped(steps=26)
     assert max(force[:, 2].max() for force in expected.contact_forces.values()) > 10  # N: a foot has landed
@@ -227,19 +227,19 @@ def test_where_newtons_method_leads_nowhere_sweeps_over_the_points_find_the_forc
 
 
 def test_where_coulombs_law_is_missed_it_is_said_and_where_nothing_keeps_a_point_up_it_is_an_error(monkeypatch):
-    right = coulomb.solved
+    right = coulomb.solve
 
     def smooth(law, guesses, size):
         """Return what is right for points without friction."""
-        impulse, _ = right(coulomb.Law(law.W, law.u0, 0 * law.mu), guesses, size)
+        impulse, _ = right(coulomb.CoulombLaw(law.W, law.u0, 0 * law.mu), guesses, size)
         return impulse, law.missed(impulse, law.moves(impulse))
 
-    monkeypatch.setattr(cones, "solved", smooth)
+    monkeypatch.setattr(cones, "solve", smooth)
     s = slide(0.4, np.r_[0, 0, 0, 1.0, 0, 0], steps=2)
     said = [remark for remark in s.remarks if remark.kind == "coulomb"]
     assert {remark.name for remark in said} == {f"p{k}" for k in range(4)}
     assert all(remark.value > remark.limit for remark in said)
-    monkeypatch.setattr(cones, "solved", lambda law, guesses, size: (0 * law.u0, np.abs(law.u0)))
+    monkeypatch.setattr(cones, "solve", lambda law, guesses, size: (0 * law.u0, np.abs(law.u0)))
     with pytest.raises(tw.DivergenceError, match=r"nothing keeps 'p[0-3]' above the ground"):
         slide(0.4, np.r_[0, 0, 0, 1.0, 0, 0], steps=2)
 

@@ -173,7 +173,8 @@ class DistanceConstraint(_Internal):
     def held_rows(self, rows: FrameRows) -> tuple[Array, Array]:
         """Return the row along the line, and d̈ without q̈."""
         J, d = rows.J[..., 3:, :], self._distance(rows.point)
-        n, rate = rows.point / d, np.matvec(J, rows.v)
+        n = rows.point / d
+        rate = np.matvec(J, rows.v)
         across = rate - n * _dot(n, rate)
         return n[..., None, :] @ J, _dot(n, rows.bias[..., 3:]) + _dot(across, across) / d
 

@@ -171,7 +171,8 @@ def contact_forward_dynamics(
     q, v, others = real_state(model, q, f_ext, v=v, tau=tau)
     terms = contact_terms(model, q, v, contacts, **others)
     at, J, free = terms.placement, terms.J, terms.qdd
-    W, slip = terms.W, np.matvec(J, v) - given_motion(contacts, "velocity")
+    W = terms.W
+    slip = np.matvec(J, v) - given_motion(contacts, "velocity")
     asked = given_motion(contacts, "acceleration")
     target = asked - terms.bias
     if stabilise is not None:
@@ -180,10 +181,12 @@ def contact_forward_dynamics(
         error = contact_errors(contacts, at, stabilise.anchors)
         target = target - 2 * stabilise.damping * stabilise.frequency * slip - stabilise.frequency**2 * error
     parts = decompose(model, terms.M, W @ J)
-    qdd, mu = free, np.zeros(slip.shape)
+    qdd = free
+    mu = np.zeros(slip.shape)
     for _ in range(2):  # the second time removes the rounding of the first
         x, change = parts.respond(np.matvec(W, target - np.matvec(J, qdd)))
-        qdd, mu = qdd + parts.unwhiten(x), mu + change
+        qdd = qdd + parts.unwhiten(x)
+        mu = mu + change
     residual = np.matvec(J, qdd) - target
     size = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION_RTOL * (size + largest(np.matvec(W, target)))).any():

@@ -143,7 +143,8 @@ def friction_inverse_dynamics(
         raise ShapeError(f"{asked}: expected one state, got a batch of shape {task.least.shape[:-1]}")
     effort_limits = as_flag(effort_limits, "effort_limits")
     motors = task.motors(model) if effort_limits else None
-    rows, free = contact_limits(task.contacts, sides, pyramid), task.free
+    rows = contact_limits(task.contacts, sides, pyramid)
+    free = task.free
     rows = rows.join(motors) if motors else rows
     A, b = rows.A @ free, rows.b - rows.A @ task.least
     found = least_within(A, b, task.size)
@@ -155,6 +156,7 @@ def friction_inverse_dynamics(
         if not answer.reached:
             worst = rows.breached(least_breach(A, b, task.size))
             raise SingularError(f"cannot: no forces within the limits do this; they would have to break {worst}")
-        f, tight = answer.f, rows.A @ answer.f - rows.b > -WRENCH_RTOL * task.size
+        f = answer.f
+        tight = rows.A @ answer.f - rows.b > -WRENCH_RTOL * task.size
     binding = tuple(dict.fromkeys(name for name, leans in zip(rows.names, tight) if leans))
     return task.result(f, binding)

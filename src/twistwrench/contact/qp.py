@@ -55,7 +55,8 @@ def least_with_multipliers(A: Array, b: Array, size: float) -> tuple[Array, Arra
 
 def _by_daqp(A: Array, b: Array) -> tuple[Array, Array]:
     """Return z and the multipliers, by DAQP; NaN where it finds no solution, or is not installed."""
-    n, nothing = A.shape[1], (np.full(A.shape[1], np.nan), np.zeros(len(b)))
+    n = A.shape[1]
+    nothing = (np.full(A.shape[1], np.nan), np.zeros(len(b)))
     try:
         import daqp
     except ModuleNotFoundError:
@@ -80,13 +81,16 @@ def least_breach(A: Array, b: Array, size: float) -> Array:
     Newton's method for a function that is quadratic in pieces, with its step halved until it goes down; z itself has a
     tiny weight, so that the minimum is unique.
     """
-    b, z, free = b / size, np.zeros(A.shape[1]), 1e-4 * np.eye(A.shape[1])
+    b = b / size
+    z = np.zeros(A.shape[1])
+    free = 1e-4 * np.eye(A.shape[1])
 
     def total(z: Array) -> float:
         return float((np.maximum(A @ z - b, 0) ** 2).sum() + 1e-8 * z @ z)
 
     for _ in range(NEWTON_STEPS):
-        over, share = A @ z - b > 0, 1.0
+        over = A @ z - b > 0
+        share = 1.0
         goal = np.linalg.lstsq(np.concatenate([A[over], free]), np.concatenate([b[over], np.zeros(len(z))]))[0]
         while share > 1e-3 and total(z + share * (goal - z)) >= total(z):
             share /= 2
@@ -104,8 +108,11 @@ def nonnegative_least_squares(E: Array, f: Array, start: Array | None = None) ->
     """
     length = np.sqrt((E * E).sum(axis=0))
     E = E / np.where(length > 0, length, 1)
-    x, enters, barred = np.zeros(E.shape[1]), np.zeros(E.shape[1], bool), length == 0
-    r, size = f, float(np.sqrt(f @ f))
+    x = np.zeros(E.shape[1])
+    enters = np.zeros(E.shape[1], bool)
+    barred = length == 0
+    r = f
+    size = float(np.sqrt(f @ f))
     if start is not None and start.any():
         guess, _, rank, _ = np.linalg.lstsq(E[:, start], f)
         if rank == start.sum() and (guess > 0).all():
@@ -121,7 +128,8 @@ def nonnegative_least_squares(E: Array, f: Array, start: Array | None = None) ->
         if x_new is None:
             enters[new], barred[new] = False, True
             continue
-        x, barred = x_new, length == 0
+        x = x_new
+        barred = length == 0
         enters = x > 0
         r = _left(E[:, enters], f)
     return x / np.where(length > 0, length, 1), r

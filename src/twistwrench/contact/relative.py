@@ -116,7 +116,10 @@ class Loop(NamedTuple):
 
         What moves both frames alike has no part in it: with a frame `to`, the joints of the loop alone move the bodies.
         """
-        model, tree, bodies, v = state.model, state.tree, state.bodies, state.v
+        model = state.model
+        tree = state.tree
+        bodies = state.bodies
+        v = state.v
         at = self.place(state.posture)
         V, A = state.V, state.A
         if self.to is not None:
@@ -132,7 +135,9 @@ class Loop(NamedTuple):
 
         `point` is the frame's origin there; V and A are the motion of the bodies by the joints of the loop alone.
         """
-        i, k, arm = self.i, self.k, self.frame.translation
+        i = self.i
+        k = self.k
+        arm = self.frame.translation
         J = self._jacobian(model, bodies, tree, i, arm)
         bias = _bias(bodies[i], V[i][..., 0], A[i][..., 0], arm)
         if self.to is None:

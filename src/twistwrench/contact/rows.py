@@ -191,7 +191,8 @@ def contact_terms(
     at_rest = tuple(replace(c, velocity=(), acceleration=()) if c.velocity or c.acceleration else c for c in contacts)  # type: ignore[type-var]
 
     def asked() -> list[Quantity]:
-        known, rows = quantities(model, q.dtype), partial(contact_rows, model, contacts=at_rest)
+        known = quantities(model, q.dtype)
+        rows = partial(contact_rows, model, contacts=at_rest)
         at = of("at", "q v", lambda q, v: np.stack([T.matrix() for T in rows(q, v).placement], axis=-3))
         return [
             *([at, of("W", "q v", lambda q, v: row_scaling(at_rest, rows(q, v).placement))] if contacts else []),

@@ -119,7 +119,8 @@ def stance_margins(
     except Unbalanced as error:
         return StanceMargins(False, np.inf, tip, f"it falls: {error}", falls=-error.away)
     answer = task.reach(sides, pyramid)
-    used, reason = friction_used(task, sides, pyramid, answer.reached), ""
+    used = friction_used(task, sides, pyramid, answer.reached)
+    reason = ""
     if used == np.inf and friction_used(_rough(task), sides, pyramid, False) < np.inf:
         reason = "it slips: it would need friction where there is none"
     elif used == np.inf:
@@ -159,10 +160,12 @@ def friction_used(task: ContactProblem, sides: int, pyramid: Pyramid, stands: bo
         return 0.0
     low, high = (0.0, 1.0) if stands else (1.0, 2.0)
     while not (high == 1.0 or missing(high)[0] == 0):
-        low, high = high, FRICTION_GROWTH * high
+        low = high
+        high = FRICTION_GROWTH * high
         if high > MAX_FRICTION_MULTIPLE:
             return np.inf
-    guess, newton = (low + high) / 2, True
+    guess = (low + high) / 2
+    newton = True
     while high - low > FRICTION_RTOL * high:
         width, (left, slope) = high - low, missing(guess)
         low, high = (low, guess) if left == 0 else (guess, high)
@@ -200,8 +203,10 @@ def inside(points: Array) -> float:
     An edge is a line through two points that has all others on its left. Outside, the nearest of all lines between two
     points is an edge.
     """
-    start, end = np.repeat(points, len(points), 0), np.tile(points, (len(points), 1))
-    along, size = end - start, float(np.abs(points).max())
+    start = np.repeat(points, len(points), 0)
+    end = np.tile(points, (len(points), 1))
+    along = end - start
+    size = float(np.abs(points).max())
     length = np.hypot(*along.mT)
     start, along, length = (x[length > 1e-12 * size] for x in (start, along, length))
     if len(length) == 0:  # one point only

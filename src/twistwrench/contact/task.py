@@ -131,7 +131,9 @@ class ContactProblem:
         contacts = as_contacts(model, contacts)
         q, v, others = real_state(model, q, f_ext, v=v, a=a)
         terms = contact_terms(model, q, v, contacts, TEXTBOOK_CALLS, **others)
-        J, b, P = terms.J, terms.tau, point_map(contacts, terms.placement)
+        J = terms.J
+        b = terms.tau
+        P = point_map(contacts, terms.placement)
         base = passive_entries(model, None) if passive is None else passive
         parts = decompose(model, terms.M[..., base[:, None], base], P.mT @ J[..., base])
         least = parts.balance(b[..., base])
@@ -233,10 +235,14 @@ def motor_limits(model: Model, tau: Array, B: Array) -> Limits:
     """
     owner = np.repeat(np.arange(model.nbodies), [s.stop - s.start for s in model.v_slice])
     motors = np.flatnonzero(np.isfinite(model.effort_limit) & (owner >= (2 if model.base == "floating" else 1)))
-    B, tau, limit = B[motors], tau[motors], model.effort_limit[motors]
+    B = B[motors]
+    tau = tau[motors]
+    limit = model.effort_limit[motors]
     most = np.abs(B).max(axis=1, initial=0)
     size = np.where(most > 0, most, 1)  # m: the longest lever of a force
-    lever, need, limit = B / size[:, None], tau / size, limit / size
+    lever = B / size[:, None]
+    need = tau / size
+    limit = limit / size
     turns = [bool(model.joints[owner[k]].subspace()[:3, k - model.v_slice[owner[k]].start].any()) for k in motors]
     names = [f"the motor of {model.joint_names[owner[k]]!r}" for k in motors]
     A, b = np.concatenate([-lever, lever]), np.concatenate([limit - need, limit + need])
@@ -293,7 +299,8 @@ def reach(
         E = np.block([[E, np.zeros((len(E), 1))], [length / MAX_FORCE_WEIGHTS, np.ones(1)]])
         asked = np.append(asked, 1.0)
         x, r = nonnegative_least_squares(E, asked)
-    left, f = np.sqrt(r @ r), T @ x[: T.shape[1]]
+    left = np.sqrt(r @ r)
+    f = T @ x[: T.shape[1]]
     if left <= WRENCH_RTOL:
         missed = asked - E @ x
         return Reach(True, f, r[: len(w)], bool((x >= 0).all() and np.sqrt(missed @ missed) <= 2 * WRENCH_RTOL), used)

@@ -91,7 +91,8 @@ def check_limits(numbers: Mapping[str, Array], joints: Sequence[tuple[str, slice
     lower, upper = numbers["lower"], numbers["upper"]
     for key, x in numbers.items():
         _refuse(np.isnan(x), joints, key, key + ": is not a number")
-    crossed, empty = lower > upper, (lower == np.inf) | (upper == -np.inf)
+    crossed = lower > upper
+    empty = (lower == np.inf) | (upper == -np.inf)
     _refuse(crossed, joints, "lower", "lower limit {0:g} is above upper limit {1:g}", lower, upper)
     _refuse(empty, joints, "lower", "no number lies between lower limit {0:g} and upper limit {1:g}", lower, upper)
     for key in PER_DOF:

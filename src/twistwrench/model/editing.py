@@ -66,8 +66,11 @@ def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | No
     check_kind(placement, "placement", SE3, "an SE3")
     if other.base != "floating":
         raise ModelError("other: expected a floating base: a fixed one has dropped the mass of its root link")
-    carrier, n = Frame(0, SE3.identity()) if frame is None else model.frame(frame), model.nbodies - 1
-    at, root, taken = carrier.placement @ placement, prefix + other.joint_names[1], {*model.joint_names, *model.frames}
+    carrier = Frame(0, SE3.identity()) if frame is None else model.frame(frame)
+    n = model.nbodies - 1
+    at = carrier.placement @ placement
+    root = prefix + other.joint_names[1]
+    taken = {*model.joint_names, *model.frames}
     while root in taken:
         root += "_"
     frames = {prefix + name: Frame(f.body + n, f.placement) for name, f in other.frames.items() if f.body > 0}

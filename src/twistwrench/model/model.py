@@ -276,7 +276,8 @@ class Model(ConfigurationSpace):
         >>> tw.load("go2").support(7)
         [7, 6, 5, 1]
         """
-        body, path = as_count(body, "body", 0), []
+        body = as_count(body, "body", 0)
+        path = []
         if body >= self.nbodies:
             raise ValueError(f"body: expected a whole number from 0 to {self.nbodies - 1}, got {body}")
         while body > 0:

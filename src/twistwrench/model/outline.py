@@ -36,7 +36,9 @@ def _branches(model: Model, body: int, depth: int) -> str:
 
 
 def _branch(model: Model, i: int, depth: int) -> str:
-    name, line, carried = escape(model.joint_names[i]), _facts(model, i), _branches(model, i, depth + 1)
+    name = escape(model.joint_names[i])
+    line = _facts(model, i)
+    carried = _branches(model, i, depth + 1)
     if not carried:
         return f'<div style="margin-left:2.4em"><b>{name}</b> {line}</div>'
     unfolded = " open" * (depth < UNFOLDED_JOINTS)
@@ -45,7 +47,8 @@ def _branch(model: Model, i: int, depth: int) -> str:
 
 def _facts(model: Model, i: int) -> str:
     """Return the kind of a joint, the mass of its body, and its limits where it has one degree of freedom."""
-    joint, said = model.joints[i], []
+    joint = model.joints[i]
+    said = []
     said.append(joint.kind if joint else "")
     said.append(f"{float(model.inertia[i].mass):.4g} kg")
     if (dof := model.v_slice[i]).stop - dof.start == 1 and np.isfinite(model.lower[model.q_slice[i]]).all():

@@ -168,7 +168,8 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
 def _carriers(model: Model, q: Array, kept: list[int]) -> tuple[list[int], list[SE3]]:
     """Return for each body the body of the small model that it is part of, and its placement in that one."""
     relative = joint_placements(model, q)
-    carrier, in_carrier = [0], [SE3.identity()]
+    carrier = [0]
+    in_carrier = [SE3.identity()]
     for i in range(1, model.nbodies):
         p = model.parent[i]
         moves = i in kept
@@ -188,7 +189,8 @@ def _merged(model: Model, carrier: list[int], in_carrier: list[SE3], n: int) -> 
 
 def matching_joints(model: Model, patterns: Iterable[str], argument: str = "joints") -> tuple[str, ...]:
     """Return the joints that match any of the patterns, in the model's order; raise where a pattern matches none."""
-    names, held = model.joint_names[1:], set[str]()
+    names = model.joint_names[1:]
+    held = set[str]()
     for pattern in as_names(patterns, argument, "names or patterns"):
         if not isinstance(pattern, str):
             raise NameNotFound(f"{argument}: expected names or patterns, got {type(pattern).__name__} {pattern!r}")

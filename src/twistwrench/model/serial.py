@@ -85,10 +85,13 @@ def screw_axes(model: Model, frame: str) -> ScrewAxes:
     for name, joint in zip(model.joint_names, model.joints):
         if joint is not None and not isinstance(joint, AxisJoint):
             raise ModelError(f"model: joint {name!r}: expected joints of one degree of freedom, got {joint.kind}")
-    at, place = model.frame(frame), joint_placements(model, model.neutral())
+    at = model.frame(frame)
+    place = joint_placements(model, model.neutral())
     for i in range(1, model.nbodies):
         place[i] = place[model.parent[i]] @ place[i]
-    M, Slist, S = place[at.body] @ at.placement, np.zeros((6, model.nv)), model.constants(np.float64).S
+    M = place[at.body] @ at.placement
+    Slist = np.zeros((6, model.nv))
+    S = model.constants(np.float64).S
     for i in model.support(at.body):
         Slist[:, model.v_slice[i]] = place[i].motion_transform() @ S[i]
     return ScrewAxes(M.matrix(), Slist, M.inverse().motion_transform() @ Slist)
@@ -162,7 +165,8 @@ def from_screw_axes(
     inertias = _link_inertias(Mlist, Glist, places[1:])
     builder = Builder(name, root="link0", gravity=gravity)
     for i, ((joint, _), (here, there), inertia) in enumerate(zip(joints, pairwise(places), inertias), start=1):
-        at, own = here.inverse() @ there, f"link{i}"
+        at = here.inverse() @ there
+        own = f"link{i}"
         builder.link(own, parent=f"link{i - 1}", joint=joint, joint_name=f"joint{i}", placement=at, inertia=inertia)
     builder.link("tool", parent=f"link{len(joints)}", placement=places[-1].inverse() @ home)
     return builder.build(physical=physical)
@@ -280,7 +284,8 @@ def from_dh(
         along_x = SE3(exp3([alpha_i, 0, 0]), [a_i, 0, 0])
         along_z = SE3(exp3([0, 0, theta_i]), [0, 0, d_i])  # q turns or slides about the same z, before or after
         before, after = (along_z, along_x) if convention == "classical" else (along_x @ along_z, SE3.identity())
-        joint, own = Revolute("z") if kinds[i] == "R" else Prismatic("z"), {key: x[i] for key, x in numbers.items()}
+        joint = Revolute("z") if kinds[i] == "R" else Prismatic("z")
+        own = {key: x[i] for key, x in numbers.items()}
         axis, link = f"axis{i + 1}", f"link{i + 1}"
         builder.link(axis, parent=f"link{i}", joint=joint, joint_name=f"joint{i + 1}", placement=before, **own)
         builder.link(link, parent=axis, joint_name=f"flange{i + 1}", placement=after, inertia=bodies[i])

@@ -30,7 +30,8 @@ def checked_state(
     With `any_number`, fractions, SymPy's numbers and the like pass, as arrays of objects: of these only shapes are
     checked, that each is a finite number, and no quaternion zero; any other length is divided out exactly.
     """
-    arrays, names = list(check_arrays(model, any_number, **named)), tuple(named)
+    arrays = list(check_arrays(model, any_number, **named))
+    names = tuple(named)
     tails = [2 if name == "f_ext" else 1 for name in names]
     batches = [x.shape[: x.ndim - tail] for x, tail in zip(arrays, tails)]
     try:
@@ -144,7 +145,8 @@ def _with_norm_1(model: ConfigurationSpace, q: Array, name: str, given: np.dtype
         bad = np.abs(norm - 1) > tolerance
         if bad.any():
             what = "(cos, sin)" if joint.unit.stop - joint.unit.start == 2 else "quaternion"
-            first, off = float(norm[bad].flat[0]), float((norm - 1)[bad].flat[0])
+            first = float(norm[bad].flat[0])
+            off = float((norm - 1)[bad].flat[0])
             close = f"which is 1 {off:+.2g}" if abs(off) < 1e-5 else "expected 1"
             mend = "normalize(q) repairs it" if first else "neutral() has the identity"
             raise ValueError(

@@ -87,7 +87,8 @@ def tree_terms(model: Model, q: Array) -> Tree:
 
 def joint_placements(model: Model, q: Array) -> list[SE3]:
     """Return for each body its placement in its parent's frame: tree constant, then joint (49.3)."""
-    placement, batch = model.constants(q.dtype).placement, q.shape[:-1]
+    placement = model.constants(q.dtype).placement
+    batch = q.shape[:-1]
     root = placement[0]  # the world's, broadcast to q's batch axes
     world = SE3._trusted(np.broadcast_to(root.rotation, (*batch, 3, 3)), np.broadcast_to(root.translation, (*batch, 3)))
     return [

@@ -75,7 +75,8 @@ class PiecewiseCurve:
     """
 
     def __init__(self, breaks: ArrayLike, pieces: Sequence[Sequence[Any]]) -> None:
-        self.breaks, self.pieces = np.asarray(breaks), pieces
+        self.breaks = np.asarray(breaks)
+        self.pieces = pieces
 
     def __call__(self, t: Array) -> Array:
         """Return the jet at times t, shape (3, n, dim)."""
@@ -105,7 +106,9 @@ class Harmonics:
     def __init__(self, drift: Array, samples: Array, period: float, gain: Array) -> None:
         spectrum = np.fft.rfft(samples, axis=0)[: len(gain)] * gain[:, None] * 2 / len(samples)
         spectrum[0] /= 2
-        self.drift, self.cosines, self.sines = drift, spectrum.real, -spectrum.imag
+        self.drift = drift
+        self.cosines = spectrum.real
+        self.sines = -spectrum.imag
         self.rates = 2 * np.pi / period * np.arange(len(gain))
 
     def __call__(self, t: Array) -> Array:

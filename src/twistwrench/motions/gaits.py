@@ -130,9 +130,11 @@ class Steps:
         load, loaded = np.zeros((len(t), 1)), np.zeros((len(t), 3))
         for leg, phase in zip(self.stand.legs, self.phase):
             u = self._stride(t, phase)[1]
-            on, off = stair(u / self.gait.ramp, 1)[0], stair((self.gait.duty - u) / self.gait.ramp, 1)[0]
+            on = stair(u / self.gait.ramp, 1)[0]
+            off = stair((self.gait.duty - u) / self.gait.ramp, 1)[0]
             w = (on * off)[:, None]
-            load, loaded = load + w, loaded + w * (leg.center + self.step(t, phase)[0] * [1, 1, 0])
+            load = load + w
+            loaded = loaded + w * (leg.center + self.step(t, phase)[0] * [1, 1, 0])
         return np.asarray(loaded / load)
 
     def _stride(self, t: Array, phase: float) -> tuple[Array, Array]:
@@ -169,11 +171,14 @@ def _arms(stand: Stand) -> list[tuple[int, float, bool]]:
 
     The first on its branch that is beside the middle plane, turns about y and is of no leg.
     """
-    model, T = stand.model, forward_kinematics(stand.model, stand.q).placement
-    legs, found = {column for leg in stand.legs for column in leg.columns}, list[tuple[int, float, bool]]()
+    model = stand.model
+    T = forward_kinematics(stand.model, stand.q).placement
+    legs = {column for leg in stand.legs for column in leg.columns}
+    found = list[tuple[int, float, bool]]()
     taken = set[int]()
     for i in range(2, model.nbodies):
-        joint, column = model.joints[i], model.v_slice[i].start
+        joint = model.joints[i]
+        column = model.v_slice[i].start
         axis = T[i].rotation @ joint.subspace()[:3, 0] if joint and joint.nv == 1 else np.zeros(3)
         beside = abs(T[i].translation[1]) > 0.05 * stand.height
         if column not in legs and beside and abs(axis[1]) > 0.9 and not taken & set(model.support(i)):

@@ -75,7 +75,8 @@ def follow(stand: Stand, goal: Goal) -> tuple[Array, Array, Array]:
     """
     model = stand.model
     q = place(stand, goal)
-    free, J = free_columns(stand), tasks(stand, q)
+    free = free_columns(stand)
+    J = tasks(stand, q)
     rates = body_rates(goal.turn)
 
     def given(rate: Array, joints: Array) -> Array:
@@ -102,7 +103,8 @@ def place(stand: Stand, goal: Goal) -> Array:
     SingularError
         If there is no such q near standing.
     """
-    q, left = turned(stand, goal, np.broadcast_to(stand.q, (*goal.turn[0].shape[:-1], stand.model.nq))), 2
+    q = turned(stand, goal, np.broadcast_to(stand.q, (*goal.turn[0].shape[:-1], stand.model.nq)))
+    left = 2
     for _ in range(NEWTON_STEPS):
         q, error = nearer(stand, goal, q)
         left -= int(error.max() < 1e-12 * max(1.0, stand.height))  # twice more: the imaginary part
@@ -116,7 +118,8 @@ def place(stand: Stand, goal: Goal) -> Array:
 
 def turned(stand: Stand, goal: Goal, q: Array) -> Array:
     """Return q with the base turned as it should be, and the joints that belong to no leg where they should be."""
-    model, free = stand.model, free_columns(stand)
+    model = stand.model
+    free = free_columns(stand)
     shift = goal.joints[0].copy()
     shift[..., :3], shift[..., free] = goal.turn[0], 0
     out = model.integrate(np.broadcast_to(stand.q, (*shift.shape[:-1], model.nq)).astype(shift.dtype), shift)
@@ -192,14 +195,16 @@ C = np.polynomial.Polynomial([(-1) ** k / math.factorial(2 * k + 3) for k in ran
 
 def turning_jacobian(phi: Array) -> Array:
     """Return J, which takes φ̇ to the angular velocity in the body's axes, shape (..., 3, 3)."""
-    square, K = (phi * phi).sum(-1)[..., None, None], skew(phi)
+    square = (phi * phi).sum(-1)[..., None, None]
+    K = skew(phi)
     return np.asarray(np.eye(3) - B(square) * K + C(square) * K @ K)
 
 
 def body_rates(jet: Array) -> Array:
     """Return ω and ω̇ in the body's axes from the jet of φ, shape (2, ..., 3)."""
     phi, rate, second = jet
-    square, growth = (phi * phi).sum(-1)[..., None], 2 * (phi * rate).sum(-1)[..., None]
+    square = (phi * phi).sum(-1)[..., None]
+    growth = 2 * (phi * rate).sum(-1)[..., None]
     first = np.cross(phi, rate)
     w_dot = (
         np.matvec(turning_jacobian(phi), second)

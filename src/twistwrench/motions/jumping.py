@@ -78,7 +78,8 @@ class Leap:
         before, flying, after = ((self.breaks[k], self.breaks[k + 1]) for k in range(3))
 
         ahead = jump.ahead * H / self.flight  # speed
-        leaves, lands = ahead * self.push / 2, ahead * self.push / 2 + jump.ahead * H
+        leaves = ahead * self.push / 2
+        lands = ahead * self.push / 2 + jump.ahead * H
         self.distance = leaves + lands
         low, high = (stand.com[2] + (share - 1) * H for share in (jump.crouch, jump.off))
         x0, y0 = stand.com[:2]
@@ -107,7 +108,8 @@ class Leap:
         return np.repeat(~flies[:, None], len(self.stand.model.feet), axis=1)
 
     def _goal(self, t: Array, turn: Array) -> Goal:
-        pace, H = 1 / self.flight, self.stand.height
+        pace = 1 / self.flight
+        H = self.stand.height
         s = (t - self.breaks[1]) * pace
         up = (self.jump.rise + self.jump.tuck) * H * hop(s, pace)
         step = np.stack([self.distance * stair(s, pace), np.zeros_like(up), up], axis=-1)
@@ -118,7 +120,8 @@ class Leap:
         """Return k_G: about y, constant in flight; as much nose up as nose down, so that it ends nearly level."""
         I_y = centroidal_map(self.stand.model, self.stand.q)[1, 1]
         k = float(I_y) * self.jump.pitch / self.flight
-        zero, held = between([0.0], [0.0], spans[0]), k * self.flight
+        zero = between([0.0], [0.0], spans[0])
+        held = k * self.flight
         about_y = [
             between([0, 0, 0], [k, 0, 0], spans[0], area=-held / 2),
             between([k], [k], spans[1]),
@@ -154,7 +157,8 @@ class Leap:
 
     def _angular_velocity(self, t: Array, q: Array, goal: Goal) -> Array:
         """Return the ω, in the base's axes, that gives the robot its momentum and the feet their velocities."""
-        model, free = self.stand.model, free_columns(self.stand)
+        model = self.stand.model
+        free = free_columns(self.stand)
         A_G = centroidal_map(model, q)[..., :3, :]
         J = np.concatenate([A_G, tasks(self.stand, q)], axis=-2)[..., [0, 1, 2, *free]]
         wanted = np.concatenate([self.momentum(t)[0], targets(self.stand, goal, 1)], axis=-1)
@@ -163,7 +167,8 @@ class Leap:
 
 def _integral(spans: list[tuple[float, float]], t: Array, rate: Array) -> PiecewiseCurve:
     """Return the integral of what has the values `rate` at the times t, as many of them in each span."""
-    pieces, value = list[list[Chebyshev]](), np.zeros(rate.shape[1])
+    pieces = list[list[Chebyshev]]()
+    value = np.zeros(rate.shape[1])
     for span, times, rates in zip(spans, t.reshape(len(spans), -1), rate.reshape(len(spans), -1, rate.shape[1])):
         fits = [Chebyshev.fit(times, x, len(times) - 1, domain=span) for x in rates.mT]
         pieces.append([fit.integ(lbnd=span[0], k=float(x)) for fit, x in zip(fits, value)])

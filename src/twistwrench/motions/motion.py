@@ -67,7 +67,8 @@ class Motion:
         for name in ("t", "q", "v", "a"):
             object.__setattr__(self, name, as_real(getattr(self, name), name))
         try:
-            contacts, n = np.array(self.contacts), self.t.size
+            contacts = np.array(self.contacts)
+            n = self.t.size
         except ValueError:
             raise ShapeError("contacts: expected a rectangular array, got rows of different lengths") from None
         object.__setattr__(self, "contacts", contacts)

@@ -170,7 +170,8 @@ def _steps(
     gait = replace(gaits.get(len(standing.legs), gaits[4]), direction=ahead)
     if speed is not None:
         pace = _within(speed, "speed", 0, MAX_IN_HEIGHTS * H / unit)
-        gait, name = replace(gait, speed=pace * unit / H), f"{name} at {pace:.3g} m/s"
+        gait = replace(gait, speed=pace * unit / H)
+        name = f"{name} at {pace:.3g} m/s"
     if height is not None:
         gait = replace(gait, height=_within(height, "height", H / MAX_IN_HEIGHTS, MAX_IN_HEIGHTS * H) / H)
     if step_length is not None:

@@ -40,7 +40,9 @@ def tree_layout(model: Model) -> Array:
            [2., 0.]])
     """
     check_model(model)
-    depth, branch, tips = np.zeros(model.nbodies), np.zeros(model.nbodies), 0
+    depth = np.zeros(model.nbodies)
+    branch = np.zeros(model.nbodies)
+    tips = 0
     for i in range(1, model.nbodies):
         depth[i] = depth[model.parent[i]] + 1
     for i in reversed(range(model.nbodies)):  # children have larger numbers than their parents

@@ -107,7 +107,8 @@ def ellipsoid(
     >>> ax.texts[0].get_position_3d()
     (np.float64(0.0), np.float64(0.0), np.float64(0.5))
     """
-    alpha, name = as_finite(alpha, "alpha"), str(name)
+    alpha = as_finite(alpha, "alpha")
+    name = str(name)
     inertia = _as_inertia(inertia)
     placed = inertia if T is None else inertia.transform(as_placement(T, "T"))
     lengths, axes = semi_axes(placed, name or "body")
@@ -227,7 +228,8 @@ def apparent_mass_ellipse(
     block = M[np.ix_(3 + np.array(axes, int), 3 + np.array(axes, int))]
     angle = np.linspace(0, 2 * np.pi, 73)
     curve = drawn(as_exactly(at, "at", 2), "at") + scale * np.stack([np.cos(angle), np.sin(angle)], axis=-1) @ block.mT
-    new, ax = ax is None, axes_2d(ax)
+    new = ax is None
+    ax = axes_2d(ax)
     if new:
         unit = "kg" if scale == 1 else f"m, {scale:g} for a kg"
         ax.set(xlabel=f"{'xyz'[int(axes[0])]} [{unit}]", ylabel=f"{'xyz'[int(axes[1])]} [{unit}]")

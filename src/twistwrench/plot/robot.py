@@ -100,7 +100,8 @@ def robot(
     >>> robot(model, model.standing(), frames=["FR_foot"], ax=ax).texts[0].get_text().strip()
     'FR_foot'
     """
-    lines, frames = sticks(model, q), as_names(frames, "frames", "frame names")
+    lines = sticks(model, q)
+    frames = as_names(frames, "frames", "frame names")
     ax = axes_3d(ax)
     for line in lines:
         ax.plot(*line.mT, color=colour, linewidth=3, solid_capstyle="round")

@@ -95,7 +95,8 @@ def screw_axis(
            [ 1.,  0.,  1.]])
     """
     length = drawn_number(length, "length")
-    x, kind = drawn(V, "V", 6), "wrench" if isinstance(V, Wrench) else "twist"
+    x = drawn(V, "V", 6)
+    kind = "wrench" if isinstance(V, Wrench) else "twist"
     if x.ndim != 1:
         raise ShapeError(f"V: expected one {kind}, got a batch of shape {x.shape[:-1]}")
     axis, point = (part.astype(float) for part in screw(V if kind == "wrench" else x)[:2])
@@ -147,6 +148,7 @@ def twist_field(
     >>> twist_field([0, 0, 1, 0, 0, 0], [[1, 0, 0], [0, 1, 0]], ax=ax) is ax
     True
     """
-    p, scale = drawn(points, "points", 3), drawn_number(scale, "scale")
+    p = drawn(points, "points", 3)
+    scale = drawn_number(scale, "scale")
     V = drawn(as_spatial(V, "V"), "V", 6)
     return fit(arrows(p, point_velocity(V, p), scale=scale, colour=colour, label=label, ax=ax))

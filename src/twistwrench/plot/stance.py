@@ -175,7 +175,8 @@ def foot_forces(
     >>> [text.get_text().strip() for text in ax.texts]
     ['39.1 N', '39.1 N', '39.8 N', '39.8 N']
     """
-    scale, q = drawn_number(scale, "scale"), one_configuration(model, q)
+    scale = drawn_number(scale, "scale")
+    q = one_configuration(model, q)
     contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)
     f = drawn(as_exactly(forces, "forces", len(contacts), 3), "forces")
     places = np.array([frame_placement(model, q, name).translation for name in contacts], dtype=float)

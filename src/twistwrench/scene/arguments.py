@@ -69,7 +69,8 @@ def loaded(model: Model, payload: Mapping[str, Payload] | None) -> Model:
     given = {} if payload is None else payload
     check_kind(given, "payload", Mapping, "what is carried by the names of frames")
     for frame, what in given.items():
-        at, name = model.frame(frame), f"payload[{frame!r}]"
+        at = model.frame(frame)
+        name = f"payload[{frame!r}]"
         if at.body == 0:
             raise ModelError(f"{name}: the world carries this frame")
         if isinstance(what, Model):

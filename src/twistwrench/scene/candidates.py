@@ -100,7 +100,8 @@ def candidates(
     """Yield the templates, and the full model with each group of joints held in q, with any two, and with all."""
     for name, kind in TEMPLATES.items():
         yield _template(name, kind, model, q, feet)
-    whole, tried = len(model.joint_names) - _first(model), set[frozenset[str]]()
+    whole = len(model.joint_names) - _first(model)
+    tried = set[frozenset[str]]()
     held = {name: matching_joints(model, joints) for name, joints in groups.items()}
     for count in sorted({1, 2, len(held)} - {0}):
         for names in combinations(held, count):
@@ -189,7 +190,8 @@ def limbs(model: Model, feet: Iterable[str]) -> dict[str, tuple[str, ...]]:
 
 def radius_of_gyration(model: Model, q: Array) -> float:
     """Return √(trace I_G / 2 m) of a robot with its joints locked in one configuration, m."""
-    G, squares = center_of_mass(model, q), 0.0
+    G = center_of_mass(model, q)
+    squares = 0.0
     for T, inertia in list(zip(forward_kinematics(model, q).placement, model.inertia))[1:]:
         arm = T.translation + T.rotation @ inertia.com - G
         squares += float(inertia.mass * (arm @ arm) + np.trace(inertia.inertia_at_com) / 2)

@@ -275,12 +275,14 @@ def costs(
             if name not in judge.tells:
                 why = "it has no motors" if name == "tau" else "nothing stands on the ground, or nothing has weight"
                 raise ValueError(f"tolerance: {name!r} is nothing of {model.name!r} in {motion.name!r}: {why}")
-    options, calls = list[Option](), dict[int, Callable[[], object]]()
+    options = list[Option]()
+    calls = dict[int, Callable[[], object]]()
     for one in tried:
         if one.model is None:
             options.append(Option(one.name, one.leaves_out, {}, {}, np.nan, np.nan, one.unfit, one))
             continue
-        known, found = list[tuple[Array, ...]](), list[dict[str, Array]]()
+        known = list[tuple[Array, ...]]()
+        found = list[dict[str, Array]]()
         for judging, some in zip(judges, (motions, held_out)):
             errors = list[Mapping[str, Array]]()
             for judge, motion in zip(judging, some):

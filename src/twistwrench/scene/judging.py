@@ -146,7 +146,8 @@ def _share(arm: Array, on: Array) -> Array:
 
 def _points(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Array, Array]:
     """Return where the contact points are in the world, (n, points, 3), and their Jacobians, (n, points, 3, nv)."""
-    places, J = [np.zeros((len(q), 0, 3))], [np.zeros((len(q), 0, 3, model.nv))]
+    places = [np.zeros((len(q), 0, 3))]
+    J = [np.zeros((len(q), 0, 3, model.nv))]
     for c in contacts:
         T = frame_placement(model, q, c.frame)
         six = frame_jacobian(model, q, c.frame, "local_world_aligned")[:, None]

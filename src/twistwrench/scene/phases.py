@@ -48,7 +48,8 @@ def phases(scene: Scene, motion: Motion) -> tuple[Phase, ...]:
     scenes: dict[bytes, Scene] = {}
     found: list[Phase] = []
     for states in stretches(stands):
-        row, t = stands[states.start], motion.t[states]
+        row = stands[states.start]
+        t = motion.t[states]
         if row.tobytes() not in scenes:
             scenes[row.tobytes()] = copy(scene)
             scenes[row.tobytes()].contacts = tuple(c for c, on in zip(scene.contacts, row) if on)

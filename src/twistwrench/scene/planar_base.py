@@ -43,7 +43,8 @@ class PlanarBase:
     def of(cls, full: Model, q: Array) -> PlanarBase:
         """Exchange the floating base of a model."""
         q = q.astype(np.float64)
-        near, T = q[full.q_slice[1]], base_placement(full, q)
+        near = q[full.q_slice[1]]
+        T = base_placement(full, q)
         base = Planar().transform(_shadow(T)).inverse() @ T
         q1, v1 = full.q_slice[1], full.v_slice[1]
         per_dof: dict[str, Any] = {

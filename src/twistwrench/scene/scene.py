@@ -372,7 +372,9 @@ class Scene:
         >>> scene.cheapest({"tau": 0.5, "cop": 0.01}, motions.walk(go2, samples=50)).best.name
         'full'
         """
-        need, full, ground = needed(tolerance), self.full_model, [c for c in self.contacts if c.to is None]
+        need = needed(tolerance)
+        full = self.full_model
+        ground = [c for c in self.contacts if c.to is None]
         judged, unseen = (as_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))
         if not judged:
             raise ValueError("motion: expected at least one motion, got none")

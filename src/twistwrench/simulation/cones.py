@@ -132,11 +132,18 @@ def solve_contacts(
     J, k, (G, c) = points.J, len(points.mu), others
     every = J.reshape(3 * k, len(v))
     moves, more = every @ v, G @ v
-    u, rows = moves.reshape(k, 3) - points.bound, more - c
+    u = moves.reshape(k, 3) - points.bound
+    rows = more - c
     fastest = float(max(np.abs(moves).max(initial=0), np.abs(more).max(initial=0)))
-    impulse, pushes, missed, least = np.zeros((k, 3)), np.zeros(len(c)), np.zeros(k), -TARGET_RTOL * fastest
-    after, ends, total = v, u, np.zeros_like(v)
-    joins, joins_too = u[:, 2] < 0, rows < 0
+    impulse = np.zeros((k, 3))
+    pushes = np.zeros(len(c))
+    missed = np.zeros(k)
+    least = -TARGET_RTOL * fastest
+    after = v
+    ends = u
+    total = np.zeros_like(v)
+    joins = u[:, 2] < 0
+    joins_too = rows < 0
     if joins.any() or joins_too.any():
         joins |= (before[:, 2] > 0) & np.isfinite(points.bound[:, 2])
     while joins.any() or joins_too.any():
@@ -146,12 +153,15 @@ def solve_contacts(
         law = CoulombLaw(Y.mT @ Y, np.concatenate([u[at].ravel(), rows[too]]), points.mu[at])
         found, off = solve(law, np.concatenate([before[at].ravel(), pushes[too]]), fastest)
         impulse[at], pushes[too], missed[at] = found[: 3 * len(at)].reshape(-1, 3), found[3 * len(at) :], off[: len(at)]
-        total, after = found @ A, v + metric.inverse.mT @ (Y @ found)
+        total = found @ A
+        after = v + metric.inverse.mT @ (Y @ found)
         ends = (every @ after).reshape(k, 3) - points.bound
-        late, late_too = (ends[:, 2] < least) & ~joins, (G @ after - c < least) & ~joins_too
+        late = (ends[:, 2] < least) & ~joins
+        late_too = (G @ after - c < least) & ~joins_too
         if not late.any() and not late_too.any():
             break
         joins, joins_too = joins | late, joins_too | late_too
     slides = (impulse[:, 2] > 0) & (np.sqrt((ends[:, :2] ** 2).sum(axis=-1)) > -least)
-    slide, sinks = np.where(slides[:, None], ends[:, :2], 0), np.maximum(0, -ends[:, 2])
+    slide = np.where(slides[:, None], ends[:, :2], 0)
+    sinks = np.maximum(0, -ends[:, 2])
     return StepSolution(after, after, impulse, pushes, slide, missed, sinks, fastest, total)

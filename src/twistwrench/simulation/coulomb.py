@@ -37,7 +37,8 @@ SOFTENING = (*10 ** np.linspace(1, -8, 28), 0.0)
 ROUNDS, SWEEPS = 10, 8
 """So many times at most Newton's method is tried again, each time after so many sweeps over all points."""
 
-TARGET_RTOL, ACCEPTED_RTOL = 1e-9, 1e-7
+TARGET_RTOL = 1e-9
+ACCEPTED_RTOL = 1e-7
 """How far the law may be missed, relative to the fastest point: what is looked for, and what is taken in the end."""
 
 RANK_RTOL = 1e-12
@@ -89,7 +90,9 @@ class CoulombLaw:
         It is the difference of λ to what the law makes of λ − u / w, where w is W of the point alone, times w.
         """
         k, n = self.k, 3 * self.k
-        L, U, w = impulse[:n].reshape(k, 3), u[:n].reshape(k, 3), self.own
+        L = impulse[:n].reshape(k, 3)
+        U = u[:n].reshape(k, 3)
+        w = self.own
         normal = np.maximum(0, L[:, 2] - U[:, 2] / w)
         along = L[:, :2] - U[:, :2] / w[:, None]
         size = np.sqrt((along * along).sum(axis=-1))
@@ -123,7 +126,8 @@ def solve(law: CoulombLaw, impulse: Array, size: float) -> tuple[Array, Array]:
 
     if impulse.any() and holds(*newton(law, nothing, TARGET_RTOL * size)):
         return best, missed
-    one, own = nothing, np.concatenate([np.repeat(law.own, 3), law.own_rows])
+    one = nothing
+    own = np.concatenate([np.repeat(law.own, 3), law.own_rows])
     for share in SOFTENING:
         one, off = newton(CoulombLaw(law.W + share * np.diag(own), law.u0, law.mu), one, TARGET_RTOL * size)
     for _ in range(ROUNDS):
@@ -144,18 +148,24 @@ def newton(law: CoulombLaw, impulse: Array, still: float) -> tuple[Array, Array]
 
     P is what `missed` projects with. A step is shortened until it misses the law by less; where none does, it ends.
     """
-    k, n, mu, w = law.k, 3 * law.k, law.mu, law.own
-    u, every = law.moves(impulse), np.concatenate([np.repeat(w, 3), law.own_rows])
+    k = law.k
+    n = 3 * law.k
+    mu = law.mu
+    w = law.own
+    u = law.moves(impulse)
+    every = np.concatenate([np.repeat(w, 3), law.own_rows])
     missed: Array | None = None  # which need not be known where the first step arrives
     for _ in range(NEWTON_STEPS):
         aim = impulse - u / every
-        normal, along = aim[2:n:3], aim[:n].reshape(k, 3)[:, :2]
+        normal = aim[2:n:3]
+        along = aim[:n].reshape(k, 3)[:, :2]
         size = np.sqrt((along * along).sum(axis=-1))
         at = np.flatnonzero(np.concatenate([np.repeat(normal > 0, 3), aim[n:] > 0]))
         A, b = law.W[np.ix_(at, at)], -law.u0[at]
         slides = np.flatnonzero((normal > 0) & (size > mu * normal))
         for i, a in zip(slides, np.searchsorted(at, 3 * slides)):
-            d, turns = along[i] / size[i], mu[i] * normal[i] / size[i]
+            d = along[i] / size[i]
+            turns = mu[i] * normal[i] / size[i]
             P = turns * (np.eye(2) - np.outer(d, d))
             A[a : a + 2], b[a : a + 2] = P @ A[a : a + 2], P @ b[a : a + 2]
             A[a : a + 2, a : a + 2] += w[i] * (np.eye(2) - P)
@@ -182,7 +192,8 @@ def project(law: CoulombLaw, impulse: Array) -> Array:
     n = 3 * law.k
     kept = np.maximum(impulse, 0)
     L, K = impulse[:n].reshape(-1, 3), kept[:n].reshape(-1, 3)
-    friction, most = np.sqrt((L[:, :2] ** 2).sum(axis=-1)), law.mu * K[:, 2]
+    friction = np.sqrt((L[:, :2] ** 2).sum(axis=-1))
+    most = law.mu * K[:, 2]
     share = np.where(friction > most, most / np.where(friction > 0, friction, 1), 1.0)
     K[:, :2] = L[:, :2] * share[:, None]
     return kept
@@ -190,7 +201,8 @@ def project(law: CoulombLaw, impulse: Array) -> Array:
 
 def sweep(law: CoulombLaw, impulse: Array) -> Array:
     """Return the impulses after some sweeps over the points and rows."""
-    impulse, k = impulse.copy(), law.k
+    impulse = impulse.copy()
+    k = law.k
     for _ in range(SWEEPS):
         for i in range(k):
             s = slice(3 * i, 3 * i + 3)
@@ -235,6 +247,7 @@ def solve_point(W: Array, u: Array, mu: float, own: float) -> Array:
 
 def project_point(impulse: Array, mu: float) -> Array:
     """Return the impulse at a point, or what its cone takes of it."""
-    friction, most = float(np.hypot(impulse[0], impulse[1])), mu * max(0.0, float(impulse[2]))
+    friction = float(np.hypot(impulse[0], impulse[1]))
+    most = mu * max(0.0, float(impulse[2]))
     share = most / friction if friction > most else 1.0
     return np.array([share * impulse[0], share * impulse[1], max(0.0, float(impulse[2]))])

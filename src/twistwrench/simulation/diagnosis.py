@@ -90,7 +90,8 @@ def feedback_cause(
     D = apparent_inertia(system, q[item])
     dt = system.dt * max(system.period, 1)
     limit = 2.0 if system.period else MAX_DAMPING_RATIO.get(method, 2.0)
-    damped, swung = dt * kd / D, dt * np.sqrt(np.maximum(kp, 0) / D)
+    damped = dt * kd / D
+    swung = dt * np.sqrt(np.maximum(kp, 0) / D)
     name = "dt_control" if system.period else "dt"
     j = int(damped.argmax())
     if damped[j] > limit:
@@ -113,7 +114,8 @@ def gains(system: System, t: float, q: Array, v: Array, item: tuple[int, ...]) -
     """Return −∂τ/∂q and −∂τ/∂v of each joint on itself, shapes (nv,)."""
     kp, kd = np.zeros((2, system.model.nv))
     for j in range(system.model.nv):
-        probe, entry = np.zeros_like(v), (*item, j)
+        probe = np.zeros_like(v)
+        entry = (*item, j)
         probe[entry] = PROBE_SIZE
         ahead, back = (system.policy_forces(t, integrate(system.model, q, sign * probe), v.copy()) for sign in (1, -1))
         kp[j] = (back - ahead)[entry] / (2 * PROBE_SIZE)

@@ -95,7 +95,8 @@ def check_ground(contacts: Sequence[Contact], ground: Ground) -> None:
                 f"contact {c.frame!r}: its normal {normal} is not that of the ground, {ground.normal}; "
                 "with ground= the ground's counts: leave it out"
             )
-        turns, moves = np.array(c.velocity[:-3]), np.array(c.velocity[-3:])
+        turns = np.array(c.velocity[:-3])
+        moves = np.array(c.velocity[-3:])
         if turns.any() or (moves.size and abs(moves @ ground.normal) > NORMAL_SPEED_RTOL * np.abs(moves).max()):
             raise ValueError(
                 f"contact {c.frame!r}: velocity: expected one along the ground, without a turn, got {c.velocity}"
@@ -130,7 +131,8 @@ class GroundPoints:
         self.owner = np.array([i for i, c in enumerate(contacts) for _ in c.points], int)
         self.thick = any(not isinstance(c, PointContact) for c in contacts)
         every = [contacts[i] for i in self.owner]
-        self.mu, self._normal = np.array([c.mu for c in every]), np.array(ground.normal)
+        self.mu = np.array([c.mu for c in every])
+        self._normal = np.array(ground.normal)
         own = [c.restitution for c in every]
         self.restitution = np.array([ground.restitution if e is None else e for e in own], float)
         self.velocity = np.array([c.velocity[-3:] or (0, 0, 0) for c in every], float).reshape(-1, 3) @ ground.axes.mT
@@ -138,7 +140,8 @@ class GroundPoints:
     def terms(self, q: Array) -> Terms:
         """Return what a step needs of q."""
         found = self._asked(q, ("M", "frames", "moves"))
-        arms, moves = self._arms(found.frames), found.moves[..., self.owner, :, :]
+        arms = self._arms(found.frames)
+        moves = found.moves[..., self.owner, :, :]
         rows = moves[..., 3:, :]
         if self.thick:
             rows = rows - cross_matrix(arms) @ moves[..., :3, :]
@@ -190,7 +193,8 @@ class GroundPoints:
 
 def point_forces(contacts: Sequence[Contact], place: Array, force: Array, ground: Ground) -> dict[str, Array]:
     """Return λ by the contact's frame, in the axes of the world, of forces (..., k, 3) in those of the ground."""
-    end, forces = 0, {}
+    end = 0
+    forces = {}
     for c in contacts:
         points = slice(end, end := end + len(c.points))
         f = force[..., points, :] @ ground.axes

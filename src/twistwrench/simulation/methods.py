@@ -65,7 +65,8 @@ def runge_kutta(tableau: Tableau, system: System, t: float, q: Array, v: Array) 
     u_rates: list[Array] = []
     v_rates: list[Array] = []
     for c, row in zip(nodes, rows):
-        u, v_stage = dt * weighted(row, u_rates, v), v + dt * weighted(row, v_rates, v)
+        u = dt * weighted(row, u_rates, v)
+        v_stage = v + dt * weighted(row, v_rates, v)
         v_rates.append(acceleration(system, t + c * system.dt, q, u, v_stage))
         u_rates.append(straight_rate(system.model, u, v_stage))  # u̇, not v
     return arrive(system, q, dt * weighted(weights, u_rates, v), v + dt * weighted(weights, v_rates, v))

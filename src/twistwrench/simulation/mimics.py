@@ -39,7 +39,9 @@ def simulate_following(
     **options: Any,
 ) -> Simulation:
     """Return what `simulate` does, which is called with the full model."""
-    policy, condition, own = tau, stop, leading(model)
+    policy = tau
+    condition = stop
+    own = leading(model)
 
     def acts(t: float, q: Array, v: Array) -> Array:
         return at_leaders(model, np.asarray(policy(t, q[..., model.kept_q], v[..., own])))
@@ -81,5 +83,7 @@ def at_leaders(model: MimicModel, tau: Array) -> Array:
 def leader_motion(model: MimicModel, motion: Simulation) -> Simulation:
     """Return the motion of the leaders."""
     own = leading(model)
-    q, v, tau = motion.q[..., model.kept_q], motion.v[..., own], motion.tau[..., own]
+    q = motion.q[..., model.kept_q]
+    v = motion.v[..., own]
+    tau = motion.tau[..., own]
     return replace(motion, q=q, v=v, tau=tau, follows=model)

@@ -339,10 +339,13 @@ def contact_remarks(
     """
     contacts = [c for c in contacts if isinstance(c, PointContact | SphereContact | SurfaceContact | WheelContact)]
     for c in contacts:
-        axes, wrench = c.axes(frame_placement(model, q, c.frame).rotation), np.zeros((*q.shape[:-1], 6))
+        axes = c.axes(frame_placement(model, q, c.frame).rotation)
+        wrench = np.zeros((*q.shape[:-1], 6))
         wrench[..., c.rows] = forces[c.frame]
-        f, moment = np.matvec(axes.mT, wrench[..., 3:]), np.abs(np.matvec(axes.mT, wrench[..., :3]))
-        loose, pressed = REMARK_RTOL * np.abs(f).max(initial=0), np.maximum(f[..., 2], 0)
+        f = np.matvec(axes.mT, wrench[..., 3:])
+        moment = np.abs(np.matvec(axes.mT, wrench[..., :3]))
+        loose = REMARK_RTOL * np.abs(f).max(initial=0)
+        pressed = np.maximum(f[..., 2], 0)
         yield from first_excess(t, "pull", c.frame, -f[..., 2], loose)
         yield from first_excess(t, "slip", c.frame, np.hypot(f[..., 0], f[..., 1]), c.mu * pressed + loose)
         if isinstance(c, SurfaceContact):
@@ -350,7 +353,8 @@ def contact_remarks(
                 yield from first_excess(t, "tip", c.frame, moment[..., axis], half * pressed + loose)
     if contacts and not any(c.velocity or c.acceleration for c in contacts):
         feet = [frame_placement(model, q[0], c.frame).translation[..., 2] for c in contacts]
-        floor, bodies = np.min(feet, axis=0) - FOOT_SIZE_M, forward_kinematics(model, q).placement[1:]
+        floor = np.min(feet, axis=0) - FOOT_SIZE_M
+        bodies = forward_kinematics(model, q).placement[1:]
         if all((T.translation[0, ..., 2] >= floor).all() for T in bodies):
             for name, T in zip(model.joint_names[1:], bodies):
                 yield from first_excess(t, "sunk", name, T.translation[..., 2], floor, -1.0)
@@ -358,8 +362,11 @@ def contact_remarks(
 
 def ground_remarks(stepping: TimeStepping, t: Array) -> Iterator[Remark]:
     """Yield the contacts on a ground that left it after they had touched it, slid on it, or missed Coulomb's law."""
-    force, slides, end = np.array(stepping.forces), np.array(stepping.slides), 0
-    missed, most = np.array(stepping.missed), COULOMB_RTOL * np.array(stepping.fastest)
+    force = np.array(stepping.forces)
+    slides = np.array(stepping.slides)
+    end = 0
+    missed = np.array(stepping.missed)
+    most = COULOMB_RTOL * np.array(stepping.fastest)
     for c in stepping.contacts if len(force) else ():
         points = slice(end, end := end + len(c.points))
         touches = (force[..., points, 2] > 0).any(axis=-1)

@@ -140,14 +140,16 @@ def simulate(
         given: dict[str, Any] = {"tau": tau, "contacts": contacts, "stop": stop}
         return simulate_following(simulate, robot, q, v, **given, **clock, **options)
     model, own, push = parts(robot)
-    count, contacts = _count(dt, steps, duration), (*own, *as_contacts(model, contacts))
+    count = _count(dt, steps, duration)
+    contacts = (*own, *as_contacts(model, contacts))
     name = _method(method, ground, contacts)
     q, v = model.state(q, v=v)
     if q.dtype.kind == "c":
         raise ValueError(f"q, v: expected real numbers, got {q.dtype}")
     if contacts or name == "time-stepping":
         q, v = model.normalize(q.astype(np.float64)), v.astype(np.float64)
-    stepper, may_touch = None, tuple(c for c in contacts if c.pushes)
+    stepper = None
+    may_touch = tuple(c for c in contacts if c.pushes)
     if name == "time-stepping":
         contacts = tuple(c for c in contacts if not c.pushes)
         stepper = TimeStepping(model, may_touch, ground or Ground(), float(dt), q, contacts)

@@ -124,10 +124,14 @@ class TimeStepping:
         q: Array,
         held: Sequence[Contact] = (),
     ) -> None:
-        self.model, self.contacts, self.ground, self.dt = model, tuple(contacts), ground, dt
+        self.model = model
+        self.contacts = tuple(contacts)
+        self.ground = ground
+        self.dt = dt
         self.points = GroundPoints(model, self.contacts, ground)
         self.mu = self.points.mu
-        self.joints, self.held = Joints(model, q), Held.beginning(model, held, q)
+        self.joints = Joints(model, q)
+        self.held = Held.beginning(model, held, q)
         self.forces: list[Array] = []
         self.places: list[Array] = []
         self.slides: list[Array] = []
@@ -144,11 +148,18 @@ class TimeStepping:
         `since` is the time since the start of the motion at which the step begins.
         """
         check_divergence(self.model, "v", v, dt=self.dt)
-        q1, v1, batch, k = np.empty_like(q), np.empty_like(v), q.shape[:-1], len(self.mu)
+        q1 = np.empty_like(q)
+        v1 = np.empty_like(v)
+        batch = q.shape[:-1]
+        k = len(self.mu)
         force, place, slide, missed = (np.zeros((*batch, k, *size)) for size in ((3,), (3,), (), ()))
-        pull, fastest = np.zeros((*batch, sum(c.dim for c in self.held.contacts))), np.zeros(batch)
+        pull = np.zeros((*batch, sum(c.dim for c in self.held.contacts)))
+        fastest = np.zeros(batch)
         for item in np.ndindex(batch):
-            held, end, q0, v0 = self.held.at(item), since + self.dt, q[item].copy(), v[item].copy()
+            held = self.held.at(item)
+            end = since + self.dt
+            q0 = q[item].copy()
+            v0 = v[item].copy()
             found, pull[item], place[item] = self.one(tau[item].copy(), q0, v0, self._impulse[item], held, end)
             self._impulse[item], missed[item], fastest[item] = found.impulse, found.missed, found.fastest
             force[item] = found.impulse / self.dt
@@ -174,14 +185,18 @@ class TimeStepping:
         """
         half = self.dt / 2 * v
         middle, v = go_straight(self.model, q, half), in_turned_axes(self.model, v, half)
-        at, mean, other = self.terms(q, middle), v, np.full_like(v, np.inf)
+        at = self.terms(q, middle)
+        mean = v
+        other = np.full_like(v, np.inf)
         for _ in range(2):
             free = v + self.dt * (aba(self.model, middle, mean, tau) + turning(self.model, mean))
             if np.abs(free - other).max(initial=0) <= FREE_VELOCITY_RTOL * np.abs(free).max(initial=0):
                 break
-            other, rows = free, held.velocity_rows(middle, mean, at.damped, self.dt, end) if held.contacts else None
+            other = free
+            rows = held.velocity_rows(middle, mean, at.damped, self.dt, end) if held.contacts else None
             found, pull = self.solve(at, v, free, before, rows)
-            mean, before = (v + found.v) / 2, found.impulse
+            mean = (v + found.v) / 2
+            before = found.impulse
             check_divergence(self.model, "v", mean, dt=self.dt)
         check_divergence(self.model, "v dt", self.dt * found.v)
         self._check_sinking(found)
@@ -201,9 +216,12 @@ class TimeStepping:
         gap, J, metric = at.gap, at.J, at.metric
         loose = free = free if self._damping is None else metric.respond(at.M @ free)
         if held is not None:
-            metric, free = Metric(self.model, at.damped, held.span), held.corrected(free)
-        ends, n = -np.maximum(at.ends, 0) / self.dt, J[:, 2]
-        bound, lowest = self.points.velocity.copy(), -np.maximum(gap, 0) / self.dt
+            metric = Metric(self.model, at.damped, held.span)
+            free = held.corrected(free)
+        ends = -np.maximum(at.ends, 0) / self.dt
+        n = J[:, 2]
+        bound = self.points.velocity.copy()
+        lowest = -np.maximum(gap, 0) / self.dt
 
         def answer(least: Array) -> StepSolution:
             """Return what is found where points leave the step with this normal velocity at least."""
@@ -219,11 +237,13 @@ class TimeStepping:
 
             return self.joints.with_dry_friction(metric, free, self.dt, solved)
 
-        found, share = answer(lowest), self.points.restitution
+        found = answer(lowest)
+        share = self.points.restitution
         touches = found.impulse[:, 2] > 0
         hits = (n @ v < 0) & touches & (share > 0)
         if hits.any():
-            q_goes, faster = found.v, 2 * np.maximum(gap, 0) / self.dt * (n @ (v - free))
+            q_goes = found.v
+            faster = 2 * np.maximum(gap, 0) / self.dt * (n @ (v - free))
             speed = np.sqrt(np.maximum((n @ v) ** 2 + faster, 0))  # where it hits, by what accelerates it until then
             while share.any():
                 leaves = np.where(hits, share * speed, np.where(touches, lowest, -np.inf))
@@ -242,10 +262,12 @@ class TimeStepping:
         """
         rows, span = None, None
         for _ in range(MAX_PROJECTIONS):
-            gap, way = np.concatenate([self.points.height(q), self.joints.gap(q)]), np.zeros(self.model.nv)
+            gap = np.concatenate([self.points.height(q), self.joints.gap(q)])
+            way = np.zeros(self.model.nv)
             if held.contacts:
                 rows = held.position_rows(q, end)
-                way, span = rows.corrected(way), rows.span
+                way = rows.corrected(way)
+                span = rows.span
             if gap.min(initial=0) >= -GAP_ATOL and (rows is None or np.abs(rows.u).max() <= ANCHOR_ATOL_M):
                 break
             terms = self.points.terms(q)
@@ -259,7 +281,9 @@ class TimeStepping:
 
     def contact_forces(self, q: Array) -> dict[str, Array]:
         """Return λ of all steps, by the contact's frame; q are the states in which they begin, (n, ..., nq)."""
-        n, batch, k = len(q), q.shape[:-1], len(self.mu)
+        n = len(q)
+        batch = q.shape[:-1]
+        k = len(self.mu)
         place, force = (np.array(x[:n]).reshape(*batch, k, 3) for x in (self.places, self.forces))
         pull = np.array(self.pulls[:n]).reshape(*batch, sum(c.dim for c in self.held.contacts))
         return point_forces(self.contacts, place, force, self.ground) | per_contact(self.held.contacts, pull)
@@ -304,7 +328,8 @@ class Joints:
                 if np.isfinite(limit):
                     ends.append((sq.start, sv.start, side, limit))
         at_q, at_v, self.sign, self.end = np.array(ends).reshape(len(ends), 4).mT
-        self.at_q, self.rows = at_q.astype(int), np.zeros((len(ends), model.nv))
+        self.at_q = at_q.astype(int)
+        self.rows = np.zeros((len(ends), model.nv))
         self.rows[np.arange(len(ends)), at_v.astype(int)] = self.sign
         self.friction = np.flatnonzero(model.friction > 0)
         self._check_ranges(q)
@@ -337,7 +362,8 @@ class Joints:
         n, at = len(self.friction), self.friction
         if not n:
             return solve(free, np.zeros((0, len(free))))[0]
-        most, slides = dt * self.model.friction[at], np.sign(free[at])
+        most = dt * self.model.friction[at]
+        slides = np.sign(free[at])
         for _ in range(MAX_FRICTION_ROUNDS):
             rows = np.zeros((2 * n, len(free)))
             rows[np.arange(n), at] = np.where(slides >= 0, 1.0, 0.0)
@@ -346,7 +372,8 @@ class Joints:
             braking[at] = -slides * most
             found, held = solve(free + metric.respond(braking), rows)
             total = -slides * most + held[:n] - held[n:]
-            before, loose = slides, 1e-9 * most
+            before = slides
+            loose = 1e-9 * most
             slides = np.where(total > most + loose, -1.0, np.where(total < -most - loose, 1.0, slides))
             if (slides == before).all():
                 break

@@ -39,7 +39,8 @@ def shifted_and_turned(model: Model, q: Array, u: Array) -> Array:
     """Return what `go_straight` does, by the textbook."""
     shifted, turn = q.copy(), u.copy()
     for i, joint, s in sliding(model):
-        S, place = joint.subspace(u.dtype), model.q_slice[i]
+        S = joint.subspace(u.dtype)
+        place = model.q_slice[i]
         way = np.matvec(joint.transform(q[..., place]).rotation, np.matvec(S[3:], u[..., s]))
         size = int(joint.subspace()[3:].any(axis=0).sum())  # of its place, which comes first in q
         shifted[..., place.start : place.start + size] += way[..., :size]

@@ -102,7 +102,11 @@ class System:
         period: int = 0,
         stepping: TimeStepping | None = None,
     ) -> None:
-        self.model, self.contacts, self.push, self.dt, self.evaluations = model, contacts, push, dt, 0
+        self.model = model
+        self.contacts = contacts
+        self.push = push
+        self.dt = dt
+        self.evaluations = 0
         self.period, self.stepping = period, stepping
         self.anchors = contact_placements(model, q, contacts)
         self._policy = tau if callable(tau) else None
@@ -164,7 +168,8 @@ class System:
         """Return acceleration and contact forces in a state (49.9)."""
         found = self._held_under(self.force(t, q, v), t, q, v)
         if self._first:
-            self.forces, self._first = found.forces, False
+            self.forces = found.forces
+            self._first = False
         return found
 
     def held_last(self, t: float, q: Array, v: Array) -> dict[str, Array]:
@@ -195,7 +200,8 @@ class System:
         """
         if self._policy_missing:
             raise ValueError("step_error: the policy has stayed in the process in which the motion was made")
-        dt, own = self.dt / 2, self.stepping
+        dt = self.dt / 2
+        own = self.stepping
         forces = tau if self._policy is None or self.period else self._policy
         contacts = moved(self.contacts, self.time_since_start(t))
         stepping = own and TimeStepping(self.model, own.contacts, own.ground, dt, q, contacts)
@@ -238,7 +244,8 @@ class System:
         if checked.dtype.kind == "c":
             raise ValueError(f"{name}: expected real numbers, got {checked.dtype}{when}")
         if checked.shape not in (v.shape, v.shape[-1:]):
-            hint, floats = "", self.model.base == "floating"
+            hint = ""
+            floats = self.model.base == "floating"
             if floats and checked.shape[-1:] == (self.model.nv - 6,):
                 hint = "; the six entries of the floating base come first: zeros, as it has no motor"
             raise ShapeError(f"{name}: expected shape {v.shape}, got {checked.shape}{when}{hint}")

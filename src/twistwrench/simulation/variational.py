@@ -49,7 +49,9 @@ def momentum_and_force(model: Model, q: Array, v: Array) -> tuple[Array, Array]:
     moved by S δ while its carrier still moves it with the twist C: the energy changes by −δ Sᵀ (C ×* h), and by Sᵀ w δ,
     where w is the subtree's weight.
     """
-    tree, qd, n = tree_terms(model, q), split(model, v), model.nbodies
+    tree = tree_terms(model, q)
+    qd = split(model, v)
+    n = model.nbodies
     armature = model.constants(q.dtype).armature
     V, A, carrier, h, w, mu, force = ([np.zeros(6, q.dtype)] * n for _ in range(7))
     A[0], mu[0], force[0] = -model.constants(q.dtype).gravity, v[..., :0], v[..., :0]  # the world rises
@@ -72,16 +74,21 @@ def variational(system: System, t: float, q: Array, v: Array) -> tuple[Array, Ar
     J. E. Marsden and M. West, Discrete mechanics and variational integrators, 2001, for a Lie group. The step is
     solved by Broyden's method, starting from M⁻¹: some four to twelve evaluations, each O(N).
     """
-    M, model, dt = crba(system.model, q), system.model, q.dtype.type(system.dt)
+    M = crba(system.model, q)
+    model = system.model
+    dt = q.dtype.type(system.dt)
     equation = Equation(system, t, q, np.matvec(M, v))
     fall = aba(model, q, v, np.zeros_like(v))  # also raises where there is no inertia
     xi = v + dt / 2 * (fall + turning(model, v))
     check_turn(model, dt * xi)
-    inverse, done = np.linalg.inv(M.astype(np.float64)), np.zeros(v.shape[:-1], bool)
+    inverse = np.linalg.inv(M.astype(np.float64))
+    done = np.zeros(v.shape[:-1], bool)
     defect, end, close = equation.defect(xi)
     for _ in range(MAX_ITERATIONS):
         change = np.where(done[..., None], 0, -np.matvec(inverse, defect)).astype(v.dtype)
-        xi, done, before = xi + change, done | close, defect
+        xi = xi + change
+        done = done | close
+        before = defect
         defect, end, close = equation.defect(xi)
         if done.all():
             check_turn(model, dt * xi)
@@ -130,12 +137,14 @@ class Equation:
 
     def __init__(self, system: System, t: float, q: Array, p0: Array) -> None:
         self.system, self.q, self.p0 = system, q, p0
-        self.t, self.dt = t + system.dt / 2, q.dtype.type(system.dt)
+        self.t = t + system.dt / 2
+        self.dt = q.dtype.type(system.dt)
         self.weight = system.model.mass * float(np.abs(system.model.gravity).max())
 
     def defect(self, xi: Array) -> tuple[Array, Array, Array]:
         """Return the residual of ξ, the momentum p₁ it leads to, and whether the residual is only rounding."""
-        model, dt = self.system.model, self.dt
+        model = self.system.model
+        dt = self.dt
         check_divergence(model, "v", xi, dt=self.system.dt)
         u = dt / 2 * xi
         there, v, mu, force = middle(model, self.q, u, xi)
@@ -163,7 +172,8 @@ def broyden(inverse: Array, x: Array, y: Array) -> Array:
 
 def solve(M: Array, p: Array) -> Array:
     """Return M⁻¹ p, refined to the digits of the number type."""
-    M64, x = M.astype(np.float64), np.zeros_like(p)
+    M64 = M.astype(np.float64)
+    x = np.zeros_like(p)
     for _ in range(3):
         rest = (p - np.matvec(M, x)).astype(np.float64)
         x = x + np.linalg.solve(M64, rest[..., None])[..., 0].astype(p.dtype)
@@ -200,11 +210,13 @@ def momenta(model: Model, u: Array, p0: Array, impulse: Array) -> tuple[Array, A
     """
 
     def both(u: Array, p0: Array, impulse: Array) -> tuple[Array, list[object]]:
-        mu, end = p0 + impulse / 2, p0 + impulse
+        mu = p0 + impulse / 2
+        end = p0 + impulse
         for joint, s in zip(model.joints, model.v_slice):
             if isinstance(joint, GroupJoint) and joint.nv > 1:
                 S = joint.subspace(u.dtype)
-                turn, slide = S[:3], S[3:]
+                turn = S[:3]
+                slide = S[3:]
                 phi = np.matvec(turn, u[..., s])
                 back = quaternion_matrix(exp_quaternion(phi)).mT
                 P0 = np.matvec(back, np.matvec(turn, p0[..., s]))

@@ -76,7 +76,8 @@ def sine_defect_root(x: Array) -> Array:
     if x.dtype == object:
         return sqrt(series(x, 4, 5, resolution(x.dtype)) / 6)
     small = np.abs(x.real) < 1
-    near, far = np.where(small, x, 0), np.where(small, 1, x)
+    near = np.where(small, x, 0)
+    far = np.where(small, 1, x)
     return np.where(
         small, np.sqrt(series(near, 4, 5, resolution(x.dtype)) / 6), np.sqrt((far - np.sin(far)) / far) / far
     )
@@ -85,7 +86,8 @@ def sine_defect_root(x: Array) -> Array:
 def cosine_defect(x: Array) -> Array:
     """Return (sin x − x cos x)/x³, which is 1/3 at 0: its series below 1, where the difference would cancel."""
     small = np.abs(x.real) < 1
-    near, far = np.where(small, x, 0), np.where(small, 1, x)
+    near = np.where(small, x, 0)
+    far = np.where(small, 1, x)
     return np.where(small, series(near, 2, 5, resolution(x.dtype)) / 3, (np.sin(far) - far * np.cos(far)) / far**3)
 
 
@@ -93,7 +95,8 @@ def series(x: Array, a: int, b: int, eps: float) -> Array:
     """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)) for |x| ≤ 1, with all terms that reach a quarter of eps."""
     terms, left = 0, 1.0
     while left > eps / 4 or terms < 15:
-        left, terms = left / ((a + 2 * terms) * (b + 2 * terms)), terms + 1
+        left = left / ((a + 2 * terms) * (b + 2 * terms))
+        terms = terms + 1
     total = np.ones_like(x)
     for k in range(2 * terms - 2, -1, -2):
         total = 1 - x * x / ((a + k) * (b + k)) * total

@@ -21,7 +21,10 @@ def exp_quaternion(w: Array) -> Array:
 
 def quaternion_product(p: Array, q: Array) -> Array:
     """Return the quaternion of both turns, (p₀ u + q₀ w + w × u, p₀ q₀ − w·u) of p = (w, p₀) and q = (u, q₀)."""
-    w, u, p0, q0 = p[..., :3], q[..., :3], p[..., 3:], q[..., 3:]
+    w = p[..., :3]
+    u = q[..., :3]
+    p0 = p[..., 3:]
+    q0 = q[..., 3:]
     turned = p0 * u + q0 * w + np.matvec(cross_matrix(w), u)
     return np.concatenate([turned, p0 * q0 - (w * u).sum(-1, keepdims=True)], axis=-1)
 
@@ -35,12 +38,14 @@ def exact_rotation(R: Array) -> Array:
     whole = R.round()
     if np.abs(R - whole).max() < 1e-15:  # along the axes
         return convert(whole, object)
-    near, one = convert(R, object), convert(np.eye(3), object)
+    near = convert(R, object)
+    one = convert(np.eye(3), object)
     for _ in range(2):
         near = near @ (3 * one - near.mT @ near) / 2
         near = np.array([[Fraction(round(x * 2**220), 2**220) for x in row] for row in near], object)
     square = near.trace() * np.eye(3, dtype=int)
-    symmetric, skewed = near + near.mT + one - square, skew_part(2 * near)
+    symmetric = near + near.mT + one - square
+    skewed = skew_part(2 * near)
     u = convert(rotation_to_quaternion(R), object)
     return quaternion_matrix(
         np.array([*(symmetric @ u[:3] + skewed * u[3]), skewed @ u[:3] + (1 + near.trace()) * u[3]])

@@ -198,11 +198,13 @@ class SpatialVector:
         self._refuse_product(other, self)
 
     def _refuse_product(self, left: object, right: object) -> NoReturn:
-        expression, x = f"{type(left).__name__} @ {type(right).__name__}", self._symbol
+        expression = f"{type(left).__name__} @ {type(right).__name__}"
+        x = self._symbol
         raise TypeError(f"{expression}: use {x}.transform(T) for another frame, {x}.vector for products of arrays")
 
     def _refuse(self, left: object, sign: str, right: object) -> NoReturn:
-        mine, expression = type(self).__name__, f"{type(left).__name__} {sign} {type(right).__name__}"
+        mine = type(self).__name__
+        expression = f"{type(left).__name__} {sign} {type(right).__name__}"
         raise TypeError(f"{expression}: both sides must be of type {mine}; make one of an array with {mine}(array)")
 
     def __repr__(self) -> str:

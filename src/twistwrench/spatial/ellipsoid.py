@@ -40,7 +40,9 @@ def _view(com: Array, shape: Array, i: int, j: int) -> str:
     squares, axes = np.linalg.eigh(shape[np.ix_((i, j), (i, j))])
     b, a = np.sqrt(np.maximum(squares, 0))
     angle = -np.degrees(np.arctan2(axes[1, 1], axes[0, 1]))  # the picture's y points down
-    x, y, half = com[i], -com[j], VIEW_PX / 2
+    x = com[i]
+    y = -com[j]
+    half = VIEW_PX / 2
     return (
         f'<svg width="{VIEW_PX}" height="{VIEW_PX + 14}" viewBox="{-half} {-half} {VIEW_PX} {VIEW_PX + 14}" role="img">'
         f"<title>{'xyz'[i]} to the right, {'xyz'[j]} up</title>"

@@ -389,7 +389,9 @@ class SpatialInertia:
     def __add__(self, other: SpatialInertia) -> SpatialInertia:
         if not isinstance(other, SpatialInertia):
             raise TypeError(f"SpatialInertia + {type(other).__name__}: only inertias add, once they are in one frame")
-        m1, m2, m = self.mass, other.mass, self.mass + other.mass
+        m1 = self.mass
+        m2 = other.mass
+        m = self.mass + other.mass
         nonzero = np.where(m == 0, 1, m)
         com = np.asarray(m1 / nonzero)[..., None] * self.com + np.asarray(m2 / nonzero)[..., None] * other.com
         # Parallel axes from each centre of mass to the common one add up to m₁m₂/m times the square of their distance.
@@ -757,7 +759,8 @@ class SpatialInertia:
             raise ModelError(
                 f"vertices, faces: expected a volume above zero, got {volume.sum():.3g} m³: is it inside out?"
             )
-        share, total = volume / volume.sum(), corners.sum(axis=1)
+        share = volume / volume.sum()
+        total = corners.sum(axis=1)
         com = share @ total / 4
         about_middle = np.einsum("k,ki,kj->ij", share, total, total) + np.einsum(
             "k,kai,kaj->ij", share, corners, corners

@@ -170,14 +170,16 @@ def _on(side: Side, x: Array) -> Array:
 
 def _right_jacobian(w: Array) -> Array:
     """Return 1 − B[w]× + C[w]×²; ½√B and √C go to one [w]× each, as in `exp6`."""
-    theta, W = length(w)[..., None, None], cross_matrix(w)
+    theta = length(w)[..., None, None]
+    W = cross_matrix(w)
     H, CW = sinc(theta / 2) / 2, sine_defect_root(theta) * W
     return np.asarray(np.eye(3, dtype=w.dtype) - 2 * H * (H * W) + CW @ CW)
 
 
 def _right_inverse(w: Array) -> Array:
     """Return 1 + ½[w]× + D[w]×², with D as in `log6`."""
-    half, W = length(w)[..., None, None] / 2, cross_matrix(w)
+    half = length(w)[..., None, None] / 2
+    W = cross_matrix(w)
     D = cosine_defect(half) / (4 * sinc(half))
     return np.asarray(np.eye(3, dtype=w.dtype) + W / 2 + D * (W @ W))
 
@@ -187,10 +189,16 @@ def _change(w: Array, v: Array) -> Array:
 
     θ changes by n·v, n = w/θ; then θ Ḃ = (A − 2B) n·v, with A = sin θ / θ, and θ Ċ = (B − 3C) n·v.
     """
-    theta, W, V = length(w)[..., None, None], cross_matrix(w), cross_matrix(v)
+    theta = length(w)[..., None, None]
+    W = cross_matrix(w)
+    V = cross_matrix(v)
     n = w / np.where(theta == 0, 1, theta)[..., 0]
-    N, n_v = cross_matrix(n), (n * v).sum(-1)[..., None, None]
+    N = cross_matrix(n)
+    n_v = (n * v).sum(-1)[..., None, None]
     H, c = sinc(theta / 2) / 2, sine_defect_root(theta)
-    A, B, C, cW = sinc(theta), 2 * H * H, c * c, c * W
+    A = sinc(theta)
+    B = 2 * H * H
+    C = c * c
+    cW = c * W
     turning = -(A - 2 * B) * n_v * N + (B - 3 * C) * n_v * (N @ W)
     return np.asarray(turning - B * V + c * (V @ cW + cW @ V))

@@ -58,7 +58,8 @@ def nearest_rotation(R: ArrayLike) -> Array:
         better = left < off / 2  # rounding can gain an ulp a step for ever
         if not better.any():
             return R.real + 1j * nearer.imag if R.dtype.kind == "c" else R  # the derivative of a complex step, too
-        R, off = np.where(better[..., None, None], nearer, R), np.where(better, left, off)
+        R = np.where(better[..., None, None], nearer, R)
+        off = np.where(better, left, off)
 
 
 def _near_rotation(R: Array) -> Array:

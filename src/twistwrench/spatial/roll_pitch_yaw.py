@@ -121,7 +121,8 @@ def rpy_jacobian(rpy: ArrayLike, reference: Axes = "local") -> Array:
     """
     check_choice(reference, "reference", get_args(Axes))
     (cr, cp, cy), (sr, sp, sy) = _cosines_and_sines(rpy)
-    zero, one = 0 * cp, 0 * cp + 1
+    zero = 0 * cp
+    one = 0 * cp + 1
     if reference == "local":
         return _matrix([[one, zero, -sp], [zero, cr, sr * cp], [zero, -sr, cr * cp]])
     return _matrix([[cp * cy, -sy, zero], [cp * sy, cy, zero], [-sp, zero, one]])

@@ -149,7 +149,8 @@ def log3(R: ArrayLike) -> Array:
     array([0., 3., 0.])
     """
     q = rotation_to_quaternion(R)
-    xyz, w = q[..., :3], q[..., 3:]
+    xyz = q[..., :3]
+    w = q[..., 3:]
     n = length(xyz)[..., None]
     ratio = np.where(n == 0, 2, 2 * atan2(n, w) / np.where(n == 0, 1, n))
     return np.asarray(xyz * ratio)
@@ -227,7 +228,8 @@ def rotation_to_quaternion(R: ArrayLike) -> Array:
 
 def turn_matrix(w: Array) -> Array:
     """Return 1 + A [w]× + B [w]×²: the formula of `exp3`."""
-    theta, W = length(w)[..., None, None], cross_matrix(w)
+    theta = length(w)[..., None, None]
+    W = cross_matrix(w)
     check_overflow(theta, "w")
     A, H = sinc(theta), sinc(theta / 2) / 2
     return np.asarray(np.eye(3, dtype=w.dtype) + A * W + 2 * (H * W) @ (H * W))

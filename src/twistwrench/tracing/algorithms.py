@@ -104,7 +104,8 @@ def trace(
     if checked.ndim != 1:
         raise ShapeError(f"{', '.join(('q', *given, *wrenches))}: expected one state, got a batch {checked.shape[:-1]}")
     run, read, _ = _ALGORITHMS[algorithm]
-    terms, tree = run(model, q, *given.values(), **wrenches), tree_terms(model, checked)
+    terms = run(model, q, *given.values(), **wrenches)
+    tree = tree_terms(model, checked)
     rows = tuple(read(model, tree, terms))
     steps = (_ccrba_steps if algorithm == "ccrba" else _steps)(algorithm, model, terms, rows)
     place = placements(model.parent, list(tree.placement))

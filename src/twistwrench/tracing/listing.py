@@ -102,7 +102,8 @@ class _Reader:
     def assign(self, s: ast.Assign, at: dict[str, int]) -> Iterator[Place]:
         for target in s.targets:
             if isinstance(target, ast.Subscript):
-                index, source = self.number(target.slice, at), self.lines[s.lineno - 1]
+                index = self.number(target.slice, at)
+                source = self.lines[s.lineno - 1]
                 own = ast.unparse(target.slice) == "i"
                 yield Place(self.first + s.lineno - 1, source, at.get("i"), ast.unparse(target.value), index, own)
             elif isinstance(target, ast.Name) and isinstance(number := self.number(s.value, at), int):

@@ -119,7 +119,8 @@ def _passes(algorithm: str, row: BodyRecord) -> str:
     if account.passed is None:
         return ""
     if algorithm == "rnea":
-        moment, force = _norm(account.passed[:3]), _norm(account.passed[3:])
+        moment = _norm(account.passed[:3])
+        force = _norm(account.passed[3:])
         return f"{moment} N m, {force} N to {row.parent}; tau = {_few(row.values['tau'])}"
     mass = _number(np.trace(account.passed[3:, 3:]) / 3)  # an articulated one differs with the direction: the mean
     if algorithm == "aba":

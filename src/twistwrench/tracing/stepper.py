@@ -89,7 +89,8 @@ def _listing(function: Any) -> dict[str, Any]:
 
 def _robot(trace: Trace, language: str) -> dict[str, Any]:
     """Return what the steps of a model are, whatever their numbers."""
-    model, names = trace.model, [function.__name__ for function in listings(trace.algorithm)]
+    model = trace.model
+    names = [function.__name__ for function in listings(trace.algorithm)]
     return {
         "bodies": [[name, parent] for name, parent in zip(model.joint_names, model.parent)],
         "steps": [_step(trace, step, names.index(step.function), language) for step in _once(trace.steps)],
@@ -145,7 +146,8 @@ def formula(text: str, numbers: Mapping[str, int]) -> str:
     """
 
     def raised(match: re.Match[str]) -> str:
-        tag, inside = "sub" if match[1] == "_" else "sup", match[2] or match[3]
+        tag = "sub" if match[1] == "_" else "sup"
+        inside = match[2] or match[3]
         if tag == "sub":
             inside = re.sub(r"\b[ijkp]\b", lambda m: str(numbers[m[0]]), inside)
         return f"<{tag}>{inside}</{tag}>"
@@ -161,7 +163,9 @@ def _turn(step: Assignment) -> int:
 
 def _units(trace: Trace, step: Assignment) -> list[str]:
     """Return the units of the angular and of the linear part; those of a joint depend on whether it turns or slides."""
-    model, name, i = trace.model, step.name, _turn(step)
+    model = trace.model
+    name = step.name
+    i = _turn(step)
     per_acceleration = name in ("U", "A_G") or (name, trace.algorithm) == ("F", "crba")
     joints = step.index if isinstance(step.index, tuple) else (i, i)
     if i and all(_dofs(model, k) == 1 for k in joints if name == "M" or k == i):

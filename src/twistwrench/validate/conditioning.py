@@ -104,7 +104,8 @@ def equilibrium_bound(model: Model, s: States, solution: Array) -> float:
     computations, section 5.6); τ inherits that through J_cᵀ, and adds K ε of its own terms.
     """
     J, n = contact_jacobian(model, s), model.nv - 6
-    forces, unit = solution[n:], TERM_RTOL
+    forces = solution[n:]
+    unit = TERM_RTOL
     of_forces = 3 * np.linalg.cond(J[:, :6]) * unit * np.sqrt((forces**2).sum())
     own = unit * (wrenches(model, s.q, 0 * s.v, 0 * s.v)[6:] + np.abs(J[:, 6:].mT) @ np.abs(forces))
     of_tau = own.max(initial=0) + np.linalg.norm(J[:, 6:], 2) * of_forces if n else 0.0
@@ -120,7 +121,8 @@ def without_inertia(model: Model, s: States) -> tuple[set[str], set[str]]:
     M, nv = ne.mass_matrix(model, s.q), model.nv
     names = np.repeat(np.array(model.joint_names, object), [at.stop - at.start for at in model.v_slice])
     nothing = set(names[np.diag(M) == 0])
-    lost, diagonal = set(), np.diag(M).copy()
+    lost = set()
+    diagonal = np.diag(M).copy()
     for k in reversed(range(nv)):
         if M[k, k] <= nv * TERM_RTOL * diagonal[k]:
             lost.add(names[k])

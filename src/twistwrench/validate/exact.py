@@ -60,7 +60,8 @@ def static_equilibrium(model: Model, s: States) -> Array:
         If these contacts cannot carry every weight: two points cannot stop a turn about their line.
     """
     J, g = contact_jacobian(model, s), ne.gravity(model, s.q)
-    B, carried = J[:, :6].mT, J[:, 6:].mT
+    B = J[:, :6].mT
+    carried = J[:, 6:].mT
     if np.linalg.matrix_rank(B.astype(float)) < 6:
         raise SingularError(f"{len(model.feet)} point contacts cannot hold the base of {model.name!r}")
     forces = B.mT @ _solve(B @ B.mT, g[:6])

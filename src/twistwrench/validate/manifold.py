@@ -41,7 +41,8 @@ def _step(joint: Joint, q: Array, dv: Array) -> Array:
         return _product(q, _quaternion(dv))
     if not isinstance(joint, FreeFlyer):
         raise ModelError(f"no exact step is known for a joint of kind {joint.kind!r}")
-    position, quaternion = q[:3], q[3:]
+    position = q[:3]
+    quaternion = q[3:]
     return np.concatenate(
         [position + _rotate(quaternion, _shift(dv[:3], dv[3:])), _product(quaternion, _quaternion(dv[:3]))]
     )
@@ -72,14 +73,18 @@ def _product(a: Array, b: Array) -> Array:
 
 def _rotate(quaternion: Array, x: Array) -> Array:
     """Return u x u⁻¹ for a quaternion u of any length."""
-    u, w, square = quaternion[:3], quaternion[3], (quaternion * quaternion).sum()
+    u = quaternion[:3]
+    w = quaternion[3]
+    square = (quaternion * quaternion).sum()
     rotated: Array = x + 2 * (w * cross(u, x) + cross(u, cross(u, x))) / square
     return rotated
 
 
 def _shift(w: Array, v: Array) -> Array:
     """Return ∫₀¹ exp(t [w]×) v dt = v + w × v / 2! + w × (w × v) / 3! + …, to the last digit."""
-    total, term, k = v, v, 1
+    total = v
+    term = v
+    k = 1
     while (abs(term) > v[0].context.eps * abs(v).max()).any():
         k += 1
         term = cross(w, term) / k

@@ -178,7 +178,8 @@ class Judge:
             raise ValueError("nothing to compare with: neither Pinocchio nor mpmath is there")
         if x.shape != right.high.shape:
             raise ShapeError(f"ours has shape {x.shape}, expected {right.high.shape}")
-        scale, bound = np.abs(right.high).max(initial=0), DEFAULT_RTOL
+        scale = np.abs(right.high).max(initial=0)
+        bound = DEFAULT_RTOL
         if quantity.terms is not None:
             scale = max(scale, CANCELLED_SHARE * quantity.terms(self.model, s))
         if quantity.bound is not None:

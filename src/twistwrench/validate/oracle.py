@@ -37,7 +37,8 @@ class Oracle:
     """
 
     def __init__(self, ours: Model, path: Path | None) -> None:
-        self.pin, self.ours = bridge.import_pinocchio(), ours
+        self.pin = bridge.import_pinocchio()
+        self.ours = ours
         if path is None:
             self.model = bridge.to_pinocchio_model(ours)
         else:

@@ -104,7 +104,8 @@ class Report:
 
     def summary(self) -> str:
         """Return the last line."""
-        good, time = len(self.rows) - len(self.failed), f"{self.seconds:.1f} s"
+        good = len(self.rows) - len(self.failed)
+        time = f"{self.seconds:.1f} s"
         if not self.rows:
             return f"nothing moves: nothing to compare · {time}"
         if self.passed:

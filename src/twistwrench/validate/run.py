@@ -97,7 +97,8 @@ def validate(
     for name, value, least in (("states", states, 1), ("truths", truths, 0), ("frames", frames, 1)):
         as_count(value, name, least)
     model, path = _load(robot, base)
-    oracle, context = _oracle(model, path), _context()
+    oracle = _oracle(model, path)
+    context = _context()
     if oracle is None and context is None:
         raise ImportError(NOTHING_TO_COMPARE_WITH)
     at = random_states(model, states, rng=rng, frames=frames)

@@ -125,10 +125,12 @@ def header() -> str:
 
 def line(outcome: Outcome) -> str:
     """Return an outcome's line of the table, and below it the notes on its rows."""
-    report, name = outcome.report, outcome.robot.replace(PREFIX, "…/")
+    report = outcome.report
+    name = outcome.robot.replace(PREFIX, "…/")
     if report is None:
         return _aligned((name, outcome.base, "", "", outcome.error))
-    row, count = report.worst, f"{len(report.rows) - len(report.failed)}/{len(report.rows)}"
+    row = report.worst
+    count = f"{len(report.rows) - len(report.failed)}/{len(report.rows)}"
     what = row.quantity if row else "(nothing moves)"
     numbers = map(number, (row.ours_vs_pinocchio, row.ours_vs_truth, row.bound)) if row else [""] * 3
     cells = (name, outcome.base, str(report.nv), count, what, *numbers, "✓" if outcome.passed else "✗")
@@ -144,7 +146,8 @@ def summary(outcomes: Sequence[Outcome], seconds: float) -> str:
     missing = {text: None for o in outcomes if o.report for text in o.report.missing}
     if example_robot_data_folder() is None:
         missing["example-robot-data is not installed: its robots are left out (pip install example-robot-data)"] = None
-    good, rows = sum(o.passed for o in outcomes), sum(len(o.report.rows) for o in outcomes if o.report)
+    good = sum(o.passed for o in outcomes)
+    rows = sum(len(o.report.rows) for o in outcomes if o.report)
     names = ", ".join(f"{o.robot} ({o.base})" for o in outcomes if not o.passed)
     line = (
         f"{good} of {len(outcomes)} robots and bases inside all their bounds, {rows} rows"

@@ -58,7 +58,8 @@ def _view(args: argparse.Namespace, **how: Any) -> Any:
     from ..loading import load
     from .viewer import view
 
-    model, q = load(args.robot, base=args.base, physical=False), None
+    model = load(args.robot, base=args.base, physical=False)
+    q = None
     if args.posture is not None:
         if args.posture not in model.postures:
             raise unknown_name("posture", args.posture, model.postures, f" of {args.robot!r}")

@@ -32,7 +32,8 @@ def add_joints(gui: Any, seen: Subject, show: Callable[[Array], None]) -> None:
     show : callable
         Shows a configuration.
     """
-    model, q = seen.model, np.array(seen.q)
+    model = seen.model
+    q = np.array(seen.q)
 
     def follow(s: slice) -> Callable[[Any], None]:
         def moved(event: Any) -> None:
@@ -67,7 +68,8 @@ def add_time(gui: Any, t: Array, show: Callable[[int], None]) -> Any:
     viser.GuiCheckboxHandle
         The box: while its value is true, it plays.
     """
-    first, last = float(t[0]), float(t[-1])
+    first = float(t[0])
+    last = float(t[-1])
     slider = gui.add_slider("time [s]", first, last, (last - first) / 1000, first)
     runs = gui.add_checkbox("play", initial_value=False)
 

@@ -27,7 +27,8 @@ def is_own_page(headers: Mapping[str, str]) -> bool:
     >>> is_own_page({"Host": "127.0.0.1:8080", "Origin": "http://evil.example"})
     False
     """
-    host, origin = headers.get("Host", ""), headers.get("Origin")
+    host = headers.get("Host", "")
+    origin = headers.get("Origin")
     try:
         here = urlsplit(f"//{host}").hostname in LOCAL_HOSTS
     except ValueError:
@@ -40,7 +41,8 @@ def only_own_page() -> Iterator[None]:
     """Let the server that viser starts within accept its own page only: viser itself accepts any ``Origin``."""
     from websockets.asyncio import server
 
-    serve, guarded = server.serve, []
+    serve = server.serve
+    guarded = []
 
     def guarded_serve(*args: Any, **options: Any) -> Any:
         answer = options.get("process_request")

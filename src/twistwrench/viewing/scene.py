@@ -98,9 +98,12 @@ def _sticks(scene: Any, seen: Subject) -> Mover:
     """Add rods from joint to joint, and a ball at each."""
     import trimesh
 
-    radius, n = 0.015 * seen.box()[1], len(sticks(seen.model, seen.q))
-    rod, ball = trimesh.creation.cylinder(1.0, 1.0), trimesh.creation.icosphere(2)
-    at, turned = np.zeros((n, 3)), np.tile([1.0, 0, 0, 0], (n, 1))
+    radius = 0.015 * seen.box()[1]
+    n = len(sticks(seen.model, seen.q))
+    rod = trimesh.creation.cylinder(1.0, 1.0)
+    ball = trimesh.creation.icosphere(2)
+    at = np.zeros((n, 3))
+    turned = np.tile([1.0, 0, 0, 0], (n, 1))
     rods = scene.add_batched_meshes_simple(
         "/rods",
         rod.vertices,
@@ -184,7 +187,8 @@ def _support(scene: Any, seen: Subject) -> Mover:
         if len(corners) > 0:
             corners = hull(corners)
             if plumb.visible:
-                c, floor = center_of_mass(seen.model, seen.q), corners[:, 2].mean()
+                c = center_of_mass(seen.model, seen.q)
+                floor = corners[:, 2].mean()
                 plumb.points = np.array([[c, [c[0], c[1], floor]]], np.float32)
             corners[:, 2] += above
             corners = corners[np.minimum(np.arange(n), len(corners) - 1)]  # as many as there may be at most
@@ -196,7 +200,8 @@ def _support(scene: Any, seen: Subject) -> Mover:
 
 def _forces(scene: Any, seen: Subject, largest: float) -> Mover:
     """Add an arrow at each contact, with its size."""
-    k, extent = len(seen.contacts), seen.box()[1]
+    k = len(seen.contacts)
+    extent = seen.box()[1]
     node = scene.add_arrows("/forces", np.zeros((k, 2, 3)), _rgb("black"), **_thin(0.15 * extent))
     labels = [scene.add_label(f"/forces/{k}", "") for k in range(k)]
 

@@ -101,14 +101,17 @@ class Subject:
             return None
         for k, c in enumerate(self.contacts):
             if c.dim == 6:  # the wrench of a sole has no moment along the sole about its centre of pressure (49.4)
-                moment, force, normal = found[c.frame][:3], found[c.frame][3:], T[c.frame].rotation[:, 2]
+                moment = found[c.frame][:3]
+                force = found[c.frame][3:]
+                normal = T[c.frame].rotation[:, 2]
                 feet[k] += np.cross(normal, moment) / (normal @ force or 1.0)  # a sole without a force has no moment
         return Forces(feet, np.array([found[c.frame][-3:] for c in self.contacts]))
 
     def texts(self, forces: Forces) -> list[str]:
         """Return what to write at the forces: the size of each; of several on a body, their sum at the outermost."""
         bodies = np.array([self.model.frames[c.frame].body for c in self.contacts])
-        texts, outwards = [""] * len(bodies), np.linalg.norm(forces.at - forces.at.mean(axis=0), axis=-1)
+        texts = [""] * len(bodies)
+        outwards = np.linalg.norm(forces.at - forces.at.mean(axis=0), axis=-1)
         for body in np.unique(bodies):
             (on,) = np.nonzero(bodies == body)
             size = float(np.linalg.norm(forces.vectors[on].sum(axis=0)))
