@@ -256,3 +256,19 @@ def test_a_fraction_has_only_the_functions_that_are_fractions():
             elementary(name, x)
     with pytest.raises(ValueError, match=r"q: expected floating-point numbers, got an array of objects; \.astype"):
         tw.crba(TWO, np.array([0.1, 0.2], object))
+
+
+def test_constants_that_are_symbols_are_named_where_floats_are_needed():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed")
+    builder, symbol = tw.Builder("pendulum"), sympy.Symbol("l")
+    rod = tw.SpatialInertia(1.0, [0, 0, -0.3], np.eye(3))
+    unknown = {
+        "placement": tw.SE3(np.eye(3), [0, 0, symbol]),
+        "inertia": tw.SpatialInertia(symbol, [0, 0, 0], np.eye(3)),
+    }
+    for name, value in unknown.items():
+        with pytest.raises(tw.ModelError, match=r"link 'rod': .* got symbols: .*l"):
+            builder.link("rod", parent="base_link", joint=tw.Revolute("y"), **{name: value})
+    root_two = tw.SE3(np.eye(3), [0, 0, sympy.sqrt(2)])  # has a value
+    builder.link("rod", parent="base_link", joint=tw.Revolute("y"), inertia=rod, placement=root_two)
+    assert builder.build().placement[1].translation[2] == np.sqrt(2)

@@ -106,7 +106,12 @@ def convert(x: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
     array([Fraction(2, 1), Fraction(1, 2)], dtype=object)
     """
     number = np.dtype(dtype)
-    return exact_numbers(x, "constant", number) if number.hasobject else x.astype(number)
+    if number.hasobject:
+        return exact_numbers(x, "constant", number)
+    try:
+        return x.astype(number)
+    except TypeError:  # SymPy's for what has no value; sqrt(2) has one
+        raise ValueError(f"constant: expected numbers that can become {number}, got symbols: {x.tolist()}") from None
 
 
 def judged(x: NDArray[Any]) -> NDArray[Any]:
@@ -183,7 +188,9 @@ def _of_fraction(name: str, x: int | Fraction) -> Fraction:
             return root
     elif name != "sqrt" and x == 0:
         return Fraction(name == "cos")
-    raise ValueError(f"the {name} of {x} is not a fraction; SymPy's numbers and floats have one")
+    raise ValueError(
+        f"the {name} of {x} is not a fraction; a number of SymPy's has one, and a float with no exact number beside it"
+    )
 
 
 def _exact(x: Any) -> Any:
