@@ -75,10 +75,8 @@ def test_what_takes_no_couplings_refuses_it_by_name():
 def test_a_robot_whose_knees_follow_lands_on_the_ground():
     """Both hind knees by one coordinate: they stay alike, and in the end the feet carry the weight."""
     go2 = tw.load("go2")
-    model, feet = (
-        follow(go2, {"RR_calf_joint": ("RL_calf_joint", 1.0, 0.0)}),
-        [tw.PointContact(f, 0.6) for f in go2.feet],
-    )
+    model = follow(go2, {"RR_calf_joint": ("RL_calf_joint", 1.0, 0.0)})
+    feet = [tw.PointContact(foot, 0.6) for foot in go2.feet]
     stand = go2.standing()[model.kept_q]
     hold = tw.static_equilibrium(go2, go2.standing()).tau @ model.G[6:, 6:]
 

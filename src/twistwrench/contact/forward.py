@@ -21,7 +21,7 @@ from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose
 from .relative import contact_errors, given_motion
-from .rows import as_contacts, constraint_bias, contact_terms, per_contact, real_state
+from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact
 
 __all__ = ["Baumgarte", "ContactDynamics", "contact_forward_dynamics"]
@@ -185,7 +185,7 @@ def contact_forward_dynamics(
     size = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION * (size + largest(np.matvec(W, target)))).any():
         held = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
-        wanted = np.matvec(W, asked - constraint_bias(model, q, held, contacts))
+        wanted = np.matvec(W, asked - contact_terms(model, q, held, contacts).bias)
         refuse_contradiction(contacts, wanted - parts.within(wanted), CONTRADICTION * (size + largest(wanted)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)

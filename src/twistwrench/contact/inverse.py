@@ -149,7 +149,7 @@ def friction_inverse_dynamics(
     effort_limits = as_flag(effort_limits, "effort_limits")
     if effort_limits:
         check_model(model)  # of motors that move together it is open which one bears what
-    motors = task.motors(model) if effort_limits else None
+    motors = task.motors(model) if effort_limits else None  # type: ignore[arg-type]
     rows, free = contact_limits(task.contacts, sides, pyramid), task.free
     rows = rows.join(motors) if motors else rows
     A, b = rows.A @ free, rows.b - rows.A @ task.least

@@ -115,7 +115,7 @@ def stance_margins(
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
     contact_limits(contacts, sides, pyramid)  # raises for invalid `sides` and `pyramid` where it falls, too
-    tip = tip_distance(model, q, contacts)
+    tip = tip_distance(model, q, contacts)  # type: ignore[arg-type]
     try:
         task = Task.of(model, q, rest, rest, contacts, None)
     except Unbalanced as error:
@@ -185,7 +185,7 @@ def _with_friction(contact: Contact, mu: float) -> Contact:
     return other
 
 
-def tip_distance(model: Model | MimicModel, q: Array, contacts: Iterable[Contact]) -> float:
+def tip_distance(model: Model, q: Array, contacts: Iterable[Contact]) -> float:
     """Return how far inside the support polygon the centre of mass is, seen along gravity, m."""
     G = center_of_mass(model, q)
     places = contact_placements(model, q, contacts)
