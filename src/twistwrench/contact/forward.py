@@ -13,13 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_number
 from ..errors import SingularError
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose
-from .relative import contact_errors, contact_rows, given_motion
+from .relative import contact_errors, given_motion
 from .rows import as_contacts, contact_terms, per_contact, real_state
 from .types import Contact
 
@@ -106,7 +107,7 @@ class ContactDynamics:
 
 
 def contact_forward_dynamics(
-    model: Model,
+    model: Model | MimicModel,
     q: ArrayLike,
     v: ArrayLike,
     tau: ArrayLike,
@@ -122,7 +123,7 @@ def contact_forward_dynamics(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v, tau : array_like, shape (..., nv)
         As `aba`: velocity and joint forces, of which the first six of a floating base are a wrench from outside.
@@ -184,7 +185,7 @@ def contact_forward_dynamics(
     size = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION * (size + largest(np.matvec(W, target)))).any():
         held = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
-        wanted = np.matvec(W, asked - contact_rows(model, q, held, contacts).bias)
+        wanted = np.matvec(W, asked - contact_terms(model, q, held, contacts).bias)
         refuse_contradiction(contacts, wanted - parts.within(wanted), CONTRADICTION * (size + largest(wanted)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)

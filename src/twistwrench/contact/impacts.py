@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_number
 from ..compiler import Results
 from ..model import Model
@@ -43,7 +44,7 @@ class Impact:
 
 
 def impact(
-    model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact], *, restitution: float = 0.0
+    model: Model | MimicModel, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact], *, restitution: float = 0.0
 ) -> Impact:
     """Return the velocity after an impact in which all contacts close at once, J v⁺ = −e J v⁻.
 
@@ -52,7 +53,7 @@ def impact(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
         v⁻, the velocity just before the impact.
@@ -95,7 +96,9 @@ def impact(
     return jump(model, v, contacts, contact_terms(model, q, v, contacts), restitution)
 
 
-def jump(model: Model, v: Array, contacts: Sequence[Contact], terms: Results, restitution: float = 0.0) -> Impact:
+def jump(
+    model: Model | MimicModel, v: Array, contacts: Sequence[Contact], terms: Results, restitution: float = 0.0
+) -> Impact:
     """Return the impact at a velocity, from the terms of the configuration."""
     J, W = terms.J, terms.W
     parts = decompose(model, terms.M, W @ J)

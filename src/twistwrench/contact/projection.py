@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_count, as_number
 from ..errors import SingularError
 from ..fast.steps import integrate
@@ -23,7 +24,7 @@ __all__ = ["project_state"]
 
 
 def project_state(
-    model: Model,
+    model: Model | MimicModel,
     q: ArrayLike,
     v: ArrayLike,
     contacts: Iterable[Contact],
@@ -38,7 +39,7 @@ def project_state(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
     contacts : iterable of Contact
@@ -90,7 +91,8 @@ def project_state(
         if not far.any():
             return q, jump(model, v, contacts, terms).v
         parts = decompose(model, terms.M, terms.W @ terms.J)
-        q = integrate(model, q, -parts.unwhiten(parts.respond(error)[0]))
+        way = -parts.unwhiten(parts.respond(error)[0])
+        q = model.integrate(q, way) if isinstance(model, MimicModel) else integrate(model, q, way)
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])
     raise SingularError(

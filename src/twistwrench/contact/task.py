@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_names
-from ..errors import SingularError
-from ..model import Model, check_model
+from ..errors import SingularError, check_known
+from ..model import Model
 from ..spatial._elementary import at_first_index
 from .decomposition import Decomposition, decompose, point_map
 from .limits import Limits, motor_limits
@@ -50,14 +51,14 @@ class ContactForces:
     residual: Array
 
 
-def passive_entries(model: Model, motors: Iterable[str] | None) -> Array:
+def passive_entries(model: Model | MimicModel, motors: Iterable[str] | None) -> Array:
     """Return the entries of v that have no motor."""
-    check_model(model)
     free = np.arange(model.nv) < (6 if model.base == "floating" else 0)
     if motors is not None:
         free[:] = True
         for name in as_names(motors, "motors", "joint names"):
-            free[model.v_slice[model.joint_id(name)]] = False
+            check_known("joint", name, model.joint_names, f" of model {model.name!r}")
+            free[model.v_slice[model.joint_names.index(name)]] = False
     return np.flatnonzero(free)
 
 
@@ -93,7 +94,7 @@ class Task:
     @classmethod
     def of(
         cls,
-        model: Model,
+        model: Model | MimicModel,
         q: ArrayLike,
         v: ArrayLike,
         a: ArrayLike,
