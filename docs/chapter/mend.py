@@ -80,7 +80,12 @@ def dressed(text: str, chapter: str, start: int, end: int) -> str:
         text = re.sub(rf"(?<![\w.`]){re.escape(code)}(?![\w.`])", f"`{code}`", text, flags=re.ASCII)
     line = chapter[chapter.rfind("\n", 0, start) + 1 : start]
     indentation = line[: len(line) - len(line.lstrip(" \t>"))]
-    return text.replace("\n", f"\n{indentation}")
+    return text.replace("\n", f"{line_end(chapter)}{indentation}")
+
+
+def line_end(chapter: str) -> str:
+    """Return how the lines of a chapter end."""
+    return "\r\n" if "\r\n" in chapter else "\n"
 
 
 def mend(chapter: str, wanted: list[Correction]) -> tuple[str, list[Correction]]:
@@ -98,7 +103,7 @@ def mend(chapter: str, wanted: list[Correction]) -> tuple[str, list[Correction]]
 
 def difference(old: str, new: str, name: str) -> str:
     """Return what turns one text into the other, as a unified diff."""
-    lines = (text.splitlines(keepends=True) for text in (old, new))
+    lines = (re.findall(r"[^\n]*\n|[^\n]+", text) for text in (old, new))  # a form feed ends no line of a patch
     found = difflib.unified_diff(*lines, f"a/{name}", f"b/{name}", n=1)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in found)
 
@@ -110,12 +115,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("patches", type=Path, help="the folder to write them into")
     asked = parser.parse_args(arguments)
     asked.patches.mkdir(parents=True, exist_ok=True)
-    text, missed = asked.chapter.read_text(encoding="utf-8"), []
+    text, missed = asked.chapter.read_bytes().decode("utf-8"), []  # with its line ends
     for k, patch in enumerate(patches(), 1):
         mended, not_there = mend(text, [each for each in corrections() if each.entry in patch.entries])
         head = f"{patch.title}\n\n{patch.shows}\n\n"
         body = head + difference(text, mended, asked.chapter.name)
-        (asked.patches / f"{k:02}-{patch.name}.patch").write_text(body, encoding="utf-8")
+        (asked.patches / f"{k:02}-{patch.name}.patch").write_bytes(body.encode("utf-8"))
         text, missed = mended, missed + not_there
     for correction in missed:
         print(f"not found {correction.times} time(s): {correction.find!r} ({correction.entry})", file=sys.stderr)

@@ -256,3 +256,32 @@ def test_a_fraction_has_only_the_functions_that_are_fractions():
             elementary(name, x)
     with pytest.raises(ValueError, match=r"q: expected floating-point numbers, got an array of objects; \.astype"):
         tw.crba(TWO, np.array([0.1, 0.2], object))
+
+
+def test_constants_that_are_symbols_are_named_where_floats_are_needed():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed")
+    builder, symbol = tw.Builder("pendulum"), sympy.Symbol("l")
+    rod = tw.SpatialInertia(1.0, [0, 0, -0.3], np.eye(3))
+    unknown = {
+        "placement": tw.SE3(np.eye(3), [0, 0, symbol]),
+        "inertia": tw.SpatialInertia(symbol, [0, 0, 0], np.eye(3)),
+    }
+    for name, value in unknown.items():
+        with pytest.raises(tw.ModelError, match=r"link 'rod': .* got symbols: .*l"):
+            builder.link("rod", parent="base_link", joint=tw.Revolute("y"), **{name: value})
+    root_two = tw.SE3(np.eye(3), [0, 0, sympy.sqrt(2)])  # has a value
+    builder.link("rod", parent="base_link", joint=tw.Revolute("y"), inertia=rod, placement=root_two)
+    assert builder.build().placement[1].translation[2] == np.sqrt(2)
+
+
+def test_floats_of_q_have_a_cosine_beside_symbols_of_another_argument():
+    sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
+    model, q, a = tw.load("double_pendulum"), [0.1, 0.25], sympy.symbols("a1 a2")
+    M, g = tw.crba(model, q), tw.gravity(model, q)
+    for function in (tw.rnea, tw.newton_euler_3d.inverse_dynamics):
+        tau = function(model, q, [0, 0], a)
+        assert "cos(1/10)" in str(tau[0])
+        parts = [[float(sympy.diff(one, x)) for x in a] for one in tau]
+        np.testing.assert_allclose(parts, M, rtol=0, atol=1e-15)
+        at_rest = [float(one.subs(dict.fromkeys(a, 0))) for one in tau]
+        np.testing.assert_allclose(at_rest, g, rtol=0, atol=1e-14)

@@ -98,6 +98,14 @@ def test_the_acceleration_is_the_same_but_for_the_turning_of_a_free_joint(seed):
     np.testing.assert_allclose(back, np.stack([data.qacc] * 2), rtol=0, atol=1e-12 * np.abs(a).max())
 
 
+def test_the_bias_force_is_that_of_its_own_acceleration_of_zero():
+    _, data, here, q, v = both(EVERY_JOINT, 0)
+    bias = bridge.from_mujoco_tangent(here, q, data.qfrc_bias)
+    resting = bridge.from_mujoco_acceleration(here, q, v, np.zeros(here.nv))
+    np.testing.assert_allclose(tw.rnea(here, q, v, resting), bias, rtol=0, atol=1e-12 * np.abs(bias).max())
+    assert np.abs(tw.nonlinear_effects(here, q, v) - bias).max() > 0.1
+
+
 def test_states_go_both_ways():
     *_, here, q, v = both(EVERY_JOINT, 0)
     qs, vs = np.stack([q, q]), np.stack([v, 2 * v])
@@ -130,6 +138,13 @@ def test_what_has_a_force_there_and_none_here_is_reported():
     assert here.base == "fixed"
     np.testing.assert_allclose(tw.nonlinear_effects(here, q, v), data.qfrc_bias, rtol=0, atol=1e-13)
     assert {"body:arm", "joint:arm"} & {*here.frame_names}  # one name, two places
+
+
+def test_the_range_of_a_ball_is_reported():
+    xml = '<mujoco><worldbody><body><joint name="hip" type="ball" range="0 40"/><geom size="0.1"/></body></worldbody>'
+    here = bridge.from_mujoco_model(mujoco.MjModel.from_xml_string(f"{xml}</mujoco>"))
+    assert [(entry.where, entry.read_as) for entry in here.report] == [("joint 'hip'", "no limit")]
+    assert "0.698" in here.report[0].found
 
 
 def test_what_cannot_be_converted_is_named():

@@ -224,6 +224,22 @@ def test_a_rotor_that_cannot_be_read_is_reported(save, transmission):
     refuse(save(changed(JOINT, JOINT + DRAKE.replace("0.0001321", "-1"))), "joint 'j'", "rotor_inertia is -1")
 
 
+def test_errors_about_rotors_name_what_stands_in_the_file(save):
+    space = GOOD.replace('"r"', '"r" xmlns:drake="http://drake.mit.edu"')
+    unread = space.replace(JOINT, JOINT + DRAKE.replace("0.0001321", "much"))
+    refuse(save(unread), "joint 'j'", "<drake:rotor_inertia value='much'>")
+    nobody = DRAKE.replace('<joint name="j"/>', "").replace(' name="t"', "")
+    _, message = load_warned(save(space.replace(JOINT, JOINT + nobody)))
+    assert "<transmission> of 0 joints" in message
+
+
+@pytest.mark.parametrize("place", ["<joint ", "<limit "])
+def test_an_armature_where_none_is_read_is_reported(save, place):
+    model, message = load_warned(save(changed(place, place + 'armature="0.2" ')))
+    assert model.armature[0] == 0
+    assert f"attribute 'armature' of {place.strip()}>" in message
+
+
 def test_a_gear_alone_weighs_nothing_and_is_noted(save):
     gear = DRAKE.replace("drake:rotor_inertia", "x").replace("drake:gear_ratio", "y")
     gear = gear.replace("</actuator>", "<mechanicalReduction>50</mechanicalReduction></actuator>")

@@ -243,6 +243,13 @@ def test_arrays_that_a_model_is_made_of_stay_the_callers():
         ({"inertia": (*GO2.inertia[:-1], tw.SpatialInertia([1, 2], np.zeros(3), np.eye(3)))}, tw.ShapeError, r"\(2,\)"),
         ({"frames": {"tip": Frame(14, tw.SE3.identity())}}, tw.ModelError, "'tip': .* from 0 to 13, got 14"),
         ({"frames": {"tip": tw.SE3.identity()}}, TypeError, "frame 'tip': expected a Frame"),
+        ({"frames": {"tip": Frame(1.0, tw.SE3.identity())}}, tw.ModelError, "'tip': .* from 0 to 13, got 1.0"),
+        ({"frames": {3: Frame(1, tw.SE3.identity())}}, TypeError, "frames: expected a name, got int 3"),
+        ({"postures": {3: GO2.standing()}}, TypeError, "postures: expected a name, got int 3"),
+        ({"parent": (*GO2.parent[:-1], 12.0)}, tw.ModelError, "'RR_calf_joint': expected a parent .*, got 12.0"),
+        ({"parent": (*GO2.parent[:-1], True)}, tw.ModelError, "'RR_calf_joint': expected a parent .*, got True"),
+        ({"placement": (tw.SE3(np.eye(3), [1, 0, 0]), *GO2.placement[1:])}, tw.ModelError, "identity for 'universe'"),
+        ({"inertia": (GO2.inertia[1], *GO2.inertia[1:])}, tw.ModelError, "inertia: expected zero for 'universe'"),
         ({"report": "nothing"}, TypeError, "report: expected a LoadReport"),
     ],
     ids=lambda x: str(x)[:30] if isinstance(x, dict) else "",
@@ -277,6 +284,12 @@ def test_rotors_given_as_twelve_numbers_are_those_of_the_joints():
     q = GO2.standing()
     added = tw.crba(geared, q) - tw.crba(GO2, q)
     assert close(added, np.diag([0.0] * 6 + [0.01] * 12), 1e-15)
+
+
+def test_parents_may_be_numbers_of_numpy():
+    copied = replace(GO2, parent=np.array(GO2.parent))
+    assert copied.parent == GO2.parent
+    assert {type(p) for p in copied.parent} == {int}
 
 
 def test_model_survives_pickling_and_copying():

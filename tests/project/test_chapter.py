@@ -6,6 +6,8 @@
 import os
 import re
 import runpy
+import shutil
+import subprocess
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -168,6 +170,24 @@ def test_the_patches_are_made_in_order_and_what_is_not_found_is_reported(
     assert [text[0] for text in lines] == [patch.title for patch in own["patches"]()]
     assert "+        X[i] = X_J(q[i]) * X_tree[i]" in lines[2]  # ABA and CRBA
     assert "+    I_manual[3:, 3:] = Ic - m_link * cx @ cx" in lines[3]  # the order (v, ω)
+
+
+@pytest.mark.parametrize(
+    ("end", "between"), [("\n", ""), ("\r\n", ""), ("\n", "\x0c\u2028")], ids=["unix", "windows", "page"]
+)
+def test_the_patches_apply_to_a_chapter_with_any_line_ends(
+    own: dict[str, Any], tmp_path: Path, end: str, between: str
+) -> None:
+    patch = shutil.which("patch")
+    if patch is None:
+        pytest.skip("patch is not installed: the patches are not applied")
+    chapter, source = tmp_path / "chapter.md", MARKDOWN.replace("\n\n", f"{between}\n\n").replace("\n", end)
+    chapter.write_bytes(source.encode())
+    own["main"]([str(chapter), str(tmp_path / "patches")])
+    for made in sorted((tmp_path / "patches").iterdir()):
+        if "@@" in made.read_text(encoding="utf-8"):
+            subprocess.run([patch, str(chapter), str(made)], check=True, capture_output=True)
+    assert chapter.read_bytes().decode() == MENDED.replace("\n\n", f"{between}\n\n").replace("\n", end)
 
 
 # ---------------------------------------------------------------- with a copy of the chapter

@@ -64,6 +64,13 @@ def test_a_measured_rotation_is_projected_as_mujoco_does():
         np.testing.assert_allclose(tw.nearest_rotation(R), there.reshape(3, 3), rtol=0, atol=1e-6)
 
 
+def test_a_matrix_of_rank_two_has_no_determinant_whatever_sign_rounding_leaves():
+    given = np.arange(1.0, 10).reshape(3, 3)
+    for R in (given, given[::-1], given[[1, 0, 2]], given.T):
+        with pytest.raises(ValueError, match="positive determinant, got zero"):
+            tw.nearest_rotation(R)
+
+
 @pytest.mark.parametrize("bad", [np.diag([1, 1, -1.0]), np.zeros((3, 3)), np.ones((3, 3)), np.diag([1, 1, 0.0])])
 def test_without_a_positive_determinant_no_rotation_is_the_nearest(bad):
     with pytest.raises(ValueError, match=r"^R: .* positive determinant, .* at index \(1,\)$") as e:

@@ -246,3 +246,23 @@ def test_what_no_body_can_be_scaled_by_is_refused_with_what_works():
         body * body
     with pytest.raises(ValueError, match="scale: expected numbers, got 'two'"):
         body * "two"
+
+
+def test_a_scale_beside_exact_numbers_is_exact_in_all_ten():
+    third = Fraction(1, 3) * SpatialInertia(0.5, [0, 0, 0.25], np.diag([1.0, 2.0, 3.0]))
+    assert third.mass == Fraction(1, 6)
+    assert isinstance(third.mass[()], Fraction)
+    assert third.inertia_at_com.diagonal().tolist() == [Fraction(1, 3), Fraction(2, 3), 1]
+    assert (third / Fraction(1, 3)).mass == Fraction(1, 2)
+
+
+def test_a_body_is_divided_by_numbers_alone_and_without_overflow():
+    body = SpatialInertia(2.0, [0, 0, 0.1], np.eye(3))
+    for other in (tw.Twist(np.ones(6)), tw.Wrench(np.ones(6)), body):
+        with pytest.raises(TypeError, match=f"SpatialInertia / {type(other).__name__}: expected a number"):
+            body / other
+    for call in (lambda: 1e308 * body, lambda: body / 1e-320):
+        with pytest.raises(ValueError, match="scale, mass, inertia_at_com: expected smaller numbers"):
+            call()
+    single = SpatialInertia(np.float32(2), np.zeros(3, np.float32), np.eye(3, dtype=np.float32))
+    assert (single / np.array([2, 4])).mass.dtype == (single * np.array([2, 4])).mass.dtype == np.float32

@@ -41,6 +41,8 @@ RESULTS = {
     **dict.fromkeys(("centroidal_momentum", "centroidal_momentum_rate", "centroidal_inertia"), UNCHANGED),
     **dict.fromkeys(("center_of_mass_velocity", "center_of_mass_acceleration"), UNCHANGED),
     **dict.fromkeys(("point_velocity", "point_acceleration"), UNCHANGED),
+    "constraint_jacobian": COLUMNS,
+    **dict.fromkeys(("constraint_bias", "contact_placements"), UNCHANGED),
 }
 """How each function's result is projected. J̇ v and ȧ need no extra term: G is constant."""
 
@@ -50,9 +52,9 @@ class MimicModel(ConfigurationSpace):
     """A model some of whose joints follow others; made by ``twistwrench.load(file, mimic="reduce")``.
 
     `rnea`, `aba`, `crba`, `nonlinear_effects`, `gravity`, `coriolis_matrix`, the kinematics, Jacobians, energies, the
-    centroidal quantities and `dynamics` take it in the place of a `Model`. Other functions, those of ``tw.fast`` too,
-    raise TypeError; they take `full`, with the q and v of `expand`. Where they take contacts, as `simulate` and `Scene`
-    do, a `Coupling` for each joint that follows makes it follow there.
+    centroidal quantities and `dynamics` take it in the place of a `Model`, and so do `simulate` and the functions of
+    contacts. Other functions, those of ``tw.fast`` too, raise TypeError; they take `full`, with the q and v of
+    `expand`. Where they take contacts, as `Scene` does, a `Coupling` for each joint that follows makes it follow there.
 
     Parameters
     ----------

@@ -106,7 +106,12 @@ def convert(x: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
     array([Fraction(2, 1), Fraction(1, 2)], dtype=object)
     """
     number = np.dtype(dtype)
-    return exact_numbers(x, "constant", number) if number.hasobject else x.astype(number)
+    if number.hasobject:
+        return exact_numbers(x, "constant", number)
+    try:
+        return x.astype(number)
+    except TypeError:  # SymPy's for what has no value; sqrt(2) has one
+        raise ValueError(f"constant: expected numbers that can become {number}, got symbols: {x.tolist()}") from None
 
 
 def judged(x: NDArray[Any]) -> NDArray[Any]:
@@ -150,11 +155,12 @@ def exact_unit(x: NDArray[Any]) -> NDArray[Any]:
     return n
 
 
-def elementary(name: str, x: Any) -> Any:
+def elementary(name: str, x: Any, dtype: DTypeLike = object) -> Any:
     """Return the cos, sin or sqrt of one number that is an object.
 
     The number is asked first (a method of that name), then the context that it carries (mpmath's), then the package
-    that it is from (SymPy's). Whole numbers and fractions have only those values that are fractions themselves.
+    that it is from (SymPy's). Whole numbers and fractions have only those values that are fractions themselves; among
+    symbols, in an array of `SYMBOLS`, SymPy has the others.
 
     Raises
     ------
@@ -167,7 +173,7 @@ def elementary(name: str, x: Any) -> Any:
     (Fraction(3, 5), Fraction(1, 1))
     """
     if isinstance(x, int | Fraction):
-        return _of_fraction(name, x)
+        return _of_fraction(name, x, bool(np.dtype(dtype).metadata))
     package = sys.modules.get(home(x).partition(".")[0])
     for place in (x, getattr(x, "context", None), package):
         function = getattr(place, name, None)
@@ -176,14 +182,19 @@ def elementary(name: str, x: Any) -> Any:
     raise ValueError(f"expected numbers that have a {name}, got a {type(x).__name__}")
 
 
-def _of_fraction(name: str, x: int | Fraction) -> Fraction:
+def _of_fraction(name: str, x: int | Fraction, among_symbols: bool) -> Any:
     if name == "sqrt" and x >= 0:
         root = Fraction(isqrt(x.numerator), isqrt(x.denominator))
         if root * root == x:
             return root
     elif name != "sqrt" and x == 0:
         return Fraction(name == "cos")
-    raise ValueError(f"the {name} of {x} is not a fraction; SymPy's numbers and floats have one")
+    sympy = sys.modules.get("sympy")
+    if among_symbols and sympy and (name != "sqrt" or x > 0):
+        return getattr(sympy, name)(sympy.Rational(x.numerator, x.denominator))
+    raise ValueError(
+        f"the {name} of {x} is not a fraction; a number of SymPy's has one, and a float with no exact number beside it"
+    )
 
 
 def _exact(x: Any) -> Any:

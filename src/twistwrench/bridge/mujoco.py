@@ -184,6 +184,8 @@ def _left_out(there: Any, names: list[str]) -> Iterator[Entry]:
     for name in ("density", "viscosity"):
         if getattr(there.opt, name):
             yield Entry("the file", f"a fluid of {name} {getattr(there.opt, name):g}", "left out")
+    for j in np.flatnonzero(there.jnt_limited.astype(bool) & (there.jnt_type == BALL)):
+        yield Entry(f"joint {names[j + 1]!r}", f"a ball that turns at most {there.jnt_range[j, 1]:g} rad", "no limit")
     for j in np.flatnonzero(there.jnt_stiffness):
         yield Entry(f"joint {names[j + 1]!r}", f"a spring of stiffness {there.jnt_stiffness[j]:g}", "left out")
     for j in np.flatnonzero(_polynomial(there, "jnt_stiffness", there.njnt)):

@@ -96,10 +96,11 @@ def _order(model: Model) -> Array:
 
 
 def from_mujoco_tangent(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
-    """Turn MuJoCo's ``qvel``, or a force over v such as ``qfrc_bias``, into ours: (ω, Rᵀv) of each free joint.
+    """Turn MuJoCo's ``qvel``, or a force over v such as ``qfrc_applied``, into ours: (ω, Rᵀv) of each free joint.
 
     Both change alike, since the map is orthogonal. An acceleration is not one of them: see
-    `from_mujoco_acceleration`.
+    `from_mujoco_acceleration`. Nor is ``qfrc_bias`` then `nonlinear_effects`, where the base turns and moves: it is
+    the force at ``qacc = 0``, `rnea` with ``from_mujoco_acceleration(model, q, v, np.zeros(model.nv))``.
 
     Parameters
     ----------
@@ -132,9 +133,9 @@ def from_mujoco_tangent(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
 
 
 def to_mujoco_tangent(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
-    """Turn our v, τ or h into MuJoCo's: the inverse of `from_mujoco_tangent`, with the same errors.
+    """Turn our v or τ into MuJoCo's: the inverse of `from_mujoco_tangent`, with the same errors.
 
-    Of an acceleration `to_mujoco_acceleration` is the one that is right.
+    Of an acceleration `to_mujoco_acceleration` is the one that is right; of h see `from_mujoco_tangent`.
 
     Parameters
     ----------

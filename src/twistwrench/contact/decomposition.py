@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..algorithms.mimic import MimicModel
 from ..algorithms.singular import ROUNDINGS
 from ..arrays import Array, convert, resolution
 from ..errors import SingularError
@@ -67,7 +68,7 @@ class Decomposition(NamedTuple):
         return np.asarray(np.abs(np.linalg.solve(self.L, b[..., None])).max(axis=(-2, -1), initial=0))
 
 
-def decompose(model: Model, M: Array, J: Array) -> Decomposition:
+def decompose(model: Model | MimicModel, M: Array, J: Array) -> Decomposition:
     """Decompose J M⁻¹ Jᵀ without forming it; M is the mass matrix of all joints of a model, or of the first.
 
     Rounding in Y comes from J and from the elimination with L, and goes through L⁻¹: a bound for both, entry by entry,
@@ -82,7 +83,7 @@ def decompose(model: Model, M: Array, J: Array) -> Decomposition:
     return Decomposition(L, U, np.where(kept, 1 / np.where(kept, s, 1), 0), Vt.mT)
 
 
-def cholesky_factors(model: Model, M: Array) -> tuple[Array, Array]:
+def cholesky_factors(model: Model | MimicModel, M: Array) -> tuple[Array, Array]:
     """Return L, M = L Lᵀ, and L⁻¹; M is the mass matrix of all joints of a model, or of the first.
 
     Raises
@@ -100,7 +101,7 @@ def cholesky_factors(model: Model, M: Array) -> tuple[Array, Array]:
     return L, L_inv
 
 
-def _without_inertia(model: Model, M: Array) -> str:
+def _without_inertia(model: Model | MimicModel, M: Array) -> str:
     """Return the message with the joints that move nothing that has inertia."""
     own = np.diagonal(M, axis1=-2, axis2=-1)
     names = [repr(name) for name, s in zip(model.joint_names, model.v_slice) if (own[..., s] <= 0).any()]

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_count, as_number
 from ..compiler import Results
 from ..errors import SingularError
@@ -24,7 +25,7 @@ from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .decomposition import decompose
-from .rows import as_contacts, contact_errors, contact_rows, contact_terms, given_motion, per_contact, real_state
+from .rows import as_contacts, contact_errors, contact_terms, given_motion, per_contact, real_state
 from .types import Contact
 
 __all__ = ["Baumgarte", "ContactDynamics", "Impact", "contact_forward_dynamics", "impact", "jump", "project_state"]
@@ -110,7 +111,7 @@ class ContactDynamics:
 
 
 def contact_forward_dynamics(
-    model: Model,
+    model: Model | MimicModel,
     q: ArrayLike,
     v: ArrayLike,
     tau: ArrayLike,
@@ -126,7 +127,7 @@ def contact_forward_dynamics(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v, tau : array_like, shape (..., nv)
         As `aba`: velocity and joint forces, of which the first six of a floating base are a wrench from outside.
@@ -191,7 +192,7 @@ def contact_forward_dynamics(
     size = np.matvec(np.abs(W @ J), np.abs(free)).max(axis=-1, initial=0)
     if (largest(np.matvec(W, residual)) > CONTRADICTION_RTOL * (size + largest(np.matvec(W, target)))).any():
         held = v - parts.unwhiten(parts.respond(np.matvec(W, slip))[0])  # and no drift to bring back
-        wanted = np.matvec(W, asked - contact_rows(model, q, held, contacts).bias)
+        wanted = np.matvec(W, asked - contact_terms(model, q, held, contacts).bias)
         check_contradiction(contacts, wanted - parts.within(wanted), CONTRADICTION_RTOL * (size + largest(wanted)))
     forces = per_contact(contacts, np.matvec(W.mT, mu))
     return ContactDynamics(qdd, forces, parts.rank, J.shape[-2] - parts.rank, slip, residual)
@@ -240,7 +241,7 @@ class Impact:
 
 
 def impact(
-    model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact], *, restitution: float = 0.0
+    model: Model | MimicModel, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact], *, restitution: float = 0.0
 ) -> Impact:
     """Return the velocity after an impact in which all contacts close at once, J v⁺ = −e J v⁻.
 
@@ -249,7 +250,7 @@ def impact(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
         v⁻, the velocity just before the impact.
@@ -292,7 +293,9 @@ def impact(
     return jump(model, v, contacts, contact_terms(model, q, v, contacts), restitution)
 
 
-def jump(model: Model, v: Array, contacts: Sequence[Contact], terms: Results, restitution: float = 0.0) -> Impact:
+def jump(
+    model: Model | MimicModel, v: Array, contacts: Sequence[Contact], terms: Results, restitution: float = 0.0
+) -> Impact:
     """Return the impact at a velocity, from the terms of the configuration."""
     J, W = terms.J, terms.W
     parts = decompose(model, terms.M, W @ J)
@@ -309,7 +312,7 @@ def jump(model: Model, v: Array, contacts: Sequence[Contact], terms: Results, re
 
 
 def project_state(
-    model: Model,
+    model: Model | MimicModel,
     q: ArrayLike,
     v: ArrayLike,
     contacts: Iterable[Contact],
@@ -324,7 +327,7 @@ def project_state(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
     contacts : iterable of Contact
@@ -376,7 +379,8 @@ def project_state(
         if not far.any():
             return q, jump(model, v, contacts, terms).v
         parts = decompose(model, terms.M, terms.W @ terms.J)
-        q = integrate(model, q, -parts.unwhiten(parts.respond(error)[0]))
+        way = -parts.unwhiten(parts.respond(error)[0])
+        q = model.integrate(q, way) if isinstance(model, MimicModel) else integrate(model, q, way)
     left = {frame: float(np.abs(e).max()) for frame, e in per_contact(contacts, error[far][0]).items()}
     worst = max(left, key=lambda frame: left[frame])
     raise SingularError(

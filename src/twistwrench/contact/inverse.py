@@ -10,10 +10,12 @@ from collections.abc import Iterable
 
 from numpy.typing import ArrayLike
 
+from ..algorithms.mimic import MimicModel
 from ..arrays import as_flag
 from ..errors import ShapeError, SingularError
-from ..model import Model
+from ..model import Model, check_model
 from .qp import least_breach, least_within
+from .rows import every_joint
 from .task import WRENCH_RTOL, ContactForces, ContactProblem, contact_limits, passive_entries
 from .types import Contact, Pyramid
 
@@ -21,7 +23,7 @@ __all__ = ["contact_inverse_dynamics", "friction_inverse_dynamics"]
 
 
 def contact_inverse_dynamics(
-    model: Model,
+    model: Model | MimicModel,
     q: ArrayLike,
     v: ArrayLike,
     a: ArrayLike,
@@ -37,7 +39,7 @@ def contact_inverse_dynamics(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v, a : array_like, shape (..., nv)
     contacts : iterable of Contact
@@ -74,12 +76,13 @@ def contact_inverse_dynamics(
     >>> sum(held.forces.values()).round(3) + 0.0
     array([  0.   ,   0.   , 157.794])
     """
+    every_joint(model)
     task = ContactProblem.of(model, q, v, a, contacts, f_ext, passive_entries(model, motors))
     return task.result(task.least, ())
 
 
 def friction_inverse_dynamics(
-    model: Model,
+    model: Model | MimicModel,
     q: ArrayLike,
     v: ArrayLike,
     a: ArrayLike,
@@ -97,7 +100,7 @@ def friction_inverse_dynamics(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (nq,)
         One state.
     v, a : array_like, shape (nv,)
@@ -142,7 +145,9 @@ def friction_inverse_dynamics(
         asked = "q, v, a" if f_ext is None else "q, v, a, f_ext"
         raise ShapeError(f"{asked}: expected one state, got a batch of shape {task.least.shape[:-1]}")
     effort_limits = as_flag(effort_limits, "effort_limits")
-    motors = task.motors(model) if effort_limits else None
+    if effort_limits:
+        check_model(model)  # of motors that move together it is open which one bears what
+    motors = task.motors(model) if effort_limits else None  # type: ignore[arg-type]
     rows = contact_limits(task.contacts, sides, pyramid)
     free = task.free
     rows = rows.join(motors) if motors else rows

@@ -10,6 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms._mimic import also_of_mimics
+from ..algorithms.mimic import MimicModel
 from ..algorithms.rnea import rnea
 from ..arrays import Array, as_sequence, check_kind
 from ..compiler import Results
@@ -32,6 +34,7 @@ __all__ = [
     "contact_placements",
     "contact_rows",
     "contact_terms",
+    "every_joint",
     "given_motion",
     "moved",
     "moved_anchors",
@@ -62,12 +65,13 @@ def contact_rows(model: Model, q: Array, v: Array, contacts: Sequence[Contact]) 
     return ContactRows(at, np.concatenate(J, axis=-2), np.concatenate(bias, axis=-1))
 
 
+@also_of_mimics
 def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> Array:
     """Return J of contacts of any kind: they are at rest where J v = 0.
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     contacts : iterable of Contact
         Of any kind: `PointContact`, `SurfaceContact`, `SphereContact`, `SlidingContact`, `LoopClosure`,
@@ -107,12 +111,13 @@ def constraint_jacobian(model: Model, q: ArrayLike, contacts: Iterable[Contact])
     return contact_rows(model, q, np.zeros(model.nv, q.dtype), contacts).J
 
 
+@also_of_mimics
 def constraint_bias(model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable[Contact]) -> Array:
     """Return J̇ v of contacts of any kind: their accelerations are J q̈ + J̇ v.
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     v : array_like, shape (..., nv)
     contacts : iterable of Contact
@@ -139,12 +144,13 @@ def constraint_bias(model: Model, q: ArrayLike, v: ArrayLike, contacts: Iterable
     return contact_rows(model, q, v, contacts).bias
 
 
+@also_of_mimics
 def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) -> dict[str, SE3]:
     """Return where the contacts' frames are in what holds them: the anchors that later states are held against.
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
     q : array_like, shape (..., nq)
     contacts : iterable of Contact
 
@@ -174,13 +180,15 @@ def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) 
 
 
 def contact_terms(
-    model: Model, q: Array, v: Array, contacts: Sequence[Contact], after: int = 0, /, **others: Array
+    model: Model | MimicModel, q: Array, v: Array, contacts: Sequence[Contact], after: int = 0, /, **others: Array
 ) -> Results:
     """Return what the dynamics under contact need, from one program, the first times by the textbook: see `remembered`.
 
     `placement`, J and `bias` of `ContactRows`, M and W, the `row_scaling`; with `tau` the q̈ of the free motion, `qdd`;
     with `a` the τ of the motion, and `weight`, that of rest. f_ext may be among the others.
     """
+    if isinstance(model, MimicModel):
+        return terms_of_leaders(model, q, v, contacts, after, **others)
 
     def of(symbol: str, arguments: str, function: Callable[..., Array]) -> Quantity:
         return Quantity(symbol, tuple(arguments.split()), lambda *x: (function(*x), []))
@@ -211,9 +219,35 @@ def contact_terms(
     return found
 
 
-def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
+def terms_of_leaders(
+    model: MimicModel, q: Array, v: Array, contacts: Sequence[Contact], after: int, **others: Array
+) -> Results:
+    """Return what `contact_terms` does where joints follow others: the terms of all joints, projected by G."""
+    q, v = model.expand(q, v)
+    asked, tau, G = dict(others), others.get("tau"), model.G
+    if tau is not None:
+        asked = {"a": np.zeros_like(v)} | {name: x for name, x in others.items() if name != "tau"}
+    elif "a" in others:
+        asked["a"] = np.matvec(G, others["a"])
+    found = contact_terms(model.full, q, v, contacts, after, **asked)
+    found.J, found.M = found.J @ G, G.mT @ found.M @ G
+    if asked:
+        found.tau, found.weight = np.matvec(G.mT, found.tau), np.matvec(G.mT, found.weight)
+    if tau is not None:
+        found.qdd = model._solve(found.M, tau - found.tau)
+    return found
+
+
+def every_joint(model: Model | MimicModel) -> Model:
+    """Return the model of all joints, those that follow others included."""
+    full = model.full if isinstance(model, MimicModel) else model
+    check_model(full)
+    return full
+
+
+def as_contacts(model: Model | MimicModel, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
     """Return contacts as a tuple, each on a frame of its own that moves in what holds it."""
-    check_model(model)
+    full = every_joint(model)
     if isinstance(contacts, str | Contact):
         raise ValueError(f"contacts: expected a sequence of contacts, got the single {contacts!r}")
     contacts = as_sequence(contacts, "contacts", "contacts", ordered=True)
@@ -221,7 +255,7 @@ def as_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...
         if not isinstance(c, Contact):
             hint = f"; PointContact({c!r}, mu) makes one of a frame" if isinstance(c, str) else ""
             raise ValueError(f"contacts: expected contacts such as PointContact(frame, mu), got {c!r}{hint}")
-        c.check(model)
+        c.check(full)
     frames = [c.frame for c in contacts]
     twice = [name for name in dict.fromkeys(frames) if frames.count(name) > 1]
     if twice:
@@ -236,7 +270,7 @@ def per_contact(contacts: Sequence[Contact], rows: Array) -> dict[str, Array]:
 
 
 def real_state(
-    model: Model, q: ArrayLike, f_ext: ArrayLike | None = None, *, v: ArrayLike, **others: ArrayLike
+    model: Model | MimicModel, q: ArrayLike, f_ext: ArrayLike | None = None, *, v: ArrayLike, **others: ArrayLike
 ) -> tuple[Array, Array, dict[str, Array]]:
     """Check a state as `Model.state` does, and bring it to double precision: the decompositions need it.
 
@@ -253,7 +287,7 @@ def real_state(
     return in_double(model, q), named.pop("v"), named
 
 
-def _are_plain(model: Model, q: ArrayLike, *others: ArrayLike) -> bool:
+def _are_plain(model: Model | MimicModel, q: ArrayLike, *others: ArrayLike) -> bool:
     """Return whether these are arrays of doubles of one batch shape, with the right last axes."""
     if not (type(q) is np.ndarray and q.dtype == np.float64 and q.shape[-1:] == (model.nq,)):
         return False

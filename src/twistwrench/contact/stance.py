@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.centroidal import center_of_mass
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array
 from ..errors import ShapeError
 from ..model import Model
-from .rows import as_contacts, contact_placements, real_state
+from .rows import as_contacts, contact_placements, every_joint, real_state
 from .task import ContactProblem, Unbalanced, contact_limits
 from .types import Contact, Pyramid
 
@@ -58,7 +59,7 @@ class StanceMargins:
 
 
 def stance_margins(
-    model: Model, q: ArrayLike, contacts: Iterable[Contact], *, sides: int = 16, pyramid: Pyramid = "inner"
+    model: Model | MimicModel, q: ArrayLike, contacts: Iterable[Contact], *, sides: int = 16, pyramid: Pyramid = "inner"
 ) -> StanceMargins:
     """Return whether a robot can stand in a pose without pulling or slipping, and the margins.
 
@@ -67,7 +68,7 @@ def stance_margins(
 
     Parameters
     ----------
-    model : Model
+    model : Model or MimicModel
         With a floating base.
     q : array_like, shape (nq,)
         One configuration.
@@ -107,13 +108,13 @@ def stance_margins(
     for c in contacts:
         if not c.pushes or c.to is not None:
             raise ValueError(f"contact {c.frame!r}: expected contacts with the ground that do not pull, got {c!r}")
-    if model.base != "floating" or not contacts or not model.gravity.any():
+    if model.base != "floating" or not contacts or not every_joint(model).gravity.any():
         raise ValueError(f"{model.name!r}: expected a floating base, gravity and at least one contact")
     q, rest, _ = real_state(model, q, v=np.zeros(model.nv))
     if q.ndim != 1:
         raise ShapeError(f"q: expected one configuration, shape ({model.nq},), got {q.shape}")
     contact_limits(contacts, sides, pyramid)  # raises for invalid `sides` and `pyramid` where it falls, too
-    tip = tip_distance(model, q, contacts)
+    tip = tip_distance(model, q, contacts)  # type: ignore[arg-type]
     try:
         task = ContactProblem.of(model, q, rest, rest, contacts, None)
     except Unbalanced as error:
@@ -193,7 +194,7 @@ def tip_distance(model: Model, q: Array, contacts: Iterable[Contact]) -> float:
     points = np.concatenate(
         [T.translation + c.points @ c.axes(T.rotation).mT for c, T in zip(contacts, places.values())]
     )
-    level = np.linalg.svd(model.gravity[None])[2][1:]  # two axes across gravity
+    level = np.linalg.svd(every_joint(model).gravity[None])[2][1:]  # two axes across gravity
     return inside((points - G) @ level.mT)
 
 

@@ -17,9 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_names
-from ..errors import SingularError
-from ..model import Model, check_model
+from ..errors import SingularError, check_known
+from ..model import Model
 from ..spatial._elementary import at_first_index
 from .decomposition import Decomposition, block_diagonal, decompose, point_map
 from .qp import nonnegative_least_squares
@@ -76,14 +77,14 @@ class ContactForces:
     residual: Array
 
 
-def passive_entries(model: Model, motors: Iterable[str] | None) -> Array:
+def passive_entries(model: Model | MimicModel, motors: Iterable[str] | None) -> Array:
     """Return the entries of v that have no motor."""
-    check_model(model)
     free = np.arange(model.nv) < (6 if model.base == "floating" else 0)
     if motors is not None:
         free[:] = True
         for name in as_names(motors, "motors", "joint names"):
-            free[model.v_slice[model.joint_id(name)]] = False
+            check_known("joint", name, model.joint_names, f" of model {model.name!r}")
+            free[model.v_slice[model.joint_names.index(name)]] = False
     return np.flatnonzero(free)
 
 
@@ -119,7 +120,7 @@ class ContactProblem:
     @classmethod
     def of(
         cls,
-        model: Model,
+        model: Model | MimicModel,
         q: ArrayLike,
         v: ArrayLike,
         a: ArrayLike,

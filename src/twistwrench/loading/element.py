@@ -27,7 +27,7 @@ from .urdf_words import (
     words_of,
 )
 
-__all__ = ["LEFT_OUT", "XML", "Element", "read_document", "read_robot_xml"]
+__all__ = ["LEFT_OUT", "XML", "Element", "read_document", "read_robot_xml", "written"]
 
 LEFT_OUT = "not URDF, left out"
 """How a word of the format is read in a place where it means nothing."""
@@ -136,7 +136,7 @@ class Element:
         text = self.get(key)
         if text is None:
             return default
-        name, words = f"<{self.xml.tag} {key}={text!r}>", text.split()
+        name, words = f"<{written(self.xml)} {key}={text!r}>", text.split()
         if len(words) != len(default):
             expected = f"{len(default)} number{'s' * (len(default) > 1)}"
             raise self.error(f"{name}: expected {expected}, got {len(words)}")

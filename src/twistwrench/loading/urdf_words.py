@@ -57,6 +57,9 @@ WORDS = {word for words in (*CHILDREN.values(), *ATTRIBUTES.values()) for word i
 LABELS = {"link", "joint", "value"}
 """Words that are attributes of elements of many other formats as well."""
 
+ROTOR = {"armature", "rotor_inertia", "gear_ratio"}
+"""Words of MJCF and of Drake for what a rotor adds to the inertia of a joint."""
+
 OTHER_FORMATS = {"include", "pose", "com"}
 """Elements of SDF, of xacro and of the first URDFs that place or hold a body."""
 
@@ -118,7 +121,7 @@ def ignored_attribute(tag: str, key: str) -> bool:
     """
     if key in ATTRIBUTES.get(tag, ()):
         return False
-    return local_name(key) in WORDS or (tag in BY_ATTRIBUTES and local_name(key) == key)
+    return local_name(key) in WORDS | ROTOR or (tag in BY_ATTRIBUTES and local_name(key) == key)
 
 
 def ignored_child(tag: str, child: Any) -> bool:

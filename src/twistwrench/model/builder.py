@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_constant, as_exactly, as_flag, check_choice, check_kind
+from ..arrays import Array, as_constant, as_exactly, as_flag, check_choice, check_kind, convert
 from ..errors import ModelError, ShapeError, check_known
 from ..spatial import SE3, SpatialInertia
 from ..spatial._physical import check_not_negative
@@ -273,16 +273,20 @@ class Link:
         limits = {key: as_constant(x, f"link {name!r}: {key}") for key, x in numbers.items()}
         if joint is None and any((x != UNLIMITED[key]).any() for key, x in limits.items()):
             raise ModelError(f"link {name!r}: limits and armature belong to a joint, and this link is welded")
-        own = SpatialInertia._trusted(
-            *(x.astype(np.float64) for x in (inertia.mass, inertia.com, inertia.inertia_at_com))
-        )
+        try:
+            own = SpatialInertia._trusted(
+                *(convert(x, np.float64) for x in (inertia.mass, inertia.com, inertia.inertia_at_com))
+            )
+            at = cast(placement, np.float64)
+        except ValueError as error:
+            raise ModelError(f"link {name!r}: {error}") from None
         nq, nv = (joint.nq, joint.nv) if joint else (0, 0)
         vectors = {
             key: as_entries(x, key, nq if key in ("lower", "upper") else nv, 0, f"joint {joint_name!r}: {key}")
             for key, x in (UNLIMITED | dict(numbers)).items()
         }
         check_limits(vectors, [(joint_name, slice(0, nq), slice(0, nv))])
-        return cls(name, parent, joint, joint_name, cast(placement, np.float64), own, **vectors)
+        return cls(name, parent, joint, joint_name, at, own, **vectors)
 
 
 def placement_of(T: ArrayLike, name: str) -> SE3:

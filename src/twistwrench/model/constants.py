@@ -77,8 +77,8 @@ def cast(T: SE3, dtype: DTypeLike) -> SE3:
         return T
     if np.dtype(dtype) == object:
         return SE3._trusted(exact_rotation(T.rotation), convert(T.translation, dtype))
-    R = T.rotation.astype(dtype)
+    R = convert(T.rotation, dtype)
     if resolution(R.dtype) < resolution(T.rotation.dtype):
         for _ in range(2):
             R = R @ (3 * np.eye(3, dtype=R.dtype) - R.mT @ R) / 2
-    return SE3(R, T.translation.astype(dtype))
+    return SE3(R, convert(T.translation, dtype))

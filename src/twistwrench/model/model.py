@@ -139,13 +139,16 @@ class Model(ConfigurationSpace):
         self._hold("frames", MappingProxyType(dict(self.frames)))
         for name, frame in self.frames.items():
             check_kind(frame, f"frame {name!r}", Frame, "a Frame")
-            if frame.body not in range(self.nbodies):
+            check_kind(name, "frames", str, "a name")
+            if not _is_index(frame.body, self.nbodies):
                 raise ModelError(f"frame {name!r}: expected a body from 0 to {self.nbodies - 1}, got {frame.body!r}")
             check_placement(frame.placement, f"frame {name!r}")
         self._hold("feet", as_names(self.feet, "feet", "frame names", ordered=True))
         for foot in self.feet:
             self.frame(foot)
         check_kind(self.postures, "postures", Mapping, "configurations by name")
+        for name in self.postures:
+            check_kind(name, "postures", str, "a name")
         postures = {name: readonly(_posture(self, name, q)) for name, q in self.postures.items()}
         self._hold("postures", MappingProxyType(postures))
         check_kind(self.report, "report", LoadReport, "a LoadReport")
@@ -175,8 +178,13 @@ class Model(ConfigurationSpace):
             taken.add(name)
             if joint is None:
                 raise ModelError(f"joint {name!r}: expected a joint such as Revolute('z'), got None")
-            if parent not in range(i):
+            if not _is_index(parent, i):
                 raise ModelError(f"joint {name!r}: expected a parent from 0 to {i - 1}, got {parent!r}")
+        self._hold("parent", tuple(int(p) for p in self.parent))
+        if self.placement[0] != SE3.identity():
+            raise ModelError(f"placement: expected the identity for {WORLD!r}, entry 0, got {self.placement[0]}")
+        if self.inertia[0] != SpatialInertia.zero():
+            raise ModelError(f"inertia: expected zero for {WORLD!r}, entry 0, got {self.inertia[0]}")
         if self.base == "floating" and not (self.nbodies > 1 and isinstance(self.joints[1], FreeFlyer)):
             raise ModelError("base: expected 'fixed', as joint 1 is not a FreeFlyer, got 'floating'")
 
@@ -310,6 +318,11 @@ class Model(ConfigurationSpace):
         if key not in self._constants:
             self._constants[key] = Constants.of(self, kind)
         return self._constants[key]
+
+
+def _is_index(value: object, size: int) -> bool:
+    """Return whether a value is a whole number, of Python or NumPy, from 0 to size - 1."""
+    return isinstance(value, int | np.integer) and not isinstance(value, bool) and bool(0 <= value < size)
 
 
 def _posture(model: Model, name: str, q: ArrayLike) -> Array:

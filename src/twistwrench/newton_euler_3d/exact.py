@@ -37,15 +37,15 @@ class Exact(Arithmetic):
 
     def cos(self, x: Any) -> Any:
         """Return the cosine of one number: of fractions, only that of 0 is a fraction."""
-        return elementary("cos", x)
+        return elementary("cos", x, self.dtype)
 
     def sin(self, x: Any) -> Any:
         """Return the sine of one number."""
-        return elementary("sin", x)
+        return elementary("sin", x, self.dtype)
 
     def sqrt(self, x: Any) -> Any:
         """Return the square root of one number: of fractions, only that of a square is a fraction."""
-        return elementary("sqrt", x)
+        return elementary("sqrt", x, self.dtype)
 
     def nothing(self, x: Any, least: Any) -> bool:
         """Return whether a number is zero, as `least` is here; for an expression SymPy decides."""

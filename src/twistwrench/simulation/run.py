@@ -135,6 +135,8 @@ def simulate(
     True
     """
     if isinstance(robot, MimicModel):
+        if method == "variational":
+            raise ValueError("method: 'variational' takes no couplings, and joints that follow others are coupled")
         clock: dict[str, Any] = {"dt": dt, "steps": steps, "duration": duration, "t0": t0, "dt_control": dt_control}
         options: dict[str, Any] = {"ground": ground, "method": method, "progress": progress}
         given: dict[str, Any] = {"tau": tau, "contacts": contacts, "stop": stop}

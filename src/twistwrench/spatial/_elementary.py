@@ -44,7 +44,7 @@ def _of_each(x: Array, name: str) -> Array:
     """Apply an elementary function to each object of an array, which stays an array where it has no axis."""
     values = np.empty(x.shape, object)
     for k in np.ndindex(x.shape):
-        values[k] = elementary(name, x[k])
+        values[k] = elementary(name, x[k], x.dtype)
     return values
 
 

@@ -427,13 +427,30 @@ class SpatialInertia:
 
     def __mul__(self, scale: ArrayLike) -> SpatialInertia:
         """Scale a body: the same shape of a material as many times as dense."""
+        a, m, c, I_c = self._with_scale(scale, "*")
+        with np.errstate(over="ignore"):
+            return self._scaled(a * m, c, a[..., None, None] * I_c)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, scale: ArrayLike) -> SpatialInertia:
+        a, m, c, I_c = self._with_scale(scale, "/")
+        if (judged(a) == 0).any():
+            raise ZeroDivisionError("SpatialInertia / 0")
+        with np.errstate(over="ignore"):
+            return self._scaled(m / a, c, I_c / a[..., None, None])
+
+    def _with_scale(self, scale: ArrayLike, operator: str) -> tuple[Array, Array, Array, Array]:
+        """Return a number, or one for each item of a batch, and the ten numbers, all of one type."""
         if isinstance(scale, SpatialInertia | SpatialVector):
-            use = "I @ V is the momentum" if isinstance(scale, SpatialVector) else "only inertias and numbers multiply"
-            raise TypeError(f"SpatialInertia * {type(scale).__name__}: expected a number; {use}")
+            use = "; I @ V is the momentum" if isinstance(scale, SpatialVector) else ""
+            raise TypeError(f"SpatialInertia {operator} {type(scale).__name__}: expected a number{use}")
         # A Python number takes the type of the inertia: twice one of float32 is one of float32.
         if type(scale) in (int, float, complex):
             scale = np.asarray(scale, np.result_type(self.com, scale))
-        a, c = as_number_arrays(scale=(scale, ()), com=(self.com, (3,)))
+        a, m, c, I_c = as_number_arrays(
+            scale=(scale, ()), mass=(self.mass, ()), com=(self.com, (3,)), inertia_at_com=(self.inertia_at_com, (3, 3))
+        )
         negative = np.asarray(judged(a) < 0)
         if negative.any():
             raise ModelError(
@@ -441,17 +458,15 @@ class SpatialInertia:
                 f"{at_first_index(negative)}: no mass is; I₁ − I₂ takes a part away, and I.parameters() are ten "
                 "numbers that may have any sign"
             )
-        mass = np.asarray(a * self.mass)
-        com = np.broadcast_to(c, (*mass.shape, 3))
-        return SpatialInertia._trusted(mass, com, np.asarray(a[..., None, None] * self.inertia_at_com))
+        return a, m, c, I_c
 
-    __rmul__ = __mul__
-
-    def __truediv__(self, scale: ArrayLike) -> SpatialInertia:
-        a = as_number_array(scale, "scale")
-        if (judged(a) == 0).any():
-            raise ZeroDivisionError("SpatialInertia / 0")
-        return self * (1 / scale if isinstance(scale, int | float) else 1 / a)
+    @staticmethod
+    def _scaled(mass: Array, com: Array, inertia_at_com: Array) -> SpatialInertia:
+        """Return an inertia whose mass and moments were scaled, and did not overflow."""
+        mass, inertia_at_com = np.asarray(mass), np.asarray(inertia_at_com)
+        for x in (mass, inertia_at_com):
+            check_overflow(x, "scale, mass, inertia_at_com")
+        return SpatialInertia._trusted(mass, np.broadcast_to(com, (*mass.shape, 3)), inertia_at_com)
 
     def __neg__(self) -> SpatialInertia:
         return self * -1

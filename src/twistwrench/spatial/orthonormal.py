@@ -69,9 +69,10 @@ def _near_rotation(R: Array) -> Array:
     R = np.where(far[..., None, None], R / np.where(size == 0, 1, size)[..., None, None], R)  # nothing overflows
     det = (R[..., 0, :] * _cofactors(R)[..., 0, :]).sum(-1).real
     rows = np.sqrt((R.real**2).sum(-1)).prod(-1)
-    wrong = np.asarray(det <= 8 * resolution(R.dtype) * rows)
+    least = 8 * resolution(R.dtype) * rows  # below which rounding may have made all of it
+    wrong = np.asarray(det <= least)
     if wrong.any():
-        got = "a negative one: it reflects" if det[wrong][0] < 0 else "zero"
+        got = "a negative one: it reflects" if (det < -least)[wrong][0] else "zero"
         raise ValueError(f"R: expected a matrix with a positive determinant, got {got}{at_first_index(wrong)}")
     while far.any():
         C = _cofactors(R)
