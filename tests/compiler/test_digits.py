@@ -206,6 +206,21 @@ def test_pairs_go_in_and_batches_and_wrenches(backend):
     assert relative(whole(moved), right) < 1e-15
 
 
+@pytest.mark.skipif(np.finfo(np.longdouble).eps == np.finfo(float).eps, reason="long doubles are doubles here")
+def test_a_long_double_keeps_its_digits():
+    third = np.array([1], np.longdouble) / 3
+    found = compile(tw.load("pendulum"), "gravity", dtype="double-double", backend="numpy")(third)
+    exact = mpmath.mpf(9.81) * mpmath.sin(ne.as_mpmath(third)[0])
+    assert abs(whole(found)[0] - exact) < DIGITS
+    assert abs(mpmath.mpf(9.81) * mpmath.sin(mpmath.mpf(float(third[0]))) - exact) > 1e-20  # the double's next to it
+
+
+def test_complex_numbers_are_refused():
+    for options in ({"dtype": "double-double"}, {"bound": True}):
+        with pytest.raises(ValueError, match=r"^q: expected real numbers, got complex128"):
+            compile(tw.load("pendulum"), "gravity", backend="numpy", **options)([0.3 + 1e-30j])
+
+
 @pytest.mark.slow
 def test_several_results_are_pairs_by_name():
     model = tw.load("panda")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.compiler import compile
+from twistwrench.compiler import DoubleDouble, compile
 from twistwrench.compiler.llvm import available
 from twistwrench.compiler.quantities import SYMBOLS
 
@@ -156,6 +156,48 @@ def test_arguments_are_taken_as_the_textbook_takes_them():
             program(*args, **named)
 
 
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("want", ["rnea", "qdd", "M", "dg_dq", "Y", ("h", "dh_dv")], ids=str)
+def test_numbers_that_a_program_cannot_hold_are_refused_by_name(want, backend):
+    model = tw.load("double_pendulum")
+    program = compile(model, want, backend=backend)
+    plain = {name: np.array([0.1, 0.2]) for name in program.arguments if name != "f_ext"}
+    for name, x in plain.items():
+        for wrong in (x + 1e-30j, [0.1, 0.2j], np.stack([x, x]).astype(np.complex64)):
+            with pytest.raises(ValueError, match=rf"^{name}: expected real numbers, got complex"):
+                program(**plain | {name: wrong})
+        with pytest.raises(TypeError, match=rf"^{name}: expected an array, got a DoubleDouble"):
+            program(**plain | {name: DoubleDouble(x, 0 * x)})
+
+
+def test_a_wrench_that_a_program_cannot_hold_is_refused_too():
+    model = tw.load("double_pendulum")
+    wrench = np.zeros((model.nbodies, 6))
+    with pytest.raises(ValueError, match=r"^f_ext: expected real numbers, got complex128"):
+        compile(model, "rnea")([0, 0], [0, 0], [0, 0], wrench + 0j)
+    with pytest.raises(ValueError, match=r"^given\['v'\]: expected real numbers, got complex128"):
+        compile(model, "h", given={"v": [0, 1j]})
+
+
+@pytest.mark.skipif(np.finfo(np.longdouble).eps == np.finfo(float).eps, reason="long doubles are doubles here")
+@pytest.mark.parametrize(
+    "options", [{}, {"dtype": np.float32}, {"dtype": complex}, {"bound": True}, {"backend": "numpy"}], ids=str
+)
+def test_long_doubles_are_refused_by_programs_that_would_round_them(options):
+    program = compile(tw.load("double_pendulum"), "gravity", **options)
+    with pytest.raises(ValueError, match=r"^q: expected numbers that .* holds, got .*tw.compile"):
+        program(np.array([1, 2], np.longdouble) / 3)
+
+
+def test_narrower_numbers_are_taken_and_doubles_are_rounded_where_asked():
+    model, q = tw.load("double_pendulum"), np.array([0.1, 0.2])
+    right = tw.gravity(model, q.astype(np.float32).astype(float))
+    double, single = (compile(model, "gravity", dtype=dtype) for dtype in (float, np.float32))
+    np.testing.assert_allclose(double(q.astype(np.float32)), right, rtol=1e-15)
+    np.testing.assert_array_equal(single(q), single(q.astype(np.float32)))
+    np.testing.assert_array_equal(double([1, 2]), double([1.0, 2.0]))
+
+
 @pytest.mark.skipif(not available(), reason="llvmlite is not installed")
 @pytest.mark.parametrize("number", [np.float64, np.float32])
 def test_sine_and_cosine_are_within_a_rounding(number):
@@ -175,18 +217,41 @@ def test_a_scene_is_compiled_with_its_contacts_and_wrenches():
     scene = tw.Scene("humanoid", contacts=soles, hold=["*_shoulder_*", "*_elbow"], wrenches=push)
     model, s = scene.model, random_state(scene.model, rng=0)
     f_ext = scene.f_ext(s.q)
-    program = compile(scene, ["tau", "qdd", "h", "g", "J_c", "M", "dg_dq"])
-    got = program(s.q, s.v, s.a, s.tau)
+    program = compile(scene, ["tau", "h", "g", "J_c", "M", "dg_dq"])
+    got = program(s.q, s.v, s.a)
     expected = scene.dynamics(s.q, s.v)
-    tau, qdd = tw.rnea(model, s.q, s.v, s.a, f_ext), tw.aba(model, s.q, s.v, s.tau, f_ext)
+    tau = tw.rnea(model, s.q, s.v, s.a, f_ext)
     h, g = tw.rnea(model, s.q, s.v, 0 * s.v, f_ext), tw.rnea(model, s.q, 0 * s.v, 0 * s.v, f_ext)
-    for x, y in ((got.tau, tau), (got.qdd, qdd), (got.h, h), (got.g, g), (got.J_c, expected.J_c), (got.M, expected.M)):
+    for x, y in ((got.tau, tau), (got.h, h), (got.g, g), (got.J_c, expected.J_c), (got.M, expected.M)):
         np.testing.assert_allclose(x, y, rtol=0, atol=1e-12 * np.abs(y).max())
     step = 1e-6 * s.a
     change = (tw.rnea(model, q := model.integrate(s.q, step), 0 * s.v, 0 * s.v, scene.f_ext(q)) - g) / 1e-6
     np.testing.assert_allclose(got.dg_dq @ s.a, change, rtol=0, atol=1e-3 * np.abs(change).max())
     assert pickle.loads(pickle.dumps(program)).operations == program.operations
-    with pytest.raises(tw.NameNotFound, match="unknown quantity 'dqdd_dq'"):
-        compile(scene, "dqdd_dq")
     with pytest.raises(ValueError, match="contacts: a scene has its own"):
         compile(scene, "J_c", contacts=["left_sole"])
+
+
+def test_a_scene_without_contacts_falls_with_its_wrenches():
+    scene = tw.Scene("panda", wrenches={"panda_hand": [1.0, 2, 3, 40, 50, 60]})
+    s = random_state(scene.model, rng=0)
+    expected = tw.aba(scene.model, s.q, s.v, s.tau, scene.f_ext(s.q))
+    found = compile(scene, "qdd")(s.q, s.v, s.tau)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    with pytest.raises(tw.NameNotFound, match="unknown quantity 'dqdd_dq'"):
+        compile(scene, "dqdd_dq")
+
+
+def test_forward_dynamics_of_a_scene_with_contacts_is_refused_by_name():
+    """A program would not know that the feet are held: a standing Go2 fell freely, at 9.81 m/s²."""
+    go2 = tw.load("go2")
+    scene = tw.Scene(go2, contacts=[tw.PointContact(foot, mu=0.7) for foot in go2.feet])
+    q, rest = go2.standing(), np.zeros(go2.nv)
+    for want in ("qdd", "aba", "dqdd_dq", "dqdd_dv", "dqdd_dtau", "articulated_inertia", "dIA_dq", ("M", "qdd")):
+        with pytest.raises(ValueError, match=r"^d?(qdd|IA)(_d\w+)?: expected a scene without contacts"):
+            compile(scene, want, frames=["base"])
+    held = compile(scene, ("M", "h", "J_c", "Lambda", "M_inv"), backend="numpy")(q, rest)
+    np.testing.assert_allclose(held.M, tw.crba(go2, q), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(held.J_c, tw.contact_jacobian(go2, q, go2.feet), rtol=0, atol=1e-12)
+    free = compile(scene.model, "qdd", backend="numpy")(q, rest, rest)
+    np.testing.assert_allclose(free, tw.aba(go2, q, rest, rest), rtol=0, atol=1e-10)

@@ -157,7 +157,15 @@ def test_errors_are_the_textbooks(number):
         compile(model, "rnea", dtype=number, backend="llvm")
 
 
-def test_complex_numbers_are_rejected():
+@pytest.mark.parametrize("number", WIDE)
+def test_complex_numbers_are_refused(number):
+    program = compile(tw.load("pendulum"), "gravity", dtype=number)
+    for q in ([0.3 + 1e-30j], np.array([0.3j], np.clongdouble)):
+        with pytest.raises(ValueError, match="q: expected real numbers, got complex"):
+            program(q)
+
+
+def test_complex_numbers_of_mpmath_are_refused():
     with pytest.raises(ValueError, match="q: expected floating-point numbers, got mpc"):
         compile(tw.load("pendulum"), "gravity", dtype="mpmath")([mpmath.mpc(1, 1)])
 

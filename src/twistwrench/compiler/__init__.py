@@ -32,7 +32,7 @@ compilation    `compile`
 """
 
 from .compilation import compile
-from .digits import DoubleDouble
+from .double_double import DoubleDouble
 from .program import Program, Results
 
 __all__ = ["DoubleDouble", "Program", "Results", "compile"]

@@ -22,6 +22,9 @@ from .quantities import ARGUMENTS, Quantity, chosen, quantities
 
 __all__ = ["compile"]
 
+FORWARD = ("qdd", "IA")
+"""What follows from forces, and would be another thing with contacts; with their derivatives."""
+
 
 class SceneLike(Protocol):
     """What is compiled of a `Scene`, which is in a later room."""
@@ -29,6 +32,10 @@ class SceneLike(Protocol):
     @property
     @abstractmethod
     def model(self) -> Model: ...
+
+    @property
+    @abstractmethod
+    def contacts(self) -> tuple[Any, ...]: ...
 
     @abstractmethod
     def _quantities(self, dtype: np.dtype[Any], frames: tuple[str, ...], reference: Any, /) -> dict[str, Quantity]: ...
@@ -52,13 +59,15 @@ def compile(
     Parameters
     ----------
     model : Model or Scene
-        For a scene, its smallest model is compiled, with its wrenches and contacts.
+        For a scene, its smallest model is compiled, with its wrenches and the rows of its contacts. Forward dynamics
+        (q̈, its derivatives, I^A) is refused for a scene with contacts, which hold it.
     want : str or iterable of str
         Names of functions, or symbols of `quantities.SYMBOLS`. For one name the program returns an array; for several
         it returns `Results`, and what they have in common is computed once.
     dtype : dtype_like
         A floating-point type (float32 and float64 can be machine code), or one with more digits: "double-double" has
-        32, "quad" 34, and "mpmath" as many as ``mpmath.mp.dps``.
+        32, "quad" 34, and "mpmath" as many as ``mpmath.mp.dps``. Doubles are rounded to it; a program for real numbers
+        takes no complex ones, and none but those of long double or more digits takes a long double.
     contacts : iterable of str or Contact, optional
         The frames of J_c, or contacts of any kind; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
@@ -72,7 +81,8 @@ def compile(
     threads : int
         The number of parts into which a batch is divided.
     bound : bool
-        Whether the program also returns a proved bound of each entry's error: ``value, bound = program(…)``.
+        Whether the program also returns a proved bound of each entry's error: ``value, bound = program(…)``. It is for
+        the arguments as the program has them, in float32 rounded ones.
 
     Returns
     -------
@@ -85,7 +95,7 @@ def compile(
     ImportError
         If a package that is asked for is not installed.
     ShapeError, TypeError, ValueError
-        If an option is not one of those above.
+        If an option is not one of those above; for forward dynamics of a scene with contacts.
 
     Examples
     --------
@@ -146,16 +156,29 @@ def _program(
     for frame in frames:
         body.frame(frame)
     known = of_scene(dtype, frames, reference) if of_scene else quantities(body, dtype, held, frames, reference)
+    wanted = chosen(known, (asked,) if isinstance(asked, str) else asked)
+    if of_scene is not None and model.contacts:
+        _refuse_forward(wanted)
     given = _checked(body, given)
     return Program(
         body,
-        chosen(known, (asked,) if isinstance(asked, str) else asked),
+        wanted,
         single=isinstance(asked, str),
         given=given,
         dtype=dtype,
         remake=partial(remake, given=given, **how),
         **how,
     )
+
+
+def _refuse_forward(wanted: Iterable[Quantity]) -> None:
+    """Raise ValueError for what follows from forces by the free model alone, in a scene whose contacts hold it."""
+    for symbol in (quantity.symbol for quantity in wanted):
+        if symbol in FORWARD or symbol.startswith(tuple(f"d{forward}_d" for forward in FORWARD)):
+            hint = (
+                "tw.contact_forward_dynamics has the accelerations, tw.compile(scene.model, …) those without contacts"
+            )
+            raise ValueError(f"{symbol}: expected a scene without contacts, which a program would ignore here; {hint}")
 
 
 def _number_type(dtype: DTypeLike) -> np.dtype[Any]:
@@ -178,6 +201,8 @@ def _checked(model: Model, given: Mapping[str, ArrayLike] | None) -> dict[str, A
         check_known("argument", name, ARGUMENTS)
     checked = dict(zip(given, check_arrays(model, **given)))
     for name, x in checked.items():
+        if x.dtype.kind == "c":
+            raise ValueError(f"given[{name!r}]: expected real numbers, got {x.dtype}")
         if x.ndim != (2 if name == "f_ext" else 1):
             raise ValueError(f"given[{name!r}]: expected the values for one state, got shape {x.shape}")
     return checked

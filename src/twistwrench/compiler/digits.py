@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Mapping
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -17,14 +17,14 @@ from ..arrays import Array
 from ..errors import ShapeError
 from ..newton_euler_3d import as_mpmath
 from .backend import BackEnd
-from .double_double import BOUND, LO, OWN, double_double
+from .double_double import BOUND, LO, OWN, DoubleDouble, double_double
 from .llvm import NATIVE
 from .pairs import two_sum
 from .program import Program
 from .quantity import by_the_textbook
 from .recording import ALARM
 
-__all__ = ["NUMBERS", "WIDE", "DigitsProgram", "DoubleDouble", "wide_type", "with_digits"]
+__all__ = ["NUMBERS", "WIDE", "DigitsProgram", "wide_type", "with_digits"]
 
 PAIRS = "double-double"
 WIDE = {"quad": ("numpy_quaddtype", 'pip install "twistwrench[quad]"'), "mpmath": ("mpmath", "pip install mpmath")}
@@ -145,18 +145,6 @@ def wide_type(number: Any) -> np.dtype[Any]:
     return found
 
 
-class DoubleDouble(NamedTuple):
-    """Numbers of 32 digits: hi + lo, arrays of the same shape, where hi is the double nearest to the sum.
-
-    Examples
-    --------
-    >>> third = DoubleDouble(np.array(1 / 3), np.array(2.0**-54 / 3))  # 1/3 to 32 digits
-    """
-
-    hi: Array
-    lo: Array
-
-
 class DoubleDoubleProgram(DigitsProgram):
     """A program with 32 digits, for angles up to 2⁴⁵ rad: ``dtype="double-double"``; its results are `DoubleDouble`."""
 
@@ -183,7 +171,11 @@ class DoubleDoubleProgram(DigitsProgram):
     def _own(self, name: str, x: Any) -> tuple[Array, Array] | None:
         """Return the lower part, and the double nearest to the sum."""
         if not isinstance(x, DoubleDouble):
-            return None
+            wide = _as_long_double(x)
+            if wide is None:
+                return None
+            rounded = wide.astype(DOUBLE)
+            x = DoubleDouble(rounded, wide - rounded)
         hi, lo = (np.asarray(part, DOUBLE) for part in x)
         if hi.shape != lo.shape:
             raise ShapeError(f"{name}: expected hi and lo of the same shape, got {hi.shape} and {lo.shape}")
@@ -245,6 +237,15 @@ def with_digits(program: Program, number: str | None, bound: bool) -> Program | 
     if number:
         return WideProgram(program, number)
     return BoundedProgram(program) if bound else program
+
+
+def _as_long_double(x: Any) -> Array | None:
+    """Return long doubles as an array; None for all other numbers, and for what is no array of numbers."""
+    try:
+        array = np.asarray(x)
+    except (TypeError, ValueError):
+        return None
+    return array if array.dtype == np.longdouble else None
 
 
 def _certain(bound: Array) -> Array:

@@ -10,16 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arrays import Array
 from ..errors import check_known
 from .line import Line, needed
 from .number import Number, Tape, without_garbage
 from .pairs import EACH, NOTHING, OPERATIONS, SINE_ERROR, Pair, Pairs
 
-__all__ = ["BOUND", "LO", "OWN", "double_double"]
+__all__ = ["BOUND", "LO", "OWN", "DoubleDouble", "double_double"]
 
 LO, BOUND = ".lo", ".bound"
 """After the name of an argument or of a result: what the double nearest to it leaves, and how far it can be off."""
@@ -28,6 +29,18 @@ TINY = Fraction(1, 2**1000)  # more than what underflow can take from an operati
 
 OWN = 1 + Fraction(1, 2**20)
 """More than what all roundings of the bounds themselves can take from one, in lines of up to 2²⁸ operations."""
+
+
+class DoubleDouble(NamedTuple):
+    """Numbers of 32 digits: hi + lo, arrays of the same shape, where hi is the double nearest to the sum.
+
+    Examples
+    --------
+    >>> third = DoubleDouble(np.array(1 / 3), np.array(2.0**-54 / 3))  # 1/3 to 32 digits
+    """
+
+    hi: Array
+    lo: Array
 
 
 @without_garbage()

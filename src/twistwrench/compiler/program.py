@@ -24,6 +24,31 @@ from .source import c_source, python_source, step
 __all__ = ["Program", "Results"]
 
 
+def check_held(dtype: np.dtype[Any], given: Mapping[str, Any], checked: Mapping[str, Array]) -> None:
+    """Raise ValueError for arguments of a number type that a program cannot hold; `checked` has their common one."""
+    got = np.result_type(dtype, *checked.values())
+    if holds(dtype, got):
+        return
+    name = next((name for name, x in given.items() if not holds(dtype, np.asarray(x).dtype)), ", ".join(given))
+    kind = "real numbers" if dtype.kind != got.kind else f"numbers that {dtype} holds"
+    came = next(iter(checked.values())).dtype
+    raise ValueError(f"{name}: expected {kind}, got {came}; tw.compile(..., dtype={got.name!r}) takes them")
+
+
+def holds(dtype: np.dtype[Any], given: np.dtype[Any]) -> bool:
+    """Return whether a program takes numbers of a type: it may round doubles, which all constants are, no others.
+
+    Examples
+    --------
+    >>> holds(np.dtype("float32"), np.dtype("float64")), holds(np.dtype("float64"), np.dtype("complex64"))
+    (True, False)
+    """
+    if given.kind not in "fc":
+        return True
+    digits = max(np.finfo(dtype).nmant, np.finfo(np.float64).nmant)
+    return np.finfo(given).nmant <= digits and (dtype.kind == "c" or given.kind != "c")
+
+
 class Results(SimpleNamespace):
     """Several quantities, as attributes by their symbols."""
 
@@ -173,9 +198,9 @@ class Program:
         Raises
         ------
         ShapeError, SingularError, ValueError
-            As the textbook's functions.
+            As the textbook's functions; or for complex numbers and long doubles that the program's type cannot hold.
         TypeError
-            If an argument is missing, or is not one of the program's.
+            If an argument is missing, is not one of the program's, or is a `DoubleDouble`.
         """
         if out is None and not named:
             if self.one_state is None and self.backend == "llvm" and POSSIBLE and self._are_one_state(args):
@@ -237,7 +262,9 @@ class Program:
             parts = {name: np.shape(x)[np.ndim(x) - len(tails[name]) :] for name, x in bound.items()}
             if parts == tails and len({np.shape(x)[: np.ndim(x) - len(tails[name])] for name, x in bound.items()}) <= 1:
                 return dict(bound)
-        return {name: x.astype(self.dtype, copy=False) for name, x in checked(self.model, bound).items()}
+        states = checked(self.model, bound)
+        check_held(self.dtype, bound, states)
+        return {name: x.astype(self.dtype, copy=False) for name, x in states.items()}
 
     def batch(self, states: Mapping[str, Array]) -> tuple[int, ...]:
         """Return the batch axes of arguments that have been checked."""

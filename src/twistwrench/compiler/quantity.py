@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..model import Model, floats_of
+from .double_double import DoubleDouble
 
 __all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "checked", "computed", "shapes"]
 
@@ -62,6 +63,10 @@ def _results(model: Model, quantities: Sequence[Quantity], states: Mapping[str, 
 
 def checked(model: Model, states: Mapping[str, Any]) -> dict[str, Array]:
     """Return the arguments, of which q may be missing, as checked arrays of one number type and batch shape."""
+    for name, x in states.items():
+        if isinstance(x, DoubleDouble):  # which NumPy takes for two states
+            hint = 'a program of dtype="double-double" takes it'
+            raise TypeError(f"{name}: expected an array, got a DoubleDouble; {hint}")
     named = {"q": model.neutral(), **states}
     found = dict(zip(named, floats_of(model, **named)))
     return {name: found[name] for name in states}
