@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 import twistwrench as tw
-from twistwrench.compiler import compile
+from twistwrench import compile
 
 STATES, ROUNDS = 1000, 15
 INVERSE, FORWARD, REGRESSOR = ("dtau_dq", "dtau_dv", "M"), ("qdd", "dqdd_dq", "dqdd_dv", "dqdd_dtau"), "Y"

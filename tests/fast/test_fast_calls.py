@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from straightline import registers
 from twistwrench import fast
-from twistwrench.compiler import quantity, registers
-from twistwrench.fast import programs
+from twistwrench.fast import programs, quantity
 
 from ..strategies import Recipe, random_state
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_number
-from ..compiler import Results
+from ..fast.program import Results
 from ..model import Model
 from .decomposition import decompose
 from .relative import given_motion

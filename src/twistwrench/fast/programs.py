@@ -10,14 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from straightline.llvm import NATIVE, available
+
 from ..algorithms.floating_base import HeldRows
 from ..arrays import Array
-from ..compiler import Program
-from ..compiler.llvm import NATIVE, available
-from ..compiler.quantities import quantities
-from ..compiler.quantity import Quantity, checked, computed
 from ..errors import SingularError
 from ..model import Model, check_model
+from .program import Program
+from .quantities import quantities
+from .quantity import Quantity, checked, computed
 
 __all__ = [
     "ASKED",

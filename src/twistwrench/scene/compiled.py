@@ -7,13 +7,14 @@ from functools import partial
 
 import numpy as np
 
+from straightline.backend import BackEnd
+from straightline.llvm import available
+
 from ..arrays import Array
-from ..compiler.backend import BackEnd
-from ..compiler.llvm import available
-from ..compiler.quantity import Quantity
-from ..compiler.recording import ALARM, record
 from ..errors import SingularError
 from ..fast.programs import too_long
+from ..fast.quantity import Quantity
+from ..fast.recording import ALARM, record
 from ..model import Model
 from ..timing import round_robin
 

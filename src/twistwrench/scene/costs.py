@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from straightline.llvm import available
+
 from ..arrays import Array, as_number
-from ..compiler.llvm import available
 from ..contact import Contact
 from ..errors import check_known
 from ..model import Model

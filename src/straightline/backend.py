@@ -1,0 +1,116 @@
+"""Which of the back ends runs a line: LLVM, NumPy, or for a few states plain Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from functools import cache
+from math import prod
+from typing import Any
+
+import numpy as np
+
+from .line import Line
+from .llvm import MachineCode, lanes
+from .number import Array
+from .registers import Registers
+from .source import python_source
+
+__all__ = ["BackEnd", "divided"]
+
+NONE: Mapping[str, Array] = {}
+
+FEW = 20  # without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy
+LEAST = 64  # a thread does at least so many states
+KEPT = 2**25 - 2**16  # bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`
+
+
+class BackEnd:
+    """A line, and what runs it, "llvm" or "numpy": made when it is first needed."""
+
+    def __init__(self, line: Line, dtype: np.dtype[Any], name: str) -> None:
+        self.line, self.dtype, self.name = line, dtype, name
+        # the sines of pairs are rounded to whole numbers, which `math` does not do
+        self.few = FEW if dtype == np.float64 and "round" not in line.operations else 0
+        self._made: dict[Any, Any] = {}
+        keep_memory()
+
+    def machine_code(self, width: int) -> MachineCode:
+        """Return machine code for so many states at once."""
+        if width not in self._made:
+            self._made[width] = MachineCode(self.line, self.dtype, width)
+        code: MachineCode = self._made[width]
+        return code
+
+    def run(self, arrays: Sequence[Array], threads: int) -> None:
+        """Fill the results: each array has shape (states, entries). The states are divided among threads."""
+        divided(self._chosen(len(arrays[-1])).run, arrays, threads)
+
+    def results(
+        self, states: Mapping[str, Array], batch: tuple[int, ...], threads: int = 1, into: Mapping[str, Array] = NONE
+    ) -> dict[str, Array]:
+        """Return the results by name, from arguments with these batch axes; `into` has rows for some of them."""
+        count, line = prod(batch), self.line
+        given = [states[name].reshape(count, prod(shape)) for name, shape in line.inputs.items()]
+        given = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in given]
+        made = {name: np.empty((count, len(line.outputs[name][1])), self.dtype) for name in line.outputs.keys() - into}
+        rows = {**into, **made}
+        if count:
+            self.run([*given, *(rows[name] for name in line.outputs)], threads)
+        return {name: rows[name].reshape(batch + shape) for name, (shape, _) in line.outputs.items()}
+
+    def _chosen(self, count: int) -> MachineCode | Plain | Registers:
+        """Return what is quickest for so many states."""
+        if self.name == "llvm":
+            width = lanes(self.dtype)
+            return self.machine_code(width if count >= width else 1)
+        kind = Plain if count <= self.few else Registers
+        if kind not in self._made:
+            self._made[kind] = Plain(self.line) if kind is Plain else Registers(self.line, self.dtype)
+        code: Plain | Registers = self._made[kind]
+        return code
+
+
+class Plain:
+    """A line as a Python function of floats."""
+
+    def __init__(self, line: Line) -> None:
+        names: dict[str, Any] = {}
+        flat = replace(line, outputs={name: ((len(entries),), entries) for name, (_, entries) in line.outputs.items()})
+        exec(python_source(flat, "program"), names)  # our own text
+        self.function, self.shapes = names["program"], [*line.inputs.values()]
+
+    def run(self, arrays: Sequence[Array]) -> None:
+        """Fill the results: each array has shape (states, entries)."""
+        given, results = arrays[: len(self.shapes)], arrays[len(self.shapes) :]
+        for k in range(len(arrays[0])):
+            state = [x[k].reshape(shape).tolist() for x, shape in zip(given, self.shapes)]
+            try:
+                values = self.function(*state)
+            except (OverflowError, ValueError, ZeroDivisionError):  # where NumPy goes on with NaN
+                values = [np.nan] * len(results)
+            for x, value in zip(results, values):
+                x[k] = value
+
+
+def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], threads: int) -> None:
+    """Call `run` with the states of all arrays, divided among threads where there are enough of them."""
+    count = len(arrays[-1])
+    parts = max(1, min(threads, count // LEAST))
+    if parts == 1:
+        run(arrays)
+        return
+    edges = [count * k // parts for k in range(parts + 1)]
+    with ThreadPoolExecutor(parts) as pool:
+        list(pool.map(lambda k: run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))
+
+
+@cache
+def keep_memory() -> None:
+    """Let the C library keep the memory of freed arrays instead of returning it to the kernel.
+
+    glibc returns blocks above a limit, at first 128 KiB, and every page that is used again then costs a page fault:
+    most of the time of 1000 states. The limit follows the largest block that was ever freed; elsewhere nothing happens.
+    """
+    np.empty(KEPT, np.uint8)
