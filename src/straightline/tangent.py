@@ -39,7 +39,7 @@ def jacobian(tape: Tape, results: Array, tangents: Mapping[int, Tangent | None],
     for k in needed(nodes, indices, tangents):
         tangent = tangents[k] if k in tangents else _tangent(tape, nodes, k, known)
         if tangent is None:
-            raise NotImplementedError(f"{Number(tape, k)!r} is used by other nodes than those whose derivatives are given")
+            raise NotImplementedError(f"{Number(tape, k)!r} is used, and not by nodes whose derivatives are given")
         known[k] = tangent
     J = np.full((len(indices), columns), Fraction(0), object)
     for row, index in zip(J, indices):
