@@ -1,16 +1,17 @@
-"""Which of the back ends runs a line: LLVM, NumPy, or for a few states plain Python."""
+"""What runs a line: LLVM, NumPy, or for a few states plain Python."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from functools import cache
+from functools import cache, cached_property
 from math import prod
 from typing import Any
 
 import numpy as np
 
+from . import extension
 from .line import Line
 from .llvm import MachineCode, lanes
 from .number import Array
@@ -33,19 +34,44 @@ class BackEnd:
         self.line, self.dtype, self.name = line, dtype, name
         # the sines of pairs are rounded to whole numbers, which `math` does not do
         self.few = FEW if dtype == np.float64 and "round" not in line.operations else 0
-        self._made: dict[Any, Any] = {}
+        self._codes: dict[int, MachineCode] = {}
         keep_memory()
 
     def machine_code(self, width: int) -> MachineCode:
         """Return machine code for so many states at once."""
-        if width not in self._made:
-            self._made[width] = MachineCode(self.line, self.dtype, width)
-        code: MachineCode = self._made[width]
-        return code
+        if width not in self._codes:
+            self._codes[width] = MachineCode(self.line, self.dtype, width)
+        return self._codes[width]
+
+    @cached_property
+    def plain(self) -> Plain:
+        """The line in plain Python."""
+        return Plain(self.line)
+
+    @cached_property
+    def registers(self) -> Registers:
+        """The line in NumPy."""
+        return Registers(self.line, self.dtype)
+
+    def one_state(self, single: bool) -> Callable[..., Any] | None:
+        """Return a function of the interpreter for one state, of which the last result decides: see `extension`.
+
+        None if there can be none: without machine code, or if the interpreter's objects are not as they are expected.
+        """
+        if self.name != "llvm" or not extension.POSSIBLE:
+            return None
+        return extension.state_function(self.machine_code(1), self.line, self.dtype, single)
 
     def run(self, arrays: Sequence[Array], threads: int) -> None:
         """Fill the results: each array has shape (states, entries). The states are divided among threads."""
-        divided(self._chosen(len(arrays[-1])).run, arrays, threads)
+        count = len(arrays[-1])
+        code: MachineCode | Plain | Registers
+        if self.name == "llvm":
+            width = lanes(self.dtype)
+            code = self.machine_code(width if count >= width else 1)
+        else:
+            code = self.plain if count <= self.few else self.registers
+        divided(code.run, arrays, threads)
 
     def results(
         self, states: Mapping[str, Array], batch: tuple[int, ...], threads: int = 1, into: Mapping[str, Array] = NONE
@@ -59,17 +85,6 @@ class BackEnd:
         if count:
             self.run([*given, *(rows[name] for name in line.outputs)], threads)
         return {name: rows[name].reshape(batch + shape) for name, (shape, _) in line.outputs.items()}
-
-    def _chosen(self, count: int) -> MachineCode | Plain | Registers:
-        """Return what is quickest for so many states."""
-        if self.name == "llvm":
-            width = lanes(self.dtype)
-            return self.machine_code(width if count >= width else 1)
-        kind = Plain if count <= self.few else Registers
-        if kind not in self._made:
-            self._made[kind] = Plain(self.line) if kind is Plain else Registers(self.line, self.dtype)
-        code: Plain | Registers = self._made[kind]
-        return code
 
 
 class Plain:
@@ -87,9 +102,10 @@ class Plain:
         for k in range(len(arrays[0])):
             state = [x[k].reshape(shape).tolist() for x, shape in zip(given, self.shapes)]
             try:
-                values = self.function(*state)
+                found = self.function(*state)
+                values = (found,) if len(results) == 1 else found
             except (OverflowError, ValueError, ZeroDivisionError):  # where NumPy goes on with NaN
-                values = [np.nan] * len(results)
+                values = (np.nan,) * len(results)
             for x, value in zip(results, values):
                 x[k] = value
 

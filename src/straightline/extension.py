@@ -1,9 +1,12 @@
-"""A program as a function of the interpreter, such as a module in C would have: for one state, where 0.1 µs counts.
+"""A line as a function of the interpreter, such as a module in C would have: for one state, where 0.1 µs counts.
 
 With the machine code of a line goes a little more, which finds the numbers where CPython and NumPy keep them, makes the
 arrays of the results and lets the line fill them: by what every compiled module relies on, the C-API of CPython and
 NumPy, and the first members of `PyObject` and `PyArrayObject`. Whatever is not an array of the right number type and
-shape, and each state that raises the alarm, is answered with None, and the caller goes another way.
+shape, and each state whose last result, the alarm, is above 1, is answered with None, and the caller goes another way.
+
+Nothing needs it: it is used where `POSSIBLE`, that is where an array of this interpreter has its members at these
+places, and without it all results are the same, some microseconds later.
 """
 
 from __future__ import annotations
@@ -20,20 +23,45 @@ import numpy as np
 from .instructions import Text
 from .line import Line
 from .llvm import NATIVE, MachineCode, engine_of
+from .number import Array
 from .outputs import Tail
 
-__all__ = ["POSSIBLE", "state_function"]
-
-POSSIBLE = sys.implementation.name == "cpython" and object.__basicsize__ == 16
-"""Whether an object begins with a count and its type, eight bytes each; in CPython without its lock it does not."""
+__all__ = ["POSSIBLE", "as_expected", "members", "state_function"]
 
 KIND = 8
 DATA, AXES, SHAPE, DTYPE, FLAGS = 16, 24, 32, 56, 64
-"""Where an object has its type; and an array its members, from the first byte on."""
+"""Where an object has its type, and an array its members: bytes from the first one on."""
 
 USUAL = 0x101  # flags of an array in C's order, whose entries are where the processor wants them
 POSITIONAL = 0x80  # METH_FASTCALL: the function gets its arguments as pointers, one after the other, and their count
 NEW_ARRAY = 93  # the place of PyArray_New among the functions of NumPy's C-API
+
+
+SIZE = 72  # bytes: no array is shorter than its first members
+
+
+def members(x: Array) -> tuple[int, ...]:
+    """Return what stands at these places of an array: its type, number type, data, axes, flags, and lengths."""
+    start = id(x)
+    kind, dtype, data, shape = (ctypes.c_size_t.from_address(start + at).value for at in (KIND, DTYPE, DATA, SHAPE))
+    axes, flags = (ctypes.c_int.from_address(start + at).value for at in (AXES, FLAGS))
+    if axes != x.ndim:
+        return kind, dtype, data, axes, flags
+    return kind, dtype, data, axes, flags, *(ctypes.c_ssize_t.from_address(shape + 8 * k).value for k in range(axes))
+
+
+def as_expected() -> bool:
+    """Return whether the members of an array of this interpreter stand at these places.
+
+    An object has to begin with a count and its type, eight bytes each; in CPython without its lock it does not.
+    """
+    if sys.implementation.name != "cpython" or object.__basicsize__ != 16 or np.ndarray.__basicsize__ < SIZE:
+        return False
+    x = np.zeros((2, 3), np.float32)
+    return members(x) == (id(np.ndarray), id(x.dtype), x.ctypes.data, 2, x.flags.num, 2, 3)
+
+
+POSSIBLE = as_expected()
 
 
 class Method(ctypes.Structure):

@@ -19,7 +19,7 @@ from .line import LEAVES, Line
 from .number import Array, without_garbage
 from .sine import with_series
 
-__all__ = ["NATIVE", "MachineCode", "available", "engine_of", "lanes"]
+__all__ = ["NATIVE", "MachineCode", "available", "default_backend", "engine_of", "lanes"]
 
 NATIVE = {np.dtype(np.float64): "double", np.dtype(np.float32): "float"}
 """LLVM's names of the number types that a processor has."""
@@ -41,6 +41,11 @@ def available() -> bool:
     except ImportError:
         return False
     return True
+
+
+def default_backend(dtype: np.dtype[Any]) -> str:
+    """Return what runs lines of a number type: "llvm" where it is installed and has the type, else "numpy"."""
+    return "llvm" if dtype in NATIVE and available() else "numpy"
 
 
 @cache

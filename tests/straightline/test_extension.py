@@ -1,7 +1,10 @@
 """A program as a function of the interpreter: the same numbers, None for what it does not know, and no leak."""
 
 import gc
+import shutil
+import subprocess
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -22,6 +25,42 @@ def program():
     made = tw.compile(MODEL, ["M", "h", "T", "J_c"])
     made(Q, V)
     return made
+
+
+ARRAYS = [
+    np.arange(6.0),
+    np.zeros((2, 3, 4), np.float32),
+    np.array(1.0),
+    np.ones((4, 3)).mT,
+    np.ones((4, 4))[::2, 1:],
+    np.frombuffer(bytes(17), np.float64, offset=1),
+]
+
+
+def test_an_array_has_its_members_where_they_are_read():
+    """What CPython and NumPy promise to compiled modules, on this version of Python."""
+    for x in ARRAYS:
+        expected = id(np.ndarray), id(x.dtype), x.ctypes.data, x.ndim, x.flags.num, *x.shape
+        assert extension.members(x) == expected
+        assert x.flags.num & extension.USUAL == 0x1 * x.flags.c_contiguous + 0x100 * x.flags.aligned
+    assert extension.as_expected()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("minor", ["3.11", "3.12", "3.13", "3.14"])
+def test_so_it_has_on_other_versions_of_python(minor):
+    python = shutil.which(f"python{minor}")
+    if python is None or subprocess.run([python, "-c", "import numpy"], capture_output=True).returncode:
+        pytest.skip(f"there is no Python {minor} with NumPy")
+    code = "import straightline.extension as e; raise SystemExit(not e.as_expected())"
+    source = str(Path(extension.__file__).parents[1])
+    assert subprocess.run([python, "-c", code], env={"PYTHONPATH": source}).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["KIND", "DATA", "AXES", "DTYPE", "FLAGS"])
+def test_members_at_other_places_are_noticed(name, monkeypatch):
+    monkeypatch.setattr(extension, name, {"KIND": 0, "DATA": 8, "AXES": 28, "DTYPE": 48, "FLAGS": 60}[name])
+    assert not extension.as_expected()
 
 
 def test_one_state_has_the_numbers_of_a_batch_to_the_last_bit(program):
@@ -55,7 +94,7 @@ def test_one_quantity_alone_is_an_array_in_either_number_type():
 
 
 def test_without_such_functions_the_numbers_are_the_same(program, monkeypatch):
-    monkeypatch.setattr("twistwrench.fast.program.POSSIBLE", False)
+    monkeypatch.setattr("straightline.extension.POSSIBLE", False)
     other = tw.compile(MODEL, ["M", "h", "T", "J_c"])
     for name, x in vars(other(Q, V)).items():
         assert np.array_equal(x, getattr(program(Q, V), name))

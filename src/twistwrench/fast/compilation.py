@@ -10,7 +10,7 @@ from typing import Any, Protocol, get_args
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from straightline.llvm import NATIVE, available
+from straightline.llvm import NATIVE, available, default_backend
 
 from ..algorithms.floating_base import HeldRows, as_frames, as_held
 from ..algorithms.kinematics import Reference
@@ -212,7 +212,7 @@ def _checked(model: Model, given: Mapping[str, ArrayLike] | None) -> dict[str, A
 def _backend(asked: str | None, dtype: np.dtype[Any]) -> str:
     """Return what runs the program: LLVM where it is there and has the number type, unless something else is asked."""
     if asked is None:
-        return "llvm" if dtype in NATIVE and available() else "numpy"
+        return default_backend(dtype)
     check_choice(asked, "backend", ("llvm", "numpy"))
     if asked == "llvm" and not available():
         raise ImportError('backend: "llvm" needs llvmlite: pip install "twistwrench[compile]"')

@@ -130,7 +130,7 @@ class WideProgram(DigitsProgram):
         """Return the results of the line; its constants have as many digits as mpmath now has."""
         key = tuple(states), import_module("mpmath").mp.prec if self.dtype.hasobject else None
         if key not in self._codes:
-            self._codes[key] = BackEnd(self.program._line(tuple(states)), self.dtype, "numpy")
+            self._codes[key] = BackEnd(self.program._code(tuple(states)).line, self.dtype, "numpy")
         filled = {name: self._wide(np.broadcast_to(own.get(name, x), x.shape)) for name, x in states.items()}
         return self._codes[key].results(filled, self.program.batch(states), self.program.threads, {})
 
@@ -164,7 +164,7 @@ class DoubleDoubleProgram(DigitsProgram):
     def _code(self, names: tuple[str, ...], low: tuple[str, ...]) -> BackEnd:
         """Return what runs the line for states with these arguments, of which some are pairs; rewritten once."""
         if (names, low) not in self._codes:
-            line, backend = self.program._line(names), self.program.backend
+            line, backend = self.program._code(names).line, self.program.backend
             pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=self.bound)
             self._codes[names, low] = BackEnd(pairs, DOUBLE, backend)
         return self._codes[names, low]

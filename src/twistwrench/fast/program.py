@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from straightline.backend import BackEnd
-from straightline.extension import POSSIBLE, state_function
 from straightline.line import Line
 from straightline.outputs import check_outputs, finish, targets
 from straightline.source import c_source, python_source
@@ -21,10 +20,12 @@ from ..arrays import Array
 from ..errors import ShapeError
 from ..model import Model
 from .anchors import step
-from .quantity import ARGUMENTS, Quantity, by_the_textbook, checked, shapes
+from .quantity import ARGUMENTS, Quantity, by_the_textbook, checked, shapes, shapes_by_the_textbook
 from .recording import ALARM, record
 
 __all__ = ["Program", "Results"]
+
+NOTHING: Mapping[str, Array] = {}
 
 
 def check_held(dtype: np.dtype[Any], given: Mapping[str, Any], checked: Mapping[str, Array]) -> None:
@@ -70,12 +71,13 @@ class Program:
     quantities : tuple of Quantity
     single : bool
         Whether the result is one array; else it is `Results`.
-    given : mapping of str to ndarray
-        Arguments that are the same for every state.
     dtype : dtype
     backend : {"llvm", "numpy", "textbook"}
+        With "textbook" there is no line: the textbook's functions take all states, some at a time.
+    given : mapping of str to ndarray
+        Arguments that are the same for every state.
     threads : int
-    remake : callable
+    remake : callable, optional
         Makes the program anew, from what can be pickled.
 
     Attributes
@@ -83,7 +85,7 @@ class Program:
     arguments : tuple of str
         The names of the program's arguments, in their order.
     one_state : callable, optional
-        What answers for one state, once one was asked for, where each 0.1 µs counts: see `extension`.
+        What answers for one state, once one was asked for, where each 0.1 µs counts: see `straightline.extension`.
 
     Examples
     --------
@@ -100,11 +102,11 @@ class Program:
         quantities: Sequence[Quantity],
         *,
         single: bool,
-        given: Mapping[str, Array],
         dtype: np.dtype[Any],
         backend: str,
-        threads: int,
-        remake: Callable[[], Program],
+        given: Mapping[str, Array] = NOTHING,
+        threads: int = 1,
+        remake: Callable[[], Program] | None = None,
     ) -> None:
         self.model, self.quantities, self.single, self.given = model, tuple(quantities), single, dict(given)
         self._remake = remake
@@ -113,9 +115,15 @@ class Program:
         self.arguments = tuple(name for name in ARGUMENTS if name in needed)
         self._plain = tuple(name for name in self.arguments if name != "f_ext")
         self._shapes = {name: shapes(model)[name] for name in self.arguments}
-        self._lines: dict[tuple[str, ...], Line] = {}
+        self._one = [self._shapes[name] for name in self._plain]
         self._codes: dict[tuple[str, ...], BackEnd] = {}
         self.one_state: Callable[..., Any] | None = None
+
+    def run_by(self, backend: str) -> None:
+        """Let another back end run the program, without recording it again."""
+        self.backend = backend
+        for code in self._codes.values():
+            code.name = backend
 
     @property
     def operations(self) -> Counter[str]:
@@ -125,7 +133,7 @@ class Program:
     @property
     def line(self) -> Line:
         """The straight line, for states without wrenches from outside."""
-        return self._line(self._plain).without(ALARM)
+        return self._code(self._plain).line.without(ALARM)
 
     def source(self, functions: str = "math") -> str:
         """Return the straight line as a Python function: for floats, or any numbers with + − × ÷, cos, sin and sqrt.
@@ -167,20 +175,14 @@ class Program:
         """Return the line with the steps of the chapter."""
         return self._recorded(self._plain, step).without(ALARM)
 
-    def _line(self, names: tuple[str, ...]) -> Line:
-        """Return the line for states with these arguments, recorded once."""
-        if names not in self._lines:
-            self._lines[names] = self._recorded(names)
-        return self._lines[names]
-
     def _recorded(self, names: tuple[str, ...], note: Callable[[], Any] | None = None) -> Line:
         shapes = {name: self._shapes[name] for name in names}
         return record(self.model, self.quantities, shapes, self.given, self.dtype, note)
 
     def _code(self, names: tuple[str, ...]) -> BackEnd:
-        """Return what runs that line, made once."""
+        """Return the line for states with these arguments, and what runs it: made once."""
         if names not in self._codes:
-            self._codes[names] = BackEnd(self._line(names), self.dtype, self.backend)
+            self._codes[names] = BackEnd(self._recorded(names), self.dtype, self.backend)
         return self._codes[names]
 
     def __call__(self, *args: ArrayLike | None, out: Any = None, **named: ArrayLike | None) -> Any:
@@ -206,17 +208,29 @@ class Program:
             If an argument is missing, is not one of the program's, or is a `DoubleDouble`.
         """
         if out is None and not named:
-            if self.one_state is None and self.backend == "llvm" and POSSIBLE and self._are_one_state(args):
-                code = self._code(self._plain).machine_code(1)
-                self.one_state = state_function(code, self._line(self._plain), self.dtype, self.single)
-            found = self.one_state(*args) if self.one_state else None
+            one = self.one_state
+            if one is None and self.backend == "llvm" and [getattr(x, "shape", None) for x in args] == self._one:
+                one = self.one_state = self._code(self._plain).one_state(self.single)
+            found = one(*args) if one else None
             if found is not None:
                 return found if self.single else Results(**dict(zip((x.symbol for x in self.quantities), found)))
-        return self._many(self._bound(args, named), out)
-
-    def _are_one_state(self, args: Sequence[Any]) -> bool:
-        """Return whether arguments have the shapes of one state, and are arrays."""
-        return [getattr(x, "shape", None) for x in args] == [self._shapes[name] for name in self._plain]
+        states = self._states(self._bound(args, named))
+        batch = self.batch(states)
+        code = None if self.backend == "textbook" else self._code(tuple(states))
+        if code is None:
+            tails = shapes_by_the_textbook(self.quantities, states, self._shapes)
+        else:
+            tails = {name: shape for name, (shape, _) in code.line.outputs.items() if name != ALARM}
+        given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
+        check_outputs(given, batch, tails, self.dtype, ShapeError)
+        rows = targets(given, [*states.values()], prod(batch), tails, self.dtype)
+        filled = {name: x.reshape(batch + tails[name]) for name, x in rows.items()}
+        unsure = np.ones(batch, bool)
+        if code is not None:
+            unsure = ~(code.results(states, batch, self.threads, rows)[ALARM].real <= 1)
+        if unsure.any():
+            by_the_textbook(self.model, self.quantities, self.given | states, filled, unsure)
+        return self.packed(finish(given, filled))
 
     def _bound(self, args: Sequence[ArrayLike | None], named: Mapping[str, ArrayLike | None]) -> dict[str, ArrayLike]:
         """Return the arguments by name."""
@@ -232,26 +246,6 @@ class Program:
         if missing:
             raise TypeError(f"expected {expected}: {', '.join(missing)} missing")
         return {name: x for name in self.arguments if (x := bound.get(name)) is not None}
-
-    def _many(self, bound: Mapping[str, ArrayLike], out: Any) -> Any:
-        """Return the results for any number of states."""
-        states = self._states(bound)
-        batch, tails = self.batch(states), self._tails(states)
-        given = {} if out is None else {next(iter(tails)): out} if self.single else dict(out)
-        check_outputs(given, batch, tails, self.dtype, ShapeError)
-        rows = targets(given, [*states.values()], prod(batch), tails, self.dtype)
-        filled = {name: x.reshape(batch + tails[name]) for name, x in rows.items()}
-        unsure = np.ones(batch, bool)
-        if self.backend != "textbook":
-            found = self._code(tuple(states)).results(states, batch, self.threads, rows)
-            unsure = ~(found[ALARM].real <= 1)
-        if unsure.any():
-            by_the_textbook(self.model, self.quantities, self.given | states, filled, unsure)
-        return self.packed(finish(given, filled))
-
-    def _tails(self, states: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
-        """Return the shape of each result of one state."""
-        return {name: shape for name, (shape, _) in self._line(tuple(states)).outputs.items() if name != ALARM}
 
     def packed(self, results: Mapping[str, Any]) -> Any:
         """Return one result as it is, several as `Results`."""
@@ -274,6 +268,8 @@ class Program:
         return next((x.shape[: x.ndim - len(self._shapes[name])] for name, x in states.items()), ())
 
     def __reduce__(self) -> tuple[Callable[[], Program], tuple[()]]:
+        if self._remake is None:
+            raise TypeError(f"{self!r} belongs to its model, which makes it anew after pickling")
         return self._remake, ()
 
     def __repr__(self) -> str:

@@ -10,9 +10,10 @@ import numpy as np
 from straightline.double_double import DoubleDouble
 
 from ..arrays import Array
+from ..errors import SingularError
 from ..model import Model, floats_of
 
-__all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "checked", "computed", "shapes"]
+__all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "checked", "computed", "shapes", "shapes_by_the_textbook"]
 
 ARGUMENTS = ("q", "v", "a", "tau", "f_ext")  # the arguments of a program, in this order
 CHUNK = 2**17  # states times degrees of freedom that the textbook takes at a time
@@ -60,6 +61,18 @@ def by_the_textbook(
 def _results(model: Model, quantities: Sequence[Quantity], states: Mapping[str, Any]) -> dict[str, Array]:
     """Return the quantities, by symbol."""
     return computed(quantities, checked(model, states))
+
+
+def shapes_by_the_textbook(
+    quantities: Sequence[Quantity], states: Mapping[str, Array], shapes: Mapping[str, tuple[int, ...]]
+) -> dict[str, tuple[int, ...]]:
+    """Return the shape of each result of one state, by symbol: what the textbook makes of no states."""
+    none = {name: np.empty((0, *shapes[name]), x.dtype) for name, x in states.items()}
+    try:
+        return {symbol: x.shape[1:] for symbol, x in computed(quantities, none).items()}
+    except SingularError:  # it is so wherever it stands: of no states, only the tips of massless limbs are named
+        computed(quantities, states)
+        raise
 
 
 def checked(model: Model, states: Mapping[str, Any]) -> dict[str, Array]:

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from straightline.backend import BackEnd
-from straightline.llvm import available
+from straightline.llvm import default_backend
 
 from ..arrays import Array
 from ..errors import SingularError
@@ -53,7 +53,7 @@ def compiled(
         line = record(model, wants, shapes, {}, DOUBLE).without(ALARM)
     except (TypeError, ArithmeticError, SingularError):  # a law that asks what its numbers are
         return lambda: [y for k, y in enumerate(law(*known)) if k in wanted], np.inf
-    code, n = BackEnd(line, DOUBLE, "llvm" if available() else "numpy"), len(known[0])
+    code, n = BackEnd(line, DOUBLE, default_backend(DOUBLE)), len(known[0])
     flat = [np.ascontiguousarray(x.reshape(n, -1), DOUBLE) for x in known]
     results = [np.empty((n, *shape)) for shape, _ in line.outputs.values()]
     arrays = [*flat, *(y.reshape(n, -1) for y in results)]
