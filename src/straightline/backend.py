@@ -18,7 +18,7 @@ from .number import Array
 from .registers import Registers
 from .source import python_source
 
-__all__ = ["BackEnd", "divided"]
+__all__ = ["BackEnd"]
 
 NONE: Mapping[str, Array] = {}
 
@@ -62,16 +62,12 @@ class BackEnd:
             return None
         return extension.state_function(self.machine_code(1), self.line, self.dtype, single)
 
-    def run(self, arrays: Sequence[Array], threads: int) -> None:
-        """Fill the results: each array has shape (states, entries). The states are divided among threads."""
-        count = len(arrays[-1])
-        code: MachineCode | Plain | Registers
+    def code(self, count: int) -> MachineCode | Plain | Registers:
+        """Return what is quickest for so many states: its `run` fills the results, as rows, from the arguments."""
         if self.name == "llvm":
             width = lanes(self.dtype)
-            code = self.machine_code(width if count >= width else 1)
-        else:
-            code = self.plain if count <= self.few else self.registers
-        divided(code.run, arrays, threads)
+            return self.machine_code(width if count >= width else 1)
+        return self.plain if count <= self.few else self.registers
 
     def results(
         self, states: Mapping[str, Array], batch: tuple[int, ...], threads: int = 1, into: Mapping[str, Array] = NONE
@@ -82,8 +78,11 @@ class BackEnd:
         given = [x if x.strides[1] == x.itemsize and x.flags.aligned else np.ascontiguousarray(x) for x in given]
         made = {name: np.empty((count, len(line.outputs[name][1])), self.dtype) for name in line.outputs.keys() - into}
         rows = {**into, **made}
-        if count:
-            self.run([*given, *(rows[name] for name in line.outputs)], threads)
+        arrays = [*given, *(rows[name] for name in line.outputs)]
+        if count >= 2 * LEAST and threads > 1:
+            divided(self.code(count).run, arrays, threads)
+        elif count:
+            self.code(count).run(arrays)
         return {name: rows[name].reshape(batch + shape) for name, (shape, _) in line.outputs.items()}
 
 
@@ -111,12 +110,9 @@ class Plain:
 
 
 def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], threads: int) -> None:
-    """Call `run` with the states of all arrays, divided among threads where there are enough of them."""
+    """Call `run` with the states of all arrays, divided among threads."""
     count = len(arrays[-1])
-    parts = max(1, min(threads, count // LEAST))
-    if parts == 1:
-        run(arrays)
-        return
+    parts = min(threads, count // LEAST)
     edges = [count * k // parts for k in range(parts + 1)]
     with ThreadPoolExecutor(parts) as pool:
         list(pool.map(lambda k: run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))

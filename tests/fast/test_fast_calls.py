@@ -3,6 +3,7 @@
 import gc
 import pickle
 import re
+import sys
 import weakref
 
 import numpy as np
@@ -416,11 +417,47 @@ def test_a_program_is_made_once_for_each_question_and_number_type():
     assert len(model._programs) == 4
 
 
+def calls_until(function, last):
+    """Return the names of the functions that are called, one within the other, until the last one."""
+    way = []
+
+    def look(frame, event, _):
+        if not way and event == "call" and frame.f_code.co_name == last:
+            while frame is not None and frame.f_code.co_name != function.__name__:
+                way.append(frame.f_code.co_qualname)
+                frame = frame.f_back
+
+    sys.setprofile(look)
+    try:
+        function()
+    finally:
+        sys.setprofile(None)
+    return way[::-1]
+
+
+@pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
+def test_from_a_function_to_its_machine_code_there_are_four_calls(states):
+    """A reader can follow them; for one state there is one less, and nothing is looked for a second time."""
+
+    def batch():
+        return fast.rnea(GO2, states.q, states.v, states.a)
+
+    def single():
+        return fast.rnea(GO2, states.q[0], states.v[0], states.a[0])
+
+    batch(), single()
+    way = ["rnea", "result", "Program.__call__", "BackEnd.results", "MachineCode.run"]
+    assert calls_until(batch, "run") == way
+    assert calls_until(single, "one_state") == ["rnea", "result", "one_state"]
+
+
 def test_a_program_goes_with_its_model_and_is_not_pickled():
     model = tw.chain(3)
     fast.crba(model, [0.1, 0.2, 0.3])
     assert len(model._programs) == 1
     assert pickle.loads(pickle.dumps(model))._programs == {}
+    with pytest.raises(TypeError, match="belongs to its model"):
+        pickle.dumps(next(iter(model._programs.values())))
     kept = [weakref.ref(x) for x in (*model._programs.values(), model)]
     del model
     gc.collect()

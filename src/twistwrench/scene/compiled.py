@@ -53,13 +53,14 @@ def compiled(
         line = record(model, wants, shapes, {}, DOUBLE).without(ALARM)
     except (TypeError, ArithmeticError, SingularError):  # a law that asks what its numbers are
         return lambda: [y for k, y in enumerate(law(*known)) if k in wanted], np.inf
-    code, n = BackEnd(line, DOUBLE, default_backend(DOUBLE)), len(known[0])
+    n = len(known[0])
+    code = BackEnd(line, DOUBLE, default_backend(DOUBLE)).code(n)
     flat = [np.ascontiguousarray(x.reshape(n, -1), DOUBLE) for x in known]
     results = [np.empty((n, *shape)) for shape, _ in line.outputs.values()]
     arrays = [*flat, *(y.reshape(n, -1) for y in results)]
 
     def run() -> Sequence[Array]:
-        code.run(arrays, 1)
+        code.run(arrays)
         return results
 
     return run, line.operations.total()
