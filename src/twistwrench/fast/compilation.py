@@ -67,8 +67,8 @@ def compile(
         it returns `Results`, and what they have in common is computed once.
     dtype : dtype_like
         A floating-point type (float32 and float64 can be machine code), or one with more digits: "double-double" has
-        32, "quad" 34, and "mpmath" as many as ``mpmath.mp.dps``. Doubles are rounded to it; a program for real numbers
-        takes no complex ones, and none but those of long double or more digits takes a long double.
+        32 (``straightline.DoubleDouble``, pairs of hi and lo), "quad" 34, and "mpmath" as many as ``mpmath.mp.dps``.
+        Doubles are rounded to it; complex numbers and long doubles are refused where it cannot hold them.
     contacts : iterable of str or Contact, optional
         The frames of J_c, or contacts of any kind; `model.feet` unless given. Not for a scene, which has its own.
     frames : iterable of str
