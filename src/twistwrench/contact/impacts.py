@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_number
-from ..compiler import Results
+from ..fast.program import Results
 from ..model import Model
 from .decomposition import decompose
 from .relative import given_motion

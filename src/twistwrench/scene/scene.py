@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..algorithms.kinematics import Reference, frame_placement
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array, as_number, check_kind
-from ..compiler.quantity import Quantity
+from ..fast.quantity import Quantity
 from ..motions import Motion
 from ..motions.motion import as_motions
 from .candidates import candidates, limbs, this_scene

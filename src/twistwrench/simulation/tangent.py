@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array
-from ..compiler.quantities import Quantity
 from ..fast.programs import remembered
+from ..fast.quantities import Quantity
 from ..model import GroupJoint, Model
 from ..spatial import cross_motion
 from ..spatial._quaternions import exp_quaternion
