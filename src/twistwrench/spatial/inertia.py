@@ -194,7 +194,10 @@ class SpatialInertia(Shapes):
             return self._scaled(m / a, c, I_c / a[..., None, None])
 
     def _with_scale(self, scale: ArrayLike, operator: str) -> tuple[Array, Array, Array, Array]:
-        """Return a number, or one for each item of a batch, and the ten numbers, all of one type."""
+        """Return a number, or one for each item of a batch, and the ten numbers, all of one type.
+
+        Raises TypeError for another inertia or a spatial vector, ModelError for a negative number.
+        """
         if isinstance(scale, SpatialInertia | SpatialVector):
             use = "; I @ V is the momentum" if isinstance(scale, SpatialVector) else ""
             raise TypeError(f"SpatialInertia {operator} {type(scale).__name__}: expected a number{use}")
