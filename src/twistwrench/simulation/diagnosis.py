@@ -53,7 +53,7 @@ def why(system: System, method: str, t0: float, states: Sequence[tuple[Array, Ar
     q, v = states[k]
     try:
         found = of_gains(system, method, t0 + k * system.dt, q, v, item)
-    except (ValueError, ArithmeticError):  # the policy, or M, cannot be asked in such a state
+    except Exception:  # M cannot be asked in such a state, or the policy, which may raise anything
         found = None
     if found is None:
         found = of_spin(system, q[item], v[item])

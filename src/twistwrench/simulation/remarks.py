@@ -13,7 +13,7 @@ from ..contact import Contact, PointContact, SphereContact, SurfaceContact, Whee
 from ..model import Model
 from .stepping import TimeStepping
 
-__all__ = ["Remark", "of_contacts", "of_ground", "of_joints", "of_left_out"]
+__all__ = ["Remark", "of_alternation", "of_contacts", "of_ground", "of_joints", "of_left_out"]
 
 LOOSE = 1e-9
 """Relative to what is allowed, or in rad and m: rounding stays below."""
@@ -27,6 +27,10 @@ SLIDES = 1e-3
 MISSES = 1e-3
 """Relative to the fastest point: how far a step may miss Coulomb's law before it is said."""
 
+ALTERNATES, GROWS, SHAKES = 8, 4.0, 0.1
+"""So many changes of v in a row with opposite signs, of which the last is so many times the first, and above so many
+rad/s or m/s, are no motion but gains that are too high for the step."""
+
 SENTENCES = {
     "pull": "contact {name!r} pulls, by {value:.4g} N",
     "slip": "contact {name!r} holds {value:.4g} N along the ground; without slipping it can {limit:.4g} N",
@@ -37,6 +41,8 @@ SENTENCES = {
     "effort": "the motor of joint {name!r} gives {value:.4g} N m or N; it can {limit:.4g}",
     "lift-off": "contact {name!r} leaves the ground",
     "slide": "contact {name!r} slides, at {value:.4g} m/s",
+    "alternates": "the velocity of joint {name!r} alternates and grows, soon by {value:.4g} rad/s or m/s a step: lower "
+    "gains, damping of the model, or a smaller dt?",
     "coulomb": "contact {name!r} misses Coulomb's law by {value:.4g} m/s, more than {limit:.4g}: a smaller dt?",
     "damping": "joint {name!r} has damping, here up to {value:.4g} N m or N, which only 'time-stepping' applies",
     "friction": "joint {name!r} has dry friction, {value:.4g} N m or N, which only 'time-stepping' applies",
@@ -52,9 +58,10 @@ class Remark(NamedTuple):
         When, s.
     kind : str
         "pull", "slip", "tip" of a contact that sticks, "sunk" of a body below all of them; "range", "speed", "effort"
-        of a joint; "lift-off", "slide" of a contact on a ground, and "coulomb" where no forces were found that
-        fulfil Coulomb's law to 1e-3 of the fastest point; "damping", "friction" of a joint that moves, which
-        only time stepping applies; the value is the largest that was left out.
+        of a joint, "alternates" of one whose velocity changes its way in each step, by more and more; "lift-off",
+        "slide" of a contact on a ground, and "coulomb" where no forces were found that fulfil Coulomb's law to 1e-3 of
+        the fastest point; "damping", "friction" of a joint that moves, which only time stepping applies; the value is
+        the largest that was left out.
     name : str
         Of the frame of the contact, or the joint.
     value, limit : float
@@ -90,6 +97,19 @@ def of_joints(model: Model, t: Array, q: Array, v: Array, tau: Array) -> Iterato
             yield from first(t, "range", name, q[..., at_q], model.lower[at_q], -1.0)
         yield from first(t, "speed", name, np.abs(v[..., at_v]), model.velocity_limit[at_v])
         yield from first(t, "effort", name, np.abs(tau[..., at_v]), model.effort_limit[at_v])
+
+
+def of_alternation(model: Model, t: Array, v: Array) -> Iterator[Remark]:
+    """Yield the joints whose velocity changes its way in each step, and each time by more."""
+    change = np.diff(v, axis=0)
+    if len(change) <= ALTERNATES:
+        return
+    turns = np.lib.stride_tricks.sliding_window_view(change[1:] * change[:-1] < 0, ALTERNATES, axis=0).all(axis=-1)
+    begins, ends = np.abs(change[:-ALTERNATES]), np.abs(change[ALTERNATES:])
+    found = np.where(turns & (ends > GROWS * begins) & (ends > SHAKES), ends, 0.0)
+    for name, joint, at in zip(model.joint_names, model.joints, model.v_slice):
+        if joint is not None:
+            yield from first(t, "alternates", name, found[..., at], 0.0)
 
 
 def of_left_out(model: Model, t: Array, v: Array) -> Iterator[Remark]:

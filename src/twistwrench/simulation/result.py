@@ -15,7 +15,7 @@ from ..arrays import Array, as_count
 from ..errors import check_known
 from ..model import Model
 from .methods import METHODS
-from .remarks import Remark, of_contacts, of_ground, of_joints, of_left_out
+from .remarks import Remark, of_alternation, of_contacts, of_ground, of_joints, of_left_out
 from .system import System
 
 __all__ = ["Simulation"]
@@ -117,11 +117,12 @@ class Simulation:
         """What a real robot would not have done, or not without being noticed, the first time of each, in time order.
 
         A contact that sticks and pulls, would slip or tip; a body below all contacts; a joint beyond its range or its
-        speed, a motor beyond its limit; on a ground, a contact that leaves it or slides; damping and friction of a
-        joint, which only time stepping applies.
+        speed, or whose velocity alternates and grows; a motor beyond its limit; on a ground, a contact that leaves it
+        or slides; damping and friction of a joint, which only time stepping applies.
         """
         system, stepping, model, (q, v, tau) = self.system, self.system.stepping, self.system.model, self.full
-        found = [*of_joints(model, self.t, q, v, tau)]
+        clock = slice(None, None, max(system.period, 1))
+        found = [*of_joints(model, self.t, q, v, tau), *of_alternation(model, self.t[clock], v[clock])]
         if self.contact_forces and stepping is None:
             found += of_contacts(model, self.t, q, system.contacts, self.contact_forces)
         found += of_left_out(model, self.t, v) if stepping is None else of_ground(stepping, self.t)
@@ -201,7 +202,7 @@ class Simulation:
             return []
         try:
             dq, dv = self.step_error(ASKED)
-        except ValueError:  # half a step fails, or the policy is in another process
+        except Exception:  # half a step fails, or the policy, which may raise anything, or is in another process
             return []
         return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {ASKED}: see step_error)"]
 
