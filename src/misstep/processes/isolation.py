@@ -52,7 +52,7 @@ def drawn(seed: int | None) -> int:
 def _is_possible(time_limit: float) -> bool:
     """Whether there is another process; a browser has none."""
     if not time_limit >= 0:
-        raise ModelError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
+        raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
     return bool(time_limit and sys.executable) and sys.platform != "emscripten"
 
 
