@@ -512,12 +512,14 @@ def _near(x: Any) -> list[Any]:
 
 
 def missing_factor(context: Context, place: Place) -> Iterator[Any]:
-    """Turn a term by a matrix at hand, multiply it by a number at hand, or take its size."""
+    """Turn a term by a matrix at hand, multiply it by a number at hand, or take its size or its diagonal."""
     node, shape = place.node, context.shape(place.node)
     around = ast.BinOp | ast.Call | ast.Return | ast.Assign | ast.Tuple | ast.List
     if not _is_term(place) or shape is None or not isinstance(place.parent, around) or isinstance(node, ast.Constant):
         return
     yield code("abs(x)", x=node)
+    if len(shape) == 2 and shape[0] == shape[1]:
+        yield code("np.diag(np.diag(x))", x=node)
     for text, value in context.at_hand.items():
         if text == text_of(node):
             continue

@@ -111,7 +111,7 @@ class Selection(Domain):
 
 VECTORS = (
     *("v", "a", "h", "g", "w", "p", "c", "r", "x", "tau", "force", "forces", "f_c", "weight", "points"),
-    *("omega", "alpha", "a_c", "omega_z", "v_x", "p_AB", "p_BC", "xyz", "rpy", "seconds"),
+    *("omega", "alpha", "a_c", "omega_z", "v_x", "p_AB", "p_BC", "p_G", "xyz", "rpy", "seconds"),
     *("F", "G", "V", "W", "V_joint", "qd", "qdd", "qdd_joints", "h_G", "k_rate"),
 )
 
