@@ -40,18 +40,22 @@ class Verdict:
     lines : tuple of Text
         The message, line by line; empty for what is done.
     slips : tuple of str
-        The slips that give the same answer, keys of `slips.SLIPS`.
+        The slips that give the same answer, keys of the slips of the field.
     case : Case, optional
         The first case in which the answer is wrong.
     how : {"slip", "line", "reference", "structure", "located", "numbers"}
-        By what it was found what is wrong, as in `misstep.diagnose`.
+        By what it was found what is wrong, as in `diagnose`: "structure" also where no number is; empty unless wrong.
     """
 
     state: State
     lines: tuple[Text, ...] = ()
     slips: tuple[str, ...] = ()
     case: Case | None = None
-    how: How = "structure"
+    how: How | Literal[""] = ""
+
+    def __post_init__(self) -> None:
+        if self.state == "wrong" and not self.how:
+            object.__setattr__(self, "how", "structure")
 
     def message(self, language: Literal["en", "zh"]) -> str:
         """Return the message in one language."""

