@@ -15,9 +15,7 @@ MESSAGES = {
     ),
     "project": Text("the project at the end of the chapter", "章末的累积项目"),
     # what explains it: a slip, an edit of the student's code, an edit of a right solution
-    "slip": Text(
-        "Your numbers fit this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"
-    ),
+    "slip": Text("Your numbers fit this slip: {title}. {why}", "你的数值等于犯下这个错误的结果：{title}。{why}"),
     "slips": Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果："),
     "one of the slips": Text("  - {title}. {why}", "  - {title}。{why}"),
     "own": Text("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。"),

@@ -11,7 +11,13 @@ from misstep.judge import judge
 from twistwrench.exercises import mine
 from twistwrench.exercises.chapter import COURSE
 
-WRITTEN = Path(__file__).with_name("wrong_answers.jsonl").read_text(encoding="utf-8").splitlines()
+FILES = ("answers_of_strangers.jsonl", "wrong_answers.jsonl")
+"""Answers that somebody wrote who did not know the engine, and those that tests of the engine had."""
+
+WRITTEN = {
+    name: [json.loads(line) for line in Path(__file__).with_name(name).read_text(encoding="utf-8").splitlines()]
+    for name in FILES
+}
 NAMED = ("slip", "line", "reference", "structure")
 LEAST = 0.84
 """The share that must be named."""
@@ -30,11 +36,12 @@ def verdict(folder, answer):
     return judge(exercise, part, names[part.name])
 
 
+@pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("step", [30, pytest.param(1, marks=pytest.mark.slow)])
-def test_most_wrong_answers_are_named_and_none_passes(tmp_path, step):
+def test_most_wrong_answers_are_named_none_passes_and_right_ones_do(tmp_path, name, step):
     """The plain run takes every thirtieth answer, the slow one all."""
-    chosen = WRITTEN[::step]
-    found = [verdict(tmp_path, answer) for answer in map(json.loads, chosen)]
-    assert {x.state for x in found} == {"wrong"}
-    named = sum(x.how in NAMED for x in found) / len(found)
+    found = [(answer, verdict(tmp_path, answer)) for answer in WRITTEN[name][::step]]
+    wrong = [x for answer, x in found if not answer.get("right")]
+    assert [answer for answer, x in found if (x.state == "done") != bool(answer.get("right"))] == []
+    named = sum(x.how in NAMED for x in wrong) / len(wrong)
     assert named >= (LEAST if step == 1 else 0.5)  # a few answers may all be hard
