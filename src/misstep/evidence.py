@@ -93,12 +93,16 @@ class Evidence:
         return [(arguments, self.part.value(self.part.solution, arguments)) for arguments in cases]
 
     def holds_everywhere(self, function: Function) -> bool:
-        """Whether a changed function is right in the special cases, and changes no argument unless it did before."""
-        arguments = self.cases[self.first]
-        kept = keeps_arguments(self.part, function, arguments) or not keeps_arguments(
-            self.part, self.function, arguments
-        )
-        return kept and all(agree(self.part, call_or_none(self.part, function, c), x, c) for c, x in self._special)
+        """Whether a changed function is right in the special cases as well."""
+        return all(agree(self.part, call_or_none(self.part, function, c), x, c) for c, x in self._special)
+
+    def leaves_arguments(self, function: Function) -> bool:
+        """Whether a changed function changes no argument, unless the student's does."""
+        return self._changes_arguments or keeps_arguments(self.part, function, self.cases[self.first])
+
+    @cached_property
+    def _changes_arguments(self) -> bool:
+        return not keeps_arguments(self.part, self.function, self.cases[self.first])
 
     def wrong_entries(self, answer: Any, wanted: Any) -> Array | None:
         """Return which numbers of an answer are not as wanted; None where they cannot be compared one by one."""

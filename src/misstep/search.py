@@ -113,6 +113,8 @@ def search(
             if explained == frozenset(evidence.results):
                 if hypothesis.origin != "slip" and copied_results(answers, evidence.right, evidence.answers):
                     continue  # what is asked for in two ways is not computed in one
+                if is_cure and not evidence.leaves_arguments(hypothesis.function):
+                    continue
                 good = not is_cure or evidence.holds_everywhere(hypothesis.function)
                 (found.whole if good else unsure).append(hypothesis)
                 continue
