@@ -42,7 +42,7 @@ STYLE = """<style>
 .tw-check svg {vertical-align: top; margin: 0.3em 0}
 </style>"""
 
-IN_THE_SHELL = re.compile(r"[;；][^;；\n]*[^;；\n]* hint [\w.]+")
+IN_THE_SHELL = re.compile(r"[;；][^;；\n]* hint [\w.]+")
 """What a message says of a command; where the hints are below it, it is left out."""
 
 SQUARE = 9
