@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 import twistwrench as tw
-from twistwrench.compiler import compile
+from twistwrench import compile
 
 STATES, ROUNDS = 1000, 15
 INVERSE, FORWARD, REGRESSOR = ("dtau_dq", "dtau_dv", "M"), ("qdd", "dqdd_dq", "dqdd_dv", "dqdd_dtau"), "Y"
@@ -28,13 +28,14 @@ def measured(calls):
 
 
 def row(model, want, args, theirs):
-    """Compile, call once, and print operations, seconds to compile, and times beside Pinocchio's loop."""
-    start = time.process_time()
-    program = compile(model, want)
-    one = [x[0].copy() for x in args]
-    program(*one)
-    program(*args)
-    seconds = time.process_time() - start
+    """Print operations, seconds until the first results by machine code and by NumPy, and times beside Pinocchio's."""
+    one, seconds = [x[0].copy() for x in args], []
+    for backend in ("numpy", "llvm"):
+        start = time.process_time()
+        program = compile(model, want, backend=backend)
+        program(*one)
+        program(*args)
+        seconds.append(f"{time.process_time() - start:.1f} s")
 
     def state_by_state():
         for _ in range(STATES // 4):
@@ -45,7 +46,7 @@ def row(model, want, args, theirs):
     ratios = [np.median(x / pinocchio) for x in (batch, single)]
     micro = [1e6 * x.min() for x in (batch, single, pinocchio)]
     name = want if isinstance(want, str) else ", ".join(want)
-    cells = [model.name, name, program.operations.total(), f"{seconds:.1f} s", *(f"{x:.3g}" for x in (*micro, *ratios))]
+    cells = [model.name, name, program.operations.total(), *seconds, *(f"{x:.3g}" for x in (*micro, *ratios))]
     print("|", " | ".join(map(str, cells)), "|", flush=True)
 
 
@@ -63,6 +64,16 @@ def compared(name):
 
 
 if __name__ == "__main__":
-    print("| robot | quantities | operations | compile | 1000 states | one | Pinocchio | ratio | ratio of one |")
+    columns = [
+        "robot",
+        "quantities",
+        "operations",
+        "first call, NumPy",
+        "machine code",
+        "1000 states",
+        "one",
+        "Pinocchio",
+    ]
+    print("|", " | ".join([*columns, "ratio", "ratio of one"]), "|")
     for name in sys.argv[1:] or ["go2"]:
         compared(name)

@@ -28,9 +28,9 @@ from study.cases import random_states
 from tables import fill, table
 
 import twistwrench as tw
-from twistwrench.compiler import recording
-from twistwrench.compiler.line import LEAVES, Line
-from twistwrench.compiler.number import Node, Number, Tape
+from straightline.line import LEAVES, Line
+from straightline.number import Node, Number, Tape
+from twistwrench.fast import recording
 from twistwrench.timing import round_robin
 
 HERE = Path(__file__).parent

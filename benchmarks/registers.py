@@ -23,7 +23,7 @@ from study.speed import speed
 from tables import HERE
 
 import twistwrench as tw
-from twistwrench.compiler import llvm as ours
+from straightline import llvm as ours
 
 WIDTHS = (512, 256)
 TURNS = 5

@@ -17,7 +17,7 @@ from .sampling import DRAWN_BY
 PLAIN_CASES = 2
 """Of each test in the plain run: the first and the last."""
 
-SLOW_CASES = 12
+SLOW_CASES = 6
 """Of each test in the slow run, at most; those are drawn."""
 
 settings.register_profile(

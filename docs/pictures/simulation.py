@@ -186,12 +186,17 @@ def flown_ball(method: str, dt: float) -> float:
 
 def swung_pendulum(method: str, dt: float) -> float:
     """Return how far a pendulum is from Jacobi's solution 0.4 s after it was let go at 2 rad."""
+    s = tw.simulate(tw.load("pendulum"), [2.0], [0.0], dt=dt, duration=0.4, method=method)
+    return abs(float(s.q[-1, 0]) - pendulum_angle(2.0, 9.81 / 1.001, 0.4))
+
+
+def pendulum_angle(start: float, stiffness: float, t: float) -> float:
+    """Return the angle of a pendulum, φ̈ = −k sin φ, a time after it was let go."""
     from scipy.special import ellipj, ellipk
 
-    m, omega = np.sin(1.0) ** 2, np.sqrt(9.81 / 1.001)
-    sn = ellipj(ellipk(m) - omega * 0.4, m)[0]
-    s = tw.simulate(tw.load("pendulum"), [2.0], [0.0], dt=dt, duration=0.4, method=method)
-    return abs(float(s.q[-1, 0]) - 2 * np.arcsin(np.sin(1.0) * sn))
+    m = np.sin(start / 2) ** 2
+    sn = ellipj(ellipk(m) - np.sqrt(stiffness) * t, m)[0]
+    return float(2 * np.arcsin(np.sin(start / 2) * sn))
 
 
 def free_top(method: str, dt: float) -> float:
@@ -233,13 +238,80 @@ def orders() -> None:
     def made(name: str) -> float:
         return seconds_of(lambda: tw.simulate(go2, *start, dt=0.002, steps=60, method=name))
 
-    spent = {name: made(name) for name in LOOK}
-    for name in LOOK:
+    every = [*LOOK, "time-stepping"]
+    spent = {name: made(name) for name in every}
+    for name in every:
         dt, cells = (0.01 if METHODS[name].order == 4 else 0.002), []
         for form in (flown_ball, swung_pendulum, free_top, heavy_top):
             coarse, fine = form(name, 2 * dt), form(name, dt)
             cells.append(f"{fine:.1e}" + (f" ({np.log2(coarse / fine):.1f})" if fine > 1e-11 else ""))
         print(f"| `{name}` | {1000 * dt:g} | {' | '.join(cells)} | {spent[name] / spent['rk4']:.1g} |", flush=True)
+
+
+def on_ground(
+    inertia: tw.SpatialInertia, place: Sequence[float], v: Sequence[float], dt: float, **how: Any
+) -> Simulation:
+    """Let a body with the origin of its frame at a place, and its points, move on a ground for `how["duration"]`."""
+    builder = tw.Builder("body", base="floating", root="body", root_inertia=inertia)
+    for name, at in how.pop("points", {}).items():
+        builder.link(name, parent="body", placement=tw.SE3(np.eye(3), at))
+    turn = how.pop("turn", [0.0, 0, 0, 1])
+    return tw.simulate(builder.build(), np.r_[place, turn], v, dt=dt, **{"ground": tw.Ground()} | how)
+
+
+def ball_down(dt: float) -> float:
+    """Return how far a ball that rolls down 30° from rest is from ½ · 5/7 g sin 30° t² after 1 s, m."""
+    n, inertia = np.array([0.5, 0, np.sqrt(0.75)]), tw.SpatialInertia.from_sphere(1.0, 0.05)
+    how = {"duration": 1.0, "contacts": [tw.SphereContact("body", 0.05, 0.8)], "ground": tw.Ground(normal=n)}
+    s = on_ground(inertia, 0.05 * n, 6 * [0.0], dt, **how)
+    return abs(float(np.linalg.norm(s.q[-1, :3] - s.q[0, :3])) - 5 / 28 * 9.81)
+
+
+def sliding_ball(dt: float) -> float:
+    """Return how far a ball that slides at 1 m/s at first, μ = 0.2, and then rolls is from where it belongs, m."""
+    inertia, until = tw.SpatialInertia.from_sphere(1.0, 0.05), 2 / 7 / (0.2 * 9.81)
+    how = {"duration": 0.4, "contacts": [tw.SphereContact("body", 0.05, 0.2)]}
+    s = on_ground(inertia, [0, 0, 0.05], [0, 0, 0, 1.0, 0, 0], dt, **how)
+    return abs(float(s.q[-1, 0]) - (until - 0.1 * 9.81 * until**2 + 5 / 7 * (0.4 - until)))
+
+
+def bouncing_ball(dt: float) -> float:
+    """Return how far a ball that is dropped from 0.5 m, e = 0.8, is from its height after 0.8 s, m."""
+    fall, inertia = np.sqrt(1.0 / 9.81), tw.SpatialInertia.from_sphere(1.0, 0.05)
+    how = {"duration": 0.8, "contacts": [tw.SphereContact("body", 0.05, 0.5, restitution=0.8)]}
+    s = on_ground(inertia, [0, 0, 0.55], 6 * [0.0], dt, **how)
+    t, up = 0.8 - fall, 0.8 * 9.81 * fall
+    return abs(float(s.q[-1, 2]) - 0.05 - (up * t - 9.81 / 2 * t**2))
+
+
+def tipping_box(dt: float) -> float:
+    """Return how far a box that tips over an edge, let go 0.2 rad past it, is from a pendulum after 0.3 s, rad."""
+    half, past = np.array([0.1, 0.05, 0.15]), 0.2
+    arm, beyond = np.hypot(half[0], half[2]), np.arctan2(half[0], half[2])
+    lean = past + beyond
+    inertia = tw.SpatialInertia.from_box(2.0, 2 * half)
+    points = {f"p{k}": half * [1, y, -1] for k, y in enumerate((1, -1))}
+    how = {"turn": [0, np.sin(lean / 2), 0, np.cos(lean / 2)], "points": points, "duration": 0.3}
+    how["contacts"] = [tw.PointContact(name, 1e6) for name in points]
+    s = on_ground(inertia, [0, 0, arm * np.cos(past)], 6 * [0.0], dt, **how)
+    stiffness = 9.81 * arm / (inertia.inertia_at_com[1, 1] / 2.0 + arm**2)
+    expected = np.pi - pendulum_angle(np.pi - past, stiffness, 0.3)
+    x, _, z = tw.frame_placement(s.model, s.q[-1], "body").rotation[:, 2]
+    return abs(float(np.arctan2(x, z)) - beyond - expected)
+
+
+def orders_on_the_ground() -> None:
+    """Print the errors of time stepping in closed forms, and the slope from each dt to half of it."""
+    steps = (0.004, 0.002, 0.001, 0.0005)
+    for title, form in (
+        ("ball down 30°", ball_down),
+        ("ball that slides, then rolls", sliding_ball),
+        ("ball that bounces", bouncing_ball),
+        ("box that tips", tipping_box),
+    ):
+        off = [form(dt) for dt in steps]
+        slope = np.log2(off[0] / off[-1]) / np.log2(steps[0] / steps[-1])
+        print(f"| {title} | {' | '.join(f'{x:.1e}' for x in off)} | {slope:.1f} |", flush=True)
 
 
 def seconds_of(call: Callable[[], object]) -> float:
@@ -257,6 +329,7 @@ def main() -> None:
     """Print all tables and write all pictures."""
     mpl.use("agg")
     orders()
+    orders_on_the_ground()
     kept_momentum()
     long_run()
     examples = [pendulum(), double_pendulum(), tumbling_body(), standing_go2()]

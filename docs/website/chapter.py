@@ -7,10 +7,9 @@ from pathlib import Path
 
 import nbformat
 
-from twistwrench.exercises import catalogue
-from twistwrench.exercises.folder import skeletons
-from twistwrench.exercises.words.text import Language
-from twistwrench.exercises.words.wrapping import wrapped
+from misstep.folder import skeletons
+from misstep.text import Language, wrapped
+from twistwrench.exercises.chapter import COURSE
 
 from . import beside, hands, inpage, interface, notebooks
 from .pages import ROOT, SUFFIX, contents, joined, write
@@ -83,10 +82,10 @@ def write_chapter(out: Path, language: str) -> None:
 def _exercises(language: Language) -> str:
     """Return the page of the exercises: what is asked, without hints."""
     parts = [joined(EXERCISES[language], language)]
-    for section, title in catalogue.SECTIONS.items():
+    for section, title in COURSE.sections.items():
         number = f"{section} " if section.startswith("49") else ""
         parts.append(f"## {number}{title.of(language)}")
-        for exercise in catalogue.of_section(section):
+        for exercise in COURSE.of_section(section):
             parts.append(f"### {exercise.id} {_markdown(exercise.title.of(language))}")
             parts += map(_markdown, wrapped(exercise.text.of(language), 10**6))
             parts.append(

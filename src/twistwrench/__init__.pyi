@@ -35,7 +35,6 @@ from .algorithms.points import point_acceleration, point_jacobian, point_velocit
 from .algorithms.rnea import gravity, joint_wrenches, nonlinear_effects, rnea, rnea_terms
 from .algorithms.subtree import subtree
 from .algorithms.whole_body import Dynamics, dynamics
-from .compiler import Program, compile
 from .contact import (
     Baumgarte,
     Contact,
@@ -63,6 +62,8 @@ from .contact import (
 )
 from .error_bounds import Accuracy, accuracy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
+from .fast.compilation import compile
+from .fast.program import Program
 from .loading import load, robots
 from .model.builder import Builder
 from .model.editing import attach, replace_inertia

@@ -17,8 +17,8 @@ import twistwrench as tw
 
 from . import newton_euler_3d as ne
 from .arrays import Array
-from .compiler import Results
 from .errors import check_known
+from .fast.program import Results
 from .model import Model
 from .timing import duration, round_robin
 from .validate.manifold import integrate

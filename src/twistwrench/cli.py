@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import twistwrench as tw
+from misstep.errors import CourseError
 
 from .advise import add_advise
 from .errors import ModelError, NameNotFound, SingularError
@@ -94,7 +95,7 @@ def main(
         return _discard_output(EXIT_SIGPIPE) if stopped.status == EXIT_SIGPIPE else stopped.status
     except KeyboardInterrupt:
         return EXIT_SIGINT
-    except (NameNotFound, ModelError, SingularError, ImportError, OSError) as error:
+    except (NameNotFound, ModelError, SingularError, CourseError, ImportError, OSError) as error:
         print(f"twistwrench: {_said(error)}", file=sys.stderr)
         return _discard_output(MISUSED) if _is_of_stdout(error) else MISUSED
 

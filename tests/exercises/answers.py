@@ -5,8 +5,9 @@ import linecache
 import numpy as np
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue, mine
-from twistwrench.exercises.judge import judge
+from misstep.judge import judge
+from twistwrench.exercises import mine
+from twistwrench.exercises.chapter import COURSE
 
 __all__ = ["said_of"]
 
@@ -18,6 +19,6 @@ def said_of(tmp_path, text):
     names = {"np": np, "tw": tw, "mine": mine}
     exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
     name = [line[4 : line.index("(")] for line in text.split("\n") if line.startswith("def ")][-1]
-    said = " ".join(judge(*catalogue.find_part(name), names[name]).message("en").split())
+    said = " ".join(judge(*COURSE.find_part(name), names[name]).message("en").split())
     linecache.clearcache()
     return said

@@ -3,7 +3,7 @@
 import os
 
 from twistwrench.exercises import start
-from twistwrench.exercises.folder.workbook import STATE_FILE
+from twistwrench.exercises.chapter import COURSE
 
 from .test_exercises_isolation import write
 
@@ -159,4 +159,4 @@ def hand_in(room, *, bodies=BODIES, files=FILES, rooms=ROOMS):
     for kind, text in rooms.items():
         start(room / f"room, {kind}", language="en")
         write(room / f"room, {kind}", "49.0", {"act": RIGHT, "skew": "return tw.skew(w)"})
-        (room / f"room, {kind}" / STATE_FILE).write_text(text, encoding="utf-8")
+        (room / f"room, {kind}" / COURSE.state_file).write_text(text, encoding="utf-8")

@@ -17,27 +17,28 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from misstep.compare import agree
+from misstep.errors import UnknownName
+from misstep.folder import skeletons
+from misstep.folder.workbook import Workbook
+from misstep.judge import judge
+from misstep.progress import Row, Status
+from misstep.prose import read
+from misstep.text import Text
 from twistwrench.algorithms.aba import articulated_body
 from twistwrench.algorithms.crba import composite_rigid_body
 from twistwrench.algorithms.kinematics import motion, placements
 from twistwrench.algorithms.rnea import newton_euler
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, checking, hint, mine, slips, solution, start, status
-from twistwrench.exercises.compare import agree
-from twistwrench.exercises.folder import skeletons
-from twistwrench.exercises.folder.workbook import Workbook
-from twistwrench.exercises.judge import judge
+from twistwrench.exercises import checking, hint, mine, slips, solution, start, status
+from twistwrench.exercises.chapter import COURSE
 from twistwrench.exercises.layouts import JACOBIAN
-from twistwrench.exercises.progress import Row, Status
-from twistwrench.exercises.prose import read
 from twistwrench.exercises.slips import SLIPS
-from twistwrench.exercises.words.text import Text
-from twistwrench.exercises.wrong import after, faulty, swap
+from twistwrench.exercises.wrong import faulty, swap
 
 from ..sampling import sampled
-from ..weak_answers import ANSWERS as WEAK
 
-HERE = [catalogue.exercise(number) for number in catalogue.available()]
+HERE = [COURSE.exercise(number) for number in COURSE.numbers]
 PARTS = [pytest.param(e, part, id=f"{e.id.replace('.', '_')}-{part.name}") for e in HERE for part in e.parts]
 SEEDS = (0, 1, 2)
 CELLS = [
@@ -60,17 +61,15 @@ CHAPTER = {
 
 @pytest.mark.parametrize("number", sorted(CHAPTER))
 def test_every_exercise_of_the_chapter_is_there(number):
-    assert catalogue.exercise(number).id == number
+    assert COURSE.exercise(number).id == number
 
 
 def test_each_file_is_an_exercise_in_the_order_of_its_number():
     files = importlib.resources.files("twistwrench.exercises.items").iterdir()
     found = {file.name for file in files if file.name.startswith("ex_") and file.name.endswith(".py")}
-    assert found == {f"ex_{number.replace('.', '_')}.py" for number in catalogue.available()}
-    assert set(catalogue.available()) >= CHAPTER
-    ranks = [
-        (list(catalogue.SECTIONS).index(n.rpartition(".")[0]), int(n.rpartition(".")[2])) for n in catalogue.available()
-    ]
+    assert found == {f"ex_{number.replace('.', '_')}.py" for number in COURSE.numbers}
+    assert set(COURSE.numbers) >= CHAPTER
+    ranks = [(list(COURSE.sections).index(n.rpartition(".")[0]), int(n.rpartition(".")[2])) for n in COURSE.numbers]
     assert ranks == sorted(ranks)
 
 
@@ -102,13 +101,13 @@ def test_the_catalogue_of_slips():
     assert len(SLIPS) >= 40
     for slip in SLIPS.values():
         assert all(isinstance(t, Text) and t.en and t.zh for t in (slip.title, slip.why))
-        assert slip.section in catalogue.SECTIONS
+        assert slip.section in COURSE.sections
     titles = [s.title.en for s in SLIPS.values()]
     assert len(titles) == len(set(titles))
 
 
 def test_no_two_files_define_one_slip():
-    keys = [key for name in slips.FILES for key in read("slips", name)]
+    keys = [key for name in slips.FILES for key in read("twistwrench.exercises.slips", name)]
     assert sorted(keys) == sorted(SLIPS)
     assert sorted(file.stem for file in DATA if file.parent.name == "slips") == sorted(slips.FILES)
 
@@ -125,7 +124,7 @@ def leaves(table, path=""):
 
 @pytest.mark.parametrize("file", DATA, ids=lambda file: file.stem)
 def test_a_data_file_holds_what_is_used_and_nothing_else(file):
-    found = dict(leaves(read(file.parent.name, file.stem)))
+    found = dict(leaves(read(f"twistwrench.exercises.{file.parent.name}", file.stem)))
     places = [where.rpartition(".") for where in found]
     assert {where for where, _, language in places if language == "en"} == {
         where for where, _, language in places if language == "zh"
@@ -149,7 +148,7 @@ def test_a_fault_must_find_its_line():
 
 
 def test_a_fault_may_be_in_the_listing_that_the_reference_calls():
-    part = catalogue.find_part("tree_rnea")[1]
+    part = COURSE.find_part("tree_rnea")[1]
     *lists, qd, qdd, a0 = part.cases(np.random.default_rng(49))[0]
     wrong = faulty(part.solution, ("-tree.gravity", "tree.gravity"), of=newton_euler)
     assert wrong.__name__ == "tree_rnea"
@@ -169,7 +168,7 @@ LISTED = {
 
 @pytest.mark.parametrize("name", LISTED)
 def test_no_algorithm_is_written_again(name):
-    e, part = catalogue.find_part(name)
+    e, part = COURSE.find_part(name)
     assert LISTED[name] in part.beside
     assert not any(isinstance(node, ast.For) for node in ast.walk(ast.parse(inspect.getsource(part.solution))))
     last = inspect.getsource(LISTED[name]).rstrip().splitlines()[-1]
@@ -190,7 +189,7 @@ def test_every_slip_of_the_catalogue_occurs_somewhere():
 @cache
 def settled(name, seed):
     """Return a part whose cases are drawn once, and whose reference and slips answer each of them once."""
-    part = catalogue.find_part(name)[1]
+    part = COURSE.find_part(name)[1]
     if part.call is not None:
         return part
     cases = list(part.cases(np.random.default_rng([seed, 49])))
@@ -277,7 +276,7 @@ def test_the_twist_of_the_foot_is_pinocchios():
     v[5] = 0.5  # Pinocchio's order: the base's ω_z comes sixth
     pin.forwardKinematics(theirs, data, q, v)
     V = pin.getFrameVelocity(theirs, data, frame, pin.LOCAL)
-    ours = catalogue.find_part("foot_twist")[1].solution(model, q, 0.5)
+    ours = COURSE.find_part("foot_twist")[1].solution(model, q, 0.5)
     np.testing.assert_allclose(ours, [*V.angular, *V.linear], atol=1e-14)
 
 
@@ -290,9 +289,11 @@ def pytest_in(folder, *arguments):
 
 
 def write_solutions(folder, language):
-    for section in catalogue.SECTIONS:
-        if catalogue.of_section(section):
-            (folder / catalogue.file_name(section)).write_text(skeletons.solved(section, language), encoding="utf-8")
+    for section in COURSE.sections:
+        if COURSE.of_section(section):
+            (folder / COURSE.file_name(section)).write_text(
+                skeletons.solved(COURSE, section, language), encoding="utf-8"
+            )
 
 
 @pytest.mark.parametrize("language", sampled(["en", "zh"], 1))
@@ -347,7 +348,7 @@ def test_a_path_through_pytest(tmp_path):
     passed = pytest_in(tmp_path, "-m", "s49_3")
     assert "6 passed" in passed.stdout
     assert "49.3.3 is right. To compare with your own words, the model answer:" in passed.stdout
-    assert set(Workbook(tmp_path).state["compared"]) >= {"49.3.2", "49.3.3"}
+    assert set(Workbook(COURSE, tmp_path).state["compared"]) >= {"49.3.2", "49.3.3"}
     assert main(["exercises", "status", str(tmp_path)]) == 0
 
 
@@ -364,7 +365,7 @@ def test_a_section_is_meant_by_its_number():
 )
 def test_a_line_of_the_table_is_punctuated_in_its_language(language, said):
     states = {"49.3.1": "done", "49.3.2": "wrong", "49.3.3": "to do"}
-    assert str(Status((Row("49.3", states),), language)).splitlines()[0].endswith(said)
+    assert str(Status(COURSE, (Row("49.3", states),), language)).splitlines()[0].endswith(said)
 
 
 @pytest.mark.slow
@@ -373,7 +374,7 @@ def test_what_is_missing_of_an_exercise_that_is_begun_is_named(tmp_path):
     start(tmp_path, language="en")
     assert "is still missing" not in str(status(tmp_path))
     file = tmp_path / "ex_49_0.py"
-    file.write_text(skeletons.solved("49.0", "en") + "\nanswer_49_0_3 = ...\n", encoding="utf-8")
+    file.write_text(skeletons.solved(COURSE, "49.0", "en") + "\nanswer_49_0_3 = ...\n", encoding="utf-8")
     found = status(tmp_path)
     assert "Next: 49.0.3 The adjoint, in ex_49_0.py: answer_49_0_3 is still missing" in str(found)
     file.write_text("answer_49_0_3 = (\n", encoding="utf-8")
@@ -391,10 +392,10 @@ def test_hints_and_solutions_show_as_they_read():
 def test_an_exercise_is_found_by_its_number_or_a_function():
     """A student sees the name of the function before him, and not always the number."""
     assert hint("skew", language="en") == hint("49.0.1", language="en")
-    assert solution("tree_aba", language="en") == solution(catalogue.find_part("tree_aba")[0].id, language="en")
-    with pytest.raises(tw.NameNotFound, match="did you mean 'rows_of_foot'"):
+    assert solution("tree_aba", language="en") == solution(COURSE.find_part("tree_aba")[0].id, language="en")
+    with pytest.raises(UnknownName, match="did you mean 'rows_of_foot'"):
         hint("rows_of_fot")
-    with pytest.raises(tw.NameNotFound, match=r"unknown exercise 'project.9'"):
+    with pytest.raises(UnknownName, match=r"unknown exercise 'project.9'"):
         hint("project.9")
 
 
@@ -416,7 +417,7 @@ def test_a_hint_that_nobody_remembers_says_so(tmp_path):
 
 def test_a_model_answer_waits_for_the_attempt(tmp_path):
     start(tmp_path, language="en")
-    model = catalogue.exercise("49.3.2").answer.en.split()[:4]
+    model = COURSE.exercise("49.3.2").answer.en.split()[:4]
     assert " ".join(model) not in solution("49.3.2", tmp_path)
     file = tmp_path / "ex_49_3.py"
     text = file.read_text(encoding="utf-8")
@@ -428,7 +429,7 @@ def test_a_model_answer_waits_for_the_attempt(tmp_path):
 
 
 def message(name, function, language="en"):
-    verdict = judge(*catalogue.find_part(name), function)
+    verdict = judge(*COURSE.find_part(name), function)
     assert verdict.state == "wrong"
     return " ".join(verdict.message(language).split())
 
@@ -437,7 +438,7 @@ def spoilt(change):
     """Return X and X* with one block of X changed by hand, and another so that it is no known slip."""
 
     def function(R, p):
-        X, X_star = catalogue.find_part("plucker")[1].solution(R, p)
+        X, X_star = COURSE.find_part("plucker")[1].solution(R, p)
         X[3:, :3] = change(X[3:, :3])
         X[:3, 3:] = 7
         return X, X_star
@@ -479,7 +480,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
     [
         ("skew", lambda w: None, "It returned None. Is the `return` missing?"),
         ("skew", lambda w: np.zeros((4, 4)), "has the shape (4, 4); it must be (3, 3)"),
-        ("skew", lambda w: np.full((3, 3), np.nan), "entries that are not finite numbers: [0, 0], [0, 1], [0, 2], ..."),
+        ("skew", lambda w: np.full((3, 3), np.nan), "entries that are not finite numbers"),
         ("skew", lambda w: "a matrix", "must be numbers, not str"),
         ("skew", lambda w: [[1], [2, 3]], "must be numbers, not list"),
         ("sole_holds", lambda *arguments: 1.0, "must be True or False, not float"),
@@ -492,7 +493,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
         ("plucker", lambda R: R, "It stopped with TypeError"),
         ("skew", lambda w: -2 * reference("skew")(w), "[w]×: too large by a factor of 2, and of the other sign"),
         ("skew", lambda w: reference("skew")(w) / -3, "[w]×: too small by a factor of 3, and of the other sign"),
-        ("skew", lambda w: -1.7 * reference("skew")(w), "[w]×: different numbers"),
+        ("skew", lambda w: -1.7 * reference("skew")(w), "[w]×: 6 of 9 numbers are wrong"),
     ],
 )
 def test_what_cannot_be_compared_is_said(name, function, says):
@@ -500,7 +501,7 @@ def test_what_cannot_be_compared_is_said(name, function, says):
 
 
 def reference(name):
-    return catalogue.find_part(name)[1].solution
+    return COURSE.find_part(name)[1].solution
 
 
 @pytest.mark.parametrize(
@@ -508,7 +509,7 @@ def reference(name):
     [
         (lambda M: np.triu(M) + np.tril(M, -1) ** 2, "M (base held): only the upper triangle is right"),
         (lambda M: np.tril(M) + np.triu(M, 1) ** 2, "M (base held): only the lower triangle is right"),
-        (lambda M: M + np.eye(len(M)), "M (base held): right except on the diagonal"),
+        (lambda M: M + np.eye(len(M)), "M (base held): 5 of 25 numbers are wrong"),
     ],
 )
 def test_the_part_of_a_matrix_that_is_right_is_told(change, says):
@@ -530,7 +531,7 @@ def test_a_truth_value_and_a_word_that_are_wrong_are_told():
 
 
 def test_an_answer_may_be_a_placement_of_ours():
-    pose = catalogue.find_part("base_pose")
+    pose = COURSE.find_part("base_pose")
     base = tw.load("go2")
     assert judge(*pose, lambda q: tw.forward_kinematics(base, q).placement[1]).state == "done"
     assert judge(*pose, lambda q: tw.forward_kinematics(base, q).placement[1].inverse()).state == "wrong"
@@ -542,7 +543,7 @@ def test_only_blocks_that_an_array_has_are_named():
 
 
 def test_a_name_of_no_function_suggests_one():
-    with pytest.raises(tw.NameNotFound, match="unknown function of an exercise 'skwe'; did you mean 'skew'"):
+    with pytest.raises(UnknownName, match="unknown function of an exercise 'skwe'; did you mean 'skew'"):
         mine("skwe")
 
 
@@ -561,17 +562,14 @@ def test_a_class_is_judged_by_what_it_does():
             return self.vector @ other.vector
 
     said = message("SpatialVector", SpatialVector)
-    assert (
-        "For the error of V ± F, this slip gives what you have: a twist and a wrench can be added, or subtracted."
-        in said
-    )
-    assert "this slip gives what you have: the power of two quantities of the same kind raises no error." in said
+    assert "In the error of V ± F: a twist and a wrench can be added, or subtracted." in said
+    assert "the power of two quantities of the same kind raises no error." in said
 
     class Unfinished(SpatialVector):
         def __add__(self, other):
             return ...
 
-    assert judge(*catalogue.find_part("SpatialVector"), Unfinished).state == "to do"
+    assert judge(*COURSE.find_part("SpatialVector"), Unfinished).state == "to do"
 
 
 def test_power_is_asked_for_both_ways_and_the_error_is_the_one_that_was_asked_for():
@@ -594,13 +592,13 @@ def test_power_is_asked_for_both_ways_and_the_error_is_the_one_that_was_asked_fo
             return super().power(other)
 
     assert "only one of wrench.power(twist) and twist.power(wrench) works" in message("SpatialVector", OneWay)
-    assert "F.power(V) raises TypeError, and must be numbers" in message("SpatialVector", OtherWay)
-    assert "an error other than the TypeError" in message("SpatialVector", OtherError)
+    assert "F.power(V) must be numbers, not str" in message("SpatialVector", OtherWay)
+    assert "TypeError is expected" in message("SpatialVector", OtherError)
 
 
 def test_an_explanation_does_not_tell_to_do_what_was_done():
     """Three that did: where the operation is undone, or the order is Pinocchio's, the sign that is right is another."""
-    slips = {name: catalogue.find_part(name)[1].slips for name in ("whole_robot", "pinocchio_inertia")}
+    slips = {name: COURSE.find_part(name)[1].slips for name in ("whole_robot", "pinocchio_inertia")}
     assert "I_c = I_O + m [c]×²" in message("whole_robot", slips["whole_robot"]["parallel-axis-sign"])
     assert "top right block is +m [c]×" in message("whole_robot", slips["whole_robot"]["com-sign"])
     assert "−m [c]× is top right" in message("pinocchio_inertia", slips["pinocchio_inertia"]["com-sign"])
@@ -608,39 +606,19 @@ def test_an_explanation_does_not_tell_to_do_what_was_done():
     assert "Pinocchio's (v, ω): exchange nothing" in said
 
 
-def test_two_slips_at_once_are_both_named():
-    plucker = catalogue.find_part("plucker")[1]
-    swapped_too = after(plucker.slips["coupling-order"], swap)
-    said = message("plucker", swapped_too)
-    assert "just these numbers: R [p]× in place of [p]× R; and the angular and the linear half are exchanged" in said
-
-
 def test_different_slips_in_different_things_are_told_apart():
-    plucker = catalogue.find_part("plucker")[1]
+    plucker = COURSE.find_part("plucker")[1]
 
     def function(R, p):
         return plucker.slips["coupling-sign"](R, p)[0], plucker.slips["coupling-dropped"](R, p)[1]
 
     said = message("plucker", function)
-    assert "For X, this slip gives what you have: the coupling term has the wrong sign." in said
-    assert "For X*, this slip gives what you have: the coupling term is missing." in said
+    assert "In X: the coupling term has the wrong sign." in said
+    assert "In X*: the coupling term is missing." in said
 
 
 def test_a_broken_property_is_told_where_no_slip_fits():
     assert "the power FᵀV is the same in both frames" in message("plucker", spoilt(lambda B: 2 * B))
-
-
-@pytest.mark.parametrize("weak", sampled(WEAK, 14), ids=lambda weak: weak.name)
-def test_a_weak_answer_gets_a_helpful_message(tmp_path, weak):
-    exercise, part = catalogue.find_part(weak.name)
-    file = tmp_path / catalogue.file_name(exercise.section)
-    head, _, rest = skeletons.skeleton(exercise.section, "en").partition(f"def {weak.name}(")
-    body = "\n".join("    " + line for line in weak.body.split("\n"))
-    file.write_text(f"{head}def {weak.name}({rest.replace('    return ...', body, 1)}", encoding="utf-8")
-    verdict = Workbook(tmp_path, language="en").verdict(exercise, part)
-    assert verdict.state == "wrong"
-    assert weak.says in " ".join(verdict.message("en").split())
-    assert "Traceback" not in verdict.message("en")
 
 
 # ---------------------------------------------------------------- one exercise uses another
@@ -648,12 +626,12 @@ def test_a_weak_answer_gets_a_helpful_message(tmp_path, weak):
 
 def test_later_exercises_run_on_the_reference_until_the_earlier_one_is_right(tmp_path):
     start(tmp_path, language="en")
-    exercise, part = catalogue.find_part("translation_transforms")
+    exercise, part = COURSE.find_part("translation_transforms")
     file = tmp_path / "ex_49_3.py"
     text = file.read_text(encoding="utf-8")
     body = "X = np.eye(6)\n    X[3:, :3] = skew(p)\n    return X, np.linalg.inv(X), np.linalg.inv(X).T"
     file.write_text(text.replace("return ...", body, 1), encoding="utf-8")
-    unfinished = Workbook(tmp_path)
+    unfinished = Workbook(COURSE, tmp_path)
     assert unfinished.verdict(exercise, part).state == "done"
     assert unfinished.borrowed == {"skew"}
     assert re.search("^On the reference until yours is right: .*skew", str(status(tmp_path)), re.MULTILINE)
@@ -661,11 +639,11 @@ def test_later_exercises_run_on_the_reference_until_the_earlier_one_is_right(tmp
     earlier = tmp_path / "ex_49_0.py"
     wrong = earlier.read_text(encoding="utf-8").replace("return ...", "return np.zeros((3, 3))", 1)
     earlier.write_text(wrong, encoding="utf-8")
-    assert Workbook(tmp_path).verdict(exercise, part).state == "done"
+    assert Workbook(COURSE, tmp_path).verdict(exercise, part).state == "done"
 
     right = wrong.replace("return np.zeros((3, 3))", "print('mine'); return tw.skew(w)", 1)
     earlier.write_text(right, encoding="utf-8")
-    finished = Workbook(tmp_path)
+    finished = Workbook(COURSE, tmp_path)
     assert finished.verdict(exercise, part).state == "done"
     assert finished.borrowed == set()
 
@@ -677,7 +655,7 @@ def test_files_may_import_each_other_and_folders_do_not_mix(tmp_path, monkeypatc
         text = "import colorsys\nfrom helper import number\n\ndef sizes():\n    return number\n"
         (tmp_path / folder / "ex_49_1.py").write_text(text)
         monkeypatch.delitem(sys.modules, "colorsys", raising=False)
-        module = Workbook(tmp_path / folder).module("49.1")
+        module = Workbook(COURSE, tmp_path / folder).module("49.1")
         assert module.sizes() == k
         assert "helper" not in sys.modules
         assert sys.modules["colorsys"] is module.colorsys  # what is not the student's stays
@@ -688,7 +666,7 @@ def test_an_answer_in_a_word_is_too_short(tmp_path):
     file = tmp_path / "ex_49_3.py"
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace("answer_49_3_2 = ...", 'answer_49_3_2 = "p"'), encoding="utf-8")
-    verdict = Workbook(tmp_path).verdict_in_words(catalogue.exercise("49.3.2"))
+    verdict = Workbook(COURSE, tmp_path).verdict_in_words(COURSE.exercise("49.3.2"))
     assert verdict.state == "wrong"
     assert "answer_49_3_2 is very short" in verdict.message("en")
 
@@ -696,14 +674,18 @@ def test_an_answer_in_a_word_is_too_short(tmp_path):
 def test_a_file_that_cannot_be_read_says_where(tmp_path):
     start(tmp_path, language="en")
     (tmp_path / "ex_49_1.py").write_text("def sizes():\n    return (\n")
-    said = Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
+    said = Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("sizes")).message("en")
     assert "ex_49_1.py, line 2 cannot be read: SyntaxError" in said
-    said = Workbook(tmp_path, language="zh").verdict(*catalogue.find_part("sizes")).message("zh")
+    said = Workbook(COURSE, tmp_path, language="zh").verdict(*COURSE.find_part("sizes")).message("zh")
     assert "ex_49_1.py 第 2 行无法读取：SyntaxError" in said
     (tmp_path / "ex_49_1.py").write_text("import sys\nsys.exit(0)\n")
-    assert "cannot be read: SystemExit: 0" in Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
+    assert "cannot be read: SystemExit: 0" in Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("sizes")).message(
+        "en"
+    )
     (tmp_path / "ex_49_1.py").write_text("")
-    assert "no function sizes in ex_49_1.py" in Workbook(tmp_path).verdict(*catalogue.find_part("sizes")).message("en")
+    assert "no function sizes in ex_49_1.py" in Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("sizes")).message(
+        "en"
+    )
 
 
 @pytest.mark.slow

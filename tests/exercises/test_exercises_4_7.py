@@ -4,21 +4,21 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue
-from twistwrench.exercises.judge import judge
+from misstep.judge import judge
+from misstep.text import Text
+from twistwrench.exercises.chapter import COURSE
 from twistwrench.exercises.robots import robot, small_robot, weightless
 from twistwrench.exercises.stopwatch import UP, Machine, Task
-from twistwrench.exercises.words.text import Text
 
 TOLERANCE = 1e-12
 
 
 def reference(name):
-    return catalogue.find_part(name)[1].solution
+    return COURSE.find_part(name)[1].solution
 
 
 def cases(name, seed=49):
-    return catalogue.find_part(name)[1].cases(np.random.default_rng(seed))
+    return COURSE.find_part(name)[1].cases(np.random.default_rng(seed))
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +73,7 @@ def test_the_link_of_the_text_is_positive_definite_and_its_slips_are_not():
     np.testing.assert_allclose(matrix[0, [0, 4]], [0.03, -0.2], rtol=1e-14)
     pair = 1.015 + np.array([-1, 1]) * np.sqrt(1.015**2 - 0.02)  # of [[0.03, ±0.2], [±0.2, 2]], twice
     assert eigenvalues == pytest.approx([0.005, *pair[[0, 0]], 2, *pair[[1, 1]]], rel=TOLERANCE)
-    slips = catalogue.find_part("link_inertia")[1].slips
+    slips = COURSE.find_part("link_inertia")[1].slips
     assert slips["parallel-axis-dropped"]()[1][0] < 0
     assert slips["parallel-axis-sign"]()[1][0] < 0
 
@@ -176,7 +176,7 @@ def one_after_the_other(reduce):
     ],
 )
 def test_every_sound_measurement_passes(measure, seed):
-    assert judge(*catalogue.find_part("time_ratio"), measure, seed=seed).state == "done"
+    assert judge(*COURSE.find_part("time_ratio"), measure, seed=seed).state == "done"
 
 
 @pytest.mark.parametrize(
@@ -191,7 +191,7 @@ def test_every_sound_measurement_passes(measure, seed):
     ],
 )
 def test_an_unsound_measurement_is_told_why_however_it_is_written(measure, slip):
-    assert judge(*catalogue.find_part("time_ratio"), measure).slips == (slip,)
+    assert judge(*COURSE.find_part("time_ratio"), measure).slips == (slip,)
 
 
 def test_a_machine_slows_down_pauses_and_starts_slowly():
@@ -210,4 +210,4 @@ def test_a_machine_slows_down_pauses_and_starts_slowly():
     ("ratio", "state"), [(1.1, "done"), (0.8, "done"), (2.4, "done"), (18, "wrong"), (2e-3, "wrong")]
 )
 def test_a_measured_ratio_need_only_be_plausible(ratio, state):
-    assert judge(*catalogue.find_part("measured_ratio"), lambda: ratio).state == state
+    assert judge(*COURSE.find_part("measured_ratio"), lambda: ratio).state == state

@@ -7,19 +7,21 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from misstep.cases import cases
+from misstep.errors import CourseError, UnknownName
+from misstep.judge import judge
 from twistwrench.cli import main
-from twistwrench.exercises import case, catalogue, start
-from twistwrench.exercises.cases import cases
-from twistwrench.exercises.judge import judge
+from twistwrench.exercises import case, start
+from twistwrench.exercises.chapter import COURSE
 
 from ..sampling import sampled
 from .test_exercises_isolation import said, write
 
-PARTS = [part for number in catalogue.available() for part in catalogue.exercise(number).parts]
+PARTS = [part for number in COURSE.numbers for part in COURSE.exercise(number).parts]
 
 
 def verdict(name, function, **how):
-    return judge(*catalogue.find_part(name), function, **how)
+    return judge(*COURSE.find_part(name), function, **how)
 
 
 def test_the_case_is_the_first_wrong_one_and_can_be_made_again():
@@ -28,7 +30,7 @@ def test_the_case_is_the_first_wrong_one_and_can_be_made_again():
 
     for seed in range(5):
         found = verdict("act", wrong_where_x_is_positive, seed=seed).case
-        tried = cases(catalogue.find_part("act")[1], seed)
+        tried = cases(COURSE.find_part("act")[1], seed)
         assert found.number == [x[0] < 0 for _, _, x in tried].index(False)
         for (name, shown), again, argument in zip(
             found.inputs, case("act", found.number, seed=seed), tried[found.number], strict=True
@@ -85,7 +87,7 @@ def test_a_number_by_hand_is_not_given_away():
     by_hand = [part for part in PARTS if not part.arguments]
     assert by_hand
     for part in by_hand:
-        exercise = catalogue.find_part(part.name)[0]
+        exercise = COURSE.find_part(part.name)[0]
         answer = tuple(1e9 for _ in part.returns)
         found = judge(exercise, part, lambda answer=answer: answer if len(answer) > 1 else answer[0])
         assert found.state == "wrong"
@@ -96,7 +98,7 @@ def test_a_number_by_hand_is_not_given_away():
 @pytest.mark.parametrize("part", sampled(PARTS, 12), ids=lambda part: part.name)
 def test_every_slip_hands_its_case_over_on_a_screen(part):
     slip = next(iter(part.slips))
-    found = judge(catalogue.find_part(part.name)[0], part, part.slips[slip], seed=3)
+    found = judge(COURSE.find_part(part.name)[0], part, part.slips[slip], seed=3)
     for language in ("en", "zh"):
         text = found.case.text(language)
         assert len(text.splitlines()) <= 60
@@ -104,16 +106,16 @@ def test_every_slip_hands_its_case_over_on_a_screen(part):
 
 
 def test_a_case_that_is_not_there_is_an_error():
-    with pytest.raises(tw.ModelError, match=r"act has the cases 0 to \d+, got 1000"):
+    with pytest.raises(CourseError, match=r"act has the cases 0 to \d+, got 1000"):
         case("act", 1000)
-    with pytest.raises(tw.NameNotFound, match="adjoint"):
+    with pytest.raises(UnknownName, match="adjoint"):
         case("adjont")
 
 
 def test_an_exception_and_an_endless_loop_have_their_case_too(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"act": "if x[0] > 0:\n    while True:\n        pass\nreturn R @ x + p"})
-    first = next(k for k, (_, _, x) in enumerate(cases(catalogue.find_part("act")[1], 0)) if x[0] > 0)
+    first = next(k for k, (_, _, x) in enumerate(cases(COURSE.find_part("act")[1], 0)) if x[0] > 0)
     assert f"twistwrench exercises case act {first} --seed 0" in said(tmp_path, "act", seed=0)[1]
     assert verdict("act", lambda R, p, x: x[9], seed=2).case.shell.endswith("act 0 --seed 2")
 

@@ -11,12 +11,14 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue, check
-from twistwrench.exercises.cases import every_case
-from twistwrench.exercises.failing import Block, Compared
-from twistwrench.exercises.judge import judge
-from twistwrench.exercises.notebook.markup import case_html
-from twistwrench.exercises.processes.transfer import received, sent
+from misstep.cases import every_case
+from misstep.errors import CourseError, UnknownName
+from misstep.failing import Block, Compared
+from misstep.judge import judge
+from misstep.notebook.markup import case_html
+from misstep.processes.transfer import received, sent
+from twistwrench.exercises import check
+from twistwrench.exercises.chapter import COURSE
 
 LIMIT = 1.0
 
@@ -43,7 +45,7 @@ def html(checked):
 
 def test_a_wrong_answer_has_the_message_and_the_numbers():
     checked = check("49.0.2", act, seed=4, language="en")
-    plain = judge(*catalogue.find_part("act"), act, seed=4)
+    plain = judge(*COURSE.find_part("act"), act, seed=4)
     assert checked.verdicts["act"].lines == plain.lines
     assert plain.report("en") in repr(checked)
     text = html(checked)
@@ -66,7 +68,7 @@ def test_a_large_array_has_a_map():
     def mass_matrix_by_rnea(model, q):
         return np.ones((model.nv, model.nv))
 
-    part = catalogue.find_part("mass_matrix_by_rnea")
+    part = COURSE.find_part("mass_matrix_by_rnea")
     by_blocks = judge(*part, mass_matrix_by_rnea)
     whole = Block(None, (0, 0), np.eye(12), np.ones((12, 12)), np.eye(12) == 0)
     case = replace(by_blocks.case, compared=(Compared(part[1].returns[0], (whole,)),))
@@ -89,20 +91,20 @@ def test_one_part_of_two_gives_half_the_points():
 def test_a_name_is_needed_only_where_there_are_several_functions():
     assert check("49.0.2", right).right
     assert check("49.0.2").verdicts["act"].state == "wrong"  # `act`, as it is defined in this file
-    with pytest.raises(tw.NameNotFound, match=r"function of 49\.6\.1"):
+    with pytest.raises(UnknownName, match=r"function of 49\.6\.1"):
         check("49.6.1", right)
     with pytest.raises(TypeError, match=r"expected the function itself, as in check\('49.0.2', act\), got ndarray"):
         check("49.0.2", act(np.eye(3), np.zeros(3), np.zeros(3)))
-    with pytest.raises(tw.ModelError, match=r"expected a function of 49.6.1 \(torques_two_ways, "):
+    with pytest.raises(CourseError, match=r"expected a function of 49.6.1 \(torques_two_ways, "):
         check("49.6.1")
-    with pytest.raises(tw.NameNotFound, match="did you mean"):
+    with pytest.raises(UnknownName, match="did you mean"):
         check("49.0.22", act)
 
 
 def test_words_stand_beside_the_model_answer():
     checked = check("49.6.2", words="The world rises, <so> every body feels it.", language="en")
     assert "<pre>The world rises, &lt;so&gt; every body" in html(checked)
-    assert "".join(catalogue.exercise("49.6.2").answer.en.split()) in "".join(repr(checked).split())
+    assert "".join(COURSE.exercise("49.6.2").answer.en.split()) in "".join(repr(checked).split())
     assert not check("49.6.2", words="up", language="en").right
 
 
@@ -125,8 +127,8 @@ def test_what_ends_python_does_not_end_the_notebook(capsys):
         return R @ x + p
 
     assert "It ended the whole Python process" in repr(check("49.0.2", ended, language="en"))
-    part = catalogue.find_part("act")[1]
-    cases = len(every_case(part, 0))
+    part = COURSE.find_part("act")[1]
+    cases = len(every_case(COURSE, part, 0))
     assert check("49.0.2", loud).right
     assert capsys.readouterr().out.count("here") == 3 + cases  # once more to see what is kept, and twice where it ended
     assert check("49.0.2", right, time_limit=0).right

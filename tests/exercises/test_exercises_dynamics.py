@@ -7,7 +7,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as mechanics
-from twistwrench.exercises import catalogue
+from twistwrench.exercises.chapter import COURSE
 from twistwrench.model import joint_placements, tree_terms
 from twistwrench.model.tree import split
 
@@ -16,7 +16,7 @@ WORLD = np.zeros(3)
 
 
 def reference(name):
-    return catalogue.find_part(name)[1].solution
+    return COURSE.find_part(name)[1].solution
 
 
 def some_trees():

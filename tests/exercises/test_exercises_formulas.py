@@ -3,9 +3,11 @@
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue, check, start
-from twistwrench.exercises.folder.formulas import difference, judge_formula, typed
-from twistwrench.exercises.folder.workbook import Workbook
+from misstep.errors import CourseError, UnknownName
+from misstep.folder.formulas import difference, judge_formula, typed
+from misstep.folder.workbook import Workbook
+from twistwrench.exercises import check, start
+from twistwrench.exercises.chapter import COURSE
 
 pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not read")
 
@@ -27,20 +29,20 @@ WRONG = [
 
 
 def judged(name, formula):
-    return judge_formula(*catalogue.find_part(name), formula)
+    return judge_formula(*COURSE.find_part(name), formula)
 
 
 @pytest.mark.parametrize("name", RIGHT)
 def test_a_right_formula_is_right(name):
     assert judged(name, RIGHT[name]).state == "done"
-    assert difference(catalogue.find_part(name)[1], RIGHT[name]) is None
+    assert difference(COURSE.find_part(name)[1], RIGHT[name]) is None
 
 
 @pytest.mark.parametrize(("name", "formula", "slip"), WRONG)
 def test_a_wrong_formula_has_its_slip_named(name, formula, slip):
     verdict = judged(name, formula)
     assert verdict.state == "wrong"
-    assert slip in verdict.slips or slip not in catalogue.find_part(name)[1].slips
+    assert slip in verdict.slips or slip not in COURSE.find_part(name)[1].slips
     assert verdict.slips
     assert verdict.case.compared
 
@@ -72,7 +74,7 @@ def test_what_cannot_be_read_is_explained(name, formula, said):
 def test_a_formula_is_checked_in_a_cell():
     assert check("49.0.2", act="R*x + p", language="en").right
     assert "the translation has the wrong sign" in repr(check("49.0.2", act="R*x - p", language="en"))
-    with pytest.raises(tw.NameNotFound, match="adjoint"):
+    with pytest.raises(UnknownName, match="adjoint"):
         check("49.0.3", adjont="T")
 
 
@@ -80,8 +82,8 @@ def test_a_formula_may_stand_in_the_file_and_is_used_by_later_exercises(tmp_path
     start(tmp_path, language="en")
     file = tmp_path / "ex_49_0.py"
     file.write_text(file.read_text(encoding="utf-8") + f'\nskew = "{RIGHT["skew"]}"\n', encoding="utf-8")
-    book = Workbook(tmp_path)
-    assert book.verdict(*catalogue.find_part("skew")).state == "done"
+    book = Workbook(COURSE, tmp_path)
+    assert book.verdict(*COURSE.find_part("skew")).state == "done"
     assert (book.best("skew")([1.0, 2.0, 3.0]) == tw.skew([1.0, 2.0, 3.0])).all()
     assert not book.borrowed
 
@@ -90,5 +92,5 @@ def test_without_sympy_the_message_names_what_to_install(monkeypatch):
     import sys
 
     monkeypatch.setitem(sys.modules, "sympy", None)
-    with pytest.raises(tw.ModelError, match="pip install sympy"):
-        typed(catalogue.find_part("act")[1], "R*x + p")
+    with pytest.raises(CourseError, match="pip install sympy"):
+        typed(COURSE.find_part("act")[1], "R*x + p")

@@ -9,13 +9,14 @@ from xml.etree import ElementTree
 
 import pytest
 
-import twistwrench as tw
+from misstep.errors import CourseError, UnknownName
+from misstep.folder import skeletons
+from misstep.grading.grading import grade
+from misstep.grading.sheets import as_csv, as_html, as_junit, as_table
+from misstep.grading.submissions import submissions
 from twistwrench.cli import main
-from twistwrench.exercises import catalogue, hint, solution, start
-from twistwrench.exercises.course.grading import grade
-from twistwrench.exercises.course.sheets import as_csv, as_html, as_junit, as_table
-from twistwrench.exercises.course.submissions import submissions
-from twistwrench.exercises.folder import skeletons
+from twistwrench.exercises import hint, solution, start
+from twistwrench.exercises.chapter import COURSE
 
 from .test_exercises_isolation import write
 
@@ -28,8 +29,8 @@ def room(tmp_path_factory):
     for name in ("ada", "bela", "chen", "dora", "emil"):
         start(folder / name, language="zh" if name == "chen" else "en")
     for section in ("49.0", "49.3", "49.6"):
-        file = folder / "ada" / catalogue.file_name(section)
-        file.write_text(skeletons.solved(section, "en"), encoding="utf-8")
+        file = folder / "ada" / COURSE.file_name(section)
+        file.write_text(skeletons.solved(COURSE, section, "en"), encoding="utf-8")
     write(folder / "bela", "49.0", {"skew": "while True:\n    pass", "act": "return R @ x + p"})
     body = "import os\nos._exit(0)"
     write(folder / "chen", "49.0", {"skew": body, "act": "return R @ x - p"}, more='\nanswer_49_0_3 = "=1+1 <b>"\n')
@@ -46,7 +47,7 @@ def room(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def found(room):
-    return grade([room], only=[*FOUR, "49.0.3"], seed=5, time_limit=1.5)
+    return grade(COURSE, [room], only=[*FOUR, "49.0.3"], seed=5, time_limit=1.5)
 
 
 def test_each_student_has_the_points_of_what_is_right(found):
@@ -61,7 +62,7 @@ def test_a_part_of_an_exercise_gives_a_part_of_its_point(room, tmp_path):
     start(tmp_path / "one", language="en")
     half = "rest = np.zeros(18)\nreturn tw.rnea(tw.load('go2'), tw.load('go2').neutral(), rest, rest)[:6]"
     write(tmp_path / "one", "49.6", {"go2_base_wrench": half})
-    (one,) = grade([tmp_path / "one"], only=["49.6.3"])
+    (one,) = grade(COURSE, [tmp_path / "one"], only=["49.6.3"])
     assert one.points == 0.5
 
 
@@ -85,7 +86,7 @@ def test_the_rows_say_what_was_used_and_why_there_are_no_points(found):
 def test_the_page_has_the_points_and_the_words_beside_the_model_answer(found):
     for language in ("en", "zh"):
         page = as_html(found, 5, language)
-        model = catalogue.exercise("49.0.3").answer.of(language).strip().split("\n")[0]
+        model = COURSE.exercise("49.0.3").answer.of(language).strip().split("\n")[0]
         assert page.index(model[:20]) < page.index("=1+1 &lt;b&gt;")
         assert page.count("<details") == page.count("</details>")
         assert "<script" not in page
@@ -121,7 +122,7 @@ def test_the_command_writes_what_is_asked_for(room, tmp_path, capsys):
 
 def test_a_folder_without_exercises_is_a_line_and_not_an_end(room, tmp_path):
     (tmp_path / "late").mkdir()
-    found = grade([tmp_path / "late", room / "ada"], only=["49.0.1"])
+    found = grade(COURSE, [tmp_path / "late", room / "ada"], only=["49.0.1"])
     assert [one.points for one in found] == [0, 1]
     assert "No exercises were found here" in as_table(found, 0, "en")
 
@@ -147,7 +148,7 @@ def answers(folder, name="ex_49_0.py"):
 
 def graded(*places):
     """Return the points in 49.0.2, and the remarks, by student."""
-    return {x.student: (x.points, " ".join(r.en for r in x.remarks)) for x in grade(places, only=["49.0.2"])}
+    return {x.student: (x.points, " ".join(r.en for r in x.remarks)) for x in grade(COURSE, places, only=["49.0.2"])}
 
 
 def test_answers_are_found_under_the_names_that_they_are_handed_in_with(tmp_path):
@@ -178,9 +179,9 @@ def test_answers_are_found_under_the_names_that_they_are_handed_in_with(tmp_path
 def test_every_file_of_a_student_is_found(tmp_path):
     start(tmp_path / "ada")
     (tmp_path / "room").mkdir()
-    (one,) = submissions([tmp_path / "ada"], tmp_path / "room", [*catalogue.SECTIONS])
+    (one,) = submissions(COURSE, [tmp_path / "ada"], tmp_path / "room", [*COURSE.sections])
     assert {section: path.name for section, path in one.files.items()} == {
-        section: catalogue.file_name(section) for section in catalogue.SECTIONS
+        section: COURSE.file_name(section) for section in COURSE.sections
     }
     assert one.remarks == ()
 
@@ -188,7 +189,7 @@ def test_every_file_of_a_student_is_found(tmp_path):
 def test_remarks_are_on_the_page_in_the_table_and_in_the_rows(tmp_path):
     answers(tmp_path / "class" / "ada", "ex_49_0 (1).py")
     answers(tmp_path / "class" / "bela")
-    found = grade([tmp_path / "class"], only=["49.0.2"])
+    found = grade(COURSE, [tmp_path / "class"], only=["49.0.2"])
     for shown in (as_table, as_html, as_csv):
         assert "ex_49_0 (1).py was taken for ex_49_0.py." in shown(found, 0, "en")
         assert "ex_49_0 (1).py" in shown(found, 0, "zh")
@@ -219,7 +220,7 @@ def test_folders_and_zips_of_any_depth_are_those_of_their_students(tmp_path, tre
         else:
             made.write_bytes(packed(held))
     (tmp_path / "room").mkdir()
-    found = submissions([tmp_path / place for place in given], tmp_path / "room", ["49.0"])
+    found = submissions(COURSE, [tmp_path / place for place in given], tmp_path / "room", ["49.0"])
     assert [one.student for one in found] == students
     assert all(one.files["49.0"].read_text(encoding="utf-8") == "x = 1\n" for one in found)
 
@@ -246,7 +247,7 @@ def test_a_zip_writes_nothing_elsewhere_and_unpacks_nothing_huge(tmp_path):
     at = damaged.index(b"ex_49_1.py") + len("ex_49_1.py")
     (tmp_path / "ada.zip").write_bytes(damaged[:at] + b"\0\0\0" + damaged[at + 3 :])
     (tmp_path / "bela.zip").write_bytes(b"PK no zip")
-    ada, bela = submissions([tmp_path / "ada.zip", tmp_path / "bela.zip"], room, ["49.0"])
+    ada, bela = submissions(COURSE, [tmp_path / "ada.zip", tmp_path / "bela.zip"], room, ["49.0"])
     assert [path.name for path in room.rglob("*") if path.is_file()] == ["ex_49_0.py"]
     assert ada.remarks[0].en.startswith("Of ada.zip this was not unpacked: ../above.py, /absolute-49.py, C:")
     assert "huge.py, ex_49_1.py" in ada.remarks[0].en
@@ -278,12 +279,12 @@ def test_a_negative_number_is_told_in_a_sentence(room, capsys, option):
     with pytest.raises(SystemExit, match="2"):
         main(["exercises", "grade", str(room), *option])
     assert f"or more, got '{option[1]}'" in capsys.readouterr().err
-    with pytest.raises(tw.ModelError, match=f"{option[0][2:]}: expected a whole number"):
-        grade([room], **{option[0][2:]: int(option[1])})
+    with pytest.raises(CourseError, match=f"{option[0][2:]}: expected a whole number"):
+        grade(COURSE, [room], **{option[0][2:]: int(option[1])})
 
 
 def test_what_is_not_there_is_an_error(room, tmp_path):
-    with pytest.raises(tw.ModelError, match="expected the folder of a student"):
-        grade([tmp_path / "nobody"])
-    with pytest.raises(tw.NameNotFound, match="exercise or section"):
-        grade([room], only=["49.60"])
+    with pytest.raises(CourseError, match="expected the folder of a student"):
+        grade(COURSE, [tmp_path / "nobody"])
+    with pytest.raises(UnknownName, match="exercise or section"):
+        grade(COURSE, [room], only=["49.60"])

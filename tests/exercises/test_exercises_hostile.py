@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue
-from twistwrench.exercises.compare import plain
-from twistwrench.exercises.course.grading import grade
-from twistwrench.exercises.folder.workbook import Workbook
-from twistwrench.exercises.judge import judge
-from twistwrench.exercises.processes import process
+from misstep.compare import plain
+from misstep.folder.workbook import Workbook
+from misstep.grading.grading import grade
+from misstep.judge import judge
+from misstep.processes import process
+from twistwrench.exercises.chapter import COURSE
 
 from .hostile import BODIES, FILES, ODD, ROOMS, hand_in
 
@@ -57,7 +57,7 @@ def few(tmp_path_factory):
 
 def test_harm_costs_the_function_that_does_it_and_nobody_else(few, mark, monkeypatch):
     monkeypatch.setattr(process, "SLACK_S", 0.5)
-    found = {one.student: one.marks for one in grade([few], only=["49.0.1", "49.0.2"], time_limit=LIMIT)}
+    found = {one.student: one.marks for one in grade(COURSE, [few], only=["49.0.1", "49.0.2"], time_limit=LIMIT)}
     assert len(found) == sum(map(len, QUICK.values()))
     for student, marks in found.items():
         assert marks["49.0.2"].points == (student not in UNREADABLE), student
@@ -108,7 +108,7 @@ def test_an_odd_answer_is_wrong_and_no_more(kind):
     held = {"np": np}
     exec(ODD, held)
     exec("def skew(w):\n    " + BODIES[kind].replace("\n", "\n    "), held)
-    found = judge(*catalogue.find_part("skew"), held["skew"])
+    found = judge(*COURSE.find_part("skew"), held["skew"])
     assert found.state == "wrong"
     assert found.message("en")
     assert found.message("zh")
@@ -131,6 +131,6 @@ def test_what_is_plain_is_returned_itself():
 @pytest.mark.parametrize("kind", ROOMS)
 def test_a_damaged_hidden_file_is_read_as_far_as_it_goes(tmp_path, kind):
     (tmp_path / ".twistwrench.json").write_text(ROOMS[kind], encoding="utf-8")
-    state = Workbook(tmp_path).state
+    state = Workbook(COURSE, tmp_path).state
     assert (state["hints"], state["compared"], state["solutions"]) == ({}, [], [])
-    assert Workbook(tmp_path).language in ("en", "zh")
+    assert Workbook(COURSE, tmp_path).language in ("en", "zh")

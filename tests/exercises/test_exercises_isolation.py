@@ -11,15 +11,17 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from misstep.calls import call_or_none
+from misstep.cases import cases
+from misstep.errors import CourseError
+from misstep.folder import workbook
+from misstep.folder.skeletons import solved
+from misstep.folder.workbook import Workbook
+from misstep.judge import judge
+from misstep.processes.isolation import opened
 from twistwrench.cli import main
-from twistwrench.exercises import case, catalogue, check, solution, start, status
-from twistwrench.exercises.calls import tried
-from twistwrench.exercises.cases import cases
-from twistwrench.exercises.folder import workbook
-from twistwrench.exercises.folder.skeletons import solved
-from twistwrench.exercises.folder.workbook import Workbook
-from twistwrench.exercises.judge import judge
-from twistwrench.exercises.processes.isolation import opened
+from twistwrench.exercises import case, check, solution, start, status
+from twistwrench.exercises.chapter import COURSE
 
 from ..sampling import sampled
 
@@ -33,7 +35,7 @@ IN_C = "import itertools\nreturn sum(itertools.count())"
 
 def write(folder, section, bodies=None, *, more="", head=b""):
     """Fill in functions of a section's file."""
-    file = folder / catalogue.file_name(section)
+    file = folder / COURSE.file_name(section)
     text = file.read_text(encoding="utf-8")
     for name, body in (bodies or {}).items():
         before, found, after = text.partition(f"def {name}(")
@@ -45,8 +47,8 @@ def write(folder, section, bodies=None, *, more="", head=b""):
 
 def said(folder, name, language="en", seed=None):
     """Return the verdict on a function, its message on one line; with the failing case where a seed is given."""
-    with opened(folder, language=language, seed=seed, time_limit=LIMIT) as book:
-        verdict = book.verdict(*catalogue.find_part(name))
+    with opened(COURSE, folder, language=language, seed=seed, time_limit=LIMIT) as book:
+        verdict = book.verdict(*COURSE.find_part(name))
     message = verdict.message(language) if seed is None else verdict.report(language)
     return verdict.state, " ".join(message.split())
 
@@ -158,8 +160,8 @@ def test_without_a_limit_the_answers_run_in_this_process(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"skew": "import os\nraise ValueError(os.getpid())"})
     assert f"ValueError: {os.getpid()}" not in said(tmp_path, "skew")[1]
-    with opened(tmp_path, time_limit=0) as book:
-        assert f"ValueError: {os.getpid()}" in book.verdict(*catalogue.find_part("skew")).message("en")
+    with opened(COURSE, tmp_path, time_limit=0) as book:
+        assert f"ValueError: {os.getpid()}" in book.verdict(*COURSE.find_part("skew")).message("en")
 
 
 @pytest.mark.slow
@@ -191,7 +193,7 @@ def test_one_interrupt_ends_the_check(tmp_path):
 def test_a_file_with_a_byte_order_mark_is_read(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"act": "return R @ x + p"}, head=b"\xef\xbb\xbf")
-    assert Workbook(tmp_path).verdict(*catalogue.find_part("act")).state == "done"
+    assert Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("act")).state == "done"
 
 
 def test_a_file_that_names_its_coding_is_read(tmp_path):
@@ -199,7 +201,7 @@ def test_a_file_that_names_its_coding_is_read(tmp_path):
     file = tmp_path / "ex_49_0.py"
     text = "# -*- coding: gb18030 -*-\n" + file.read_text(encoding="utf-8")
     file.write_bytes(text.encode("gb18030"))
-    assert Workbook(tmp_path).verdict(*catalogue.find_part("act")).state == "to do"
+    assert Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("act")).state == "to do"
 
 
 @pytest.mark.parametrize("coding", ["gb18030", "utf-16"])
@@ -207,7 +209,7 @@ def test_a_file_in_another_coding_is_told_what_to_do(tmp_path, coding):
     start(tmp_path, language="zh")
     file = tmp_path / "ex_49_0.py"
     file.write_bytes(file.read_text(encoding="utf-8").encode(coding))
-    verdict = Workbook(tmp_path).verdict(*catalogue.find_part("act"))
+    verdict = Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("act"))
     assert "ex_49_0.py is not written in UTF-8: save it as UTF-8" in verdict.message("en")
     assert "另存为 UTF-8" in verdict.message("zh")
 
@@ -215,7 +217,7 @@ def test_a_file_in_another_coding_is_told_what_to_do(tmp_path, coding):
 def test_an_error_at_the_top_of_a_file_has_its_line(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", more="\nx = 1\nx[0]\n")
-    said = Workbook(tmp_path).verdict(*catalogue.find_part("act")).message("en")
+    said = Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("act")).message("en")
     lines = (tmp_path / "ex_49_0.py").read_text(encoding="utf-8").splitlines()
     assert f"ex_49_0.py, line {lines.index('x[0]') + 1} cannot be read: TypeError" in " ".join(said.split())
 
@@ -240,7 +242,7 @@ def test_a_start_on_a_full_disk_leaves_no_half_file(tmp_path, monkeypatch, capsy
 def test_a_function_cannot_be_its_own_reference(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"skew": 'return mine("skew")(w)'})
-    verdict = Workbook(tmp_path).verdict(*catalogue.find_part("skew"))
+    verdict = Workbook(COURSE, tmp_path).verdict(*COURSE.find_part("skew"))
     assert verdict.state == "wrong"
     assert "mine('skew') is the function that you are to write here" in verdict.message("en")
 
@@ -251,17 +253,18 @@ def test_a_function_cannot_be_its_own_reference(tmp_path):
 def test_words_are_asked_for_where_the_functions_are_right(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.8", {"base_block": "return tw.crba(model, q)[:6, :6]"})
-    exercise = catalogue.exercise("49.8.1")
-    words = Workbook(tmp_path).verdict_in_words(exercise)
+    exercise = COURSE.exercise("49.8.1")
+    words = Workbook(COURSE, tmp_path).verdict_in_words(exercise)
     assert (words.state, words.lines) == ("to do", ())
-    (tmp_path / "ex_49_8.py").write_text(solved("49.8", "en").replace("answer_49_8_1 = ", "rest = "), encoding="utf-8")
-    words = Workbook(tmp_path).verdict_in_words(exercise)
+    text = solved(COURSE, "49.8", "en").replace("answer_49_8_1 = ", "rest = ")
+    (tmp_path / "ex_49_8.py").write_text(text, encoding="utf-8")
+    words = Workbook(COURSE, tmp_path).verdict_in_words(exercise)
     assert "answer_49_8_1" in words.lines[0].en
 
 
 @pytest.mark.parametrize("name", ["tree_rnea"])
 def test_the_number_of_cases_does_not_depend_on_the_clock(name, monkeypatch):
-    exercise, part = catalogue.find_part(name)
+    exercise, part = COURSE.find_part(name)
     slow = iter(range(0, 10**9, 1000))
 
     def wrong(*arguments):
@@ -279,15 +282,15 @@ def test_the_number_of_cases_does_not_depend_on_the_clock(name, monkeypatch):
     assert counts[0][0] > len(cases(part, 0))
 
 
-def test_numpy_is_that_of_the_others_while_a_change_is_tried():
+def test_numpy_is_that_of_the_others_while_a_change_is_call_or_none():
     solvers = {name: getattr(np.linalg, name) for name in ("svd", "pinv", "lstsq")}
-    part, seen = catalogue.find_part("act")[1], []
+    part, seen = COURSE.find_part("act")[1], []
 
     def act(R, p, x):
         seen.append({name: getattr(np.linalg, name) for name in solvers} == solvers)
         return np.linalg.pinv(R) @ np.full(3, np.nan)
 
-    tried(part, act, cases(part, 0)[0])
+    call_or_none(part, act, cases(part, 0)[0])
     assert seen == [True]
 
 
@@ -309,9 +312,9 @@ def test_a_negative_seed_is_told_in_a_sentence(command, capsys):
     with pytest.raises(SystemExit, match="2"):
         main(["exercises", *command, "--seed", "-5"])
     assert "expected a whole number, 0 or more, got '-5'" in capsys.readouterr().err
-    with pytest.raises(tw.ModelError, match="seed: expected a whole number, 0 or more, got -5"):
+    with pytest.raises(CourseError, match="seed: expected a whole number, 0 or more, got -5"):
         check("49.0.1", tw.skew, seed=-5)
-    with pytest.raises(tw.ModelError, match="time_limit: expected seconds, 0 or more, got -1"):
+    with pytest.raises(CourseError, match="time_limit: expected seconds, 0 or more, got -1"):
         check("49.0.1", tw.skew, time_limit=-1)
-    with pytest.raises(tw.ModelError, match="seed: expected a whole number, 0 or more, got -5"):
+    with pytest.raises(CourseError, match="seed: expected a whole number, 0 or more, got -5"):
         case("act", seed=-5)

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue, start
-from twistwrench.exercises.course.submissions import submissions
-from twistwrench.exercises.folder.workbook import Workbook
-from twistwrench.exercises.judge import judge
+from misstep.folder.workbook import Workbook
+from misstep.grading.submissions import submissions
+from misstep.judge import judge
+from twistwrench.exercises import start
+from twistwrench.exercises.chapter import COURSE
 
 from .answers import said_of
 
@@ -79,12 +80,12 @@ def count(kinds):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (BRACKETS, "change `np.zeros(6, 6)` to `np.zeros((6, 6))`"),
-        (NO_FUNCTION, "change `R.T()` to `R.T`"),
-        (WITHOUT_MODULE, "change `skew(omega)` to `tw.skew(omega)`"),
-        (EARLY, "put `return (nq, nv)` after the loop, not in it"),
-        (MISSPELT, "change `kind == 'free flyer'` to `kind == 'free_flyer'`"),
-        (OR, "to `kind == 'revolute' or kind == 'prismatic'`"),
+        (BRACKETS, "`np.zeros((6, 6))` in place of `np.zeros(6, 6)`"),
+        (NO_FUNCTION, "`[R.T, Z]` in place of `[R.T(), Z]`, in 2 places"),
+        (WITHOUT_MODULE, "`tw.skew` in place of `skew`"),
+        (EARLY, "`return (nq, nv)` after the loop, not in it"),
+        (MISSPELT, "`'free_flyer'` in place of `'free flyer'`"),
+        (OR, "`kind == 'revolute' or kind == 'prismatic'` in place of"),
     ],
 )
 def test_the_cure_of_a_newcomer_is_found(tmp_path, text, says):
@@ -96,7 +97,7 @@ def test_a_number_that_is_written_there_is_not_added_up(tmp_path):
 
 
 def test_numbers_rounded_to_two_digits_are_nearly_right():
-    exercise, part = catalogue.find_part("skew")
+    exercise, part = COURSE.find_part("skew")
     said = judge(exercise, part, lambda w: np.round(part.solution(w), 2)).message("en")
     assert "right to 2 digits only" in said
 
@@ -122,7 +123,7 @@ TWO_WAYS = [("torques_two_ways", by_rnea, by_matrix), ("forward_dynamics_two_way
 
 @pytest.mark.parametrize(("name", "first", "second"), TWO_WAYS)
 def test_two_ways_are_not_one(name, first, second):
-    exercise, part = catalogue.find_part(name)
+    exercise, part = COURSE.find_part(name)
     for way in (first, second):
         said = judge(exercise, part, lambda *x, way=way: (way(*x), way(*x))).message("en")
         assert "the same to the last bit" in " ".join(said.split())
@@ -131,7 +132,7 @@ def test_two_ways_are_not_one(name, first, second):
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize(("name", "first", "second"), TWO_WAYS)
 def test_two_honest_ways_are_two(name, first, second, seed):
-    exercise, part = catalogue.find_part(name)
+    exercise, part = COURSE.find_part(name)
     assert judge(exercise, part, lambda *x: (first(*x), second(*x)), seed=seed).state == "done"
 
 
@@ -139,8 +140,8 @@ def test_a_file_that_changes_numpy_is_told_so(tmp_path):
     start(tmp_path)
     file, cross = tmp_path / "ex_49_0.py", np.cross
     file.write_text(file.read_text(encoding="utf-8") + "\nnp.cross = lambda a, b: 0 * a\n", encoding="utf-8")
-    book = Workbook(tmp_path, language="en")
-    assert "changes `np.cross`" in book.verdict(*catalogue.find_part("skew")).message("en")
+    book = Workbook(COURSE, tmp_path, language="en")
+    assert "changes `np.cross`" in book.verdict(*COURSE.find_part("skew")).message("en")
     assert np.cross is cross
 
 
@@ -149,7 +150,7 @@ def test_a_folder_without_answers_is_among_those_of_a_class(tmp_path):
     (tmp_path / "class" / "empty").mkdir()
     start(tmp_path / "class" / "zoe" / "deeper")
     (tmp_path / "room").mkdir()
-    found = submissions([tmp_path / "class"], tmp_path / "room", ["49.0"])
+    found = submissions(COURSE, [tmp_path / "class"], tmp_path / "room", ["49.0"])
     assert [(one.student, len(one.files) > 0) for one in found] == [("anna", True), ("empty", False), ("zoe", True)]
 
 
@@ -159,4 +160,4 @@ def test_a_file_may_hold_a_dataclass(tmp_path, first):
     file = tmp_path / "ex_49_0.py"
     point = "\nfrom dataclasses import dataclass\n\n@dataclass\nclass Point:\n    x: float\n    y: float = 0\n"
     file.write_text(first + file.read_text(encoding="utf-8") + point, encoding="utf-8")
-    assert Workbook(tmp_path).module("49.0").Point(1.0).y == 0
+    assert Workbook(COURSE, tmp_path).module("49.0").Point(1.0).y == 0

@@ -7,18 +7,19 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from misstep.judge import judge
+from misstep.rules import broken_rules
 from twistwrench.algorithms.rnea import newton_euler
-from twistwrench.exercises import catalogue, check, mine, start
+from twistwrench.exercises import check, mine, start
+from twistwrench.exercises.chapter import COURSE
 from twistwrench.exercises.forbidden import FORBIDDEN
 from twistwrench.exercises.items.project_trees import tree_of
-from twistwrench.exercises.judge import judge
-from twistwrench.exercises.rules import broken_rules
 
 from .test_exercises_isolation import said, write
 
 
 def verdict(name, function):
-    return judge(*catalogue.find_part(name), function)
+    return judge(*COURSE.find_part(name), function)
 
 
 def rest_wrench(model, q):
@@ -31,7 +32,7 @@ def summed(model, q):
 
 @pytest.mark.parametrize("name", FORBIDDEN)
 def test_every_rule_is_that_of_a_function_and_names_what_there_is(name):
-    assert catalogue.find_part(name)[1].name == name
+    assert COURSE.find_part(name)[1].name == name
     rooms = tw, tw.bridge, tw.newton_euler_3d
     assert all(any(callable(getattr(room, called, None)) for room in rooms) for called in FORBIDDEN[name])
 
@@ -107,8 +108,8 @@ DISGUISES = {
 
 @pytest.mark.parametrize("disguise", DISGUISES)
 def test_a_forbidden_call_is_met_in_every_disguise_that_needs_no_malice(disguise):
-    part = catalogue.find_part("mass_matrix_by_rnea")[1]
-    found = broken_rules(part, DISGUISES[disguise])
+    part = COURSE.find_part("mass_matrix_by_rnea")[1]
+    found = broken_rules(COURSE.rules, part, DISGUISES[disguise])
     assert len(found) == 1
     assert "asks to do without it" in found[0].en
 
@@ -123,7 +124,7 @@ def by_forces(model, q):
     "function", [by_forces, lambda model, q: tw.compile(model, "rnea")(q), mine("skew"), lambda m: m]
 )
 def test_what_is_not_forbidden_is_not_taken_for_it(function):
-    assert broken_rules(catalogue.find_part("mass_matrix_by_rnea")[1], function) == []
+    assert broken_rules(COURSE.rules, COURSE.find_part("mass_matrix_by_rnea")[1], function) == []
 
 
 @pytest.mark.parametrize("file", ["<stdin>", "<string>", "<console>", "<python-input-3>", "<ipython-input-1-ab>"])
@@ -136,7 +137,7 @@ def test_what_is_typed_or_run_by_exec_is_the_students(file):
 
 
 def test_the_reference_is_refused_whatever_its_name(tmp_path):
-    reference = catalogue.find_part("skew")[1].solution
+    reference = COURSE.find_part("skew")[1].solution
     assert not check("49.0.1", reference, time_limit=0).right
     start(tmp_path, language="en")
     head = "from twistwrench.exercises.items.ex_49_0_1 import skew as given"
@@ -162,7 +163,7 @@ def test_what_the_package_calls_by_itself_is_not_held_against_the_student():
         return np.concatenate([np.cross(base.inverse().act(tw.center_of_mass(model, q)), force), force])
 
     assert verdict("base_wrench_at_rest", by_levers).state == "done"
-    assert verdict("torques_two_ways", catalogue.find_part("torques_two_ways")[1].solution).state == "done"
+    assert verdict("torques_two_ways", COURSE.find_part("torques_two_ways")[1].solution).state == "done"
 
 
 def test_wrong_numbers_are_explained_first():
@@ -173,7 +174,7 @@ def test_the_reference_is_not_an_answer(tmp_path):
     skew = mine("skew")
     assert "those of the reference" in verdict("skew", lambda w: skew(w)).message("en")
     start(tmp_path, language="en")
-    body = "from twistwrench.exercises.catalogue import find_part\nreturn find_part('skew')[1].solution(w)"
+    body = "from twistwrench.exercises.chapter import COURSE\nreturn COURSE.find_part('skew')[1].solution(w)"
     write(tmp_path, "49.0", {"skew": body})
     assert "those of the reference, which it calls" in " ".join(said(tmp_path, "skew")[1].split())
 
@@ -200,7 +201,7 @@ def by_the_package(model, q, frame):
 def test_an_answer_that_changes_the_model_is_met():
     """Its numbers are compared with those of the model as it was."""
     pin = pytest.importorskip("pinocchio")
-    solution = catalogue.find_part("acceleration_from_pinocchio")[1].solution
+    solution = COURSE.find_part("acceleration_from_pinocchio")[1].solution
 
     def weightless(model, q, v, tau):
         model.gravity = pin.Motion.Zero()

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 import twistwrench as tw
 from twistwrench import bridge, fast
 from twistwrench import newton_euler_3d as slow
-from twistwrench.fast import programs
 from twistwrench.model import KINDS
 
 from ..sampling import sampled
@@ -99,7 +98,7 @@ def test_errors_are_within_twice_those_of_the_textbook(recipe):
 def test_so_they_are_without_machine_code(recipe):
     """The same operations, so that more robots can be tried: nothing is compiled."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(programs, "available", lambda: False)
+        patch.setattr("straightline.llvm.available", lambda: False)
         assert_as_good(recipe.model, recipe.state(), [recipe.frame(), recipe.model.frame_names[-1]])
 
 

@@ -3,15 +3,16 @@
 import gc
 import pickle
 import re
+import sys
 import weakref
 
 import numpy as np
 import pytest
 
 import twistwrench as tw
+from straightline import llvm, registers
 from twistwrench import fast
-from twistwrench.compiler import quantity, registers
-from twistwrench.fast import programs
+from twistwrench.fast import programs, quantity
 
 from ..strategies import Recipe, random_state
 
@@ -298,7 +299,7 @@ def test_a_state_has_the_same_result_alone_and_among_others(name, count, states)
 def test_without_machine_code_the_results_are_the_same(name, states, monkeypatch):
     """But for sin and cos, which have a rounding or two of their own; in chunks of 64 states."""
     compiled = CALLS[name](fast, GO2, states.q, states.v)
-    monkeypatch.setattr(programs, "available", lambda: False)
+    monkeypatch.setattr(llvm, "available", lambda: False)
     monkeypatch.setattr(registers, "CHUNK", 64)
     model = tw.load("go2")
     q, v = (np.concatenate([x] * 3) for x in (states.q, states.v))
@@ -349,7 +350,7 @@ def test_a_robot_that_is_too_long_is_the_textbooks(long_chain, batch):
         tau = s.tau.copy()
         assert getattr(fast, function)(long_chain, s.q, s.v, tau, f_ext, out=tau) is tau
         np.testing.assert_array_equal(tau, right)
-    assert all(isinstance(made, programs.Textbook) for made in long_chain._programs.values())
+    assert {made.backend for made in long_chain._programs.values()} == {"textbook"}
 
 
 def test_a_robot_that_is_too_long_is_refused_in_the_same_words(monkeypatch):
@@ -416,11 +417,47 @@ def test_a_program_is_made_once_for_each_question_and_number_type():
     assert len(model._programs) == 4
 
 
+def calls_until(function, last):
+    """Return the names of the functions that are called, one within the other, until the last one."""
+    way = []
+
+    def look(frame, event, _):
+        if not way and event == "call" and frame.f_code.co_name == last:
+            while frame is not None and frame.f_code.co_name != function.__name__:
+                way.append(frame.f_code.co_qualname)
+                frame = frame.f_back
+
+    sys.setprofile(look)
+    try:
+        function()
+    finally:
+        sys.setprofile(None)
+    return way[::-1]
+
+
+@pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
+def test_from_a_function_to_its_machine_code_there_are_four_calls(states):
+    """A reader can follow them; for one state there is one less, and nothing is looked for a second time."""
+
+    def batch():
+        return fast.rnea(GO2, states.q, states.v, states.a)
+
+    def single():
+        return fast.rnea(GO2, states.q[0], states.v[0], states.a[0])
+
+    batch(), single()
+    way = ["rnea", "result", "Program.__call__", "BackEnd.results", "MachineCode.run"]
+    assert calls_until(batch, "run") == way
+    assert calls_until(single, "one_state") == ["rnea", "result", "one_state"]
+
+
 def test_a_program_goes_with_its_model_and_is_not_pickled():
     model = tw.chain(3)
     fast.crba(model, [0.1, 0.2, 0.3])
     assert len(model._programs) == 1
     assert pickle.loads(pickle.dumps(model))._programs == {}
+    with pytest.raises(TypeError, match="belongs to its model"):
+        pickle.dumps(next(iter(model._programs.values())))
     kept = [weakref.ref(x) for x in (*model._programs.values(), model)]
     del model
     gc.collect()
@@ -429,7 +466,7 @@ def test_a_program_goes_with_its_model_and_is_not_pickled():
 
 def test_more_sets_of_contacts_than_are_remembered_are_right(monkeypatch):
     monkeypatch.setattr(programs, "REMEMBERED", 3)
-    monkeypatch.setattr(programs, "available", lambda: False)
+    monkeypatch.setattr(llvm, "available", lambda: False)
     model = tw.load("go2")
     one = {foot: fast.dynamics(model, Q, V, contacts=[foot], want={"J_c"}).J_c for foot in model.feet}
     for contacts in (model.feet, model.feet[::-1], model.feet[:2], model.feet[1:]):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from twistwrench.exercises import catalogue
+from twistwrench.exercises.chapter import COURSE
 
 from ..pages import DOCS, FENCE, names_author_and_licence, page, run
 from .test_docs import tables
@@ -66,7 +66,7 @@ def test_fourteen_days_have_every_exercise(language: str) -> None:
     rows = [row for row in tables(page("companion", language)) if row[0].isdigit()]
     assert [int(row[0]) for row in rows] == list(range(1, 15))
     planned = " ".join(row[3] for row in rows).replace("49.0.1–5", " ".join(f"49.0.{k}" for k in range(1, 6)))
-    ids = [exercise.id for section in catalogue.SECTIONS for exercise in catalogue.of_section(section)]
+    ids = [exercise.id for section in COURSE.sections for exercise in COURSE.of_section(section)]
     assert [i for i in ids if not re.search(rf"{re.escape(i)}(?!\d)", planned)] == []
 
 

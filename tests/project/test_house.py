@@ -2,31 +2,36 @@
 
 import ast
 import re
+import sys
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
+from misstep.domains import Domain
+
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "twistwrench"
-TEXT = {p.relative_to(SOURCE).as_posix(): p.read_text(encoding="utf-8") for p in sorted(SOURCE.rglob("*.py"))}
+PACKAGES = ("straightline",)  # that know no robot: each counts as a room here
+TEXT = {
+    p.relative_to(root).as_posix(): p.read_text(encoding="utf-8")
+    for root, below in ((SOURCE, SOURCE), *((ROOT / "src", ROOT / "src" / package) for package in PACKAGES))
+    for p in sorted(below.rglob("*.py"))
+}
 TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
     *("errors", "tables", "arrays", "newton_euler_3d", "spatial", "model", "algorithms"),
-    *("compiler", "fast", "error_bounds", "tracing", "loading", "plot"),
+    *("straightline", "fast", "error_bounds", "tracing", "loading", "plot"),
     *("files", "stopping", "options", "timing", "contact", "simulation", "motions", "templates", "scene"),
     *("bridge", "viewing", "__init__", "validate", "advise", "exercises", "cli", "__main__"),
 ]
 """The rooms, the chapter's first. A room imports from earlier ones only."""
 
-EXERCISES = ("words", "changes", "statements", "naming", "folder", "processes", "notebook", "course")
+BOOK = ORDER[: ORDER.index("straightline")]
 
-WITH_TABLE = (
-    *("arrays", "spatial", "model", "algorithms", "compiler"),
-    *("exercises", *(f"exercises/{room}" for room in EXERCISES)),
-)
+WITH_TABLE = ("arrays", "spatial", "model", "algorithms", "straightline", "fast", "exercises")
 """The rooms whose `__init__` has a table of their files: there each file imports only from those above it."""
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -44,8 +49,8 @@ def table(room: str) -> list[str]:
 
 
 def imports(file: str) -> Iterator[tuple[str, list[str]]]:
-    """Yield place and module, below `twistwrench`, of every import of the package that is made when the code runs."""
-    package = ["twistwrench", *Path(file).parts[:-1]]
+    """Yield place and module of every import of our own that is made when the code runs, ``["model", "link"]``."""
+    package = [*([] if section(file) in PACKAGES else ["twistwrench"]), *Path(file).parts[:-1]]
     for node in at_run_time(TREES[file]):
         if isinstance(node, ast.Import):
             targets = [alias.name.split(".") for alias in node.names]
@@ -53,18 +58,23 @@ def imports(file: str) -> Iterator[tuple[str, list[str]]]:
             base = package[: len(package) + 1 - node.level] if node.level else []
             module = [*base, *(node.module.split(".") if node.module else [])]
             targets = [
-                [*module, a.name] if module == ["twistwrench"] or is_file([*module[1:], a.name]) else module
+                [*module, a.name] if module == ["twistwrench"] or is_file(below([*module, a.name])) else module
                 for a in node.names
             ]
         else:
             continue
         for target in targets:
-            if target[0] == "twistwrench":
-                yield f"{file}:{node.lineno}", target[1:] or ["__init__"]
+            if target[0] in ("twistwrench", *PACKAGES):
+                yield f"{file}:{node.lineno}", below(target) or ["__init__"]
+
+
+def below(module: list[str]) -> list[str]:
+    """Return the room of a module and what follows."""
+    return module[1:] if module[0] == "twistwrench" else module
 
 
 def is_file(module: list[str]) -> bool:
-    """Whether a module, below `twistwrench`, is a file or a folder."""
+    """Whether a module is a file or a folder."""
     return any("/".join(module) + end in TREES for end in (".py", "/__init__.py"))
 
 
@@ -127,6 +137,26 @@ def test_imports_point_to_earlier_rooms():
         if read[0] != section(file) and read[0] not in ORDER[: ORDER.index(section(file))]
     ]
     assert later == []
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_package_that_knows_no_robot_imports_itself_alone(package):
+    names = [
+        name
+        for file, tree in TREES.items()
+        if section(file) == package
+        for node in ast.walk(tree)
+        for name in ([a.name for a in node.names] if isinstance(node, ast.Import) else [getattr(node, "module", None)])
+        if isinstance(node, ast.Import) or (isinstance(node, ast.ImportFrom) and not node.level)
+    ]
+    others = {name.split(".")[0] for name in names} - sys.stdlib_module_names
+    assert others <= {"numpy", "llvmlite", "mpmath", package}
+    assert all(read[0] == package for file in TREES if section(file) == package for _, read in imports(file))
+
+
+def test_the_book_knows_none_of_its_tools():
+    reads = {read[0] for file in TREES if section(file) in BOOK for _, read in imports(file)}
+    assert reads <= {*BOOK}
 
 
 def files_of(room: str) -> list[str]:
@@ -226,8 +256,9 @@ def test_only_the_bridge_swaps_order():
 
 
 def test_no_argument_is_accepted_and_unused():
-    """A method that fills in an abstract one has its signature from there."""
+    """A method that fills in an abstract one, or one of a domain, has its signature from there."""
     fixed = {function.name for file in TREES for _, function, owner in functions(file) if owner and abstract(function)}
+    fixed |= {*vars(Domain)}
     unused = [
         f"{place}({argument})"
         for file in TREES

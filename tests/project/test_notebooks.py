@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises import catalogue
+from twistwrench.exercises.chapter import COURSE
 
 nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: the notebooks are not checked")
 pytest.importorskip("jupytext", reason="jupytext is not installed: the notebooks are not checked")
@@ -286,7 +286,7 @@ def test_a_section_asks_before_it_shows_and_has_a_cell_for_the_student(source):
     assert turn.endswith(f", {name})")
     (chinese,) = (cell for cell in notebook(source, "zh").cells if "tw.exercises.check(" in cell.source)
     assert chinese.source.endswith(f', {name}, language="zh")')
-    exercise, part = catalogue.find_part(name)
+    exercise, part = COURSE.find_part(name)
     assert exercise.section == number
     assert f"def {name}({part.arguments}):" in turn
 

@@ -238,7 +238,7 @@ def test_the_wheel_holds_every_section_and_every_robot_and_nothing_else(built):
         for path in (ROOT / "src").rglob(kind)
     }
     robots = {f"twistwrench/models/{path.name}" for path in (ROOT / "models").iterdir() if path.is_file()}
-    assert inside == sections | robots | {"twistwrench/py.typed"}
+    assert inside == sections | robots | {"twistwrench/py.typed", "straightline/py.typed"}
     assert len(MODELS) >= 6
     assert any(name.endswith(".dist-info/licenses/LICENSE") for name in names)
 

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench import fast, motions
-from twistwrench.compiler import compile
+from twistwrench import compile, fast, motions
 
 from ..pages import DOCS, blocks, names_author_and_licence, page, run
 from ..sampling import sampled

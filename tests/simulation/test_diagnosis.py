@@ -97,3 +97,27 @@ def test_a_policy_that_cannot_be_asked_again_leaves_the_message_as_it_was():
 
     with pytest.raises(tw.DivergenceError, match=r"^step \d+, from .*weaker forces\?$"):
         tw.simulate(wheel(0.02), [0.0], [1.0], dt=0.1, steps=50, tau=until_then, method="euler")
+
+
+@pytest.mark.parametrize("clock", [{"dt": 0.01}, {"dt": 0.002, "dt_control": 0.01}])
+def test_gains_that_are_too_high_are_told_of_a_motion_that_has_not_diverged_yet(clock):
+    """v changes by the factor 1 − dt kd / D in each step: −1.4 here, and −0.8 with half the gain, which dies out."""
+    model = wheel(0.02)
+
+    def moved(kd):
+        options = {"duration": 0.1, "tau": lambda t, q, v: -kd * v, "method": "time-stepping"} | clock
+        return tw.simulate(model, [0.0], [1.0], **options)
+
+    said = [(r.kind, r.name) for r in moved(4.8).remarks]
+    assert said == [("alternates", "disc")]
+    assert moved(3.6).remarks == ()
+
+
+def test_a_policy_that_fails_does_not_hide_the_divergence_nor_the_print():
+    """Asked for its gains, and for the error of a step, it may raise anything."""
+    log = {round(0.1 * k, 6): 100.0 for k in range(50)}
+    with pytest.raises(tw.DivergenceError) as raised:
+        tw.simulate(
+            wheel(0.02), [0.0], [1.0], dt=0.1, steps=50, tau=lambda t, q, v: log.pop(round(t, 6)) * v, method="euler"
+        )
+    assert "a step is off" not in str(raised.value.motion)

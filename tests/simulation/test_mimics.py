@@ -57,8 +57,9 @@ def test_a_condition_and_constant_forces_are_in_its_own_coordinates():
     )
     assert set(seen) == {(2,)}
     assert (motion.tau == [0.1, 0.2]).all()
-    with pytest.raises(tw.ShapeError):
-        tw.simulate(model, [0.3, 0.6], [0, 0], dt=0.01, steps=1, tau=[0.1, 0.2, 0.3, 0.4])
+    for wrong in ([0.1, 0.2, 0.3, 0.4], np.zeros(3), lambda t, q, v: np.zeros(3)):  # three joints has the full robot
+        with pytest.raises(tw.ShapeError, match=r"expected shape \(\.\.\., 2\)"):
+            tw.simulate(model, [0.3, 0.6], [0, 0], dt=0.01, steps=1, tau=wrong)
 
 
 def test_a_divergence_has_the_motion_of_the_leaders():

@@ -259,7 +259,7 @@ def test_a_scale_beside_exact_numbers_is_exact_in_all_ten():
 def test_a_body_is_divided_by_numbers_alone_and_without_overflow():
     body = SpatialInertia(2.0, [0, 0, 0.1], np.eye(3))
     for other in (tw.Twist(np.ones(6)), tw.Wrench(np.ones(6)), body):
-        with pytest.raises(TypeError, match=f"SpatialInertia / {type(other).__name__}: expected a number"):
+        with pytest.raises(TypeError, match=f"for /: 'SpatialInertia' and '{type(other).__name__}'"):
             body / other
     for call in (lambda: 1e308 * body, lambda: body / 1e-320):
         with pytest.raises(ValueError, match="scale, mass, inertia_at_com: expected smaller numbers"):

@@ -389,6 +389,13 @@ def test_the_command_does_without_pinocchio_and_scipy(monkeypatch, capsys):
     assert "exp3 SciPy" not in said.out
 
 
+@pytest.mark.parametrize("longest", ["0", "-3", "2.5"])
+def test_robots_of_no_body_are_no_limit(longest, capsys):
+    with pytest.raises(SystemExit):
+        study_main(["extremes", "--longest", longest])
+    assert f"--longest: expected a whole number, 1 or more, got '{longest}'" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("angles", ["1", "-5", "2.5", "many"])
 def test_a_number_of_angles_that_is_none_is_refused(angles, capsys):
     with pytest.raises(SystemExit):

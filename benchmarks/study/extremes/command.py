@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from twistwrench.files import write_text
-from twistwrench.options import check_writable
+from twistwrench.options import at_least, check_writable
 
 __all__ = ["add_extremes"]
 
@@ -32,7 +32,7 @@ def add_extremes(studies: Any) -> None:
     parser.add_argument("--full", action="store_true", help="all ends of all pairs, and robots of 1000 bodies")
     parser.add_argument(
         "--longest",
-        type=int,
+        type=at_least(1),
         metavar="N",
         help="leave out robots of more bodies: the two of 1000 take as long as all others",
     )

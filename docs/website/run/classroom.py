@@ -139,8 +139,9 @@ def explained(error: BaseException) -> str:
 
 def folder(answers: dict[str, str], state: str, language: str) -> Path:
     """Write the folder of a student: the skeletons with the answers in their places, and what was remembered."""
-    from twistwrench.exercises import catalogue, start
-    from twistwrench.exercises.folder import skeletons
+    from misstep.folder import skeletons
+    from twistwrench.exercises import start
+    from twistwrench.exercises.chapter import COURSE
 
     ANSWERS.mkdir(exist_ok=True)
     for path in ANSWERS.iterdir():
@@ -149,8 +150,8 @@ def folder(answers: dict[str, str], state: str, language: str) -> Path:
         (ANSWERS / ".twistwrench.json").write_text(state, encoding="utf-8")
     start(ANSWERS, language=language)
     for number, answer in answers.items():
-        exercise = catalogue.exercise(number)
-        path, place = ANSWERS / catalogue.file_name(exercise.section), skeletons.place(exercise, language)
+        exercise = COURSE.exercise(number)
+        path, place = ANSWERS / COURSE.file_name(exercise.section), skeletons.place(exercise, language)
         text = path.read_text(encoding="utf-8")
         path.write_text(text.replace(place, answer.rstrip() + "\n"), encoding="utf-8")
     return ANSWERS
@@ -164,28 +165,28 @@ def remembered() -> str:
 
 def try_out(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Run an answer as a cell, with what stands above it in its file."""
-    from twistwrench.exercises import catalogue
-    from twistwrench.exercises.folder import skeletons
+    from misstep.folder import skeletons
+    from twistwrench.exercises.chapter import COURSE
 
-    exercise = catalogue.exercise(number)
-    path = folder(answers, state, language) / catalogue.file_name(exercise.section)
+    exercise = COURSE.exercise(number)
+    path = folder(answers, state, language) / COURSE.file_name(exercise.section)
     SPACES[number] = {"__name__": "__main__", "__builtins__": __builtins__, "__file__": str(path)}
-    execute(skeletons.opening(exercise.section, language), SPACES[number], path.name)
+    execute(skeletons.opening(COURSE, exercise.section, language), SPACES[number], path.name)
     return run(answers.get(number, ""), number, number)
 
 
 def check(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Check an exercise, and return the verdict as HTML."""
-    from twistwrench.exercises import catalogue
-    from twistwrench.exercises.notebook.cells import checked
-    from twistwrench.exercises.notebook.markup import checked_html
-    from twistwrench.exercises.processes.isolation import opened
+    from misstep.notebook.cells import checked
+    from misstep.notebook.markup import checked_html
+    from misstep.processes.isolation import opened
+    from twistwrench.exercises.chapter import COURSE
 
     outputs: list[Output] = []
     with redirect_stdout(Lines("out", outputs)), redirect_stderr(Lines("err", outputs)):
         try:
-            with opened(folder(answers, state, language), time_limit=0) as book:
-                verdict = checked(book, catalogue.exercise(number))
+            with opened(COURSE, folder(answers, state, language), time_limit=0) as book:
+                verdict = checked(book, COURSE.exercise(number))
         except ImportError as error:
             if package := missing(error):
                 return [("needs", package)]
@@ -196,9 +197,9 @@ def check(number: str, answers: dict[str, str], state: str, language: str) -> li
 
 def in_the_cell(message: str, number: str, answer: str) -> str:
     """Return a message in which the lines of the file are counted as the page shows them, from the answer's first."""
-    from twistwrench.exercises import catalogue
+    from twistwrench.exercises.chapter import COURSE
 
-    file = (ANSWERS / catalogue.file_name(catalogue.exercise(number).section)).read_text(encoding="utf-8")
+    file = (ANSWERS / COURSE.file_name(COURSE.exercise(number).section)).read_text(encoding="utf-8")
     above, length = file.partition(answer.rstrip())[0].count("\n"), answer.rstrip().count("\n") + 1
 
     def here(found: re.Match[str]) -> str:
@@ -210,25 +211,26 @@ def in_the_cell(message: str, number: str, answer: str) -> str:
 
 def hint(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Return the next hint; after the last one a solution."""
+    from misstep.folder.workbook import Workbook
     from twistwrench import exercises
-    from twistwrench.exercises.folder.workbook import Workbook
+    from twistwrench.exercises.chapter import COURSE
 
-    book = Workbook(folder(answers, state, language))
+    book = Workbook(COURSE, folder(answers, state, language))
     given = book.state["hints"].get(number, 0)
-    last = len(exercises.catalogue.exercise(number).hints)
+    last = len(COURSE.exercise(number).hints)
     text = exercises.solution(number, book.folder) if given >= last else exercises.hint(number, book.folder)
     return [("hint", IN_THE_SHELL.sub("", text))]
 
 
 def answers(files: dict[str, str]) -> list[Output]:
     """Return the answers in the files of a student's folder, by their numbers, where they differ from the skeleton."""
-    from twistwrench.exercises import catalogue
-    from twistwrench.exercises.folder import skeletons
+    from misstep.folder import skeletons
+    from twistwrench.exercises.chapter import COURSE
 
     found = []
-    for section in catalogue.SECTIONS:
-        for number, text in ANSWER.findall(files.get(catalogue.file_name(section), "")):
-            exercise = catalogue.exercise(number)
+    for section in COURSE.sections:
+        for number, text in ANSWER.findall(files.get(COURSE.file_name(section), "")):
+            exercise = COURSE.exercise(number)
             if text.strip() not in (skeletons.place(exercise, language).strip() for language in ("en", "zh")):
                 found.append((number, text.strip()))
     return found

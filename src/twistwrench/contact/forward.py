@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike
 
 from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_count, as_number
-from ..compiler import Results
 from ..errors import SingularError
+from ..fast.program import Results
 from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3

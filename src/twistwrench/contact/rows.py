@@ -14,11 +14,11 @@ from ..algorithms._mimic import also_of_mimics
 from ..algorithms.mimic import MimicModel
 from ..algorithms.rnea import rnea
 from ..arrays import Array, as_sequence, check_kind
-from ..compiler import Results
-from ..compiler.quantities import Quantity, quantities
-from ..compiler.watch import with_watch
 from ..errors import unknown_name
+from ..fast.program import Results
 from ..fast.programs import remembered
+from ..fast.quantities import Quantity, quantities
+from ..fast.watch import with_watch
 from ..model import Model, cast, check_model, check_state, in_double, joint_placements
 from ..spatial import SE3, exp3, log3
 from .decomposition import row_scaling

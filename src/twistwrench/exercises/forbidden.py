@@ -1,8 +1,8 @@
-"""What the texts of the exercises forbid, by the function that the student writes."""
+"""What the texts of the exercises rule out."""
 
-from __future__ import annotations
+from misstep.rules import Rules
 
-__all__ = ["COMPUTED", "FORBIDDEN", "ROOMS", "SYMBOLS"]
+__all__ = ["FORBIDDEN", "RULES"]
 
 M = (
     *("crba", "crba_terms", "mass_matrix", "dynamics", "inverse_mass_matrix", "solve_mass_matrix"),
@@ -32,3 +32,7 @@ SYMBOLS = {"crba": "M", "rnea": "tau", "aba": "qdd", "centroidal_map": "A_G", "g
 
 COMPUTED = {"about_center_of_mass": 1}
 """Which argument a result is computed from, though its value does not depend on it, by the name of the function."""
+
+RULES = Rules(
+    "twistwrench", "tw", ROOMS, FORBIDDEN, SYMBOLS, COMPUTED, (f"{__package__}.items.", f"{__package__}.chapter")
+)

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from itertools import product
-from typing import Any
-
-from .words.text import Text
+from misstep.exercise import PLAIN, Layout, Parts
+from misstep.text import Text
 
 __all__ = [
     "CENTROIDAL_MAP",
@@ -26,41 +22,7 @@ __all__ = [
     "POSE",
     "TWIST",
     "WRENCH",
-    "Layout",
 ]
-
-Parts = tuple[tuple[Text, slice], ...]
-
-
-@dataclass(frozen=True)
-class Layout:
-    """Names for the parts of the last axes of an array.
-
-    `axes` holds, for each of the last axes, its parts: a name and the slice of indices it stands for.
-    """
-
-    axes: tuple[Parts, ...] = ()
-
-    def blocks(self, shape: tuple[int, ...]) -> Iterator[tuple[Text, tuple[Any, ...]]]:
-        """Yield name and index of every block of an array of that shape that is not empty."""
-        if not self.axes or len(shape) < len(self.axes):
-            return
-        sizes = shape[len(shape) - len(self.axes) :]
-        for parts in product(*self.axes):
-            if all(part.start < size for (_, part), size in zip(parts, sizes)):
-                names = [name for name, _ in parts]
-                yield _joined(names, len(shape)), (..., *(part for _, part in parts))
-
-
-def _joined(names: list[Text], axes: int) -> Text:
-    """Name a block: rows of a vector, columns of several that are rows, or rows and columns of a matrix."""
-    if len(names) == 1:
-        lines, zh = ("rows", "行") if axes == 1 else ("columns", "列")
-        english = f"the {lines} {names[0].en}" if names[0].en.startswith("of ") else f"the {names[0].en} {lines}"
-        return Text(english, f"{names[0].zh} 各{zh}")
-    rows, columns = names
-    column = "column" if columns.en.startswith("3 ") else "columns"
-    return Text(f"the block of rows {rows.en}, {column} {columns.en}", f"{rows.zh} 行 {columns.zh} 列的块")
 
 
 def _halves(angular: str, linear: str) -> Parts:
@@ -85,7 +47,6 @@ _POSE_COLUMNS = (
     (Text("3 (position)", "3（位置）"), slice(3, 4)),
 )
 
-PLAIN = Layout()
 TWIST = Layout((_MOTION,))
 WRENCH = Layout((_FORCE,))
 MOMENTUM = Layout((_MOMENTUM,))

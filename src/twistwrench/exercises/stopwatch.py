@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .words.text import Text
+from misstep.text import Text
 
 __all__ = ["UP", "Machine", "Task", "often", "seconds", "timed"]
 

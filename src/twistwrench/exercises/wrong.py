@@ -1,115 +1,19 @@
-"""Wrong implementations, made out of right ones: the slips that need no code of their own.
-
-Each takes the reference, and gives a function with the same arguments that makes one slip: `faulty` changes a line of
-it, the others what goes in or comes out. Where the reference returns several things, ``only`` names
-those that are touched; by default all are.
-"""
+"""Slips of the chapter that need no code of their own: the other order of six numbers, half of a matrix twice."""
 
 from __future__ import annotations
 
-import inspect
-import sys
-import textwrap
 from collections.abc import Callable
-from functools import cache, wraps
-from types import FunctionType
 from typing import Any
 
 import numpy as np
 
+from misstep import faults
+
 from ..arrays import Array
 
-__all__ = [
-    "after",
-    "as_column",
-    "before",
-    "both",
-    "doubled",
-    "faulty",
-    "negated",
-    "swap",
-    "swapped",
-    "times",
-    "transposed",
-]
+__all__ = ["doubled", "faulty", "swap", "swapped"]
 
 Function = Callable[..., Any]
-
-
-def faulty(solution: Function, *changes: tuple[str, str], of: Function | None = None) -> Function:
-    """Change the text of the reference: in each pair the right text, and the wrong one in its place.
-
-    Where the reference only calls an algorithm of the package, `of` is the listing whose text is changed instead; the
-    reference then calls the changed one. It is compiled when it is first called, among the names of both modules, and
-    `doubled` and `swap`.
-
-    Raises
-    ------
-    ValueError
-        When it is called, if the right text does not stand exactly once in what is changed.
-
-    Examples
-    --------
-    >>> wrong = faulty(swap, ("k < 3 else k - 3", "k < 3 else k - 4"))
-    >>> wrong(np.arange(6))
-    array([3, 4, 5, 5, 0, 1])
-    """
-    changed = solution if of is None else of
-
-    @cache
-    def compiled() -> Function:
-        source, name = textwrap.dedent(inspect.getsource(changed)), changed.__name__
-        for right, wrong in changes:
-            if source.count(right) != 1:
-                raise ValueError(f"{name}: expected {right!r} once in its source, found it {source.count(right)} times")
-            source = source.replace(right, wrong)
-        modules = (sys.modules[function.__module__] for function in (solution, changed))
-        names = {"doubled": doubled, "swap": swap} | {k: x for module in modules for k, x in vars(module).items()}
-        exec(compile(source, "<changed>", "exec"), names)
-        found: Function = names[name]
-        return found if of is None else FunctionType(solution.__code__, {**solution.__globals__, name: found})
-
-    @wraps(solution)
-    def wrong(*arguments: Any) -> Any:
-        return compiled()(*arguments)
-
-    wrong.within = changed  # type: ignore[attr-defined]
-    wrong.made = solution, changes, of  # type: ignore[attr-defined]
-    return wrong
-
-
-def both(first: Function, second: Function) -> Function | None:
-    """Make the changes of two faulty functions together; None where they are not changes of one text.
-
-    Examples
-    --------
-    >>> together = both(faulty(swap, ("k + 3", "k + 2")), faulty(swap, ("else k - 3", "else k - 2")))
-    >>> together(np.arange(6))
-    array([2, 3, 4, 1, 2, 3])
-    """
-    (solution, one, of), (other, more, within) = (getattr(f, "made", (None, (), None)) for f in (first, second))
-    return faulty(solution, *one, *more, of=of) if solution and (solution, of) == (other, within) else None
-
-
-def after(solution: Function, change: Callable[[Any], Any], *, only: tuple[int, ...] | None = None) -> Function:
-    """Change what the reference returns."""
-
-    def wrong(*arguments: Any) -> Any:
-        answer = solution(*arguments)
-        if not isinstance(answer, tuple):
-            return change(answer)
-        return tuple(change(x) if only is None or k in only else x for k, x in enumerate(answer))
-
-    return wrong
-
-
-def before(solution: Function, change: Callable[[Any], Any], *, which: int) -> Function:
-    """Change one of the arguments of the reference."""
-
-    def wrong(*arguments: Any) -> Any:
-        return solution(*(change(x) if k == which else x for k, x in enumerate(arguments)))
-
-    return wrong
 
 
 def swap(x: Any) -> Array:
@@ -128,24 +32,9 @@ def doubled(M: Any) -> Array:
 
 def swapped(solution: Function, *, only: tuple[int, ...] | None = None) -> Function:
     """(v, ω) in place of (ω, v)."""
-    return after(solution, swap, only=only)
+    return faults.after(solution, swap, only=only)
 
 
-def transposed(solution: Function) -> Function:
-    """Rows and columns exchanged."""
-    return after(solution, lambda x: np.asarray(x).mT)
-
-
-def negated(solution: Function) -> Function:
-    """Every sign wrong."""
-    return after(solution, lambda x: -np.asarray(x))
-
-
-def times(solution: Function, factor: float) -> Function:
-    """Wrong by a factor."""
-    return after(solution, lambda x: factor * np.asarray(x))
-
-
-def as_column(solution: Function) -> Function:
-    """(n, 1) in place of (n,)."""
-    return after(solution, lambda x: np.asarray(x)[..., None])
+def faulty(solution: Function, *changes: tuple[str, str], of: Function | None = None) -> Function:
+    """Change the text of the reference, in which `doubled` and `swap` may be used: see `misstep.faults.faulty`."""
+    return faults.faulty(solution, *changes, of=of, names={"doubled": doubled, "swap": swap})

@@ -2,7 +2,7 @@
 
 Same functions, same signatures, same errors as the textbook's, and its recursions, recorded for this model, this
 question and this number type when first asked for, which takes some tenths of a second, and remembered with the model:
-see `twistwrench.compiler`. Everything that is asked for in one call shares its work. With the extra
+see ``straightline``. Everything that is asked for in one call shares its work. With the extra
 ``pip install "twistwrench[compile]"`` float32 and float64 have machine code; without it, and for long double and
 complex numbers, NumPy does the same operations for many states at once.
 
@@ -19,9 +19,20 @@ Of lines with more than 60 000 operations there is no machine code, since it wou
 
 How fast all this is, is in benchmarks/README.md; more states than one machine holds are in docs/dask.md.
 
+Each file imports only from those above it in this table.
+
 ============  ===================================================================================
 file          what it holds
 ============  ===================================================================================
+anchors       the chapter's steps, by which the values of a program's text are called
+watch         what a program watches, so that the textbook can take the states that raise the alarm
+quantity      `Quantity`: what it depends on, and how it is computed; by the textbook, for some states
+derivatives   derivatives of all quantities, and the regressor
+quantities    what can be compiled: the textbook's functions
+recording     from quantities to a straight line
+program       `Program`, which is called as the textbook's functions are
+digits        programs in pairs of doubles, in quadruple precision, in mpmath's numbers; and with a bound
+compilation   `compile`
 programs      the program for a model and a question, made once; where there is none, the textbook
 functions     the public functions
 steps         steps q ⊕ u, for simulations

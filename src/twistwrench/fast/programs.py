@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from straightline.llvm import default_backend
+
 from ..algorithms.floating_base import HeldRows
 from ..arrays import Array
-from ..compiler import Program
-from ..compiler.llvm import NATIVE, available
-from ..compiler.quantities import quantities
-from ..compiler.quantity import Quantity, checked, computed
 from ..errors import SingularError
 from ..model import Model, check_model
+from .program import Program
+from .quantities import quantities
+from .quantity import Quantity, checked
 
 __all__ = [
     "ASKED",
@@ -25,7 +25,6 @@ __all__ = [
     "LONGEST",
     "MOST",
     "WIDEST",
-    "Textbook",
     "one_state",
     "program",
     "remembered",
@@ -117,36 +116,31 @@ def remembered(
     For the first `after` calls it is the textbook: a program is not worth its making for a few states.
     """
     programs = model._programs
-    found: Program | int | None = programs.get(key)
-    if found is None or isinstance(found, int):
-        calls = found or 0
-        if calls < after:
-            programs[key] = calls + 1
-            return _made(model, asked(), dtype, single, called=False)
-        for forgotten in [*programs][: len(programs) + 1 - REMEMBERED]:
-            programs.pop(forgotten, None)
-        found = programs[key] = _made(model, asked(), dtype, single)
-    return found
+    found: Program | int = programs.get(key, 0)
+    if isinstance(found, Program):
+        return found
+    if found < after:
+        programs[key] = found + 1
+        return Program(model, asked(), single=single, dtype=dtype, backend="textbook")
+    for forgotten in [*programs][: len(programs) + 1 - REMEMBERED]:
+        programs.pop(forgotten, None)
+    made = Program(model, asked(), single=single, dtype=dtype, backend=default_backend(dtype))
+    made.run_by(suited(made))
+    programs[key] = made
+    return made
 
 
-def _made(model: Model, asked: Sequence[Quantity], dtype: np.dtype[Any], single: bool, called: bool = True) -> Program:
-    """Return a program, or the textbook where there can be none, or where it is `called` too seldom for one."""
-    symbols, reason = [quantity.symbol for quantity in asked], None
-    machine = dtype in NATIVE and available()
-    options: dict[str, Any] = {"single": single, "given": {}, "dtype": dtype, "threads": 1}
-    options["remake"] = partial(_made, model, asked, dtype, single)
-    if called and (reason := too_long(model, symbols)) is None:
-        made = Program(model, asked, backend="llvm" if machine else "numpy", **options)
-        try:
-            if made.operations.total() > COMPILED:
-                made.backend = "numpy"
-        except (TypeError, ArithmeticError, SingularError):
-            pass  # a joint that asks what its q is; no inertia
-        else:
-            return made
-    if reason:
+def suited(program: Program) -> str:
+    """Return which back end suits a program: its own, NumPy for a long line, the textbook where there can be none."""
+    model, symbols = program.model, [quantity.symbol for quantity in program.quantities]
+    if reason := too_long(model, symbols):
         LOG.warning("%s has %s: the textbook computes %s", model.name, reason, ", ".join(symbols))
-    return Textbook(model, asked, backend="textbook", **options)
+        return "textbook"
+    try:
+        operations = program.operations.total()
+    except (TypeError, ArithmeticError, SingularError):  # a joint that asks what its q is; no inertia
+        return "textbook"
+    return program.backend if operations <= COMPILED else "numpy"
 
 
 def too_long(model: Model, want: Collection[str]) -> str | None:
@@ -162,15 +156,3 @@ def too_long(model: Model, want: Collection[str]) -> str | None:
     if "M" in want and entries > MOST:
         return f"{entries} entries of M, more than {MOST}"
     return None
-
-
-class Textbook(Program):
-    """What no program can be made for: called as a program, it is the textbook, some states at a time."""
-
-    def _tails(self, states: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
-        none = {name: np.empty((0, *self._shapes[name]), x.dtype) for name, x in states.items()}
-        try:
-            return {name: x.shape[1:] for name, x in computed(self.quantities, none).items()}
-        except SingularError:  # it is so wherever it stands: of no states, only the tips of massless limbs are named
-            computed(self.quantities, states)
-            raise

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array
-from ..compiler.quantities import Quantity
 from ..model import Model
 from .programs import remembered
+from .quantities import Quantity
 
 __all__ = ["integrate", "turns"]
 

@@ -322,7 +322,7 @@ class Model(ConfigurationSpace):
 
 def _is_index(value: object, size: int) -> bool:
     """Return whether a value is a whole number, of Python or NumPy, from 0 to size - 1."""
-    return isinstance(value, int | np.integer) and not isinstance(value, bool) and bool(0 <= value < size)
+    return isinstance(value, int | np.integer) and not isinstance(value, bool) and int(value) in range(size)
 
 
 def _posture(model: Model, name: str, q: ArrayLike) -> Array:

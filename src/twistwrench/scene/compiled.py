@@ -7,13 +7,14 @@ from functools import partial
 
 import numpy as np
 
+from straightline.backend import BackEnd
+from straightline.llvm import default_backend
+
 from ..arrays import Array
-from ..compiler.backend import BackEnd
-from ..compiler.llvm import available
-from ..compiler.quantity import Quantity
-from ..compiler.recording import ALARM, record
 from ..errors import SingularError
 from ..fast.programs import too_long
+from ..fast.quantity import Quantity
+from ..fast.recording import ALARM, record
 from ..model import Model
 from ..timing import round_robin
 
@@ -52,14 +53,14 @@ def compiled(
         line = record(model, wants, shapes, {}, DOUBLE).without(ALARM)
     except (TypeError, ArithmeticError, SingularError):  # a law that asks what its numbers are
         return lambda: [y for k, y in enumerate(law(*known)) if k in wanted], np.inf
-    code = BackEnd(line, DOUBLE, "llvm" if available() else "numpy")
     n = len(known[0])
+    code = BackEnd(line, DOUBLE, default_backend(DOUBLE)).code(n)
     flat = [np.ascontiguousarray(x.reshape(n, -1), DOUBLE) for x in known]
     results = [np.empty((n, *shape)) for shape, _ in line.outputs.values()]
     arrays = [*flat, *(y.reshape(n, -1) for y in results)]
 
     def run() -> Sequence[Array]:
-        code.run(arrays, 1)
+        code.run(arrays)
         return results
 
     return run, line.operations.total()

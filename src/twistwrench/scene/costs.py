@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from straightline.llvm import default_backend
+
 from ..arrays import Array, as_number
-from ..compiler.llvm import available
 from ..contact import Contact
 from ..errors import check_known
 from ..model import Model
@@ -303,5 +304,5 @@ def costs(
     options.sort(key=_rank)
     share = "the weight" if model.gravity.any() else "the largest ḣ_G of the motion"
     names, names_out = (", ".join(motion.name for motion in some) for some in (motions, held_out))
-    by = "llvm" if available() else "numpy"
+    by = default_backend(np.dtype(np.float64))
     return Costs(names, names_out, dict(need), float(margin), tuple(options), share, by)

@@ -13,10 +13,10 @@ from ..algorithms.kinematics import Reference, frame_jacobian
 from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..algorithms.whole_body import QUANTITIES, Dynamics
 from ..arrays import Array, convert
-from ..compiler.quantities import Quantity, quantities
-from ..compiler.watch import with_watch
 from ..contact import Contact
 from ..fast.programs import ASKED, remembered, states_of
+from ..fast.quantities import Quantity, quantities
+from ..fast.watch import with_watch
 from ..model import Model
 
 __all__ = ["scene_dynamics", "scene_quantities"]

@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from ..algorithms.kinematics import Reference, frame_placement
 from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
 from ..arrays import Array, as_number, check_kind
-from ..compiler.quantity import Quantity
 from ..contact import Contact
 from ..errors import ModelError
+from ..fast.quantity import Quantity
 from ..model import Model, idle_joints, lock_joints, matching_joints
 from ..motions import Motion
 from ..motions.motion import as_motions

@@ -53,7 +53,7 @@ def divergence_cause(system: System, method: str, t0: float, states: Sequence[tu
     q, v = states[k]
     try:
         found = feedback_cause(system, method, t0 + k * system.dt, q, v, item)
-    except (ValueError, ArithmeticError):  # the policy, or M, cannot be asked in such a state
+    except Exception:  # M cannot be asked in such a state, or the policy, which may raise anything
         found = None
     if found is None:
         found = spin_cause(system, q[item], v[item])

@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import Array, as_exactly, as_number
-from ..compiler import Results
-from ..compiler.quantities import Quantity, quantities
 from ..contact import Contact, PointContact, SlidingContact, SurfaceContact
 from ..contact.rows import ContactRows, contact_rows
+from ..fast.program import Results
 from ..fast.programs import remembered
+from ..fast.quantities import Quantity, quantities
 from ..model import Model, readonly
 from ..spatial.rotation import cross_matrix
 

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.mimic import MimicModel
-from ..arrays import Array
+from ..arrays import Array, as_array
 from ..contact import Contact, Coupling
 from ..contact.rows import as_contacts
+from ..errors import ShapeError
 from .result import Simulation
 
 __all__ = ["couplings", "simulate_following"]
@@ -44,7 +45,8 @@ def simulate_following(
     own = leading(model)
 
     def acts(t: float, q: Array, v: Array) -> Array:
-        return at_leaders(model, np.asarray(policy(t, q[..., model.kept_q], v[..., own])))
+        found = policy(t, q[..., model.kept_q], v[..., own])
+        return at_leaders(model, found, "tau(t, q, v)", f" at t = {t:.6g}")
 
     def ends(t: float, q: Array, v: Array) -> bool:
         return bool(condition(t, q[..., model.kept_q], v[..., own]))
@@ -52,7 +54,7 @@ def simulate_following(
     if callable(tau):
         tau = acts
     elif tau is not None:
-        tau = at_leaders(model, np.asarray(tau))
+        tau = at_leaders(model, tau, "tau")
     stop = ends if callable(stop) else stop
     held = [*as_contacts(model.full, contacts), *couplings(model)]
     try:
@@ -71,10 +73,11 @@ def leading(model: MimicModel) -> Array:
     return np.concatenate([np.zeros(0, np.intp), *(np.arange(full.nv)[s] for s in slices)])
 
 
-def at_leaders(model: MimicModel, tau: Array) -> Array:
-    """Return the full joint forces that do the same work; what has another shape is returned as it is."""
+def at_leaders(model: MimicModel, tau: ArrayLike, name: str, when: str = "") -> Array:
+    """Return the full joint forces that do the same work."""
+    tau = as_array(tau, name)
     if tau.shape[-1:] != (model.nv,):
-        return tau
+        raise ShapeError(f"{name}: expected shape (..., {model.nv}), of the joints that lead, got {tau.shape}{when}")
     full = np.zeros((*tau.shape[:-1], model.full.nv), tau.dtype)
     full[..., leading(model)] = tau
     return full

@@ -48,6 +48,15 @@ MIN_SLIDE_M_PER_S = 1e-3
 COULOMB_RTOL = 1e-3
 """Relative to the fastest point: how far a step may miss Coulomb's law before it is said."""
 
+ALTERNATIONS = 8
+"""So many changes of v in a row with opposite signs are no motion but gains that are too high for the step."""
+
+ALTERNATION_GROWTH = 4.0
+"""The last of them is at least so many times the first."""
+
+MIN_ALTERNATION = 0.1
+"""rad/s or m/s: the last of them is larger."""
+
 SENTENCES = {
     "pull": "contact {name!r} pulls, by {value:.4g} N",
     "slip": "contact {name!r} holds {value:.4g} N along the ground; without slipping it can {limit:.4g} N",
@@ -58,6 +67,8 @@ SENTENCES = {
     "effort": "the motor of joint {name!r} gives {value:.4g} N m or N; it can {limit:.4g}",
     "lift-off": "contact {name!r} leaves the ground",
     "slide": "contact {name!r} slides, at {value:.4g} m/s",
+    "alternates": "the velocity of joint {name!r} alternates and grows, soon by {value:.4g} rad/s or m/s a step: lower "
+    "gains, damping of the model, or a smaller dt?",
     "coulomb": "contact {name!r} misses Coulomb's law by {value:.4g} m/s, more than {limit:.4g}: a smaller dt?",
     "damping": "joint {name!r} has damping, here up to {value:.4g} N m or N, which only 'time-stepping' applies",
     "friction": "joint {name!r} has dry friction, {value:.4g} N m or N, which only 'time-stepping' applies",
@@ -73,9 +84,10 @@ class Remark(NamedTuple):
         When, s.
     kind : str
         "pull", "slip", "tip" of a contact that sticks, "sunk" of a body below all of them; "range", "speed", "effort"
-        of a joint; "lift-off", "slide" of a contact on a ground, and "coulomb" where no forces were found that
-        fulfil Coulomb's law to 1e-3 of the fastest point; "damping", "friction" of a joint that moves, which
-        only time stepping applies; the value is the largest that was left out.
+        of a joint, "alternates" of one whose velocity changes its way in each step, by more and more; "lift-off",
+        "slide" of a contact on a ground, and "coulomb" where no forces were found that fulfil Coulomb's law to 1e-3 of
+        the fastest point; "damping", "friction" of a joint that moves, which only time stepping applies; the value is
+        the largest that was left out.
     name : str
         Of the frame of the contact, or the joint.
     value, limit : float
@@ -178,11 +190,12 @@ class Simulation:
         """What a real robot would not have done, or not without being noticed, the first time of each, in time order.
 
         A contact that sticks and pulls, would slip or tip; a body below all contacts; a joint beyond its range or its
-        speed, a motor beyond its limit; on a ground, a contact that leaves it or slides; damping and friction of a
-        joint, which only time stepping applies.
+        speed, or whose velocity alternates and grows; a motor beyond its limit; on a ground, a contact that leaves it
+        or slides; damping and friction of a joint, which only time stepping applies.
         """
         system, stepping, model, (q, v, tau) = self.system, self.system.stepping, self.system.model, self.full
-        found = [*joint_remarks(model, self.t, q, v, tau)]
+        clock = slice(None, None, max(system.period, 1))
+        found = [*joint_remarks(model, self.t, q, v, tau), *alternation_remarks(model, self.t[clock], v[clock])]
         if self.contact_forces and stepping is None:
             found += contact_remarks(model, self.t, q, system.contacts, self.contact_forces)
         found += neglect_remarks(model, self.t, v) if stepping is None else ground_remarks(stepping, self.t)
@@ -262,7 +275,7 @@ class Simulation:
             return []
         try:
             dq, dv = self.step_error(PRINTED_SAMPLES)
-        except ValueError:  # half a step fails, or the policy is in another process
+        except Exception:  # half a step fails, or the policy, which may raise anything, or is in another process
             return []
         return [f"  a step is off by up to {dq:.1e} in q, {dv:.1e} in v (of {PRINTED_SAMPLES}: see step_error)"]
 
@@ -319,6 +332,19 @@ def joint_remarks(model: Model, t: Array, q: Array, v: Array, tau: Array) -> Ite
             yield from first_excess(t, "range", name, q[..., at_q], model.lower[at_q], -1.0)
         yield from first_excess(t, "speed", name, np.abs(v[..., at_v]), model.velocity_limit[at_v])
         yield from first_excess(t, "effort", name, np.abs(tau[..., at_v]), model.effort_limit[at_v])
+
+
+def alternation_remarks(model: Model, t: Array, v: Array) -> Iterator[Remark]:
+    """Yield the joints whose velocity changes its way in each step, and each time by more."""
+    change = np.diff(v, axis=0)
+    if len(change) <= ALTERNATIONS:
+        return
+    turns = np.lib.stride_tricks.sliding_window_view(change[1:] * change[:-1] < 0, ALTERNATIONS, axis=0).all(axis=-1)
+    begins, ends = np.abs(change[:-ALTERNATIONS]), np.abs(change[ALTERNATIONS:])
+    found = np.where(turns & (ends > ALTERNATION_GROWTH * begins) & (ends > MIN_ALTERNATION), ends, 0.0)
+    for name, joint, at in zip(model.joint_names, model.joints, model.v_slice):
+        if joint is not None:
+            yield from first_excess(t, "alternates", name, found[..., at], 0.0)
 
 
 def neglect_remarks(model: Model, t: Array, v: Array) -> Iterator[Remark]:

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..arrays import Array
-from ..compiler.quantities import Quantity
 from ..fast.programs import remembered
+from ..fast.quantities import Quantity
 from ..fast.steps import turns
 from ..model import GroupJoint, Model
 from ..spatial import cross_motion, skew

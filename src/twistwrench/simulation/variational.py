@@ -22,9 +22,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array, resolution
-from ..compiler.quantities import Quantity
 from ..fast import aba, crba
 from ..fast.programs import remembered
+from ..fast.quantities import Quantity
 from ..model import GroupJoint, Model, tree_terms
 from ..model.tree import join, split
 from ..spatial import cross_force, cross_motion

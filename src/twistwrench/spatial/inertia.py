@@ -427,24 +427,26 @@ class SpatialInertia:
 
     def __mul__(self, scale: ArrayLike) -> SpatialInertia:
         """Scale a body: the same shape of a material as many times as dense."""
-        a, m, c, I_c = self._with_scale(scale, "*")
+        if isinstance(scale, SpatialInertia | SpatialVector):
+            use = "I @ V is the momentum" if isinstance(scale, SpatialVector) else "only inertias and numbers multiply"
+            raise TypeError(f"SpatialInertia * {type(scale).__name__}: expected a number; {use}")
+        a, m, c, I_c = self._with_scale(scale)
         with np.errstate(over="ignore"):
             return self._scaled(a * m, c, a[..., None, None] * I_c)
 
     __rmul__ = __mul__
 
     def __truediv__(self, scale: ArrayLike) -> SpatialInertia:
-        a, m, c, I_c = self._with_scale(scale, "/")
+        if isinstance(scale, SpatialInertia | SpatialVector):
+            return NotImplemented
+        a, m, c, I_c = self._with_scale(scale)
         if (judged(a) == 0).any():
             raise ZeroDivisionError("SpatialInertia / 0")
         with np.errstate(over="ignore"):
             return self._scaled(m / a, c, I_c / a[..., None, None])
 
-    def _with_scale(self, scale: ArrayLike, operator: str) -> tuple[Array, Array, Array, Array]:
+    def _with_scale(self, scale: ArrayLike) -> tuple[Array, Array, Array, Array]:
         """Return a number, or one for each item of a batch, and the ten numbers, all of one type."""
-        if isinstance(scale, SpatialInertia | SpatialVector):
-            use = "; I @ V is the momentum" if isinstance(scale, SpatialVector) else ""
-            raise TypeError(f"SpatialInertia {operator} {type(scale).__name__}: expected a number{use}")
         # A Python number takes the type of the inertia: twice one of float32 is one of float32.
         if type(scale) in (int, float, complex):
             scale = np.asarray(scale, np.result_type(self.com, scale))

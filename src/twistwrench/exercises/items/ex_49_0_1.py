@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Quantity
-from ..wrong import faulty, transposed
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import transposed
+
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "skew"]
 

@@ -2,9 +2,11 @@
 
 from typing import Any
 
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import as_column
+
 from ...spatial import exp3
-from ..exercise import Exercise, Part, Quantity
-from ..wrong import as_column, faulty
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "act"]
 

@@ -5,10 +5,11 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after, before, transposed
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import MOTION_TRANSFORM
-from ..wrong import after, before, faulty, swap, swapped, transposed
+from ..wrong import faulty, swap, swapped
 
 __all__ = ["EXERCISE", "adjoint"]
 

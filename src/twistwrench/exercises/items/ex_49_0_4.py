@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ..exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Part, Quantity
 
 __all__ = ["EXERCISE", "count"]
 

@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Quantity
-from ..wrong import before, faulty
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import before
+
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "newton_euler"]
 

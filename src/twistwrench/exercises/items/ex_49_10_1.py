@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA, JOINTS_MAP
 from ..robots import larger, states
 from ..wrong import faulty, swapped

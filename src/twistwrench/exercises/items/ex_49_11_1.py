@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after, before
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import CONTACT_JACOBIAN, JOINT_SPACE
 from ..robots import robot
-from ..wrong import after, before, doubled, faulty, swap
+from ..wrong import doubled, faulty, swap
 from .pinocchio_order import ACTION, INERTIA_MATRIX
 
 __all__ = [
@@ -75,7 +76,7 @@ def _jacobians(rng: Any) -> Any:
 
 RANDOM = Part(
     solution=finite_limits,
-    returns=(Quantity("lower"), Quantity("upper")),
+    returns=(Quantity("lower", zh="下限 lower"), Quantity("upper", zh="上限 upper")),
     cases=_limits,
     slips={
         "limits-all": faulty(

@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Exercise, Part, Quantity
+
 from ...model import chain
-from ..exercise import Exercise, Part, Quantity
 from ..robots import robot, small_robot
 from ..wrong import faulty
 

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import before, negated, times
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import larger, robot, small_robot
-from ..wrong import before, faulty, negated, times
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "gravity_from_map", "standing_forces", "standing_loads"]
 
@@ -135,7 +136,7 @@ FORCES = Part(
 
 LOADS = Part(
     solution=standing_loads,
-    returns=(Quantity("front", unit="N"), Quantity("rear", unit="N")),
+    returns=(Quantity("front", unit="N", zh="前脚"), Quantity("rear", unit="N", zh="后脚")),
     cases=lambda rng: [()],
     rtol=5e-4,
     slips={

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import CENTROIDAL_MAP, JACOBIAN, JOINT_SPACE
 from ..robots import ball_robots, small_robot
-from ..wrong import after, faulty, swap, swapped
+from ..wrong import faulty, swap, swapped
 
 __all__ = ["EXERCISE", "acceleration_from_pinocchio", "jacobian_from_pinocchio", "map_from_pinocchio"]
 

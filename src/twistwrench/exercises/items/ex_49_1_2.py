@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Part, Quantity
+
 from ..wrong import faulty
 
 __all__ = ["EXERCISE", "polishing_torques"]

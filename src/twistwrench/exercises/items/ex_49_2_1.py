@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after, before
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import TWIST
 from ..robots import robot
-from ..wrong import after, before, faulty, swapped
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "foot_speed", "foot_twist"]
 

@@ -5,10 +5,11 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after, before, transposed
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import POSE
-from ..wrong import after, before, faulty, transposed
+from ..wrong import faulty
 
 __all__ = ["EXERCISE", "arc", "twist_matrix"]
 

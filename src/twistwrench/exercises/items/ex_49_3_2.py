@@ -4,10 +4,12 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import before
+
 from ...spatial import exp3
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
-from ..wrong import before, faulty, swapped
+from ..wrong import faulty, swapped
 from .ex_49_0_1 import skew
 
 __all__ = ["EXERCISE", "plucker", "rotation_transform"]

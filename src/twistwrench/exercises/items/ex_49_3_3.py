@@ -4,10 +4,11 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Exercise, Part, Quantity
+
 from ...spatial import exp3
-from ..exercise import Exercise, Part, Quantity
-from ..folder.workbook import mine
 from ..layouts import MOTION_TRANSFORM
+from ..public import mine
 from ..wrong import faulty
 
 __all__ = ["EXERCISE", "chain_two_ways"]
@@ -43,7 +44,7 @@ EXERCISE = Exercise(
             solution=chain_two_ways,
             given='X = mine("plucker")  # X(R, p) gives X and X*',
             returns=(
-                Quantity("X of T_AB T_BC", MOTION_TRANSFORM),
+                Quantity("X of T_AB T_BC", MOTION_TRANSFORM, zh="T_AB T_BC 的 X"),
                 Quantity("X_AB X_BC", MOTION_TRANSFORM),
             ),
             cases=_cases,

@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import as_column, negated, times
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
 from ..robots import robot
-from ..wrong import as_column, faulty, negated, swapped, times
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "foot_loads", "foot_wrench"]
 
@@ -55,7 +56,7 @@ def _cases(rng: Any) -> Any:
 
 LOADS = Part(
     solution=foot_loads,
-    returns=(Quantity("f_z (12 kg)", unit="N"), Quantity("f_z (model)", unit="N")),
+    returns=(Quantity("f_z (12 kg)", unit="N", zh="f_z（12 kg）"), Quantity("f_z (model)", unit="N", zh="f_z（模型）")),
     cases=lambda rng: [()],
     rtol=5e-4,
     slips={

@@ -4,10 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Quantity
-from ..folder.workbook import mine
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after, before, negated, times
+
 from ..layouts import WRENCH
-from ..wrong import after, before, faulty, negated, swap, swapped, times
+from ..public import mine
+from ..wrong import faulty, swap, swapped
 
 __all__ = ["EXERCISE", "center_of_pressure", "sole_holds", "sole_wrench"]
 
@@ -150,7 +152,7 @@ PRESSURE = Part(
 
 HOLDS = Part(
     solution=sole_holds,
-    returns=(Quantity("holds"),),
+    returns=(Quantity("holds", zh="能否支撑"),),
     cases=_wrenches,
     given='p = mine("center_of_pressure")',
     slips={

@@ -4,10 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Quantity
-from ..folder.workbook import mine
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import before
+
 from ..layouts import INERTIA
-from ..wrong import before, faulty, swapped
+from ..public import mine
+from ..wrong import faulty, swapped
 from .ex_49_0_1 import skew
 
 __all__ = ["EXERCISE", "WRONG", "link_inertia", "random_body", "spatial_inertia"]
@@ -61,7 +63,7 @@ def _of_link(wrong: Any, *, m: float = 2.0) -> Any:
 BY_HAND = Part(
     solution=link_inertia,
     given='build = mine("spatial_inertia")',
-    returns=(Quantity("I", INERTIA), Quantity("eigenvalues")),
+    returns=(Quantity("I", INERTIA), Quantity("eigenvalues", zh="特征值")),
     cases=lambda rng: [()],
     rtol=2e-5,  # the least eigenvalue is 0.0099, the largest 2.02
     slips={

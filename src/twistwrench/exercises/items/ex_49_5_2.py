@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
 
-from ..exercise import Exercise, Part, Quantity
-from ..folder.workbook import mine
 from ..layouts import INERTIA
+from ..public import mine
 from ..robots import robot, small_robot
 from ..wrong import faulty, swapped
 from .ex_49_5_1 import WRONG, random_body, spatial_inertia

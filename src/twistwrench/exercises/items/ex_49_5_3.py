@@ -4,10 +4,11 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Exercise, Part, Quantity
+
 from ...spatial import exp3
-from ..exercise import Exercise, Part, Quantity
-from ..folder.workbook import mine
 from ..layouts import INERTIA
+from ..public import mine
 from ..wrong import faulty, swapped
 from .ex_49_0_1 import skew
 from .ex_49_3_2 import plucker

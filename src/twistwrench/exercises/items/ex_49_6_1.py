@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after, times
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, MASS_MATRIX
 from ..robots import larger, robot, small_robot
-from ..wrong import after, doubled, faulty, swapped, times
+from ..wrong import doubled, faulty, swapped
 
 __all__ = ["EXERCISE", "mass_matrix_by_rnea", "torques_two_ways"]
 
@@ -45,7 +46,7 @@ def _postures(rng: Any) -> Any:
 
 TWO_WAYS = Part(
     solution=torques_two_ways,
-    returns=(Quantity("τ by RNEA", JOINT_SPACE), Quantity("M a + h", JOINT_SPACE)),
+    returns=(Quantity("τ by RNEA", JOINT_SPACE, zh="用 RNEA 求得的 τ"), Quantity("M a + h", JOINT_SPACE)),
     cases=_motions,
     slips={
         "bias-for-zero": faulty(torques_two_ways, ("@ a + h", "@ a")),

@@ -5,13 +5,14 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import negated
 
 from ...model import random_tree
-from ..exercise import Exercise, Part, Quantity
-from ..folder.workbook import mine
 from ..layouts import WRENCH
+from ..public import mine
 from ..robots import small_robot, states, weightless
-from ..wrong import faulty, negated, swapped
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "gravity_two_ways", "weight_wrenches"]
 
@@ -93,7 +94,10 @@ WEIGHTS = Part(
 TWO_WAYS = Part(
     solution=gravity_two_ways,
     given='W = mine("weight_wrenches")',
-    returns=(Quantity("τ with a₀ = −g"), Quantity("τ with weights")),  # the base may be fixed
+    returns=(
+        Quantity("τ with a₀ = −g", zh="取 a₀ = −g 时的 τ"),
+        Quantity("τ with weights", zh="把重力作为外力时的 τ"),
+    ),  # the base may be fixed
     cases=_motions,
     slips={
         "gravity-missing": faulty(gravity_two_ways, (", f_ext=W(model, q)", "")),

@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import as_column, negated, times
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import WRENCH
 from ..robots import states
-from ..wrong import as_column, faulty, negated, swapped, times
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "base_wrench_at_rest", "go2_base_wrench"]
 

@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import held_acceleration, states
-from ..wrong import after, faulty, swapped
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "fall_from_rest", "fall_in_motion"]
 
@@ -50,7 +51,10 @@ def _fixed_to_base(model: Any, q: Any, v: Any) -> Any:
 
 FROM_REST = Part(
     solution=fall_from_rest,
-    returns=(Quantity("q̈ by ABA", JOINT_SPACE), Quantity("q̈ as expected", JOINT_SPACE)),
+    returns=(
+        Quantity("q̈ by ABA", JOINT_SPACE, zh="用 ABA 求得的 q̈"),
+        Quantity("q̈ as expected", JOINT_SPACE, zh="预期的 q̈"),
+    ),
     cases=lambda rng: [*states(rng, small=1)],
     slips={
         "gravity-compensated": lambda model, q: (np.zeros(model.nv), np.zeros(model.nv)),
@@ -75,7 +79,10 @@ FROM_REST = Part(
 
 IN_MOTION = Part(
     solution=fall_in_motion,
-    returns=(Quantity("a of the base", unit="m/s²"), Quantity("a of the centre of mass", unit="m/s²")),
+    returns=(
+        Quantity("a of the base", unit="m/s²", zh="基座的 a"),
+        Quantity("a of the centre of mass", unit="m/s²", zh="质心的 a"),
+    ),
     cases=lambda rng: [*states(rng, vectors=1)],
     slips={
         "classical-acceleration": faulty(fall_in_motion, (" + np.cross(v[:3], v[3:6])", "")),

@@ -5,12 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.text import Text
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import held_acceleration, states
 from ..stopwatch import Machine, Task, seconds, timed
-from ..words.text import Text
 from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "forward_dynamics_two_ways", "measured_ratio", "time_ratio"]
@@ -128,7 +128,10 @@ def _plausible(answer: Any) -> Any:
 
 TWO_WAYS = Part(
     solution=forward_dynamics_two_ways,
-    returns=(Quantity("q̈ by ABA", JOINT_SPACE), Quantity("q̈ by CRBA", JOINT_SPACE)),
+    returns=(
+        Quantity("q̈ by ABA", JOINT_SPACE, zh="用 ABA 求得的 q̈"),
+        Quantity("q̈ by CRBA", JOINT_SPACE, zh="用 CRBA 求得的 q̈"),
+    ),
     rtol=1e-7,
     cases=lambda rng: [*states(rng, vectors=2, small=1)],
     slips={
@@ -158,7 +161,7 @@ TWO_WAYS = Part(
 
 RATIO = Part(
     solution=time_ratio,
-    returns=(Quantity("ratio"),),
+    returns=(Quantity("ratio", zh="比值"),),
     cases=_machines,
     edges=_at_both_ends,
     call=timed,
@@ -178,7 +181,7 @@ RATIO = Part(
 
 MEASURED = Part(
     solution=measured_ratio,
-    returns=(Quantity("ratio"),),
+    returns=(Quantity("ratio", zh="比值"),),
     cases=lambda rng: [()],
     canonical=_plausible,
     slips={

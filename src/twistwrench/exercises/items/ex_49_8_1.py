@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after, before
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import INERTIA
 from ..robots import robot
-from ..wrong import after, before, faulty, swap, swapped
+from ..wrong import faulty, swap, swapped
 
 __all__ = ["EXERCISE", "base_block", "whole_robot"]
 

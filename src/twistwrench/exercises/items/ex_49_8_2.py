@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after
 
-from ..exercise import Exercise, Part, Quantity
 from ..robots import robot
-from ..wrong import after
 
 __all__ = ["EXERCISE", "held_mass_matrix", "mass_matrix_sizes"]
 
@@ -41,7 +41,10 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=mass_matrix_sizes,
-            returns=(Quantity("rows (floating)"), Quantity("rows (fixed)")),
+            returns=(
+                Quantity("rows (floating)", zh="行数（浮动基座）"),
+                Quantity("rows (fixed)", zh="行数（固定基座）"),
+            ),
             cases=lambda rng: [()],
             slips={
                 "nq-for-nv": lambda: (19, 12),
@@ -58,7 +61,7 @@ EXERCISE = Exercise(
         ),
         Part(
             solution=held_mass_matrix,
-            returns=(Quantity("M (base held)"),),
+            returns=(Quantity("M (base held)", zh="M（基座固定）"),),
             cases=_cases,
             slips={
                 "base-let-go": _let_go,

@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import robot
-from ..wrong import after, faulty, swapped
+from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "net_wrench", "out_of_balance"]
 

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Exercise, Part, Quantity
-from ..wrong import transposed
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import transposed
 
 __all__ = ["EXERCISE", "on_all_rows", "selection"]
 

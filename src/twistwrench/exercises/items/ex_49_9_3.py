@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import before
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE, WRENCH
 from ..robots import robot
-from ..wrong import before, doubled, faulty, swapped
+from ..wrong import doubled, faulty, swapped
 
 __all__ = ["EXERCISE", "base_rows", "complete_motion"]
 

@@ -1,6 +1,7 @@
 """The project, stage 1: a toolbox of spatial vectors."""
 
-from ..exercise import Exercise
+from misstep.exercise import Exercise
+
 from .project_operators import CROSS, TRANSFORMS
 from .project_toolbox import POSE_OF_BASE, POSE_OF_URDF, VECTOR
 from .project_tree import PLACEMENTS, TWISTS, WRENCHES

@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import before
 
-from ..exercise import Exercise, Part, Quantity
 from ..layouts import JOINT_SPACE
 from ..robots import robot, small_robot
-from ..wrong import before, doubled, faulty
+from ..wrong import doubled, faulty
 from .project_aba import ABA
 from .project_crba import CRBA
 from .project_rnea import ENERGY, RNEA
@@ -55,7 +56,7 @@ BASE = np.arange(18) < 6
 
 FOOT = Part(
     solution=rows_of_foot,
-    returns=(Quantity("rows of J_c"),),
+    returns=(Quantity("rows of J_c", zh="J_c 的各行"),),
     cases=_feet,
     slips={
         "angular-for-linear": lambda J, R, r: R @ J[:3],

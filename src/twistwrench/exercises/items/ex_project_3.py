@@ -5,12 +5,13 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import after
 
-from ..exercise import Exercise, Part, Quantity
-from ..folder.workbook import mine
 from ..layouts import CENTROIDAL_MAP, CONTACT_JACOBIAN, JOINT_SPACE, MASS_MATRIX, MOMENTUM, WRENCH
+from ..public import mine
 from ..robots import larger, robot
-from ..wrong import after, faulty, swap
+from ..wrong import faulty, swap
 from .project_momentum import MAP, RATE
 
 __all__ = ["EXERCISE", "get_dynamics", "rate_and_wrench"]
@@ -53,7 +54,7 @@ LAW = Part(
         acceleration = mine("accelerated")  # of M, h, S, J_c, tau, forces: the accelerations
         rate = mine("momentum_rate")  # rate(model, q, v, a) is ḣ_G
 """,
-    returns=(Quantity("ḣ_G", MOMENTUM), Quantity("wrench from outside", WRENCH)),
+    returns=(Quantity("ḣ_G", MOMENTUM), Quantity("wrench from outside", WRENCH, zh="外部的 wrench")),
     cases=lambda rng: [(model, q, v, tau, forces.reshape(4, 3)) for model, q, v, tau, forces in _falls(rng)],
     slips={
         "contact-missing": faulty(rate_and_wrench, ("tau, forces.ravel()", "tau, 0 * forces.ravel()")),

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Exercise, Part, Quantity
+from misstep.faults import times
+from misstep.text import Text
 
-from ..exercise import Exercise, Part, Quantity
 from ..robots import held_acceleration, robot, small_robot
-from ..words.text import Text
-from ..wrong import faulty, times
+from ..wrong import faulty
 from .project_timing import TIME
 
 __all__ = ["EXERCISE", "consistency_error", "vertical_loads"]
@@ -186,7 +187,7 @@ def _states(rng: Any) -> Any:
 
 CONSISTENCY = Part(
     solution=consistency_error,
-    returns=(Quantity("error"),),
+    returns=(Quantity("error", zh="误差"),),
     cases=_states,
     canonical=lambda answer, *_: float(answer) if np.isfinite(answer) else -1.0,
     rtol=1e-7,

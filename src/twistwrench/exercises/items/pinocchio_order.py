@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Part, Quantity
+from misstep.faults import before
 
-from ..exercise import Part, Quantity
 from ..layouts import PINOCCHIO_INERTIA, PINOCCHIO_TRANSFORM
 from ..robots import robot
-from ..wrong import before, faulty, swap, swapped
+from ..wrong import faulty, swap, swapped
 
 __all__ = ["ACTION", "INERTIA_MATRIX", "pinocchio_action", "pinocchio_inertia"]
 

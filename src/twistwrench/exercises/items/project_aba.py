@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Part, Quantity
+
 from ...algorithms.aba import articulated_body
-from ..exercise import Part, Quantity
 from ..wrong import faulty
 from .project_rnea import tree_rnea
 from .project_trees import columns, pieces, previous, tree_of, trees, upward

@@ -5,10 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Part, Quantity
+from misstep.faults import after
+
 from ...algorithms.crba import composite_rigid_body
 from ...model import composite_inertias
-from ..exercise import Part, Quantity
-from ..wrong import after, doubled, faulty
+from ..wrong import doubled, faulty
 from .project_rnea import tree_energy
 from .project_trees import previous, tree_of, trees, with_massless_link
 

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Part, Quantity
 
-from ..exercise import Part, Quantity
 from ..layouts import CENTROIDAL_MAP, MOMENTUM
 from ..robots import states
 from ..wrong import faulty, swapped

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Part, Quantity
 
-from ..exercise import Part, Quantity
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
 from ..wrong import faulty, swap, swapped
 

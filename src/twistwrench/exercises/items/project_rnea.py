@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Part, Quantity
+
 from ...algorithms.kinematics import motion
 from ...algorithms.rnea import newton_euler
-from ..exercise import Part, Quantity
 from ..wrong import faulty
 from .project_trees import columns, pieces, previous, tree_of, trees, upward, with_massless_link
 

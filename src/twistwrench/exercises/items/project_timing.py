@@ -4,9 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ..exercise import Part, Quantity
+from misstep.exercise import Part, Quantity
+from misstep.text import Text
+
 from ..stopwatch import Machine, Task, often, seconds, timed
-from ..words.text import Text
 
 __all__ = ["TIME", "time_per_call"]
 
@@ -90,7 +91,7 @@ def _near(answer: Any, task: Any) -> Any:
 
 TIME = Part(
     solution=time_per_call,
-    returns=(Quantity("time", unit="s"),),
+    returns=(Quantity("time", unit="s", zh="时间"),),
     cases=_machines,
     edges=_unsteady,
     call=timed,

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
+from misstep.exercise import Part, Quantity
 
-from ..exercise import Part, Quantity
 from ..layouts import POSE
 from ..wrong import faulty
 
@@ -121,8 +121,8 @@ VECTOR = Part(
         Quantity("V − W"),
         Quantity("F.power(V)", unit="W"),
         Quantity("V.power(F)", unit="W"),
-        Quantity("the error of V ± F"),
-        Quantity("the error of V.power(W)"),
+        Quantity("the error of V ± F", zh="V ± F 的异常"),
+        Quantity("the error of V.power(W)", zh="V.power(W) 的异常"),
     ),
     cases=lambda rng: [tuple(rng.standard_normal((4, 6))) for _ in range(3)],
     slips={

@@ -5,14 +5,16 @@ from typing import Any
 
 import numpy as np
 
+from misstep.exercise import Part, Quantity
+from misstep.faults import after
+
 from ...algorithms.kinematics import placements
 from ...model import joint_placements, random_tree
 from ...model.tree import split
 from ...spatial import motion_transform
-from ..exercise import Part, Quantity
-from ..folder.workbook import mine
+from ..public import mine
 from ..robots import robot
-from ..wrong import after, faulty, swap
+from ..wrong import faulty, swap
 
 __all__ = ["PLACEMENTS", "TWISTS", "WRENCHES", "body_placements", "body_twists", "carried_wrenches"]
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..prose import as_text, read
-from .slip import Slip
+from misstep.exercise import Slip
+from misstep.prose import as_text, read
 
 __all__ = ["FILES", "SLIPS", "Slip"]
 
@@ -15,6 +15,6 @@ FILES = (
 SLIPS = {
     key: Slip(as_text(entry["title"]), as_text(entry["why"]), entry["section"])
     for name in FILES
-    for key, entry in read("slips", name).items()
+    for key, entry in read(__name__, name).items()
 }
 """Every slip by its key. An exercise maps the keys that can occur in it to wrong implementations."""

@@ -1,0 +1,181 @@
+"""Compare answers: entry by entry, each return value by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .exercise import Part, Quantity
+
+__all__ = [
+    "FLOOR",
+    "Array",
+    "Value",
+    "agree",
+    "close",
+    "copied_results",
+    "is_one_array",
+    "pieces",
+    "plain",
+    "to_do",
+    "unchanged",
+    "values",
+]
+
+Array = NDArray[Any]
+
+FLOOR = 1e-3
+"""Entries below this count as zero: an exact 0 is as good as 1e-17."""
+
+
+LARGEST_INTEGER = 2**1023
+"""Whole numbers beyond cannot be converted to a float."""
+
+DEEPEST = 20
+"""Lists in lists of an answer; a list may also be in itself."""
+
+Known = dict[int, tuple[Any, Any]]
+"""By the identity of an object: the object, and what it has become."""
+
+
+class Value(NamedTuple):
+    """One thing that a function returned, as an array; None where it cannot be one."""
+
+    quantity: Quantity
+    array: Array | None
+    raw: Any
+
+
+def plain(answer: Any) -> Any:
+    """Return an answer as numbers, strings, arrays, and lists of these: values of which nothing runs code of its own.
+
+    An object may raise any error where it is converted, compared or printed. It is converted here, once; what cannot be
+    becomes an empty object of a class of the same name. What is plain already is returned itself.
+    """
+    return _plain(answer, {}, 0)
+
+
+def _plain(x: Any, known: Known, depth: int) -> Any:
+    kind = type(x)
+    if kind in (type(None), type(...), bool, float, complex, str) or issubclass(kind, np.number | np.bool_):
+        return x
+    if kind is int or (kind is np.ndarray and x.dtype.kind in "biufc"):
+        return x if kind is not int or abs(x) < LARGEST_INTEGER else _stand_in(x)
+    if id(x) not in known:
+        known[id(x)] = x, _stand_in(x)  # what it is inside itself; x is kept, and with it its identity
+        known[id(x)] = x, _converted(x, known, depth)
+    return known[id(x)][1]
+
+
+def _converted(x: Any, known: Known, depth: int) -> Any:
+    kind = type(x)
+    try:
+        if issubclass(kind, str):
+            return str.__str__(x)
+        if issubclass(kind, list | tuple | Sequence) and not issubclass(kind, bytes) and depth < DEEPEST:
+            items = [_plain(item, known, depth + 1) for item in x]
+            same = kind in (list, tuple) and all(a is b for a, b in zip(items, x))
+            return x if same else tuple(items) if issubclass(kind, tuple) else items
+        array = _array(x)
+    except Exception:
+        array = None
+    return _stand_in(x) if array is None else array
+
+
+def _stand_in(x: Any) -> Any:
+    """Return an empty object of a class that has the name of the class of another object."""
+    return type(type(x).__name__, (), {})()
+
+
+def to_do(answer: Any) -> bool:
+    """Whether an answer, or a part of it, still is the ``...`` of the skeleton."""
+    if isinstance(answer, tuple | list):
+        return any(to_do(x) for x in answer)
+    return answer is Ellipsis
+
+
+def pieces(answer: Any, returns: Sequence[Quantity]) -> Sequence[Any] | None:
+    """Split an answer into the things that were asked for; None if there are not as many."""
+    if len(returns) == 1:
+        return [answer]
+    if (isinstance(answer, np.ndarray) and answer.ndim == 0) or not hasattr(answer, "__len__"):
+        return None
+    return list(answer) if len(answer) == len(returns) and not isinstance(answer, str | dict) else None
+
+
+def values(answer: Any, returns: Sequence[Quantity]) -> list[Value] | None:
+    """Return what a function returned, piece by piece, or None if there are not as many pieces as asked for."""
+    split = pieces(answer, returns)
+    return None if split is None else [Value(q, _array(x), x) for q, x in zip(returns, split)]
+
+
+def _array(x: Any) -> Array | None:
+    """Convert to an array of numbers or of truth values."""
+    if x is None or isinstance(x, str):
+        return None
+    for name in ("matrix", "vector"):  # our SE3 and SpatialInertia, our Twist and Wrench
+        held = getattr(x, name, None)
+        if held is not None and not isinstance(x, np.ndarray):
+            x = held() if callable(held) else held
+            break
+    try:
+        array = np.asarray(x)
+    except Exception:  # rows of different lengths, numbers that are too large
+        return None
+    if array.dtype.kind in "iu":
+        array = array.astype(float)
+    return array if array.dtype.kind in "bfc" else None
+
+
+def close(a: Value, b: Value, rtol: float) -> bool:
+    """Whether two values are the same, to a part of the largest entry of the second."""
+    if a.array is None or b.array is None:
+        return isinstance(a.raw, str) and isinstance(b.raw, str) and a.raw.strip() == b.raw.strip()
+    if a.array.shape != b.array.shape:
+        return False
+    if a.array.dtype.kind == "b" or b.array.dtype.kind == "b":
+        return a.array.dtype.kind == b.array.dtype.kind and bool((a.array == b.array).all())
+    finite = np.isfinite(a.array)
+    if not np.array_equal(a.array[~finite], b.array[~finite], equal_nan=True):
+        return False
+    scale = np.abs(b.array[np.isfinite(b.array)]).max(initial=FLOOR)
+    return bool((np.abs(a.array[finite] - b.array[finite]) <= rtol * scale).all())
+
+
+def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bool:
+    """Whether two answers to the same arguments are the same answer."""
+    if part.canonical is not None:
+        canonical: Callable[..., Any] = part.canonical
+        try:
+            first, second = canonical(first, *arguments), canonical(second, *arguments)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+            return False
+        returns: Sequence[Quantity] = [Quantity("")] * (len(second) if isinstance(second, tuple) else 1)
+    else:
+        returns = part.returns
+    a, b = values(first, returns), values(second, returns)
+    return a is not None and b is not None and all(close(x, y, part.rtol) for x, y in zip(a, b))
+
+
+def is_one_array(answer: Any) -> bool:
+    """Whether one array is returned as two of several things."""
+    arrays = [id(x) for x in answer if isinstance(x, np.ndarray)] if isinstance(answer, tuple | list) else []
+    return len({*arrays}) < len(arrays)
+
+
+def copied_results(answers: Sequence[Any], right: Sequence[Any], before: Sequence[Any]) -> bool:
+    """Whether two things returned are the same to the last bit in all answers, but not in the right ones or before."""
+    if not all(isinstance(x, tuple | list) and len(x) == 2 for x in [*answers, *right, *before]):
+        return False
+    same = [all(np.array_equal(first, second) for first, second in many) for many in (answers, right, before)]
+    return same == [True, False, False]
+
+
+def unchanged(before: Any, after: Any) -> bool:
+    """Whether an array, a number, or each of a list of them is unchanged."""
+    if isinstance(before, list):
+        return len(before) == len(after) and all(map(unchanged, before, map(plain, after)))
+    return not isinstance(before, np.ndarray | int | float) or np.array_equal(before, after)

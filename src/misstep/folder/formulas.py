@@ -1,0 +1,159 @@
+"""An answer that is typed as a formula: read by SymPy, tried like any function, and compared exactly.
+
+The arguments are SymPy's matrices and symbols, by their names in the skeleton: ``"R*x + p"``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..cases import cases
+from ..errors import CourseError, UnknownName
+from ..exercise import Exercise, Part
+from ..judge import Verdict, judge
+from ..messages import message
+from ..text import Text
+
+__all__ = ["difference", "judge_formula", "typed"]
+
+NOT_EXACT = Text(
+    "The numbers agree, the formula is not the same: yours less the right one is {difference}.",
+    "数值一致，但公式不同：你的公式减去正确公式等于 {difference}。",
+)
+
+
+def judge_formula(exercise: Exercise, part: Part, formula: str, *, seed: int = 0) -> Verdict:
+    """Judge a formula: on numbers, as a function is, and where these agree exactly. What cannot be read is wrong."""
+    try:
+        verdict = judge(exercise, part, typed(part, formula), seed=seed)
+        left = difference(part, formula) if verdict.state == "done" else None
+    except (CourseError, UnknownName) as error:
+        left, verdict = Text(str(error), str(error)), Verdict("wrong")
+    return verdict if left is None else Verdict("wrong", (message("head", id=exercise.id, name=part.name), left))
+
+
+def typed(part: Part, formula: str) -> Callable[..., Any]:
+    """Return the function that a formula is.
+
+    Parameters
+    ----------
+    part : Part
+        Of an exercise whose arguments are numbers, vectors and matrices.
+    formula : str
+        In the names of the arguments. ``*`` multiplies matrices, ``R.T`` is a transpose, ``a[0]`` an entry;
+        ``cross(a, b)``, ``skew(a)``, ``stack(a, b)`` and ``block([[A, B], [C, D]])`` are there besides what SymPy has.
+        Several results have a comma between them.
+
+    Returns
+    -------
+    callable
+
+    Raises
+    ------
+    CourseError
+        If SymPy is not installed, the formula cannot be read, or the exercise asks for more than a formula.
+    UnknownName
+        If a name in it is not that of an argument.
+    """
+    sympy = _sympy()
+    symbols, results = _read(part, formula)
+    flat = [entry for value in symbols.values() for entry in _entries(value)]
+    compute = sympy.lambdify(flat, [sympy.Matrix(_entries(x)) for x in results], "numpy")
+    shapes = [np.shape(value) for value in _answers(part, part.solution, cases(part, 0)[0])]
+
+    def function(*arguments: Any) -> Any:
+        numbers = [float(x) for value in arguments for x in np.ravel(value)]
+        found = [np.asarray(x, float) for x in compute(*numbers)]
+        fitting = [x.reshape(s) if x.size == int(np.prod(s)) else x for x, s in zip(found, shapes)]
+        return tuple(fitting) if len(fitting) > 1 else fitting[0]
+
+    function.__name__ = part.name
+    return function
+
+
+def difference(part: Part, formula: str) -> Text | None:
+    """Return what a formula differs by from the right one; None where it is the same, or where that needs numbers."""
+    sympy = _sympy()
+    symbols, results = _read(part, formula)
+    try:
+        right = _answers(part, part.solution, tuple(_as_array(value) for value in symbols.values()))
+        pairs = [(x, y) for one, other in zip(results, right) for x, y in zip(_entries(one), np.ravel(other))]
+        left = [sympy.simplify(sympy.nsimplify(x - y, rational=True)) for x, y in pairs]
+    except (ArithmeticError, AttributeError, TypeError, ValueError):
+        return None  # the reference needs numbers
+    return next((NOT_EXACT.fill(difference=x) for x in left if x != 0), None)
+
+
+def _sympy() -> Any:
+    try:
+        import sympy
+    except ImportError:
+        raise CourseError("a formula needs SymPy: pip install sympy") from None
+    return sympy
+
+
+def _read(part: Part, formula: str) -> tuple[dict[str, Any], tuple[Any, ...]]:
+    """Return the arguments as symbols, and the results as expressions of them."""
+    sympy = _sympy()
+    names = [name.partition("=")[0] for name in part.arguments.split(", ")]
+    tried = cases(part, 0)
+    shapes = {tuple(np.shape(x) if _is_number(x) else None for x in arguments) for arguments in tried}
+    if len(shapes) != 1 or None in (shape := shapes.pop()) or not tried[0]:
+        raise CourseError(f"{part.name}: the answer is not a formula in its arguments ({part.arguments or 'none'})")
+    symbols = {name: _symbol(name, form) for name, form in zip(names, shape)}
+    helpers = {"cross": lambda a, b: a.cross(b), "skew": lambda a: sympy.Matrix(3, 3, lambda i, j: _levi(a, i, j))}
+    helpers |= {"stack": lambda *blocks: sympy.Matrix.vstack(*blocks), "Matrix": sympy.Matrix}
+    helpers |= {"block": lambda rows: sympy.Matrix(sympy.BlockMatrix(rows)), "eye": sympy.eye, "zeros": sympy.zeros}
+    try:
+        found = sympy.sympify(formula, locals={**helpers, **symbols})
+    except (sympy.SympifyError, SyntaxError, TypeError, AttributeError, ValueError) as error:
+        raise CourseError(f"{part.name}: the formula {formula!r} cannot be read: {error}") from None
+    results = tuple(found) if isinstance(found, tuple | sympy.Tuple) and len(part.returns) > 1 else (found,)
+    if len(results) != len(part.returns):
+        raise CourseError(f"{part.name}: expected {len(part.returns)} results with a comma between, got {len(results)}")
+    known = {entry for value in symbols.values() for entry in _entries(value)}
+    unknown = {str(s) for x in results for e in _entries(x) for s in sympy.sympify(e).free_symbols if s not in known}
+    if unknown:
+        raise UnknownName(
+            f"{part.name}: unknown in the formula: {', '.join(sorted(unknown))}; known: {', '.join(names)}"
+        )
+    return symbols, results
+
+
+def _is_number(x: Any) -> bool:
+    return isinstance(x, np.ndarray | float | int) and np.ndim(x) <= 2
+
+
+def _symbol(name: str, shape: tuple[int, ...] | None) -> Any:
+    sympy = _sympy()
+    if not shape:
+        return sympy.Symbol(name, real=True)
+    rows, columns = (*shape, 1)[:2]
+    return sympy.Matrix(rows, columns, lambda i, j: sympy.Symbol(f"{name}_{i}{j if len(shape) > 1 else ''}", real=True))
+
+
+def _levi(a: Any, i: int, j: int) -> Any:
+    """Return an entry of the cross matrix of a."""
+    return 0 if i == j else a[3 - i - j] * (1 if (j - i) % 3 == 2 else -1)
+
+
+def _entries(value: Any) -> list[Any]:
+    """Return the entries of a matrix, row by row, or a number by itself."""
+    return list(value) if hasattr(value, "shape") or isinstance(value, list | tuple) else [value]
+
+
+def _as_array(value: Any) -> Any:
+    """Return a symbol as it is, a matrix as an array of symbols, a column as a vector."""
+    if not hasattr(value, "shape"):
+        return value
+    array = np.array(value.tolist(), dtype=object)
+    return array[:, 0] if array.shape[1] == 1 else array
+
+
+def _answers(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the results of a function as a tuple."""
+    found = part.value(function, arguments)
+    return tuple(found) if len(part.returns) > 1 else (found,)

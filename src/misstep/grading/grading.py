@@ -1,0 +1,186 @@
+"""The folders of a whole class, each judged by itself: points for each function, and what was used to get there."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from functools import partial
+from os import PathLike
+from pathlib import Path
+
+from ..calls import shown
+from ..course import Course
+from ..errors import CourseError, check_known
+from ..exercise import Exercise
+from ..folder.workbook import Workbook
+from ..judge import Verdict
+from ..processes.isolation import TIME_LIMIT, IsolatedWorkbook, drawn, opened
+from ..processes.worker import not_judged
+from ..text import Language, Text
+from .submissions import Submission, submissions
+
+__all__ = ["Graded", "Mark", "grade"]
+
+
+@dataclass(frozen=True)
+class Mark:
+    """The points of a student in one exercise.
+
+    Attributes
+    ----------
+    exercise : Exercise
+    verdicts : dict
+        From the name of each function to its verdict.
+    words : str, optional
+        The answer in words, to be read by the instructor; None where there is none.
+    words_verdict : Verdict, optional
+        Whether there is enough of it; None where none is asked for.
+    hints : int
+        How many were asked for.
+    solution : bool
+        Whether the solution was shown.
+    """
+
+    exercise: Exercise
+    verdicts: dict[str, Verdict]
+    words: str | None
+    words_verdict: Verdict | None
+    hints: int
+    solution: bool
+
+    @property
+    def points(self) -> float:
+        """The part of the functions that is right, from 0 to 1. Words are not in it."""
+        return sum(verdict.state == "done" for verdict in self.verdicts.values()) / len(self.verdicts)
+
+
+@dataclass(frozen=True)
+class Graded:
+    """The marks of one student.
+
+    Attributes
+    ----------
+    student : str
+        The name of the folder.
+    marks : dict
+        By the number of the exercise.
+    seconds : float
+        That it took.
+    remarks : tuple of Text
+        What an instructor should look at: files that are missing, or have another name.
+    """
+
+    student: str
+    marks: dict[str, Mark]
+    seconds: float
+    remarks: tuple[Text, ...] = ()
+
+    @property
+    def points(self) -> float:
+        """The sum over the exercises, a point each."""
+        return sum(mark.points for mark in self.marks.values())
+
+
+def grade(
+    course: Course,
+    given: Sequence[str | PathLike[str]],
+    *,
+    only: Sequence[str] = (),
+    seed: int = 0,
+    time_limit: float = TIME_LIMIT,
+    jobs: int | None = None,
+    language: Language = "en",
+    ended: Callable[[list[Graded], Graded, int], object] | None = None,
+) -> list[Graded]:
+    """Grade what students have handed in. Each runs in processes of its own, so that none can disturb another.
+
+    Parameters
+    ----------
+    course : Course
+    given : sequence of str or path
+        Folders or zips: each of a student, or with those of students in it.
+    only : sequence of str
+        Numbers of exercises, or of sections, as "49.6"; all unless given.
+    seed : int
+        Of the random cases, the same for all.
+    time_limit : float
+        Seconds for one call of a function.
+    jobs : int, optional
+        Students at a time; one for each processor unless given.
+    language : {"en", "zh"}
+        Of the messages.
+    ended : callable, optional
+        Called whenever a student is done: with all that are done, in their order, with this one, and with the number
+        of all students.
+
+    Returns
+    -------
+    list of Graded
+        In the order of the folders.
+
+    Raises
+    ------
+    CourseError
+        If there is nothing to grade, or a number is negative.
+    UnknownName
+        If there is no such exercise or section.
+    """
+    if jobs is not None and jobs < 1:
+        raise CourseError(f"jobs: expected a whole number, 1 or more, got {jobs}")
+    exercises, books = _chosen(course, only), list[Workbook]()
+    sections = list(dict.fromkeys(exercise.section for exercise in exercises))
+    reader = partial(opened, language=language, seed=drawn(seed), time_limit=time_limit, quiet=True)
+
+    def graded(one: Submission) -> Graded:
+        start, marks = time.perf_counter(), dict[str, Mark]()
+        with reader(course, one.folder, files=one.files) as book:
+            books.append(book)
+            marks = {exercise.id: _mark(book, exercise) for exercise in exercises}
+        return Graded(one.student, marks, time.perf_counter() - start, one.remarks)
+
+    with (
+        tempfile.TemporaryDirectory(prefix="misstep-", ignore_cleanup_errors=True) as room,
+        ThreadPoolExecutor(jobs or os.cpu_count() or 1) as pool,
+    ):
+        found: dict[int, Graded] = {}
+        every = submissions(course, given, Path(room), sections)
+        running = {pool.submit(graded, one): k for k, one in enumerate(every)}
+        try:
+            for done in as_completed(running):
+                found[running[done]] = done.result()
+                if ended is not None:
+                    ended([found[k] for k in sorted(found)], done.result(), len(every))
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            for book in books:
+                if isinstance(book, IsolatedWorkbook):
+                    book.close()
+            raise
+    return [found[k] for k in sorted(found)]
+
+
+def _chosen(course: Course, only: Sequence[str]) -> list[Exercise]:
+    """Return the exercises of the given numbers and sections, in the chapter's order."""
+    for number in only:
+        check_known("exercise or section", number, (*course.sections, *course.numbers))
+    return [e for e in course.exercises if not only or e.id in only or e.section in only]
+
+
+def _mark(book: Workbook, exercise: Exercise) -> Mark:
+    """Return the points in one exercise; a function that the check fails on has none, and the reason."""
+    verdicts = {}
+    for part in exercise.parts:
+        try:
+            verdicts[part.name] = book.verdict(exercise, part)
+        except Exception as error:
+            verdicts[part.name] = not_judged(exercise, part, shown(error))
+    try:
+        words, enough = book.words(exercise) if exercise.answer is not None else None, book.verdict_in_words(exercise)
+    except Exception as error:
+        words, enough = None, not_judged(exercise, exercise.parts[0], shown(error))
+    hints, was_shown = int(book.state["hints"].get(exercise.id, 0)), exercise.id in book.state["solutions"]
+    return Mark(exercise, verdicts, words, enough, hints, was_shown)

@@ -1,0 +1,221 @@
+"""The pytest plugin of a course: the module that a student's folder names in its pytest.ini imports its hooks.
+
+Each function that an exercise asks for is a test, and so is each answer in words. What still is ``...``
+is skipped as "to do". A test has the name of its exercise, ``49_3_1-...``, and the mark of its
+section, ``s49_3``.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, suppress
+from typing import Any, NoReturn
+
+import pytest
+
+from .commands import at_least
+from .course import Course
+from .exercise import Exercise
+from .folder.workbook import Unread, Workbook
+from .judge import Verdict
+from .processes.isolation import TIME_LIMIT, opened
+from .progress import survey
+from .text import Text, wrapped
+
+__all__ = [
+    "SectionFile",
+    "configure",
+    "pytest_addoption",
+    "pytest_collect_file",
+    "pytest_pycollect_makemodule",
+    "pytest_terminal_summary",
+    "pytest_unconfigure",
+]
+
+TO_DO = Text("to do: {id} {name}", "未做：{id} {name}")
+COMPARE = Text(
+    "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照，参考答案："
+)
+
+UNREAD = Text("None of its answers can be checked until it can be read.", "文件能读取之后，才能检查其中的答案。")
+
+SEED = Text(
+    "The same random cases again: python -m pytest --seed {seed}", "再用同一批随机数据：python -m pytest --seed {seed}"
+)
+
+BOOKS = pytest.StashKey[dict[str, Workbook]]()
+OPEN = pytest.StashKey[ExitStack]()
+COURSE = pytest.StashKey[Course]()
+
+
+def mark_of(section: str) -> str:
+    """Return the mark of a section."""
+    return "s" + section.replace(".", "_") if section[:1].isdigit() else section
+
+
+def configure(config: pytest.Config, course: Course) -> None:
+    """Announce the marks, and let ``-k 49_1`` mean section 49.1 and not 49.10 as well."""
+    config.stash[COURSE], config.stash[BOOKS], config.stash[OPEN] = course, {}, ExitStack()
+    if isinstance(sys.stdout, io.TextIOWrapper):  # as in `cli`; else pytest escapes a message, its line ends as well
+        sys.stdout.reconfigure(errors="backslashreplace")
+    for section, title in course.sections.items():
+        config.addinivalue_line("markers", f"{mark_of(section)}: {title.en}")
+    if config.option.keyword:
+        config.option.keyword = re.sub(r"\b(\d+)_(\d+)\b", r"\1_\2_", config.option.keyword)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the time limit; a debugger needs 0, as the answers otherwise run in a process of their own."""
+    parser.addoption(
+        "--time-limit",
+        type=float,
+        default=TIME_LIMIT,
+        metavar="S",
+        help="seconds for one call of an answer; 0 for none, as `breakpoint()` needs it (10)",
+    )
+    parser.addoption(
+        "--seed", type=at_least(0), metavar="N", help="of the random cases; drawn anew each time unless given"
+    )
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """End the processes that ran the answers."""
+    config.stash[OPEN].close()
+
+
+def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect the files of the exercises."""
+    course = parent.config.stash[COURSE]
+    if file_path.name not in course.files:
+        return None
+    books = parent.config.stash[BOOKS]
+    if str(file_path.parent) not in books:
+        how = {name: parent.config.getoption(name) for name in ("seed", "time_limit")}
+        opening = opened(course, file_path.parent, **how)
+        books[str(file_path.parent)] = parent.config.stash[OPEN].enter_context(opening)
+    book = books[str(file_path.parent)]
+    return SectionFile.of(parent, path=file_path, section=course.files[file_path.name], book=book)
+
+
+def pytest_pycollect_makemodule(module_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
+    """Keep pytest from importing a student's file that is named: one that cannot be read would give a traceback."""
+    if module_path.name not in parent.config.stash[COURSE].files:
+        return None
+    return Nothing.from_parent(parent, path=module_path)
+
+
+class Nothing(pytest.File):
+    """A file without tests."""
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """Yield no tests."""
+        return []
+
+
+class SectionFile(pytest.File):
+    """The student's file of a section."""
+
+    section: str
+    book: Workbook
+    reported = False
+    """Whether it was reported that the file cannot be read."""
+
+    @classmethod
+    def of(cls, parent: pytest.Collector, *, path: Any, section: str, book: Workbook) -> SectionFile:
+        """Make a collector with its section and its folder."""
+        made = cls.from_parent(parent, path=path)
+        made.section, made.book = section, book
+        return made
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """Yield a test for each function and each answer in words."""
+        for exercise in self.book.course.of_section(self.section):
+            names = [part.name for part in exercise.parts]
+            for name in names + [exercise.answer_name] * (exercise.answer is not None):
+                yield Answer.of(self, exercise=exercise, name=name)
+
+
+class Wrong(Exception):
+    """A wrong answer; its argument is the message."""
+
+
+class Answer(pytest.Item):
+    """A function, or an answer in words, of an exercise."""
+
+    parent: SectionFile
+    exercise: Exercise
+    asked: str
+
+    @classmethod
+    def of(cls, parent: SectionFile, *, exercise: Exercise, name: str) -> Answer:
+        """Make a test with the name of its exercise and the mark of its section."""
+        label = "words" if name == exercise.answer_name else name
+        item = cls.from_parent(parent, name=f"{exercise.id.replace('.', '_')}-{label}")
+        item.exercise, item.asked = exercise, name
+        item.add_marker(mark_of(exercise.section))
+        return item
+
+    def runtest(self) -> None:
+        """Judge it."""
+        book, exercise = self.parent.book, self.exercise
+        verdict = self._verdict()
+        if isinstance(verdict, Unread):
+            self._cannot_read(verdict)
+        if verdict.state == "to do":
+            todo = TO_DO.fill(id=exercise.id, name=self.asked).of(book.language)
+            pytest.skip("  ".join([todo, *(line.of(book.language) for line in verdict.lines)]))
+        if verdict.state == "wrong":
+            raise Wrong(verdict.report(book.language))
+
+    def _cannot_read(self, verdict: Unread) -> NoReturn:
+        """Report once why a file cannot be read, not again for each function in it."""
+        why, none = (line.of(self.parent.book.language) for line in (verdict.lines[-1], UNREAD))
+        if self.parent.reported:
+            pytest.skip(why)
+        self.parent.reported = True
+        raise Wrong(f"{why}\n{none}")
+
+    def _verdict(self) -> Verdict:
+        if self.asked == self.exercise.answer_name:
+            verdict = self.parent.book.verdict_in_words(self.exercise)
+            return Verdict("done") if verdict is None else verdict
+        part = next(part for part in self.exercise.parts if part.name == self.asked)
+        return self.parent.book.verdict(self.exercise, part)
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Show the message of a wrong answer as it is; of anything else the trace."""
+        return str(excinfo.value) if isinstance(excinfo.value, Wrong) else super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Any, int | None, str]:
+        """Return where the test is."""
+        return self.path, None, self.name
+
+
+def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pytest.Config) -> None:
+    """Show model answers for comparison, each once, and how far the student is; nothing after an interrupt."""
+    if exitstatus == pytest.ExitCode.INTERRUPTED:
+        return
+    for book in config.stash[BOOKS].values():
+        for exercise in _to_compare(book):
+            terminalreporter.section(f"{exercise.id} {exercise.title.of(book.language)}")
+            terminalreporter.write_line(COMPARE.fill(id=exercise.id).of(book.language))
+            model = wrapped((exercise.answer or Text("", "")).of(book.language))
+            terminalreporter.write_line("\n" + "\n".join(model))
+            with suppress(OSError):  # a folder may be for reading only
+                book.remember(compared=[*book.state["compared"], exercise.id])
+        if not config.option.collectonly:
+            terminalreporter.section(str(book.folder))
+            terminalreporter.write_line(str(survey(book)))
+            terminalreporter.write_line(SEED.fill(seed=book.seed).of(book.language))
+
+
+def _to_compare(book: Workbook) -> Iterator[Exercise]:
+    """Yield the answered exercises in words whose model answer was not shown yet."""
+    for exercise in book.course.exercises:
+        if exercise.answer is None or exercise.id in book.state["compared"]:
+            continue
+        if all(verdict.state == "done" for verdict in book.verdicts(exercise).values()):
+            yield exercise

@@ -1,0 +1,208 @@
+"""The process that runs a student's code, as it is seen from outside: asked, watched by a clock, and ended."""
+
+from __future__ import annotations
+
+import os
+import queue
+import secrets
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO, Any, cast
+
+from .messages import as_json, from_json
+
+__all__ = ["Died", "Process"]
+
+PROGRAM = "import sys; sys.path[:] = {path!r}; from misstep.processes.worker import main; main()"
+
+MARK = "MISSTEP_WORKER"
+"""A variable of the environment that all have which such a process starts."""
+
+SLACK_S = 5.0
+"""How much later than its own clock that of the other process may be."""
+
+LONGEST = 30
+"""Calls' time limits that an answer may take, with all of its cases and the search for what is wrong."""
+
+SHORTEST_S = 60.0
+"""What it may take in any case."""
+
+LARGEST = 16_000_000
+"""Bytes of a message; a verdict has some thousands."""
+
+ROUNDS = 20
+"""How often what was started is looked for: it may start more in the meantime."""
+
+AGAIN_S = 0.5
+
+SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
+
+
+@contextmanager
+def without_interrupts() -> Iterator[None]:
+    """Let nothing stop the work within: processes that are started then get no Ctrl-C, which is for the parent."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {getattr(signal, name) for name in SIGNALS})
+    try:
+        yield
+    finally:
+        with suppress(ValueError):
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class Died(Exception):
+    """The process ended, or was ended.
+
+    Parameters
+    ----------
+    at : str or None
+        What it was running of the student's; None for nothing.
+    call : int
+        Which call of it, counted from 0.
+    late : bool
+        Whether it took too long.
+    trace : str
+        Where it was.
+    """
+
+    def __init__(self, at: str | None, call: int, late: bool, trace: str) -> None:
+        super().__init__()
+        self.at, self.call, self.late, self.trace = at, call, late or "Timeout (" in trace, trace
+
+
+class Process:
+    """A process that answers questions, one at a time.
+
+    Parameters
+    ----------
+    task : dict
+        What it needs to know first, of what `messages` can write.
+    limit : float
+        Seconds for a call of a student's function.
+    printed : file, optional
+        Where what it prints goes; nowhere unless given.
+    """
+
+    def __init__(self, task: dict[str, Any], limit: float, printed: IO[Any] | None) -> None:
+        self._limit, self._word = limit, secrets.token_hex(16)
+        handle, trace = tempfile.mkstemp(prefix="misstep-", suffix=".trace")
+        os.close(handle)
+        self._trace = Path(trace)
+        with without_interrupts():  # Ctrl-C is for the parent
+            self._process = subprocess.Popen(
+                [sys.executable, "-u", "-c", PROGRAM.format(path=sys.path)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL if printed is None else printed,
+                env=os.environ | {MARK: self._word},
+                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+                process_group=0 if os.name == "posix" else None,
+            )
+        self._requests, self._replies = cast("tuple[IO[bytes], IO[bytes]]", (self._process.stdin, self._process.stdout))
+        self._heard: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        threading.Thread(target=self._listen, daemon=True).start()
+        self._send([self._word, limit, trace, [[key, value] for key, value in task.items()]])
+
+    def _listen(self) -> None:
+        """Read what the process tells; a line without its word is of the student's code, and is dropped."""
+        with suppress(OSError, ValueError), self._replies:
+            while line := self._replies.readline(LARGEST):
+                _, word, text = line.rpartition(self._word.encode())
+                if word:
+                    with suppress(ValueError):
+                        self._heard.put(from_json(text))
+        self._heard.put(None)
+
+    def _send(self, message: Any) -> None:
+        with suppress(OSError, ValueError):  # the process has ended: there will be no answer
+            self._requests.write(as_json(message).encode() + b"\n")
+            self._requests.flush()
+
+    def ask(self, *question: Any) -> Any:
+        """Return the answer to a question.
+
+        Raises
+        ------
+        Died
+            If the process ends before, or takes too long.
+        """
+        begun: list[str] = []
+        calls: Counter[str] = Counter()
+        end, due = time.monotonic() + max(SHORTEST_S, LONGEST * self._limit), float("inf")
+        self._send(question)
+        while True:
+            left = min(end, due) - time.monotonic()
+            try:
+                message = self._heard.get(timeout=min(max(left, 0), AGAIN_S))
+            except queue.Empty:
+                if left > 0 and self._process.poll() is None:
+                    continue
+                message = None
+            match message:
+                case ("answer", answer):
+                    return answer
+                case ("begin", str(name)):
+                    begun.append(name)
+                    calls[name] += 1
+                case ("end",) if begun:
+                    begun.pop()
+                case None:
+                    late = self._process.poll() is None and left <= 0
+                    self.close()
+                    at = begun[-1] if begun else None
+                    raise Died(at, calls[at or ""] - 1, late, self._where)
+            due = time.monotonic() + self._limit + SLACK_S if begun else float("inf")
+
+    def close(self) -> None:
+        """End it and all that it has started: it exits when its input is closed, unless it still runs something."""
+        with suppress(OSError):
+            self._requests.close()
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(AGAIN_S)
+        if os.name == "posix":
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.kill()
+        self._process.wait()
+        for _ in range(ROUNDS):
+            if not (started := _marked(self._word)):
+                break
+            for pid in started:
+                with suppress(ProcessLookupError, PermissionError):
+                    os.kill(pid, signal.SIGKILL)
+            time.sleep(0.01)
+        self._where = self._last_words()
+
+    def _last_words(self) -> str:
+        """Return where the process was when it ended, and delete the file."""
+        try:
+            with self._trace.open(encoding="utf-8", errors="replace") as file:
+                return file.read(LARGEST)
+        except OSError:
+            return ""
+        finally:
+            with suppress(OSError):
+                self._trace.unlink()
+
+
+def _marked(word: str) -> list[int]:
+    """Return the living processes with a word in their environment, where the system shows it.
+
+    A process that has left its group and lost its parent is found by nothing else.
+    """
+    found = []
+    for place in Path("/proc").glob("[0-9]*") if sys.platform == "linux" else ():
+        with suppress(OSError):
+            if f"{MARK}={word}".encode() in (place / "environ").read_bytes():
+                found.append(int(place.name))
+    return found

@@ -1,0 +1,326 @@
+"""A function as a program: its source with its helpers, changed in one place, and the values of its expressions."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import inspect
+import linecache
+import textwrap
+from collections.abc import Callable, Iterator
+from types import FunctionType, ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+__all__ = ["Change", "MemoizedPackage", "Place", "Program", "locate", "source_with_helpers", "text_of"]
+
+Function = Callable[..., Any]
+
+MAX_EVENTS = 6_000
+"""Values that one run records."""
+
+MAX_ROUNDS = 4_000
+"""Rounds of all loops of one call of a changed function: a change may make a loop endless."""
+
+MAX_RECORDED_SIZE = 4_000
+"""Entries of an array that is recorded as a copy; a larger one is recorded as it is."""
+
+LOCAL_ASSIGNMENTS = ast.Constant | ast.List | ast.Tuple | ast.Dict | ast.Lambda | ast.BinOp | ast.UnaryOp
+"""What a name of the file may stand for, to be taken over with the functions that use it."""
+
+
+class Place(NamedTuple):
+    """A node of the syntax tree, with the nodes around it and the field of the innermost that holds it."""
+
+    parents: tuple[ast.AST, ...]
+    field: str | tuple[str, int]
+    node: Any
+
+    @property
+    def parent(self) -> Any:
+        """The node around it."""
+        return self.parents[-1]
+
+    def put(self, node: ast.AST) -> None:
+        """Put a node here."""
+        if isinstance(self.field, tuple):
+            getattr(self.parent, self.field[0])[self.field[1]] = node
+        else:
+            setattr(self.parent, self.field, node)
+
+
+class Change(NamedTuple):
+    """A node to stand in a place."""
+
+    place: Place
+    new: Any
+
+
+def text_of(node: ast.AST) -> str:
+    """Return a node as a line of code."""
+    return ast.unparse(node).split("\n")[0].replace(".mT", ".T")
+
+
+def locate(new: ast.AST, node: ast.AST) -> None:
+    """Give new nodes the line of the node that they replace."""
+    for x in ast.walk(new):
+        if not hasattr(x, "lineno"):
+            ast.copy_location(x, node)
+    ast.fix_missing_locations(new)
+
+
+def source_with_helpers(function: Function) -> str | None:
+    """Return the source of a function or class, with what it uses of the same file; None where it is not at hand.
+
+    Everything else in the file is blank, so that its lines keep their numbers.
+    """
+    code = getattr(function, "__code__", None) or getattr(_method(function), "__code__", None)
+    if code is None or getattr(function, "__closure__", None):
+        return None
+    linecache.checkcache(code.co_filename)
+    lines = linecache.getlines(code.co_filename)
+    try:
+        tree = ast.parse("".join(lines))
+    except SyntaxError:
+        return None
+    named: dict[str, ast.stmt] = {}
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            named[node.name] = node
+        elif isinstance(node, ast.Assign) and isinstance(node.value, LOCAL_ASSIGNMENTS):
+            named |= {x.id: node for x in node.targets if isinstance(x, ast.Name)}
+    waiting, kept = [function.__name__], set[str]()
+    if function.__name__ not in named:
+        return None
+    while waiting:
+        name = waiting.pop()
+        kept.add(name)
+        waiting += {x.id for x in ast.walk(named[name]) if isinstance(x, ast.Name)} & named.keys() - kept
+    shown = {k for name in kept for k in range(named[name].lineno, (named[name].end_lineno or 0) + 1)}
+    if not inspect.isclass(function) and code.co_firstlineno not in shown:
+        return None
+    return "".join(line if k in shown else "\n" for k, line in enumerate(lines, 1))
+
+
+class Program:
+    """The syntax tree of a function, of which single nodes can be replaced.
+
+    Parameters
+    ----------
+    function : callable
+        A function or a class.
+    source : str, optional
+        Its source, with helpers; read from its file unless given.
+    caller : callable, optional
+        A function that calls it, and stands for it when it is run.
+    package : MemoizedPackage, optional
+        Stands in place of the package that the function uses.
+    given : mapping, optional
+        Its arguments by name.
+    """
+
+    def __init__(
+        self,
+        function: Function,
+        *,
+        source: str | None = None,
+        caller: Function | None = None,
+        package: MemoizedPackage | None = None,
+        given: dict[str, Any] | None = None,
+    ) -> None:
+        self.function, self.caller, self.given = function, caller, given or {}
+        names = getattr(function, "__globals__", None) or getattr(_method(function), "__globals__", {})
+        self.names = {**names, "_round": self._round}
+        if package is not None:
+            self.names |= {name: package for name, x in names.items() if x is package.original}
+        text = textwrap.dedent(inspect.getsource(function)) if source is None else source
+        self.tree = ast.fix_missing_locations(_Bounded().visit(ast.parse(text)))
+        self.places = [place for top in self.tree.body for place in _places(top, ())]
+        self.values: dict[int, list[Any]] = {}
+        self.events: list[tuple[Any, Any]] = []
+        self._left = MAX_ROUNDS
+
+    def _round(self) -> None:
+        self._left -= 1
+        if self._left < 0:
+            raise RuntimeError("an endless loop")
+
+    def compiled(self, tree: Any = None, **more: Any) -> Function:
+        """Return the function as the tree has it now; its caller where it has one."""
+        names = {**self.names, **more}
+        exec(compile(tree or self.tree, "<changed>", "exec", dont_inherit=True), names)
+        found = names[self.function.__name__]
+        if self.caller is not None:
+            names = {**self.caller.__globals__, found.__name__: found}
+            found = FunctionType(self.caller.__code__, names, closure=self.caller.__closure__)
+        return self._restarting(found)
+
+    def _restarting(self, found: Any) -> Function:
+        """Return a function that counts its rounds from nought in each call."""
+        if inspect.isclass(found):
+            self._left = 100 * MAX_ROUNDS
+            return found
+
+        def call(*arguments: Any, **named: Any) -> Any:
+            self._left = MAX_ROUNDS
+            return found(*arguments, **named)
+
+        call.__name__ = found.__name__
+        return call
+
+    def mutant(self, changes: tuple[Change, ...]) -> Function | None:
+        """Return the function with other nodes in some places; None where that is no program."""
+        for place, new in changes:
+            if not hasattr(new, "lineno"):
+                locate(new, place.node)
+            place.put(new)
+        try:
+            return self.compiled()
+        except Exception:  # whatever keeps it from being compiled
+            return None
+        finally:
+            for place, _ in changes:
+                place.put(place.node)
+
+    def after(self, changes: tuple[Change, ...]) -> Program:
+        """Return the program after some changes, to be changed further."""
+        for place, new in changes:
+            place.put(new)
+        found = copy.copy(self)
+        found.tree = ast.fix_missing_locations(copy.deepcopy(self.tree))
+        for place, _ in changes:
+            place.put(place.node)
+        found.places = [place for top in found.tree.body for place in _places(top, ())]
+        found.values, found.events = {}, []
+        found.names = {**self.names, "_round": found._round}
+        return found
+
+    def trace(self, run: Callable[[Function], Any]) -> Program:
+        """Run it, and record the value of each expression, in the order in which they are computed."""
+        nodes = [place.node for place in self.places if _has_value(place)]
+        numbers = {id(node): k for k, node in enumerate(nodes)}
+
+        def record(k: int, value: Any) -> Any:
+            if len(self.events) < MAX_EVENTS and not callable(value):
+                self.events.append((nodes[k], _snapshot(value)))
+            return value
+
+        run(self.compiled(ast.fix_missing_locations(_recording(self.tree, numbers)), _record=record))
+        for node, value in self.events:
+            self.values.setdefault(id(node), []).append(value)
+        return self
+
+    def value(self, node: Any) -> Any:
+        """Return what an expression was when it first ran; of a constant, itself; None where it did not run."""
+        if isinstance(node, ast.Constant):
+            return node.value
+        return self.values.get(id(node), [None])[0]
+
+
+class MemoizedPackage:
+    """A package whose functions compute nothing twice: most changes leave most calls as they are."""
+
+    def __init__(self, package: ModuleType) -> None:
+        self.original = package
+        self._known: dict[Any, Any] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        function = getattr(self.original, name)
+        if not callable(function) or isinstance(function, type):
+            return function
+
+        def memoized(*arguments: Any, **named: Any) -> Any:
+            given = (*arguments, *named.values())
+            key = (name, *named, *map(_key, given))
+            if key not in self._known:
+                self._known[key] = function(*arguments, **named), given  # kept alive: `id` is part of the key
+            return _fresh(self._known[key][0])
+
+        return memoized
+
+
+def _key(x: Any) -> Any:
+    if isinstance(x, np.ndarray):
+        return x.shape, x.dtype.str, x.tobytes()
+    return repr(x) if isinstance(x, int | float | str | list | tuple) else id(x)
+
+
+def _fresh(x: Any) -> Any:
+    """Return a result with copies of its arrays, as a wrong function may write into them."""
+    if isinstance(x, np.ndarray):
+        return x.copy()
+    if isinstance(x, list):
+        return [_fresh(y) for y in x]
+    if isinstance(x, tuple):
+        return type(x)(*map(_fresh, x)) if hasattr(x, "_fields") else tuple(map(_fresh, x))
+    return x
+
+
+def _method(function: Any) -> Any:
+    """Return a function of a class."""
+    members = vars(function).values() if inspect.isclass(function) else ()
+    return next((x for x in members if isinstance(x, FunctionType)), None)
+
+
+class _Bounded(ast.NodeTransformer):
+    """Lets every loop count its rounds, at the beginning of its body."""
+
+    def visit(self, node: ast.AST) -> Any:
+        """Add the count to a loop."""
+        self.generic_visit(node)
+        if isinstance(node, ast.For | ast.While):
+            node.body.insert(0, ast.copy_location(ast.parse("_round()").body[0], node))
+        return node
+
+
+def _recording(tree: ast.Module, numbers: dict[int, int]) -> ast.Module:
+    """Return a copy of a tree in which each expression with a number passes its value on."""
+
+    def copied(node: Any) -> Any:
+        if isinstance(node, list):
+            return [copied(x) for x in node]
+        if not isinstance(node, ast.AST):
+            return node
+        new: Any = type(node)(**{name: copied(value) for name, value in ast.iter_fields(node)})
+        ast.copy_location(new, node)
+        if id(node) in numbers:
+            return ast.Call(ast.Name("_record", ast.Load()), [ast.Constant(numbers[id(node)]), new], [])
+        return new
+
+    found: ast.Module = copied(tree)
+    return found
+
+
+def _snapshot(value: Any) -> Any:
+    """Return a copy of what may be changed later, unless it is large."""
+    if isinstance(value, np.ndarray):
+        return value.copy() if value.size <= MAX_RECORDED_SIZE else value
+    if type(value) in (list, tuple):
+        return type(value)(_snapshot(x) for x in value)
+    return value
+
+
+def _has_value(place: Place) -> bool:
+    node = place.node
+    if not isinstance(node, ast.expr) or isinstance(node, ast.Constant | ast.Slice | ast.Starred | ast.Lambda):
+        return False
+    if place.field == "func" or isinstance(place.parent, ast.JoinedStr | ast.FormattedValue | ast.Slice):
+        return False
+    in_brackets = isinstance(place.parent, ast.Subscript) and place.field == "slice"
+    return isinstance(getattr(node, "ctx", ast.Load()), ast.Load) and not in_brackets
+
+
+def _places(node: ast.AST, parents: tuple[ast.AST, ...]) -> Iterator[Place]:
+    """Yield the places below a node, those of signatures and errors left out."""
+    if isinstance(node, ast.Raise) or (isinstance(node, ast.Call) and text_of(node.func) == "_round"):
+        return
+    around = (*parents, node)
+    for name, value in ast.iter_fields(node):
+        if name in ("args", "returns", "annotation", "decorator_list") and not isinstance(node, ast.Call):
+            continue
+        entries = [((name, k), x) for k, x in enumerate(value)] if isinstance(value, list) else [(name, value)]
+        for field, child in entries:
+            if isinstance(child, ast.expr | ast.stmt | ast.keyword | ast.comprehension):
+                yield Place(around, field, child)
+                yield from _places(child, around)

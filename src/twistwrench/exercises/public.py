@@ -1,0 +1,272 @@
+"""What a student and a teacher call: the functions of `misstep` for this chapter."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from misstep import cases, helping, progress
+from misstep.folder import skeletons, workbook
+from misstep.notebook import cells
+from misstep.notebook.cells import Checked
+from misstep.processes.isolation import TIME_LIMIT
+from misstep.progress import Status
+from misstep.text import Language
+
+from .chapter import COURSE
+
+__all__ = ["Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
+
+
+def start(folder: str | PathLike[str], *, language: Language | None = None) -> tuple[list[Path], list[Path]]:
+    """Write the skeletons of all exercises into a folder. Existing files are not touched.
+
+    Parameters
+    ----------
+    folder : str or path
+        Made if need be.
+    language : {"en", "zh"}, optional
+        Of texts and messages; that of the environment unless given.
+
+    Returns
+    -------
+    new, kept : list of path
+        The files that were written, and those that were there before.
+    """
+    return skeletons.start(COURSE, folder, language=language)
+
+
+def mine(name: str) -> Callable[..., Any]:
+    """Return a function of an earlier exercise: yours once it is right, the reference until then.
+
+    Which of the two is decided when it is first called.
+
+    Parameters
+    ----------
+    name : str
+        Of the function, as in the skeletons.
+
+    Returns
+    -------
+    callable
+
+    Raises
+    ------
+    UnknownName
+        If no exercise has a function of that name.
+
+    Examples
+    --------
+    >>> skew = mine("skew")  # outside a folder with exercises: the reference
+    >>> skew([1.0, 2.0, 3.0])
+    array([[ 0., -3.,  2.],
+           [ 3.,  0., -1.],
+           [-2.,  1.,  0.]])
+    """
+    return workbook.mine(COURSE, name, sys._getframe(1).f_globals)  # the folder is that of the calling file
+
+
+def check(
+    number: str,
+    *functions: Callable[..., Any],
+    words: str | None = None,
+    language: Language | None = None,
+    seed: int | None = None,
+    time_limit: float = TIME_LIMIT,
+    **formulas: str,
+) -> Checked:
+    """Check an exercise where it is written: in a notebook, a script or a shell.
+
+    Parameters
+    ----------
+    number : str
+        Of the exercise, as "49.6.1".
+    functions : callable
+        The answers, in any order, matched by their names. Without any: those functions of the exercise that the
+        caller has defined.
+    words : str, optional
+        The answer in words, where the exercise asks for one; the model answer is then shown beside it.
+    language : {"en", "zh"}, optional
+        The one asked for last unless given; at first that of the folder or of the environment.
+    seed : int, optional
+        Of the random cases; drawn anew unless given.
+    time_limit : float
+        Seconds for one call, in a process of its own; 0 for none, and no other process.
+    formulas : str
+        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them,
+        and compares exactly where the right answer is a formula.
+
+    Returns
+    -------
+    Checked
+        Prints as the message; a notebook shows it as HTML.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such exercise, or it has no function of that name.
+    CourseError
+        If there is nothing to check.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> def skew(w):
+    ...     return tw.skew(w)
+    >>> check("49.0.1", skew, language="en")
+    49.0.1  skew: right.
+    <BLANKLINE>
+    Section 49.0: ●... of 5 exercises
+    """
+    return cells.check(
+        COURSE,
+        number,
+        *functions,
+        words=words,
+        language=language,
+        seed=seed,
+        time_limit=time_limit,
+        caller=sys._getframe(1).f_globals,
+        formulas=formulas,
+    )
+
+
+def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:
+    """Return the arguments of one of the cases that an answer is tried on.
+
+    Parameters
+    ----------
+    name : str
+        Of the function, as in the skeletons.
+    number : int
+        Which case, counted from 0.
+    seed : int
+        Of the random numbers; the message about a wrong answer names it.
+
+    Returns
+    -------
+    tuple
+        The arguments.
+
+    Raises
+    ------
+    UnknownName
+        If no exercise has a function of that name.
+    CourseError
+        If there are fewer cases.
+
+    Examples
+    --------
+    >>> R, p, x = case("act", 3)
+    >>> (R @ x + p).shape
+    (3,)
+    """
+    return cases.case(COURSE, name, number, seed=seed)
+
+
+def hint(
+    name: str,
+    folder: str | PathLike[str] = ".",
+    *,
+    again: bool = False,
+    every: bool = False,
+    language: Language | None = None,
+) -> str:
+    """Return the next hint for an exercise. How many were given is remembered in the folder.
+
+    Parameters
+    ----------
+    name : str
+        The number of the exercise, as "49.3.1", or the name of one of its functions.
+    folder : str or path
+        One that `start` has filled. In any other, nothing is remembered, and each call returns the first hint.
+    again : bool
+        Repeat the last hint.
+    every : bool
+        All hints at once.
+    language : {"en", "zh"}, optional
+        That of the folder unless given.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    UnknownName
+        If there is no such exercise or function.
+
+    Examples
+    --------
+    >>> print(hint("49.3.1", language="en").splitlines()[0])
+    49.3.1 A pure translation: hint 1 of 2
+    """
+    return helping.hint(COURSE, name, folder, again=again, every=every, language=language)
+
+
+def solution(name: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
+    """Return a solution of an exercise, as it could stand in the student's file.
+
+    It includes the model answer to a question in words once the student has answered it. That it was shown is
+    remembered in the folder.
+
+    Parameters
+    ----------
+    name : str
+        The number of the exercise, as "49.3.1", or the name of one of its functions.
+    folder : str or path
+        One that `start` has filled.
+    language : {"en", "zh"}, optional
+        That of the folder unless given.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    UnknownName
+        If there is no such exercise or function.
+
+    Examples
+    --------
+    >>> print(solution("49.3.1", language="en").splitlines()[0])
+    49.3.1 A pure translation: a solution
+    """
+    return helping.solution(COURSE, name, folder, language=language)
+
+
+def status(
+    folder: str | PathLike[str] = ".",
+    *,
+    language: Language | None = None,
+    seed: int | None = None,
+    time_limit: float = TIME_LIMIT,
+) -> Status:
+    """Check every exercise of a folder and return the progress.
+
+    Parameters
+    ----------
+    folder : str or path
+        One that `start` has filled.
+    language : {"en", "zh"}, optional
+        Of the table; that of the folder unless given.
+    seed : int, optional
+        Of the random cases; drawn anew unless given.
+    time_limit : float
+        Seconds for one call of a function; 0 for none. The answers run in a process of their own, which is ended where
+        they take longer; without a limit they run in this one.
+
+    Returns
+    -------
+    Status
+
+    Raises
+    ------
+    CourseError
+        If nothing was started there.
+    """
+    return progress.status(COURSE, folder, language=language, seed=seed, time_limit=time_limit)

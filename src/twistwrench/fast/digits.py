@@ -1,0 +1,254 @@
+"""Programs in numbers that no processor has, and programs whose results have a bound.
+
+They hold a program, which knows the arguments and raises the errors, and run its line in other numbers.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections import Counter
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from straightline.backend import BackEnd
+from straightline.double_double import BOUND, LO, OWN, DoubleDouble, double_double
+from straightline.llvm import NATIVE
+from straightline.pairs import two_sum
+
+from ..arrays import Array
+from ..errors import ShapeError
+from ..newton_euler_3d import as_mpmath
+from .program import Program
+from .quantity import by_the_textbook
+from .recording import ALARM
+
+__all__ = ["NUMBERS", "WIDE", "DigitsProgram", "wide_type", "with_digits"]
+
+PAIRS = "double-double"
+WIDE = {"quad": ("numpy_quaddtype", 'pip install "twistwrench[quad]"'), "mpmath": ("mpmath", "pip install mpmath")}
+"""Number types of other packages: the package, and what installs it."""
+
+NUMBERS = (PAIRS, *WIDE)  # number types that are not NumPy's, by name
+
+DOUBLE = np.dtype(np.float64)
+VALUE = ".value"
+
+
+class DigitsProgram(ABC):
+    """A program whose line is run in other numbers than its own, and which is called as that is."""
+
+    number: str | None = None
+    bound = False
+    expected = "sizes whose products are numbers"
+
+    def __init__(self, program: Program) -> None:
+        self.program, self.model, self.arguments = program, program.model, program.arguments
+        self.source, self.c = program.source, program.c
+        self._symbols = [quantity.symbol for quantity in program.quantities]
+        self._codes: dict[Any, BackEnd] = {}
+
+    @property
+    def operations(self) -> Counter[str]:
+        """How many operations a state takes, by kind."""
+        return self.program.operations
+
+    def __call__(self, *args: Any, **named: Any) -> Any:
+        """Return the quantities in a state, or in many: as `Program`, in numbers of the program's type.
+
+        The arguments are doubles, which are taken as exact, or numbers of that type. With a bound there are two
+        results, of which the second has the bound of each entry, infinite where nothing is certain.
+        """
+        given = self.program._bound(args, named)
+        own = {name: both for name, x in given.items() if (both := self._own(name, x)) is not None}
+        rounded = {name: own[name][1] if name in own else x for name, x in given.items()}
+        states = self.program._states(rounded)
+        found = self._run(states, {name: wide for name, (wide, _) in own.items()})
+        if ALARM in found:
+            self._check(states, found)
+        results = {symbol: self._result(found, symbol) for symbol in self._symbols}
+        if not self.bound:
+            return self.program.packed(results)
+        return tuple(self.program.packed({symbol: both[k] for symbol, both in results.items()}) for k in (0, 1))
+
+    @abstractmethod
+    def _own(self, name: str, x: Any) -> tuple[Any, Array] | None:
+        """Return numbers of more digits than a double has, and as doubles; None for others."""
+
+    @abstractmethod
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the results of the line."""
+
+    def _result(self, found: Mapping[str, Any], symbol: str) -> Any:
+        """Return one of them as the caller gets it, with its bound if there is one."""
+        return found[symbol]
+
+    def _check(self, states: Mapping[str, Array], found: Mapping[str, Array]) -> None:
+        """Let the textbook look at the states that raise the alarm: it raises what there is to raise."""
+        unsure = ~(found[ALARM] <= 1)
+        if unsure.any():
+            looked_at = {symbol: np.empty(found[symbol].shape) for symbol in self._symbols}
+            asked = {**self.program.given, **states}
+            by_the_textbook(self.model, self.program.quantities, asked, looked_at, unsure)
+        if not all((abs(found[symbol]) < np.inf).all() for symbol in self._symbols):
+            raise ValueError(f"expected {self.expected}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return with_digits, (self.program, self.number, self.bound)
+
+    def __repr__(self) -> str:
+        text = repr(self.program).replace("float64", self.number or "float64")
+        return f"{text[:-1]}, bound>" if self.bound else text
+
+
+class WideProgram(DigitsProgram):
+    """A program in numpy-quaddtype's numbers, 34 digits, or in mpmath's, ``mpmath.mp.dps`` digits as at the call.
+
+    An axis that is oblique to its frame is a unit vector to 38 digits.
+    """
+
+    def __init__(self, program: Program, number: str) -> None:
+        super().__init__(program)
+        self.number, self.dtype = number, wide_type(number)
+
+    def _own(self, name: str, x: Any) -> tuple[Array, Array] | None:
+        try:
+            array = np.asarray(x)
+            if array.dtype not in (self.dtype, np.longdouble):
+                return None
+            own = self._wide(array)
+            return own, own.astype(np.float64)
+        except (TypeError, ValueError):  # complex numbers: the program in doubles raises
+            return None
+
+    def _wide(self, x: Array) -> Array:
+        return as_mpmath(x) if self.dtype.hasobject and not x.dtype.hasobject else x.astype(self.dtype)
+
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Array]) -> dict[str, Array]:
+        """Return the results of the line; its constants have as many digits as mpmath now has."""
+        key = tuple(states), import_module("mpmath").mp.prec if self.dtype.hasobject else None
+        if key not in self._codes:
+            self._codes[key] = BackEnd(self.program._code(tuple(states)).line, self.dtype, "numpy")
+        filled = {name: self._wide(np.broadcast_to(own.get(name, x), x.shape)) for name, x in states.items()}
+        return self._codes[key].results(filled, self.program.batch(states), self.program.threads, {})
+
+
+def wide_type(number: Any) -> np.dtype[Any]:
+    """Return NumPy's type for quadruple precision, or for objects, which mpmath's numbers are."""
+    package, install = WIDE[number]
+    try:
+        module = import_module(package)
+    except ImportError:
+        raise ImportError(f'dtype: "{number}" needs {package.replace("_", "-")}: {install}') from None
+    found: np.dtype[Any] = np.dtype(object) if number == "mpmath" else module.QuadPrecDType()
+    return found
+
+
+class DoubleDoubleProgram(DigitsProgram):
+    """A program with 32 digits, for angles up to 2⁴⁵ rad: ``dtype="double-double"``; its results are `DoubleDouble`."""
+
+    number: str | None = PAIRS
+    expected = "angles up to 2**45 rad, and " + DigitsProgram.expected
+
+    def __init__(self, program: Program, bound: bool) -> None:
+        super().__init__(program)
+        self.bound = bound
+
+    @property
+    def operations(self) -> Counter[str]:
+        """How many operations on doubles one state takes, by kind."""
+        return self._code(self.program._plain, ()).line.operations
+
+    def _code(self, names: tuple[str, ...], low: tuple[str, ...]) -> BackEnd:
+        """Return what runs the line for states with these arguments, of which some are pairs; rewritten once."""
+        if (names, low) not in self._codes:
+            line, backend = self.program._code(names).line, self.program.backend
+            pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=self.bound)
+            self._codes[names, low] = BackEnd(pairs, DOUBLE, backend)
+        return self._codes[names, low]
+
+    def _own(self, name: str, x: Any) -> tuple[Array, Array] | None:
+        """Return the lower part, and the double nearest to the sum."""
+        if not isinstance(x, DoubleDouble):
+            wide = _as_long_double(x)
+            if wide is None:
+                return None
+            rounded = wide.astype(DOUBLE)
+            x = DoubleDouble(rounded, wide - rounded)
+        hi, lo = (np.asarray(part, DOUBLE) for part in x)
+        if hi.shape != lo.shape:
+            raise ShapeError(f"{name}: expected hi and lo of the same shape, got {hi.shape} and {lo.shape}")
+        if not (np.isfinite(hi).all() and np.isfinite(lo).all()):
+            raise ValueError(f"{name}: expected finite numbers")
+        hi, lo = two_sum(hi, lo)
+        return lo, hi
+
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Array]) -> dict[str, Array]:
+        low = {name + LO: np.broadcast_to(lo, states[name].shape) for name, lo in own.items()}
+        code = self._code(tuple(states), tuple(own))
+        return code.results({**states, **low}, self.program.batch(states), self.program.threads, {})
+
+    def _result(self, found: Mapping[str, Array], symbol: str) -> Any:
+        value = DoubleDouble(found[symbol], found[symbol + LO])
+        return (value, _certain(found[symbol + BOUND])) if self.bound else value
+
+
+class BoundedProgram(DoubleDoubleProgram):
+    """A program in float32 or float64 whose results have a bound: ``bound=True``.
+
+    The bound of an entry is its distance from the same entry with 32 digits, and what those are off at most by the
+    running error bound (`double_double`).
+    """
+
+    number = None
+
+    def __init__(self, program: Program) -> None:
+        super().__init__(program, True)
+        self.dtype = program.dtype
+
+    @property
+    def operations(self) -> Counter[str]:
+        """How many operations one state takes, with its bound, by kind."""
+        return self.program.operations + super().operations
+
+    def _own(self, name: str, x: Any) -> None:
+        return None
+
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Any]:
+        value = self.program(**states)
+        found = super()._run({name: x.astype(DOUBLE) for name, x in states.items()}, own)
+        del found[ALARM]  # the program has heard it
+        return found | {VALUE: {self._symbols[0]: value} if self.program.single else vars(value)}
+
+    def _result(self, found: Mapping[str, Any], symbol: str) -> tuple[Array, Array]:
+        value = found[VALUE][symbol]
+        off = np.abs((value.astype(DOUBLE) - found[symbol]) - found[symbol + LO])
+        bound = _certain(off + found[symbol + BOUND]).astype(self.dtype)
+        return value, np.nextafter(bound, self.dtype.type("inf"))
+
+
+def with_digits(program: Program, number: str | None, bound: bool) -> Program | DigitsProgram:
+    """Return a program as it is, or in numbers that are not NumPy's ("double-double", …), or with a bound."""
+    if number == PAIRS:
+        return DoubleDoubleProgram(program, bound)
+    if bound and (number or program.dtype not in NATIVE):
+        raise TypeError(f'bound: expected dtype float32, float64 or "double-double", got {number or program.dtype}')
+    if number:
+        return WideProgram(program, number)
+    return BoundedProgram(program) if bound else program
+
+
+def _as_long_double(x: Any) -> Array | None:
+    """Return long doubles as an array; None for all other numbers, and for what is no array of numbers."""
+    try:
+        array = np.asarray(x)
+    except (TypeError, ValueError):
+        return None
+    return array if array.dtype == np.longdouble else None
+
+
+def _certain(bound: Array) -> Array:
+    """Return a bound with its own roundings; infinite where it is not a number."""
+    return np.where(np.isnan(bound), np.inf, bound * float(OWN))
