@@ -46,7 +46,7 @@ def each_once(line: Line) -> Line:
     """
     k, count = 0, len(line.nodes)
     tape = Tape((lambda: line.notes[k]) if line.notes else None)
-    fingerprint, constants = Fingerprint(PRIME), Constants(line)
+    fingerprint, constants = Fingerprint(PRIME), ConstantTable(line)
     marks: list[Mark] = [()] * count
     values: list[Any] = [None] * count
     turns = [False] * count  # whether a number depends on a sine
@@ -132,7 +132,7 @@ def _inverse(x: int, prime: int) -> int:
 _known_inverse = lru_cache(_inverse)  # of the denominators of constants, a few powers of two
 
 
-class Constants:
+class ConstantTable:
     """What the constants of a line are, by fingerprints modulo the larger prime, which few numbers need."""
 
     def __init__(self, line: Line) -> None:
