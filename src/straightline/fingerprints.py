@@ -33,7 +33,7 @@ __all__ = ["each_once"]
 
 PRIME, LARGER = 2**127 - 1, 2**607 - 1  # for fingerprints, and to find what a constant is
 
-LARGEST = 2**240
+MAX_CONSTANT = 2**240
 """Numerators and denominators of constants are smaller: hardly any number below the larger prime is such a quotient."""
 
 Mark = tuple[int, ...]  # a fingerprint: the value of a number at two points
@@ -151,6 +151,6 @@ class ConstantTable:
         for j in ordered([k], lambda j: [i for i in operands(self.nodes[j]) if i not in self.marks]):
             self.marks[j] = self.fingerprint.of(self.nodes[j], self.marks)
         a, b, u, v = LARGER, self.marks[k][0], 0, 1
-        while b >= LARGEST:  # Euclid: b is v times the fingerprint at any time
+        while b >= MAX_CONSTANT:  # Euclid: b is v times the fingerprint at any time
             a, b, u, v = b, a % b, v, u - a // b * v
-        return Fraction(b, v) if abs(v) < LARGEST else None
+        return Fraction(b, v) if abs(v) < MAX_CONSTANT else None

@@ -13,7 +13,7 @@ from ..arrays import Array, as_exactly, as_number
 from ..contact import Contact, PointContact, SlidingContact, SurfaceContact
 from ..contact.rows import ContactRows, contact_rows
 from ..fast.program import Results
-from ..fast.programs import remembered
+from ..fast.programs import cached_program
 from ..fast.quantities import Quantity, quantities
 from ..model import Model, readonly
 from ..spatial.rotation import cross_matrix
@@ -187,7 +187,7 @@ class GroundPoints:
             }
             return [known[name] for name in want]
 
-        found: Results = remembered(self.model, ("ground", want, q.dtype, self.frames), q.dtype, asked)(q)
+        found: Results = cached_program(self.model, ("ground", want, q.dtype, self.frames), q.dtype, asked)(q)
         return found
 
 
