@@ -22,8 +22,8 @@ __all__ = ["BackEnd"]
 
 NONE: Mapping[str, Array] = {}
 
-FEW = 20  # without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy
-LEAST = 64  # a thread does at least so many states
+MAX_SINGLE_STATES = 20  # without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy
+MIN_STATES_PER_THREAD = 64  # a thread does at least so many states
 KEPT = 2**25 - 2**16  # bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`
 
 
@@ -33,7 +33,7 @@ class BackEnd:
     def __init__(self, line: Line, dtype: np.dtype[Any], name: str) -> None:
         self.line, self.dtype, self.name = line, dtype, name
         # the sines of pairs are rounded to whole numbers, which `math` does not do
-        self.few = FEW if dtype == np.float64 and "round" not in line.operations else 0
+        self.few = MAX_SINGLE_STATES if dtype == np.float64 and "round" not in line.operations else 0
         self._codes: dict[int, MachineCode] = {}
         keep_memory()
 
@@ -79,7 +79,7 @@ class BackEnd:
         made = {name: np.empty((count, len(line.outputs[name][1])), self.dtype) for name in line.outputs.keys() - into}
         rows = {**into, **made}
         arrays = [*given, *(rows[name] for name in line.outputs)]
-        if count >= 2 * LEAST and threads > 1:
+        if count >= 2 * MIN_STATES_PER_THREAD and threads > 1:
             divided(self.code(count).run, arrays, threads)
         elif count:
             self.code(count).run(arrays)
@@ -112,7 +112,7 @@ class Plain:
 def divided(run: Callable[[Sequence[Array]], None], arrays: Sequence[Array], threads: int) -> None:
     """Call `run` with the states of all arrays, divided among threads."""
     count = len(arrays[-1])
-    parts = min(threads, count // LEAST)
+    parts = min(threads, count // MIN_STATES_PER_THREAD)
     edges = [count * k // parts for k in range(parts + 1)]
     with ThreadPoolExecutor(parts) as pool:
         list(pool.map(lambda k: run([x[edges[k] : edges[k + 1]] for x in arrays]), range(parts)))

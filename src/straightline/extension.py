@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from .instructions import Text
+from .instructions import InstructionText
 from .line import Line
 from .llvm import NATIVE, MachineCode, engine_of
 from .number import Array
@@ -64,7 +64,7 @@ def as_expected() -> bool:
 POSSIBLE = as_expected()
 
 
-class Method(ctypes.Structure):
+class MethodDef(ctypes.Structure):
     """PyMethodDef: a function as CPython expects it."""
 
     _fields_ = [("name", ctypes.c_char_p), ("at", ctypes.c_void_p), ("flags", ctypes.c_int), ("doc", ctypes.c_char_p)]
@@ -77,14 +77,14 @@ def state_function(code: MachineCode, line: Line, dtype: np.dtype[Any], single: 
     """
     *results, _ = [shape for shape, _ in line.outputs.values()]
     engine = engine_of(Call(dtype).written(code.address, [*line.inputs.values()], results, single))
-    method = Method(b"program", engine.get_function_address("state"), POSITIONAL, None)
+    method = MethodDef(b"program", engine.get_function_address("state"), POSITIONAL, None)
     make = ctypes.pythonapi.PyCFunction_NewEx
     make.argtypes, make.restype = [ctypes.c_void_p, ctypes.py_object, ctypes.c_void_p], ctypes.py_object
     function: Callable[..., Any] = make(ctypes.addressof(method), (method, engine, code), None)  # which it keeps alive
     return function
 
 
-class Call(Text):
+class Call(InstructionText):
     """The function's instructions, for arrays of float32 or float64."""
 
     def __init__(self, dtype: np.dtype[Any]) -> None:

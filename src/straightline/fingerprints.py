@@ -33,7 +33,7 @@ __all__ = ["each_once"]
 
 PRIME, LARGER = 2**127 - 1, 2**607 - 1  # for fingerprints, and to find what a constant is
 
-LARGEST = 2**240
+MAX_CONSTANT = 2**240
 """Numerators and denominators of constants are smaller: hardly any number below the larger prime is such a quotient."""
 
 Mark = tuple[int, ...]  # a fingerprint: the value of a number at two points
@@ -46,7 +46,7 @@ def each_once(line: Line) -> Line:
     """
     k, count = 0, len(line.nodes)
     tape = Tape((lambda: line.notes[k]) if line.notes else None)
-    fingerprint, constants = Fingerprint(PRIME), Constants(line)
+    fingerprint, constants = Fingerprint(PRIME), ConstantTable(line)
     marks: list[Mark] = [()] * count
     values: list[Any] = [None] * count
     turns = [False] * count  # whether a number depends on a sine
@@ -132,7 +132,7 @@ def _inverse(x: int, prime: int) -> int:
 _known_inverse = lru_cache(_inverse)  # of the denominators of constants, a few powers of two
 
 
-class Constants:
+class ConstantTable:
     """What the constants of a line are, by fingerprints modulo the larger prime, which few numbers need."""
 
     def __init__(self, line: Line) -> None:
@@ -151,6 +151,6 @@ class Constants:
         for j in ordered([k], lambda j: [i for i in operands(self.nodes[j]) if i not in self.marks]):
             self.marks[j] = self.fingerprint.of(self.nodes[j], self.marks)
         a, b, u, v = LARGER, self.marks[k][0], 0, 1
-        while b >= LARGEST:  # Euclid: b is v times the fingerprint at any time
+        while b >= MAX_CONSTANT:  # Euclid: b is v times the fingerprint at any time
             a, b, u, v = b, a % b, v, u - a // b * v
-        return Fraction(b, v) if abs(v) < LARGEST else None
+        return Fraction(b, v) if abs(v) < MAX_CONSTANT else None

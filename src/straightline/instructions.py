@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Text"]
+__all__ = ["InstructionText"]
 
 INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
 
 
-class Text:
+class InstructionText:
     """Instructions for `width` states at once, of type ``%V``; `constants` are in memory at ``%constants``, and where.
 
     A value has a number: LLVM reads it in half the time of a name.

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .instructions import Text
+from .instructions import InstructionText
 from .line import LEAVES, Line
 from .number import Array, without_garbage
 from .sine import with_series
@@ -120,7 +120,7 @@ class Pieces:
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
         self.line, self.width = line, width
-        self.text, self.finished = Text(scalar, width, {}), list[Text]()
+        self.text, self.finished = InstructionText(scalar, width, {}), list[InstructionText]()
         self.name: dict[int, str] = {}  # of the nodes that are in registers
         self.slot: dict[int, int] = {}  # of the nodes that are in memory
         self.free: list[int] = []
@@ -219,7 +219,7 @@ class Pieces:
         for k in [*self.name]:
             self.put_away(k)
         self.finished.append(self.text)
-        self.text, self.name, self.rows = Text(self.text.scalar, self.width, self.text.constants), {}, {}
+        self.text, self.name, self.rows = InstructionText(self.text.scalar, self.width, self.text.constants), {}, {}
 
     def module(self) -> str:
         """Return all pieces, and the loop that calls them; its last turn ends with the last state."""

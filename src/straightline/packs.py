@@ -31,7 +31,7 @@ __all__ = ["Packs", "View"]
 
 View = tuple[int, int, int]  # lanes of a pack: its number, the first lane, and the step to the next one
 
-LEAST = 4
+MIN_LANES = 4
 """Lanes that are worth a pack: fewer calls are as quick as one whose operands do not all lie next to each other."""
 
 
@@ -91,7 +91,7 @@ class Packs:
         )
         for one_each in zip_longest(*alone):
             lanes = tuple(k for k in one_each if k is not None)
-            for part in [lanes] if len(lanes) >= LEAST else [(k,) for k in lanes]:
+            for part in [lanes] if len(lanes) >= MIN_LANES else [(k,) for k in lanes]:
                 self._enter(part)
 
     def _enter(self, lanes: tuple[int, ...]) -> None:

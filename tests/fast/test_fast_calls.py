@@ -330,7 +330,7 @@ def test_memory_does_not_grow_with_the_batch(states):
 @pytest.fixture
 def long_chain(monkeypatch):
     """A chain that counts as too long, of which the textbook takes 5 states at a time."""
-    monkeypatch.setattr(programs, "LONGEST", 5)
+    monkeypatch.setattr(programs, "MAX_CHAIN_DOF", 5)
     monkeypatch.setattr(quantity, "CHUNK", 30)
     return tw.chain(6, base="floating")
 
@@ -354,7 +354,7 @@ def test_a_robot_that_is_too_long_is_the_textbooks(long_chain, batch):
 
 
 def test_a_robot_that_is_too_long_is_refused_in_the_same_words(monkeypatch):
-    monkeypatch.setattr(programs, "LONGEST", 1)
+    monkeypatch.setattr(programs, "MAX_CHAIN_DOF", 1)
     monkeypatch.setattr(quantity, "CHUNK", 4)
     model, q = parallel(), np.zeros((7, 2))
     with pytest.raises(tw.SingularError) as book:
@@ -396,7 +396,7 @@ def test_what_is_handed_to_the_textbook_is_in_the_log(long_chain, caplog):
 
 
 def test_lines_that_are_too_long_for_machine_code_are_numpys(monkeypatch):
-    monkeypatch.setattr(programs, "COMPILED", 3)
+    monkeypatch.setattr(programs, "MAX_COMPILED_OPERATIONS", 3)
     model, q = tw.load("double_pendulum"), np.array([[0.3, -1.2]] * 30)
     assert np.abs(fast.crba(model, q) - tw.crba(model, q)).max() < 1e-14
     assert np.abs(fast.crba(model, q[0]) - tw.crba(model, q[0])).max() < 1e-14
@@ -465,7 +465,7 @@ def test_a_program_goes_with_its_model_and_is_not_pickled():
 
 
 def test_more_sets_of_contacts_than_are_remembered_are_right(monkeypatch):
-    monkeypatch.setattr(programs, "REMEMBERED", 3)
+    monkeypatch.setattr(programs, "MAX_CACHED_PROGRAMS", 3)
     monkeypatch.setattr(llvm, "available", lambda: False)
     model = tw.load("go2")
     one = {foot: fast.dynamics(model, Q, V, contacts=[foot], want={"J_c"}).J_c for foot in model.feet}

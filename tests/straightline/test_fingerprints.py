@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from straightline.fingerprints import LARGEST, each_once
+from straightline.fingerprints import MAX_CONSTANT, each_once
 from straightline.line import Line
 from straightline.number import Tape, numbers
 from straightline.packs import Packs
@@ -77,7 +77,7 @@ def test_what_is_not_the_same_in_every_state_stays(formula):
 
 
 def test_constants_of_any_size_stay_what_they_are():
-    huge = Fraction(3 * LARGEST + 1, 7)
+    huge = Fraction(3 * MAX_CONSTANT + 1, 7)
     line = line_of(
         lambda a, b, m: [a.cos() * huge, (a.cos() * huge) * a.cos() + (a.sin() * huge) * a.sin(), 1 / huge + a]
     )

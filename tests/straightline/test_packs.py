@@ -29,7 +29,7 @@ def test_a_pack_computes_the_same_bits_as_one_operation_after_the_other(robot, w
     arrays = list(np.random.default_rng(0).uniform(-1, 1, (len(line.inputs), states, 40)))
     arrays = [x[:, : np.prod(shape)] for x, shape in zip(arrays, line.inputs.values())]
     together = filled(Registers(line, DOUBLE), line, arrays)
-    monkeypatch.setattr(packs, "LEAST", 10**6)
+    monkeypatch.setattr(packs, "MIN_LANES", 10**6)
     single = Registers(line, DOUBLE)
     assert {len(lanes) for k, lanes in enumerate(single.packs.packs) if single._operation(k) != "input"} == {1}
     for x, y in zip(together, filled(single, line, arrays), strict=True):

@@ -81,7 +81,7 @@ class Baumgarte:
 
 @dataclass(frozen=True)
 class ContactDynamics:
-    """What `contact_forward_dynamics` returns.
+    """Result of `contact_forward_dynamics`.
 
     Attributes
     ----------
@@ -219,7 +219,7 @@ def check_contradiction(contacts: Sequence[Contact], left: Array, rounding: Arra
 
 @dataclass(frozen=True)
 class Impact:
-    """What `impact` returns.
+    """Result of `impact`.
 
     Attributes
     ----------

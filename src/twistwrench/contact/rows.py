@@ -16,7 +16,7 @@ from ..algorithms.rnea import rnea
 from ..arrays import Array, as_sequence, check_kind
 from ..errors import unknown_name
 from ..fast.program import Results
-from ..fast.programs import remembered
+from ..fast.programs import cached_program
 from ..fast.quantities import Quantity, quantities
 from ..fast.watch import with_watch
 from ..model import Model, cast, check_model, check_state, in_double, joint_placements
@@ -182,7 +182,7 @@ def contact_placements(model: Model, q: ArrayLike, contacts: Iterable[Contact]) 
 def contact_terms(
     model: Model | MimicModel, q: Array, v: Array, contacts: Sequence[Contact], after: int = 0, /, **others: Array
 ) -> Results:
-    """Return what the dynamics under contact need, from one program, the first times by the textbook: see `remembered`.
+    """Return the terms of the dynamics under contact, from one program, at first by the textbook: see `cached_program`.
 
     `placement`, J and `bias` of `ContactRows`, M and W, the `row_scaling`; with `tau` the q̈ of the free motion, `qdd`;
     with `a` the τ of the motion, and `weight`, that of rest. f_ext may be among the others.
@@ -212,7 +212,7 @@ def contact_terms(
         ]
 
     key = ("contacts", q.dtype, at_rest, *(others.keys() - {"f_ext"}))
-    found: Results = remembered(model, key, q.dtype, asked, after=after)(q, v, *others.values())
+    found: Results = cached_program(model, key, q.dtype, asked, warmup_calls=after)(q, v, *others.values())
     at = np.moveaxis(found.at, -3, 0) if contacts else ()
     found.W = found.W if contacts else np.zeros((0, 0))
     found.placement = [SE3._trusted(T[..., :3, :3], T[..., :3, 3]) for T in at]

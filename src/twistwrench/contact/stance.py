@@ -28,7 +28,7 @@ FRICTION_GROWTH = 2.0**9
 
 @dataclass(frozen=True)
 class StanceMargins:
-    """What `stance_margins` returns.
+    """Result of `stance_margins`.
 
     Attributes
     ----------

@@ -57,7 +57,7 @@ MAX_FORCE_WEIGHTS = 1e6
 
 @dataclass(frozen=True)
 class ContactForces:
-    """What `contact_inverse_dynamics` and `friction_inverse_dynamics` return.
+    """Result of `contact_inverse_dynamics` and `friction_inverse_dynamics`.
 
     Attributes
     ----------

@@ -21,29 +21,29 @@ from .quantity import Quantity, checked
 
 __all__ = [
     "ASKED",
-    "COMPILED",
-    "LONGEST",
-    "MOST",
-    "WIDEST",
+    "MAX_CHAIN_DOF",
+    "MAX_COMPILED_OPERATIONS",
+    "MAX_DOF",
+    "MAX_ENTRIES_OF_M",
+    "cached_program",
     "one_state",
     "program",
-    "remembered",
     "result",
     "states_of",
     "too_long",
 ]
 
-LONGEST = 80
+MAX_CHAIN_DOF = 80
 """Degrees of freedom from the world to a body: beyond, a program, which rounds every product, loses to the textbook's
 matrix products, and the pivots of q̈ are always below what a program takes."""
 
-WIDEST = 1000  # degrees of freedom of a robot that is not too large for a straight line
-MOST = 20_000  # entries of M on and below its diagonal that are not always zero, where M is asked for
+MAX_DOF = 1000  # degrees of freedom of a robot that is not too large for a straight line
+MAX_ENTRIES_OF_M = 20_000  # entries of M on and below its diagonal that are not always zero, where M is asked for
 
-COMPILED = 60_000
+MAX_COMPILED_OPERATIONS = 60_000
 """Operations that are not too many for machine code, which then takes some seconds to make: NumPy does longer lines."""
 
-REMEMBERED = 64  # programs that a model remembers: of gaits each set of feet is one
+MAX_CACHED_PROGRAMS = 64  # programs that a model remembers: of gaits each set of feet is one
 
 LOG = logging.getLogger(__name__)
 
@@ -99,30 +99,30 @@ def program(
         return [known[name] for name in want] + ([] if contacts is None else [ASKED])
 
     check_model(model)
-    return remembered(model, (want, dtype, contacts), dtype, asked, single=contacts is None)
+    return cached_program(model, (want, dtype, contacts), dtype, asked, single=contacts is None)
 
 
-def remembered(
+def cached_program(
     model: Model,
     key: Hashable,
     dtype: np.dtype[Any],
     asked: Callable[[], Sequence[Quantity]],
     *,
     single: bool = False,
-    after: int = 0,
+    warmup_calls: int = 0,
 ) -> Program:
     """Return the program for the quantities that `asked` returns, the one that was made for this key before if any.
 
-    For the first `after` calls it is the textbook: a program is not worth its making for a few states.
+    For the first `warmup_calls` it is the textbook: a program is not worth its making for a few states.
     """
     programs = model._programs
     found: Program | int = programs.get(key, 0)
     if isinstance(found, Program):
         return found
-    if found < after:
+    if found < warmup_calls:
         programs[key] = found + 1
         return Program(model, asked(), single=single, dtype=dtype, backend="textbook")
-    for forgotten in [*programs][: len(programs) + 1 - REMEMBERED]:
+    for forgotten in [*programs][: len(programs) + 1 - MAX_CACHED_PROGRAMS]:
         programs.pop(forgotten, None)
     made = Program(model, asked(), single=single, dtype=dtype, backend=default_backend(dtype))
     made.run_by(suited(made))
@@ -140,7 +140,7 @@ def suited(program: Program) -> str:
         operations = program.operations.total()
     except (TypeError, ArithmeticError, SingularError):  # a joint that asks what its q is; no inertia
         return "textbook"
-    return program.backend if operations <= COMPILED else "numpy"
+    return program.backend if operations <= MAX_COMPILED_OPERATIONS else "numpy"
 
 
 def too_long(model: Model, want: Collection[str]) -> str | None:
@@ -149,10 +149,10 @@ def too_long(model: Model, want: Collection[str]) -> str | None:
     for p, joint in zip(model.parent[1:], model.joints[1:]):
         above.append(above[p] + (joint.nv if joint else 0))
     entries = sum(above[i] * joint.nv for i, joint in enumerate(model.joints) if joint)
-    if max(above) > LONGEST:
-        return f"{max(above)} degrees of freedom in a chain, more than {LONGEST}"
-    if model.nv > WIDEST:
-        return f"{model.nv} degrees of freedom, more than {WIDEST}"
-    if "M" in want and entries > MOST:
-        return f"{entries} entries of M, more than {MOST}"
+    if max(above) > MAX_CHAIN_DOF:
+        return f"{max(above)} degrees of freedom in a chain, more than {MAX_CHAIN_DOF}"
+    if model.nv > MAX_DOF:
+        return f"{model.nv} degrees of freedom, more than {MAX_DOF}"
+    if "M" in want and entries > MAX_ENTRIES_OF_M:
+        return f"{entries} entries of M, more than {MAX_ENTRIES_OF_M}"
     return None

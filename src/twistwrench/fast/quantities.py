@@ -33,7 +33,7 @@ from ..errors import check_known
 from ..model import Model, tree_terms
 from .derivatives import derivatives, regressor
 from .quantity import ARGUMENTS, Quantity, shapes
-from .watch import LEAST, pivots, with_watch
+from .watch import MIN_PIVOT_SHARE, pivots, with_watch
 
 __all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
 
@@ -113,7 +113,7 @@ def quantities(
         """Yield also A_kk (A⁻¹)_kk of each row, 1 where it is independent of the others, over the largest allowed."""
         yield from by_factors(q)
         A, A_inv = delassus_matrix(model, q, rows(q)), operational_space_inertia(model, q, rows(q))
-        yield from Fraction(LEAST) * np.diag(A) * np.diag(A_inv)
+        yield from Fraction(MIN_PIVOT_SHARE) * np.diag(A) * np.diag(A_inv)
 
     every = [
         *(of(symbol, arguments, function) for symbol, (arguments, function) in FUNCTIONS.items()),

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..model import Model
-from .programs import remembered
+from .programs import cached_program
 from .quantities import Quantity
 
 __all__ = ["integrate", "turns"]
@@ -23,7 +23,7 @@ def integrate(model: Model, q: Array, u: Array) -> Array:
         return (model._step(q, u), turns(model, u)) if u.dtype == object else (model.integrate(q, u), [])
 
     asked = Quantity("q", ("q", "v"), step)
-    there: Array = remembered(model, ("step", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
+    there: Array = cached_program(model, ("step", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
     return there
 
 

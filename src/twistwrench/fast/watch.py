@@ -22,7 +22,7 @@ from ..model import Model, Tree
 __all__ = ["alarm", "pivots", "state_questions", "with_watch"]
 
 LARGEST_ANGLE = 2.0**17  # rad. The sine of a program for vectors is good below; the textbook takes larger angles.
-LEAST = 1e-6  # a joint with less than this share of its inertia with all joints locked is the textbook's, too
+MIN_PIVOT_SHARE = 1e-6  # a joint with less than this share of its inertia with all joints locked is the textbook's, too
 
 
 def alarm(tape: Tape, questions: list[Any]) -> Number:
@@ -56,7 +56,7 @@ def pivots(model: Model, tree: Tree, D_inv: Sequence[Array], dtype: np.dtype[Any
     by masses and distances alone: with `reach` between the origins of two bodies, moments of mass about one origin are
     at most m reach more about the other.
     """
-    share = Fraction(max(LEAST, resolution(dtype) ** 0.5))
+    share = Fraction(max(MIN_PIVOT_SHARE, resolution(dtype) ** 0.5))
     mass = [convert(I.mass, object).item() for I in model.inertia]
     distance = [_length(convert(I.com, object)) for I in model.inertia]
     first = [m * d for m, d in zip(mass, distance)]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["outline"]
 
 UNFOLDED_JOINTS = 3
-"""So many joints outward from the world the tree is unfolded."""
+"""Depth in joints, from the world, to which the tree is unfolded."""
 
 
 def outline(model: Model) -> str:
@@ -31,7 +31,7 @@ def outline(model: Model) -> str:
 
 
 def _branches(model: Model, body: int, depth: int) -> str:
-    """Return what a body carries."""
+    """Return the branches that a body carries, as HTML."""
     return "".join(_branch(model, i, depth) for i in range(1, model.nbodies) if model.parent[i] == body)
 
 

@@ -25,7 +25,7 @@ MIN_LOAD_SHARE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class GroundLoad:
-    """What `ground` returns, for n states, of which l load the ground.
+    """Result of `ground`, for n states, of which l load the ground.
 
     Attributes
     ----------

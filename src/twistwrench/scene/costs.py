@@ -23,11 +23,11 @@ from .candidates import Articulated, Candidate, radius_of_gyration
 from .compiled import compiled, seconds
 from .judging import QUANTITIES, ReferenceMotion, scale, unit
 
-__all__ = ["Answer", "Costs", "Option", "costs", "needed"]
+__all__ = ["Costs", "Option", "Prediction", "costs", "needed"]
 
 
-class Answer(NamedTuple):
-    """What a model predicts: ḣ_G, (..., 6), and of the entries `Option.kept` τ without contact forces, or None."""
+class Prediction(NamedTuple):
+    """Prediction of a model: ḣ_G, (..., 6), and of the entries `Option.kept` τ without contact forces, or None."""
 
     wrench: Array
     tau: Array | None
@@ -37,7 +37,7 @@ class Answer(NamedTuple):
 class Option:
     """A model that could take the place of the full one, and what that costs.
 
-    Called with states of the whole robot, ``option(q, v, a)``, it returns an `Answer`.
+    Called with states of the whole robot, ``option(q, v, a)``, it returns an `Prediction`.
 
     Attributes
     ----------
@@ -96,19 +96,19 @@ class Option:
         """Whether the largest errors times the margin are at most what is needed."""
         return all(margin * self.worst(name, held_out=held_out) <= most for name, most in need.items())
 
-    def __call__(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Answer:
+    def __call__(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Prediction:
         """Return what it predicts for states of the whole robot: q (..., nq), v and a (..., nv)."""
         runs = self._runs
         if runs is None or runs.model is None:
             raise ValueError(f"{self.name!r} does not apply: {self.unfit}")
         whole = runs.model.full if isinstance(runs.model, Articulated) else runs.model.model
         rate, *tau = runs.law(*runs.model.read(*whole.state(q, v=v, a=a)))
-        return Answer(rate, tau[0] if tau else None)
+        return Prediction(rate, tau[0] if tau else None)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Costs:
-    """What `Scene.cheapest` returns: every option, the least work first, and the choice. Printed, it is a table.
+    """Result of `Scene.cheapest`: every option, the least work first, and the choice. Printed, it is a table.
 
     Attributes
     ----------

@@ -14,7 +14,7 @@ from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..algorithms.whole_body import QUANTITIES, Dynamics
 from ..arrays import Array, convert
 from ..contact import Contact
-from ..fast.programs import ASKED, remembered, states_of
+from ..fast.programs import ASKED, cached_program, states_of
 from ..fast.quantities import Quantity, quantities
 from ..fast.watch import with_watch
 from ..model import Model
@@ -40,7 +40,7 @@ def scene_dynamics(
         known = scene_quantities(model, contacts, wrenches, dtype)
         return [*(known[name] for name in want), ASKED]
 
-    found = remembered(model, ("scene", want, dtype, held, pushed), dtype, asked)(*args)
+    found = cached_program(model, ("scene", want, dtype, held, pushed), dtype, asked)(*args)
     return Dynamics(**{name: getattr(found, name) for name in want})
 
 

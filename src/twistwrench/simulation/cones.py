@@ -101,7 +101,7 @@ class Points:
 
 @dataclass
 class StepSolution:
-    """What a step's programme found: v, the impulses at the points (k, 3), those of the other rows, the sliding."""
+    """Solution of a step: v, the impulses at the points (k, 3), those of the other rows, the sliding."""
 
     v: Array
     way: Array

@@ -13,12 +13,12 @@ from ..arrays import Array, as_exactly, as_number
 from ..contact import Contact, PointContact, SlidingContact, SurfaceContact
 from ..contact.rows import ContactRows, contact_rows
 from ..fast.program import Results
-from ..fast.programs import remembered
+from ..fast.programs import cached_program
 from ..fast.quantities import Quantity, quantities
 from ..model import Model, readonly
 from ..spatial.rotation import cross_matrix
 
-__all__ = ["Ground", "GroundPoints", "Terms", "check_ground", "point_forces"]
+__all__ = ["Ground", "GroundPoints", "PointTerms", "check_ground", "point_forces"]
 
 WORLD_UP = (0.0, 0.0, 1.0)
 
@@ -103,8 +103,8 @@ def check_ground(contacts: Sequence[Contact], ground: Ground) -> None:
             )
 
 
-class Terms(NamedTuple):
-    """What a step needs of a configuration: M, and of all points the place, the height last, and the rows of J."""
+class PointTerms(NamedTuple):
+    """Terms of a step at a configuration: M, and of all points the place, the height last, and the rows of J."""
 
     M: Array
     place: Array
@@ -137,7 +137,7 @@ class GroundPoints:
         self.restitution = np.array([ground.restitution if e is None else e for e in own], float)
         self.velocity = np.array([c.velocity[-3:] or (0, 0, 0) for c in every], float).reshape(-1, 3) @ ground.axes.mT
 
-    def terms(self, q: Array) -> Terms:
+    def terms(self, q: Array) -> PointTerms:
         """Return what a step needs of q."""
         found = self._asked(q, ("M", "frames", "moves"))
         arms = self._arms(found.frames)
@@ -145,7 +145,7 @@ class GroundPoints:
         rows = moves[..., 3:, :]
         if self.thick:
             rows = rows - cross_matrix(arms) @ moves[..., :3, :]
-        return Terms(found.M, self._place(found.frames, arms), self.ground.axes @ rows)
+        return PointTerms(found.M, self._place(found.frames, arms), self.ground.axes @ rows)
 
     def height(self, q: Array) -> Array:
         """Return how high the points are, shape (..., k)."""
@@ -187,7 +187,7 @@ class GroundPoints:
             }
             return [known[name] for name in want]
 
-        found: Results = remembered(self.model, ("ground", want, q.dtype, self.frames), q.dtype, asked)(q)
+        found: Results = cached_program(self.model, ("ground", want, q.dtype, self.frames), q.dtype, asked)(q)
         return found
 
 

@@ -174,7 +174,7 @@ def simulate(
 def _motion(
     made: Trajectory, system: System, name: str, t0: float, seconds: float, *, failed: bool = False
 ) -> Simulation:
-    """Return what has been made of a motion."""
+    """Return the motion until now."""
     qs, vs = (np.stack([state[i] for state in made.states]) for i in (0, 1))
     taus = np.array(made.taus[: len(vs) - 1], vs.dtype).reshape(len(vs) - 1, *vs.shape[1:])
     t = t0 + np.arange(len(vs)) * system.dt
@@ -185,7 +185,7 @@ def _motion(
 
 @dataclass
 class Trajectory:
-    """What has been made of a motion: states, and of each step τ and the forces of the contacts that stick."""
+    """States of a motion so far, and of each step τ and the forces of the contacts that stick."""
 
     states: list[tuple[Array, Array]]
     taus: list[Array]

@@ -68,7 +68,7 @@ MAX_FRICTION_ROUNDS = 20
 
 
 class StepTerms(NamedTuple):
-    """What a step needs: of its middle M, that with damping and its metric, J and places of points; the first gaps."""
+    """Terms of a step: of its middle M, that with damping and its metric, J and places of points; the first gaps."""
 
     M: Array
     damped: Array

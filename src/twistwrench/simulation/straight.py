@@ -14,7 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..arrays import Array
-from ..fast.programs import remembered
+from ..fast.programs import cached_program
 from ..fast.quantities import Quantity
 from ..fast.steps import turns
 from ..model import GroupJoint, Model
@@ -31,7 +31,7 @@ def go_straight(model: Model, q: Array, u: Array) -> Array:
     `Model.integrate` would go along the screw of u.
     """
     asked = Quantity("q", ("q", "v"), lambda q, u: (shifted_and_turned(model, q, u), watched(model, u)))
-    there: Array = remembered(model, ("straight", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
+    there: Array = cached_program(model, ("straight", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
     return there
 
 
@@ -56,7 +56,7 @@ def watched(model: Model, u: Array) -> list[object]:
 def in_turned_axes(model: Model, v: Array, u: Array) -> Array:
     """Return the velocity v in the axes of what slides and turns after it has turned by its part of u."""
     asked = Quantity("turned", ("v", "a"), lambda v, u: (turned(model, v, u), watched(model, u)))
-    there: Array = remembered(model, ("turned", u.dtype), u.dtype, lambda: [asked], single=True)(v, u)
+    there: Array = cached_program(model, ("turned", u.dtype), u.dtype, lambda: [asked], single=True)(v, u)
     return there
 
 
@@ -84,7 +84,7 @@ def turning(model: Model, v: Array) -> Array:
         return more, []
 
     asked = Quantity("turning", ("v",), crossed)
-    there: Array = remembered(model, ("turning", v.dtype), v.dtype, lambda: [asked], single=True)(v)
+    there: Array = cached_program(model, ("turning", v.dtype), v.dtype, lambda: [asked], single=True)(v)
     return there
 
 
@@ -98,7 +98,7 @@ def straight_rate(model: Model, u: Array, v: Array) -> Array:
     def asked() -> list[Quantity]:
         return [Quantity("rate", ("v", "a"), lambda u, v: (v + turns_further(model, u, v), []))]
 
-    found: Array = remembered(model, ("rate", v.dtype), v.dtype, asked, single=True)(u, v)
+    found: Array = cached_program(model, ("rate", v.dtype), v.dtype, asked, single=True)(u, v)
     return found
 
 

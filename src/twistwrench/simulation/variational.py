@@ -23,7 +23,7 @@ import numpy as np
 
 from ..arrays import Array, resolution
 from ..fast import aba, crba
-from ..fast.programs import remembered
+from ..fast.programs import cached_program
 from ..fast.quantities import Quantity
 from ..model import GroupJoint, Model, tree_terms
 from ..model.tree import join, split
@@ -119,7 +119,7 @@ def middle(model: Model, q: Array, u: Array, xi: Array) -> tuple[Array, Array, A
         return np.concatenate([there, v, turned(model, mu, -u), turned(model, force, -u)], axis=-1), watched(model, u)
 
     asked = Quantity("middle", ("q", "v", "a"), terms)
-    found = remembered(model, ("middle", u.dtype), u.dtype, lambda: [asked], single=True)(q, u, xi)
+    found = cached_program(model, ("middle", u.dtype), u.dtype, lambda: [asked], single=True)(q, u, xi)
     there, v, mu, force = np.split(found, model.nq + model.nv * np.arange(3), axis=-1)
     return there, v, mu, force
 
@@ -228,7 +228,7 @@ def momenta(model: Model, u: Array, p0: Array, impulse: Array) -> tuple[Array, A
         return np.concatenate([mu, end], axis=-1), watched(model, u)
 
     asked = Quantity("momenta", ("v", "a", "tau"), both)
-    found = remembered(model, ("momenta", u.dtype), u.dtype, lambda: [asked], single=True)(u, p0, impulse)
+    found = cached_program(model, ("momenta", u.dtype), u.dtype, lambda: [asked], single=True)(u, p0, impulse)
     return found[..., : model.nv], found[..., model.nv :]
 
 

@@ -16,7 +16,7 @@ from .rotation import cross_matrix, unskew
 __all__ = ["Screw", "Twist", "hat", "screw", "vee"]
 
 
-class Placement(Protocol):
+class Placed(Protocol):
     """What a change of frame must offer: `twistwrench.SE3` does."""
 
     def motion_transform(self) -> Array: ...
@@ -218,7 +218,7 @@ class Twist(SpatialVector):
     _symbol = "V"
     _line_first = True
 
-    def transform(self, T: Placement, *, frame: str | None = None) -> Twist:
+    def transform(self, T: Placed, *, frame: str | None = None) -> Twist:
         """Return the twist in another frame, V_A = X V_B (section 49.3).
 
         Parameters

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_number_arrays, check_overflow, without_overflow
 from ._vector import SpatialVector, as_spatial, common_frame
 from .rotation import cross_matrix
-from .twist import Placement, Screw, Twist, check_placement, screw
+from .twist import Placed, Screw, Twist, check_placement, screw
 
 __all__ = ["Wrench", "power"]
 
@@ -91,7 +91,7 @@ class Wrench(SpatialVector):
         """The force f, shape (..., 3), N: another name for `linear`."""
         return self.linear
 
-    def transform(self, T: Placement, *, frame: str | None = None) -> Wrench:
+    def transform(self, T: Placed, *, frame: str | None = None) -> Wrench:
         """Return the wrench in another frame, F_A = X* F_B (section 49.4).
 
         Parameters

@@ -23,7 +23,7 @@ __all__ = ["Residual", "Template", "com_acceleration", "force", "full_rate", "lo
 
 @dataclass(frozen=True)
 class Residual:
-    """What `Template.residual` returns: the prediction minus the full model's ḣ_G.
+    """Result of `Template.residual`: the prediction minus the full model's ḣ_G.
 
     Attributes
     ----------

@@ -38,7 +38,7 @@ class Account:
 
 @dataclass(frozen=True)
 class BodyRecord:
-    """What happened at a body.
+    """Values and accounts of a body.
 
     Attributes
     ----------

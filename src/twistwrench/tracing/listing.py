@@ -14,7 +14,7 @@ from typing import Any
 
 from .anchors import anchor_of
 
-__all__ = ["Assignment", "Place", "places"]
+__all__ = ["Assignment", "SourceLine", "places"]
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Assignment:
 
 
 @dataclass(frozen=True)
-class Place:
+class SourceLine:
     """Where a line sets an entry of a term; `own` is true if the entry is that of the body whose turn it is."""
 
     line: int
@@ -64,7 +64,7 @@ class Place:
     own: bool
 
 
-def places(function: Callable[..., Any], parent: Sequence[int]) -> Iterator[Place]:
+def places(function: Callable[..., Any], parent: Sequence[int]) -> Iterator[SourceLine]:
     """Yield the places at which a listing sets entries of its terms, in the order in which they come for this tree.
 
     Examples
@@ -86,7 +86,7 @@ class _Reader:
     def __init__(self, parent: Sequence[int], lines: list[str], first: int) -> None:
         self.parent, self.lines, self.first = parent, lines, first
 
-    def read(self, statements: list[ast.stmt], at: dict[str, int]) -> Iterator[Place]:
+    def read(self, statements: list[ast.stmt], at: dict[str, int]) -> Iterator[SourceLine]:
         """Follow statements; `at` holds the numbers of bodies by their names in the source."""
         for s in statements:
             if isinstance(s, ast.For):
@@ -99,13 +99,13 @@ class _Reader:
             elif isinstance(s, ast.Assign):
                 yield from self.assign(s, at)
 
-    def assign(self, s: ast.Assign, at: dict[str, int]) -> Iterator[Place]:
+    def assign(self, s: ast.Assign, at: dict[str, int]) -> Iterator[SourceLine]:
         for target in s.targets:
             if isinstance(target, ast.Subscript):
                 index = self.number(target.slice, at)
                 source = self.lines[s.lineno - 1]
                 own = ast.unparse(target.slice) == "i"
-                yield Place(self.first + s.lineno - 1, source, at.get("i"), ast.unparse(target.value), index, own)
+                yield SourceLine(self.first + s.lineno - 1, source, at.get("i"), ast.unparse(target.value), index, own)
             elif isinstance(target, ast.Name) and isinstance(number := self.number(s.value, at), int):
                 at[target.id] = number
 

@@ -22,7 +22,7 @@ from .conditioning import (
     wrenches,
 )
 from .oracle import Oracle
-from .quantity import Quantity
+from .quantity import ComparedQuantity
 from .states import States
 
 __all__ = ["DYNAMICS", "FORWARD_DYNAMICS"]
@@ -61,7 +61,7 @@ def _is_right_to_refuse(model: Model, s: States, message: str) -> bool:
 
 
 FORWARD_DYNAMICS = (
-    Quantity(
+    ComparedQuantity(
         "49.7",
         "forward dynamics",
         "aba",
@@ -72,7 +72,7 @@ FORWARD_DYNAMICS = (
         residual=forward_dynamics_residual,
         singular=_is_right_to_refuse,
     ),
-    Quantity(
+    ComparedQuantity(
         "49.7",
         "forward dynamics, f_ext",
         "aba, fext",
@@ -86,7 +86,7 @@ FORWARD_DYNAMICS = (
 )
 
 DYNAMICS = (
-    Quantity(
+    ComparedQuantity(
         "49.6",
         "wrenches at the joints",
         "data.f after rnea",
@@ -94,7 +94,7 @@ DYNAMICS = (
         theirs=lambda p, s: p.wrenches(s),
         truth=lambda m, s: ne.joint_wrenches(m, s.q, s.v, s.a)[1:],
     ),
-    Quantity(
+    ComparedQuantity(
         "49.6",
         "inverse dynamics",
         "rnea",
@@ -103,7 +103,7 @@ DYNAMICS = (
         truth=lambda m, s: ne.inverse_dynamics(m, s.q, s.v, s.a),
         terms=lambda m, s: wrenches(m, s.q, s.v, s.a).max(),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.6",
         "inverse dynamics, f_ext",
         "rnea, fext",
@@ -113,7 +113,7 @@ DYNAMICS = (
         terms=lambda m, s: wrenches(m, s.q, s.v, s.a, s.f_ext).max(),
     ),
     *FORWARD_DYNAMICS,
-    Quantity(
+    ComparedQuantity(
         "49.8",
         "mass matrix M",
         "crba",
@@ -121,7 +121,7 @@ DYNAMICS = (
         theirs=lambda p, s: p.matrix(p.pin.crba(p.model, p.data, s.q)),
         truth=lambda m, s: ne.mass_matrix(m, s.q),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.9",
         "h = C v + g",
         "nonLinearEffects",
@@ -130,7 +130,7 @@ DYNAMICS = (
         truth=lambda m, s: ne.nonlinear_effects(m, s.q, s.v),
         terms=lambda m, s: wrenches(m, s.q, s.v, 0 * s.v).max(),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.9",
         "g",
         "computeGeneralizedGravity",
@@ -139,7 +139,7 @@ DYNAMICS = (
         truth=lambda m, s: ne.gravity(m, s.q),
         terms=lambda m, s: wrenches(m, s.q, 0 * s.v, 0 * s.v).max(),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.9",
         "Coriolis matrix C",
         "computeCoriolisMatrix",
@@ -148,7 +148,7 @@ DYNAMICS = (
         truth=lambda m, s: ne.coriolis_matrix(m, s.q, s.v),
         terms=momentum_products,
     ),
-    Quantity(
+    ComparedQuantity(
         "49.9",
         "static equilibrium τ, λ",
         "g and J, by lstsq",

@@ -14,7 +14,7 @@ from ..model import Model
 from . import exact, manifold
 from .conditioning import twist_products
 from .oracle import Oracle
-from .quantity import Quantity
+from .quantity import ComparedQuantity
 from .states import States
 
 __all__ = ["KINEMATICS"]
@@ -34,8 +34,8 @@ def _stack(arrays: list[Array]) -> Array:
     return np.stack(arrays, axis=1)
 
 
-def _frame_row(section: str, name: str, reference: Reference, of: str) -> Quantity:
-    return Quantity(
+def _frame_row(section: str, name: str, reference: Reference, of: str) -> ComparedQuantity:
+    return ComparedQuantity(
         section,
         name,
         of,
@@ -46,8 +46,8 @@ def _frame_row(section: str, name: str, reference: Reference, of: str) -> Quanti
     )
 
 
-def _bias_row(section: str, name: str, reference: Reference, of: str) -> Quantity:
-    return Quantity(
+def _bias_row(section: str, name: str, reference: Reference, of: str) -> ComparedQuantity:
+    return ComparedQuantity(
         section,
         name,
         of,
@@ -68,7 +68,7 @@ def _pinocchio_difference(p: Oracle, s: States) -> Array:
 
 
 KINEMATICS = (
-    Quantity(
+    ComparedQuantity(
         "49.1",
         "step on the manifold",
         "integrate",
@@ -76,7 +76,7 @@ KINEMATICS = (
         theirs=_pinocchio_step,
         truth=lambda m, s: manifold.integrate(m, s.q, s.dv),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.1",
         "difference of two q",
         "difference",
@@ -85,7 +85,7 @@ KINEMATICS = (
         truth=lambda m, s: s.dv,  # every turn in it is below π
         terms=lambda m, s: float(np.abs(s.q).max()),  # a difference of two such
     ),
-    Quantity(
+    ComparedQuantity(
         "49.2",
         "body twists",
         "data.v",
@@ -93,7 +93,7 @@ KINEMATICS = (
         theirs=lambda p, s: bridge.from_pinocchio_motion(list(p.motion(s).v)[1:]),
         truth=lambda m, s: ne.body_twists(m, s.q, s.v)[1:],
     ),
-    Quantity(
+    ComparedQuantity(
         "49.3",
         "placements of bodies",
         "data.oMi",
@@ -101,7 +101,7 @@ KINEMATICS = (
         theirs=lambda p, s: np.stack([T.homogeneous for T in p.placements(s.q)]),
         truth=lambda m, s: exact.homogeneous(*_truly(m, s)),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.3",
         "their X, of twists",
         "oMi.action",
@@ -109,7 +109,7 @@ KINEMATICS = (
         theirs=lambda p, s: bridge.from_pinocchio_transform(np.stack([T.action for T in p.placements(s.q)])),
         truth=lambda m, s: exact.action(*_truly(m, s)),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.3",
         "their X*, of wrenches",
         "oMi.dualAction",
@@ -117,7 +117,7 @@ KINEMATICS = (
         theirs=lambda p, s: bridge.from_pinocchio_transform(np.stack([T.dualAction for T in p.placements(s.q)])),
         truth=lambda m, s: exact.dual_action(*_truly(m, s)),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.3",
         "placements of frames",
         "data.oMf",
@@ -126,7 +126,7 @@ KINEMATICS = (
         truth=lambda m, s: exact.frame_placements(m, s),
         applies=lambda m: bool(m.frames),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.6",
         "spatial accelerations",
         "data.a",
@@ -137,7 +137,7 @@ KINEMATICS = (
     _frame_row("49.9", "J, local", "local", "getFrameJacobian LOCAL"),
     _frame_row("49.9", "J, world", "world", "… WORLD"),
     _frame_row("49.9", "J, world axes", "local_world_aligned", "… LOCAL_WORLD_ALIGNED"),
-    Quantity(
+    ComparedQuantity(
         "49.9",
         "J_c of the feet",
         "linear rows of it",

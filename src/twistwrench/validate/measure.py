@@ -14,7 +14,7 @@ from ..errors import ShapeError, SingularError
 from ..model import Model
 from .conditioning import CANCELLED_SHARE, TERM_RTOL
 from .oracle import Oracle
-from .quantity import DEFAULT_RTOL, Quantity
+from .quantity import DEFAULT_RTOL, ComparedQuantity
 from .states import States
 
 __all__ = ["Judge", "Row"]
@@ -102,7 +102,7 @@ class StateErrors:
 
 @dataclass(frozen=True)
 class Judge:
-    """What a quantity is compared with, and at which states.
+    """Reference values of a quantity, and the states at which it is compared.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class Judge:
     context: Any
     truths: int
 
-    def row(self, quantity: Quantity) -> Row:
+    def row(self, quantity: ComparedQuantity) -> Row:
         """Measure one quantity."""
         row = Row(quantity.section, quantity.name, quantity.pinocchio)
         try:
@@ -150,7 +150,7 @@ class Judge:
         more = f" and {len(names) - 4} more" if len(names) > 4 else ""
         return f"singular: {len(names)} joint{'s' * (len(names) > 1)}: {', '.join(names[:4])}{more}"
 
-    def _at(self, quantity: Quantity, i: int, x: Array) -> StateErrors:
+    def _at(self, quantity: ComparedQuantity, i: int, x: Array) -> StateErrors:
         s = self.states[i]
         theirs = None if self.oracle is None else HighLow(quantity.theirs(self.oracle, s))
         truth = self._truth(quantity, s) if theirs is None or i < self.truths else None
@@ -163,7 +163,7 @@ class Judge:
             at = replace(at, residual=quantity.residual(self.model, s, s.exact(self.context)))
         return at
 
-    def _truth(self, quantity: Quantity, s: States) -> HighLow | None:
+    def _truth(self, quantity: ComparedQuantity, s: States) -> HighLow | None:
         if self.context is None:
             return None
         y = quantity.truth(self.model, s.exact(self.context))
@@ -171,7 +171,7 @@ class Judge:
         return HighLow(high, np.asarray(y - high, np.float64))
 
     def _compare(
-        self, quantity: Quantity, s: States, x: Array, theirs: HighLow | None, truth: HighLow | None
+        self, quantity: ComparedQuantity, s: States, x: Array, theirs: HighLow | None, truth: HighLow | None
     ) -> StateErrors:
         right = theirs if truth is None else truth
         if right is None:

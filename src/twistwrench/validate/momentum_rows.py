@@ -9,12 +9,12 @@ import twistwrench as tw
 from .. import bridge
 from .. import newton_euler_3d as ne
 from .conditioning import reach, weight_at_reach
-from .quantity import Quantity
+from .quantity import ComparedQuantity
 
 __all__ = ["MOMENTUM"]
 
 MOMENTUM = (
-    Quantity(
+    ComparedQuantity(
         "49.5",
         "kinetic energy",
         "computeKineticEnergy",
@@ -22,7 +22,7 @@ MOMENTUM = (
         theirs=lambda p, s: np.array(p.pin.computeKineticEnergy(p.model, p.data, s.q, p.tangent(s.v))),
         truth=lambda m, s: np.array(ne.kinetic_energy(m, s.q, s.v)),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.5",
         "potential energy",
         "computePotentialEnergy",
@@ -31,7 +31,7 @@ MOMENTUM = (
         truth=lambda m, s: np.array(ne.potential_energy(m, s.q)),
         terms=weight_at_reach,
     ),
-    Quantity(
+    ComparedQuantity(
         "49.10",
         "centre of mass",
         "centerOfMass",
@@ -40,7 +40,7 @@ MOMENTUM = (
         truth=lambda m, s: ne.center_of_mass(m, s.q),
         terms=reach,
     ),
-    Quantity(
+    ComparedQuantity(
         "49.10",
         "centroidal map A_G",
         "data.Ag",
@@ -48,7 +48,7 @@ MOMENTUM = (
         theirs=lambda p, s: p.jacobian(p.centroidal(s).Ag),
         truth=lambda m, s: ne.centroidal_map(m, s.q),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.10",
         "momentum h_G",
         "data.hg",
@@ -56,7 +56,7 @@ MOMENTUM = (
         theirs=lambda p, s: bridge.from_pinocchio_force(p.centroidal(s).hg),
         truth=lambda m, s: ne.centroidal_momentum(m, s.q, s.v),
     ),
-    Quantity(
+    ComparedQuantity(
         "49.10",
         "its rate ḣ_G",
         "data.dhg",

@@ -5,10 +5,10 @@ from __future__ import annotations
 from .dynamics_rows import DYNAMICS
 from .kinematics_rows import KINEMATICS
 from .momentum_rows import MOMENTUM
-from .quantity import Quantity
+from .quantity import ComparedQuantity
 
 __all__ = ["QUANTITIES"]
 
-QUANTITIES: tuple[Quantity, ...] = tuple(
+QUANTITIES: tuple[ComparedQuantity, ...] = tuple(
     sorted((*KINEMATICS, *MOMENTUM, *DYNAMICS), key=lambda row: float(row.section.split(".")[1]))
 )

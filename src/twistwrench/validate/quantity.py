@@ -11,14 +11,14 @@ from ..model import Model
 from .oracle import Oracle
 from .states import States
 
-__all__ = ["DEFAULT_RTOL", "Quantity"]
+__all__ = ["DEFAULT_RTOL", "ComparedQuantity"]
 
 DEFAULT_RTOL = 1e-12
 """Relative error that every quantity must keep, unless its conditioning forbids it."""
 
 
 @dataclass(frozen=True)
-class Quantity:
+class ComparedQuantity:
     """A row: one quantity, computed in three ways.
 
     Attributes

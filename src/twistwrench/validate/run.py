@@ -20,7 +20,7 @@ from .fast_rows import FAST
 from .measure import Judge
 from .oracle import Oracle
 from .quantities import QUANTITIES
-from .quantity import Quantity
+from .quantity import ComparedQuantity
 from .report import Report
 from .states import random_states
 
@@ -170,10 +170,10 @@ def _version_of_mpmath() -> str:
     return str(mpmath.__version__)
 
 
-def _bar(quantities: Iterable[Quantity], show: bool, name: str) -> Iterable[Quantity]:
+def _bar(quantities: Iterable[ComparedQuantity], show: bool, name: str) -> Iterable[ComparedQuantity]:
     if not show:
         return quantities
     from tqdm import tqdm
 
-    bar: Iterable[Quantity] = tqdm(quantities, desc=name, unit="row", leave=False)
+    bar: Iterable[ComparedQuantity] = tqdm(quantities, desc=name, unit="row", leave=False)
     return bar
