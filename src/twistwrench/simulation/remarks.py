@@ -99,14 +99,15 @@ def of_joints(model: Model, t: Array, q: Array, v: Array, tau: Array) -> Iterato
         yield from first(t, "effort", name, np.abs(tau[..., at_v]), model.effort_limit[at_v])
 
 
-def of_alternation(model: Model, t: Array, v: Array) -> Iterator[Remark]:
-    """Yield the joints whose velocity changes its way in each step, and each time by more."""
+def of_alternation(model: Model, t: Array, v: Array, tau: Array) -> Iterator[Remark]:
+    """Yield the joints whose velocity changes its way in each step, under other forces, and each time by more."""
     change = np.diff(v, axis=0)
     if len(change) <= ALTERNATES:
         return
-    turns = np.lib.stride_tricks.sliding_window_view(change[1:] * change[:-1] < 0, ALTERNATES, axis=0).all(axis=-1)
+    turns = (change[1:] * change[:-1] < 0) & (np.diff(tau[: len(change)], axis=0) != 0)
+    runs = np.lib.stride_tricks.sliding_window_view(turns, ALTERNATES, axis=0).all(axis=-1)
     begins, ends = np.abs(change[:-ALTERNATES]), np.abs(change[ALTERNATES:])
-    found = np.where(turns & (ends > GROWS * begins) & (ends > SHAKES), ends, 0.0)
+    found = np.where(runs & (ends > GROWS * begins) & (ends > SHAKES), ends, 0.0)
     for name, joint, at in zip(model.joint_names, model.joints, model.v_slice):
         if joint is not None:
             yield from first(t, "alternates", name, found[..., at], 0.0)

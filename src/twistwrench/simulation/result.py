@@ -122,7 +122,7 @@ class Simulation:
         """
         system, stepping, model, (q, v, tau) = self.system, self.system.stepping, self.system.model, self.full
         clock = slice(None, None, max(system.period, 1))
-        found = [*of_joints(model, self.t, q, v, tau), *of_alternation(model, self.t[clock], v[clock])]
+        found = [*of_joints(model, self.t, q, v, tau), *of_alternation(model, *(x[clock] for x in (self.t, v, tau)))]
         if self.contact_forces and stepping is None:
             found += of_contacts(model, self.t, q, system.contacts, self.contact_forces)
         found += of_left_out(model, self.t, v) if stepping is None else of_ground(stepping, self.t)
