@@ -113,6 +113,14 @@ def test_gains_that_are_too_high_are_told_of_a_motion_that_has_not_diverged_yet(
     assert moved(3.6).remarks == ()
 
 
+def test_a_coin_that_rattles_until_it_lies_has_no_gains():
+    inertia = tw.SpatialInertia(1.0, [0, 0, 0], 0.0025 * np.diag([1.0, 2.0, 1.0]))
+    coin = tw.Builder("coin", base="floating", root="coin", root_inertia=inertia).build()
+    q, rim = [0, 0, 0.1 * np.cos(1.2), -np.sin(0.6), 0, 0, np.cos(0.6)], [tw.WheelContact("coin", 0.1, 0.5)]
+    s = tw.simulate(coin, q, np.zeros(6), dt=1e-3, duration=0.13, contacts=rim, ground=tw.Ground())
+    assert "alternates" not in {remark.kind for remark in s.remarks}
+
+
 def test_a_policy_that_fails_does_not_hide_the_divergence_nor_the_print():
     """Asked for its gains, and for the error of a step, it may raise anything."""
     log = {round(0.1 * k, 6): 100.0 for k in range(50)}

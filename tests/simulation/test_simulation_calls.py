@@ -219,6 +219,8 @@ def test_a_period_that_is_none_is_refused(options, said):
 def test_a_condition_that_is_no_function_is_refused():
     with pytest.raises(TypeError, match=r"stop: expected a function \(t, q, v\) -> bool, got float"):
         run(stop=0.5)
+    with pytest.raises(tw.ShapeError, match=r"stop\(t, q, v\): expected one bool for all motions, got shape \(2,\)"):
+        run(stop=lambda t, q, v: [True, False])
 
 
 # ---------------------------------------------------------------- what comes back

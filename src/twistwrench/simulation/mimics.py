@@ -48,8 +48,8 @@ def simulate_following(
         found = policy(t, q[..., model.kept_q], v[..., own])
         return at_leaders(model, found, "tau(t, q, v)", f" at t = {t:.6g}")
 
-    def ends(t: float, q: Array, v: Array) -> bool:
-        return bool(condition(t, q[..., model.kept_q], v[..., own]))
+    def ends(t: float, q: Array, v: Array) -> Any:
+        return condition(t, q[..., model.kept_q], v[..., own])
 
     if callable(tau):
         tau = acts

@@ -195,7 +195,8 @@ class Simulation:
         """
         system, stepping, model, (q, v, tau) = self.system, self.system.stepping, self.system.model, self.full
         clock = slice(None, None, max(system.period, 1))
-        found = [*joint_remarks(model, self.t, q, v, tau), *alternation_remarks(model, self.t[clock], v[clock])]
+        over_time = (x[clock] for x in (self.t, v, tau))
+        found = [*joint_remarks(model, self.t, q, v, tau), *alternation_remarks(model, *over_time)]
         if self.contact_forces and stepping is None:
             found += contact_remarks(model, self.t, q, system.contacts, self.contact_forces)
         found += neglect_remarks(model, self.t, v) if stepping is None else ground_remarks(stepping, self.t)
@@ -334,14 +335,15 @@ def joint_remarks(model: Model, t: Array, q: Array, v: Array, tau: Array) -> Ite
         yield from first_excess(t, "effort", name, np.abs(tau[..., at_v]), model.effort_limit[at_v])
 
 
-def alternation_remarks(model: Model, t: Array, v: Array) -> Iterator[Remark]:
-    """Yield the joints whose velocity changes its way in each step, and each time by more."""
+def alternation_remarks(model: Model, t: Array, v: Array, tau: Array) -> Iterator[Remark]:
+    """Yield the joints whose velocity changes its way in each step, under other forces, and each time by more."""
     change = np.diff(v, axis=0)
     if len(change) <= ALTERNATIONS:
         return
-    turns = np.lib.stride_tricks.sliding_window_view(change[1:] * change[:-1] < 0, ALTERNATIONS, axis=0).all(axis=-1)
+    turns = (change[1:] * change[:-1] < 0) & (np.diff(tau[: len(change)], axis=0) != 0)
+    runs = np.lib.stride_tricks.sliding_window_view(turns, ALTERNATIONS, axis=0).all(axis=-1)
     begins, ends = np.abs(change[:-ALTERNATIONS]), np.abs(change[ALTERNATIONS:])
-    found = np.where(turns & (ends > ALTERNATION_GROWTH * begins) & (ends > MIN_ALTERNATION), ends, 0.0)
+    found = np.where(runs & (ends > ALTERNATION_GROWTH * begins) & (ends > MIN_ALTERNATION), ends, 0.0)
     for name, joint, at in zip(model.joint_names, model.joints, model.v_slice):
         if joint is not None:
             yield from first_excess(t, "alternates", name, found[..., at], 0.0)

@@ -14,7 +14,7 @@ from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_count, as_number
 from ..contact import Contact
 from ..contact.rows import as_contacts
-from ..errors import SingularError, check_known
+from ..errors import ShapeError, SingularError, check_known
 from ..model import Model
 from .diagnosis import divergence_cause
 from .divergence import DivergenceError, check_divergence
@@ -219,8 +219,12 @@ def _loop(made: Trajectory, system: System, method: str, t0: float, counter: Ite
         made.taus.append(system.tau)
         made.held.append(system.forces)
         made.states.append((q, v))  # last: where the motion is interrupted, so many states count
-        if stop is not None and stop(t + system.dt, q.copy(), v.copy()):
-            break
+        if stop is not None:
+            ends = stop(t + system.dt, q.copy(), v.copy())
+            if np.ndim(ends):
+                raise ShapeError(f"stop(t, q, v): expected one bool for all motions, got shape {np.shape(ends)}")
+            if ends:
+                break
 
 
 def _method(method: str | None, ground: Ground | None, contacts: Sequence[Contact]) -> str:
