@@ -73,16 +73,14 @@ TESTED_BY = {
     "tree": "kinematics",
     "joints": "joint",
     "error_bounds": "accuracy",
-    "_ten_numbers": "ten_numbers",
-    "_shapes": "shapes",
     "_vector": "screws",
     "wrench": "screws",
     "relative": "loops",
     "closures": "distances",
     "articulated": "inverse_mass",
     "cones": "ground",
+    "coulomb": "ground",
     "stepping": "ground",
-    "passive": "ground",
 }
 """Files and folders of the source whose tests go by another name."""
 
