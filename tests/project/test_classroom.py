@@ -120,7 +120,7 @@ def test_hints_come_one_by_one_and_then_the_solution():
     state, texts = "", []
     for _ in range(3):
         texts.append(classroom.hint("49.0.1", {}, state, "en")[0][1])
-        state = classroom.cached_program()
+        state = classroom.remembered()
     assert [text.splitlines()[0].partition(": ")[2] for text in texts] == ["hint 1 of 2", "hint 2 of 2", "a solution"]
     assert not any("twistwrench exercises" in text for text in texts)
 

@@ -45,9 +45,9 @@ def test_a_file_beside_it_is_named_where_its_suffix_was_left_out(tmp_path, monke
 
 
 def test_a_robot_is_a_name_or_a_path():
-    with pytest.raises(TypeError, match=r"source: expected a name or a path, got None$"):
+    with pytest.raises(TypeError, match=r"source: expected a name, a path or the text of a URDF, got None$"):
         tw.load(None)
-    with pytest.raises(TypeError, match=r"source: expected a name or a path, got the Model$"):
+    with pytest.raises(TypeError, match=r"source: expected a name, a path or the text of a URDF, got the Model$"):
         tw.load(PENDULUM)
 
 
