@@ -313,7 +313,7 @@ def test_a_race_of_several_threads_counts_every_round_and_one_that_is_never_quie
     alone = clock.race((cpu.work(2, (3,)), 1), None, rounds=2, least=0)
     assert alone.ours.tolist() == [5, 5]
     assert np.isnan(alone.theirs).all()
-    assert alone.disturbed == 2 * clock.PATIENCE
+    assert alone.disturbed == 2 * clock.MAX_TRIES_PER_LAP
 
 
 # ---------------------------------------------------------------- what is written
