@@ -54,7 +54,7 @@ ALTERNATIONS = 8
 ALTERNATION_GROWTH = 4.0
 """The last of them is at least so many times the first."""
 
-MIN_ALTERNATION = 0.1
+MIN_ALTERNATION = 5.0
 """rad/s or m/s: the last of them is larger."""
 
 SENTENCES = {
