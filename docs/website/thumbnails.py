@@ -150,17 +150,20 @@ def fill_in(own: dict[str, Any], text: str) -> tuple[str, dict[str, str]]:
     return "".join(drawn), {}
 
 
-def blocks(own: dict[str, Any], text: str) -> tuple[str, dict[str, str]]:
-    """Return the blocks into which the program of a page cuts its states."""
-    states, block = (int(re.search(rf"{word}=([\d_]+)", text)[1]) for word in ("states", "block"))  # type: ignore[index]
-    count = math.ceil(states / block)
-    high = (HIGH - 28) / count
+def shares(own: dict[str, Any], text: str) -> tuple[str, dict[str, str]]:
+    """Return the shares into which the program of a page cuts its states; the picture has eight of them."""
+    of_all, of_share, block = (
+        int(re.search(rf"\b{word}=([\d_]+)", text)[1])  # type: ignore[index]
+        for word in ("shares", "blocks", "block")
+    )
+    drawn_shares = min(of_all, 8)
+    high = (HIGH - 28) / drawn_shares
     drawn = [
         f'<rect x="28" y="{4 + k * high:.1f}" width="120" height="{high - 5:.1f}" rx="3" stroke="{BLUE}"/>'
-        f'<text x="88" y="{2 + (k + 0.5) * high + 3:.1f}" text-anchor="middle">{block:,}</text>'
-        for k in range(count)
+        f'<text x="88" y="{2 + (k + 0.5) * high + 3:.1f}" text-anchor="middle">{of_share * block:,}</text>'
+        for k in range(drawn_shares)
     ]
-    return "".join(drawn), {"states": f"{states:,}", "count": str(count)}
+    return "".join(drawn), {"states": f"{of_all * of_share * block:,}", "count": str(of_all)}
 
 
-DRAW = {"standing": standing, "film": landing, "fill-in": fill_in, "blocks": blocks}
+DRAW = {"standing": standing, "film": landing, "fill-in": fill_in, "blocks": shares}
