@@ -31,7 +31,7 @@ LAST = "errors"
 RETURNED = (
     *(f"algorithms.terms.{name}" for name in ("RneaTerms", "AbaTerms", "CrbaTerms", "CentroidalTerms", "Subtree")),
     *("model.report.Entry", "model.report.LoadReport"),
-    "simulation.result.Remark",
+    "simulation.remark.Remark",
 )
 """What public functions return and has no public name itself: users do not make one by hand."""
 TITLE = {"en": "Interface", "zh": "接口"}

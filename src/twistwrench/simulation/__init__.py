@@ -20,7 +20,8 @@
 from .divergence import DivergenceError
 from .ground import Ground
 from .methods import METHODS, Method
-from .result import Remark, Simulation
+from .remark import Remark
+from .result import Simulation
 from .run import simulate
 from .system import Policy
 
