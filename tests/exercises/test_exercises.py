@@ -458,7 +458,6 @@ def spoilt(change):
             (lambda B: 2 * B, "too large by a factor of 2", "是正确值的 2 倍"),
             (lambda B: B / 1000, "too small by a factor of 1000", "只有正确值的 1/1000"),
             (lambda B: np.roll(B, 1, 0), "the right numbers, in the wrong places", "数值正确，位置不对"),
-            (lambda B: B[::-1], "rows 3 and 5 are exchanged", "第 3 行与第 5 行互换了"),
             (lambda B: np.abs(B), "the right numbers, some with the wrong sign", "数值正确，部分符号错误"),
             (lambda B: B + 1e-5, "right to ", "只有 "),
             (lambda B: B + np.outer([1, 0, 0], [0, 0, 1]), "wrong in [3, 2], right elsewhere", "错在 [3, 2]"),
