@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import os
 from collections.abc import Callable
-from pathlib import Path
+
+from misstep.files import check_writable
 
 __all__ = ["at_least", "check_writable"]
 
@@ -23,23 +23,3 @@ def at_least(least: int) -> Callable[[str], int]:
         return value
 
     return read
-
-
-def check_writable(option: str, path: Path | None) -> None:
-    """Open the file that will be written, before the work; do not change its content.
-
-    Raises
-    ------
-    OSError
-        Naming the option.
-    """
-    if path is None:
-        return
-    target = Path(os.path.realpath(path))  # a link that leads nowhere yet stays, the file it leads to is made
-    new = not path.exists()
-    try:
-        path.open("a").close()
-    except OSError as error:
-        raise OSError(f"{option} {path}: {error.strerror}") from None
-    if new:
-        target.unlink()
