@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 
 import twistwrench as tw
 from twistwrench.motions import MOTIONS, Motion, ground, limits_broken
-from twistwrench.motions.curves import Harmonics, PiecewiseCurve, between, hop, stair
+from twistwrench.motions.curves import Harmonics, PiecewiseCurve, connect, hop, stair
 from twistwrench.motions.gaits import CRAWL, TROT, WALK, Steps
 from twistwrench.motions.inverse_kinematics import body_rates, follow
 from twistwrench.motions.jumping import FOUR_LEGS, Leap
@@ -187,11 +187,11 @@ def test_the_feet_stand_and_the_robot_falls_in_pinocchio():
 
 def test_a_polynomial_has_the_derivatives_and_the_area_asked_for():
     start, end, span = [1.0, -2, 3], [0.5, 4], (2.0, 2.7)
-    p = between(start, end, span, area=0.9)
+    p = connect(start, end, span, area=0.9)
     assert np.allclose([p.deriv(k)(span[0]) if k else p(span[0]) for k in range(3)], start, rtol=1e-11)
     assert np.allclose([p(span[1]), p.deriv()(span[1])], end, rtol=1e-11)
     assert p.integ()(span[1]) - p.integ()(span[0]) == pytest.approx(0.9, rel=1e-11)
-    assert np.allclose(between([0.0, 0], [1.0, 0], (0, 1))(0.3), 3 * 0.3**2 - 2 * 0.3**3, rtol=1e-14)
+    assert np.allclose(connect([0.0, 0], [1.0, 0], (0, 1))(0.3), 3 * 0.3**2 - 2 * 0.3**3, rtol=1e-14)
 
 
 def test_jets_are_derivatives():

@@ -9,7 +9,7 @@ import twistwrench as tw
 from twistwrench import motions
 from twistwrench.scene import costs
 from twistwrench.scene.candidates import Articulated, limbs, radius_of_gyration
-from twistwrench.scene.compiled import compiled
+from twistwrench.scene.compiled import compile_law
 from twistwrench.templates import TEMPLATES, Template
 
 SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
@@ -28,8 +28,8 @@ def found():
 
 @pytest.fixture(autouse=True)
 def quickly(monkeypatch):
-    """No test but those of `found` and of `compiled` needs programs."""
-    monkeypatch.setattr(costs, "compiled", lambda model, law, known, wanted: (lambda: law(*known), np.inf))
+    """No test but those of `found` and of `compile_law` needs programs."""
+    monkeypatch.setattr(costs, "compile_law", lambda model, law, known, wanted: (lambda: law(*known), np.inf))
 
 
 def rows(found):
@@ -203,7 +203,7 @@ def test_the_order_is_the_same_whatever_the_clock_says(monkeypatch):
     some = [option for option in scene.cheapest(1.0, walk).options if option.operations > 0]
     assert [option.name for option in some] == ["lipm", "point_mass", "srbm_frozen", "srbm", "full", "centroidal"]
     assert [option.operations for option in some] == sorted(option.operations for option in some)
-    monkeypatch.setattr(costs, "compiled", lambda model, law, known, wanted: (lambda: law(*known), np.inf))
+    monkeypatch.setattr(costs, "compile_law", lambda model, law, known, wanted: (lambda: law(*known), np.inf))
     names = [option.name for option in scene.cheapest(1.0, walk).options]
     assert names == ["full", "centroidal", "srbm", "srbm_frozen", "lipm", "point_mass"]
 
@@ -217,7 +217,7 @@ def test_a_law_is_compiled_as_it_is_written():
     for name in ("point_mass", "lipm", "srbm_frozen", "srbm"):
         template = TEMPLATES[name].of(GO2, GO2.standing())
         known = template.read(*state)
-        (rate,) = compiled(GO2, lambda *x, law=template.law: (law(*x),), known, [0])[0]()
+        (rate,) = compile_law(GO2, lambda *x, law=template.law: (law(*x),), known, [0])[0]()
         assert np.abs(rate - template.law(*known)).max() < 1e-13 * GO2.mass * 9.81
     arm = tw.load("planar_arm")
     reach = motions.reach(arm, arm.neutral(), [1.0, -0.5, 0.2], samples=9)
@@ -225,13 +225,13 @@ def test_a_law_is_compiled_as_it_is_written():
     held = Articulated.of(arm, small.model, small.reduce)
     known = held.read(reach.q, reach.v, reach.a)
     for wanted in ([0], [0, 1]):
-        for ours, right in zip(compiled(arm, held.law, known, wanted)[0](), held.law(*known), strict=False):
+        for ours, right in zip(compile_law(arm, held.law, known, wanted)[0](), held.law(*known), strict=False):
             assert np.abs(ours - right).max() < 1e-12 * np.abs(right).max()
 
 
 def test_a_law_that_asks_what_its_numbers_are_is_timed_as_it_is():
     x = np.arange(6.0).reshape(3, 2)
-    run, operations = compiled(GO2, lambda x: (x if float(x.flat[0]) >= 0 else -x, 2 * x), [x], [1])
+    run, operations = compile_law(GO2, lambda x: (x if float(x.flat[0]) >= 0 else -x, 2 * x), [x], [1])
     np.testing.assert_array_equal(run()[0], 2 * x)
     assert operations == np.inf
 

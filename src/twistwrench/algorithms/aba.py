@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, check_overflow
 from ..errors import SingularError
-from ..model import Model, Tree, check_state, columns, stacked, tree_terms, wrenches
+from ..model import Model, Tree, check_state, columns, stack_columns, tree_terms, wrenches
 from ..spatial.formulas import bias_wrench, cross_motion, inverse, symmetric
 from ._mimic import also_of_mimics
 from .singular import refuse_singular, refuse_weightless
@@ -52,7 +52,7 @@ def articulated_body(tree: Tree, qd: list[Array], tau: list[Array], f_ext: list[
         qdd[i] = D_inv[i] @ (u[i] - U[i].mT @ a)  # 49.7 qdd
         A[i] = a + S[i] @ qdd[i]  # 49.7 A
     return AbaTerms.of(  # 49.7 ABA
-        tree.batch, V=V, c=c, B=B, IA=IA, pA=pA, U=U, D=D, D_inv=D_inv, u=u, Ia=Ia, pa=pa, A=A, qdd=stacked(qdd)
+        tree.batch, V=V, c=c, B=B, IA=IA, pA=pA, U=U, D=D, D_inv=D_inv, u=u, Ia=Ia, pa=pa, A=A, qdd=stack_columns(qdd)
     )
 
 

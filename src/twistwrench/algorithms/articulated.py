@@ -12,7 +12,7 @@ from ..spatial.formulas import inverse, symmetric
 from .singular import refuse_singular, refuse_weightless
 from .terms import ArticulatedTerms
 
-__all__ = ["articulated_inertia", "articulated_inertias", "checked_inertias"]
+__all__ = ["articulated_inertia", "articulated_inertias", "find_inertias"]
 
 
 def articulated_inertias(tree: Tree) -> ArticulatedTerms:
@@ -30,7 +30,7 @@ def articulated_inertias(tree: Tree) -> ArticulatedTerms:
     return ArticulatedTerms(IA, U, D, D_inv)
 
 
-def checked_inertias(model: Model, tree: Tree) -> ArticulatedTerms:
+def find_inertias(model: Model, tree: Tree) -> ArticulatedTerms:
     """Return the articulated-body inertias; raise SingularError with the name of a joint that moves no inertia."""
     try:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # D singular: `refuse_singular`
@@ -83,5 +83,5 @@ def articulated_inertia(model: Model, q: ArrayLike, frame: str) -> Array:
     (q,) = check_state(model, q)
     at = model.frame(frame)
     X = cast(at.placement, q.dtype).motion_transform()
-    IA: Array = X.mT @ checked_inertias(model, tree_terms(model, q)).IA[at.body] @ X
+    IA: Array = X.mT @ find_inertias(model, tree_terms(model, q)).IA[at.body] @ X
     return np.broadcast_to(IA, (*q.shape[:-1], 6, 6))

@@ -16,7 +16,7 @@ from ..errors import SingularError
 from ..model import Model, Tree, check_state, columns, composite_inertias, joint_placements, tree_terms
 from ..spatial import SE3
 from ..spatial.formulas import bias_wrench
-from ..spatial.plucker import placed_point
+from ..spatial.plucker import place_point
 from ._mimic import also_of_mimics
 from .kinematics import motion, placements
 from .terms import CentroidalTerms, matrices
@@ -54,7 +54,7 @@ def composite_center(tree: Tree, IC: list[Array], placement: list[SE3]) -> Array
     first = [i for i in tree.outward if tree.parent[i] == 0]
     mass = {i: IC[i][..., 5, 5, None] for i in first}
     moment = {i: IC[i][..., [2, 0, 1], [4, 5, 3]] for i in first}  # out of m [c]×
-    moments = [placed_point(placement[i].rotation, mass[i] * placement[i].translation, moment[i]) for i in first]
+    moments = [place_point(placement[i].rotation, mass[i] * placement[i].translation, moment[i]) for i in first]
     p_G: Array = np.sum(moments, axis=0) / sum(mass.values())
     return p_G
 
@@ -98,7 +98,7 @@ def mean_center(model: Model, placement: list[SE3], q: Array, bodies: Sequence[i
     moment = np.zeros((*q.shape[:-1], 3), q.dtype)
     for i in bodies:
         T, inertia = placement[i], model.inertia[i]
-        com = placed_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
+        com = place_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
         moment = moment + convert(inertia.mass, q.dtype) * com
     p_G: Array = moment / total_mass(model, q, bodies, name)  # 49.10 p_G
     return p_G

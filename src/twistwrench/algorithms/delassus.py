@@ -10,7 +10,7 @@ from ..errors import ShapeError, SingularError
 from ..model import Model, Tree, check_model, check_state, tree_terms
 from ..spatial._elementary import at_first_index
 from ..spatial.formulas import inverse, symmetric
-from .factorization import checked_factors, solve_inward
+from .factorization import factorize_mass_matrix, solve_inward
 from .singular import ROUNDINGS
 
 __all__ = ["delassus", "delassus_matrix", "operational_space_inertia"]
@@ -87,7 +87,7 @@ def _checked(model: Model, q: ArrayLike, J: ArrayLike) -> tuple[Tree, Array]:
 
 def _delassus(model: Model, tree: Tree, J: Array) -> Array:
     batch = np.broadcast_shapes(tree.batch, J.shape[:-2])
-    return delassus(*checked_factors(model, tree), np.broadcast_to(J, (*batch, *J.shape[-2:])))
+    return delassus(*factorize_mass_matrix(model, tree), np.broadcast_to(J, (*batch, *J.shape[-2:])))
 
 
 def operational_space_inertia(model: Model, q: ArrayLike, J: ArrayLike) -> Array:

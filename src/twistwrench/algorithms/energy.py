@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, convert
 from ..model import Model, check_state, columns, joint_placements, tree_terms
-from ..spatial.plucker import placed_point
+from ..spatial.plucker import place_point
 from ._mimic import also_of_mimics
 from .kinematics import motion, placements
 
@@ -81,6 +81,6 @@ def potential_energy(model: Model, q: ArrayLike) -> Array:
     weight = -model.constants(q.dtype).gravity[3:]
     energy = np.zeros(q.shape[:-1], q.dtype)
     for T, inertia in zip(placements(model.parent, joint_placements(model, q)), model.inertia):
-        com = placed_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
+        com = place_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
         energy = energy + convert(inertia.mass, q.dtype) * (com * weight).sum(axis=-1)  # 49.5 U
     return energy

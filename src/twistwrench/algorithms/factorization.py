@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, check_overflow, judged, resolution
+from ..arrays import Array, check_overflow, comparable, resolution
 from ..errors import SingularError
 from ..model import Model, Tree, check_state, tree_terms
 from ..spatial._elementary import at_first_index, sqrt
@@ -19,8 +19,8 @@ from .crba import composite_rigid_body
 from .singular import ROUNDINGS
 
 __all__ = [
-    "checked_factors",
     "factorize",
+    "factorize_mass_matrix",
     "inboard_dofs",
     "ltdl",
     "ltl",
@@ -84,7 +84,7 @@ def solve_outward(L: Array, inboard: list[list[int]], B: Array) -> Array:
     return Y
 
 
-def checked_factors(model: Model, tree: Tree) -> tuple[Array, Array, list[list[int]]]:
+def factorize_mass_matrix(model: Model, tree: Tree) -> tuple[Array, Array, list[list[int]]]:
     """Return L and D of the mass matrix and the inboard degrees of freedom; raise SingularError where D is lost."""
 
     def singular(k: int, where: str = "") -> SingularError:
@@ -98,9 +98,9 @@ def checked_factors(model: Model, tree: Tree) -> tuple[Array, Array, list[list[i
             L, D = factorize(M, inboard)
     except ZeroDivisionError as error:
         raise singular(*error.args) from None
-    size, exact = judged(np.diagonal(M, axis1=-2, axis2=-1)), D.dtype == object
+    size, exact = comparable(np.diagonal(M, axis1=-2, axis2=-1)), D.dtype == object
     least = 0 * size if exact else np.maximum(size * ROUNDINGS * resolution(D.dtype), np.finfo(D.dtype).tiny)
-    lost = judged(D) <= least if exact else ~(D.real > least)  # a symbol has no value to check
+    lost = comparable(D) <= least if exact else ~(D.real > least)  # a symbol has no value to check
     if lost.any():
         k = int(np.argwhere(lost)[:, -1].max())  # the first that was eliminated; those inboard of it are lost with it
         raise singular(k, at_first_index(np.asarray(lost[..., k])))
@@ -145,7 +145,7 @@ def ltdl(model: Model, q: ArrayLike) -> tuple[Array, Array]:
     False
     """
     (q,) = check_state(model, q)
-    L, D, _ = checked_factors(model, tree_terms(model, q))
+    L, D, _ = factorize_mass_matrix(model, tree_terms(model, q))
     return L, D
 
 
@@ -220,7 +220,7 @@ def solve_mass_matrix(model: Model, q: ArrayLike, tau: ArrayLike) -> Array:
     True
     """
     q, tau = check_state(model, q, tau=tau)
-    L, D, inboard = checked_factors(model, tree_terms(model, q))
+    L, D, inboard = factorize_mass_matrix(model, tree_terms(model, q))
     with np.errstate(over="ignore", invalid="ignore"):
         Y = solve_inward(L, inboard, tau[..., None]) / D[..., None]
         qdd = solve_outward(L, inboard, Y)[..., 0]

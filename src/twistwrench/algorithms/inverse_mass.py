@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from ..model import Model, Tree, check_state, tree_terms
 from ..spatial.formulas import symmetric
-from .articulated import checked_inertias
+from .articulated import find_inertias
 from .terms import ArticulatedTerms
 
 __all__ = ["inverse_mass_matrix", "unit_force_responses", "unit_forces"]
@@ -90,4 +90,4 @@ def inverse_mass_matrix(model: Model, q: ArrayLike) -> Array:
     """
     (q,) = check_state(model, q)
     tree = tree_terms(model, q)
-    return unit_force_responses(tree, checked_inertias(model, tree))
+    return unit_force_responses(tree, find_inertias(model, tree))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..model import Model, Tree, check_model, check_state, columns, stacked, tree_terms, wrenches
+from ..model import Model, Tree, check_model, check_state, columns, stack_columns, tree_terms, wrenches
 from ..spatial.formulas import bias_wrench, cross_motion
 from ._mimic import also_of_mimics
 from .terms import RneaTerms
@@ -38,7 +38,7 @@ def newton_euler(tree: Tree, qd: list[Array], qdd: list[Array], f_ext: list[Arra
         p = parent[i]
         tau[i] = S[i].mT @ F[i] + rotor[i] @ qdd[i]  # 49.6 tau: F along S
         F[p] = F[p] + X[i].mT @ F[i]  # 49.6 F_p: action and reaction
-    return RneaTerms.of(tree.batch, V, A, B, F, stacked(tau))  # 49.6 RNEA
+    return RneaTerms.of(tree.batch, V, A, B, F, stack_columns(tau))  # 49.6 RNEA
 
 
 @also_of_mimics

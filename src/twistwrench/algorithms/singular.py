@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Array, judged, resolution
+from ..arrays import Array, comparable, resolution
 from ..errors import SingularError
 from ..model import Model, Tree, composite_inertias
 from ..spatial._elementary import at_first_index
@@ -32,7 +32,7 @@ def refuse_singular(model: Model, tree: Tree, terms: AbaTerms | ArticulatedTerms
         p = tree.parent[i]
         refuse_lost(terms.D[i], S[i].mT @ bound[i] @ S[i], model.joint_names[i], massless_base(model, i))
         left = X[i] - S[i] @ D_inv[i] @ U[i].mT @ X[i]  # of the parent's motion, outboard of the free joint
-        bound[p] = bound[p] + propagated_bound(bound[i], left, X[i], IA[i], U[i] @ D_inv[i] @ U[i].mT)
+        bound[p] = bound[p] + propagate_bound(bound[i], left, X[i], IA[i], U[i] @ D_inv[i] @ U[i].mT)
 
 
 def refuse_weightless(model: Model, tree: Tree) -> None:
@@ -40,7 +40,7 @@ def refuse_weightless(model: Model, tree: Tree) -> None:
     locked = [
         ((IC @ S) * S).sum(axis=-2) + r.diagonal() for IC, S, r in zip(composite_inertias(tree), tree.S, tree.rotor)
     ]
-    names = [model.joint_names[i] for i in tree.outward if (judged(locked[i]) <= 0).any()]
+    names = [model.joint_names[i] for i in tree.outward if (comparable(locked[i]) <= 0).any()]
     if names:
         raise SingularError(f"no inertia outboard of joint {', '.join(map(repr, names))}: q̈ is not determined there")
 
@@ -56,7 +56,7 @@ def error_bound(*terms: Array) -> Array:
     return bound
 
 
-def propagated_bound(bound: Array, left: Array, X: Array, IA: Array, lost: Array) -> Array:
+def propagate_bound(bound: Array, left: Array, X: Array, IA: Array, lost: Array) -> Array:
     """Return a bound on the rounding error of Xᵀ (IA − lost) X, where lost = U D⁻¹ Uᵀ, in units of the resolution.
 
     The propagated bound of IA plus the rounding of this sum: `left` = X − S D⁻¹ Uᵀ X takes the parent's motion to the

@@ -19,7 +19,7 @@ from .crba import crba
 from .floating_base import HeldRows, as_frames, contact_jacobian
 from .rnea import nonlinear_effects
 
-__all__ = ["QUANTITIES", "Dynamics", "dynamics", "wanted"]
+__all__ = ["QUANTITIES", "Dynamics", "dynamics", "select_quantities"]
 
 QUANTITIES = ("M", "h", "J_c", "A_G")
 
@@ -99,7 +99,7 @@ def dynamics(
     """
     check_state(model, q, v=v)  # also where no wanted quantity depends on v
     contacts = as_frames(model.feet if contacts is None else contacts)
-    want = wanted(want)
+    want = select_quantities(want)
     compute = {
         "M": lambda: crba(model, q),
         "h": lambda: nonlinear_effects(model, q, v),
@@ -109,7 +109,7 @@ def dynamics(
     return Dynamics(**{name: compute[name]() for name in want})
 
 
-def wanted(want: Iterable[str]) -> tuple[str, ...]:
+def select_quantities(want: Iterable[str]) -> tuple[str, ...]:
     """Return which quantities are wanted; raise NameNotFound for a name that is not one of them."""
     want = as_names(want, "want", "quantities")
     for name in want:

@@ -28,7 +28,7 @@ from .conversion import (
     resolution,
     tolerance,
 )
-from .exact import beside, convert, elementary, exact_numbers, exact_unit, has_objects, home, judged
+from .exact import beside, comparable, convert, elementary, exact_numbers, exact_unit, has_objects, home
 from .kinds import as_flag, as_sequence, check_choice, check_kind
 
 __all__ = [
@@ -52,13 +52,13 @@ __all__ = [
     "check_kind",
     "check_overflow",
     "check_size",
+    "comparable",
     "convert",
     "elementary",
     "exact_numbers",
     "exact_unit",
     "has_objects",
     "home",
-    "judged",
     "resolution",
     "tolerance",
     "without_overflow",

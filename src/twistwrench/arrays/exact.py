@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-__all__ = ["beside", "convert", "elementary", "exact_numbers", "exact_unit", "has_objects", "home", "judged"]
+__all__ = ["beside", "comparable", "convert", "elementary", "exact_numbers", "exact_unit", "has_objects", "home"]
 
 SYMBOLS = np.dtype(object, metadata={"floats": "decimals"})
 """The number type of arrays among which there are symbols: beside them 0.1 is 1/10, the shortest decimal that is read
@@ -114,7 +114,7 @@ def convert(x: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
         raise ValueError(f"constant: expected numbers that can become {number}, got symbols: {x.tolist()}") from None
 
 
-def judged(x: NDArray[Any]) -> NDArray[Any]:
+def comparable(x: NDArray[Any]) -> NDArray[Any]:
     """Return values that a check can compare: real parts; of objects, doubles, and NaN where the value is not known.
 
     Examples
@@ -173,7 +173,7 @@ def elementary(name: str, x: Any, dtype: DTypeLike = object) -> Any:
     (Fraction(3, 5), Fraction(1, 1))
     """
     if isinstance(x, int | Fraction):
-        return _of_fraction(name, x, bool(np.dtype(dtype).metadata))
+        return _apply_to_fraction(name, x, bool(np.dtype(dtype).metadata))
     package = sys.modules.get(home(x).partition(".")[0])
     for place in (x, getattr(x, "context", None), package):
         function = getattr(place, name, None)
@@ -182,7 +182,7 @@ def elementary(name: str, x: Any, dtype: DTypeLike = object) -> Any:
     raise ValueError(f"expected numbers that have a {name}, got a {type(x).__name__}")
 
 
-def _of_fraction(name: str, x: int | Fraction, among_symbols: bool) -> Any:
+def _apply_to_fraction(name: str, x: int | Fraction, among_symbols: bool) -> Any:
     if name == "sqrt" and x >= 0:
         root = Fraction(isqrt(x.numerator), isqrt(x.denominator))
         if root * root == x:

@@ -61,7 +61,7 @@ def read_actuators(there: Any) -> Drives:
         driven[dofs] = True
         if np.any(getattr(there, "actuator_dampingpoly", np.zeros(count))[k]):
             remarks.append(Entry(where, "damping that changes with speed", "its constant part"))
-        rotor, friction = (_of_actuator(there, key, k) for key in ("armature", "damping"))
+        rotor, friction = (_read_actuator(there, key, k) for key in ("armature", "damping"))
         if len(dofs) > 1 and (rotor or friction):
             remarks.append(Entry(where, "armature or damping about an oblique axis of a ball", "left out"))
             continue
@@ -87,7 +87,7 @@ def _counted(count: int) -> str:
     return f"{count} actuator{'s' * (count != 1)}"
 
 
-def _of_actuator(there: Any, key: str, k: int) -> float:
+def _read_actuator(there: Any, key: str, k: int) -> float:
     """Return a number of an actuator that MuJoCo has had since version 4; 0 before."""
     values = getattr(there, f"actuator_{key}", None)
     return 0.0 if values is None else float(values[k])

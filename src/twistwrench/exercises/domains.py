@@ -135,7 +135,7 @@ OF_VELOCITIES = frozenset(("M", "J", "J_c", "A_G", "v", "g"))
 def special_cases(part: Part, drawn: tuple[Any, ...], rng: np.random.Generator) -> Sequence[tuple[Any, ...]]:
     """Return cases with a robot without joints, with ball joints, or without mass; with whole numbers; on the moon."""
     names = part.arguments.split(", ")
-    found = [_of_the_base(names, drawn)]
+    found = [_keep_base(names, drawn)]
     if names[:2] == ["model", "q"] and isinstance(drawn[0], Model):
         model, _, *rest = drawn
         robots = (bare_robot(), *ball_robots(), massless_link()) if {*names[2:]} <= {"v", "a", "tau"} else ()
@@ -144,7 +144,7 @@ def special_cases(part: Part, drawn: tuple[Any, ...], rng: np.random.Generator) 
     return found
 
 
-def _of_the_base(names: list[str], drawn: tuple[Any, ...]) -> tuple[Any, ...]:
+def _keep_base(names: list[str], drawn: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return matrices and vectors of a robot as they are of one without joints; others, and all of Go2's, as is."""
     nv = max((n for x in drawn for n in getattr(x, "shape", ())), default=0)
     if nv <= 6 or {"model", "h"} & {*names}:

@@ -9,7 +9,7 @@ import numpy as np
 
 from misstep.text import Text
 
-__all__ = ["UP", "Machine", "Task", "often", "seconds", "timed"]
+__all__ = ["UP", "Machine", "Task", "draw_interruptions", "measure", "seconds"]
 
 
 UP = 2.0**16
@@ -109,7 +109,7 @@ class Task:
         self._machine.work(self)
 
 
-def often(rng: np.random.Generator, calls: int) -> set[int]:
+def draw_interruptions(rng: np.random.Generator, calls: int) -> set[int]:
     """Return the calls at which a machine is interrupted that is so at one of five, warmed up or not.
 
     Examples
@@ -120,7 +120,7 @@ def often(rng: np.random.Generator, calls: int) -> set[int]:
     return {5 * k + int(rng.integers(5)) for k in range(calls // 5 + 1)}
 
 
-def timed(function: Callable[..., Any], *arguments: Any) -> Any:
+def measure(function: Callable[..., Any], *arguments: Any) -> Any:
     """Reset the machine, the last argument, and return nan for a measurement that has not read its clock.
 
     One that has called the tasks less often than was asked for, the last argument but one, is minus infinity, which no

@@ -23,7 +23,7 @@ from straightline.number import ARITHMETIC, Number, Tape, numbers
 from straightline.registers import as_number_of
 from straightline.tangent import Tangent, directions, jacobian, nonzero
 
-from ..algorithms.articulated import checked_inertias
+from ..algorithms.articulated import find_inertias
 from ..algorithms.inverse_mass import unit_forces
 from ..algorithms.rnea import newton_euler, rnea
 from ..arrays import Array
@@ -97,7 +97,7 @@ def _of_acceleration(model: Model, forward: Quantity, of: str, dtype: np.dtype[A
 
     def compute(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
         tree = tree_terms(model, q)
-        terms = checked_inertias(model, tree)
+        terms = find_inertias(model, tree)
         watched = [*pivots(model, tree, terms.D_inv, dtype)] if q.dtype == object else []
         each = unit_forces(tree, terms)[1:]
         u = np.concatenate(each, axis=-2)

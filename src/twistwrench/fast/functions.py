@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from numpy.typing import ArrayLike
 
 from ..algorithms.floating_base import HeldRows, as_frames, as_held
-from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
+from ..algorithms.whole_body import QUANTITIES, Dynamics, select_quantities
 from ..arrays import Array
 from ..model import Model, check_model
 from .programs import one_state, program, result, states_of
@@ -183,7 +183,7 @@ def dynamics(
             made = object.__new__(Dynamics)  # whose own way, entry by entry, takes a third as long as the program
             vars(made).update(zip(want, found))
             return made
-    names = wanted(want)
+    names = select_quantities(want)
     want = tuple(name for name in QUANTITIES if name in names)
     contacts = as_frames(model.feet if contacts is None else contacts)
     if "J_c" in want:

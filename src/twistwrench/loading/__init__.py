@@ -18,7 +18,7 @@ from ..algorithms.mimic import follow
 from ..arrays import as_flag, check_choice
 from ..errors import ModelError, NameNotFound, no_model
 from ..model import Model
-from .catalogue import PREFIX, Catalogue, Robot, find, known, robots
+from .catalogue import PREFIX, Catalogue, Robot, find, is_known, robots
 from .stances import read_states, with_stance, with_states
 from .urdf import load_urdf
 
@@ -131,7 +131,7 @@ def _is_path(source: str) -> bool:
     if source.startswith(PREFIX):
         return False
     named = "/" in source or "\\" in source or source.lower().endswith((".urdf", ".xml", ".xacro", ".srdf", ".sdf"))
-    return named or (not known(source) and exists(source))
+    return named or (not is_known(source) and exists(source))
 
 
 def _refuse_what_is_no_path(source: str | PathLike[str]) -> None:
@@ -142,5 +142,5 @@ def _refuse_what_is_no_path(source: str | PathLike[str]) -> None:
     name = Path(source).name
     if isinstance(source, str) and (address := ADDRESS.match(source)):
         raise ModelError(f"{source}: expected the path of a file; addresses of {address[0]} are not resolved")
-    if isinstance(source, str) and source != name and known(name) and not exists(source):
+    if isinstance(source, str) and source != name and is_known(name) and not exists(source):
         raise ModelError(f"{source}: no such file; {name!r} without a folder is a robot of the catalogue")

@@ -17,7 +17,7 @@ from ..errors import ModelError, NameNotFound, unknown_name
 from ..tables import html_table, text_table
 from .stances import STANCES, Stance
 
-__all__ = ["Catalogue", "Robot", "find", "known", "robots"]
+__all__ = ["Catalogue", "Robot", "find", "is_known", "robots"]
 
 Source = Literal["models", "example-robot-data"]
 
@@ -140,7 +140,7 @@ def find(name: str) -> Robot:
     Traceback (most recent call last):
     twistwrench.errors.NameNotFound: unknown robot 'talos'; did you mean 'talos_left_arm', 'talos_full_v2', ...
     """
-    if not known(name):
+    if not is_known(name):
         lower = name.lower()  # as all the names are: "GO2" means go2
         error = unknown_name("robot", lower, (robot.name for robot in robots()))
         said = str(error).replace(repr(lower), repr(name), 1)
@@ -149,7 +149,7 @@ def find(name: str) -> Robot:
     return _by_name()[name]
 
 
-def known(name: str) -> bool:
+def is_known(name: str) -> bool:
     """Whether a robot has this name."""
     return name in _by_name()
 

@@ -21,13 +21,13 @@ from .urdf_words import (
     CHILDREN,
     NOT_DYNAMICS,
     home_of,
-    ignored_attribute,
-    ignored_child,
+    is_ignored_attribute,
+    is_ignored_child,
     meant,
     words_of,
 )
 
-__all__ = ["LEFT_OUT", "XML", "Element", "read_document", "read_robot_xml", "written"]
+__all__ = ["LEFT_OUT", "XML", "Element", "read_document", "read_robot_xml", "spell_tag"]
 
 LEFT_OUT = "not URDF, left out"
 """How a word of the format is read in a place where it means nothing."""
@@ -49,7 +49,7 @@ def says_nothing(element: XML) -> bool:
     return all_zero(text for x in element.iter("*") for text in (x.text or "", *x.attrib.values()))
 
 
-def written(element: XML) -> str:
+def spell_tag(element: XML) -> str:
     """Return the tag as the file has it, with the name of the element where it has one."""
     tag, name = str(element.tag).rpartition("}")[2], element.get("name")
     prefix = f"{element.prefix}:" if element.prefix and ":" not in tag else ""
@@ -78,7 +78,7 @@ class Element:
         for key in self.xml.attrib:
             if word := meant(key, ATTRIBUTES.get(tag, ())):
                 raise self.error(f"unknown attribute {key!r} of <{tag}>; did you mean {word!r}?")
-            if ignored_attribute(tag, key) and not all_zero([self.xml.get(key)]):
+            if is_ignored_attribute(tag, key) and not all_zero([self.xml.get(key)]):
                 self.remark(f"attribute {key!r} of <{tag}>", LEFT_OUT)
         if tag in BY_ATTRIBUTES and (self.xml.text or "").strip():
             self.remark(f"text in <{tag}>", LEFT_OUT)
@@ -87,9 +87,9 @@ class Element:
                 raise self.error(f"unknown element <{child.tag}>; did you mean <{word}>?", child)
             if home := home_of(child.tag, tag):
                 self._misplaced(child, home)
-            elif child.tag not in CHILDREN.get(tag, ()) and ignored_child(tag, child) and not says_nothing(child):
+            elif child.tag not in CHILDREN.get(tag, ()) and is_ignored_child(tag, child) and not says_nothing(child):
                 place = "" if tag == "robot" else f" in <{tag}>"
-                self.remark(f"<{written(child)}>{place}", LEFT_OUT, line=child.sourceline)
+                self.remark(f"<{spell_tag(child)}>{place}", LEFT_OUT, line=child.sourceline)
 
     def _misplaced(self, child: XML, home: str) -> None:
         """Raise for a misplaced child that affects the dynamics; report a limit, friction or a link's own origin.
@@ -136,7 +136,7 @@ class Element:
         text = self.get(key)
         if text is None:
             return default
-        name, words = f"<{written(self.xml)} {key}={text!r}>", text.split()
+        name, words = f"<{spell_tag(self.xml)} {key}={text!r}>", text.split()
         if len(words) != len(default):
             expected = f"{len(default)} number{'s' * (len(default) > 1)}"
             raise self.error(f"{name}: expected {expected}, got {len(words)}")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from .element import LEFT_OUT, XML, Element, written
+from .element import LEFT_OUT, XML, Element, spell_tag
 from .records import UrdfJoint
 from .urdf_words import local_name
 
@@ -34,7 +34,7 @@ def read_rotors(robot: Element, joints: Mapping[str, UrdfJoint]) -> dict[str, di
     found: dict[str, dict[str, float]] = {}
     for xml in robot.xml.findall("transmission"):
         names = [str(joint.get("name")) for joint in xml.findall("joint")]
-        what = f"joint {names[0]!r}" if len(names) == 1 else f"<{written(xml)}> of {len(names)} joints"
+        what = f"joint {names[0]!r}" if len(names) == 1 else f"<{spell_tag(xml)}> of {len(names)} joints"
         transmission = replace(robot, xml=xml, what=what)
         armature = sum(_reflected(transmission, actuator) for actuator in xml.findall("actuator"))
         if not armature:

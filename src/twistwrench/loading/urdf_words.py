@@ -19,8 +19,8 @@ __all__ = [
     "NOT_DYNAMICS",
     "WORDS",
     "home_of",
-    "ignored_attribute",
-    "ignored_child",
+    "is_ignored_attribute",
+    "is_ignored_child",
     "local_name",
     "meant",
     "words_of",
@@ -111,20 +111,22 @@ def local_name(name: str) -> str:
     return name.rpartition("}")[2].rpartition(":")[2]
 
 
-def ignored_attribute(tag: str, key: str) -> bool:
+def is_ignored_attribute(tag: str, key: str) -> bool:
     """Return whether an attribute stands where a number of the dynamics may be meant, and is not one of the format.
 
     Examples
     --------
-    >>> ignored_attribute("origin", "position"), ignored_attribute("joint", "xyz"), ignored_attribute("link", "type")
-    (True, True, False)
+    >>> is_ignored_attribute("origin", "position"), is_ignored_attribute("joint", "xyz")
+    (True, True)
+    >>> is_ignored_attribute("link", "type")
+    False
     """
     if key in ATTRIBUTES.get(tag, ()):
         return False
     return local_name(key) in WORDS | ROTOR or (tag in BY_ATTRIBUTES and local_name(key) == key)
 
 
-def ignored_child(tag: str, child: Any) -> bool:
+def is_ignored_child(tag: str, child: Any) -> bool:
     """Return whether a child that is none of `tag` may be meant for the dynamics.
 
     Whatever stands in an <inertial> or a <joint> may; elsewhere, or with a prefix, what holds a word of the format.
@@ -138,7 +140,7 @@ def ignored_child(tag: str, child: Any) -> bool:
     --------
     >>> from lxml import etree
     >>> group, gravity = etree.fromstring("<group><link name='a'/></group>"), etree.fromstring("<gravity>1</gravity>")
-    >>> ignored_child("robot", group), ignored_child("link", gravity), ignored_child("inertial", gravity)
+    >>> is_ignored_child("robot", group), is_ignored_child("link", gravity), is_ignored_child("inertial", gravity)
     (True, False, True)
     """
     name = local_name(child.tag)

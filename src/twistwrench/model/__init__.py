@@ -37,8 +37,8 @@ from .reduction import Reduction, idle_joints, lock_joints, matching_joints
 from .report import Entry, LoadReport
 from .samples import KINDS, chain, random_tree
 from .serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
-from .state import check_arrays, checked_state, in_double
-from .tree import Tree, columns, composite_inertias, joint_placements, stacked, tree_terms, wrenches
+from .state import check_arrays, check_entries, in_double
+from .tree import Tree, columns, composite_inertias, joint_placements, stack_columns, tree_terms, wrenches
 
 __all__ = [
     "KINDS",
@@ -71,9 +71,9 @@ __all__ = [
     "cast",
     "chain",
     "check_arrays",
+    "check_entries",
     "check_model",
     "check_state",
-    "checked_state",
     "columns",
     "composite_inertias",
     "floats_of",
@@ -91,7 +91,7 @@ __all__ = [
     "replace_inertia",
     "same_side",
     "screw_axes",
-    "stacked",
+    "stack_columns",
     "tree_terms",
     "turn",
     "unit",

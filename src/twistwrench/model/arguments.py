@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from ..errors import ShapeError, no_model
 from .model import Model
-from .state import checked_state
+from .state import check_entries
 
 __all__ = ["check_model", "check_state", "floats_of", "one_configuration"]
 
@@ -21,7 +21,7 @@ def check_model(model: object) -> None:
 def check_state(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:
     """Check a model and a state of it, in numbers of any type: see `Model.state` and `exact`."""
     check_model(model)
-    return checked_state(model, True, q=q, **others)
+    return check_entries(model, True, q=q, **others)
 
 
 def floats_of(model: Model, q: ArrayLike, **others: ArrayLike | None) -> tuple[Array, ...]:

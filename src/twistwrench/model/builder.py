@@ -94,7 +94,7 @@ class Builder:
         self._joint_names: set[str] = set()
         flyer, joint_name = (FreeFlyer(), root_joint) if base == "floating" else (None, "")
         inertia = SpatialInertia.zero() if root_inertia is None else root_inertia
-        self._add(Link.checked(root, WORLD, flyer, joint_name, SE3.identity(), inertia, {}))
+        self._add(Link.make(root, WORLD, flyer, joint_name, SE3.identity(), inertia, {}))
 
     def link(
         self,
@@ -161,7 +161,7 @@ class Builder:
         placement = SE3.identity() if placement is None else placement
         inertia = SpatialInertia.zero() if inertia is None else inertia
         joint_name = name if joint_name is None else joint_name
-        self._add(Link.checked(name, parent, joint, joint_name, placement, inertia, numbers))
+        self._add(Link.make(name, parent, joint, joint_name, placement, inertia, numbers))
 
     def __repr__(self) -> str:
         counts = (len(self._links), "link"), (sum(link.joint is not None for link in self._links.values()), "joint")
@@ -256,7 +256,7 @@ class Link:
     friction: Array
 
     @classmethod
-    def checked(
+    def make(
         cls,
         name: str,
         parent: str,

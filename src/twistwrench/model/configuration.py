@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_array, as_generator
 from ..errors import NameNotFound
 from .joint import Joint
-from .state import check_arrays, checked_state
+from .state import check_arrays, check_entries
 
 __all__ = ["ConfigurationSpace"]
 
@@ -157,7 +157,7 @@ class ConfigurationSpace:
         >>> model.integrate(model.neutral(), step)[3:7].round(3)
         array([0.   , 0.   , 0.707, 0.707])
         """
-        return self._step(*checked_state(self, q=q, v_dt=v_dt))
+        return self._step(*check_entries(self, q=q, v_dt=v_dt))
 
     def _step(self, q: Array, v_dt: Array) -> Array:
         """Return q ⊕ v_dt of a checked state, or of numbers that are recorded."""
@@ -188,7 +188,7 @@ class ConfigurationSpace:
         >>> bool(np.allclose(model.difference(q, model.integrate(q, step)), step, rtol=0, atol=1e-14))
         True
         """
-        q0, q1 = checked_state(self, q0=q0, q1=q1)
+        q0, q1 = check_entries(self, q0=q0, q1=q1)
         return self._by_joint(lambda joint, qs, vs: joint.difference(q0[..., qs], q1[..., qs]), q0)
 
     def normalize(self, q: ArrayLike) -> Array:
@@ -261,7 +261,7 @@ class ConfigurationSpace:
                [-1.,  0.,  0.],
                [ 0.,  0.,  1.]])
         """
-        q, v_dt = checked_state(self, q=q, v_dt=v_dt)
+        q, v_dt = check_entries(self, q=q, v_dt=v_dt)
         slices = zip(self.joints, self.v_slice)
         return self._blocks([joint.d_integrate(v_dt[..., vs]) for joint, vs in slices if joint], v_dt)
 
@@ -292,7 +292,7 @@ class ConfigurationSpace:
         >>> bool((J_1 == np.eye(18)).all() and (J_0 == -np.eye(18)).all())
         True
         """
-        q0, q1 = checked_state(self, q0=q0, q1=q1)
+        q0, q1 = check_entries(self, q0=q0, q1=q1)
         slices = zip(self.joints, self.q_slice)
         return self._blocks([joint.d_difference(q0[..., qs], q1[..., qs]) for joint, qs in slices if joint], q1)
 
@@ -381,7 +381,7 @@ class ConfigurationSpace:
             An infinity or a NaN; a wrench on the world; a quaternion or (cos, sin) that is off norm 1 by more than the
             root of the number type's resolution (1.5e-8 in float64).
         """
-        return checked_state(self, q=q, **others)
+        return check_entries(self, q=q, **others)
 
 
 def _slices(sizes: list[int]) -> tuple[slice, ...]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_arrays, as_constant, as_number_arrays, check_size, judged, resolution
+from ..arrays import Array, as_arrays, as_constant, as_number_arrays, check_size, comparable, resolution
 from ..arrays.conversion import ROUNDING_ATOL
 from ..errors import ShapeError
 from ..spatial._elementary import at_first_index
@@ -19,10 +19,10 @@ from ..spatial._elementary import at_first_index
 if TYPE_CHECKING:
     from .configuration import ConfigurationSpace
 
-__all__ = ["check_arrays", "checked_state", "in_double"]
+__all__ = ["check_arrays", "check_entries", "in_double"]
 
 
-def checked_state(
+def check_entries(
     model: ConfigurationSpace, any_number: bool = False, /, **named: ArrayLike | None
 ) -> tuple[Array, ...]:
     """Check a state and bring it to one dtype and one batch shape: see `Model.state`.
@@ -103,7 +103,7 @@ def _external(model: ConfigurationSpace, f_ext: ArrayLike | None) -> ArrayLike:
         raise ShapeError(f"f_ext: expected shape (..., {model.nbodies}, 6), got {shape}; row 0 is the world's, zero")
     world = np.asarray(f_ext)[..., 0, :] if shape[-2:] == (model.nbodies, 6) else np.zeros(6)
     if world.dtype == object:
-        world = judged(world)
+        world = comparable(world)
         world = np.where(np.isnan(world), 1, world)  # a symbol without a value is not known to be zero
     if ((world != 0) & (world == world)).any():  # `as_arrays` raises for what is not a number
         raise ValueError("f_ext: row 0 is a wrench on the world, which nothing moves; expected zeros there")
@@ -123,7 +123,7 @@ def _refuse_zero(model: ConfigurationSpace, q: Array, name: str) -> None:
         if joint is None or joint.unit is None or not name.startswith("q"):
             continue
         part = slice(s.start + joint.unit.start, s.start + joint.unit.stop)
-        bad = np.asarray((judged(q[..., part]) == 0).all(-1))
+        bad = np.asarray((comparable(q[..., part]) == 0).all(-1))
         if bad.any():
             mend = "model.neutral() has the identity"
             what = f"{name}[{part.start}:{part.stop}]"

@@ -17,7 +17,7 @@ from ..spatial import SE3
 from ..spatial.formulas import symmetric
 from .model import Model
 
-__all__ = ["Tree", "columns", "composite_inertias", "joint_placements", "stacked", "tree_terms", "wrenches"]
+__all__ = ["Tree", "columns", "composite_inertias", "joint_placements", "stack_columns", "tree_terms", "wrenches"]
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def columns(model: Model, v: Array) -> list[Array]:
     return [v[..., s, None] for s in model.v_slice]
 
 
-def stacked(pieces: list[Array]) -> Array:
+def stack_columns(pieces: list[Array]) -> Array:
     """Return the columns of all joints as one (..., nv) array; the world, entry 0, has no joint."""
     return np.concatenate([pieces[0][..., :0, :], *pieces[1:]], axis=-2)[..., 0]
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 
-__all__ = ["Harmonics", "PiecewiseCurve", "between", "hop", "stair"]
+__all__ = ["Harmonics", "PiecewiseCurve", "connect", "hop", "stair"]
 
 SMOOTH_STEP = Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
 """From 0 to 1 within the unit of time, with three derivatives zero at both ends."""
@@ -38,7 +38,7 @@ def _unit_jet(p: Polynomial, s: Array, rate: float) -> Array:
     return np.stack([p(inside), rate * p.deriv()(inside), rate**2 * p.deriv(2)(inside)])
 
 
-def between(
+def connect(
     start: Sequence[float], end: Sequence[float], interval: tuple[float, float], area: float | None = None
 ) -> Polynomial:
     """Return the polynomial that has given derivatives at both ends of an interval, and a given integral over it.

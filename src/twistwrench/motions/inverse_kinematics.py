@@ -32,7 +32,7 @@ __all__ = [
     "solve",
     "targets",
     "tasks",
-    "turned",
+    "turn_base",
     "turning_jacobian",
 ]
 
@@ -103,7 +103,7 @@ def place(stand: Stand, goal: Goal) -> Array:
     SingularError
         If there is no such q near standing.
     """
-    q = turned(stand, goal, np.broadcast_to(stand.q, (*goal.turn[0].shape[:-1], stand.model.nq)))
+    q = turn_base(stand, goal, np.broadcast_to(stand.q, (*goal.turn[0].shape[:-1], stand.model.nq)))
     left = 2
     for _ in range(NEWTON_STEPS):
         q, error = nearer(stand, goal, q)
@@ -116,7 +116,7 @@ def place(stand: Stand, goal: Goal) -> Array:
     )
 
 
-def turned(stand: Stand, goal: Goal, q: Array) -> Array:
+def turn_base(stand: Stand, goal: Goal, q: Array) -> Array:
     """Return q with the base turned as it should be, and the joints that belong to no leg where they should be."""
     model = stand.model
     free = free_columns(stand)

@@ -17,8 +17,8 @@ from numpy.polynomial import Chebyshev
 from ..algorithms.centroidal import centroidal_map
 from ..arrays import Array
 from ..errors import SingularError
-from .curves import PiecewiseCurve, between, hop, stair
-from .inverse_kinematics import Goal, free_columns, nearer, place, solve, targets, tasks, turned, turning_jacobian
+from .curves import PiecewiseCurve, connect, hop, stair
+from .inverse_kinematics import Goal, free_columns, nearer, place, solve, targets, tasks, turn_base, turning_jacobian
 from .legs import Stand
 
 __all__ = ["FOUR_LEGS", "TWO_LEGS", "Jump", "Leap"]
@@ -84,16 +84,16 @@ class Leap:
         low, high = (stand.com[2] + (share - 1) * H for share in (jump.crouch, jump.off))
         x0, y0 = stand.com[:2]
         x = [
-            between([x0, 0, 0, 0], [x0 + leaves, ahead, 0, 0], before),
-            between([x0 + leaves], [x0 + lands], flying),
-            between([x0 + lands, ahead, 0, 0], [x0 + self.distance, 0, 0, 0], after),
+            connect([x0, 0, 0, 0], [x0 + leaves, ahead, 0, 0], before),
+            connect([x0 + leaves], [x0 + lands], flying),
+            connect([x0 + lands, ahead, 0, 0], [x0 + self.distance, 0, 0, 0], after),
         ]
         z = [
-            between([low, 0, 0, 0], [high, up, -g, 0], before),
-            between([high, up], [high], flying),
-            between([high, -up, -g, 0], [low, 0, 0, 0], after),
+            connect([low, 0, 0, 0], [high, up, -g, 0], before),
+            connect([high, up], [high], flying),
+            connect([high, -up, -g, 0], [low, 0, 0, 0], after),
         ]
-        y = [between([y0], [y0], span) for span in (before, flying, after)]
+        y = [connect([y0], [y0], span) for span in (before, flying, after)]
         self.com = PiecewiseCurve(self.breaks, list(zip(x, y, z)))
         self.momentum = self._momentum([before, flying, after])
         self.turn = self._turn()
@@ -120,12 +120,12 @@ class Leap:
         """Return k_G: about y, constant in flight; as much nose up as nose down, so that it ends nearly level."""
         I_y = centroidal_map(self.stand.model, self.stand.q)[1, 1]
         k = float(I_y) * self.jump.pitch / self.flight
-        zero = between([0.0], [0.0], spans[0])
+        zero = connect([0.0], [0.0], spans[0])
         held = k * self.flight
         about_y = [
-            between([0, 0, 0], [k, 0, 0], spans[0], area=-held / 2),
-            between([k], [k], spans[1]),
-            between([k, 0, 0], [0, 0, 0], spans[2], area=-held / 2),
+            connect([0, 0, 0], [k, 0, 0], spans[0], area=-held / 2),
+            connect([k], [k], spans[1]),
+            connect([k, 0, 0], [0, 0, 0], spans[2], area=-held / 2),
         ]
         return PiecewiseCurve(self.breaks, [(zero, p, zero) for p in about_y])
 
@@ -148,7 +148,7 @@ class Leap:
             rate = np.linalg.solve(turning_jacobian(phi), self._angular_velocity(t, q, goal)[..., None])[..., 0]
             turn = _integral(spans, t, rate)
             goal = goal._replace(turn=turn(t))
-            q, error = nearer(self.stand, goal, turned(self.stand, goal, q))  # one step: it converges with φ
+            q, error = nearer(self.stand, goal, turn_base(self.stand, goal, q))  # one step: it converges with φ
             if max(np.abs(goal.turn[0] - phi).max(), error.max()) < 1e-13:
                 return turn
         raise SingularError(

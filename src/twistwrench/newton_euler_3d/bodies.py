@@ -62,7 +62,7 @@ class Hinges:
         arm, arm_rate = point[:, None] - self.origin, velocity[:, None] - self.velocity
         return turn_rate, slide_rate + cross(turn_rate, arm) + cross(self.turn, arm_rate)
 
-    def extended(self, more: Hinges) -> Hinges:
+    def extend(self, more: Hinges) -> Hinges:
         """Return these columns, followed by `more`."""
         pairs = zip(vars(self).values(), vars(more).values(), strict=True)
         return Hinges(*(np.concatenate(pair, axis=-1) for pair in pairs))
@@ -144,7 +144,7 @@ def _carried(state: State, i: int, carrier: Body) -> Body:
         mass=number.array(given.mass)[()],
         com=p + R @ number.array(given.com),
         inertia=R @ number.array(given.inertia_at_com) @ R.mT,
-        hinges=carrier.hinges.extended(Hinges(index, turn, slide, *here)),
+        hinges=carrier.hinges.extend(Hinges(index, turn, slide, *here)),
     )
 
 

@@ -11,7 +11,7 @@ from ..arrays import Array, as_exactly
 from ..errors import ShapeError, SingularError
 from ..spatial import Wrench
 from ..spatial._vector import as_spatial
-from .style import COLOURS, axes_2d, axes_3d, drawn, drawn_number, fit
+from .style import COLOURS, as_drawable, as_drawable_number, axes_2d, axes_3d, fit
 
 __all__ = ["center_of_pressure", "friction_cone", "sole"]
 
@@ -90,9 +90,9 @@ def friction_cone(
     >>> np.hypot(rim[:, 0], rim[:, 1]).max().round(3), rim[0, 2]
     (np.float64(0.6), np.float64(1.0))
     """
-    mu = drawn_number(mu, "mu")
-    height = drawn_number(height, "height")
-    p = drawn(as_exactly(point, "point", 3), "point")
+    mu = as_drawable_number(mu, "mu")
+    height = as_drawable_number(height, "height")
+    p = as_drawable(as_exactly(point, "point", 3), "point")
     angle = np.linspace(0, 2 * np.pi, 49)
     rim = p + height * np.stack([mu * np.cos(angle), mu * np.sin(angle), np.ones(49)], axis=-1)
     ax = axes_3d(ax)
@@ -142,7 +142,7 @@ def sole(
     >>> ax.lines[0].get_xydata()  # (y, x)
     array([[0.  , 0.01]])
     """
-    c = drawn(corners, "corners", 3)
+    c = as_drawable(corners, "corners", 3)
     if c.ndim != 2:
         raise ShapeError(f"corners: expected shape (n, 3), got {c.shape}")
     ax = axes_2d(ax, size=(3.0, 4.0))
@@ -150,7 +150,7 @@ def sole(
     ax.set(xlabel="y [m]", ylabel="x [m]", aspect="equal")
     ax.xaxis.set_inverted(True)
     if F is not None:
-        x, y, _ = drawn(center_of_pressure(as_exactly(as_spatial(F, "F"), "F", 6)), "F")
+        x, y, _ = as_drawable(center_of_pressure(as_exactly(as_spatial(F, "F"), "F", 6)), "F")
         ax.plot(y, x, "o", color=colour, markersize=8)
         ax.annotate(text, (y, x), xytext=(6, 4), textcoords="offset points", fontsize=8)
     return ax

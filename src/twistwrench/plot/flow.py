@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_names
 from ..errors import ShapeError
 from ..model import Model, check_model
-from .style import COLOURS, axes_2d, drawn
+from .style import COLOURS, as_drawable, axes_2d
 
 __all__ = ["flow", "tree_layout"]
 
@@ -94,7 +94,7 @@ def flow(
     ['world', 'slide', 'hinge', '1 kg', '0.1 kg']
     """
     places = tree_layout(model)
-    size = np.ones(model.nbodies) if amounts is None else drawn(amounts, "amounts", model.nbodies)
+    size = np.ones(model.nbodies) if amounts is None else as_drawable(amounts, "amounts", model.nbodies)
     texts = as_names(texts, "texts", "texts", ordered=True)
     if len(texts) != model.nbodies or size.ndim != 1:
         raise ShapeError(f"texts, amounts: expected {model.nbodies} of each, got {len(texts)} and {size.shape}")

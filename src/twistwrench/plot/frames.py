@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..arrays import as_names
 from ..errors import ShapeError
 from ..spatial import SE3
-from .style import COLOURS, XYZ, as_placement, axes_3d, drawn, drawn_number, fit
+from .style import COLOURS, XYZ, as_drawable, as_drawable_number, as_placement, axes_3d, fit
 
 __all__ = ["arrows", "triad"]
 
@@ -45,7 +45,7 @@ def triad(T: SE3 | ArrayLike, name: str = "", *, size: float = 0.1, ax: Any = No
     >>> len(ax.lines), ax.texts[0].get_text().strip()
     (3, 'world')
     """
-    size, T = drawn_number(size, "size"), as_placement(T, "T")
+    size, T = as_drawable_number(size, "size"), as_placement(T, "T")
     if T.translation.ndim != 1:
         raise ShapeError(f"T: expected one placement, got a batch of shape {T.translation.shape[:-1]}")
     ax = axes_3d(ax)
@@ -100,8 +100,8 @@ def arrows(
     >>> arrows([0, 0, 0], [0, 0, 40], scale=0.01, texts=["40 N"], ax=ax).texts[0].get_position_3d()
     (np.float64(0.0), np.float64(0.0), np.float64(0.4))
     """
-    scale = drawn_number(scale, "scale")
-    p, x = drawn(points, "points", 3), drawn(vectors, "vectors", 3)
+    scale = as_drawable_number(scale, "scale")
+    p, x = as_drawable(points, "points", 3), as_drawable(vectors, "vectors", 3)
     texts = as_names(texts, "texts", "texts", ordered=True)
     try:
         p, x = (a.reshape(-1, 3) for a in np.broadcast_arrays(p, x))

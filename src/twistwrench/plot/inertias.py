@@ -13,7 +13,7 @@ from ..arrays import Array, as_exactly, as_finite, as_names, as_number, as_seque
 from ..errors import ShapeError
 from ..model import Model, one_configuration
 from ..spatial import SE3, SpatialInertia
-from .style import COLOURS, as_placement, axes_2d, axes_3d, drawn, drawn_number, fit
+from .style import COLOURS, as_drawable, as_drawable_number, as_placement, axes_2d, axes_3d, fit
 
 __all__ = ["apparent_mass_ellipse", "ellipsoid", "ellipsoids", "semi_axes"]
 
@@ -220,14 +220,15 @@ def apparent_mass_ellipse(
     >>> np.linalg.norm(ax.lines[0].get_xydata(), axis=-1).round(12).max()
     np.float64(2.0)
     """
-    scale = drawn_number(scale, "scale")
+    scale = as_drawable_number(scale, "scale")
     axes = [as_number(k, "plane") for k in as_sequence(plane, "plane", "axes")]
     if not len(axes) == 2 == len({0, 1, 2} & set(axes)):
         raise ValueError(f"plane: expected two of the axes 0, 1, 2, got {plane}")
-    M = drawn(as_exactly(inertia, "inertia", 6, 6), "inertia")
+    M = as_drawable(as_exactly(inertia, "inertia", 6, 6), "inertia")
     block = M[np.ix_(3 + np.array(axes, int), 3 + np.array(axes, int))]
     angle = np.linspace(0, 2 * np.pi, 73)
-    curve = drawn(as_exactly(at, "at", 2), "at") + scale * np.stack([np.cos(angle), np.sin(angle)], axis=-1) @ block.mT
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    curve = as_drawable(as_exactly(at, "at", 2), "at") + scale * circle @ block.mT
     new = ax is None
     ax = axes_2d(ax)
     if new:

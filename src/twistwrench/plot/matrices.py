@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import as_count, as_sequence
 from ..errors import ShapeError
-from .style import COLOURS, axes_2d, drawn, drawn_number
+from .style import COLOURS, as_drawable, as_drawable_number, axes_2d
 from .words import word
 
 __all__ = ["ANGULAR_LINEAR", "matrix"]
@@ -70,10 +70,10 @@ def matrix(
     >>> [text.get_text() for text in ax.texts]
     ['1', '-1']
     """
-    limit = None if limit is None else drawn_number(limit, "limit")
+    limit = None if limit is None else as_drawable_number(limit, "limit")
     if limit is not None and not limit > 0:
         raise ValueError(f"limit: expected a number above zero, got {limit}")
-    rounding, A = drawn_number(rounding, "rounding"), drawn(A, "A")
+    rounding, A = as_drawable_number(rounding, "rounding"), as_drawable(A, "A")
     rows, columns = as_sequence(rows, "rows", "names"), as_sequence(columns, "columns", "names")
     lines = [as_count(k, "lines", 0) for k in as_sequence(lines, "lines", "rows and columns")]
     _check_format(numbers)

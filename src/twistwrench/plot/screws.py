@@ -12,7 +12,7 @@ from ..errors import ShapeError
 from ..spatial import Twist, Wrench, screw
 from ..spatial._vector import as_spatial
 from .frames import arrows
-from .style import COLOURS, axes_3d, drawn, drawn_number, fit
+from .style import COLOURS, as_drawable, as_drawable_number, axes_3d, fit
 
 __all__ = ["point_velocity", "screw_axis", "twist_field"]
 
@@ -94,13 +94,13 @@ def screw_axis(
     array([[ 1.,  0., -1.],
            [ 1.,  0.,  1.]])
     """
-    length = drawn_number(length, "length")
-    x = drawn(V, "V", 6)
+    length = as_drawable_number(length, "length")
+    x = as_drawable(V, "V", 6)
     kind = "wrench" if isinstance(V, Wrench) else "twist"
     if x.ndim != 1:
         raise ShapeError(f"V: expected one {kind}, got a batch of shape {x.shape[:-1]}")
     axis, point = (part.astype(float) for part in screw(V if kind == "wrench" else x)[:2])
-    point = point + axis * (axis * (drawn(as_exactly(near, "near", 3), "near") - point)).sum(-1)
+    point = point + axis * (axis * (as_drawable(as_exactly(near, "near", 3), "near") - point)).sum(-1)
     ax = axes_3d(ax)
     ends = point + length / 2 * np.stack([-axis, axis])
     ax.plot(*ends.mT, "--", color=colour, linewidth=1.6, label=label)
@@ -148,7 +148,7 @@ def twist_field(
     >>> twist_field([0, 0, 1, 0, 0, 0], [[1, 0, 0], [0, 1, 0]], ax=ax) is ax
     True
     """
-    p = drawn(points, "points", 3)
-    scale = drawn_number(scale, "scale")
-    V = drawn(as_spatial(V, "V"), "V", 6)
+    p = as_drawable(points, "points", 3)
+    scale = as_drawable_number(scale, "scale")
+    V = as_drawable(as_spatial(V, "V"), "V", 6)
     return fit(arrows(p, point_velocity(V, p), scale=scale, colour=colour, label=label, ax=ax))

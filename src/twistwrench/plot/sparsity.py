@@ -11,7 +11,7 @@ from ..arrays import Array
 from ..errors import ShapeError
 from ..model import Model, check_model
 from .matrices import ANGULAR_LINEAR, matrix
-from .style import COLOURS, axes_2d, drawn, drawn_number
+from .style import COLOURS, as_drawable, as_drawable_number, axes_2d
 from .words import word
 
 __all__ = ["fill_in", "filled_in", "mass_matrix", "same_branch"]
@@ -100,7 +100,7 @@ def fill_in(model: Model, title: str = "", *, indent: float = 0.9, ax: Any = Non
     >>> [text.get_text() for text in ax.texts]
     ['slide', 'hinge']
     """
-    indent = drawn_number(indent, "indent")
+    indent = as_drawable_number(indent, "indent")
     check_model(model)
     ax = axes_2d(ax, size=(7.5, 5.4))
     for entries, colour in ((np.tril(same_branch(model)), "grey"), (filled_in(model), "vermilion")):
@@ -160,10 +160,10 @@ def mass_matrix(
     >>> [text.get_text() for text in ax.texts]
     ['slide', 'hinge']
     """
-    rounding = drawn_number(rounding, "rounding")
-    indent = drawn_number(indent, "indent")
+    rounding = as_drawable_number(rounding, "rounding")
+    indent = as_drawable_number(indent, "indent")
     check_model(model)
-    M = drawn(M, "M", model.nv, model.nv).reshape(-1, model.nv, model.nv)
+    M = as_drawable(M, "M", model.nv, model.nv).reshape(-1, model.nv, model.nv)
     if not len(M):
         raise ShapeError("M: expected at least one matrix, got none")
     largest = np.take_along_axis(M, np.abs(M).argmax(axis=0)[None], axis=0)[0]

@@ -15,7 +15,7 @@ from ..errors import ShapeError
 from ..model import Model, one_configuration
 from .frames import arrows
 from .robot import robot
-from .style import COLOURS, axes_3d, drawn, drawn_number, fit, newtons
+from .style import COLOURS, as_drawable, as_drawable_number, axes_3d, fit, newtons
 from .words import word
 
 __all__ = ["foot_forces", "hull", "support_polygon"]
@@ -51,8 +51,8 @@ def hull(points: ArrayLike) -> Array:
            [1., 1.],
            [0., 1.]])
     """
-    p = drawn(points, "points")
-    p = drawn(p, "points", 3 if p.shape[-1:] == (3,) else 2)
+    p = as_drawable(points, "points")
+    p = as_drawable(p, "points", 3 if p.shape[-1:] == (3,) else 2)
     if p.ndim != 2:
         raise ShapeError(f"points: expected shape (n, 2) or (n, 3), got {p.shape}")
     ordered = np.unique(p, axis=0)  # by x, then y
@@ -111,7 +111,7 @@ def support_polygon(
     >>> len(ax.collections), len(ax.lines)
     (1, 3)
     """
-    p = drawn(points, "points", 3)
+    p = as_drawable(points, "points", 3)
     if p.ndim != 2 or not len(p):
         raise ShapeError(f"points: expected shape (n, 3) with n of at least 1, got {p.shape}")
     corners = hull(p)
@@ -121,7 +121,7 @@ def support_polygon(
         fan = [(0, k, k + 1) for k in range(1, len(corners) - 1)]
         ax.plot_trisurf(*corners.mT, triangles=fan, color=colour, alpha=0.35, linewidth=0, shade=False)
     if com is not None:
-        c = drawn(as_exactly(com, "com", 3), "com")
+        c = as_drawable(as_exactly(com, "com", 3), "com")
         floor = np.array([c[0], c[1], corners[:, 2].mean()])
         ax.plot(*np.stack([c, floor], axis=-1), ":", color=COLOURS["purple"], linewidth=1.5)
         ax.plot(*floor[:, None], "o", color=COLOURS["purple"], markersize=5)
@@ -175,10 +175,10 @@ def foot_forces(
     >>> [text.get_text().strip() for text in ax.texts]
     ['39.1 N', '39.1 N', '39.8 N', '39.8 N']
     """
-    scale = drawn_number(scale, "scale")
+    scale = as_drawable_number(scale, "scale")
     q = one_configuration(model, q)
     contacts = model.feet if contacts is None else as_names(contacts, "contacts", "frame names", ordered=True)
-    f = drawn(as_exactly(forces, "forces", len(contacts), 3), "forces")
+    f = as_drawable(as_exactly(forces, "forces", len(contacts), 3), "forces")
     places = np.array([frame_placement(model, q, name).translation for name in contacts], dtype=float)
     ax = robot(model, q, ax=ax)
     support_polygon(places, center_of_mass(model, q), ax=ax)

@@ -11,7 +11,7 @@ from ..algorithms.centroidal import center_of_mass
 from ..arrays import Array
 from ..model import Model
 from .robot import sticks
-from .style import COLOURS, axes_2d, drawn_number
+from .style import COLOURS, as_drawable_number, axes_2d
 
 __all__ = ["side_view", "sides"]
 
@@ -53,7 +53,7 @@ def side_view(model: Model, q: ArrayLike, *, shift: float = 0.0, com: bool = Tru
     >>> len(ax.lines)  # sixteen sticks, and the centre of mass
     17
     """
-    shift = drawn_number(shift, "shift")
+    shift = as_drawable_number(shift, "shift")
     ax = axes_2d(ax, size=(10.0, 2.6))
     lines = sticks(model, q)
     side = sides(model)

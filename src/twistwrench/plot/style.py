@@ -14,11 +14,11 @@ __all__ = [
     "COLOURS",
     "NO_MATPLOTLIB",
     "XYZ",
+    "as_drawable",
+    "as_drawable_number",
     "as_placement",
     "axes_2d",
     "axes_3d",
-    "drawn",
-    "drawn_number",
     "fit",
     "newtons",
 ]
@@ -121,7 +121,7 @@ def _size(size: Any) -> Any:
     return width, height
 
 
-def drawn(value: ArrayLike, name: str, *tail: int) -> Array:
+def as_drawable(value: ArrayLike, name: str, *tail: int) -> Array:
     """Convert what is to be drawn to float64: real, finite and small enough, with these last axes.
 
     Examples
@@ -138,16 +138,16 @@ def drawn(value: ArrayLike, name: str, *tail: int) -> Array:
     return x
 
 
-def drawn_number(value: object, name: str) -> float:
+def as_drawable_number(value: object, name: str) -> float:
     """Return a number that is to be drawn: see `drawn`.
 
     Examples
     --------
-    >>> drawn_number(np.inf, "scale")
+    >>> as_drawable_number(np.inf, "scale")
     Traceback (most recent call last):
     ValueError: scale: expected a finite number, got inf
     """
-    return float(drawn(as_finite(value, name), name))
+    return float(as_drawable(as_finite(value, name), name))
 
 
 def as_placement(T: SE3 | ArrayLike, name: str) -> SE3:
@@ -194,7 +194,7 @@ def fit(ax: Any, points: ArrayLike | None = None) -> Any:
     if not hasattr(ax, "get_zlabel"):
         raise TypeError(f"ax: expected axes with projection='3d', got {type(ax).__name__}")
     if points is not None:
-        p = drawn(points, "points", 3).reshape(-1, 3)
+        p = as_drawable(points, "points", 3).reshape(-1, 3)
         ax.auto_scale_xyz(p[:, 0], p[:, 1], p[:, 2], had_data=ax.has_data())
     ax.set_aspect("equal")
     axes = (ax.xaxis, ax.yaxis, ax.zaxis)

@@ -20,10 +20,10 @@ from ..spatial import SpatialInertia
 __all__ = [
     "SAME_PLACE",
     "Payload",
-    "checked_contacts",
-    "checked_wrenches",
+    "add_payload",
+    "check_contacts",
+    "check_wrenches",
     "expect_movable",
-    "loaded",
     "posture",
     "whole_robot",
 ]
@@ -54,7 +54,7 @@ def posture(model: Model, q: ArrayLike | None) -> Array:
 Payload = float | SpatialInertia | Model
 
 
-def loaded(model: Model, payload: Mapping[str, Payload] | None) -> Model:
+def add_payload(model: Model, payload: Mapping[str, Payload] | None) -> Model:
     """Return the robot with what it carries, by the frames that carry it.
 
     Raises
@@ -90,7 +90,7 @@ SAME_PLACE = 1e-9
 """Two points of a body that are closer than this count as one, m."""
 
 
-def checked_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
+def check_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, ...]:
     """Return contacts of frames that the model has, each place touched once.
 
     Raises
@@ -125,7 +125,7 @@ def _terms(contact: Contact) -> dict[str, object]:
     return {name: value for name, value in vars(contact).items() if name != "frame"}
 
 
-def checked_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[str, Array]:
+def check_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[str, Array]:
     """Return one wrench for each frame named, in float64.
 
     Raises

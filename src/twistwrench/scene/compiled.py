@@ -18,13 +18,13 @@ from ..fast.recording import ALARM, record
 from ..model import Model
 from ..timing import round_robin
 
-__all__ = ["compiled", "seconds"]
+__all__ = ["compile_law", "seconds"]
 
 Law = Callable[..., tuple[Array, ...]]
 DOUBLE = np.dtype(np.float64)
 
 
-def compiled(
+def compile_law(
     model: Model, law: Law, known: Sequence[Array], wanted: Sequence[int]
 ) -> tuple[Callable[[], Sequence[Array]], float]:
     """Return what computes some of a law's results for all states, and its operations for one state.

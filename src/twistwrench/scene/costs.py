@@ -20,10 +20,10 @@ from ..motions import Motion
 from ..tables import aligned, html_table
 from ..templates.template import Template
 from .candidates import Articulated, Candidate, radius_of_gyration
-from .compiled import compiled, seconds
+from .compiled import compile_law, seconds
 from .judging import QUANTITIES, ReferenceMotion, scale, unit
 
-__all__ = ["Costs", "Option", "Prediction", "costs", "needed"]
+__all__ = ["Costs", "Option", "Prediction", "costs", "read_tolerance"]
 
 
 class Prediction(NamedTuple):
@@ -247,7 +247,7 @@ def _rank(option: Option) -> tuple[bool, bool, float, float]:
     return bool(option.unfit), bool(np.isnan(option.operations)), count, 0.0 if count < np.inf else option.seconds
 
 
-def needed(tolerance: float | Mapping[str, float]) -> dict[str, float]:
+def read_tolerance(tolerance: float | Mapping[str, float]) -> dict[str, float]:
     """Return the largest error that is allowed of each quantity that is needed."""
     given = tolerance if isinstance(tolerance, Mapping) else {"wrench": tolerance}
     for name, most in given.items():
@@ -296,7 +296,7 @@ def costs(
         states = [np.concatenate(x) for x in zip(*known[: len(motions)])]
         wanted = [0, 1] if "tau" in need else [0]
         if options[-1].within(need, margin):
-            call, operations = compiled(model, one.law, states, wanted[: 1 + one.predicts_torques])
+            call, operations = compile_law(model, one.law, states, wanted[: 1 + one.predicts_torques])
             options[-1] = replace(options[-1], operations=operations)
             calls[len(options) - 1] = call
     for k, time in zip(calls, seconds([*calls.values()], sum(map(len, motions)))):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.kinematics import Reference, frame_placement
-from ..algorithms.whole_body import QUANTITIES, Dynamics, wanted
+from ..algorithms.whole_body import QUANTITIES, Dynamics, select_quantities
 from ..arrays import Array, as_number, check_kind
 from ..contact import Contact
 from ..errors import ModelError
@@ -20,15 +20,15 @@ from ..motions import Motion
 from ..motions.motion import as_motions
 from .arguments import (
     Payload,
-    checked_contacts,
-    checked_wrenches,
+    add_payload,
+    check_contacts,
+    check_wrenches,
     expect_movable,
-    loaded,
     posture,
     whole_robot,
 )
 from .candidates import candidates, limbs, scene_candidate
-from .costs import Costs, costs, needed
+from .costs import Costs, costs, read_tolerance
 from .dynamics import scene_dynamics, scene_quantities
 from .phases import Phase, phases
 from .planar_base import PlanarBase
@@ -117,11 +117,11 @@ class Scene:
         wrenches: Mapping[str, ArrayLike] | None = None,
         payload: Mapping[str, Payload] | None = None,
     ) -> None:
-        self.full_model = full = loaded(whole_robot(robot, base, gravity), payload)
+        self.full_model = full = add_payload(whole_robot(robot, base, gravity), payload)
         self.payload = dict(payload or {})
         self.q = posture(full, q)
-        self.contacts = checked_contacts(full, contacts)
-        self.wrenches = checked_wrenches(full, {} if wrenches is None else wrenches)
+        self.contacts = check_contacts(full, contacts)
+        self.wrenches = check_wrenches(full, {} if wrenches is None else wrenches)
         self.held = _held(full, hold)
         self._base = base or full.base
         self._floor = PlanarBase.of(full, self.q) if base == "planar" else None
@@ -214,7 +214,7 @@ class Scene:
         ShapeError, SingularError, ValueError
             As `twistwrench.dynamics`.
         """
-        return scene_dynamics(self.model, self.contacts, self.wrenches, q, v, wanted(want))
+        return scene_dynamics(self.model, self.contacts, self.wrenches, q, v, select_quantities(want))
 
     def _quantities(self, dtype: np.dtype[Any], frames: tuple[str, ...], reference: Reference) -> dict[str, Quantity]:
         """Return what `twistwrench.compile` can make a program of, by symbol."""
@@ -372,7 +372,7 @@ class Scene:
         >>> scene.cheapest({"tau": 0.5, "cop": 0.01}, motions.walk(go2, samples=50)).best.name
         'full'
         """
-        need = needed(tolerance)
+        need = read_tolerance(tolerance)
         full = self.full_model
         ground = [c for c in self.contacts if c.to is None]
         judged, unseen = (as_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))

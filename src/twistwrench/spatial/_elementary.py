@@ -27,20 +27,20 @@ __all__ = [
 
 def cos(x: Array) -> Array:
     """Return the cosine of each entry, of any number type: see `exact.elementary`."""
-    return np.cos(x) if x.dtype != object else _of_each(x, "cos")
+    return np.cos(x) if x.dtype != object else _map(x, "cos")
 
 
 def sin(x: Array) -> Array:
     """Return the sine of each entry, of any number type: see `exact.elementary`."""
-    return np.sin(x) if x.dtype != object else _of_each(x, "sin")
+    return np.sin(x) if x.dtype != object else _map(x, "sin")
 
 
 def sqrt(x: Array) -> Array:
     """Return the square root of each entry, of any number type: see `exact.elementary`."""
-    return np.sqrt(x) if x.dtype != object else _of_each(x, "sqrt")
+    return np.sqrt(x) if x.dtype != object else _map(x, "sqrt")
 
 
-def _of_each(x: Array, name: str) -> Array:
+def _map(x: Array, name: str) -> Array:
     """Apply an elementary function to each object of an array, which stays an array where it has no axis."""
     values = np.empty(x.shape, object)
     for k in np.ndindex(x.shape):

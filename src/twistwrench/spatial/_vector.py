@@ -11,7 +11,7 @@ from ..arrays import Array, as_arrays, as_number_array, as_number_arrays, check_
 from ..errors import FrameError, SingularError, unknown_name
 from ._elementary import at_first_index, length
 
-__all__ = ["SpatialVector", "aligned", "as_spatial", "common_frame", "latex_matrix"]
+__all__ = ["SpatialVector", "align_digits", "as_spatial", "common_frame", "latex_matrix"]
 
 LATEX = str.maketrans(
     {c: f"\\{c}" for c in "_#%&${} "} | {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", "\n": r"\ "}
@@ -243,7 +243,7 @@ def as_spatial(value: ArrayLike, name: Literal["V", "F"]) -> Array:
     return as_number_array(value, name, 6)
 
 
-def aligned(before: str, x: Array) -> str:
+def align_digits(before: str, x: Array) -> str:
     """Return an array with all its digits after a label, row below row."""
     return before + np.array2string(x, separator=", ", floatmode="unique", prefix=before, max_line_width=100)
 

@@ -26,18 +26,18 @@ from ..arrays import (
     as_real,
     check_overflow,
     check_size,
-    judged,
+    comparable,
     tolerance,
     without_overflow,
 )
 from ..errors import ModelError, ShapeError
 from ._elementary import at_first_index, atan2, largest
 from ._physical import check_numbers, check_physical
-from ._vector import SpatialVector, aligned, as_spatial
+from ._vector import SpatialVector, align_digits, as_spatial
 from .cross import cross_force, cross_motion
 from .ellipsoid import views
 from .orthonormal import nearest_rotation
-from .plucker import SE3, blocks, placed_point
+from .plucker import SE3, blocks, place_point
 from .rotation import cross_matrix, exp3, skew_part
 from .twist import Twist, check_placement
 from .wrench import Wrench
@@ -293,8 +293,8 @@ class SpatialInertia:
         array([13., 10.,  5.])
         """
         P = as_number_array(P, "P", 4, 4)
-        off = largest(judged(P - P.mT), 2)
-        wrong = off > tolerance(P.dtype) * largest(judged(P), 2)
+        off = largest(comparable(P - P.mT), 2)
+        wrong = off > tolerance(P.dtype) * largest(comparable(P), 2)
         if wrong.any():
             raise ModelError(
                 f"P: expected a symmetric matrix, got |P − Pᵀ| = {off[wrong][0]:.3g}{at_first_index(wrong)}"
@@ -330,7 +330,7 @@ class SpatialInertia:
         """
         check_placement(T)
         turned = T.rotation @ self.inertia_at_com @ T.rotation.mT
-        com = placed_point(T.rotation, T.translation, self.com)
+        com = place_point(T.rotation, T.translation, self.com)
         mass = np.broadcast_to(self.mass.astype(com.dtype), com.shape[:-1])
         return SpatialInertia._trusted(mass, com, (turned + turned.mT) / 2)
 
@@ -411,12 +411,11 @@ class SpatialInertia:
         m1, m2 = self.mass, other.mass
         apart = self.com - other.com
         m = np.asarray(m1 - m2)
-        nothing = np.asarray(judged(m1) == judged(m2))
-        wrong = np.asarray((judged(m) < 0) | (nothing & (judged(m1) > 0) & (judged(apart) != 0).any(-1)))
+        nothing = np.asarray(comparable(m1) == comparable(m2))
+        wrong = np.asarray((comparable(m) < 0) | (nothing & (comparable(m1) > 0) & (comparable(apart) != 0).any(-1)))
         if wrong.any():
-            masses = (
-                f"{judged(m1 + 0 * m)[wrong][0]:.6g} kg − {judged(m2 + 0 * m)[wrong][0]:.6g} kg{at_first_index(wrong)}"
-            )
+            first, second = (comparable(each + 0 * m)[wrong][0] for each in (m1, m2))
+            masses = f"{first:.6g} kg − {second:.6g} kg{at_first_index(wrong)}"
             raise ModelError(f"SpatialInertia - SpatialInertia: expected a part of the first, got {masses}")
         ratio = np.asarray(m2 / np.where(nothing, 1, m))  # both masses zero, or at one point: nothing is left but I_c
         com = np.where(nothing[..., None], 0, self.com + ratio[..., None] * apart)
@@ -440,7 +439,7 @@ class SpatialInertia:
         if isinstance(scale, SpatialInertia | SpatialVector):
             return NotImplemented
         a, m, c, I_c = self._with_scale(scale)
-        if (judged(a) == 0).any():
+        if (comparable(a) == 0).any():
             raise ZeroDivisionError("SpatialInertia / 0")
         with np.errstate(over="ignore"):
             return self._scaled(m / a, c, I_c / a[..., None, None])
@@ -453,10 +452,10 @@ class SpatialInertia:
         a, m, c, I_c = as_number_arrays(
             scale=(scale, ()), mass=(self.mass, ()), com=(self.com, (3,)), inertia_at_com=(self.inertia_at_com, (3, 3))
         )
-        negative = np.asarray(judged(a) < 0)
+        negative = np.asarray(comparable(a) < 0)
         if negative.any():
             raise ModelError(
-                f"scale: expected a number that is not negative, got {judged(a)[negative][0]:.6g}"
+                f"scale: expected a number that is not negative, got {comparable(a)[negative][0]:.6g}"
                 f"{at_first_index(negative)}: no mass is; I₁ − I₂ takes a part away, and I.parameters() are ten "
                 "numbers that may have any sign"
             )
@@ -795,7 +794,7 @@ class SpatialInertia:
     def __repr__(self) -> str:
         if self.mass.ndim:
             return f"<SpatialInertia: a batch, shape {self.mass.shape}>"
-        com, I_c = aligned("    com=", self.com), aligned("    inertia_at_com=", self.inertia_at_com)
+        com, I_c = align_digits("    com=", self.com), align_digits("    inertia_at_com=", self.inertia_at_com)
         return f"SpatialInertia(mass={self.mass},\n{com},\n{I_c})"
 
     def _repr_html_(self) -> str:
@@ -824,7 +823,7 @@ def _largest_positive(x: Array) -> Array:
 
 def _center(mass: Array, first: Array, name: str) -> Array:
     """Return the centre of mass, 0 for no mass; raise where there is a first moment without a mass."""
-    wrong = np.asarray((judged(mass) == 0) & (judged(first) != 0).any(-1))
+    wrong = np.asarray((comparable(mass) == 0) & (comparable(first) != 0).any(-1))
     if wrong.any():
         raise ModelError(f"{name}: m c is not zero, and the mass is{at_first_index(wrong)}")
     return np.asarray(first / np.where(mass == 0, 1, mass)[..., None])
@@ -836,10 +835,10 @@ def _positive(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
     for name, x in zip(named, arrays):
         if x.dtype != object:
             check_size(x, name)
-        wrong = judged(x) < 0
+        wrong = comparable(x) < 0
         if wrong.any():
             raise ModelError(
-                f"{name}: expected no negative number, got {judged(x)[wrong][0]:.6g}{at_first_index(wrong)}"
+                f"{name}: expected no negative number, got {comparable(x)[wrong][0]:.6g}{at_first_index(wrong)}"
             )
     try:
         np.broadcast_shapes(*(x.shape[: x.ndim - len(tail)] for x, (_, tail) in zip(arrays, named.values())))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, judged, resolution, tolerance
+from ..arrays import Array, as_array, comparable, resolution, tolerance
 from ..errors import ShapeError
 from ._elementary import at_first_index, largest
 
@@ -93,14 +93,14 @@ def _cofactors(R: Array) -> Array:
 def check_rotation(R: Array, name: str) -> None:
     """Raise ShapeError unless RᵀR = 1 and det R = 1, to the square root of the resolution."""
     off = largest(_defect(R), 2)
-    known = ~np.isnan(judged(R)).any((-2, -1))  # a symbol has no value to check
+    known = ~np.isnan(comparable(R)).any((-2, -1))  # a symbol has no value to check
     mend = f"; nearest_rotation({name}) repairs it" if (off <= MAX_GRAM_ERROR).all() and not _reflects(R).any() else ""
     _refuse(R, ~(off <= tolerance(R.dtype)) & known, off, f"{name}: expected a rotation matrix", mend)
 
 
 def _defect(R: Array) -> Array:
     """Return RᵀR − 1 of the real parts."""
-    real = judged(R)
+    real = comparable(R)
     with np.errstate(over="ignore", invalid="ignore"):
         return np.asarray(real.mT @ real - np.eye(3))
 
@@ -108,7 +108,7 @@ def _defect(R: Array) -> Array:
 def _reflects(R: Array) -> Array:
     """Return whether det R is negative."""
     with np.errstate(over="ignore", invalid="ignore"):
-        x, y, z = np.moveaxis(judged(R), -1, 0)
+        x, y, z = np.moveaxis(comparable(R), -1, 0)
         return np.asarray((np.cross(x, y) * z).sum(-1) < 0)
 
 

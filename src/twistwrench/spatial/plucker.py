@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_array, as_number_array, as_number_arrays, tolerance
 from ..errors import ShapeError
 from ._elementary import at_first_index, largest
-from ._vector import aligned, latex_matrix
+from ._vector import align_digits, latex_matrix
 from .orthonormal import check_rotation
 from .rotation import cross_matrix
 
@@ -206,7 +206,7 @@ class SE3:
             use = "T.act(x) for points, T.motion_transform() @ x for twists, T.force_transform() @ x for wrenches"
             use = use if name is None else f"{name}.transform(T)"
             raise TypeError(f"SE3 @ {type(other).__name__}: only placements are chained with @; use {use}")
-        p = placed_point(self.rotation, self.translation, other.translation)
+        p = place_point(self.rotation, self.translation, other.translation)
         return SE3._trusted(self.rotation @ other.rotation, p)
 
     def __rmatmul__(self, other: object) -> SE3:
@@ -247,7 +247,7 @@ class SE3:
         >>> SE3(np.eye(3), [1, 0, 0]).act([0, 2, 0])
         array([1., 2., 0.])
         """
-        return placed_point(self.rotation, self.translation, as_number_array(point, "point", 3))
+        return place_point(self.rotation, self.translation, as_number_array(point, "point", 3))
 
     def motion_transform(self) -> Array:
         """Return X, which takes twists from B to A, shape (..., 6, 6): see `motion_transform`.
@@ -276,14 +276,15 @@ class SE3:
     def __repr__(self) -> str:
         if self.translation.ndim > 1:
             return f"<SE3: a batch of placements, shape {self.translation.shape[:-1]}>"
-        rotation, translation = aligned("SE3(rotation=", self.rotation), aligned("    translation=", self.translation)
+        rotation = align_digits("SE3(rotation=", self.rotation)
+        translation = align_digits("    translation=", self.translation)
         return f"{rotation},\n{translation})"
 
     def _repr_latex_(self) -> str | None:
         return None if self.translation.ndim > 1 else f"$T = {latex_matrix(self.matrix())}$"
 
 
-def placed_point(R: Array, p: Array, x: Array) -> Array:
+def place_point(R: Array, p: Array, x: Array) -> Array:
     """Return R x + p, without checks and for any number type: the formula of `SE3.act`."""
     return np.asarray(np.matvec(R, x) + p)
 

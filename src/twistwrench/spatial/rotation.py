@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_number_array, check_overflow, judged, tolerance
+from ..arrays import Array, as_array, as_number_array, check_overflow, comparable, tolerance
 from ..errors import ShapeError, SingularError
 from ._elementary import at_first_index, atan2, largest, length, sinc
 from .orthonormal import check_rotation
@@ -183,7 +183,7 @@ def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
            [ 0.,  0.,  1.]])
     """
     q = as_number_array(xyzw, "xyzw", 4)
-    size = largest(judged(q), 1)
+    size = largest(comparable(q), 1)
     if (size == 0).any():
         raise SingularError("xyzw: the zero quaternion is not a rotation" + at_first_index(size == 0))
     return quaternion_matrix(q if q.dtype == object else q / size[..., None])

@@ -14,7 +14,7 @@ from ..algorithms.kinematics import frame_placement
 from ..arrays import Array, as_arrays, as_number, convert
 from ..errors import SingularError
 from ..model import Model
-from .template import Template, checked, com_acceleration, force, full_rate, locked_inertia
+from .template import Template, check_arguments, com_acceleration, force, full_rate, locked_inertia
 
 __all__ = ["Centroidal", "FrozenRigidBody", "Full", "LinearPendulum", "PointMass", "RigidBody"]
 
@@ -96,7 +96,7 @@ class LinearPendulum(Template):
         ValueError
             If there is no height: `model.feet` is empty and none was given; or it is not positive.
         """
-        held = checked(model, q)
+        held = check_arguments(model, q)
         if held[2] == 0:
             raise SingularError(f"{model.name!r} has no gravity: a pendulum needs one")
         if height is None:
@@ -226,7 +226,7 @@ class FrozenRigidBody(RigidBody):
     @classmethod
     def of(cls, model: Model, q: ArrayLike) -> Self:
         """Make the template from a model and a configuration: see `Template.of`."""
-        held = checked(model, q)
+        held = check_arguments(model, q)
         return cls(*held, locked_inertia(model, held[1]))
 
     def _inertia(self, q: Array) -> Array:

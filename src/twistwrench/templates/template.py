@@ -101,7 +101,7 @@ class Template(ABC):
         ShapeError, ValueError
             As `Model.state`; or if q is a batch or complex.
         """
-        return cls(*checked(model, q))
+        return cls(*check_arguments(model, q))
 
     @abstractmethod
     def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
@@ -153,7 +153,7 @@ class Template(ABC):
         return Residual(error[..., :3], error[..., 3:], self.weight, self.length)
 
 
-def checked(model: Model, q: ArrayLike) -> tuple[Model, Array, float, float]:
+def check_arguments(model: Model, q: ArrayLike) -> tuple[Model, Array, float, float]:
     """Return what every template has: model, configuration, weight and radius of gyration."""
     q = one_configuration(model, q)
     if model.base != "floating":

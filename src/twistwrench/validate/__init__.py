@@ -5,8 +5,8 @@
 (True, 29)
 """
 
-from .measure import Judge, Row
+from .measure import Comparison, Judge
 from .report import Report
 from .run import validate
 
-__all__ = ["Judge", "Report", "Row", "validate"]
+__all__ = ["Comparison", "Judge", "Report", "validate"]

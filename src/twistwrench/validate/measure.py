@@ -17,11 +17,11 @@ from .oracle import Oracle
 from .quantity import DEFAULT_RTOL, ComparedQuantity
 from .states import States
 
-__all__ = ["Judge", "Row"]
+__all__ = ["Comparison", "Judge"]
 
 
 @dataclass(frozen=True)
-class Row:
+class Comparison:
     """The result for one quantity.
 
     Attributes
@@ -123,9 +123,9 @@ class Judge:
     context: Any
     truths: int
 
-    def row(self, quantity: ComparedQuantity) -> Row:
+    def row(self, quantity: ComparedQuantity) -> Comparison:
         """Measure one quantity."""
-        row = Row(quantity.section, quantity.name, quantity.pinocchio)
+        row = Comparison(quantity.section, quantity.name, quantity.pinocchio)
         try:
             ours = quantity.ours(self.model, self.states)
         except SingularError as error:
@@ -200,7 +200,7 @@ def _errors(x: Array, right: HighLow | None, scale: float) -> Array | None:
     return np.asarray(off / scale if scale else np.where(off == 0, 0.0, np.inf))
 
 
-def _sum_up(row: Row, states: Sequence[StateErrors]) -> Row:
+def _sum_up(row: Comparison, states: Sequence[StateErrors]) -> Comparison:
     """Take the worst of the states."""
     known = [i for i, at in enumerate(states) if at.ours_vs_truth is not None] or range(len(states))
     worst = max(known, key=lambda i: states[i].closeness)

@@ -10,7 +10,7 @@ from html import escape
 from typing import Any
 
 from ..tables import aligned, html_table
-from .measure import Row
+from .measure import Comparison
 
 __all__ = ["Report", "notes", "number"]
 
@@ -46,7 +46,7 @@ class Report:
     description: str
     base: str
     nv: int
-    rows: tuple[Row, ...]
+    rows: tuple[Comparison, ...]
     pinocchio: str | None
     mpmath: str | None
     states: int
@@ -62,12 +62,12 @@ class Report:
         return all(row.passed for row in self.rows)
 
     @property
-    def failed(self) -> tuple[Row, ...]:
+    def failed(self) -> tuple[Comparison, ...]:
         """The rows that are outside their bounds."""
         return tuple(row for row in self.rows if not row.passed)
 
     @property
-    def worst(self) -> Row | None:
+    def worst(self) -> Comparison | None:
         """The row closest to its bound, or furthest above it."""
         compared = [row for row in self.rows if row.error is not None]
         return max(compared, key=lambda row: _ratio(row), default=None)
@@ -128,7 +128,7 @@ class Report:
         return f"<p>{head}</p>{html_table(HEADER, map(_cells, self.rows))}<p>{escape(self.summary())}</p>"
 
 
-def notes(rows: Iterable[Row]) -> list[str]:
+def notes(rows: Iterable[Comparison]) -> list[str]:
     """Return the notes on the rows, each once."""
     said: dict[str, list[str]] = {}
     for row in rows:
@@ -137,12 +137,12 @@ def notes(rows: Iterable[Row]) -> list[str]:
     return [f"    {'; '.join(names)}: {note}" for note, names in said.items()]
 
 
-def _ratio(row: Row) -> float:
+def _ratio(row: Comparison) -> float:
     ratio = (row.error or 0.0) / row.bound
     return math.inf if math.isnan(ratio) else ratio
 
 
-def _cells(row: Row) -> tuple[str, ...]:
+def _cells(row: Comparison) -> tuple[str, ...]:
     verdict = "✓" if row.passed else "✗"
     if row.singular:
         return (row.section, row.quantity, row.pinocchio, "", "", "singular", "", verdict)

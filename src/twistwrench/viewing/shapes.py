@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..loading.catalogue import PREFIX, find, known
+from ..loading.catalogue import PREFIX, find, is_known
 from ..loading.element import read_robot_xml
 from ..model import Model
 from ..spatial import SE3
@@ -90,11 +90,11 @@ def _urdf(source: str | PathLike[str] | None) -> Path | None:
     if source is None:
         return None
     name = str(source)
-    if not known(name):
+    if not is_known(name):
         return Path(source)
     robot = find(name)
     if robot.source == "models":
-        if not known(PREFIX + name):
+        if not is_known(PREFIX + name):
             return None
         robot = find(PREFIX + name)
     try:

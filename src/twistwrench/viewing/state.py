@@ -16,7 +16,7 @@ from ..errors import ShapeError, SingularError, no_model
 from ..loading import load
 from ..model import Model, in_double
 from ..motions import Motion
-from ..plot.style import drawn, newtons
+from ..plot.style import as_drawable, newtons
 from ..scene import Scene
 from ..simulation import Simulation
 
@@ -161,7 +161,9 @@ def subject(
         t = motion.t if t is None else t
         motion = motion.q
     q = _configuration(model, motion)
-    given = None if forces is None else drawn(as_exactly(forces, "forces", *q.shape[:-1], len(ground), 3), "forces")
+    given = None
+    if forces is not None:
+        given = as_drawable(as_exactly(forces, "forces", *q.shape[:-1], len(ground), 3), "forces")
     stands = np.ones((*q.shape[:-1], len(ground)), bool) if standing is None else standing
     stands = stands if given is None else (given != 0).any(axis=-1)
     return Subject(model, q, _times(q, t), ground, stands, given)

@@ -111,7 +111,7 @@ def view(
 def _in_browser(
     robot: Any, seen: Subject, frames: Collection[str] | None, meshes: str | PathLike[str] | bool
 ) -> Browser:
-    from ..loading.catalogue import known
+    from ..loading.catalogue import is_known
     from .browser import Browser, import_viser
     from .shapes import shapes
 
@@ -119,5 +119,5 @@ def _in_browser(
     source = None if isinstance(meshes, bool) else meshes
     if meshes is True:  # a model gets those of the robot of its name, if there is one
         name = seen.model.name
-        source = robot if isinstance(robot, str | PathLike) else name if known(name) else None
+        source = robot if isinstance(robot, str | PathLike) else name if is_known(name) else None
     return Browser(seen, shapes(seen.model, source), frames)

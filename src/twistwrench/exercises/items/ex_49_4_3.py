@@ -58,7 +58,7 @@ def _in_few_points(rng: Any) -> Any:
     ]
 
 
-def _of_any_size(rng: Any) -> Any:
+def _draw_wrenches(rng: Any) -> Any:
     """Return wrenches that push, one that pulls, and some with little force for their moment."""
     wrenches = [sign * sole_wrench(*_forces_of(rng)) for sign in (1, 1, 1, -1)]
     return [(F,) for F in (*wrenches, *(wrenches[0] * [1, 1, 1, 1, 1, part] for part in (1e-2, 1e-4, 1e-6)))]
@@ -133,7 +133,7 @@ SUM = Part(
 PRESSURE = Part(
     solution=center_of_pressure,
     returns=(Quantity("p", unit="m"),),
-    cases=_of_any_size,
+    cases=_draw_wrenches,
     slips={
         "cop-sign": faulty(center_of_pressure, ("-tau_y", "tau_y")),
         "cop-axes": lambda F: F[:2] / F[5],

@@ -54,7 +54,7 @@ WRONG = {
 """The slips of the matrix, for any body."""
 
 
-def _of_link(wrong: Any, *, m: float = 2.0) -> Any:
+def _link_eigenvalues(wrong: Any, *, m: float = 2.0) -> Any:
     """Make the slips of a matrix in the matrix of the link, and find its eigenvalues."""
     matrix = wrong(m, np.array([0, 0, 0.1]), np.diag([0.01, 0.01, 0.005]))
     return matrix, np.sort(np.linalg.eigvals(matrix).real)
@@ -67,11 +67,11 @@ BY_HAND = Part(
     cases=lambda rng: [()],
     rtol=2e-5,  # the least eigenvalue is 0.0099, the largest 2.02
     slips={
-        **{slip: (lambda wrong=wrong: _of_link(wrong)) for slip, wrong in WRONG.items()},
-        "distance-not-squared": lambda: _of_link(
+        **{slip: (lambda wrong=wrong: _link_eigenvalues(wrong)) for slip, wrong in WRONG.items()},
+        "distance-not-squared": lambda: _link_eigenvalues(
             faulty(spatial_inertia, ("- m * C @ C", "- m * C @ C / np.linalg.norm(c)"))
         ),
-        "thousand": lambda: _of_link(spatial_inertia, m=2000.0),
+        "thousand": lambda: _link_eigenvalues(spatial_inertia, m=2000.0),
         "diagonal-for-eigenvalues": lambda: (link_inertia()[0], np.sort(np.diag(link_inertia()[0]))),
     },
     residuals=(

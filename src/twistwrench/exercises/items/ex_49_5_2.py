@@ -69,7 +69,7 @@ def _light_base(rng: Any) -> Any:
     return [(tw.replace_inertia(model, model.joint_names[1], light),)]
 
 
-def _of_the_universe(rng: Any) -> Any:
+def _draw_inertias(rng: Any) -> Any:
     """Return the inertia of the universe, and of a body whose frame is at its centre of mass."""
     m, c, I_c = random_body(rng)
     return [(np.zeros((6, 6)),), (swapped(spatial_inertia)(m, 0 * c, I_c),)]
@@ -79,7 +79,7 @@ REORDERED = Part(
     solution=chapter_order,
     returns=(Quantity("I", INERTIA),),
     cases=_linear_first,
-    edges=_of_the_universe,
+    edges=_draw_inertias,
     slips={
         "swapped-halves": lambda I: I,
         "rows-only": lambda I: EXCHANGE @ I,

@@ -38,7 +38,7 @@ def go2_base_wrench() -> Any:
     return tw.rnea(model, model.neutral(), rest, rest)[:6]
 
 
-def _of_base(model: Any, q: Any) -> Any:
+def _hold_base(model: Any, q: Any) -> Any:
     """Return what holds the base alone, without the legs."""
     force = -model.inertia[1].mass * tw.forward_kinematics(model, q).placement[1].rotation.mT @ model.gravity
     return np.concatenate([np.cross(model.inertia[1].com, force), force])
@@ -78,9 +78,9 @@ BY_HAND = Part(
             ("base.rotation.mT @ model", "base.rotation @ model"),
         ),
         "cross-order": faulty(base_wrench_at_rest, ("lever, force", "force, lever")),
-        "legs-left-out": _of_base,
+        "legs-left-out": _hold_base,
         "one-link": faulty(base_wrench_at_rest, ("sum(body.mass for body in model.inertia)", "model.inertia[1].mass")),
-        "base-weightless": lambda model, q: base_wrench_at_rest(model, q) - _of_base(model, q),
+        "base-weightless": lambda model, q: base_wrench_at_rest(model, q) - _hold_base(model, q),
         "mass-for-weight": times(base_wrench_at_rest, 1 / 9.81),
         "swapped-halves": swapped(base_wrench_at_rest),
         "column-vector": as_column(base_wrench_at_rest),

@@ -10,7 +10,7 @@ from misstep.text import Text
 
 from ..layouts import JOINT_SPACE
 from ..robots import held_acceleration, states
-from ..stopwatch import Machine, Task, seconds, timed
+from ..stopwatch import Machine, Task, measure, seconds
 from ..wrong import faulty, swapped
 
 __all__ = ["EXERCISE", "forward_dynamics_two_ways", "measured_ratio", "time_ratio"]
@@ -164,7 +164,7 @@ RATIO = Part(
     returns=(Quantity("ratio", zh="比值"),),
     cases=_machines,
     edges=_at_both_ends,
-    call=timed,
+    call=measure,
     canonical=lambda answer, first, second, calls, clock: _verdict(answer, second.seconds / first.seconds),
     slips={
         "ratio-inverted": lambda first, second, calls, clock: 1 / time_ratio(first, second, calls, clock),

@@ -46,7 +46,7 @@ def _cases(rng: Any) -> Any:
     ]
 
 
-def _of_base(model: Any, q: Any, forces: Any) -> Any:
+def _base_wrench(model: Any, q: Any, forces: Any) -> Any:
     """Return the wrench on the base that weight and feet amount to, from its six rows, taken to the centre of mass."""
     at_base = (_stacked(model, q).mT @ forces.ravel() - tw.gravity(model, q))[:6]
     T = tw.frame_placement(model, q, "base")
@@ -124,7 +124,7 @@ NET = Part(
         "wrench-about-base": _moved(lambda q, p_G: p_G - q[:3]),
     },
     alike=(frozenset({"lever-reversed", "cross-order"}),),
-    residuals=(lambda answer, model, q, forces: answer - _of_base(model, q, forces),),
+    residuals=(lambda answer, model, q, forces: answer - _base_wrench(model, q, forces),),
 )
 
 EXERCISE = Exercise(id="49.9.1", kind="explain", parts=(BALANCE, NET))

@@ -107,7 +107,7 @@ LOADS = Part(
 # ---------------------------------------------------------------- consistency
 
 
-def _of_accelerations(forward: Any, inverse: Any, model: Any, q: Any, v: Any, tau: Any) -> Any:
+def _round_trip(forward: Any, inverse: Any, model: Any, q: Any, v: Any, tau: Any) -> Any:
     a = forward(model, q, v, tau)
     back = inverse(model, q, v, a)
     if np.isnan(back).any():
@@ -200,7 +200,7 @@ CONSISTENCY = Part(
         ),
         "sizes-compared": faulty(consistency_error, ("np.abs(back - tau)", "np.abs(np.abs(back) - np.abs(tau))")),
         "scale-signed": faulty(consistency_error, ("np.abs(tau).max()", "tau.max()")),
-        "accelerations-compared": _of_accelerations,
+        "accelerations-compared": _round_trip,
         "error-averaged": faulty(consistency_error, ("np.abs(back - tau).max()", "np.abs(back - tau).mean()")),
         "error-of-joints": faulty(consistency_error, ("np.abs(back - tau)", "np.abs(back - tau)[6:]")),
         "nan-lost": faulty(

@@ -7,7 +7,7 @@ import numpy as np
 from misstep.exercise import Part, Quantity
 from misstep.text import Text
 
-from ..stopwatch import Machine, Task, often, seconds, timed
+from ..stopwatch import Machine, Task, draw_interruptions, measure, seconds
 
 __all__ = ["TIME", "time_per_call"]
 
@@ -32,7 +32,7 @@ def _machines(rng: Any) -> Any:
         Machine(Text("interrupted once", "被打断一次"), pause=3.0, paused_at=[int(rng.integers(20, 80))]),
         Machine(Text("interrupted at the end", "末尾被打断"), pause=0.01, paused_at=range(calls - 1, calls + 10)),
         *(
-            Machine(Text("interrupted often", "常被打断"), pause=0.01, paused_at=often(rng, 20 * calls))
+            Machine(Text("interrupted often", "常被打断"), pause=0.01, paused_at=draw_interruptions(rng, 20 * calls))
             for _ in range(3)
         ),
     ]
@@ -49,10 +49,10 @@ def _unsteady(rng: Any) -> Any:
     )
     machines = [
         Machine(Text("each call up to 1 % longer", "每次调用长短相差不到 1 %"), wobble=0.01),
-        Machine(often_too, start=0.1, pause=0.01, paused_at=often(rng, 2000), wobble=0.01),
+        Machine(often_too, start=0.1, pause=0.01, paused_at=draw_interruptions(rng, 2000), wobble=0.01),
     ]
     short = Text("often interrupted for a short time", "常被短暂打断")
-    shortly = Machine(short, pause=6e-4, paused_at=often(rng, 2000))
+    shortly = Machine(short, pause=6e-4, paused_at=draw_interruptions(rng, 2000))
     times = [(machine, float(rng.uniform(1e-5, 1e-3))) for machine in machines]
     return [(Task(machine, seconds), 100, machine) for machine, seconds in (*times, (shortly, 1e-3))]
 
@@ -94,7 +94,7 @@ TIME = Part(
     returns=(Quantity("time", unit="s", zh="时间"),),
     cases=_machines,
     edges=_unsteady,
-    call=timed,
+    call=measure,
     canonical=lambda answer, task, calls, clock: _near(answer, task),
     slips={
         "single-call": lambda task, calls, clock: seconds(task, 1, clock)[0],
