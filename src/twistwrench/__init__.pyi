@@ -70,6 +70,7 @@ from .model.editing import attach, replace_inertia
 from .model.joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .model.model import Model
 from .model.reduction import Reduction, lock_joints
+from .model.rerooting import Rerooting, reroot
 from .model.samples import chain, random_tree
 from .model.serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
 from .scene import Scene
@@ -121,6 +122,7 @@ __all__ = [
     "Prismatic",
     "Program",
     "Reduction",
+    "Rerooting",
     "Revolute",
     "Scene",
     "Screw",
@@ -208,6 +210,7 @@ __all__ = [
     "project_state",
     "random_tree",
     "replace_inertia",
+    "reroot",
     "rnea",
     "rnea_terms",
     "robots",

@@ -21,6 +21,7 @@ samples         `chain` and `random_tree`
 serial          `from_screw_axes`, `screw_axes`, `from_dh`: arms as textbooks print them
 reduction       `lock_joints`: a smaller model
 editing         `attach`: two models as one; `replace_inertia`
+rerooting       `reroot`: the same robot hung from another frame
 ==============  ======================================================================================
 """
 
@@ -35,6 +36,7 @@ from .joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute,
 from .model import Frame, Model
 from .reduction import Reduction, idle_joints, lock_joints, matching_joints
 from .report import Entry, LoadReport
+from .rerooting import Rerooting, reroot
 from .samples import KINDS, chain, random_tree
 from .serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
 from .state import check_arrays, check_entries, in_double
@@ -63,6 +65,7 @@ __all__ = [
     "Planar",
     "Prismatic",
     "Reduction",
+    "Rerooting",
     "Revolute",
     "ScrewAxes",
     "Spherical",
@@ -89,6 +92,7 @@ __all__ = [
     "random_tree",
     "readonly",
     "replace_inertia",
+    "reroot",
     "same_side",
     "screw_axes",
     "stack_columns",
