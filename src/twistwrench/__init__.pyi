@@ -83,7 +83,7 @@ from .spatial.orthonormal import nearest_rotation
 from .spatial.plucker import SE3, force_transform, motion_transform
 from .spatial.rotation import exp3, log3, skew, unskew
 from .spatial.twist import Screw, Twist, hat, screw, vee
-from .spatial.wrench import Wrench, power
+from .spatial.wrench import Wrench, center_of_pressure, power
 from .tracing import Trace, trace
 from .viewing import view
 
@@ -149,6 +149,7 @@ __all__ = [
     "center_of_mass",
     "center_of_mass_acceleration",
     "center_of_mass_velocity",
+    "center_of_pressure",
     "centroidal_inertia",
     "centroidal_map",
     "centroidal_map_rate",

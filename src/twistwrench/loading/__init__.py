@@ -7,6 +7,7 @@ Model 'go2': floating base, 13 moving bodies, nq = 19, nv = 18, 16.085 kg
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from os import PathLike
 from os.path import exists
 from pathlib import Path
@@ -18,6 +19,8 @@ from ..algorithms.mimic import follow
 from ..arrays import as_flag, check_choice
 from ..errors import ModelError, NameNotFound, no_model
 from ..model import Model
+from ..model.checks import check_placement
+from ..spatial import SE3
 from .catalogue import PREFIX, Catalogue, Robot, find, is_known, robots
 from .stances import read_states, with_stance, with_states
 from .urdf import load_urdf
@@ -31,6 +34,7 @@ def load(
     source: str | PathLike[str],
     *,
     base: Literal["fixed", "floating"] | None = None,
+    placement: SE3 | None = None,
     gravity: ArrayLike = (0.0, 0.0, -9.81),
     physical: bool | None = None,
     mimic: Literal["independent", "reduce"] | None = None,
@@ -49,6 +53,9 @@ def load(
         ``"example-robot-data/go2"`` names that package's robot where this package has one of the same name.
     base : {"fixed", "floating"}, optional
         Whether the root link is welded to the world or flies freely. Default: that of the catalogue; of a file, fixed.
+    placement : SE3, optional
+        Of the root link of a fixed base in the world: an arm on a wall, or hung from the ceiling. That of a floating
+        base is in q. Default: the identity.
     gravity : array_like, shape (3,)
         In the world, m/s².
     physical : bool, optional
@@ -71,11 +78,12 @@ def load(
     NameNotFound
         If the name is not known; the message lists the nearest ones.
     ModelError
-        If the file is missing or broken: the message names file, line, link or joint, and what was expected.
+        If the file is missing or broken: the message names file, line, link or joint, and what was expected; or if a
+        floating base is given a placement.
     ValueError
         If `mimic` is not one of the two.
     TypeError
-        If `source` is neither a name nor a path.
+        If `source` is neither a name nor a path, or `placement` no SE3.
 
     Warns
     -----
@@ -96,6 +104,8 @@ def load(
         check_choice(base, "base", ("fixed", "floating"), ModelError)
     if mimic is not None:
         check_choice(mimic, "mimic", ("independent", "reduce"))
+    if placement is not None:
+        check_placement(placement, "placement")
     physical = None if physical is None else as_flag(physical, "physical")
     strict = as_flag(strict, "strict")
     if isinstance(source, bytes | bytearray):
@@ -117,6 +127,8 @@ def load(
         if robot.srdf is not None:
             model = with_states(model, read_states(robot.srdf))
         model = with_stance(model, robot.stance) if robot.stance is not None else model
+    if placement is not None:
+        model = _mount(model, placement)
     if mimic != "reduce":
         return model
     try:
@@ -124,6 +136,17 @@ def load(
     except (ModelError, NameNotFound) as error:
         raise ModelError(f"{path}: {error} (mimic='independent' loads it, free to move on its own)") from None
     return cast("Model", reduced)
+
+
+def _mount(model: Model, at: SE3) -> Model:
+    """Return the model with all that the world carries at another place."""
+    if model.base == "floating":
+        raise ModelError(f"placement: expected none, as the pose of the floating base of {model.name!r} is in its q")
+    return replace(
+        model,
+        placement=tuple(at @ T if p == 0 else T for p, T in zip(model.parent, model.placement)),
+        frames={name: replace(f, placement=at @ f.placement) if f.body == 0 else f for name, f in model.frames.items()},
+    )
 
 
 def _is_path(source: str) -> bool:

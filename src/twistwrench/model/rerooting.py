@@ -244,8 +244,7 @@ def _carry(
             new[..., there] = piece
     T, twist, *acceleration = _end(source, way, q, *rates)
     X = mount.inverse().motion_transform().astype(q.dtype)
-    base = target.joints[1]
-    assert isinstance(base, FreeFlyer)
+    base = FreeFlyer()
     new_q[..., :7] = base.from_placement(target.placement[1].inverse() @ (T @ mount), near=q[..., :7])
     for new, x in zip(new_rates, [twist, *acceleration]):
         new[..., :6] = np.matvec(X, x)

@@ -16,7 +16,8 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `words`: figures with Chinese words.
 """
 
-from .contacts import center_of_pressure, friction_cone, sole
+from ..spatial import center_of_pressure as _center_of_pressure
+from .contacts import friction_cone, sole
 from .flow import flow, tree_layout
 from .frames import arrows, triad
 from .inertias import apparent_mass_ellipse, ellipsoid, ellipsoids, semi_axes
@@ -31,6 +32,7 @@ from .words import chinese
 
 felt_mass = apparent_mass_ellipse  # both by their former names as well
 seats = tree_layout
+center_of_pressure = _center_of_pressure  # it moved to `tw.center_of_pressure`
 
 __all__ = [
     "ANGULAR_LINEAR",
@@ -40,7 +42,6 @@ __all__ = [
     "arrows",
     "axes_2d",
     "axes_3d",
-    "center_of_pressure",
     "chinese",
     "ellipsoid",
     "ellipsoids",

@@ -7,46 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_exactly
-from ..errors import ShapeError, SingularError
-from ..spatial import Wrench
+from ..arrays import as_exactly
+from ..errors import ShapeError
+from ..spatial import Wrench, center_of_pressure
 from ..spatial._vector import as_spatial
 from .style import COLOURS, as_drawable, as_drawable_number, axes_2d, axes_3d, fit
 
-__all__ = ["center_of_pressure", "friction_cone", "sole"]
-
-
-def center_of_pressure(F: Wrench | ArrayLike) -> Array:
-    """Return the point (−τ_y, τ_x, 0) / f_z of the plane z = 0 about which F has only a moment along z (49.4).
-
-    Parameters
-    ----------
-    F : Wrench or array_like of shape (..., 6)
-        (τ, f) of the ground on the foot, in a frame whose z axis is the normal of the sole, N m and N.
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
-        In the frame of `F`, m.
-
-    Raises
-    ------
-    ShapeError
-        If the last axis is not 6 long.
-    SingularError
-        If there is no force along z: the foot does not stand.
-    TypeError
-        If `F` is a Twist.
-
-    Examples
-    --------
-    >>> center_of_pressure([0, -1, 0, 0, 0, 100])
-    array([0.01, 0.  , 0.  ])
-    """
-    F = as_spatial(F, "F")
-    if (F[..., 5].real == 0).any():
-        raise SingularError("center_of_pressure: it does not exist without a force along the normal")
-    return np.stack([-F[..., 1], F[..., 0], 0 * F[..., 5]], axis=-1) / F[..., 5:]
+__all__ = ["friction_cone", "sole"]
 
 
 def friction_cone(

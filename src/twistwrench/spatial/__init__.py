@@ -16,7 +16,7 @@ twist           49.2     `Twist`, `hat` [V], `vee`, `screw`
 plucker         49.3     `SE3`, `motion_transform` X, `force_transform` X*
 exponential     49.3     `exp6`, `log6`, `interpolate`
 jacobians       49.3     `Jexp3`, `Jlog3`, `Jexp6`, `Jlog6`
-wrench          49.4     `Wrench`, `power`
+wrench          49.4     `Wrench`, `power`, `center_of_pressure`
 cross           49.5     `cross_motion` V×, `cross_force` V×*
 ellipsoid       49.5     an inertia as a small picture, for notebooks
 inertia         49.5     `SpatialInertia` Î: its forms, sums, momentum, energy; bodies by shape
@@ -33,7 +33,7 @@ from .plucker import SE3, force_transform, motion_transform
 from .roll_pitch_yaw import rotation_to_rpy, rpy_jacobian, rpy_to_rotation
 from .rotation import exp3, log3, quaternion_to_rotation, rotation_to_quaternion, skew, unskew
 from .twist import Screw, Twist, hat, screw, vee
-from .wrench import Wrench, power
+from .wrench import Wrench, center_of_pressure, power
 
 __all__ = [
     "SE3",
@@ -45,6 +45,7 @@ __all__ = [
     "SpatialInertia",
     "Twist",
     "Wrench",
+    "center_of_pressure",
     "check_rotation",
     "cross_force",
     "cross_motion",

@@ -570,6 +570,42 @@ class SpatialInertia:
         """
         check_physical(link, self.mass, self.com, self.inertia_at_com)
 
+    def nearest_physical(self) -> SpatialInertia:
+        """Return the nearest inertia that a body can have: mass and centre of mass stay, so do the principal axes.
+
+        Of the moments about the centre of mass (a ≤ b ≤ c) as little is changed as possible, in the root of the sum of
+        squares of the whole matrix: a plate's where c > a + b, a rod's where even that has a negative moment.
+
+        Returns
+        -------
+        SpatialInertia
+            This one, to the last bit, where a body can have it.
+
+        Raises
+        ------
+        ModelError
+            If a mass is not positive.
+
+        Examples
+        --------
+        >>> too_flat = SpatialInertia(1.0, [0, 0, 0.1], np.diag([1.0, 2.0, 3.3]))
+        >>> too_flat.nearest_physical().inertia_at_com.diagonal()
+        array([1.1, 2.1, 3.2])
+        """
+        if (comparable(self.mass) <= 0).any():
+            raise ModelError(f"nearest_physical: expected a positive mass, got {comparable(self.mass).min():.6g} kg")
+        moments, T = self.principal_axes()
+        a, b, c = np.moveaxis(moments, -1, 0)
+        excess = c - (a + b)
+        plate = np.stack([a + excess / 3, b + excess / 3, c - excess / 3], axis=-1)
+        side = np.maximum((b + c) / 2, 0)
+        rod = np.stack([0 * side, side, side], axis=-1)
+        nearest = np.where(plate[..., :1] < 0, rod, plate)
+        R = T.rotation
+        changed = (R * nearest[..., None, :]) @ R.mT
+        within = (excess <= 0)[..., None, None]
+        return SpatialInertia._trusted(self.mass, self.com, np.where(within, self.inertia_at_com, changed))
+
     # Bodies of uniform density. Every shape lies along the axes of its frame, a length along z, the centre at 0;
     # `transform` puts it elsewhere. Lengths may be zero: a plate is a box without height.
 

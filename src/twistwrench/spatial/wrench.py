@@ -6,11 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_number_arrays, check_overflow, without_overflow
+from ..errors import SingularError
 from ._vector import SpatialVector, as_spatial, common_frame
 from .rotation import cross_matrix
 from .twist import Placed, Screw, Twist, check_placement, screw
 
-__all__ = ["Wrench", "power"]
+__all__ = ["Wrench", "center_of_pressure", "power"]
 
 
 @without_overflow("F, V")
@@ -51,6 +52,40 @@ def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
         common_frame(F, "·", V)
     f, v = as_number_arrays(F=(as_spatial(F, "F"), (6,)), V=(as_spatial(V, "V"), (6,)))
     return np.asarray((f * v).sum(-1))
+
+
+@without_overflow("F")
+def center_of_pressure(F: Wrench | ArrayLike) -> Array:
+    """Return the point (−τ_y, τ_x, 0) / f_z of the plane z = 0 about which F has only a moment along z (49.4).
+
+    Parameters
+    ----------
+    F : Wrench or array_like of shape (..., 6)
+        (τ, f) of the ground on the foot, in a frame whose z axis is the normal of the sole, N m and N.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        In the frame of `F`, m.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis is not 6 long.
+    SingularError
+        If there is no force along z: the foot does not stand.
+    TypeError
+        If `F` is a Twist.
+
+    Examples
+    --------
+    >>> center_of_pressure([0, -1, 0, 0, 0, 100])
+    array([0.01, 0.  , 0.  ])
+    """
+    F = as_spatial(F, "F")
+    if (F[..., 5].real == 0).any():
+        raise SingularError("center_of_pressure: it does not exist without a force along the normal")
+    return np.stack([-F[..., 1], F[..., 0], 0 * F[..., 5]], axis=-1) / F[..., 5:]
 
 
 class Wrench(SpatialVector):
