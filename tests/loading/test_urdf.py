@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench import bridge
 from twistwrench.loading import load
 
 
@@ -244,3 +245,26 @@ def test_an_error_in_a_text_has_its_line():
         load("<robot")
     with pytest.raises(tw.ModelError, match="<string>, line 1"):
         load('<robot name="\ud800"><link name="a"/></robot>')
+
+
+def test_an_arm_on_the_ceiling_is_one_under_turned_gravity_and_pinocchios_moved_base():
+    pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
+    at = tw.SE3(tw.exp3([np.pi - 0.1, 0.2, 0.3]), [0.5, -1.0, 2.0])
+    hung, plain = tw.load("ur5", placement=at), tw.load("ur5")
+    turned = tw.load("ur5", gravity=at.rotation.mT @ plain.gravity)
+    q = plain.random_configuration(rng=0)
+    np.testing.assert_allclose(tw.gravity(hung, q), tw.gravity(turned, q), rtol=0, atol=1e-13)
+    for frame in ("base_link", "tool0"):
+        there = at @ tw.frame_placement(plain, q, frame)
+        np.testing.assert_allclose(tw.frame_placement(hung, q, frame).matrix(), there.matrix(), rtol=0, atol=1e-15)
+    other = bridge.to_pinocchio_model(plain)
+    other.jointPlacements[1] = bridge.to_pinocchio_se3(at) * other.jointPlacements[1]
+    gravity = pin.computeGeneralizedGravity(other, other.createData(), q)
+    np.testing.assert_allclose(tw.gravity(hung, q), gravity, rtol=0, atol=1e-12)
+
+
+def test_a_floating_base_has_its_pose_in_q():
+    with pytest.raises(tw.ModelError, match=r"placement.*'go2'.*its q"):
+        tw.load("go2", placement=tw.SE3.identity())
+    with pytest.raises(TypeError, match="placement"):
+        tw.load("ur5", placement=np.eye(4))

@@ -266,3 +266,46 @@ def test_a_body_is_divided_by_numbers_alone_and_without_overflow():
             call()
     single = SpatialInertia(np.float32(2), np.zeros(3, np.float32), np.eye(3, dtype=np.float32))
     assert (single / np.array([2, 4])).mass.dtype == (single * np.array([2, 4])).mass.dtype == np.float32
+
+
+# --- the nearest that a body can have ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("moments", "nearest"),
+    [
+        ((1, 2, 3.3), (1.1, 2.1, 3.2)),  # a plate
+        ((-0.5, 2, 2.4), (0, 2.2, 2.2)),  # a rod
+        ((-3, -2, -1), (0, 0, 0)),  # a point
+        ((1, 2, 3), (1, 2, 3)),
+        ((2, 3, 4), (2, 3, 4)),
+    ],
+)
+def test_the_nearest_inertia_by_hand(moments, nearest):
+    R = exp3([0.3, -0.4, 0.5])
+    body = SpatialInertia(2.0, [0.1, 0.2, 0.3], R @ np.diag(moments) @ R.mT).nearest_physical()
+    np.testing.assert_allclose(body.inertia_at_com, R @ np.diag(nearest) @ R.mT, rtol=0, atol=1e-14)
+    body.check_physical("link")
+
+
+def test_no_other_body_is_nearer():
+    """Against a thousand bodies around it, and as the projection that it is: its own nearest is itself."""
+    rng = np.random.default_rng(3)
+    A = rng.standard_normal((50, 3, 3))
+    wild = SpatialInertia(np.ones(50), np.zeros(3), A + A.mT)
+    near = wild.nearest_physical()
+    assert_same(near.nearest_physical(), near, atol=1e-13)
+    away = np.linalg.norm(wild.inertia_at_com - near.inertia_at_com, axis=(-2, -1))
+    for _ in range(1000):
+        root = np.linalg.cholesky(near.pseudo_inertia()[:, :3, :3] + 1e-9 * np.eye(3))
+        root = root + 0.1 * rng.standard_normal((50, 3, 3))
+        Sigma = root @ root.mT  # of a body: positive semidefinite
+        other = np.trace(Sigma, axis1=-2, axis2=-1)[:, None, None] * np.eye(3) - Sigma
+        assert (np.linalg.norm(wild.inertia_at_com - other, axis=(-2, -1)) >= away * (1 - 1e-12)).all()
+
+
+def test_a_body_that_can_be_is_its_own_nearest_to_the_last_bit():
+    body = SpatialInertia.from_box(3.0, [0.1, 0.2, 0.3])
+    np.testing.assert_array_equal(body.nearest_physical().inertia_at_com, body.inertia_at_com)
+    with pytest.raises(tw.ModelError, match=r"nearest_physical.*0 kg"):
+        SpatialInertia.zero().nearest_physical()
