@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -17,6 +18,7 @@ from twistwrench.plot import COLOURS, axes_2d
 
 HERE = Path(__file__).parent
 HOLD = ["arm_*", "gripper_*", "head_*"]
+LEGS = ["leg_*"]
 RATES = (0.0, 0.1, 1.0, 3.0)
 STATES = 200
 ROUNDS = 60
@@ -105,7 +107,7 @@ def time_saved(scene: tw.Scene) -> None:
 def cheapest(scene: tw.Scene) -> None:
     """Print the table of a walk and draw it."""
     found = scene.cheapest(
-        {"tau": 2.0, "cop": 0.005}, motions.walk(scene.full_model), held_out=motions.trot(scene.full_model)
+        {"tau": 2.0, "of": LEGS, "cop": 0.005}, motions.walk(scene.full_model), held_out=motions.trot(scene.full_model)
     )
     print(found)
     found.plot().figure.savefig(HERE / "scenes_cheapest.png", dpi=110)
@@ -113,7 +115,7 @@ def cheapest(scene: tw.Scene) -> None:
 
 def some_motions(
     robot: str,
-) -> tuple[tw.Model, dict[str, float], dict[str, list[str]] | None, list[motions.Motion], list[motions.Motion]]:
+) -> tuple[tw.Model, dict[str, Any], dict[str, list[str]] | None, list[motions.Motion], list[motions.Motion]]:
     """Return a robot, what is needed of it, groups of joints, the motions to choose on and those held out."""
     model = tw.load(robot)
     if robot in ("panda", "iris"):
@@ -127,11 +129,17 @@ def some_motions(
             "panda": {"fingers": ["*finger*"], "wrist": ["*joint6", "*joint7"]},
             "iris": {"rotors": ["*rotor*"]},
         }[robot]
-        return model, {"tau": 2.0} if robot == "panda" else {"wrench": 0.01}, groups, ways[:2], ways[2:]
+        return (
+            model,
+            {"tau": 2.0, "of": ["panda_joint[1-5]"]} if robot == "panda" else {"wrench": 0.01},
+            groups,
+            ways[:2],
+            ways[2:],
+        )
     speed, need = {
         "go2": (0.07, {"wrench": 0.05, "cop": 0.01}),
-        "talos_reduced": (0.23, {"tau": 2.0, "cop": 0.005}),
-        "humanoid": (0.19, {"tau": 0.2, "cop": 0.001}),
+        "talos_reduced": (0.23, {"tau": 2.0, "of": LEGS, "cop": 0.005}),
+        "humanoid": (0.19, {"tau": 0.2, "of": ["*_hip_*", "*_knee", "*_ankle_*"], "cop": 0.001}),
     }[robot]
     seen = [motions.walk(model, samples=SAMPLES, speed=share * speed) for share in (0.7, 1.0)]
     other = [
@@ -149,7 +157,7 @@ def held_out() -> None:
         for margin in (1.0, 1.5):
             found = tw.Scene(model).cheapest(need, seen, held_out=unseen, margin=margin, groups=groups)
             best = found.best
-            for name, most in need.items():
+            for name, most in found.tolerance.items():
                 unit = {"cop": 1e3}.get(name, 1)
                 said = (unit * x for x in (most, best.worst(name), best.worst(name, held_out=True)))
                 numbers = " | ".join(f"{0 if x < 1e-9 else x:.2g}" for x in said)

@@ -251,7 +251,9 @@ def test_held_joints_that_are_still_cost_nothing():
     for k in arms:
         q[:, HUMANOID.q_slice[k]] = q[0, HUMANOID.q_slice[k]]
         v[:, HUMANOID.v_slice[k]] = a[:, HUMANOID.v_slice[k]] = 0
-    some = rows(quick(tw.Scene(HUMANOID), replace(WALK, q=q, v=v, a=a), groups={"arms": ARMS}))
+    need = {"wrench": 1e-9, "tau": 1e-9, "of": ["*_hip_*", "*_knee", "*_ankle_*"]}
+    still = replace(WALK, q=q, v=v, a=a)
+    some = rows(tw.Scene(HUMANOID).cheapest(need, still, groups={"arms": ARMS}))
     assert set(some) == {*TEMPLATES, "hold arms"}
     assert some["hold arms"].worst() < 1e-14
     assert some["hold arms"].worst("tau") < 1e-11
@@ -298,7 +300,8 @@ def test_an_arm_has_no_templates_but_held_joints():
     arm = tw.load("planar_arm")
     motion = motions.reach(arm, arm.neutral(), [1.0, -0.5, 0.2], samples=12)
     groups = {"tip": ["wrist"], "mid": ["elbow"], "all": ["*"]}
-    some = tw.Scene(arm).cheapest({"tau": 100.0, "wrench": 0.1}, motion, groups=groups)
+    need = {"tau": 100.0, "of": ["shoulder", "elbow"], "wrench": 0.1}
+    some = tw.Scene(arm).cheapest(need, motion, groups=groups)
     assert set(unfit(some)) == {"point_mass", "lipm", "srbm_frozen", "srbm", "centroidal", "hold all"}
     assert unfit(some)["srbm"] == "'planar_arm': expected a floating base, got a fixed one"
     assert unfit(some)["hold all"] == "nothing is left to move"
@@ -332,8 +335,8 @@ def test_a_drone_is_one_body_and_has_no_motors_but_its_base():
     assert unfit(some) == {"lipm": "height: 'drone' has no feet, so it must be given"}
     assert some.best.name in ("srbm_frozen", "srbm", "centroidal", "full")  # all are exact
     assert rows(some)["srbm_frozen"].worst() < 1e-14
-    for name, why in (("tau", "it has no motors"), ("cop", "nothing stands on the ground")):
-        with pytest.raises(ValueError, match=f"tolerance: '{name}' is nothing of 'drone' in 'reach': {why}"):
+    for name, why in (("tau", "no joint of the scene has a motor"), ("cop", "nothing stands on the ground")):
+        with pytest.raises(ValueError, match=f"tolerance: '{name}' is nothing of 'drone'.*: {why}"):
             scene.cheapest({name: 1.0}, fly)
 
 
@@ -379,3 +382,68 @@ def test_what_another_base_costs_is_a_row(base):
 def test_a_question_that_is_none_is_rejected(given, error, said):
     with pytest.raises(error, match=said):
         tw.Scene(HUMANOID).cheapest(**{"tolerance": 0.1, "motion": WALK} | given)
+
+
+# ---------------------------------------------------------------- motors
+
+
+def test_a_model_that_does_not_tell_a_needed_torque_does_not_do():
+    """Still but for an arm: the model that holds everything else is right about that arm, and knows no other motor."""
+    q, v, a = WALK.q[:1].repeat(24, 0), 0 * WALK.v, 0 * WALK.a
+    others = [name for name in HUMANOID.joint_names[2:] if not name.startswith("left_shoulder")]
+    groups = {"all but the left arm": others}
+    scene, still = tw.Scene(HUMANOID, contacts=SOLES), replace(WALK, q=q, v=v, a=a)
+    every = scene.cheapest({"tau": 0.5}, still, groups=groups)
+    assert every.best.name == "full"
+    assert f"ḣ_G, τ {21 - len(others)} of 21" in str(every)
+    some = scene.cheapest({"tau": 0.5, "of": ["left_shoulder_*"]}, still, groups=groups)
+    assert some.best.name == "hold all but the left arm"
+    assert rows(some)["full"].worst("tau") == 0
+    with pytest.raises(ValueError, match="'of' names the joints whose 'tau' is needed"):
+        scene.cheapest({"wrench": 0.5, "of": ["left_*"]}, still)
+
+
+def test_a_joint_without_a_motor_is_none():
+    """A pole on a cart by its limit of zero, and by name; a base on a plane by its kind."""
+    cart = tw.load("cart_pole")
+    assert (tw.Scene(cart).motors, tw.Scene(cart).actuated.tolist()) == (cart.joint_names[1:2], [True, False])
+    strong = replace(cart, effort_limit=[10.0, 10.0])
+    assert tw.Scene(strong).actuated.tolist() == [True, True]
+    named = tw.Scene(strong, motors=[cart.joint_names[1]])
+    assert named.actuated.tolist() == [True, False]
+    assert named.model.effort_limit.tolist() == [10.0, 0.0]
+    slides = tw.Builder("sled")
+    body = tw.SpatialInertia.from_box(1.0, [1, 1, 1])
+    slides.link("sled", parent="base_link", joint=tw.Planar(), inertia=body)
+    slides.link("mast", parent="sled", joint=tw.Revolute("y"), inertia=body)
+    assert tw.Scene(slides.build()).actuated.tolist() == [False] * 3 + [True]
+
+
+def test_what_cannot_be_a_motor_is_refused_by_name():
+    cart = tw.load("cart_pole")
+    with pytest.raises(tw.ModelError, match=f"motors.*{cart.joint_names[2]}.*effort limit is zero"):
+        tw.Scene(cart, motors=["*"])
+    with pytest.raises(tw.ModelError, match=r"root_joint.*no motor"):
+        tw.Scene(GO2, motors=["root_joint"])
+    still = motions.Motion.from_states([0.0], [[0, 0.0]], np.zeros((1, 2)), np.zeros((1, 2)))
+    with pytest.raises(ValueError, match="no joint of the scene has a motor"):
+        tw.Scene(replace(cart, effort_limit=0.0)).cheapest({"tau": 1.0}, still)
+
+
+def test_a_bail_that_nothing_holds_does_not_stand():
+    """A hinge without a motor: hanging it needs nothing, held out it would need 9.8 N m."""
+    arm = tw.Builder("bucket")
+    rod = tw.SpatialInertia(1.0, [0, 0, -1.0], np.diag([0.1, 0.1, 0.01]))
+    arm.link("bail", parent="base_link", joint=tw.Revolute("y"), inertia=rod, effort_limit=0.0)
+    scene = tw.Scene(arm.build())
+    assert scene.can_stand([0.0])
+    assert "'bail' would have to hold 9.81" in str(scene.can_stand([np.pi / 2]))
+
+
+def test_a_motion_of_states_is_judged_as_the_one_they_came_from():
+    mine = motions.Motion.from_states(WALK.t, WALK.q, WALK.v, WALK.a, feet=WALK.feet, contacts=WALK.contacts)
+    scene = tw.Scene(HUMANOID, contacts=SOLES)
+    for ours, theirs in zip(quick(scene, mine).options, quick(scene, WALK).options, strict=True):
+        assert ours.worst() == theirs.worst()
+    with pytest.raises(TypeError, match="from_states"):
+        quick(scene, [1.0])

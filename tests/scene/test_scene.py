@@ -593,7 +593,8 @@ def test_the_tables_of_the_page_are_what_its_command_finds(capsys):
     scene = tw.Scene(
         talos, contacts=[tw.SurfaceContact(foot, (0.1, 0.06), mu=0.7) for foot in talos.feet], hold=command.HOLD
     )
-    found = scene.cheapest({"tau": 2.0, "cop": 0.005}, motions.walk(talos), held_out=motions.trot(talos))
+    need = {"tau": 2.0, "of": command.LEGS, "cop": 0.005}
+    found = scene.cheapest(need, motions.walk(talos), held_out=motions.trot(talos))
     for option in found.options:
         row = re.search(rf"^[ →] {re.escape(option.name)}  +(.*)$", text, re.MULTILINE)[1].split()[:5]
         assert (row[4] == "-") == np.isnan(option.operations)

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_names, as_real, as_sequence, check_kind
 from ..errors import ShapeError
@@ -81,6 +82,47 @@ class Motion:
             if x.ndim != 2 or len(x) != n or (name == "a" and x.shape != self.v.shape):
                 raise ShapeError(f"{name}: expected a row for each of {n} times, got shape {x.shape}")
 
+    @classmethod
+    def from_states(
+        cls,
+        t: ArrayLike,
+        q: ArrayLike,
+        v: ArrayLike,
+        a: ArrayLike,
+        *,
+        name: str = "motion",
+        feet: Iterable[str] = (),
+        contacts: ArrayLike | None = None,
+    ) -> Motion:
+        """Make a motion of what was measured, simulated or optimised.
+
+        Parameters
+        ----------
+        t : array_like, shape (n,)
+            Times, s.
+        q : array_like, shape (n, nq)
+        v, a : array_like, shape (n, nv)
+        name : str
+        feet : iterable of str
+            The k frames that may touch the ground. Without any, what stands are the contacts of the scene.
+        contacts : array_like of bool, shape (n, k), optional
+            Which of them stand, at each time. Default: all, always.
+
+        Raises
+        ------
+        ShapeError, ValueError, TypeError
+            As above.
+
+        Examples
+        --------
+        >>> t, states = np.arange(3) / 10, np.zeros((3, 2))
+        >>> Motion.from_states(t, states, states, states)
+        <Motion 'motion': 3 states in 0.2 s, 0 feet>
+        """
+        names = as_names(feet, "feet", "frame names", ordered=True)
+        stand = np.ones((np.size(t), len(names)), bool) if contacts is None else np.asarray(contacts)
+        return cls(name, np.asarray(t), np.asarray(q), np.asarray(v), np.asarray(a), names, stand)
+
     def __len__(self) -> int:
         return len(self.t)
 
@@ -91,7 +133,8 @@ class Motion:
 
 def check_motion(motion: object, name: str = "motion") -> None:
     """Raise TypeError for an argument that is not a motion."""
-    check_kind(motion, name, Motion, "a Motion, as motions.walk(model) makes one")
+    what = "a Motion, as motions.walk(model) or motions.Motion.from_states(t, q, v, a) makes one"
+    check_kind(motion, name, Motion, what)
 
 
 def as_motions(model: Model, given: Motion | Iterable[Motion], name: str) -> tuple[Motion, ...]:

@@ -23,7 +23,9 @@ from .candidates import Articulated, Candidate, radius_of_gyration
 from .compiled import compile_law, seconds
 from .judging import QUANTITIES, ReferenceMotion, scale, unit
 
-__all__ = ["Costs", "Option", "Prediction", "costs", "read_tolerance"]
+__all__ = ["Costs", "Option", "Prediction", "Tolerance", "costs", "read_tolerance"]
+
+Tolerance = float | Mapping[str, float | Iterable[str]]
 
 
 class Prediction(NamedTuple):
@@ -52,7 +54,8 @@ class Option:
     errors, held_out : dict of str to ndarray, shape (n,)
         At each state of the motions, and of those that were held out: the ``"wrench"`` that it misses and that of the
         worst contact, ``"forces"``, as shares of the weight; how far off its centre of pressure is, ``"cop"``, m; and
-        the torque of its worst motor, ``"tau"``, N m. Of all that it tells.
+        the torque of the worst motor that is needed, ``"tau"``, N m. Of all that it tells; no torque where it does not
+        tell all that are needed.
     operations : float
         Of its compiled program, for one state; infinite where NumPy computes it because it cannot be a program. Not a
         number where none was made, because it is not exact enough or does not apply.
@@ -123,6 +126,8 @@ class Costs:
     options : tuple of Option
         Those that are exact enough come first, the fewest operations first: a time is another one in the next run.
         Then the rest; those that do not apply come last.
+    motors : ndarray of int, shape (k,)
+        The entries of the whole robot's τ that are needed where a torque is: all motors of the scene, or those named.
     share_of : str
         What errors of wrenches and forces are shares of: the weight, or without gravity the largest ḣ_G of the motion.
     timed_by : str
@@ -134,6 +139,7 @@ class Costs:
     tolerance: Mapping[str, float]
     margin: float
     options: tuple[Option, ...]
+    motors: Array
     share_of: str
     timed_by: str
 
@@ -184,13 +190,20 @@ class Costs:
                 *(self._error(option, *column) for column in columns),
                 f"{option.operations:.0f}" if option.operations < np.inf else "-",
                 "-" if np.isnan(option.seconds) else f"{option.seconds * 1e6:.3f}",
-                "ḣ_G, τ" if option.predicts_torques else "ḣ_G",
+                self._tells(option),
                 option.leaves_out,
             ]
             for option in self.options
             if not option.unfit
         ]
         return ["model", *errors, "operations", "µs/state", "tells", "leaves out"], rows
+
+    def _tells(self, option: Option) -> str:
+        """Return what an option tells as a cell: of the torques that are needed how many, where not all."""
+        told = int(np.isin(self.motors, option.kept).sum())
+        if not option.predicts_torques or not told:
+            return "ḣ_G"
+        return "ḣ_G, τ" if told == len(self.motors) else f"ḣ_G, τ {told} of {len(self.motors)}"
 
     def _error(self, option: Option, name: str, held_out: bool) -> str:
         """Return the largest error of an option as a cell, marked where it is above the tolerance."""
@@ -247,16 +260,19 @@ def _rank(option: Option) -> tuple[bool, bool, float, float]:
     return bool(option.unfit), bool(np.isnan(option.operations)), count, 0.0 if count < np.inf else option.seconds
 
 
-def read_tolerance(tolerance: float | Mapping[str, float]) -> dict[str, float]:
-    """Return the largest error that is allowed of each quantity that is needed."""
-    given = tolerance if isinstance(tolerance, Mapping) else {"wrench": tolerance}
+def read_tolerance(tolerance: Tolerance) -> tuple[dict[str, float], Iterable[str] | None]:
+    """Return the largest error that is allowed of each quantity that is needed, and the joints of ``"of"``."""
+    given: dict[str, Any] = dict(tolerance) if isinstance(tolerance, Mapping) else {"wrench": tolerance}
+    of = given.pop("of", None)
+    if of is not None and "tau" not in given:
+        raise ValueError("tolerance: 'of' names the joints whose 'tau' is needed, and none is")
     for name, most in given.items():
         check_known("quantity", name, QUANTITIES)
         if not as_number(most, "tolerance") >= 0:
             raise ValueError(f"tolerance: expected an error of {name!r} that is allowed, 0 or more, got {most!r}")
     if not given:
         raise ValueError(f"tolerance: expected some of {', '.join(map(repr, QUANTITIES))}, got none")
-    return {name: float(most) for name, most in given.items()}
+    return {name: float(most) for name, most in given.items()}, of
 
 
 def costs(
@@ -267,6 +283,7 @@ def costs(
     margin: float,
     tried: Iterable[Candidate],
     contacts: Sequence[Contact],
+    motors: Array,
 ) -> Costs:
     """See `Scene.cheapest`."""
     length = radius_of_gyration(model, motions[0].q[0])
@@ -289,7 +306,7 @@ def costs(
             for judge, motion in zip(judging, some):
                 known.append(one.model.read(*model.state(motion.q, v=motion.v, a=motion.a)))
                 rate, *tau = one.law(*known[-1])
-                errors.append(judge.errors(rate, tau[0] if tau else None, one.kept))
+                errors.append(judge.errors(rate, tau[0] if tau else None, one.kept, motors))
             common = [name for name in QUANTITIES if errors and all(name in e for e in errors)]
             found.append({name: np.concatenate([e[name] for e in errors]) for name in common})
         options.append(Option(one.name, one.leaves_out, found[0], found[1], np.nan, np.nan, "", one))
@@ -305,4 +322,4 @@ def costs(
     share = "the weight" if model.gravity.any() else "the largest ḣ_G of the motion"
     names, names_out = (", ".join(motion.name for motion in some) for some in (motions, held_out))
     by = default_backend(np.dtype(np.float64))
-    return Costs(names, names_out, dict(need), float(margin), tuple(options), share, by)
+    return Costs(names, names_out, dict(need), float(margin), tuple(options), motors, share, by)

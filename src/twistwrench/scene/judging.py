@@ -95,8 +95,11 @@ class ReferenceMotion:
         feet = ("cop", "forces") if self.standing.any() and self.model.gravity.any() else ()
         return ("wrench", *feet, *(("tau",) if motors else ()))
 
-    def errors(self, rate: Array, tau: Array | None, kept: Array) -> Mapping[str, Array]:
-        """Return what an answer misses in each state, of all that it tells; `kept` are the entries that its τ has."""
+    def errors(self, rate: Array, tau: Array | None, kept: Array, motors: Array) -> Mapping[str, Array]:
+        """Return what an answer misses in each state, of all that it tells.
+
+        `kept` are the entries that its τ has, `motors` those that are needed: one that lacks any of them tells no τ.
+        """
         off = rate - self.rate
         found = {"wrench": Residual(off[..., :3], off[..., 3:], self.weight, self.length).relative}
         if tau is not None and self._floats and 0 in kept:
@@ -106,10 +109,10 @@ class ReferenceMotion:
             found["cop"] = self._cop_error(self.rate + off)
             by_contact = np.add.reduceat(f, self.first, axis=1)
             found["forces"] = np.sqrt((by_contact**2).sum(axis=-1)).max(axis=1) / self.weight
-        motors = kept >= (6 if self._floats else 0)
-        if tau is not None and motors.any():
+        needed = np.isin(kept, motors)
+        if tau is not None and len(motors) and needed.sum() == len(motors):
             eased = np.einsum("npik,npi->nk", self.J, f)
-            found["tau"] = np.abs(tau - self.tau[:, kept] - eased[:, kept])[:, motors].max(axis=1)
+            found["tau"] = np.abs(tau - self.tau[:, kept] - eased[:, kept])[:, needed].max(axis=1)
         return found
 
     def _cop_error(self, rate: Array) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from os import PathLike
 from typing import Any, Literal
 
@@ -15,7 +16,7 @@ from ..arrays import Array, as_number, check_kind
 from ..contact import Contact
 from ..errors import ModelError
 from ..fast.quantity import Quantity
-from ..model import Model, idle_joints, lock_joints, matching_joints
+from ..model import FreeFlyer, Model, Planar, idle_joints, lock_joints, matching_joints
 from ..motions import Motion
 from ..motions.motion import as_motions
 from .arguments import (
@@ -28,7 +29,7 @@ from .arguments import (
     whole_robot,
 )
 from .candidates import candidates, limbs, scene_candidate
-from .costs import Costs, costs, read_tolerance
+from .costs import Costs, Tolerance, costs, read_tolerance
 from .dynamics import scene_dynamics, scene_quantities
 from .phases import Phase, phases
 from .planar_base import PlanarBase
@@ -61,6 +62,9 @@ class Scene:
         In the world, m/s²; the model's unless given.
     wrenches : mapping of str to array_like, shape (6,), optional
         Constant (τ, f) from outside on a frame: at its origin, in the axes of the world, N m and N.
+    motors : iterable of str, optional
+        Joints that have a motor, by name or by a pattern. Default: all whose effort limit is above zero, but a base,
+        and joints that slide and turn on a plane or fly freely.
     payload : mapping of str to float, SpatialInertia or Model, optional
         What frames carry: a mass at the origin, kg; a body, in the axes of the frame; or an object with a floating
         base, whose root `attach` welds to the frame, with its name and ``"_"`` in front of the names of its frames.
@@ -79,6 +83,8 @@ class Scene:
     q : ndarray, shape (nq of full_model,)
         Where the held and the dropped joints stand.
     wrenches : dict of str to ndarray, shape (6,)
+    motors : tuple of str
+        The joints of `model` that have a motor. Of all others the effort limit is zero.
     payload : mapping of str to float, SpatialInertia or Model
 
     Raises
@@ -115,9 +121,12 @@ class Scene:
         q: ArrayLike | None = None,
         gravity: ArrayLike | None = None,
         wrenches: Mapping[str, ArrayLike] | None = None,
+        motors: Iterable[str] | None = None,
         payload: Mapping[str, Payload] | None = None,
     ) -> None:
-        self.full_model = full = add_payload(whole_robot(robot, base, gravity), payload)
+        loaded = add_payload(whole_robot(robot, base, gravity), payload)
+        strong, driven = _motors(loaded, motors)
+        self.full_model = full = replace(loaded, effort_limit=strong)
         self.payload = dict(payload or {})
         self.q = posture(full, q)
         self.contacts = check_contacts(full, contacts)
@@ -132,6 +141,7 @@ class Scene:
         self.idle = idle_joints(lock_joints(before, locked, at).model, touched)
         self._reduction = lock_joints(before, {*locked, *self.idle}, at)
         self.model = self._reduction.model
+        self.motors = tuple(name for name in self.model.joint_names if name in driven)
         if self.model.nv == 0:
             raise ModelError(f"{full.name!r}: nothing is left to move; every joint is held, or carries nothing")
         expect_movable(self.model, (contact.frame for contact in self.contacts), "contact on frame")
@@ -185,8 +195,9 @@ class Scene:
 
     @property
     def actuated(self) -> Array:
-        """Which entries of v have a motor, bool of shape (nv,): all but those of a floating or planar base."""
-        return np.arange(self.model.nv) >= {"floating": 6, "planar": 3, "fixed": 0}[self._base]
+        """Which entries of v have a motor, bool of shape (nv,): those of `motors`, and none of a base."""
+        names = np.repeat(self.model.joint_names, [s.stop - s.start for s in self.model.v_slice])
+        return np.isin(names, self.motors)
 
     # ---------------------------------------------------------------- what a controller needs
 
@@ -313,7 +324,7 @@ class Scene:
 
     def cheapest(
         self,
-        tolerance: float | Mapping[str, float],
+        tolerance: Tolerance,
         motion: Motion | Iterable[Motion],
         *,
         held_out: Motion | Iterable[Motion] = (),
@@ -329,8 +340,9 @@ class Scene:
         ----------
         tolerance : float, or mapping of str to float
             The largest error that is allowed of each quantity: ``"wrench"``, ḣ_G, and ``"forces"``, at the worst
-            contact, as shares of the weight; ``"cop"``, the centre of pressure, m; ``"tau"``, at the worst motor, N m.
-            A number alone is for the wrench.
+            contact, as shares of the weight; ``"cop"``, the centre of pressure, m; ``"tau"``, at the worst motor, N m,
+            of all motors of the scene, or of the joints that ``"of"`` names: ``{"tau": 0.5, "of": ["*_knee"]}``. A
+            model that lacks one of these does not do. A number alone is for the wrench.
         motion : Motion, or iterable of Motion
             Of the whole robot, `full_model`: `twistwrench.motions` makes some.
         held_out : Motion, or iterable of Motion, optional
@@ -372,8 +384,12 @@ class Scene:
         >>> scene.cheapest({"tau": 0.5, "cop": 0.01}, motions.walk(go2, samples=50)).best.name
         'full'
         """
-        need = read_tolerance(tolerance)
+        need, of = read_tolerance(tolerance)
         full = self.full_model
+        needed = self.motors if of is None else matching_joints(full, of, "of")
+        if "tau" in need and not needed:
+            raise ValueError(f"tolerance: 'tau' is nothing of {full.name!r}: no joint of the scene has a motor")
+        motors = [k for name, s in zip(full.joint_names, full.v_slice) if name in needed for k in range(full.nv)[s]]
         ground = [c for c in self.contacts if c.to is None]
         judged, unseen = (as_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))
         if not judged:
@@ -387,7 +403,7 @@ class Scene:
         check_kind(groups, "groups", Mapping, "names of joints by the name of a group")
         mine = scene_candidate(full, self.model, self._base, {*self.held, *self.idle}, self.reduce)
         tried = [*candidates(full, judged[0].q[0], groups, ground), *mine]
-        return costs(full, judged, unseen, need, margin, tried, ground)
+        return costs(full, judged, unseen, need, margin, tried, ground, np.array(motors, int))
 
     def __repr__(self) -> str:
         said = [f"{self._base} base"]
@@ -401,6 +417,26 @@ class Scene:
             if names:
                 said.append(f"{len(names)} {one if len(names) == 1 else several}")
         return f"<Scene {self.full_model.name!r}: {', '.join(said)}, nv = {self.model.nv} of {self.full_model.nv}>"
+
+
+def _motors(model: Model, motors: Iterable[str] | None) -> tuple[Array, set[str]]:
+    """Return the effort limits, zero where there is no motor, and the joints that have one."""
+    first = 2 if model.base == "floating" else 1
+    joints = list(zip(model.joint_names, model.v_slice))[first:]
+    able = {name for name, s in joints if model.effort_limit[s].any()}
+    free = {name for name, joint in zip(model.joint_names, model.joints) if isinstance(joint, Planar | FreeFlyer)}
+    driven = able - free
+    if motors is not None:
+        named = set(matching_joints(model, motors, "motors"))
+        if weak := sorted(named - able):
+            what = "a base has no motor" if weak[0] not in dict(joints) else "its effort limit is zero"
+            raise ModelError(f"motors: {weak[0]!r}: {what}")
+        driven = named
+    limits = model.effort_limit.copy()
+    for name, s in joints:
+        if name not in driven:
+            limits[s] = 0.0
+    return limits, driven
 
 
 def _held(model: Model, hold: Iterable[str]) -> tuple[str, ...]:
