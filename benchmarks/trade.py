@@ -23,7 +23,7 @@ from study.trade.picture import draw
 from tables import fill, table
 
 import twistwrench as tw
-from twistwrench.advise import USES, Advice, advise
+from twistwrench.advice import USES, Advice, advise
 from twistwrench.plot.style import COLOURS
 from twistwrench.timing import duration
 from twistwrench.validate.report import number

@@ -7,6 +7,7 @@ from . import model as model
 from . import scene as scene
 from . import simulation as simulation
 from . import validate as validate
+from .advice import Advice, Decision, advise
 from .algorithms.aba import aba, aba_terms
 from .algorithms.articulated import articulated_inertia
 from .algorithms.centroidal import (
@@ -75,6 +76,7 @@ from .model.samples import chain, random_tree
 from .model.serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
 from .scene import Scene
 from .simulation import DivergenceError, Ground, Simulation, simulate
+from .simulation.growth import MotionError, motion_error
 from .spatial.cross import cross_force, cross_motion
 from .spatial.exponential import exp6, interpolate, log6
 from .spatial.inertia import SpatialInertia
@@ -92,6 +94,7 @@ __version__: str
 __all__ = [
     "SE3",
     "Accuracy",
+    "Advice",
     "Baumgarte",
     "Builder",
     "Contact",
@@ -99,6 +102,7 @@ __all__ = [
     "ContactForces",
     "Continuous",
     "Coupling",
+    "Decision",
     "DistanceConstraint",
     "DivergenceError",
     "Dynamics",
@@ -116,6 +120,7 @@ __all__ = [
     "MimicModel",
     "Model",
     "ModelError",
+    "MotionError",
     "NameNotFound",
     "Planar",
     "PointContact",
@@ -143,6 +148,7 @@ __all__ = [
     "aba",
     "aba_terms",
     "accuracy",
+    "advise",
     "articulated_inertia",
     "attach",
     "bridge",
@@ -196,6 +202,7 @@ __all__ = [
     "log6",
     "ltdl",
     "ltl",
+    "motion_error",
     "motion_transform",
     "motions",
     "nearest_rotation",

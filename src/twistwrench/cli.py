@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import twistwrench as tw
 from misstep.errors import CourseError
 
-from .advise import add_advise
+from .advice import add_advise
 from .errors import ModelError, NameNotFound, SingularError
 from .exercises.commands import register as add_exercises
 from .files import write_text
@@ -120,7 +120,7 @@ def _said(error: Exception) -> str:
 
         return NO_MATPLOTLIB
     if isinstance(error, ModuleNotFoundError) and error.name == "mpmath":
-        from .advise import NO_MPMATH
+        from .advice import NO_MPMATH
 
         return NO_MPMATH
     return str(error)

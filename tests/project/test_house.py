@@ -25,7 +25,7 @@ ORDER = [
     *("errors", "tables", "arrays", "newton_euler_3d", "spatial", "model", "algorithms"),
     *("straightline", "fast", "error_bounds", "tracing", "loading", "plot"),
     *("files", "stopping", "options", "timing", "contact", "simulation", "motions", "templates", "scene"),
-    *("bridge", "viewing", "__init__", "validate", "advise", "exercises", "cli", "__main__"),
+    *("bridge", "viewing", "__init__", "validate", "step_choice", "advice", "exercises", "cli", "__main__"),
 ]
 """The rooms, the chapter's first. A room imports from earlier ones only."""
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from twistwrench.advise import USES, advise
+from twistwrench.advice import USES, advise
 from twistwrench.cli import main
 
 from ..pages import blocks, page, run

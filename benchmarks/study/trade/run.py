@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 
 import twistwrench as tw
-from twistwrench.advise import NO_MPMATH
+from twistwrench.advice import NO_MPMATH
 from twistwrench.errors import ModelError, unknown_name
 from twistwrench.loading import load
 from twistwrench.model import Model

@@ -15,6 +15,7 @@
 - `diagnosis`: why.
 - `mimics`: robots some of whose joints follow others.
 - `result`: the motion, and what it is worth.
+- `growth`: how far off a motion is at its end.
 """
 
 from .divergence import DivergenceError

@@ -1,0 +1,151 @@
+"""The method and the step with the least work that keep the error of a motion."""
+
+from __future__ import annotations
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .arrays import Array, as_number
+from .model import Model
+from .simulation import METHODS, DivergenceError
+from .simulation.growth import motion_error
+
+__all__ = ["Plan", "Steps", "cheapest_steps"]
+
+STARTS = 64
+"""Random starts of a motion."""
+
+SAFETY = 1.5
+"""On the estimated error."""
+
+FIRST_DT = 0.01
+"""The step that is tried first, s."""
+
+MAX_STEPS = 200_000
+"""No method is tried with more."""
+
+MAX_TRIES = 8
+
+EVALUATIONS = {"rk4": 4, "midpoint": 2, "semi-implicit": 1}
+"""Of q̈ in a step. The variational method has the order of the midpoint rule, and costs more."""
+
+TRIED = tuple(EVALUATIONS)
+
+
+class Steps(NamedTuple):
+    """A method and a step: the largest error, mm, and the seconds that a motion takes here."""
+
+    method: str
+    dt: float
+    error: float
+    seconds: float
+    steps: int
+
+    @property
+    def work(self) -> int:
+        """Evaluations of q̈."""
+        return self.steps * EVALUATIONS[self.method]
+
+
+class Plan(NamedTuple):
+    """Result of `cheapest_steps`: the ways that were tried, and in words what they are worth."""
+
+    ways: tuple[Steps, ...]
+    starts: int
+    sure: str
+    instead: str
+
+
+def cheapest_steps(
+    model: Model,
+    within: float,
+    duration: float,
+    start: tuple[ArrayLike, ArrayLike] | None = None,
+    *,
+    progress: bool = False,
+) -> Plan:
+    """Return for each method the longest step that keeps every point of a motion within so many mm, and its time.
+
+    Parameters
+    ----------
+    model : Model
+    within : float
+        mm.
+    duration : float
+        s.
+    start : tuple of array_like, optional
+        q and v; 64 random ones unless given.
+    progress : bool
+        Show what is being tried.
+    """
+    if not 0 < as_number(duration, "duration") < np.inf:
+        raise ValueError(f"duration: expected a time above zero, s, got {duration!r}")
+    q, v = _starts(model) if start is None else model.state(start[0], v=start[1])
+    starts = int(np.prod(q.shape[:-1], dtype=int))
+    ways = list[Steps]()
+    for method in TRIED:
+        most = min([MAX_STEPS, *(way.work / EVALUATIONS[method] for way in ways if way.error <= within)])
+        ways.append(_longest_step(model, method, within, duration, q, v, most, progress))
+    sure = (
+        "of the motion from this start"
+        if start is not None
+        else (
+            f"the largest error of {starts} motions from random states, without joint forces: with 95 % confidence, "
+            f"{0.05 ** (1 / starts):.0%} of all such motions are less far off"
+        )
+    )
+    instead = "" if any(way.error <= within for way in ways) else _horizon(model, within, duration, q, v)
+    return Plan(tuple(ways), starts, sure, instead)
+
+
+def _starts(model: Model) -> tuple[Array, Array]:
+    """Draw states: q within the limits, v of 1 rad/s and 1 m/s."""
+    rng = np.random.default_rng(0)
+    q = np.stack([model.random_configuration(rng=rng) for _ in range(STARTS)])
+    return q, rng.standard_normal((STARTS, model.nv))
+
+
+def _longest_step(
+    model: Model, method: str, within: float, duration: float, q: Array, v: Array, most: float, progress: bool
+) -> Steps:
+    """Return the longest step of a method that keeps the error; the last one tried if that takes more than most."""
+    order = METHODS[method].order
+    count = int(np.ceil(duration / FIRST_DT))
+    best = Steps(method, duration / count, np.inf, np.inf, count)
+    for _ in range(MAX_TRIES):
+        if count > most and np.isfinite(best.error):
+            break
+        dt = duration / count
+        if progress:
+            print(f"{method}, dt = {dt:.3g} s ...", flush=True)
+        begin = time.process_time()
+        try:
+            found = motion_error(model, q, v, dt=dt, duration=duration, method=method)
+        except DivergenceError:
+            count *= 4
+            continue
+        seconds = (time.process_time() - begin) / 4  # of four times the steps
+        best = Steps(method, dt, float(SAFETY * found.total.max()), seconds / max(1, len(np.atleast_2d(q))), count)
+        if best.error <= within or SAFETY * found.rounding.max() > within:
+            break
+        more = (best.error / within) ** (1 / order)
+        count = int(np.ceil(count * np.clip(1.1 * more, 1.2, 16)))
+    return best
+
+
+def _horizon(model: Model, within: float, duration: float, q: Array, v: Array) -> str:
+    """Return in words how long the error of a double stays within so many mm, as it grows with the motion."""
+    shortest = duration
+    while shortest > duration / 1000:
+        shortest /= 2
+        dt = shortest / np.ceil(shortest / (FIRST_DT / 4))
+        try:
+            found = motion_error(model, q, v, dt=dt, duration=shortest)
+        except DivergenceError:
+            continue
+        if SAFETY * found.rounding.max() <= within:
+            return f"the motion multiplies errors; for {shortest:.2g} s doubles are exact enough, and a smaller dt does"
+    return "the motion multiplies errors faster than doubles can follow"
